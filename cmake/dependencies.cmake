@@ -1,0 +1,18 @@
+# Debian 12 packages only (scripts/setup installs them).
+find_package(PkgConfig REQUIRED)
+find_package(OpenMP REQUIRED)
+find_package(Eigen3 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(Ceres REQUIRED)
+find_package(Pagmo REQUIRED)
+find_package(OpenImageIO REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(MPI REQUIRED COMPONENTS CXX)
+pkg_check_modules(fftw REQUIRED IMPORTED_TARGET fftw3)
+find_library(NLOPT_CXX_LIBRARY nlopt_cxx REQUIRED)
+find_path(NLOPT_INCLUDE_DIR nlopt.hpp REQUIRED)
+add_library(NLopt::nlopt_cxx UNKNOWN IMPORTED)
+set_target_properties(NLopt::nlopt_cxx PROPERTIES IMPORTED_LOCATION ${NLOPT_CXX_LIBRARY}
+                      INTERFACE_INCLUDE_DIRECTORIES ${NLOPT_INCLUDE_DIR})

@@ -1,0 +1,33 @@
+#include "base/error.h"
+
+namespace papilla {
+
+std::string Problem::text() const {
+  std::string out;
+  if (!file.empty()) {
+    out += file + ":";
+    if (line > 0) out += std::to_string(line) + ":" + std::to_string(column) + ":";
+    out += " ";
+  }
+  if (!key.empty()) out += key + ": ";
+  return out + message;
+}
+
+namespace {
+std::string join(const std::vector<Problem>& problems) {
+  std::string out;
+  for (const Problem& problem : problems) {
+    if (!out.empty()) out += '\n';
+    out += problem.text();
+  }
+  return out;
+}
+}  // namespace
+
+InputError::InputError(std::vector<Problem> problems)
+    : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
+
+InputError::InputError(const std::string& message)
+    : InputError(std::vector<Problem>{Problem{{}, 0, 0, {}, message}}) {}
+
+}  // namespace papilla

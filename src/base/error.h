@@ -1,0 +1,31 @@
+// What a user did wrong: every problem of an input at once, each with its place and the way out.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace papilla {
+
+struct Problem {
+  std::string file;  // empty: the command line
+  int line = 0;      // 1-based; 0: not known
+  int column = 0;
+  std::string key;      // e.g. "texture.diameter"; empty: the file as a whole
+  std::string message;  // what is wrong, what was expected, how to fix it
+
+  std::string text() const;  // "file:line:column: key: message"
+};
+
+class InputError : public std::runtime_error {
+ public:
+  explicit InputError(std::vector<Problem> problems);
+  explicit InputError(const std::string& message);  // one problem without a place
+
+  const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+}  // namespace papilla

@@ -1,0 +1,59 @@
+// Real two-dimensional FFT of a periodic row-major field (x fastest), and wave numbers.
+#pragma once
+
+#include <complex>
+#include <memory>
+#include <new>
+#include <vector>
+
+namespace papilla {
+
+// SIMD-aligned allocation: the plans are made for aligned arrays.
+template <class T>
+struct AlignedAllocator {
+  using value_type = T;
+  AlignedAllocator() = default;
+  template <class U>
+  AlignedAllocator(const AlignedAllocator<U>&) {}
+  T* allocate(std::size_t n) {
+    return static_cast<T*>(::operator new(n * sizeof(T), std::align_val_t{64}));
+  }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, std::align_val_t{64}); }
+  template <class U>
+  bool operator==(const AlignedAllocator<U>&) const { return true; }
+};
+using RealArray = std::vector<double, AlignedAllocator<double>>;
+using SpectrumArray = std::vector<std::complex<double>, AlignedAllocator<std::complex<double>>>;
+
+// Plans for one size: made once (FFTW_ESTIMATE: same bytes every run), executable from many threads
+// at a time. Unnormalised both ways: inverse(forward(x)) = nx ny x.
+class Fft2d {
+ public:
+  Fft2d(int nx, int ny);
+  ~Fft2d();
+  Fft2d(const Fft2d&) = delete;
+  Fft2d& operator=(const Fft2d&) = delete;
+
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  int half() const { return nx_ / 2 + 1; }  // spectrum columns kept (the rest is conjugate)
+  std::size_t real_size() const { return static_cast<std::size_t>(nx_) * ny_; }
+  std::size_t spectrum_size() const { return static_cast<std::size_t>(half()) * ny_; }
+
+  // Arrays must be 64-byte aligned (RealArray, SpectrumArray). O(n log n).
+  void forward(const double* real, std::complex<double>* spectrum) const;
+  void inverse(std::complex<double>* spectrum /* destroyed */, double* real) const;
+
+  // Shared plans by size (thread safe).
+  static std::shared_ptr<const Fft2d> shared(int nx, int ny);
+
+ private:
+  int nx_, ny_;
+  void* forward_plan_;
+  void* inverse_plan_;
+};
+
+// Signed integer mode of index i in a transform of length n: 0, 1, ..., -1.
+constexpr int signed_mode(int i, int n) { return i <= n / 2 ? i : i - n; }
+
+}  // namespace papilla

@@ -1,0 +1,33 @@
+// Independent work on all cores. Results land in slots by index, sums are taken afterwards in index
+// order: the same bytes for any number of threads.
+#pragma once
+
+#include <omp.h>
+
+#include <exception>
+#include <utility>
+
+namespace papilla {
+
+// Calls work(i) for i in [0, n), each exactly once. The exception of the lowest failing index is
+// rethrown. threads = 0: all that OpenMP offers.
+template <class Work>
+void parallel_for(int n, Work&& work, int threads = 0) {
+  std::exception_ptr error;
+  int failed = n;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : omp_get_max_threads())
+  for (int i = 0; i < n; ++i) {
+    try {
+      work(i);
+    } catch (...) {
+#pragma omp critical(papilla_parallel_error)
+      if (i < failed) {
+        failed = i;
+        error = std::current_exception();
+      }
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace papilla

@@ -1,0 +1,80 @@
+#include "base/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/check.h"
+#include "base/constants.h"
+
+namespace papilla {
+
+Estimate mean_estimate(std::span<const double> samples) {
+  const auto n = static_cast<double>(samples.size());
+  if (samples.empty()) return {};
+  double mean = 0;
+  for (double x : samples) mean += x;
+  mean /= n;
+  double sum = 0;
+  for (double x : samples) sum += square(x - mean);
+  return {mean, samples.size() > 1 ? std::sqrt(sum / (n - 1) / n) : 0};
+}
+
+Estimate ratio_estimate(std::span<const double> a, std::span<const double> b) {
+  PAPILLA_CHECK(a.size() == b.size(), "paired samples");
+  double sum_a = 0, sum_b = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    sum_a += a[i];
+    sum_b += b[i];
+  }
+  const double ratio = sum_a / sum_b;
+  const auto n = static_cast<double>(a.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += square(a[i] - ratio * b[i]);
+  const double se = a.size() > 1 ? std::sqrt(sum / (n - 1) * n) / std::abs(sum_b) : 0;
+  return {ratio, se};
+}
+
+double weighted_mean(std::span<const double> values, std::span<const double> weights) {
+  PAPILLA_CHECK(values.size() == weights.size(), "one weight a value");
+  double sum = 0, total = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    sum += weights[i] * values[i];
+    total += weights[i];
+  }
+  return sum / total;
+}
+
+double quantile(std::vector<double> values, double p) {
+  PAPILLA_CHECK(!values.empty(), "quantile of nothing");
+  std::sort(values.begin(), values.end());
+  const double position = std::clamp(p, 0.0, 1.0) * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(position);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (position - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
+double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }
+
+double normal_quantile(double p) {
+  PAPILLA_CHECK(p > 0 && p < 1, "probability");
+  double low = -40, high = 40;
+  for (int i = 0; i < 200 && high - low > 1e-14 * std::max(1.0, std::abs(low)); ++i) {
+    const double middle = 0.5 * (low + high);
+    (normal_cdf(middle) < p ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+double student_t_quantile(double p, int degrees_of_freedom) {
+  // Cornish-Fisher in 1/n from the normal quantile (Abramowitz & Stegun 26.7.5), exact for n = 1, 2.
+  if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
+  if (degrees_of_freedom == 1) return std::tan(kPi * (p - 0.5));
+  if (degrees_of_freedom == 2) return (2 * p - 1) / std::sqrt(2 * p * (1 - p));
+  const double n = degrees_of_freedom, x = normal_quantile(p), x2 = x * x;
+  return x + x * (x2 + 1) / (4 * n) + x * ((5 * x2 + 16) * x2 + 3) / (96 * n * n) +
+         x * (((3 * x2 + 19) * x2 + 17) * x2 - 15) / (384 * n * n * n) +
+         x * ((((79 * x2 + 776) * x2 + 1482) * x2 - 1920) * x2 - 945) / (92160 * n * n * n * n);
+}
+
+}  // namespace papilla

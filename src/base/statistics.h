@@ -1,0 +1,25 @@
+// Means with standard errors, paired differences, intervals.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace papilla {
+
+struct Estimate {
+  double value = 0;
+  double se = 0;  // one standard error of the value
+
+  bool operator==(const Estimate&) const = default;
+};
+
+Estimate mean_estimate(std::span<const double> samples);  // se = 0 for one sample
+// Ratio of sums a/b with its delta-method standard error over paired samples.
+Estimate ratio_estimate(std::span<const double> a, std::span<const double> b);
+double weighted_mean(std::span<const double> values, std::span<const double> weights);
+double quantile(std::vector<double> values, double p);  // linear interpolation, p in [0, 1]
+double normal_cdf(double x);
+double normal_quantile(double p);
+double student_t_quantile(double p, int degrees_of_freedom);  // two-sided intervals: p = 0.975
+
+}  // namespace papilla

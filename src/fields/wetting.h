@@ -1,0 +1,40 @@
+// What the physics pieces exchange: where the water is.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/grid.h"
+
+namespace papilla {
+
+enum class DropletState : std::uint8_t { OnSkin, OnSubstrate, Bridge };
+
+struct Droplet {
+  double x = 0, y = 0;     // centre [m], inside the patch
+  double volume = 0;       // [m^3]
+  DropletState state = DropletState::OnSubstrate;
+  double radius = 0;       // footprint [m]
+  double height = 0;       // cap height [m] (bridge: mean gap under the footprint)
+  double edge_gap = 0;     // bridge: mean gap on the rim [m]
+  double force = 0;        // bridge: normal force dE/dh [N], positive = attracts
+  double energy = 0;       // [J]
+};
+
+enum class WettingStatus : std::uint8_t { Dry, Discs, Flooded, Film };
+
+struct Wetting {
+  Grid grid;
+  std::vector<Droplet> droplets;
+  WettingStatus status = WettingStatus::Dry;
+  std::vector<std::uint8_t> bridged;  // per pixel: 1 inside a bridge (or the film); empty: dry
+  double capillary_force = 0;         // total normal force on the patch [N], positive = attracts
+  double wetted_fraction = 0;         // bridged area / patch area
+  double volume = 0;                  // total [m^3]
+  double bridge_volume = 0;           // of it in bridges
+  int bridges = 0;
+  double retention = 0;               // lateral hysteresis force [N]
+};
+
+}  // namespace papilla

@@ -1,0 +1,67 @@
+// Air, surface finish and drive. Plain values, SI.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/fields.h"
+
+namespace papilla {
+
+struct Environment {
+  std::vector<double> relative_humidity = {0.15, 0.35, 0.55, 0.75};
+  std::vector<double> weights;  // one a humidity; empty: equal
+
+  bool operator==(const Environment&) const = default;
+};
+void fields(FieldVisitor& v, Environment& s);
+
+struct Dielectric {
+  std::string material = "SiO2";
+  double thickness = 500e-9;
+  double permittivity = 3.9;
+  double resistivity = 1e14;
+  double strength = 1e9;  // breakdown field [V/m]
+
+  double equivalent_thickness() const { return thickness / permittivity; }
+
+  bool operator==(const Dielectric&) const = default;
+};
+void fields(FieldVisitor& v, Dielectric& s);
+
+// The finish of the textured surface.
+struct Surface {
+  double contact_angle = 0.8726646259971648;  // 50 deg
+  std::vector<Dielectric> dielectric = {Dielectric{}};
+  double refractive_index = 1.46;
+  double modulus = 0;   // Young's modulus of compliant features (particles); 0: rigid
+  double poisson = 0.4; // theirs
+
+  double equivalent_thickness() const;  // sum of d/eps [m]
+
+  bool operator==(const Surface&) const = default;
+};
+void fields(FieldVisitor& v, Surface& s);
+
+enum class DriveControl { Voltage, Current };
+enum class Waveform { Sine, Square, Dc, Am };
+
+struct Drive {
+  DriveControl control = DriveControl::Voltage;
+  Waveform waveform = Waveform::Sine;
+  double amplitude = 0;     // peak voltage [V]; 0: undriven
+  double frequency = 5e3;   // carrier [Hz]
+  double current = 0;       // peak current under current control [A]
+  double modulation_frequency = 0;
+  double envelope_exponent = 0.5;
+  double source_compliance = 0;  // largest voltage of the source; 0: none given
+  double current_limit = 5e-3;   // through the body [A]
+
+  double v_rms() const;  // of the applied voltage, Eq. scene.7
+  bool driven() const { return amplitude > 0; }
+
+  bool operator==(const Drive&) const = default;
+};
+void fields(FieldVisitor& v, Drive& s);
+
+}  // namespace papilla

@@ -1,0 +1,132 @@
+// The finger: skin, its load-carrying share, its electrical layer, its water. Plain values, SI.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/fields.h"
+
+namespace papilla {
+
+// Micro-topography and elasticity of the stratum corneum within one patch.
+struct Skin {
+  // Self-affine spectrum: flat from the patch size to the roll-off, then C(q) ~ q^-2(1+H) to the
+  // cut-off; rms over a 12 um patch.
+  double rms = 256e-9;
+  double roll_off = 3.7e-6;  // wavelength
+  double hurst = 0.8;
+  double cutoff = 100e-9;  // wavelength
+  std::string map;         // measured topography instead of the spectrum (a file), or ""
+
+  double layer_thickness = 1e-6;
+  double layer_modulus = 66e6;  // Young's modulus at 15 % RH
+  double bulk_modulus = 60e6;
+  double layer_poisson = 0.5;
+  double bulk_poisson = 0.5;
+  double softening = 1.98;  // E(15 % RH) / E(75 % RH), both moduli, linear in RH
+  double hardness = 0;      // cap on contact pressure; 0: none
+
+  // Young's moduli at a relative humidity (0-1). Eq. scene.1
+  double modulus_factor(double relative_humidity) const;  // E(RH) / E(15 %)
+
+  bool operator==(const Skin&) const = default;
+};
+void fields(FieldVisitor& v, Skin& s);
+
+// How a fingertip carries its load.
+struct MacroContact {
+  double area_15 = 45e-6;        // gross contact area at 0.2 N and 15 % RH [m^2]
+  double area_growth = 0.585;    // relative growth from 15 to 75 % RH, linear
+  double load_exponent = 0.52;   // A ~ F_N^n
+  double ridge_share = 0.3;      // share of the gross area on ridges
+  double load_share = 0.0063;    // phi: share of the gross area that carries the load
+  double shear_strength = 9e6;   // tau, interfacial [Pa]
+
+  // Gross contact area at a load [N] and relative humidity (0-1). Eq. scene.2
+  double gross_area(double load, double relative_humidity) const;
+
+  bool operator==(const MacroContact&) const = default;
+};
+void fields(FieldVisitor& v, MacroContact& s);
+
+// The stratum corneum as a dielectric: equivalent thickness d2/eps2 in series with the gap.
+struct ElectricalLayer {
+  double thickness_15 = 30e-9;  // h_SC at 15 % RH [m]
+  double thickness_75 = 17e-9;  // at 75 %; linear between
+  double corner_frequency = 0;  // 1/(2 pi eps0 eps rho): below it the layer conducts; 0: never
+
+  double equivalent_thickness(double relative_humidity) const;  // Eq. scene.3
+
+  bool operator==(const ElectricalLayer&) const = default;
+};
+void fields(FieldVisitor& v, ElectricalLayer& s);
+
+// Sweat in a 12 x 12 um patch against relative humidity, and how water meets the skin.
+struct SkinWater {
+  std::vector<double> relative_humidity = {0.15, 0.35, 0.55, 0.75};
+  std::vector<double> volume = {0.07e-18, 0.36e-18, 1.8e-18, 8.8e-18};  // [m^3] per 144 um^2
+  double contact_angle = 1.3962634015954636;  // 80 deg, on clean skin
+  double surface_tension = 0.072126;
+  double hysteresis = 0.26;     // cos(theta_r) - cos(theta_a) of the weaker surface
+  double drops_per_um3 = 100;   // initial droplets per um^3 of water
+
+  // Water volume per area [m]: log-linear between nodes, end slopes outside. Eq. scene.4
+  double volume_per_area(double relative_humidity) const;
+
+  bool operator==(const SkinWater&) const = default;
+};
+void fields(FieldVisitor& v, SkinWater& s);
+
+// Saturated angle under voltage from the angle at rest: linear through two anchors, never above the
+// angle at rest.
+struct Saturation {
+  double rest_low = 0.8726646259971648, saturated_low = 0.6457718232379019;   // 50 -> 37 deg
+  double rest_high = 1.9198621771937625, saturated_high = 1.3788101090755203; // 110 -> 79 deg
+
+  double angle(double rest) const;  // [rad] Eq. scene.5
+
+  bool operator==(const Saturation&) const = default;
+};
+void fields(FieldVisitor& v, Saturation& s);
+
+enum class Preset { Papilla, M3 };
+enum class WaterModel { Droplets, Threshold };
+enum class Closure { Uniform, Persson };
+enum class Coupling { OnePass, SelfConsistent };
+enum class FieldMethod { Local, Full };
+
+// Options that move results at first order: fixed before calibration, recorded in the finger file.
+struct ModelOptions {
+  Preset preset = Preset::Papilla;
+  WaterModel water = WaterModel::Droplets;
+  Closure closure = Closure::Uniform;
+  Coupling coupling = Coupling::OnePass;
+  FieldMethod field = FieldMethod::Local;
+  bool breakdown_cap = false;        // gap pressure <= eps0/2 (350 V/um)^2
+  double droplet_step = 200e-9;      // first step of a moving droplet [m]: mobility
+  bool droplet_enhancement = true;   // droplets that do not bridge raise the pull
+
+  bool operator==(const ModelOptions&) const = default;
+};
+void fields(FieldVisitor& v, ModelOptions& s);
+
+enum class FingerState { Clean, Natural, Wet };
+
+struct Finger {
+  std::string name = "reference";
+  FingerState state = FingerState::Clean;
+  double load = 0.2;  // normal force [N]
+  Skin skin;
+  MacroContact macro;
+  ElectricalLayer electrical;
+  SkinWater water;
+  Saturation saturation;
+  ModelOptions calibrated_for;
+
+  double patch_pressure(double relative_humidity) const;  // F_N / (phi A) [Pa], Eq. scene.6
+
+  bool operator==(const Finger&) const = default;
+};
+void fields(FieldVisitor& v, Finger& s);
+
+}  // namespace papilla
