@@ -1,0 +1,623 @@
+#include "physics/capillary/droplets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/check.h"
+#include "base/constants.h"
+#include "base/random.h"
+#include "physics/capillary/gap_table.h"
+#include "physics/capillary/threshold.h"
+
+namespace papilla {
+namespace {
+
+constexpr std::array<std::array<double, 2>, 8> kDirections = {
+    {{1, 0},
+     {0.7071067811865476, 0.7071067811865476},
+     {0, 1},
+     {-0.7071067811865476, 0.7071067811865476},
+     {-1, 0},
+     {-0.7071067811865476, -0.7071067811865476},
+     {0, -1},
+     {0.7071067811865476, -0.7071067811865476}}};
+
+double into_period(double x, double period) {
+  x -= period * std::floor(x / period);
+  return x < period ? x : 0;
+}
+
+double nearest_image(double d, double period) { return d - period * std::round(d / period); }
+
+struct Drop {
+  double x = 0, y = 0, volume = 0;
+  double radius = 0;  // footprint; a cap: its widest, which is what overlaps
+  double edge_gap = 0, edge_slope = 0;
+  double energy = 0;
+  bool bridge = false;
+  bool alive = true;
+};
+
+// All droplets of a patch, hashed by their centres.
+class Ensemble {
+ public:
+  Ensemble(const Gap& gap, const WaterProperties& water, const DropletOptions& options)
+      : gap_(gap),
+        table_(gap, options.gap_floor),
+        options_(options),
+        water_(water),
+        gain_(wetting_gain(water.theta_skin, water.theta_substrate)),
+        meniscus_(meniscus_factor(water.theta_skin, water.theta_substrate)),
+        cap_(cap_shape(std::min(water.theta_skin, water.theta_substrate))),
+        cap_state_(water.theta_skin < water.theta_substrate ? DropletState::OnSkin
+                                                            : DropletState::OnSubstrate),
+        lx_(gap.grid.lx),
+        ly_(gap.grid.ly) {
+    // Gap per volume^(1/3) beyond which a flat bridge costs more than the cap, with a margin for
+    // rough gaps: a drop whose centre sees a larger gap is not worth trying as a bridge.
+    double h = 4;
+    while (h > 0.05 && -gain_ / h + 2 * meniscus_ * std::sqrt(kPi * h) > cap_.energy) h *= 0.98;
+    reach_ = std::max(1.3 * h, cap_.height);
+  }
+
+  void scatter(double volume, std::uint64_t seed, std::uint64_t index) {
+    const int n =
+        static_cast<int>(std::clamp(std::round(options_.drops_per_volume * volume), 1.0, 1e6));
+    RandomStream random(seed, "droplets", index);
+    std::vector<double> share(n);
+    double sum = 0;
+    drops_.resize(n);
+    for (int i = 0; i < n; ++i) {
+      drops_[i].x = random.uniform() * lx_;
+      drops_[i].y = random.uniform() * ly_;
+      share[i] = 1 - random.uniform();  // (0, 1]
+      sum += share[i];
+    }
+    for (int i = 0; i < n; ++i) {
+      drops_[i] = placed(drops_[i].x, drops_[i].y, volume * share[i] / sum, 0, false);
+    }
+    build_hash();
+    report_.initial_droplets = n;
+    merge_overlaps();
+    report_.initial_energy = energy();
+  }
+
+  void restore(const Wetting& wetting) {
+    for (const Droplet& d : wetting.droplets) {
+      Drop drop;
+      drop.x = d.x;
+      drop.y = d.y;
+      drop.volume = d.volume;
+      if (d.state == DropletState::Bridge || d.height >= table_.at(d.x, d.y)) {
+        drop = placed(d.x, d.y, d.volume, d.radius, true);
+      } else {  // floats: keeps its shape
+        drop.radius = d.radius;
+        drop.energy = d.energy;
+      }
+      drops_.push_back(drop);
+    }
+    build_hash();
+    merge_overlaps();
+  }
+
+  void settle() {
+    double last = energy();
+    double step = options_.first_step;
+    for (int level = 0; level <= options_.halvings; ++level, step *= 0.5) {
+      for (int i = 0; i < static_cast<int>(drops_.size()); ++i) {
+        if (drops_[i].alive) walk(i, level, step);
+      }
+      const double now = energy();
+      if (now > last + 1e-12 * std::abs(last)) report_.energy_rose = true;
+      last = now;
+    }
+    report_.final_energy = last;
+  }
+
+  Wetting result(double total_volume) const {
+    Wetting out;
+    out.grid = gap_.grid;
+    out.volume = total_volume;
+    out.status = WettingStatus::Discs;
+    double area = 0, widest = 0;
+    bool film = false;
+    for (const Drop& d : drops_) {
+      if (!d.alive) continue;
+      if (d.bridge) {
+        area += kPi * square(d.radius);
+        widest = std::max(widest, 2 * d.radius);
+      } else if (2 * d.radius > std::min(lx_, ly_)) {
+        film = true;  // a cap wider than the patch wets all of it
+      }
+    }
+    film = film || widest > options_.film_width * std::min(lx_, ly_) ||
+           area > options_.film_area * gap_.grid.area();
+    if (film) return as_film(total_volume);
+    out.bridged.assign(gap_.grid.size(), 0);
+    for (const Drop& d : drops_) {
+      if (!d.alive) continue;
+      out.droplets.push_back(reported(d));
+      if (!d.bridge) continue;
+      const Droplet& bridge = out.droplets.back();
+      ++out.bridges;
+      out.capillary_force += bridge.force;
+      out.bridge_volume += d.volume;
+      out.retention += kPi / 4 * water_.surface_tension * 2 * d.radius * water_.hysteresis;
+    }
+    out.wetted_fraction = area / gap_.grid.area();
+    for (const Droplet& d : out.droplets) {
+      if (d.state == DropletState::Bridge) {
+        for_pixels(gap_.grid, d, [&](std::size_t k) { out.bridged[k] = 1; });
+      }
+    }
+    return out;
+  }
+
+  const SettleReport& report() const { return report_; }
+
+  // Pixels whose centres lie inside a disc.
+  template <class Visit>
+  static void for_pixels(const Grid& g, const Droplet& d, Visit&& visit) {
+    const double dx = g.dx(), dy = g.dy();
+    const double ry = std::min(d.radius, 0.5 * g.ly);
+    const int first = static_cast<int>(std::ceil((d.y - ry) / dy - 0.5));
+    const int last = static_cast<int>(std::floor((d.y + ry) / dy - 0.5));
+    for (int iy = first; iy <= last; ++iy) {
+      const double y = (iy + 0.5) * dy - d.y;
+      const double w = std::min(std::sqrt(std::max(0.0, square(d.radius) - square(y))), 0.5 * g.lx);
+      const int from = static_cast<int>(std::ceil((d.x - w) / dx - 0.5));
+      const int to = static_cast<int>(std::floor((d.x + w) / dx - 0.5));
+      const int row = wrap(iy, g.ny);
+      for (int ix = from; ix <= to; ++ix) visit(g.index(wrap(ix, g.nx), row));
+    }
+  }
+
+ private:
+  double bridge_energy(double radius, double edge_gap) const {  // Eq. capillary.4
+    return water_.surface_tension *
+           (-gain_ * kPi * square(radius) + 2 * kPi * radius * meniscus_ * edge_gap);
+  }
+
+  double cap_energy(double volume) const {
+    return water_.surface_tension * cap_.energy * square(std::cbrt(volume));
+  }
+
+  // Solves the footprint for the volume, Eq. capillary.5.
+  void solve_bridge(Drop& d, double guess) {
+    ++report_.evaluations;
+    double r = guess > 0 ? guess : std::sqrt(d.volume / (kPi * table_.at(d.x, d.y)));
+    GapTable::Rule rule = table_.rule(r);
+    double low = 0, high = 0;  // bracket; high = 0: none yet
+    double last_r = 0, last_miss = 0;
+    double slope = 2 * kPi * r * table_.rim(d.x, d.y, r, rule).gap;
+    for (int k = 0; k < 100; ++k) {
+      const double miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
+      if (std::abs(miss) <= 2e-14 * d.volume) break;
+      (miss < 0 ? low : high) = r;
+      if (k > 0 && last_r != r) {
+        const double secant = (miss - last_miss) / (r - last_r);
+        if (secant > 0.2 * slope && secant < 5 * slope) slope = secant;
+      }
+      double next = r - miss / slope;
+      if (next <= low || (high > 0 && next >= high)) next = high > 0 ? 0.5 * (low + high) : 2 * r;
+      if (next > 2 * r) next = 2 * r;
+      last_r = r;
+      last_miss = miss;
+      if (next > 1.4 * r || next < 0.7 * r) {  // far from the guess: sample for the new size
+        rule = table_.rule(next);
+        slope = 2 * kPi * next * table_.rim(d.x, d.y, next, rule).gap;
+        low = high = last_r = 0;
+        if (k > 60) break;
+        r = next;
+        last_r = r;
+        continue;
+      }
+      if (std::abs(next - r) < 1e-15 * r) break;
+      r = next;
+    }
+    const GapTable::Rim rim = table_.rim(d.x, d.y, r, rule);
+    d.radius = r;
+    d.edge_gap = rim.gap;
+    d.edge_slope = rim.slope;
+    d.energy = bridge_energy(r, rim.gap);
+    d.bridge = true;
+  }
+
+  // Energy of the same bridge elsewhere, to first order in the change of its radius.
+  double estimated_energy(const Drop& d, double x, double y) {
+    ++report_.evaluations;
+    const double r = d.radius;
+    const GapTable::Rule rule = table_.rule(r);
+    const GapTable::Rim rim = table_.rim(x, y, r, rule);
+    const double change = (d.volume - table_.disc_volume(x, y, r, rule)) / (2 * kPi * r * rim.gap);
+    if (std::abs(change) > 0.25 * r) {
+      Drop trial = d;
+      trial.x = x;
+      trial.y = y;
+      solve_bridge(trial, 0);
+      return trial.energy;
+    }
+    return bridge_energy(r, rim.gap) + water_.surface_tension * 2 * kPi * change *
+                                           (-gain_ * r + meniscus_ * (rim.gap + r * rim.slope));
+  }
+
+  // The state of lowest energy at a place; a cap taller than the gap must bridge (snap-in).
+  Drop placed(double x, double y, double volume, double guess, bool was_bridge) {
+    Drop d;
+    d.x = into_period(x, lx_);
+    d.y = into_period(y, ly_);
+    d.volume = volume;
+    const double size = std::cbrt(volume), centre = table_.at(d.x, d.y);
+    const double cap = cap_energy(volume);
+    if (was_bridge || centre < reach_ * size) {
+      solve_bridge(d, guess);
+      if (d.energy < cap || cap_.height * size >= centre) return d;
+    }
+    d.bridge = false;
+    d.radius = cap_.widest * size;
+    d.edge_gap = d.edge_slope = 0;
+    d.energy = cap;
+    return d;
+  }
+
+  void walk(int i, int level, double step) {
+    int moves = 0;
+    for (;;) {
+      if (moves >= options_.max_moves) {
+        report_.converged = false;
+        return;
+      }
+      struct Candidate {
+        double energy;
+        int direction;
+      };
+      std::array<Candidate, 8> candidates;
+      int n = 0;
+      const double here = drops_[i].energy;
+      const double margin = 1e-9 * std::abs(here);
+      for (int k = 0; k < 8; ++k) {
+        const double x = into_period(drops_[i].x + step * kDirections[k][0], lx_);
+        const double y = into_period(drops_[i].y + step * kDirections[k][1], ly_);
+        double e;
+        if (drops_[i].bridge) {
+          e = estimated_energy(drops_[i], x, y);
+        } else {
+          const Drop trial = placed(x, y, drops_[i].volume, 0, false);
+          if (!trial.bridge) continue;
+          e = trial.energy;
+        }
+        if (e >= here - margin) continue;
+        int at = n++;  // lowest first
+        for (; at > 0 && candidates[at - 1].energy > e; --at) candidates[at] = candidates[at - 1];
+        candidates[at] = {e, k};
+      }
+      bool moved = false, merged = false;
+      for (int c = 0; c < n && !moved; ++c) {
+        // Onward the same way while it helps.
+        const auto [ux, uy] = kDirections[candidates[c].direction];
+        while (moves < options_.max_moves) {
+          const Drop& d = drops_[i];
+          const Drop trial =
+              placed(d.x + step * ux, d.y + step * uy, d.volume, d.bridge ? d.radius : 0, d.bridge);
+          if (trial.energy >= d.energy - 1e-9 * std::abs(d.energy)) break;
+          const int merges = report_.merges;
+          if (!commit(i, trial)) break;
+          moved = true;
+          ++moves;
+          ++report_.moves;
+          if (report_.merges != merges) {
+            merged = true;
+            break;
+          }
+        }
+      }
+      if (merged && level > 0) {  // a new, larger drop starts from the first step again
+        double s = options_.first_step;
+        for (int l = 0; l < level; ++l, s *= 0.5) walk(i, 0, s);
+      }
+      if (!moved) return;
+    }
+  }
+
+  // Puts drop i where `trial` is. If it overlaps others there they become one drop, provided that
+  // the energy falls; else nothing happens.
+  bool commit(int i, const Drop& trial) {
+    members_.assign(1, i);
+    collect_overlaps(trial);
+    if (members_.size() == 1) {
+      unlink(i);
+      drops_[i] = trial;
+      link(i);
+      return true;
+    }
+    double before = 0;
+    const Drop merged = merge(trial, before);
+    if (merged.energy >= before) return false;
+    adopt(i, merged);
+    return true;
+  }
+
+  // members_ (closed under overlap) as one drop, at the best of: where the mover is, the centres,
+  // the centroid.
+  Drop merge(const Drop& mover, double& before) {
+    std::size_t known = 0;
+    Drop best;
+    double sum = 0;
+    while (known != members_.size()) {
+      known = members_.size();
+      sum = 0;
+      double volume = 0, cx = 0, cy = 0;
+      bool bridged = false;
+      for (std::size_t m = 0; m < members_.size(); ++m) {
+        const Drop& d = drops_[members_[m]];
+        sum += d.energy;
+        volume += d.volume;
+        bridged = bridged || d.bridge;
+        if (m == 0) continue;  // the mover itself is the origin
+        cx += d.volume * nearest_image(d.x - mover.x, lx_);
+        cy += d.volume * nearest_image(d.y - mover.y, ly_);
+      }
+      best = placed(mover.x, mover.y, volume, 0, bridged);
+      const Drop centroid =
+          placed(mover.x + cx / volume, mover.y + cy / volume, volume, 0, bridged);
+      if (centroid.energy < best.energy) best = centroid;
+      for (std::size_t m = 1; m < std::min<std::size_t>(members_.size(), 5); ++m) {
+        const Drop& d = drops_[members_[m]];
+        const Drop there = placed(d.x, d.y, volume, 0, bridged);
+        if (there.energy < best.energy) best = there;
+      }
+      collect_overlaps(best);
+    }
+    before = sum;
+    return best;
+  }
+
+  void adopt(int i, const Drop& merged) {
+    for (int m : members_) {
+      unlink(m);
+      drops_[m].alive = false;
+    }
+    report_.merges += static_cast<int>(members_.size()) - 1;
+    drops_[i] = merged;
+    link(i);
+  }
+
+  void merge_overlaps() {
+    for (int i = 0; i < static_cast<int>(drops_.size()); ++i) {
+      while (drops_[i].alive) {
+        members_.assign(1, i);
+        collect_overlaps(drops_[i]);
+        if (members_.size() == 1) break;
+        double before = 0;
+        const Drop mover = drops_[i];
+        adopt(i, merge(mover, before));
+      }
+    }
+  }
+
+  // Adds to members_ every drop that the disc of d overlaps.
+  void collect_overlaps(const Drop& d) {
+    const auto consider = [&](int j) {
+      if (std::find(members_.begin(), members_.end(), j) != members_.end()) return;
+      const double ex = nearest_image(drops_[j].x - d.x, lx_);
+      const double ey = nearest_image(drops_[j].y - d.y, ly_);
+      if (square(ex) + square(ey) < square(d.radius + drops_[j].radius)) members_.push_back(j);
+    };
+    for (int j : large_) consider(j);
+    const double reach = d.radius + small_radius_;
+    const int x0 = static_cast<int>(std::floor((d.x - reach) / cell_x_));
+    const int x1 =
+        std::min(static_cast<int>(std::floor((d.x + reach) / cell_x_)), x0 + cells_x_ - 1);
+    const int y0 = static_cast<int>(std::floor((d.y - reach) / cell_y_));
+    const int y1 =
+        std::min(static_cast<int>(std::floor((d.y + reach) / cell_y_)), y0 + cells_y_ - 1);
+    for (int cy = y0; cy <= y1; ++cy) {
+      for (int cx = x0; cx <= x1; ++cx) {
+        for (int j = head_[wrap(cy, cells_y_) * cells_x_ + wrap(cx, cells_x_)]; j >= 0;
+             j = next_[j]) {
+          consider(j);
+        }
+      }
+    }
+  }
+
+  void build_hash() {
+    const double per_side = std::sqrt(static_cast<double>(drops_.size()) + 1);
+    const double aspect = std::sqrt(lx_ / ly_);
+    cells_x_ = std::max(1, static_cast<int>(per_side * aspect));
+    cells_y_ = std::max(1, static_cast<int>(per_side / aspect));
+    cell_x_ = lx_ / cells_x_;
+    cell_y_ = ly_ / cells_y_;
+    small_radius_ = 0.5 * std::min(cell_x_, cell_y_);
+    head_.assign(static_cast<std::size_t>(cells_x_) * cells_y_, -1);
+    next_.assign(drops_.size(), -1);
+    for (int i = 0; i < static_cast<int>(drops_.size()); ++i) link(i);
+  }
+
+  int cell_of(const Drop& d) const {
+    return std::min(static_cast<int>(d.y / cell_y_), cells_y_ - 1) * cells_x_ +
+           std::min(static_cast<int>(d.x / cell_x_), cells_x_ - 1);
+  }
+
+  void link(int i) {
+    if (drops_[i].radius > small_radius_) {
+      large_.push_back(i);
+      return;
+    }
+    int& head = head_[cell_of(drops_[i])];
+    next_[i] = head;
+    head = i;
+  }
+
+  void unlink(int i) {
+    if (drops_[i].radius > small_radius_) {
+      large_.erase(std::find(large_.begin(), large_.end(), i));
+      return;
+    }
+    int* at = &head_[cell_of(drops_[i])];
+    while (*at != i) at = &next_[*at];
+    *at = next_[i];
+  }
+
+  double energy() const {
+    double sum = 0;
+    for (const Drop& d : drops_) sum += d.alive ? d.energy : 0;
+    return sum;
+  }
+
+  Droplet reported(const Drop& d) const {
+    Droplet out;
+    out.x = d.x;
+    out.y = d.y;
+    out.volume = d.volume;
+    out.energy = d.energy;
+    if (d.bridge) {
+      const double area = kPi * square(d.radius);
+      out.state = DropletState::Bridge;
+      out.radius = d.radius;
+      out.height = d.volume / area;
+      out.edge_gap = d.edge_gap;
+      // Eq. capillary.6: dE/dh of the energy above at fixed volume and place.
+      out.force = water_.surface_tension *
+                  (gain_ * area / d.edge_gap +
+                   meniscus_ * (kPi * d.radius - area * d.edge_slope / d.edge_gap));
+    } else {
+      const double size = std::cbrt(d.volume);
+      out.state = cap_state_;
+      out.radius = cap_.footprint * size;
+      out.height = cap_.height * size;
+    }
+    return out;
+  }
+
+  // Discs do not describe what is left: all bridges share one pressure, and caps that the film
+  // reaches join it.
+  Wetting as_film(double total_volume) const {
+    std::vector<Drop> caps;
+    double volume = 0;
+    for (const Drop& d : drops_) {
+      if (!d.alive) continue;
+      if (d.bridge || 2 * d.radius > std::min(lx_, ly_)) {
+        volume += d.volume;
+      } else {
+        caps.push_back(d);
+      }
+    }
+    return film_with(caps, volume, total_volume);
+  }
+
+  Wetting film_with(std::vector<Drop> caps, double volume, double total_volume) const {
+    Wetting out;
+    for (;;) {
+      out = fill_threshold(gap_, volume, water_);
+      const std::size_t before = caps.size();
+      std::erase_if(caps, [&](const Drop& d) {
+        const int ix = std::min(static_cast<int>(d.x / gap_.grid.dx()), gap_.grid.nx - 1);
+        const int iy = std::min(static_cast<int>(d.y / gap_.grid.dy()), gap_.grid.ny - 1);
+        if (out.bridged.empty() || !out.bridged[gap_.grid.index(ix, iy)]) return false;
+        volume += d.volume;
+        return true;
+      });
+      if (caps.size() == before) break;
+    }
+    for (const Drop& d : caps) out.droplets.push_back(reported(d));
+    out.volume = total_volume;
+    return out;
+  }
+
+ public:
+  // The film state again, with the drops that `restore` has put back.
+  Wetting refilled(double film_volume, double total_volume) const {
+    std::vector<Drop> caps;
+    for (const Drop& d : drops_) {
+      if (!d.alive) continue;
+      if (d.bridge) {
+        film_volume += d.volume;
+      } else {
+        caps.push_back(d);
+      }
+    }
+    return film_with(caps, film_volume, total_volume);
+  }
+
+ private:
+  const Gap& gap_;
+  GapTable table_;
+  DropletOptions options_;
+  WaterProperties water_;
+  double gain_, meniscus_;
+  CapShape cap_;
+  DropletState cap_state_;
+  double lx_, ly_;
+  double reach_ = 0;
+  std::vector<Drop> drops_;
+  std::vector<int> members_;
+  // Hash: drops up to small_radius_ by the cell of their centre, the others in one list.
+  int cells_x_ = 1, cells_y_ = 1;
+  double cell_x_ = 0, cell_y_ = 0, small_radius_ = 0;
+  std::vector<int> head_, next_, large_;
+  SettleReport report_;
+};
+
+}  // namespace
+
+Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& water,
+                        const DropletOptions& options, std::uint64_t seed, std::uint64_t index,
+                        SettleReport* report) {
+  PAPILLA_CHECK(volume >= 0 && std::isfinite(volume), "water volume must be finite, not negative");
+  if (report) *report = {};
+  Wetting dry;
+  dry.grid = gap.grid;
+  if (volume == 0) return dry;
+  double space = 0;
+  for (double h : gap.value) space += h;
+  if (volume >= space * gap.grid.pixel_area()) return fill_threshold(gap, volume, water);
+  Ensemble ensemble(gap, water, options);
+  ensemble.scatter(volume, seed, index);
+  ensemble.settle();
+  if (report) *report = ensemble.report();
+  return ensemble.result(volume);
+}
+
+Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& water,
+              const DropletOptions& options) {
+  if (wetting.status == WettingStatus::Dry) return wetting;
+  if (wetting.status == WettingStatus::Flooded) return fill_threshold(gap, wetting.volume, water);
+  Ensemble ensemble(gap, water, options);
+  ensemble.restore(wetting);
+  return wetting.status == WettingStatus::Film
+             ? ensemble.refilled(wetting.bridge_volume, wetting.volume)
+             : ensemble.result(wetting.volume);
+}
+
+Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterProperties&) {
+  const Grid& g = gap.grid;
+  Traction out{g, std::vector<double>(g.size(), 0.0)};
+  if (wetting.status == WettingStatus::Discs) {
+    for (const Droplet& d : wetting.droplets) {
+      if (d.state != DropletState::Bridge) continue;
+      std::size_t count = 0;
+      Ensemble::for_pixels(g, d, [&](std::size_t) { ++count; });
+      if (count > 0) {
+        const double pressure = d.force / (static_cast<double>(count) * g.pixel_area());
+        Ensemble::for_pixels(g, d, [&](std::size_t k) { out.value[k] += pressure; });
+      } else {
+        const int ix = std::min(static_cast<int>(d.x / g.dx()), g.nx - 1);
+        const int iy = std::min(static_cast<int>(d.y / g.dy()), g.ny - 1);
+        out.value[g.index(ix, iy)] += d.force / g.pixel_area();
+      }
+    }
+  } else if (wetting.status != WettingStatus::Dry) {
+    double count = 0;
+    for (std::uint8_t wet : wetting.bridged) count += wet;
+    if (count > 0) {
+      const double pressure = wetting.capillary_force / (count * g.pixel_area());
+      for (std::size_t k = 0; k < g.size(); ++k) out.value[k] = wetting.bridged[k] ? pressure : 0.0;
+    }
+  }
+  return out;
+}
+
+}  // namespace papilla

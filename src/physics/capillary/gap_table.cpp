@@ -1,0 +1,154 @@
+#include "physics/capillary/gap_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/constants.h"
+
+namespace papilla {
+namespace {
+
+constexpr std::array<int, 16> kCounts = {8,   12,  16,  24,  32,  48,  64,   96,
+                                         128, 192, 256, 384, 512, 768, 1024, 1536};
+
+struct Nodes {
+  // Chords: t = cos(j pi / (N + 1)), half width sin(...), weight pi / (N + 1) (Gauss-Chebyshev of
+  // the second kind: exact for the disc of a constant gap).
+  std::vector<double> t, half_width, weight;
+  std::vector<double> cosine, sine;  // rim
+};
+
+const std::array<Nodes, kCounts.size()>& nodes() {
+  static const std::array<Nodes, kCounts.size()> table = [] {
+    std::array<Nodes, kCounts.size()> all;
+    for (std::size_t k = 0; k < kCounts.size(); ++k) {
+      const int n = kCounts[k];
+      for (int j = 1; j <= n; ++j) {
+        const double angle = j * kPi / (n + 1);
+        all[k].t.push_back(std::cos(angle));
+        all[k].half_width.push_back(std::sin(angle));
+        all[k].weight.push_back(kPi / (n + 1) * std::sin(angle));
+      }
+      for (int j = 0; j < n; ++j) {
+        const double angle = (j + 0.5) * 2 * kPi / n;
+        all[k].cosine.push_back(std::cos(angle));
+        all[k].sine.push_back(std::sin(angle));
+      }
+    }
+    return all;
+  }();
+  return table;
+}
+
+int count_index(double wanted) {
+  int k = 0;
+  while (k + 1 < static_cast<int>(kCounts.size()) && kCounts[k] < wanted) ++k;
+  return k;
+}
+
+struct Cell {
+  int index;        // in [0, n)
+  double fraction;  // [0, 1)
+  double turns;     // whole periods before it
+};
+
+inline Cell locate(double u, int n) {
+  double whole = std::floor(u);
+  const double fraction = u - whole;
+  double turns = 0;
+  if (whole < 0 || whole >= n) {
+    turns = std::floor(whole / n);
+    whole -= turns * n;
+  }
+  return {static_cast<int>(whole), fraction, turns};
+}
+
+}  // namespace
+
+GapTable::GapTable(const Gap& gap, double floor)
+    : grid_(gap.grid),
+      floor_(floor),
+      inverse_dx_(1 / gap.grid.dx()),
+      inverse_dy_(1 / gap.grid.dy()),
+      stride_(gap.grid.nx + 1),
+      value_(static_cast<std::size_t>(stride_) * gap.grid.ny),
+      prefix_(value_.size()) {
+  PAPILLA_CHECK(gap.value.size() == grid_.size() && grid_.size() > 0,
+                "gap and grid differ in size");
+  double total = 0;
+  for (int iy = 0; iy < grid_.ny; ++iy) {
+    double* v = &value_[static_cast<std::size_t>(iy) * stride_];
+    double* s = &prefix_[static_cast<std::size_t>(iy) * stride_];
+    for (int ix = 0; ix < grid_.nx; ++ix) v[ix] = std::max(gap.value[grid_.index(ix, iy)], floor);
+    v[grid_.nx] = v[0];
+    s[0] = 0;
+    for (int ix = 0; ix < grid_.nx; ++ix) s[ix + 1] = s[ix] + 0.5 * (v[ix] + v[ix + 1]);
+    total += s[grid_.nx];
+  }
+  volume_ = total * grid_.pixel_area();
+}
+
+inline double GapTable::row_integral(int iy, double u) const {
+  const Cell c = locate(u, grid_.nx);
+  const std::size_t row = static_cast<std::size_t>(iy) * stride_;
+  const std::size_t i = row + c.index;
+  const double f = c.fraction;
+  return prefix_[i] + f * (value_[i] + 0.5 * f * (value_[i + 1] - value_[i])) +
+         c.turns * prefix_[row + grid_.nx];
+}
+
+double GapTable::at(double x, double y) const {
+  const Cell cx = locate(x * inverse_dx_ - 0.5, grid_.nx);
+  const Cell cy = locate(y * inverse_dy_ - 0.5, grid_.ny);
+  const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
+  const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
+  const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
+  const double low = a[0] + cx.fraction * (a[1] - a[0]);
+  const double high = b[0] + cx.fraction * (b[1] - b[0]);
+  return low + cy.fraction * (high - low);
+}
+
+GapTable::Rule GapTable::rule(double radius) const {
+  return {count_index(radius * inverse_dy_ + 6), count_index(4 * radius * inverse_dx_ + 6)};
+}
+
+double GapTable::disc_volume(double x, double y, double radius, const Rule& rule) const {
+  const Nodes& n = nodes()[rule.chords];
+  const double u0 = x * inverse_dx_ - 0.5, v0 = y * inverse_dy_ - 0.5;
+  const double ru = radius * inverse_dx_, rv = radius * inverse_dy_;
+  double sum = 0;
+  for (std::size_t j = 0; j < n.t.size(); ++j) {
+    const Cell cy = locate(v0 + rv * n.t[j], grid_.ny);
+    const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
+    const double w = ru * n.half_width[j];
+    const double low = row_integral(cy.index, u0 + w) - row_integral(cy.index, u0 - w);
+    const double high = row_integral(next, u0 + w) - row_integral(next, u0 - w);
+    sum += n.weight[j] * (low + cy.fraction * (high - low));
+  }
+  return sum * grid_.dx() * radius;
+}
+
+GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule) const {
+  const Nodes& n = nodes()[rule.rim_points];
+  const double u0 = x * inverse_dx_ - 0.5, v0 = y * inverse_dy_ - 0.5;
+  const double ru = radius * inverse_dx_, rv = radius * inverse_dy_;
+  double sum = 0, slope = 0;
+  for (std::size_t j = 0; j < n.cosine.size(); ++j) {
+    const Cell cx = locate(u0 + ru * n.cosine[j], grid_.nx);
+    const Cell cy = locate(v0 + rv * n.sine[j], grid_.ny);
+    const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
+    const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
+    const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
+    const double dlow = a[1] - a[0], dhigh = b[1] - b[0];
+    const double low = a[0] + cx.fraction * dlow, high = b[0] + cx.fraction * dhigh;
+    sum += low + cy.fraction * (high - low);
+    slope += (dlow + cy.fraction * (dhigh - dlow)) * inverse_dx_ * n.cosine[j] +
+             (high - low) * inverse_dy_ * n.sine[j];
+  }
+  const double inverse = 1.0 / static_cast<double>(n.cosine.size());
+  return {sum * inverse, slope * inverse};
+}
+
+}  // namespace papilla

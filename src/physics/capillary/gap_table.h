@@ -1,0 +1,46 @@
+// Integrals of a gap over discs, fast: prefix sums along x make one chord cost the same for any
+// length. The gap is bilinear between pixel centres and periodic.
+#pragma once
+
+#include <vector>
+
+#include "fields/gap.h"
+
+namespace papilla {
+
+class GapTable {
+ public:
+  // Gaps below `floor` [m] count as `floor`, so that a bridge in a contact stays finite.
+  GapTable(const Gap& gap, double floor);
+
+  struct Rim {
+    double gap;    // mean on the circle [m]
+    double slope;  // of that mean along the radius [-]
+  };
+  // How finely a disc of one size is sampled; the same rule for every disc of about that radius.
+  struct Rule {
+    int chords, rim_points;  // indices of the node tables
+  };
+
+  double at(double x, double y) const;  // [m]
+  Rule rule(double radius) const;
+  double disc_volume(double x, double y, double radius, const Rule& rule) const;  // [m^3]
+  Rim rim(double x, double y, double radius, const Rule& rule) const;
+
+  const Grid& grid() const { return grid_; }
+  double volume() const { return volume_; }  // of the whole gap [m^3]
+  double floor() const { return floor_; }
+
+ private:
+  double row_integral(int iy, double u) const;
+
+  Grid grid_;
+  double floor_;
+  double inverse_dx_, inverse_dy_;
+  double volume_ = 0;
+  int stride_;
+  std::vector<double> value_;   // rows of nx + 1 (first column repeated)
+  std::vector<double> prefix_;  // integral from pixel centre 0 to pixel centre i, in pixels
+};
+
+}  // namespace papilla

@@ -1,0 +1,248 @@
+#include "physics/capillary/droplets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "base/constants.h"
+#include "base/random.h"
+#include "physics/capillary/threshold.h"
+
+namespace papilla {
+namespace {
+
+constexpr double kPatch = 12e-6;
+
+Gap flat_gap(int n, double h) {
+  Grid g{n, n, kPatch, kPatch};
+  return {g, std::vector<double>(g.size(), h)};
+}
+
+// A periodic random gap: a sum of cosines with random phases, lifted so that its lowest parts
+// touch.
+Gap rough_gap(int n, double rms, std::uint64_t seed, double touching = 0.01) {
+  Grid g{n, n, kPatch, kPatch};
+  std::vector<double> z(g.size(), 0.0);
+  RandomStream random(seed, "test gap");
+  double power = 0;
+  std::vector<double> cx(n), sx(n);
+  for (int ky = 0; ky <= 8; ++ky) {
+    for (int kx = -8; kx <= 8; ++kx) {
+      if (ky == 0 && kx <= 0) continue;
+      const double k2 = kx * kx + ky * ky;
+      const double a = std::pow(9 + k2, -0.9) * random.normal();
+      const double phase = random.uniform(0, 2 * kPi);
+      power += 0.5 * a * a;
+      for (int iy = 0; iy < n; ++iy) {
+        for (int ix = 0; ix < n; ++ix) {
+          z[g.index(ix, iy)] +=
+              a * std::cos(2 * kPi * (kx * (ix + 0.5) + ky * (iy + 0.5)) / n + phase);
+        }
+      }
+    }
+  }
+  for (double& v : z) v *= rms / std::sqrt(power);
+  std::vector<double> sorted = z;
+  const auto at = sorted.begin() + static_cast<long>(touching * static_cast<double>(z.size()));
+  std::nth_element(sorted.begin(), at, sorted.end());
+  for (double& v : z) v = std::max(0.0, v - *at);
+  return {g, z};
+}
+
+double total_volume(const Wetting& w) {
+  double sum = 0;
+  for (const Droplet& d : w.droplets) sum += d.volume;
+  return sum;
+}
+
+TEST(Droplets, NoWaterIsDry) {
+  const Wetting w = settle_droplets(flat_gap(32, 1e-7), 0, {}, {}, 1, 0);
+  EXPECT_EQ(w.status, WettingStatus::Dry);
+  EXPECT_EQ(w.capillary_force, 0);
+  EXPECT_TRUE(w.bridged.empty());
+}
+
+TEST(Droplets, OneBridgeInAFlatGapHasTheSlabForce) {
+  const Gap gap = flat_gap(128, 100e-9);
+  WaterProperties water;
+  const double v = 0.01e-18;
+  const Wetting w = settle_droplets(gap, v, water, {}, 1, 0);
+  ASSERT_EQ(w.status, WettingStatus::Discs);
+  ASSERT_EQ(w.droplets.size(), 1u);
+  const Droplet& d = w.droplets[0];
+  ASSERT_EQ(d.state, DropletState::Bridge);
+  const double r = std::sqrt(v / (kPi * 100e-9));
+  EXPECT_NEAR(d.radius, r, 1e-12 * r);
+  const double c = wetting_gain(water.theta_skin, water.theta_substrate);
+  const double f = meniscus_factor(water.theta_skin, water.theta_substrate);
+  EXPECT_NEAR(c, std::cos(water.theta_skin) + std::cos(water.theta_substrate), 1e-15);
+  const double force = water.surface_tension * (c * kPi * r * r / 100e-9 + f * kPi * r);
+  EXPECT_NEAR(d.force, force, 1e-11 * force);
+  EXPECT_NEAR(w.retention, 0.5 * kPi * water.surface_tension * r * water.hysteresis, 1e-20);
+}
+
+TEST(Droplets, MeniscusFactorHasItsKnownValues) {
+  const double deg = kPi / 180;
+  EXPECT_NEAR(meniscus_factor(90 * deg, 90 * deg), 1, 1e-15);
+  EXPECT_NEAR(meniscus_factor(0, 0), kPi / 4, 1e-15);
+  EXPECT_NEAR(meniscus_factor(110 * deg, 70 * deg), std::sin(70 * deg), 1e-14);
+  EXPECT_NEAR(meniscus_factor(0, kPi), 0, 1e-12);
+  EXPECT_NEAR(meniscus_factor(kPi, kPi), kPi / 4, 1e-15);
+  const double direct = (kPi - 130 * deg + std::sin(80 * deg) * std::cos(80 * deg) +
+                         std::sin(50 * deg) * std::cos(50 * deg)) /
+                        (2 * (std::cos(80 * deg) + std::cos(50 * deg)));
+  EXPECT_NEAR(meniscus_factor(80 * deg, 50 * deg), direct, 1e-14);
+}
+
+TEST(Droplets, WideGapKeepsCapsOnTheSideOfLowerAngle) {
+  WaterProperties water;
+  const Gap gap = flat_gap(64, 2e-6);
+  Wetting w = settle_droplets(gap, 0.2e-18, water, {}, 3, 0);
+  for (const Droplet& d : w.droplets) EXPECT_EQ(d.state, DropletState::OnSubstrate);
+  EXPECT_EQ(w.capillary_force, 0);
+  water.theta_substrate = 110 * kPi / 180;
+  w = settle_droplets(gap, 0.2e-18, water, {}, 3, 0);
+  for (const Droplet& d : w.droplets) EXPECT_EQ(d.state, DropletState::OnSkin);
+}
+
+TEST(Droplets, VolumeIsKeptAndEnergyNeverRises) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const Gap gap = rough_gap(128, 200e-9, seed);
+    for (double v : {0.07e-18, 0.4e-18, 1.8e-18, 5e-18}) {
+      SettleReport report;
+      const Wetting w = settle_droplets(gap, v, {}, {}, seed, 0, &report);
+      EXPECT_TRUE(report.converged);
+      EXPECT_FALSE(report.energy_rose);
+      EXPECT_LE(report.final_energy, report.initial_energy);
+      EXPECT_NEAR(w.volume, v, 1e-12 * v);
+      if (w.status == WettingStatus::Discs) {
+        EXPECT_NEAR(total_volume(w), v, 1e-12 * v);
+      }
+      EXPECT_GT(w.capillary_force, 0);
+    }
+  }
+}
+
+TEST(Droplets, SettledDiscsDoNotOverlap) {
+  const Gap gap = rough_gap(128, 250e-9, 5);
+  const Wetting w = settle_droplets(gap, 2e-18, {}, {}, 5, 0);
+  ASSERT_EQ(w.status, WettingStatus::Discs);
+  for (std::size_t i = 0; i < w.droplets.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      double dx = w.droplets[i].x - w.droplets[j].x, dy = w.droplets[i].y - w.droplets[j].y;
+      dx -= kPatch * std::round(dx / kPatch);
+      dy -= kPatch * std::round(dy / kPatch);
+      EXPECT_GE(std::hypot(dx, dy), (1 - 1e-12) * (w.droplets[i].radius + w.droplets[j].radius));
+    }
+  }
+}
+
+TEST(Droplets, ForceIsTheDerivativeOfTheEnergy) {
+  Gap gap = rough_gap(128, 200e-9, 2, 0.0);
+  for (double& h : gap.value) h += 20e-9;
+  const Wetting w = settle_droplets(gap, 2e-18, {}, {}, 2, 0);
+  ASSERT_EQ(w.status, WettingStatus::Discs);
+  const double step = 0.02e-9;
+  Gap up = gap, down = gap;
+  for (double& h : up.value) h += step;
+  for (double& h : down.value) h -= step;
+  int checked = 0;
+  for (const Droplet& d : w.droplets) {
+    if (d.state != DropletState::Bridge) continue;
+    Wetting one = w;
+    one.droplets = {d};
+    const Wetting a = rewet(one, up, {}), b = rewet(one, down, {});
+    const double force = (a.droplets[0].energy - b.droplets[0].energy) / (2 * step);
+    EXPECT_NEAR(force, d.force, 0.02 * std::abs(d.force));
+    ++checked;
+  }
+  EXPECT_GT(checked, 2);
+}
+
+TEST(Droplets, TractionSumsToTheForce) {
+  const Gap gap = rough_gap(128, 200e-9, 4);
+  for (double v : {0.3e-18, 3e-18, 15e-18}) {
+    const Wetting w = settle_droplets(gap, v, {}, {}, 4, 0);
+    const Traction t = capillary_traction(w, gap, {});
+    EXPECT_NEAR(t.mean() * gap.grid.area(), w.capillary_force, 1e-10 * std::abs(w.capillary_force));
+  }
+}
+
+TEST(Droplets, RewettingWithTheSameAnglesChangesNothing) {
+  const Gap gap = rough_gap(128, 200e-9, 6);
+  const Wetting w = settle_droplets(gap, 1e-18, {}, {}, 6, 0);
+  const Wetting again = rewet(w, gap, {});
+  ASSERT_EQ(again.droplets.size(), w.droplets.size());
+  EXPECT_NEAR(again.capillary_force, w.capillary_force, 1e-9 * w.capillary_force);
+  EXPECT_EQ(again.bridges, w.bridges);
+  WaterProperties lower;
+  lower.theta_substrate = 30 * kPi / 180;
+  EXPECT_GT(rewet(w, gap, lower).capillary_force, 0);
+}
+
+TEST(Droplets, SameSeedSameBytes) {
+  const Gap gap = rough_gap(64, 200e-9, 7);
+  const Wetting a = settle_droplets(gap, 1e-18, {}, {}, 7, 3),
+                b = settle_droplets(gap, 1e-18, {}, {}, 7, 3);
+  ASSERT_EQ(a.droplets.size(), b.droplets.size());
+  for (std::size_t i = 0; i < a.droplets.size(); ++i) EXPECT_EQ(a.droplets[i].x, b.droplets[i].x);
+  EXPECT_EQ(a.capillary_force, b.capillary_force);
+}
+
+TEST(Droplets, ExtremesEndInAClearStatus) {
+  const Gap gap = rough_gap(64, 200e-9, 8);
+  double space = 0;
+  for (double h : gap.value) space += h * gap.grid.pixel_area();
+  const Wetting flood = settle_droplets(gap, 2 * space, {}, {}, 1, 0);
+  EXPECT_EQ(flood.status, WettingStatus::Flooded);
+  EXPECT_EQ(flood.capillary_force, 0);
+  EXPECT_EQ(settle_droplets(gap, 0.7 * space, {}, {}, 1, 0).status, WettingStatus::Film);
+  DropletOptions one;
+  one.drops_per_volume = 1;
+  EXPECT_EQ(settle_droplets(gap, 0.5 * space, {}, one, 1, 0).status, WettingStatus::Film);
+  EXPECT_EQ(settle_droplets(flat_gap(64, 0), 1e-18, {}, {}, 1, 0).status, WettingStatus::Flooded);
+  for (double skin : {0.0, 80.0, 100.0, 180.0}) {
+    for (double substrate : {0.0, 50.0, 80.0, 180.0}) {
+      WaterProperties water;
+      water.theta_skin = skin * kPi / 180;
+      water.theta_substrate = substrate * kPi / 180;
+      for (const Gap& g : {gap, flat_gap(64, 1e-9), flat_gap(64, 1e-6)}) {
+        const Wetting w = settle_droplets(g, 0.1e-18, water, {}, 1, 0);
+        EXPECT_TRUE(std::isfinite(w.capillary_force)) << skin << " " << substrate;
+        EXPECT_NEAR(w.volume, 0.1e-18, 1e-30);
+      }
+    }
+  }
+}
+
+TEST(Droplets, BridgesBetweenRepellingWallsPush) {
+  WaterProperties water;
+  water.theta_skin = 80 * kPi / 180;
+  water.theta_substrate = 110 * kPi / 180;
+  EXPECT_LT(settle_droplets(flat_gap(64, 20e-9), 0.01e-18, water, {}, 1, 0).capillary_force, 0);
+  EXPECT_GT(settle_droplets(flat_gap(64, 150e-9), 0.01e-18, water, {}, 1, 0).capillary_force, 0);
+}
+
+TEST(Threshold, FillsTheStatedVolumeInAWedge) {
+  // gap = |x - L/2| slope: V(h_c) = h_c^2 L / slope, force = gamma (C A / h_c + 2 f L).
+  Grid g{2048, 4, kPatch, kPatch};
+  Gap gap{g, std::vector<double>(g.size())};
+  const double slope = 0.1;
+  for (int iy = 0; iy < 4; ++iy)
+    for (int ix = 0; ix < 2048; ++ix)
+      gap.value[g.index(ix, iy)] = slope * std::abs(g.x(ix) - kPatch / 2);
+  WaterProperties water;
+  const double v = 1e-18, h = std::sqrt(v * slope / kPatch), area = 2 * h / slope * kPatch;
+  const Wetting w = fill_threshold(gap, v, water);
+  EXPECT_EQ(w.status, WettingStatus::Film);
+  EXPECT_NEAR(w.wetted_fraction, area / g.area(), 1e-3);
+  const double c = wetting_gain(water.theta_skin, water.theta_substrate);
+  const double f = meniscus_factor(water.theta_skin, water.theta_substrate);
+  const double force = water.surface_tension * (c * area / h + f * 2 * kPatch);
+  EXPECT_NEAR(w.capillary_force, force, 0.01 * force);
+  EXPECT_EQ(w.bridges, 1);
+}
+
+}  // namespace
+}  // namespace papilla
