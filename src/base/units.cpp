@@ -37,20 +37,21 @@ struct Base {
   bool prefixes;
 };
 constexpr std::array kBases{
-    Base{"m", kLength, true},       Base{"N", kForce, true},        Base{"Pa", kPressure, true},
-    Base{"V", kVoltage, true},      Base{"s", kTime, true},         Base{"Hz", kFrequency, true},
-    Base{"A", kCurrent, true},      Base{"ohm", kResistance, true}, Base{"F", kCapacitance, true},
-    Base{"J", kEnergy, true},       Base{"g", kMass, true},         Base{"rad", kAngle, true},
-    Base{"deg", kAngle, false},     Base{"min", kTime, false},      Base{"h", kTime, false},
+    Base{"m", kLength, true},   Base{"N", kForce, true},        Base{"Pa", kPressure, true},
+    Base{"V", kVoltage, true},  Base{"s", kTime, true},         Base{"Hz", kFrequency, true},
+    Base{"A", kCurrent, true},  Base{"ohm", kResistance, true}, Base{"F", kCapacitance, true},
+    Base{"J", kEnergy, true},   Base{"g", kMass, true},         Base{"rad", kAngle, true},
+    Base{"deg", kAngle, false}, Base{"min", kTime, false},      Base{"h", kTime, false},
     Base{"%", Unit{}, false},
 };
 struct Prefix {
   const char* symbol;
   double factor;
 };
-constexpr std::array kPrefixes{Prefix{"", 1},    Prefix{"f", 1e-15}, Prefix{"p", 1e-12}, Prefix{"n", 1e-9},
-                               Prefix{"u", 1e-6}, Prefix{"µ", 1e-6},  Prefix{"m", 1e-3},  Prefix{"c", 1e-2},
-                               Prefix{"k", 1e3},  Prefix{"M", 1e6},   Prefix{"G", 1e9},   Prefix{"T", 1e12}};
+constexpr std::array kPrefixes{Prefix{"", 1},     Prefix{"f", 1e-15}, Prefix{"p", 1e-12},
+                               Prefix{"n", 1e-9}, Prefix{"u", 1e-6},  Prefix{"µ", 1e-6},
+                               Prefix{"m", 1e-3}, Prefix{"c", 1e-2},  Prefix{"k", 1e3},
+                               Prefix{"M", 1e6},  Prefix{"G", 1e9},   Prefix{"T", 1e12}};
 
 std::optional<Unit> simple_unit(std::string_view name) {
   for (const Base& base : kBases) {
@@ -89,8 +90,8 @@ std::optional<Unit> factor_unit(std::string_view name) {
   }
   auto base = simple_unit(name);
   if (!base) return std::nullopt;
-  Unit unit{std::pow(base->to_si, exponent), base->metre * exponent, base->kilogram * exponent,
-            base->second * exponent, base->ampere * exponent, base->radian * exponent};
+  Unit unit{std::pow(base->to_si, exponent), base->metre * exponent,  base->kilogram * exponent,
+            base->second * exponent,         base->ampere * exponent, base->radian * exponent};
   return unit;
 }
 
@@ -151,6 +152,63 @@ std::string dimension_name(const Unit& unit) {
   return "another kind of quantity";
 }
 
+namespace {
+
+// The exponent when a unit is a power of ten times SI ("um": -6): such values convert exactly.
+std::optional<int> decade(const Unit& unit) {
+  const double exponent = std::round(std::log10(unit.to_si));
+  if (std::abs(unit.to_si / std::pow(10.0, exponent) - 1) > 1e-13) return std::nullopt;
+  return static_cast<int>(exponent);
+}
+
+// Decimal digits and exponent: value = 0.d1d2d3... x 10^exponent.
+struct Decimal {
+  std::string_view sign;  // "-" or ""
+  std::string digits;
+  int exponent = 0;
+};
+
+Decimal shortest_decimal(double value) {
+  std::array<char, 40> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::scientific)
+                       .ptr;
+  const std::string text(buffer.data(), end);
+  Decimal out;
+  const std::size_t e = text.find('e');
+  for (char c : text.substr(0, e)) {
+    if (c == '-') out.sign = "-";
+    if (c >= '0' && c <= '9') out.digits += c;
+  }
+  out.exponent = std::atoi(text.c_str() + e + 1) + 1;
+  return out;
+}
+
+std::string decimal_text(const Decimal& d) {
+  const int n = static_cast<int>(d.digits.size());
+  if (d.digits == "0") return fmt::format("{}0", d.sign);
+  if (d.exponent > 15 || d.exponent < -4) {
+    return fmt::format("{}{}{}{}e{}", d.sign, d.digits.substr(0, 1), n > 1 ? "." : "",
+                       d.digits.substr(1), d.exponent - 1);
+  }
+  if (d.exponent <= 0) return fmt::format("{}0.{:0>{}}", d.sign, d.digits, n - d.exponent);
+  if (d.exponent >= n) return fmt::format("{}{:0<{}}", d.sign, d.digits, d.exponent);
+  return fmt::format("{}{}.{}", d.sign, d.digits.substr(0, d.exponent),
+                     d.digits.substr(d.exponent));
+}
+
+// The written number in SI: shifting its decimal point first rounds once, so "350 nm" is 350e-9.
+double to_si(std::string_view number, double value, const Unit& unit) {
+  const auto power = decade(unit);
+  if (!power) return value * unit.to_si;
+  const std::size_t e = number.find_first_of("eE");
+  int exponent = *power;
+  if (e != std::string_view::npos) exponent += std::atoi(std::string(number.substr(e + 1)).c_str());
+  return std::strtod(fmt::format("{}e{}", number.substr(0, e), exponent).c_str(), nullptr);
+}
+
+}  // namespace
+
 std::optional<Quantity> parse_quantity(std::string_view text) {
   while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
   while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
@@ -162,7 +220,10 @@ std::optional<Quantity> parse_quantity(std::string_view text) {
   while (!unit_text.empty() && unit_text.front() == ' ') unit_text.remove_prefix(1);
   const auto unit = find_unit(unit_text);
   if (!unit) return std::nullopt;
-  return Quantity{value, std::string(unit_text), value * unit->to_si};
+  const std::string_view number = text.substr(0, static_cast<std::size_t>(end - text.data()));
+  const double si = to_si(number, value, *unit);
+  if (!std::isfinite(si)) return std::nullopt;
+  return Quantity{value, std::string(unit_text), si};
 }
 
 double parse_si(std::string_view text, std::string_view unit) {
@@ -180,17 +241,32 @@ double parse_si(std::string_view text, std::string_view unit) {
   return quantity->si;
 }
 
-std::string format_number(double value) { return fmt::format("{}", value); }
+std::string format_number(double value) {
+  return std::isfinite(value) ? decimal_text(shortest_decimal(value)) : fmt::format("{}", value);
+}
 
 std::string format_quantity(double si, std::string_view unit) {
+  if (unit.empty()) return format_number(si);
   const auto known = find_unit(unit);
-  double value = si / (known ? known->to_si : 1);
-  // Undo the rounding of the division: 3e-6 / 1e-6 should print as 3.
-  const double rounded = std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr);
-  if (std::abs(rounded - value) <= 4e-16 * std::abs(value) || rounded * (known ? known->to_si : 1) == si) {
-    value = rounded;
+  if (!known || !std::isfinite(si)) return fmt::format("{} {}", format_number(si), unit);
+  if (const auto power = decade(*known)) {
+    Decimal d = shortest_decimal(si);
+    d.exponent -= *power;
+    return fmt::format("{} {}", decimal_text(d), unit);
   }
-  return unit.empty() ? format_number(value) : fmt::format("{} {}", format_number(value), unit);
+  // Degrees, minutes: the shortest text that comes back to the same double.
+  const double value = si / known->to_si;
+  for (int digits = 6; digits <= 17; ++digits) {
+    const double candidate = std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr);
+    if (candidate * known->to_si == si) {
+      return fmt::format("{} {}", format_number(candidate), unit);
+    }
+  }
+  for (const double next : {std::nextafter(value, -INFINITY), std::nextafter(value, INFINITY)}) {
+    if (next * known->to_si == si) return fmt::format("{} {}", format_number(next), unit);
+  }
+  if (known->same_dimension(kAngle)) return format_number(si) + " rad";
+  return fmt::format("{} {}", format_number(value), unit);
 }
 
 }  // namespace papilla

@@ -1,5 +1,5 @@
-// One list of fields a struct: it drives reading, checking, the generated reference, the optimiser's
-// design vector and the units of reports. Every configurable struct S has, beside it,
+// One list of fields a struct: it drives reading, checking, the generated reference, the
+// optimiser's design vector and the units of reports. Every configurable struct S has, beside it,
 //     void fields(FieldVisitor& v, S& s);
 // which names each member once. Readers, writers and describers are visitors.
 #pragma once
@@ -41,6 +41,9 @@ class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
+  // True while values come from a file: the moment to set defaults that hang on earlier members.
+  virtual bool reading() const { return false; }
+
   virtual void number(const NumberSpec& spec, double& si) = 0;
   virtual void numbers(const NumberSpec& spec, std::vector<double>& si) = 0;  // a list, same unit
   virtual void integer(const FieldSpec& spec, int low, int high, int& value) = 0;
@@ -52,9 +55,8 @@ class FieldVisitor {
   virtual void choice(const FieldSpec& spec, const std::vector<std::string>& names, int& value) = 0;
 
   template <class E>
-  void choice(const FieldSpec& spec, const std::vector<std::string>& names, E& value)
-    requires std::is_enum_v<E>
-  {
+  void choice(const FieldSpec& spec, const std::vector<std::string>& names,
+              E& value) requires std::is_enum_v<E> {
     int index = static_cast<int>(value);
     choice(spec, names, index);
     value = static_cast<E>(index);
@@ -70,8 +72,9 @@ class FieldVisitor {
   // A list of structs: [[list]] or an array of inline tables.
   template <class S>
   void list(const FieldSpec& spec, std::vector<S>& items) {
-    const int count = begin_list(spec, static_cast<int>(items.size()));
-    items.resize(static_cast<std::size_t>(count));
+    bool replace = false;
+    const int count = begin_list(spec, static_cast<int>(items.size()), replace);
+    if (replace) items.assign(static_cast<std::size_t>(count), S{});
     for (int i = 0; i < count; ++i) {
       if (begin_item(i)) fields(*this, items[static_cast<std::size_t>(i)]);
       end_item();
@@ -82,7 +85,8 @@ class FieldVisitor {
  protected:
   virtual bool begin_section(const FieldSpec& spec) = 0;  // false: skip the members
   virtual void end_section() = 0;
-  virtual int begin_list(const FieldSpec& spec, int current) = 0;  // how many items to visit
+  // How many items to visit; `replace`: start from that many new ones.
+  virtual int begin_list(const FieldSpec& spec, int current, bool& replace) = 0;
   virtual bool begin_item(int index) = 0;
   virtual void end_item() = 0;
   virtual void end_list() = 0;

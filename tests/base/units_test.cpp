@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 
 namespace papilla {
@@ -26,10 +27,19 @@ TEST(Units, RefuseAWrongDimensionAndABareNumber) {
 
 TEST(Units, WrittenQuantitiesReadBackToTheSameDouble) {
   for (double si : {3e-6, 350e-9, 1.23456789e-7, 1e-3, 2.5e-6}) {
-    EXPECT_DOUBLE_EQ(parse_quantity(format_quantity(si, "um"))->si, si);
+    for (const char* unit : {"um", "nm", "m", "mm"}) {
+      EXPECT_EQ(parse_quantity(format_quantity(si, unit))->si, si) << si << " " << unit;
+    }
+  }
+  for (int i = 1; i < 2000; ++i) {
+    const double si = i * 1.2345678901e-3;
+    EXPECT_EQ(parse_quantity(format_quantity(si, "deg"))->si, si);
+    EXPECT_EQ(parse_quantity(format_quantity(si, "%"))->si, si);
   }
   EXPECT_EQ(format_quantity(3e-6, "um"), "3 um");
   EXPECT_EQ(format_quantity(0.15, "%"), "15 %");
+  EXPECT_EQ(format_quantity(50 * kPi / 180, "deg"), "50 deg");
+  EXPECT_EQ(parse_quantity("350 nm")->si, 350e-9);
 }
 
 }  // namespace

@@ -1,0 +1,643 @@
+#include "config/reader.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <tuple>
+
+#include "base/check.h"
+#include "base/text.h"
+#include "base/units.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string join_path(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
+
+std::vector<std::string> split_path(const std::string& path) {
+  std::vector<std::string> parts;
+  std::stringstream stream(path);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  return parts;
+}
+
+bool is_index(const std::string& part) {
+  return !part.empty() && part.size() < 6 &&
+         part.find_first_not_of("0123456789") == std::string::npos;
+}
+
+const Node* find_path(const Node& root, const std::string& path) {
+  const Node* node = &root;
+  for (const std::string& part : split_path(path)) {
+    if (node->is_array()) {
+      const std::size_t index = is_index(part) ? std::stoul(part) : node->children.size();
+      node = index < node->children.size() ? &node->children[index] : nullptr;
+    } else {
+      node = node->find(part);
+    }
+    if (!node) return nullptr;
+  }
+  return node;
+}
+
+std::string read_text(const std::string& path) {
+  constexpr std::uintmax_t kLargest = 16 << 20;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (!fs::exists(status)) throw InputError({Problem{path, 0, 0, "", "no such file"}});
+  if (fs::is_directory(status)) {
+    throw InputError({Problem{path, 0, 0, "", "is a folder, expected a TOML file"}});
+  }
+  if (fs::is_regular_file(status) && fs::file_size(path, error) > kLargest) {
+    throw InputError({Problem{path, 0, 0, "", "larger than 16 MiB, expected a TOML file"}});
+  }
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InputError({Problem{path, 0, 0, "", "cannot be read"}});
+  std::stringstream buffer;
+  buffer << stream.rdbuf();
+  return buffer.str();
+}
+
+Node parse_file_text(const std::string& text, const std::string& file) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw InputError(
+        {Problem{file, 1, 1, "", "the file is empty, expected `schema_version = 1` and sections"}});
+  }
+  Node root = parse_toml(text, file);
+  root.place = Place{file, 1, 1};
+  return root;
+}
+
+bool same_type(const Node& a, const Node& b) {
+  const Node* type_a = a.find("type");
+  const Node* type_b = b.find("type");
+  return !type_a || !type_b || type_a->text == type_b->text;
+}
+
+// Puts `base` below `top`: members of `top` win, tables merge.
+void merge_below(Node& top, const Node& base) {
+  if (!same_type(top, base)) return;
+  for (const Node& child : base.children) {
+    Node* mine = top.find(child.key);
+    if (!mine) {
+      top.children.push_back(child);
+    } else if (mine->is_table() && child.is_table()) {
+      merge_below(*mine, child);
+    }
+  }
+}
+
+bool inside(const fs::path& file, const fs::path& folder) {
+  const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  return end == folder.end() || (std::next(end) == folder.end() && end->empty());
+}
+
+fs::path canonical(const fs::path& path) {
+  std::error_code error;
+  const fs::path out = fs::weakly_canonical(path, error);
+  return error ? fs::absolute(path).lexically_normal() : out;
+}
+
+struct BaseFiles {
+  fs::path home;  // folder of the first file
+  std::vector<std::string> roots;
+  std::vector<fs::path> open;  // chain of files being merged
+
+  bool allowed(const fs::path& file) const {
+    if (inside(file, home)) return true;
+    return std::any_of(roots.begin(), roots.end(),
+                       [&](const std::string& root) { return inside(file, canonical(root)); });
+  }
+
+  // Resolves the `base` of a table (and of the tables within), nearest first.
+  void resolve(Node& table) {
+    if (const Node* base = table.find("base"); base && base->is_text()) {
+      const Node value = *base;
+      std::erase_if(table.children, [](const Node& child) { return child.key == "base"; });
+      merge_below(table, read(value));
+    } else if (base) {
+      throw InputError({Problem{base->place.file, base->place.line, base->place.column, "base",
+                                "expected the name of a file, got " + describe(*base)}});
+    }
+    for (Node& child : table.children) {
+      if (child.is_table()) resolve(child);
+    }
+  }
+
+  Node read(const Node& name) {
+    const auto refuse = [&](const std::string& message) {
+      throw InputError(
+          {Problem{name.place.file, name.place.line, name.place.column, "base", message}});
+    };
+    const std::string found = find_beside(name.text, name.place.file, roots);
+    if (found.empty()) {
+      refuse(fmt::format("no file \"{}\" beside this file or in the designs folder", name.text));
+    }
+    const fs::path file = canonical(found);
+    if (!allowed(file)) {
+      refuse(
+          fmt::format("\"{}\" lies outside this file's folder and the designs folder", name.text));
+    }
+    if (std::find(open.begin(), open.end(), file) != open.end()) {
+      refuse(fmt::format("\"{}\" is based on itself", name.text));
+    }
+    Node table = parse_file_text(read_text(file.string()), found);
+    if (const Node* version = table.find("schema_version")) {
+      if (version->kind != Node::Kind::Integer || version->integer != 1) {
+        throw InputError({Problem{found, version->place.line, version->place.column,
+                                  "schema_version", "expected 1, got " + describe(*version)}});
+      }
+      std::erase_if(table.children,
+                    [](const Node& child) { return child.key == "schema_version"; });
+    }
+    open.push_back(file);
+    resolve(table);
+    open.pop_back();
+    return table;
+  }
+};
+
+struct Override {
+  std::string path;
+  Node value;
+};
+
+Override parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string origin = "--set " + text;
+  if (equals == std::string::npos || equals == 0) {
+    throw InputError({Problem{origin, 0, 0, "", "expected KEY=VALUE, e.g. drive.amplitude=150V"}});
+  }
+  Override out;
+  out.path = text.substr(0, equals);
+  while (!out.path.empty() && out.path.back() == ' ') out.path.pop_back();
+  std::string value = text.substr(equals + 1);
+  while (!value.empty() && value.front() == ' ') value.erase(0, 1);
+  try {
+    Node table = parse_toml("value = " + value, origin);
+    if (table.children.size() != 1) throw InputError("more than one value");
+    out.value = std::move(table.children[0]);
+  } catch (const InputError&) {
+    out.value = text_node(value);  // 350 nm, hole_array: no quotes needed on a command line
+  }
+  out.value.place = out.value.key_place = Place{origin, 0, 0};
+  for (Node& child : out.value.children) child.place = child.key_place = out.value.place;
+  return out;
+}
+
+void apply(Node& root, const Override& change) {
+  Node* node = &root;
+  const std::vector<std::string> parts = split_path(change.path);
+  const auto refuse = [&](const std::string& message) {
+    throw InputError({Problem{change.value.place.file, 0, 0, change.path, message}});
+  };
+  if (parts.empty()) refuse("expected a key");
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const bool last = i + 1 == parts.size();
+    if (node->is_array()) {
+      const std::size_t index = is_index(parts[i]) ? std::stoul(parts[i]) : node->children.size();
+      if (index >= node->children.size()) {
+        refuse(fmt::format("no item {} in a list of {}", parts[i], node->children.size()));
+      }
+      Node& item = node->children[index];
+      if (last) item = change.value;
+      node = &item;
+    } else if (node->is_table()) {
+      Node* child = node->find(parts[i]);
+      if (last) {
+        if (child && parts[i] == "type" && child->text != change.value.text) {
+          node->children.clear();  // another kind has other keys
+          child = nullptr;
+        }
+        Node value = change.value;
+        node->set(parts[i], std::move(value));
+        return;
+      }
+      if (!child) {
+        Node table = table_node();
+        table.place = table.key_place = change.value.place;
+        child = &node->set(parts[i], std::move(table));
+      }
+      node = child;
+    } else {
+      refuse("has no members");
+    }
+  }
+}
+
+Node with_overrides_and_bases(Node root, const std::vector<std::string>& overrides,
+                              BaseFiles* bases) {
+  std::vector<Override> changes;
+  for (const std::string& text : overrides) changes.push_back(parse_override(text));
+  const auto is_base = [](const Override& change) {
+    return change.path == "base" || change.path.ends_with(".base");
+  };
+  for (Override& change : changes) {
+    if (!is_base(change)) continue;
+    change.value.place.file = root.place.file;  // beside the main file
+    apply(root, change);
+  }
+  if (bases) bases->resolve(root);
+  // Kinds first: they clear the keys of the kind before.
+  std::stable_partition(changes.begin(), changes.end(),
+                        [](const Override& change) { return change.path.ends_with("type"); });
+  for (const Override& change : changes) {
+    if (!is_base(change)) apply(root, change);
+  }
+  return root;
+}
+
+std::string dimension_of(const char* unit) {
+  if (!*unit) return "a plain number";
+  return fmt::format("{} in {}", dimension_name(*find_unit(unit)), unit);
+}
+
+}  // namespace
+
+std::string find_beside(const std::string& name, const std::string& from,
+                        const std::vector<std::string>& search_roots) {
+  std::error_code error;
+  const auto is_file = [&](const fs::path& path) { return fs::is_regular_file(path, error); };
+  const fs::path relative(name);
+  if (relative.is_absolute()) return is_file(relative) ? name : "";
+  const fs::path folder = from.starts_with("--set ") ? fs::path() : fs::path(from).parent_path();
+  if (const fs::path beside = (folder / relative).lexically_normal(); is_file(beside)) {
+    return beside.string();
+  }
+  // A study copied out of the designs folder still finds "../fingers/reference.toml" there.
+  fs::path below;
+  for (const fs::path& part : relative) {
+    if (part != "..") below /= part;
+  }
+  for (const std::string& root : search_roots) {
+    if (const fs::path file = fs::path(root) / below; is_file(file)) return file.string();
+  }
+  return {};
+}
+
+struct Document::State final : public FieldVisitor {
+  struct Frame {
+    const Node* table;  // null: not in the file
+    std::string path;
+  };
+
+  Node root;
+  std::vector<Problem> problems;
+  Origins origins;
+  std::map<std::string, std::vector<std::string>> known;  // by table path: keys that have a meaning
+  std::map<std::string, const Node*> visited;             // tables whose keys were looked at
+  std::vector<Frame> stack;
+  std::vector<const Node*> lists;
+
+  const Frame& frame() const { return stack.back(); }
+  bool reading() const override { return true; }
+
+  void problem(const Place& place, const std::string& key, const std::string& message) {
+    problems.push_back({place.file, place.line, place.column, key, message});
+  }
+
+  // The value of a key of the present table, or null. Reports a required key that is missing.
+  const Node* value(const char* key, Presence presence, const std::string& what) {
+    known[frame().path].push_back(key);
+    if (!frame().table) return nullptr;
+    const Node* node = frame().table->find(key);
+    if (node) {
+      origins[join_path(frame().path, key)] = node->place;
+    } else if (presence == Presence::Required) {
+      problem(frame().table->place, frame().path, fmt::format("missing `{}` ({}", key, what));
+    }
+    return node;
+  }
+
+  bool convert(const NumberSpec& spec, const Node& node, const std::string& path, double& si) {
+    const Unit unit = *find_unit(spec.unit);
+    const bool plain = !*spec.unit;
+    double result = 0;
+    std::string written;
+    if (node.is_text()) {
+      const auto quantity = parse_quantity(node.text);
+      if (!quantity) {
+        if (plain) {
+          problem(node.place, path, "expected a plain number, got " + describe(node));
+        } else {
+          problem(node.place, path,
+                  fmt::format("expected {}, got {}; write it like \"{} {}\"", dimension_name(unit),
+                              describe(node), example(spec), spec.unit));
+        }
+        return false;
+      }
+      if (!find_unit(quantity->unit)->same_dimension(unit)) {
+        problem(node.place, path,
+                fmt::format("expected {}, got {}",
+                            plain ? std::string("a plain number") : dimension_name(unit),
+                            describe(node)));
+        return false;
+      }
+      if (!plain && quantity->unit.empty()) {
+        problem(node.place, path, needs_unit(spec, quantity->value));
+        return false;
+      }
+      result = quantity->si;
+    } else if (node.is_number()) {
+      if (!std::isfinite(node.number)) {
+        problem(node.place, path, "expected a finite number, got " + describe(node));
+        return false;
+      }
+      if (!plain) {
+        problem(node.place, path, needs_unit(spec, node.number));
+        return false;
+      }
+      result = node.number;
+    } else {
+      problem(node.place, path,
+              fmt::format("expected {}, got {}", dimension_of(spec.unit), describe(node)));
+      return false;
+    }
+    const double scaled = result / unit.to_si;
+    const double slack = 1e-12 * std::max(std::abs(spec.low), std::abs(spec.high));
+    if (scaled < spec.low - std::min(slack, 1e-9 * std::abs(spec.low)) ||
+        scaled > spec.high + slack) {
+      problem(node.place, path,
+              fmt::format("{} is outside {} to {}{}{}", format_quantity(result, spec.unit),
+                          format_number(spec.low), format_number(spec.high), plain ? "" : " ",
+                          spec.unit));
+      return false;
+    }
+    si = result;
+    return true;
+  }
+
+  static std::string example(const NumberSpec& spec) {
+    if (spec.low > 0) return format_number(spec.low);
+    return format_number(std::min(1.0, spec.high));
+  }
+
+  static std::string needs_unit(const NumberSpec& spec, double value) {
+    return fmt::format("needs a unit, e.g. \"{} {}\"", format_number(value), spec.unit);
+  }
+
+  void number(const NumberSpec& spec, double& si) override {
+    const Node* node =
+        value(spec.key, spec.presence, fmt::format("{}), {}", spec.doc, dimension_of(spec.unit)));
+    if (node) convert(spec, *node, join_path(frame().path, spec.key), si);
+  }
+
+  void numbers(const NumberSpec& spec, std::vector<double>& si) override {
+    const Node* node =
+        value(spec.key, spec.presence,
+              fmt::format("{}), a list, each {}", spec.doc, dimension_of(spec.unit)));
+    if (!node) return;
+    const std::string path = join_path(frame().path, spec.key);
+    if (!node->is_array()) {
+      problem(node->place, path,
+              fmt::format(
+                  "expected a list, e.g. [{}], got {}",
+                  *spec.unit ? fmt::format("\"{} {}\"", example(spec), spec.unit) : example(spec),
+                  describe(*node)));
+      return;
+    }
+    std::vector<double> result(node->children.size());
+    bool good = true;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      good &= convert(spec, node->children[i], fmt::format("{}.{}", path, i), result[i]);
+    }
+    if (good) si = std::move(result);
+  }
+
+  void integer(const FieldSpec& spec, int low, int high, int& out) override {
+    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a whole number");
+    if (!node) return;
+    const std::string path = join_path(frame().path, spec.key);
+    if (node->kind != Node::Kind::Integer) {
+      problem(node->place, path, "expected a whole number, got " + describe(*node));
+    } else if (node->integer < low || node->integer > high) {
+      problem(node->place, path,
+              low == high ? fmt::format("expected {}, got {}", low, node->integer)
+                          : fmt::format("{} is outside {} to {}", node->integer, low, high));
+    } else {
+      out = static_cast<int>(node->integer);
+    }
+  }
+
+  void flag(const FieldSpec& spec, bool& out) override {
+    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), true or false");
+    if (!node) return;
+    if (node->kind != Node::Kind::Flag) {
+      problem(node->place, join_path(frame().path, spec.key),
+              "expected true or false, got " + describe(*node));
+    } else {
+      out = node->flag;
+    }
+  }
+
+  void text(const FieldSpec& spec, std::string& out) override {
+    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a text");
+    if (!node) return;
+    if (!node->is_text()) {
+      problem(node->place, join_path(frame().path, spec.key),
+              "expected a text in quotes, got " + describe(*node));
+    } else {
+      out = node->text;
+    }
+  }
+
+  void path(const FieldSpec& spec, std::string& out) override {
+    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a file");
+    if (!node) return;
+    const std::string key = join_path(frame().path, spec.key);
+    if (!node->is_text()) {
+      problem(node->place, key, "expected the name of a file in quotes, got " + describe(*node));
+    } else if (node->text.empty()) {
+      out.clear();
+    } else if (const std::string found = find_beside(node->text, node->place.file, {});
+               found.empty()) {
+      problem(node->place, key, "no such file: " + describe(*node));
+    } else {
+      out = canonical(found).string();
+    }
+  }
+
+  void choice(const FieldSpec& spec, const std::vector<std::string>& names, int& out) override {
+    const std::string list = "one of " + join_names(names);
+    const Node* node = value(spec.key, spec.presence, fmt::format("{}), {}", spec.doc, list));
+    if (!node) return;
+    const auto found = std::find(names.begin(), names.end(), node->is_text() ? node->text : "");
+    if (node->is_text() && found != names.end()) {
+      out = static_cast<int>(found - names.begin());
+      return;
+    }
+    const std::string near = node->is_text() ? nearest_name(node->text, names) : "";
+    problem(node->place, join_path(frame().path, spec.key),
+            fmt::format("expected {}, got {}{}", list, describe(*node),
+                        near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    // Which keys go with an unknown kind is unknown too.
+    if (std::string_view(spec.key) == "type") ignore_rest_of_table();
+  }
+
+  using FieldVisitor::choice;
+
+  void ignore_rest_of_table() {
+    for (const Node& child : frame().table->children) known[frame().path].push_back(child.key);
+  }
+
+  void push(const Node* table, const std::string& path) {
+    if (table) visited[path] = table;
+    stack.push_back({table, path});
+  }
+
+  bool begin_section(const FieldSpec& spec) override {
+    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a section");
+    const std::string path = join_path(frame().path, spec.key);
+    if (node && !node->is_table()) {
+      problem(node->place, path,
+              fmt::format("expected a section [{}], got {}", path, describe(*node)));
+      node = nullptr;
+    }
+    push(node, path);
+    return true;
+  }
+
+  void end_section() override { stack.pop_back(); }
+
+  int begin_list(const FieldSpec& spec, int current, bool& replace) override {
+    const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a list");
+    const std::string path = join_path(frame().path, spec.key);
+    if (node && !node->is_array()) {
+      problem(node->place, path,
+              fmt::format("expected a list of sections, [[{}]] or [{{ ... }}], got {}", path,
+                          describe(*node)));
+      node = nullptr;
+    }
+    lists.push_back(node);
+    stack.push_back({nullptr, path});
+    replace = node != nullptr;
+    return node ? static_cast<int>(node->children.size()) : current;
+  }
+
+  bool begin_item(int index) override {
+    const Node* list = lists.back();
+    const std::string path = fmt::format("{}.{}", frame().path, index);
+    const Node* item = list ? &list->children[static_cast<std::size_t>(index)] : nullptr;
+    if (item && !item->is_table()) {
+      problem(item->place, path, "expected a section { ... }, got " + describe(*item));
+      item = nullptr;
+    }
+    push(item, path);
+    return true;
+  }
+
+  void end_item() override { stack.pop_back(); }
+
+  void end_list() override {
+    lists.pop_back();
+    stack.pop_back();
+  }
+
+  void report_unread() {
+    for (const auto& [path, table] : visited) {
+      const std::vector<std::string>& names = known[path];
+      for (const Node& child : table->children) {
+        if (std::find(names.begin(), names.end(), child.key) != names.end()) continue;
+        const std::string near = nearest_name(child.key, names);
+        std::string message = fmt::format("unknown key `{}`", child.key);
+        if (!near.empty()) {
+          message += fmt::format(", did you mean `{}`?", near);
+        } else {
+          std::vector<std::string> sorted = names;
+          std::sort(sorted.begin(), sorted.end());
+          sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+          message += "; known here: " + join_names(sorted);
+        }
+        problem(child.key_place, path, message);
+      }
+    }
+  }
+};
+
+Document::Document(Node root) : state_(std::make_unique<State>()) {
+  state_->root = std::move(root);
+  state_->visited[""] = &state_->root;
+}
+
+Document::~Document() = default;
+Document::Document(Document&&) noexcept = default;
+Document& Document::operator=(Document&&) noexcept = default;
+
+const Node* Document::take(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
+  state_->known[parent].push_back(dot == std::string::npos ? path : path.substr(dot + 1));
+  const Node* node = find_path(state_->root, path);
+  if (node) state_->origins[path] = node->place;
+  return node;
+}
+
+bool Document::has(const std::string& path) const { return find_path(state_->root, path); }
+
+void Document::problem(const Place& place, const std::string& key, const std::string& message) {
+  state_->problem(place, key, message);
+}
+
+void Document::problem_at(const std::string& path, const std::string& message) {
+  std::string nearest = path;
+  const Node* node = find_path(state_->root, nearest);
+  while (!node && !nearest.empty()) {
+    const std::size_t dot = nearest.rfind('.');
+    nearest = dot == std::string::npos ? "" : nearest.substr(0, dot);
+    node = find_path(state_->root, nearest);
+  }
+  state_->problem(node ? node->place : state_->root.place, path, message);
+}
+
+const Origins& Document::origins() const { return state_->origins; }
+const std::vector<Problem>& Document::problems() const { return state_->problems; }
+
+FieldVisitor& Document::open(const std::string& path) {
+  const Node* node = path.empty() ? &state_->root : take(path);
+  if (node && !node->is_table()) {
+    problem(node->place, path,
+            fmt::format("expected a section [{}], got {}", path, describe(*node)));
+    node = nullptr;
+  }
+  state_->push(node, path);
+  return *state_;
+}
+
+void Document::close() { state_->stack.pop_back(); }
+
+Document load_document(const std::string& path, const std::vector<std::string>& overrides,
+                       const std::vector<std::string>& search_roots) {
+  const fs::path file = canonical(path);
+  Node root = parse_file_text(read_text(path), path);
+  BaseFiles bases{file.parent_path(), search_roots, {file}};
+  return Document(with_overrides_and_bases(std::move(root), overrides, &bases));
+}
+
+Document parse_document(const std::string& text, const std::string& file,
+                        const std::vector<std::string>& overrides) {
+  return Document(with_overrides_and_bases(parse_file_text(text, file), overrides, nullptr));
+}
+
+void Document::finish() {
+  state_->report_unread();
+  std::vector<Problem>& problems = state_->problems;
+  if (problems.empty()) return;
+  const std::string& main = state_->root.place.file;
+  const auto order = [&](const Problem& p) {
+    return std::tuple(p.file != main, p.file, p.line, p.column);
+  };
+  std::stable_sort(problems.begin(), problems.end(),
+                   [&](const Problem& a, const Problem& b) { return order(a) < order(b); });
+  throw InputError(problems);
+}
+
+}  // namespace papilla

@@ -1,0 +1,78 @@
+// Reads a TOML file into structs by their fields(): all problems at once, each with its place.
+//
+//   Document document = load_document("study.toml", {"texture.depth=350 nm"}, {designs_folder});
+//   read_section(document, "texture", texture);
+//   finish(document);                                   // throws InputError with every problem
+//
+// Files: `schema_version = 1`; `base = "other.toml"` puts another file below this one, in the
+// file's head or in a section (then the other file holds that section's keys). A base is looked for
+// beside the file that names it, then under the search roots, and never outside the first file's
+// folder or a root. A section whose `type` differs from its base's replaces it instead of merging.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "config/fields.h"
+#include "config/node.h"
+
+namespace papilla {
+
+// Where each value that was read came from; a path that is absent has its default.
+using Origins = std::map<std::string, Place>;
+
+class Document {
+ public:
+  explicit Document(Node root);  // throws nothing; see load_document
+  ~Document();
+  Document(Document&&) noexcept;
+  Document& operator=(Document&&) noexcept;
+
+  // The value at a dotted path, or null; it and its members count as read.
+  const Node* take(const std::string& path);
+  bool has(const std::string& path) const;
+
+  void problem(const Place& place, const std::string& key, const std::string& message);
+  // At the value of `path` (or its nearest section that is in the file).
+  void problem_at(const std::string& path, const std::string& message);
+
+  const Origins& origins() const;
+  const std::vector<Problem>& problems() const;
+
+  // Visits a struct at `path` ("" = the file's head); see read_section.
+  FieldVisitor& open(const std::string& path);
+  void close();
+
+  // Reports unread keys, then throws InputError if anything was wrong.
+  void finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Throws InputError when a file cannot be read or is not TOML. An override is "path=value"; the
+// value is TOML, or else taken as text: texture.depth=350 nm. List items:
+// surface.dielectric.0.thickness
+Document load_document(const std::string& path, const std::vector<std::string>& overrides = {},
+                       const std::vector<std::string>& search_roots = {});
+// The same from text, for tests and `file`less input.
+Document parse_document(const std::string& text, const std::string& file,
+                        const std::vector<std::string>& overrides = {});
+
+// Finds a file that `from` names: beside it, then under the roots; empty when there is none there.
+std::string find_beside(const std::string& name, const std::string& from,
+                        const std::vector<std::string>& search_roots);
+
+template <class S>
+void read_section(Document& document, const std::string& path, S& s) {
+  fields(document.open(path), s);
+  document.close();
+}
+
+inline void finish(Document& document) { document.finish(); }
+
+}  // namespace papilla

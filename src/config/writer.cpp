@@ -1,0 +1,131 @@
+#include "config/writer.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "base/units.h"
+
+namespace papilla {
+
+TableWriter::TableWriter(const Origins* origins, std::string path) : origins_(origins) {
+  stack_.push_back(table_node());
+  paths_.push_back(std::move(path));
+}
+
+std::string place_text(const Place& place) {
+  return place.line > 0 ? fmt::format("{}:{}:{}", place.file, place.line, place.column)
+                        : place.file;
+}
+
+void TableWriter::add(const char* key, Node value, Source source, const char* reference) {
+  if (origins_) {
+    const std::string path = paths_.back().empty() ? key : paths_.back() + "." + key;
+    if (const auto found = origins_->find(path); found != origins_->end()) {
+      value.comment = place_text(found->second);
+    } else {
+      value.comment =
+          fmt::format("default ({}{}{})", source_name(source), *reference ? ": " : "", reference);
+    }
+  }
+  stack_.back().set(key, std::move(value));
+}
+
+namespace {
+Node quantity_node(const NumberSpec& spec, double si) {
+  return *spec.unit && std::isfinite(si) ? text_node(format_quantity(si, spec.unit))
+                                         : number_node(si);
+}
+}  // namespace
+
+void TableWriter::number(const NumberSpec& spec, double& si) {
+  add(spec.key, quantity_node(spec, si), spec.source, spec.reference);
+}
+
+void TableWriter::numbers(const NumberSpec& spec, std::vector<double>& si) {
+  std::vector<Node> items;
+  for (const double value : si) items.push_back(quantity_node(spec, value));
+  add(spec.key, array_node(std::move(items)), spec.source, spec.reference);
+}
+
+void TableWriter::integer(const FieldSpec& spec, int, int, int& value) {
+  add(spec.key, integer_node(value), spec.source, spec.reference);
+}
+
+void TableWriter::flag(const FieldSpec& spec, bool& value) {
+  add(spec.key, flag_node(value), spec.source, spec.reference);
+}
+
+void TableWriter::text(const FieldSpec& spec, std::string& value) {
+  add(spec.key, text_node(value), spec.source, spec.reference);
+}
+
+void TableWriter::path(const FieldSpec& spec, std::string& value) { text(spec, value); }
+
+void TableWriter::choice(const FieldSpec& spec, const std::vector<std::string>& names, int& value) {
+  add(spec.key, text_node(names.at(static_cast<std::size_t>(value))), spec.source, spec.reference);
+}
+
+void TableWriter::pop_into_parent() {
+  Node node = std::move(stack_.back());
+  stack_.pop_back();
+  paths_.pop_back();
+  if (stack_.back().is_array()) {
+    stack_.back().children.push_back(std::move(node));
+  } else {
+    std::string key = node.key;
+    stack_.back().set(std::move(key), std::move(node));
+  }
+}
+
+bool TableWriter::begin_section(const FieldSpec& spec) {
+  Node table = table_node();
+  table.key = spec.key;
+  paths_.push_back(paths_.back().empty() ? spec.key : paths_.back() + "." + spec.key);
+  stack_.push_back(std::move(table));
+  return true;
+}
+
+void TableWriter::end_section() { pop_into_parent(); }
+
+int TableWriter::begin_list(const FieldSpec& spec, int current, bool&) {
+  Node list = array_node({});
+  list.key = spec.key;
+  paths_.push_back(paths_.back().empty() ? spec.key : paths_.back() + "." + spec.key);
+  stack_.push_back(std::move(list));
+  return current;
+}
+
+bool TableWriter::begin_item(int index) {
+  paths_.push_back(fmt::format("{}.{}", paths_.back(), index));
+  stack_.push_back(table_node());
+  return true;
+}
+
+void TableWriter::end_item() { pop_into_parent(); }
+void TableWriter::end_list() { pop_into_parent(); }
+
+void write_text_file(const std::string& path, const std::string& text) {
+  const std::string temporary = fmt::format("{}.{}.part", path, getpid());
+  std::error_code error;
+  {
+    std::ofstream stream(temporary, std::ios::binary);
+    stream << text;
+    stream.close();
+    if (!stream) {
+      std::filesystem::remove(temporary, error);
+      throw InputError({Problem{path, 0, 0, "", "cannot be written"}});
+    }
+  }
+  std::filesystem::rename(temporary, path, error);
+  if (error) {
+    std::error_code ignored;
+    std::filesystem::remove(temporary, ignored);
+    throw InputError({Problem{path, 0, 0, "", "cannot be written: " + error.message()}});
+  }
+}
+
+}  // namespace papilla

@@ -1,0 +1,263 @@
+#include "config/reader.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "config/describe.h"
+#include "config/writer.h"
+#include "scene/environment.h"
+#include "scene/finger.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Hole {
+  double diameter = 3e-6, depth = 350e-9, wall_angle = 1.5;
+};
+void fields(FieldVisitor& v, Hole& s) {
+  v.number({"diameter", "um", 0.2, 50, "hole diameter at the top", Source::Choice, "",
+            Presence::Required},
+           s.diameter);
+  v.number({"depth", "nm", 0, 5000, "hole depth"}, s.depth);
+  v.number({"wall_angle", "deg", 45, 90, "angle of the wall"}, s.wall_angle);
+}
+
+struct Source3 {
+  double voltage = 0;
+};
+void fields(FieldVisitor& v, Source3& s) { v.number({"voltage", "V", 0, 1000, "peak"}, s.voltage); }
+
+struct Whole {
+  int schema_version = 1;
+  Finger finger;
+  Environment environment;
+  Surface surface;
+  Drive drive;
+  bool operator==(const Whole&) const = default;
+};
+void fields(FieldVisitor& v, Whole& s) {
+  v.integer({"schema_version", "version"}, 1, 1, s.schema_version);
+  v.section({"finger", "finger"}, s.finger);
+  v.section({"environment", "air"}, s.environment);
+  v.section({"surface", "finish"}, s.surface);
+  v.section({"drive", "drive"}, s.drive);
+}
+
+std::string problems_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    Document document = parse_document(text, "hole.toml", overrides);
+    Whole whole;
+    fields(document.open(""), whole);
+    document.close();
+    finish(document);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Whole read_whole(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  Document document = parse_document(text, "whole.toml", overrides);
+  Whole whole;
+  read_section(document, "", whole);
+  finish(document);
+  return whole;
+}
+
+class Folder {
+ public:
+  explicit Folder(const std::string& name)
+      : path_(fs::path(testing::TempDir()) / ("papilla_" + name)) {
+    fs::remove_all(path_);
+    fs::create_directories(path_);
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    fs::create_directories((path_ / name).parent_path());
+    std::ofstream(path_ / name) << text;
+    return (path_ / name).string();
+  }
+  std::string path() const { return path_.string(); }
+
+ private:
+  fs::path path_;
+};
+
+TEST(Reader, ReportsAllProblemsAtOnceWithTheirPlaces) {
+  Document document = parse_document(
+      "[texture]\n"
+      "\n"
+      "# a comment\n"
+      "diamter = \"3 um\"\n"
+      "depth = 350\n"
+      "wall_angle = \"95 deg\"\n"
+      "[drive]\n"
+      "voltage = \"200 um\"\n",
+      "hole.toml");
+  Hole hole;
+  Source3 drive;
+  read_section(document, "texture", hole);
+  read_section(document, "drive", drive);
+  try {
+    finish(document);
+    FAIL() << "no problem found";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "hole.toml:1:1: texture: missing `diameter` (hole diameter at the top), a length in um\n"
+        "hole.toml:4:1: texture: unknown key `diamter`, did you mean `diameter`?\n"
+        "hole.toml:5:9: texture.depth: needs a unit, e.g. \"350 nm\"\n"
+        "hole.toml:6:14: texture.wall_angle: 95 deg is outside 45 to 90 deg\n"
+        "hole.toml:8:11: drive.voltage: expected a voltage, got \"200 um\"");
+  }
+}
+
+TEST(Reader, NamesEachKindOfMistake) {
+  EXPECT_EQ(problems_of("schema_version = 2\n"),
+            "hole.toml:1:18: schema_version: expected 1, got 2");
+  EXPECT_EQ(problems_of("[finger]\nload = \"nan N\"\n"),
+            "hole.toml:2:8: finger.load: expected a force, got \"nan N\"; write it like \"1 N\"");
+  EXPECT_EQ(problems_of("[finger]\nload = \"-1 N\"\n"),
+            "hole.toml:2:8: finger.load: -1 N is outside 0 to 100 N");
+  EXPECT_EQ(problems_of("[finger]\nstate = \"claen\"\n"),
+            "hole.toml:2:9: finger.state: expected one of clean, natural, wet, got \"claen\"; did "
+            "you mean \"clean\"?");
+  EXPECT_EQ(problems_of("[surface]\nrefractive_index = nan\n"),
+            "hole.toml:2:20: surface.refractive_index: expected a finite number, got nan");
+  EXPECT_EQ(problems_of("[surface]\nrefractive_index = [1, 2]\n"),
+            "hole.toml:2:20: surface.refractive_index: expected a plain number, got a list");
+  EXPECT_EQ(problems_of("[environment]\nrelative_humidity = \"15 %\"\n"),
+            "hole.toml:2:21: environment.relative_humidity: expected a list, e.g. [\"1 %\"], got "
+            "\"15 %\"");
+  EXPECT_EQ(problems_of("[environment]\nrelative_humidity = [\"15 %\", 0.35]\n"),
+            "hole.toml:2:30: environment.relative_humidity.1: needs a unit, e.g. \"0.35 %\"");
+  EXPECT_EQ(problems_of("finger = 3\n"),
+            "hole.toml:1:10: finger: expected a section [finger], got 3");
+  EXPECT_EQ(problems_of("[surface]\ndielectric = [{ thickness = \"1 V\" }, 3]\n"),
+            "hole.toml:2:29: surface.dielectric.0.thickness: expected a length, got \"1 V\"\n"
+            "hole.toml:2:38: surface.dielectric.1: expected a section { ... }, got 3");
+  EXPECT_EQ(problems_of("[finger.calibrated_for]\nbreakdown_cap = 1\n"),
+            "hole.toml:2:17: finger.calibrated_for.breakdown_cap: expected true or false, got 1");
+  EXPECT_EQ(problems_of(" \n"),
+            "hole.toml:1:1: the file is empty, expected `schema_version = 1` and sections");
+  EXPECT_TRUE(problems_of("[finger\n").starts_with("hole.toml:1:8: not valid TOML"));
+  EXPECT_TRUE(problems_of("\xff\xfe\x00\x01garbage").starts_with("hole.toml:1:1: not valid TOML"));
+}
+
+TEST(Reader, OverridesTakeTextWithoutQuotesAndSayWhereTheyCameFrom) {
+  const Whole whole = read_whole(
+      "schema_version = 1\n[surface]\ndielectric = [{ material = \"a\" }, { material = \"b\" }]\n",
+      {"finger.load=300 mN", "finger.state=natural", "surface.dielectric.1.thickness=2 um",
+       "environment.relative_humidity=[\"20 %\"]"});
+  EXPECT_EQ(whole.finger.load, 0.3);
+  EXPECT_EQ(whole.finger.state, FingerState::Natural);
+  EXPECT_EQ(whole.surface.dielectric[1].thickness, 2e-6);
+  EXPECT_EQ(whole.environment.relative_humidity, std::vector<double>{0.2});
+  EXPECT_EQ(problems_of("schema_version = 1", {"finger.laod=1 N"}),
+            "--set finger.laod=1 N: finger: unknown key `laod`, did you mean `load`?");
+  EXPECT_THROW(read_whole("schema_version = 1", {"finger.load"}), InputError);
+}
+
+TEST(Reader, ANewListReplacesTheDefaultItems) {
+  const Whole whole = read_whole("[[surface.dielectric]]\nmaterial = \"HfO2\"\n");
+  ASSERT_EQ(whole.surface.dielectric.size(), 1u);
+  EXPECT_EQ(whole.surface.dielectric[0].material, "HfO2");
+  EXPECT_TRUE(read_whole("surface = { dielectric = [] }").surface.dielectric.empty());
+}
+
+TEST(Reader, BaseFilesLieBelowAndKeepTheirPlaces) {
+  const Folder folder("base");
+  folder.write("designs/fingers/soft.toml",
+               "schema_version = 1\nname = \"soft\"\nload = \"1 N\"\n[skin]\nrms = \"100 nm\"\n");
+  folder.write("designs/common.toml", "schema_version = 1\n[drive]\namplitude = \"90 V\"\n");
+  const std::string study = folder.write("home/study.toml",
+                                         "schema_version = 1\n"
+                                         "base = \"common.toml\"\n"
+                                         "[finger]\n"
+                                         "base = \"../fingers/soft.toml\"\n"
+                                         "load = \"2 N\"\n");
+  Document document = load_document(study, {}, {folder.path() + "/designs"});
+  Whole whole;
+  read_section(document, "", whole);
+  finish(document);
+  EXPECT_EQ(whole.finger.name, "soft");
+  EXPECT_EQ(whole.finger.load, 2);
+  EXPECT_EQ(whole.finger.skin.rms, 100e-9);
+  EXPECT_EQ(whole.drive.amplitude, 90);
+  EXPECT_TRUE(document.origins().at("finger.skin.rms").file.ends_with("designs/fingers/soft.toml"));
+  EXPECT_EQ(document.origins().at("finger.skin.rms").line, 5);
+}
+
+TEST(Reader, BasesOutsideTheRootsAndCyclesAreRefused) {
+  const Folder folder("cycle");
+  folder.write("secret.toml", "[drive]\n");
+  const auto message = [&](const std::string& text) -> std::string {
+    const std::string file = folder.write("home/study.toml", text);
+    try {
+      load_document(file);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message("base = \"../secret.toml\"").find("outside"), std::string::npos);
+  EXPECT_NE(message("base = \"none.toml\"").find("study.toml:1:8: base: no file"),
+            std::string::npos);
+  EXPECT_NE(message("base = \"study.toml\"").find("based on itself"), std::string::npos);
+  fs::create_symlink(folder.path() + "/secret.toml", folder.path() + "/home/link.toml");
+  EXPECT_NE(message("base = \"link.toml\"").find("outside"), std::string::npos);
+}
+
+TEST(Writer, TheResolvedFileReadsBackToTheSameValues) {
+  Whole whole;
+  whole.finger.skin.rms = 256.123456789e-9 / 3;
+  whole.surface.contact_angle = 1.0 / 3;
+  whole.environment.relative_humidity = {0.1 / 3, 0.7};
+  whole.surface.dielectric.push_back({"\"quoted\" \\ name", 1e-9 / 7, 2.5, 1e14 / 3, 5e8});
+  const std::string text = to_toml(whole);
+  EXPECT_EQ(read_whole(text), whole) << text;
+}
+
+TEST(Writer, EveryValueSaysWhereItCameFrom) {
+  Document document =
+      parse_document("[drive]\namplitude = \"150 V\"\n", "study.toml", {"finger.load=1 N"});
+  Whole whole;
+  read_section(document, "", whole);
+  finish(document);
+  const std::string text = to_toml(whole, &document.origins());
+  EXPECT_NE(text.find("amplitude = \"150 V\"  # study.toml:2:13\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("load = \"1 N\"  # --set finger.load=1 N\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("frequency = \"5 kHz\"  # default (paper: M3: 5 kHz)\n"), std::string::npos);
+}
+
+TEST(Describe, FindsNumbersByPath) {
+  Whole whole;
+  EXPECT_EQ(get_number(whole, "surface.dielectric.0.thickness"), 500e-9);
+  set_number(whole, "environment.relative_humidity.1", 0.4);
+  EXPECT_EQ(whole.environment.relative_humidity[1], 0.4);
+  set_number(whole, "finger.skin.rms", 1e-7);
+  EXPECT_EQ(whole.finger.skin.rms, 1e-7);
+  EXPECT_EQ(find_number(whole, "finger.skin.rms").unit, "nm");
+  try {
+    set_number(whole, "finger.skin.rsm", 1);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "finger.skin.rsm: no such number in the design, did you mean `finger.skin.rms`?");
+  }
+}
+
+TEST(Describe, EveryRowHasUnitRangeDefaultAndSource) {
+  const std::string text = reference_markdown(field_rows(Whole{}));
+  EXPECT_NE(text.find("| `finger.skin.rms` | rms height over a 12 um patch | a length in nm | 0 to "
+                      "100000 nm | `256 nm` | fit: set E; AFM anchors 200-350 nm |"),
+            std::string::npos)
+      << text;
+}
+
+}  // namespace
+}  // namespace papilla
