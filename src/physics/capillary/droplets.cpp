@@ -184,45 +184,53 @@ class Ensemble {
     return water_.surface_tension * cap_.energy * square(std::cbrt(volume));
   }
 
-  // Solves the footprint for the volume, Eq. capillary.5.
+  // Solves the footprint for the volume, Eq. capillary.5: a step by the rim's gap and slope
+  // (second order), then secants, inside a bracket.
   void solve_bridge(Drop& d, double guess) {
     ++report_.evaluations;
     double r = guess > 0 ? guess : std::sqrt(d.volume / (kPi * table_.at(d.x, d.y)));
     GapTable::Rule rule = table_.rule(r);
-    double low = 0, high = 0;  // bracket; high = 0: none yet
-    double last_r = 0, last_miss = 0;
-    double slope = 2 * kPi * r * table_.rim(d.x, d.y, r, rule).gap;
-    for (int k = 0; k < 100; ++k) {
+    GapTable::Rim rim;
+    for (int resampled = 0;; ++resampled) {
+      rim = table_.rim(d.x, d.y, r, rule);
       const double miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
-      if (std::abs(miss) <= 2e-14 * d.volume) break;
-      (miss < 0 ? low : high) = r;
-      if (k > 0 && last_r != r) {
-        const double secant = (miss - last_miss) / (r - last_r);
-        if (secant > 0.2 * slope && secant < 5 * slope) slope = secant;
-      }
-      double next = r - miss / slope;
-      if (next <= low || (high > 0 && next >= high)) next = high > 0 ? 0.5 * (low + high) : 2 * r;
-      if (next > 2 * r) next = 2 * r;
-      last_r = r;
-      last_miss = miss;
-      if (next > 1.4 * r || next < 0.7 * r) {  // far from the guess: sample for the new size
-        rule = table_.rule(next);
-        slope = 2 * kPi * next * table_.rim(d.x, d.y, next, rule).gap;
-        low = high = last_r = 0;
-        if (k > 60) break;
-        r = next;
-        last_r = r;
+      const double linear = 2 * kPi * r * rim.gap, quadratic = kPi * (rim.gap + r * rim.slope);
+      const double first = -miss / linear;
+      double next = r + first - quadratic * square(first) / linear;
+      if (!(next > 0.75 * r && next < 1.3 * r) && resampled < 40) {  // far: a new size, a new rule
+        r = std::clamp(r + first, 0.5 * r, 2 * r);
+        rule = table_.rule(r);
         continue;
       }
-      if (std::abs(next - r) < 1e-15 * r) break;
-      r = next;
+      r = refine_radius(d, rule, r, miss, next, linear);
+      break;
     }
-    const GapTable::Rim rim = table_.rim(d.x, d.y, r, rule);
+    rim = table_.rim(d.x, d.y, r, rule);
     d.radius = r;
     d.edge_gap = rim.gap;
     d.edge_slope = rim.slope;
     d.energy = bridge_energy(r, rim.gap);
     d.bridge = true;
+  }
+
+  double refine_radius(const Drop& d, const GapTable::Rule& rule, double last, double last_miss,
+                       double r, double slope) const {
+    double low = 0, high = 0;  // bracket; high = 0: none yet
+    (last_miss < 0 ? low : high) = last;
+    for (int k = 0; k < 60; ++k) {
+      const double miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
+      if (std::abs(miss) <= 1e-13 * d.volume) break;
+      (miss < 0 ? low : high) = r;
+      const double secant = (miss - last_miss) / (r - last);
+      if (secant > 0.2 * slope && secant < 5 * slope) slope = secant;
+      last = r;
+      last_miss = miss;
+      double next = r - miss / slope;
+      if (next <= low || (high > 0 && next >= high)) next = high > 0 ? 0.5 * (low + high) : 2 * r;
+      if (std::abs(next - r) <= 1e-15 * r) break;
+      r = next;
+    }
+    return r;
   }
 
   // Energy of the same bridge elsewhere, to first order in the change of its radius.

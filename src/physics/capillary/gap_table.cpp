@@ -111,21 +111,50 @@ double GapTable::at(double x, double y) const {
 }
 
 GapTable::Rule GapTable::rule(double radius) const {
-  return {count_index(radius * inverse_dy_ + 6), count_index(4 * radius * inverse_dx_ + 6)};
+  return {count_index(0.75 * radius * inverse_dy_ + 6), count_index(3 * radius * inverse_dx_ + 6)};
+}
+
+bool GapTable::inside(double u0, double v0, double ru, double rv) const {
+  return u0 - ru >= 0 && u0 + ru < grid_.nx - 1 && v0 - rv >= 0 && v0 + rv < grid_.ny - 1;
 }
 
 double GapTable::disc_volume(double x, double y, double radius, const Rule& rule) const {
   const Nodes& n = nodes()[rule.chords];
   const double u0 = x * inverse_dx_ - 0.5, v0 = y * inverse_dy_ - 0.5;
   const double ru = radius * inverse_dx_, rv = radius * inverse_dy_;
+  const int count = static_cast<int>(n.t.size());
+  const double *t = n.t.data(), *half = n.half_width.data(), *weight = n.weight.data();
   double sum = 0;
-  for (std::size_t j = 0; j < n.t.size(); ++j) {
-    const Cell cy = locate(v0 + rv * n.t[j], grid_.ny);
+  if (inside(u0, v0, ru, rv)) {  // no wrapping: a loop that vectorises
+    const double *value = value_.data(), *prefix = prefix_.data();
+    const int stride = stride_;
+#pragma omp simd reduction(+ : sum)
+    for (int j = 0; j < count; ++j) {
+      const double v = v0 + rv * t[j];
+      const int iy = static_cast<int>(v);
+      const double fy = v - iy;
+      const double left = u0 - ru * half[j], right = u0 + ru * half[j];
+      const int il = static_cast<int>(left), ir = static_cast<int>(right);
+      const double fl = left - il, fr = right - ir;
+      const int a = iy * stride + il, b = iy * stride + ir;
+      const int c = a + stride, d = b + stride;
+      const double low = prefix[b] - prefix[a] +
+                         fr * (value[b] + 0.5 * fr * (value[b + 1] - value[b])) -
+                         fl * (value[a] + 0.5 * fl * (value[a + 1] - value[a]));
+      const double high = prefix[d] - prefix[c] +
+                          fr * (value[d] + 0.5 * fr * (value[d + 1] - value[d])) -
+                          fl * (value[c] + 0.5 * fl * (value[c + 1] - value[c]));
+      sum += weight[j] * (low + fy * (high - low));
+    }
+    return sum * grid_.dx() * radius;
+  }
+  for (int j = 0; j < count; ++j) {
+    const Cell cy = locate(v0 + rv * t[j], grid_.ny);
     const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
-    const double w = ru * n.half_width[j];
+    const double w = ru * half[j];
     const double low = row_integral(cy.index, u0 + w) - row_integral(cy.index, u0 - w);
     const double high = row_integral(next, u0 + w) - row_integral(next, u0 - w);
-    sum += n.weight[j] * (low + cy.fraction * (high - low));
+    sum += weight[j] * (low + cy.fraction * (high - low));
   }
   return sum * grid_.dx() * radius;
 }
@@ -134,21 +163,41 @@ GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule)
   const Nodes& n = nodes()[rule.rim_points];
   const double u0 = x * inverse_dx_ - 0.5, v0 = y * inverse_dy_ - 0.5;
   const double ru = radius * inverse_dx_, rv = radius * inverse_dy_;
-  double sum = 0, slope = 0;
-  for (std::size_t j = 0; j < n.cosine.size(); ++j) {
-    const Cell cx = locate(u0 + ru * n.cosine[j], grid_.nx);
-    const Cell cy = locate(v0 + rv * n.sine[j], grid_.ny);
-    const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
-    const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
-    const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
-    const double dlow = a[1] - a[0], dhigh = b[1] - b[0];
-    const double low = a[0] + cx.fraction * dlow, high = b[0] + cx.fraction * dhigh;
-    sum += low + cy.fraction * (high - low);
-    slope += (dlow + cy.fraction * (dhigh - dlow)) * inverse_dx_ * n.cosine[j] +
-             (high - low) * inverse_dy_ * n.sine[j];
+  const int count = static_cast<int>(n.cosine.size());
+  const double *cosine = n.cosine.data(), *sine = n.sine.data();
+  double sum = 0, slope_x = 0, slope_y = 0;
+  if (inside(u0, v0, ru, rv)) {
+    const double* value = value_.data();
+    const int stride = stride_;
+#pragma omp simd reduction(+ : sum, slope_x, slope_y)
+    for (int j = 0; j < count; ++j) {
+      const double u = u0 + ru * cosine[j], v = v0 + rv * sine[j];
+      const int ix = static_cast<int>(u), iy = static_cast<int>(v);
+      const double fx = u - ix, fy = v - iy;
+      const int k = iy * stride + ix;
+      const double dlow = value[k + 1] - value[k];
+      const double dhigh = value[k + stride + 1] - value[k + stride];
+      const double low = value[k] + fx * dlow, high = value[k + stride] + fx * dhigh;
+      sum += low + fy * (high - low);
+      slope_x += (dlow + fy * (dhigh - dlow)) * cosine[j];
+      slope_y += (high - low) * sine[j];
+    }
+  } else {
+    for (int j = 0; j < count; ++j) {
+      const Cell cx = locate(u0 + ru * cosine[j], grid_.nx);
+      const Cell cy = locate(v0 + rv * sine[j], grid_.ny);
+      const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
+      const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
+      const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
+      const double dlow = a[1] - a[0], dhigh = b[1] - b[0];
+      const double low = a[0] + cx.fraction * dlow, high = b[0] + cx.fraction * dhigh;
+      sum += low + cy.fraction * (high - low);
+      slope_x += (dlow + cy.fraction * (dhigh - dlow)) * cosine[j];
+      slope_y += (high - low) * sine[j];
+    }
   }
-  const double inverse = 1.0 / static_cast<double>(n.cosine.size());
-  return {sum * inverse, slope * inverse};
+  const double inverse = 1.0 / count;
+  return {sum * inverse, (slope_x * inverse_dx_ + slope_y * inverse_dy_) * inverse};
 }
 
 }  // namespace papilla

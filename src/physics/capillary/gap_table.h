@@ -33,6 +33,7 @@ class GapTable {
 
  private:
   double row_integral(int iy, double u) const;
+  bool inside(double u0, double v0, double ru, double rv) const;  // needs no wrapping
 
   Grid grid_;
   double floor_;

@@ -16,24 +16,37 @@ struct Level {
   double pixels;  // how many are wet, with the fraction
 };
 
-Level find_level(std::vector<double> gaps, double wanted) {
-  std::size_t low = 0, high = gaps.size();
-  double below = 0;  // sum of gaps[0, low)
-  while (high - low > 1) {
-    const std::size_t middle = low + (high - low) / 2;
-    std::nth_element(gaps.begin() + low, gaps.begin() + middle, gaps.begin() + high);
-    double sum = 0;
-    for (std::size_t i = low; i < middle; ++i) sum += gaps[i];
-    if (below + sum <= wanted) {
-      below += sum;
-      low = middle;
-    } else {
-      high = middle;
-    }
+Level find_level(const std::vector<double>& gaps, double wanted) {
+  // One pass sorts into bins by height; only the bin in which the level lies is sorted.
+  constexpr int kBins = 4096;
+  const double top = *std::max_element(gaps.begin(), gaps.end());
+  const double scale = kBins / top;
+  const auto bin_of = [&](double h) { return std::min(static_cast<int>(h * scale), kBins - 1); };
+  std::vector<double> sum(kBins, 0.0);
+  std::vector<int> count(kBins, 0);
+  for (double h : gaps) {
+    const int b = bin_of(h);
+    sum[b] += h;
+    ++count[b];
   }
-  const double last = gaps[low];
-  const double fraction = last > 0 ? std::clamp((wanted - below) / last, 0.0, 1.0) : 1.0;
-  return {last, static_cast<double>(low) + fraction};
+  double below = 0, pixels = 0;
+  int bin = 0;
+  while (bin + 1 < kBins && below + sum[bin] <= wanted) {
+    below += sum[bin];
+    pixels += count[bin];
+    ++bin;
+  }
+  std::vector<double> inside;
+  for (double h : gaps) {
+    if (bin_of(h) == bin) inside.push_back(h);
+  }
+  std::sort(inside.begin(), inside.end());
+  for (double h : inside) {
+    if (below + h > wanted) return {h, pixels + (wanted - below) / h};
+    below += h;
+    pixels += 1;
+  }
+  return {inside.empty() ? top : inside.back(), pixels};  // rounding: all of it
 }
 
 // Length of the contour gap = level, by marching squares on the cells between pixel centres.
