@@ -125,10 +125,9 @@ double GapTable::disc_volume(double x, double y, double radius, const Rule& rule
   const int count = static_cast<int>(n.t.size());
   const double *t = n.t.data(), *half = n.half_width.data(), *weight = n.weight.data();
   double sum = 0;
-  if (inside(u0, v0, ru, rv)) {  // no wrapping: a loop that vectorises
+  if (inside(u0, v0, ru, rv)) {  // no wrapping
     const double *value = value_.data(), *prefix = prefix_.data();
     const int stride = stride_;
-#pragma omp simd reduction(+ : sum)
     for (int j = 0; j < count; ++j) {
       const double v = v0 + rv * t[j];
       const int iy = static_cast<int>(v);
@@ -169,7 +168,6 @@ GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule)
   if (inside(u0, v0, ru, rv)) {
     const double* value = value_.data();
     const int stride = stride_;
-#pragma omp simd reduction(+ : sum, slope_x, slope_y)
     for (int j = 0; j < count; ++j) {
       const double u = u0 + ru * cosine[j], v = v0 + rv * sine[j];
       const int ix = static_cast<int>(u), iy = static_cast<int>(v);
