@@ -1,0 +1,17 @@
+// The subcommands: one file each. A new one is declared and listed here.
+#pragma once
+
+#include <array>
+
+#include "cli/context.h"
+
+namespace papilla {
+
+void add_completion(CLI::App& app, Context& context);
+
+// In the order of `papilla --help`.
+inline constexpr std::array kCommands{
+    add_completion,
+};
+
+}  // namespace papilla

@@ -1,0 +1,29 @@
+// What every subcommand shares: where messages go and what to run after the command line is read.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace papilla {
+
+// Exit status of the program.
+enum ExitStatus { kSuccess = 0, kWorkFailed = 1, kWrongInput = 2 };
+
+struct Context {
+  bool quiet = false;
+  bool color = false;           // standard error is a terminal and NO_COLOR is not set
+  std::function<int()> action;  // set by the chosen subcommand: does the work, returns ExitStatus
+
+  // A line of progress on standard error, unless --quiet.
+  void note(const std::string& text) const;
+};
+
+// --set KEY=VALUE, for every command that reads a design.
+void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
+
+}  // namespace papilla
