@@ -15,7 +15,8 @@ struct Grid {
   double pixel_area() const { return dx() * dy(); }
   std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
   std::size_t index(int ix, int iy) const {  // row-major, x fastest
-    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(ix);
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx) +
+           static_cast<std::size_t>(ix);
   }
   double x(int ix) const { return (ix + 0.5) * dx(); }
   double y(int iy) const { return (iy + 0.5) * dy(); }

@@ -1,5 +1,6 @@
 // A sampled periodic surface; z [m] is positive toward the counter-body (high touches first).
-// For textures the untouched land is z = 0 and holes are negative; pillars and particles are positive.
+// For textures the untouched land is z = 0 and holes are negative; pillars and particles are
+// positive.
 #pragma once
 
 #include <vector>

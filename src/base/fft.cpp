@@ -19,8 +19,10 @@ Fft2d::Fft2d(int nx, int ny) : nx_(nx), ny_(ny) {
   SpectrumArray spectrum(spectrum_size());
   auto* complex = reinterpret_cast<fftw_complex*>(spectrum.data());
   std::lock_guard lock(planner_mutex());
-  forward_plan_ = fftw_plan_dft_r2c_2d(ny, nx, real.data(), complex, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
-  inverse_plan_ = fftw_plan_dft_c2r_2d(ny, nx, complex, real.data(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+  forward_plan_ =
+      fftw_plan_dft_r2c_2d(ny, nx, real.data(), complex, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+  inverse_plan_ =
+      fftw_plan_dft_c2r_2d(ny, nx, complex, real.data(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
 }
 
 Fft2d::~Fft2d() {

@@ -15,7 +15,8 @@ template <class Work>
 void parallel_for(int n, Work&& work, int threads = 0) {
   std::exception_ptr error;
   int failed = n;
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads > 0 ? threads : omp_get_max_threads())
+#pragma omp parallel for schedule(dynamic, 1) \
+    num_threads(threads > 0 ? threads : omp_get_max_threads())
   for (int i = 0; i < n; ++i) {
     try {
       work(i);

@@ -13,11 +13,11 @@ class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view purpose, std::uint64_t index = 0);
 
-  std::uint64_t bits();                  // 64 uniform bits
-  double uniform();                      // [0, 1)
+  std::uint64_t bits();  // 64 uniform bits
+  double uniform();      // [0, 1)
   double uniform(double low, double high);
-  double normal();                       // mean 0, standard deviation 1
-  int below(int n);                      // 0..n-1
+  double normal();   // mean 0, standard deviation 1
+  int below(int n);  // 0..n-1
 
  private:
   std::uint64_t state_;

@@ -67,7 +67,8 @@ double normal_quantile(double p) {
 }
 
 double student_t_quantile(double p, int degrees_of_freedom) {
-  // Cornish-Fisher in 1/n from the normal quantile (Abramowitz & Stegun 26.7.5), exact for n = 1, 2.
+  // Cornish-Fisher in 1/n from the normal quantile (Abramowitz & Stegun 26.7.5), exact for n =
+  // 1, 2.
   if (degrees_of_freedom < 1) return std::numeric_limits<double>::infinity();
   if (degrees_of_freedom == 1) return std::tan(kPi * (p - 0.5));
   if (degrees_of_freedom == 2) return (2 * p - 1) / std::sqrt(2 * p * (1 - p));

@@ -7,7 +7,8 @@
 
 namespace papilla {
 
-// A unit is a factor to SI and the exponents of (m, kg, s, A, rad); equal exponents = same dimension.
+// A unit is a factor to SI and the exponents of (m, kg, s, A, rad); equal exponents = same
+// dimension.
 struct Unit {
   double to_si = 1;
   int metre = 0, kilogram = 0, second = 0, ampere = 0, radian = 0;
@@ -34,8 +35,8 @@ struct Quantity {
 // "350 nm" -> quantity; nothing when it is not "number unit" with a known unit. "15 %" -> si 0.15.
 std::optional<Quantity> parse_quantity(std::string_view text);
 
-// As above, but must have the dimension of `unit`; throws InputError with a message that says how to
-// write it right. For command-line options and code.
+// As above, but must have the dimension of `unit`; throws InputError with a message that says how
+// to write it right. For command-line options and code.
 double parse_si(std::string_view text, std::string_view unit);
 
 // 3e-6 with "um" -> "3 um"; shortest text that reads back to the same double where possible.

@@ -12,14 +12,14 @@ namespace papilla {
 enum class DropletState : std::uint8_t { OnSkin, OnSubstrate, Bridge };
 
 struct Droplet {
-  double x = 0, y = 0;     // centre [m], inside the patch
-  double volume = 0;       // [m^3]
+  double x = 0, y = 0;  // centre [m], inside the patch
+  double volume = 0;    // [m^3]
   DropletState state = DropletState::OnSubstrate;
-  double radius = 0;       // footprint [m]
-  double height = 0;       // cap height [m] (bridge: mean gap under the footprint)
-  double edge_gap = 0;     // bridge: mean gap on the rim [m]
-  double force = 0;        // bridge: normal force dE/dh [N], positive = attracts
-  double energy = 0;       // [J]
+  double radius = 0;    // footprint [m]
+  double height = 0;    // cap height [m] (bridge: mean gap under the footprint)
+  double edge_gap = 0;  // bridge: mean gap on the rim [m]
+  double force = 0;     // bridge: normal force dE/dh [N], positive = attracts
+  double energy = 0;    // [J]
 };
 
 enum class WettingStatus : std::uint8_t { Dry, Discs, Flooded, Film };
@@ -34,7 +34,7 @@ struct Wetting {
   double volume = 0;                  // total [m^3]
   double bridge_volume = 0;           // of it in bridges
   int bridges = 0;
-  double retention = 0;               // lateral hysteresis force [N]
+  double retention = 0;  // lateral hysteresis force [N]
 };
 
 }  // namespace papilla

@@ -6,16 +6,23 @@
 namespace papilla {
 
 void fields(FieldVisitor& v, Environment& s) {
-  v.numbers({"relative_humidity", "%", 0, 100, "humidities at which the design is judged", Source::Paper, "M3"}, s.relative_humidity);
+  v.numbers({"relative_humidity", "%", 0, 100, "humidities at which the design is judged",
+             Source::Paper, "M3"},
+            s.relative_humidity);
   v.numbers({"weights", "", 0, 1e6, "weight of each humidity; default: equal"}, s.weights);
 }
 
 void fields(FieldVisitor& v, Dielectric& s) {
   v.text({"material", "name"}, s.material);
-  v.number({"thickness", "nm", 0, 1e7, "layer thickness", Source::Paper, "M3: 500 nm wet oxide"}, s.thickness);
-  v.number({"permittivity", "", 1, 1e5, "relative permittivity", Source::Paper, "SiO2 3.9"}, s.permittivity);
-  v.number({"resistivity", "ohm m", 0, 1e30, "resistivity", Source::Estimate, "thermal oxide"}, s.resistivity);
-  v.number({"strength", "V/um", 0, 1e6, "breakdown field", Source::Measured, "SiO2 1 GV/m at 50 nm (McPherson 2016)"}, s.strength);
+  v.number({"thickness", "nm", 0, 1e7, "layer thickness", Source::Paper, "M3: 500 nm wet oxide"},
+           s.thickness);
+  v.number({"permittivity", "", 1, 1e5, "relative permittivity", Source::Paper, "SiO2 3.9"},
+           s.permittivity);
+  v.number({"resistivity", "ohm m", 0, 1e30, "resistivity", Source::Estimate, "thermal oxide"},
+           s.resistivity);
+  v.number({"strength", "V/um", 0, 1e6, "breakdown field", Source::Measured,
+            "SiO2 1 GV/m at 50 nm (McPherson 2016)"},
+           s.strength);
 }
 
 double Surface::equivalent_thickness() const {
@@ -25,18 +32,27 @@ double Surface::equivalent_thickness() const {
 }
 
 void fields(FieldVisitor& v, Surface& s) {
-  v.number({"contact_angle", "deg", 0, 180, "contact angle of water at rest", Source::Paper, "M3: SiO2 50 deg"}, s.contact_angle);
+  v.number({"contact_angle", "deg", 0, 180, "contact angle of water at rest", Source::Paper,
+            "M3: SiO2 50 deg"},
+           s.contact_angle);
   v.list({"dielectric", "layers between the electrode and the finger"}, s.dielectric);
-  v.number({"refractive_index", "", 1, 5, "refractive index (optics only)", Source::Measured, "fused silica"}, s.refractive_index);
-  v.number({"modulus", "MPa", 0, 1e7, "Young's modulus of compliant features; 0: rigid"}, s.modulus);
-  v.number({"poisson", "", 0, 0.5, "Poisson ratio of compliant features", Source::Estimate, "polymers"}, s.poisson);
+  v.number({"refractive_index", "", 1, 5, "refractive index (optics only)", Source::Measured,
+            "fused silica"},
+           s.refractive_index);
+  v.number({"modulus", "MPa", 0, 1e7, "Young's modulus of compliant features; 0: rigid"},
+           s.modulus);
+  v.number(
+      {"poisson", "", 0, 0.5, "Poisson ratio of compliant features", Source::Estimate, "polymers"},
+      s.poisson);
 }
 
 double Drive::v_rms() const {
   switch (waveform) {
-    case Waveform::Sine: return amplitude / std::numbers::sqrt2;
+    case Waveform::Sine:
+      return amplitude / std::numbers::sqrt2;
     case Waveform::Square:
-    case Waveform::Dc: return amplitude;
+    case Waveform::Dc:
+      return amplitude;
     case Waveform::Am: {
       // [(1 + m)/2]^gamma sin(carrier), m a full-depth sine, peak = amplitude: mean square over the
       // envelope by the midpoint rule (spectrally exact for a smooth periodic integrand).
@@ -55,13 +71,20 @@ double Drive::v_rms() const {
 void fields(FieldVisitor& v, Drive& s) {
   v.choice({"control", "what the source holds"}, {"voltage", "current"}, s.control);
   v.choice({"waveform", "shape in time"}, {"sine", "square", "dc", "am"}, s.waveform);
-  v.number({"amplitude", "V", 0, 1e5, "peak voltage; 0: undriven", Source::Paper, "M3: 200 V"}, s.amplitude);
-  v.number({"frequency", "kHz", 0, 1e6, "frequency, or carrier", Source::Paper, "M3: 5 kHz"}, s.frequency);
+  v.number({"amplitude", "V", 0, 1e5, "peak voltage; 0: undriven", Source::Paper, "M3: 200 V"},
+           s.amplitude);
+  v.number({"frequency", "kHz", 0, 1e6, "frequency, or carrier", Source::Paper, "M3: 5 kHz"},
+           s.frequency);
   v.number({"current", "mA", 0, 1e3, "peak current under current control"}, s.current);
-  v.number({"modulation_frequency", "Hz", 0, 1e6, "am: envelope frequency"}, s.modulation_frequency);
-  v.number({"envelope_exponent", "", 0, 4, "am: exponent of the envelope; 1/2 gives no distortion"}, s.envelope_exponent);
-  v.number({"source_compliance", "V", 0, 1e5, "largest voltage of the source; 0: not given"}, s.source_compliance);
-  v.number({"current_limit", "mA", 0, 1e3, "largest current through the body", Source::Paper, "seed 000: 1 mA; seed 004: 4 mA"}, s.current_limit);
+  v.number({"modulation_frequency", "Hz", 0, 1e6, "am: envelope frequency"},
+           s.modulation_frequency);
+  v.number({"envelope_exponent", "", 0, 4, "am: exponent of the envelope; 1/2 gives no distortion"},
+           s.envelope_exponent);
+  v.number({"source_compliance", "V", 0, 1e5, "largest voltage of the source; 0: not given"},
+           s.source_compliance);
+  v.number({"current_limit", "mA", 0, 1e3, "largest current through the body", Source::Paper,
+            "seed 000: 1 mA; seed 004: 4 mA"},
+           s.current_limit);
 }
 
 }  // namespace papilla

@@ -34,8 +34,8 @@ struct Surface {
   double contact_angle = 0.8726646259971648;  // 50 deg
   std::vector<Dielectric> dielectric = {Dielectric{}};
   double refractive_index = 1.46;
-  double modulus = 0;   // Young's modulus of compliant features (particles); 0: rigid
-  double poisson = 0.4; // theirs
+  double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid
+  double poisson = 0.4;  // theirs
 
   double equivalent_thickness() const;  // sum of d/eps [m]
 
@@ -49,9 +49,9 @@ enum class Waveform { Sine, Square, Dc, Am };
 struct Drive {
   DriveControl control = DriveControl::Voltage;
   Waveform waveform = Waveform::Sine;
-  double amplitude = 0;     // peak voltage [V]; 0: undriven
-  double frequency = 5e3;   // carrier [Hz]
-  double current = 0;       // peak current under current control [A]
+  double amplitude = 0;    // peak voltage [V]; 0: undriven
+  double frequency = 5e3;  // carrier [Hz]
+  double current = 0;      // peak current under current control [A]
   double modulation_frequency = 0;
   double envelope_exponent = 0.5;
   double source_compliance = 0;  // largest voltage of the source; 0: none given

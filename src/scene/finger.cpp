@@ -14,18 +14,40 @@ double Skin::modulus_factor(double relative_humidity) const {
 }
 
 void fields(FieldVisitor& v, Skin& s) {
-  v.number({"rms", "nm", 0, 1e5, "rms height over a 12 um patch", Source::Fit, "set E; AFM anchors 200-350 nm"}, s.rms);
-  v.number({"roll_off", "um", 0.05, 1e4, "roll-off wavelength of the spectrum", Source::Fit, "set E"}, s.roll_off);
-  v.number({"hurst", "", 0.01, 1, "Hurst exponent", Source::Paper, "seed 001: 0.86 on wrist skin; 0.8 usual"}, s.hurst);
-  v.number({"cutoff", "nm", 1, 1e5, "shortest wavelength of the spectrum", Source::Estimate, "model decision, set E"}, s.cutoff);
+  v.number({"rms", "nm", 0, 1e5, "rms height over a 12 um patch", Source::Fit,
+            "set E; AFM anchors 200-350 nm"},
+           s.rms);
+  v.number(
+      {"roll_off", "um", 0.05, 1e4, "roll-off wavelength of the spectrum", Source::Fit, "set E"},
+      s.roll_off);
+  v.number({"hurst", "", 0.01, 1, "Hurst exponent", Source::Paper,
+            "seed 001: 0.86 on wrist skin; 0.8 usual"},
+           s.hurst);
+  v.number({"cutoff", "nm", 1, 1e5, "shortest wavelength of the spectrum", Source::Estimate,
+            "model decision, set E"},
+           s.cutoff);
   v.path({"map", "measured skin topography (.npy .gsf .exr .tif) instead of the spectrum"}, s.map);
-  v.number({"layer_thickness", "um", 0, 1e6, "thickness of the stiff top layer", Source::Paper, "M3: 1 um corneocyte plate"}, s.layer_thickness);
-  v.number({"layer_modulus", "MPa", 1e-6, 1e7, "Young's modulus of the layer at 15 % RH", Source::Fit, "set E"}, s.layer_modulus);
-  v.number({"bulk_modulus", "MPa", 1e-6, 1e7, "Young's modulus below the layer at 15 % RH", Source::Fit, "set E"}, s.bulk_modulus);
-  v.number({"layer_poisson", "", 0, 0.5, "Poisson ratio of the layer", Source::Estimate, "incompressible"}, s.layer_poisson);
-  v.number({"bulk_poisson", "", 0, 0.5, "Poisson ratio below the layer", Source::Estimate, "incompressible"}, s.bulk_poisson);
-  v.number({"softening", "", 1, 100, "ratio of the moduli at 15 % and 75 % RH (linear between)", Source::Fit, "set E; 1.87-2.31 from the paper's ratios"}, s.softening);
-  v.number({"hardness", "MPa", 0, 1e6, "largest contact pressure; 0: no cap", Source::Choice, "set E was fitted without"}, s.hardness);
+  v.number({"layer_thickness", "um", 0, 1e6, "thickness of the stiff top layer", Source::Paper,
+            "M3: 1 um corneocyte plate"},
+           s.layer_thickness);
+  v.number({"layer_modulus", "MPa", 1e-6, 1e7, "Young's modulus of the layer at 15 % RH",
+            Source::Fit, "set E"},
+           s.layer_modulus);
+  v.number({"bulk_modulus", "MPa", 1e-6, 1e7, "Young's modulus below the layer at 15 % RH",
+            Source::Fit, "set E"},
+           s.bulk_modulus);
+  v.number({"layer_poisson", "", 0, 0.5, "Poisson ratio of the layer", Source::Estimate,
+            "incompressible"},
+           s.layer_poisson);
+  v.number({"bulk_poisson", "", 0, 0.5, "Poisson ratio below the layer", Source::Estimate,
+            "incompressible"},
+           s.bulk_poisson);
+  v.number({"softening", "", 1, 100, "ratio of the moduli at 15 % and 75 % RH (linear between)",
+            Source::Fit, "set E; 1.87-2.31 from the paper's ratios"},
+           s.softening);
+  v.number({"hardness", "MPa", 0, 1e6, "largest contact pressure; 0: no cap", Source::Choice,
+            "set E was fitted without"},
+           s.hardness);
 }
 
 double MacroContact::gross_area(double load, double relative_humidity) const {
@@ -34,12 +56,24 @@ double MacroContact::gross_area(double load, double relative_humidity) const {
 }
 
 void fields(FieldVisitor& v, MacroContact& s) {
-  v.number({"area_15", "mm2", 1e-3, 1e4, "gross contact area at 0.2 N, 15 % RH", Source::Estimate, "100 mm2 at 1 N (seed 004), exponent about 0.5"}, s.area_15);
-  v.number({"area_growth", "%", 0, 1000, "growth of that area from 15 to 75 % RH", Source::Paper, "M3: 58.5 %"}, s.area_growth);
-  v.number({"load_exponent", "", 0, 1, "exponent of the area against the load", Source::Estimate, "0.33-0.67 published"}, s.load_exponent);
-  v.number({"ridge_share", "", 0.001, 1, "share of the gross area on ridges", Source::Paper, "seed 004: about 0.3"}, s.ridge_share);
-  v.number({"load_share", "", 1e-5, 1, "phi: share of the gross area that carries the load", Source::Fit, "set E"}, s.load_share);
-  v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength tau", Source::Paper, "M3: 9 MPa"}, s.shear_strength);
+  v.number({"area_15", "mm2", 1e-3, 1e4, "gross contact area at 0.2 N, 15 % RH", Source::Estimate,
+            "100 mm2 at 1 N (seed 004), exponent about 0.5"},
+           s.area_15);
+  v.number({"area_growth", "%", 0, 1000, "growth of that area from 15 to 75 % RH", Source::Paper,
+            "M3: 58.5 %"},
+           s.area_growth);
+  v.number({"load_exponent", "", 0, 1, "exponent of the area against the load", Source::Estimate,
+            "0.33-0.67 published"},
+           s.load_exponent);
+  v.number({"ridge_share", "", 0.001, 1, "share of the gross area on ridges", Source::Paper,
+            "seed 004: about 0.3"},
+           s.ridge_share);
+  v.number({"load_share", "", 1e-5, 1, "phi: share of the gross area that carries the load",
+            Source::Fit, "set E"},
+           s.load_share);
+  v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength tau", Source::Paper,
+            "M3: 9 MPa"},
+           s.shear_strength);
 }
 
 double ElectricalLayer::equivalent_thickness(double relative_humidity) const {
@@ -48,13 +82,19 @@ double ElectricalLayer::equivalent_thickness(double relative_humidity) const {
 }
 
 void fields(FieldVisitor& v, ElectricalLayer& s) {
-  v.number({"thickness_15", "nm", 0, 1e5, "stratum corneum d2/eps2 at 15 % RH", Source::Fit, "set E"}, s.thickness_15);
-  v.number({"thickness_75", "nm", 0, 1e5, "the same at 75 % RH", Source::Fit, "set E"}, s.thickness_75);
-  v.number({"corner_frequency", "Hz", 0, 1e9, "below it the stratum corneum conducts; 0: never", Source::Estimate, "seed 001: about 60 Hz"}, s.corner_frequency);
+  v.number(
+      {"thickness_15", "nm", 0, 1e5, "stratum corneum d2/eps2 at 15 % RH", Source::Fit, "set E"},
+      s.thickness_15);
+  v.number({"thickness_75", "nm", 0, 1e5, "the same at 75 % RH", Source::Fit, "set E"},
+           s.thickness_75);
+  v.number({"corner_frequency", "Hz", 0, 1e9, "below it the stratum corneum conducts; 0: never",
+            Source::Estimate, "seed 001: about 60 Hz"},
+           s.corner_frequency);
 }
 
 double SkinWater::volume_per_area(double rh) const {
-  PAPILLA_CHECK(relative_humidity.size() == volume.size() && !volume.empty(), "one volume a humidity");
+  PAPILLA_CHECK(relative_humidity.size() == volume.size() && !volume.empty(),
+                "one volume a humidity");
   constexpr double kPatchArea = 144e-12;  // the paper's 12 x 12 um window
   const std::size_t n = volume.size();
   if (n == 1) return volume[0] / kPatchArea;
@@ -68,12 +108,24 @@ double SkinWater::volume_per_area(double rh) const {
 }
 
 void fields(FieldVisitor& v, SkinWater& s) {
-  v.numbers({"relative_humidity", "%", 0, 100, "humidity nodes of the water volumes", Source::Paper, "M3"}, s.relative_humidity);
-  v.numbers({"volume", "um3", 0, 1e6, "water in a 12 x 12 um patch at those nodes", Source::Fit, "set E; only 5-10 um3 at 75 % is published"}, s.volume);
-  v.number({"contact_angle", "deg", 0, 180, "contact angle of water on the skin", Source::Paper, "M3: 80 deg, cleaned"}, s.contact_angle);
-  v.number({"surface_tension", "mN/m", 0.1, 1000, "surface tension", Source::Measured, "IAPWS, 24 C"}, s.surface_tension);
-  v.number({"hysteresis", "", 0, 2, "cos(receding) - cos(advancing) of the weaker surface", Source::Estimate, "20-30 deg hysteresis"}, s.hysteresis);
-  v.number({"drops_per_um3", "", 1, 1e5, "initial droplets per um3 of water", Source::Paper, "M3: 100"}, s.drops_per_um3);
+  v.numbers({"relative_humidity", "%", 0, 100, "humidity nodes of the water volumes", Source::Paper,
+             "M3"},
+            s.relative_humidity);
+  v.numbers({"volume", "um3", 0, 1e6, "water in a 12 x 12 um patch at those nodes", Source::Fit,
+             "set E; only 5-10 um3 at 75 % is published"},
+            s.volume);
+  v.number({"contact_angle", "deg", 0, 180, "contact angle of water on the skin", Source::Paper,
+            "M3: 80 deg, cleaned"},
+           s.contact_angle);
+  v.number(
+      {"surface_tension", "mN/m", 0.1, 1000, "surface tension", Source::Measured, "IAPWS, 24 C"},
+      s.surface_tension);
+  v.number({"hysteresis", "", 0, 2, "cos(receding) - cos(advancing) of the weaker surface",
+            Source::Estimate, "20-30 deg hysteresis"},
+           s.hysteresis);
+  v.number(
+      {"drops_per_um3", "", 1, 1e5, "initial droplets per um3 of water", Source::Paper, "M3: 100"},
+      s.drops_per_um3);
 }
 
 double Saturation::angle(double rest) const {
@@ -82,21 +134,36 @@ double Saturation::angle(double rest) const {
 }
 
 void fields(FieldVisitor& v, Saturation& s) {
-  v.number({"rest_low", "deg", 0, 180, "first anchor: angle at rest", Source::Paper, "M3: bare glass"}, s.rest_low);
-  v.number({"saturated_low", "deg", 0, 180, "first anchor: saturated angle under voltage", Source::Fit, "set E"}, s.saturated_low);
-  v.number({"rest_high", "deg", 0, 180, "second anchor: angle at rest", Source::Paper, "M3: hydrophobic"}, s.rest_high);
-  v.number({"saturated_high", "deg", 0, 180, "second anchor: saturated angle", Source::Fit, "set E"}, s.saturated_high);
+  v.number(
+      {"rest_low", "deg", 0, 180, "first anchor: angle at rest", Source::Paper, "M3: bare glass"},
+      s.rest_low);
+  v.number({"saturated_low", "deg", 0, 180, "first anchor: saturated angle under voltage",
+            Source::Fit, "set E"},
+           s.saturated_low);
+  v.number({"rest_high", "deg", 0, 180, "second anchor: angle at rest", Source::Paper,
+            "M3: hydrophobic"},
+           s.rest_high);
+  v.number(
+      {"saturated_high", "deg", 0, 180, "second anchor: saturated angle", Source::Fit, "set E"},
+      s.saturated_high);
 }
 
 void fields(FieldVisitor& v, ModelOptions& s) {
-  v.choice({"preset", "m3: the model as published; papilla: the same with the physics put right"}, {"papilla", "m3"}, s.preset);
-  v.choice({"water", "droplets, or the cheap threshold model (never for variability)"}, {"droplets", "threshold"}, s.water);
-  v.choice({"closure", "one patch pressure, or Persson's distribution of patch pressures"}, {"uniform", "persson"}, s.closure);
-  v.choice({"coupling", "one_pass as published, or iterated to a fixed point"}, {"one_pass", "self_consistent"}, s.coupling);
+  v.choice({"preset", "m3: the model as published; papilla: the same with the physics put right"},
+           {"papilla", "m3"}, s.preset);
+  v.choice({"water", "droplets, or the cheap threshold model (never for variability)"},
+           {"droplets", "threshold"}, s.water);
+  v.choice({"closure", "one patch pressure, or Persson's distribution of patch pressures"},
+           {"uniform", "persson"}, s.closure);
+  v.choice({"coupling", "one_pass as published, or iterated to a fixed point"},
+           {"one_pass", "self_consistent"}, s.coupling);
   v.choice({"field", "local rule, or the 3-D potential solver"}, {"local", "full"}, s.field);
   v.flag({"breakdown_cap", "cap the gap pressure at the breakdown field of air"}, s.breakdown_cap);
-  v.number({"droplet_step", "nm", 1, 1e5, "first step of a moving droplet: its mobility", Source::Choice, "set E"}, s.droplet_step);
-  v.flag({"droplet_enhancement", "droplets that do not bridge raise the pull"}, s.droplet_enhancement);
+  v.number({"droplet_step", "nm", 1, 1e5, "first step of a moving droplet: its mobility",
+            Source::Choice, "set E"},
+           s.droplet_step);
+  v.flag({"droplet_enhancement", "droplets that do not bridge raise the pull"},
+         s.droplet_enhancement);
 }
 
 double Finger::patch_pressure(double relative_humidity) const {
@@ -105,7 +172,8 @@ double Finger::patch_pressure(double relative_humidity) const {
 
 void fields(FieldVisitor& v, Finger& s) {
   v.text({"name", "name of the finger"}, s.name);
-  v.choice({"state", "clean (degreased), natural (sebum and sweat), wet"}, {"clean", "natural", "wet"}, s.state);
+  v.choice({"state", "clean (degreased), natural (sebum and sweat), wet"},
+           {"clean", "natural", "wet"}, s.state);
   v.number({"load", "N", 0, 100, "normal force", Source::Paper, "M3: 0.2 N"}, s.load);
   v.section({"skin", "micro-topography and elasticity"}, s.skin);
   v.section({"macro", "gross contact and load-carrying share"}, s.macro);

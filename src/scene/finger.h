@@ -35,12 +35,12 @@ void fields(FieldVisitor& v, Skin& s);
 
 // How a fingertip carries its load.
 struct MacroContact {
-  double area_15 = 45e-6;        // gross contact area at 0.2 N and 15 % RH [m^2]
-  double area_growth = 0.585;    // relative growth from 15 to 75 % RH, linear
-  double load_exponent = 0.52;   // A ~ F_N^n
-  double ridge_share = 0.3;      // share of the gross area on ridges
-  double load_share = 0.0063;    // phi: share of the gross area that carries the load
-  double shear_strength = 9e6;   // tau, interfacial [Pa]
+  double area_15 = 45e-6;       // gross contact area at 0.2 N and 15 % RH [m^2]
+  double area_growth = 0.585;   // relative growth from 15 to 75 % RH, linear
+  double load_exponent = 0.52;  // A ~ F_N^n
+  double ridge_share = 0.3;     // share of the gross area on ridges
+  double load_share = 0.0063;   // phi: share of the gross area that carries the load
+  double shear_strength = 9e6;  // tau, interfacial [Pa]
 
   // Gross contact area at a load [N] and relative humidity (0-1). Eq. scene.2
   double gross_area(double load, double relative_humidity) const;
@@ -65,10 +65,10 @@ void fields(FieldVisitor& v, ElectricalLayer& s);
 struct SkinWater {
   std::vector<double> relative_humidity = {0.15, 0.35, 0.55, 0.75};
   std::vector<double> volume = {0.07e-18, 0.36e-18, 1.8e-18, 8.8e-18};  // [m^3] per 144 um^2
-  double contact_angle = 1.3962634015954636;  // 80 deg, on clean skin
+  double contact_angle = 1.3962634015954636;                            // 80 deg, on clean skin
   double surface_tension = 0.072126;
-  double hysteresis = 0.26;     // cos(theta_r) - cos(theta_a) of the weaker surface
-  double drops_per_um3 = 100;   // initial droplets per um^3 of water
+  double hysteresis = 0.26;    // cos(theta_r) - cos(theta_a) of the weaker surface
+  double drops_per_um3 = 100;  // initial droplets per um^3 of water
 
   // Water volume per area [m]: log-linear between nodes, end slopes outside. Eq. scene.4
   double volume_per_area(double relative_humidity) const;
@@ -80,8 +80,8 @@ void fields(FieldVisitor& v, SkinWater& s);
 // Saturated angle under voltage from the angle at rest: linear through two anchors, never above the
 // angle at rest.
 struct Saturation {
-  double rest_low = 0.8726646259971648, saturated_low = 0.6457718232379019;   // 50 -> 37 deg
-  double rest_high = 1.9198621771937625, saturated_high = 1.3788101090755203; // 110 -> 79 deg
+  double rest_low = 0.8726646259971648, saturated_low = 0.6457718232379019;    // 50 -> 37 deg
+  double rest_high = 1.9198621771937625, saturated_high = 1.3788101090755203;  // 110 -> 79 deg
 
   double angle(double rest) const;  // [rad] Eq. scene.5
 
@@ -102,9 +102,9 @@ struct ModelOptions {
   Closure closure = Closure::Uniform;
   Coupling coupling = Coupling::OnePass;
   FieldMethod field = FieldMethod::Local;
-  bool breakdown_cap = false;        // gap pressure <= eps0/2 (350 V/um)^2
-  double droplet_step = 200e-9;      // first step of a moving droplet [m]: mobility
-  bool droplet_enhancement = true;   // droplets that do not bridge raise the pull
+  bool breakdown_cap = false;       // gap pressure <= eps0/2 (350 V/um)^2
+  double droplet_step = 200e-9;     // first step of a moving droplet [m]: mobility
+  bool droplet_enhancement = true;  // droplets that do not bridge raise the pull
 
   bool operator==(const ModelOptions&) const = default;
 };

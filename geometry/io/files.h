@@ -1,0 +1,56 @@
+// Heightmap files: written whole or not at all, read back and compared. Every writer puts the file
+// beside its final name first, checks every error that the library can tell, reads it back,
+// compares, flushes to disk, and renames: an interrupted run leaves the old file. Errors:
+// InputError.
+//
+// Formats. EXR: one float channel Y in um, lowest plane 0, high is bright, Gwy:: size keys as
+// doubles, ZIP, fixed date. TIFF: 16-bit or float, uncompressed, untiled, pixels per cm, JSON in
+// ImageDescription. GSF: float32 metres with size. NPY: float64 metres. PNG: coloured preview.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geometry/heightmap.h"
+
+namespace papilla {
+
+// Which grey is deep; masks and 16-bit images need the user's word, there is no usual choice.
+enum class Polarity { WhiteHigh, WhiteDeep };
+
+struct FileInfo {
+  std::string title = "papilla heightmap";
+  std::string comment;  // one line, e.g. the design's hash
+};
+
+void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info);
+void write_tiff16(const std::string& path, const Heightmap& h, Polarity polarity,
+                  const FileInfo& info);
+void write_tiff_float(const std::string& path, const Heightmap& h,
+                      const FileInfo& info);  // um, as EXR
+void write_gsf(const std::string& path, const Heightmap& h, const FileInfo& info);
+void write_npy(const std::string& path, const Heightmap& h);
+// Binary mask, 0 or 65535: where the surface is below half its depth.
+void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polarity,
+                     const FileInfo& info);
+// Preview with a colour scale from low (dark) to high (bright) and a scale bar.
+void write_png(const std::string& path, const Heightmap& h);
+
+// Reads .npy (float64 or float32, C order, metres), .gsf, .exr (channel Y, um with Gwy keys), .tif
+// (float: um; 16-bit: needs our JSON). width: lateral size in x [m] where the file does not say; 0:
+// the file must say. Refuses more than 2^28 pixels, NaN, and broken files.
+Heightmap read_heightmap(const std::string& path, double width = 0);
+
+// Writes bytes atomically (temporary file beside it, fsync, rename).
+void write_bytes(const std::string& path, const std::string& bytes);
+std::string read_bytes(const std::string& path, std::size_t limit = std::size_t{1} << 31);
+
+// RGB rows, top first, 3 bytes a pixel.
+void write_png_rgb(const std::string& path, int width, int height,
+                   const std::vector<std::uint8_t>& rgb);
+// Field as colours (viridis-like), low to high, with a scale bar of a round length.
+std::vector<std::uint8_t> render_field(const Grid& grid, const std::vector<double>& values,
+                                       int& width, int& height);
+
+}  // namespace papilla

@@ -1,0 +1,277 @@
+// EXR, TIFF and PNG through OpenImageIO.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+// OpenImageIO brings its own copy of fmt's macros; ours come first.
+#include <OpenImageIO/imageio.h>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "geometry/io/files.h"
+#include "geometry/io/raw.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kFixedDate = "2000:01:01 00:00:00";  // the same bytes on every run
+
+// name.exr -> name.part.exr: the library chooses the format by the ending.
+std::string part_name(const std::string& path) {
+  const fs::path p(path);
+  return (p.parent_path() / (p.stem().string() + ".part" + p.extension().string())).string();
+}
+
+void write_image(const std::string& path, OIIO::ImageSpec spec, OIIO::TypeDesc type,
+                 const void* pixels) {
+  const std::string part = part_name(path);
+  spec.attribute("DateTime", kFixedDate);
+  spec.attribute("Software", "papilla " PAPILLA_VERSION);
+  spec.attribute("tiff:write_exif", 0);  // libtiff 4.5 fails on the empty Exif directory
+  const auto fail = [&](const std::string& why) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw InputError("cannot write " + path + ": " + why);
+  };
+  auto out = OIIO::ImageOutput::create(part);
+  if (!out) fail(OIIO::geterror());
+  if (!out->open(part, spec)) fail(out->geterror());
+  const bool written = out->write_image(type, pixels);
+  const bool closed = out->close();
+  const std::string error = out->geterror();  // close() alone may say true for a truncated file
+  if (!written || !closed || !error.empty()) fail(error.empty() ? "incomplete" : error);
+
+  // Read back and compare before the old file goes.
+  auto in = OIIO::ImageInput::open(part);
+  if (!in) fail("does not open again: " + OIIO::geterror());
+  const std::size_t bytes =
+      static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels * type.size();
+  std::vector<char> back(bytes);
+  if (!in->read_image(0, 0, 0, spec.nchannels, type, back.data()))
+    fail("does not read back: " + in->geterror());
+  in->close();
+  if (std::memcmp(back.data(), pixels, bytes) != 0) fail("reads back with other values");
+  const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0 || ::fsync(fd) != 0) {
+    if (fd >= 0) ::close(fd);
+    fail("cannot flush to disk");
+  }
+  ::close(fd);
+  if (std::rename(part.c_str(), path.c_str()) != 0) fail("cannot rename");
+}
+
+double lowest(const Heightmap& h) { return *std::min_element(h.z.begin(), h.z.end()); }
+double highest(const Heightmap& h) { return *std::max_element(h.z.begin(), h.z.end()); }
+
+// Micrometres above the lowest plane, top row first.
+std::vector<float> micrometres(const Heightmap& h) {
+  const double low = lowest(h);
+  std::vector<float> out(h.z.size());
+  for (int iy = 0; iy < h.grid.ny; ++iy) {
+    for (int ix = 0; ix < h.grid.nx; ++ix) {
+      out[h.grid.index(ix, h.grid.ny - 1 - iy)] = static_cast<float>(1e6 * (h(ix, iy) - low));
+    }
+  }
+  return out;
+}
+
+void set_resolution(OIIO::ImageSpec& spec, const Grid& grid) {
+  const auto x = static_cast<float>(0.01 / grid.dx()), y = static_cast<float>(0.01 / grid.dy());
+  spec.attribute("XResolution", x);
+  spec.attribute("YResolution", y);
+  spec.attribute("ResolutionUnit", "cm");
+  spec.attribute("PixelAspectRatio", y / x);  // without it unequal pixels are silently made equal
+}
+
+std::string description(const Heightmap& h, const FileInfo& info, const char* polarity, double low,
+                        double high) {
+  nlohmann::ordered_json json{{"papilla", PAPILLA_VERSION},
+                              {"title", info.title},
+                              {"comment", info.comment},
+                              {"size_x_m", h.grid.lx},
+                              {"size_y_m", h.grid.ly},
+                              {"polarity", polarity},
+                              {"black_m", low},
+                              {"white_m", high},
+                              {"rows", "top first"}};
+  return json.dump();
+}
+
+void check_finite(const std::string& path, const Heightmap& h) {
+  for (double z : h.z) {
+    if (!std::isfinite(z))
+      throw InputError("cannot write " + path + ": a height is not a finite number");
+  }
+}
+
+std::vector<std::uint16_t> sixteen_bits(const Heightmap& h, Polarity polarity, bool binary) {
+  const double low = lowest(h), span = highest(h) - low;
+  std::vector<std::uint16_t> out(h.z.size());
+  for (int iy = 0; iy < h.grid.ny; ++iy) {
+    for (int ix = 0; ix < h.grid.nx; ++ix) {
+      double share = span > 0 ? (h(ix, iy) - low) / span : 1;
+      if (binary) share = share >= 0.5 ? 1 : 0;
+      if (polarity == Polarity::WhiteDeep) share = 1 - share;
+      out[h.grid.index(ix, h.grid.ny - 1 - iy)] =
+          static_cast<std::uint16_t>(std::lround(65535 * share));
+    }
+  }
+  return out;
+}
+
+void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarity, bool binary,
+                   const FileInfo& info) {
+  check_finite(path, h);
+  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT16);
+  spec.attribute("compression", "none");
+  set_resolution(spec, h.grid);
+  const double low = lowest(h), high = highest(h);
+  const bool white_high = polarity == Polarity::WhiteHigh;
+  spec.attribute("ImageDescription",
+                 description(h, info, white_high ? "white-is-high" : "white-is-deep",
+                             white_high ? low : high, white_high ? high : low));
+  const auto pixels = sixteen_bits(h, polarity, binary);
+  write_image(path, spec, OIIO::TypeDesc::UINT16, pixels.data());
+}
+
+Heightmap read_image(const std::string& path, double width) {
+  auto in = OIIO::ImageInput::open(path);
+  if (!in) throw InputError("cannot read " + path + ": " + OIIO::geterror());
+  const OIIO::ImageSpec spec = in->spec();
+  check_size(path, spec.width, spec.height);
+  int channel = 0;
+  for (int c = 0; c < spec.nchannels; ++c) {
+    if (spec.channelnames[static_cast<std::size_t>(c)] == "Y") channel = c;
+  }
+  std::vector<float> pixels(static_cast<std::size_t>(spec.width) * spec.height);
+  if (!in->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, pixels.data())) {
+    throw InputError("cannot read " + path + ": " + in->geterror());
+  }
+  Heightmap h;
+  h.grid = {spec.width, spec.height, width, width * spec.height / spec.width};
+  double scale = 1e-6, base = 0;  // float images hold micrometres
+  double real = 0;
+  const auto attribute = [&](const char* name, double& value) {
+    const OIIO::ParamValue* p = spec.find_attribute(name, OIIO::TypeDesc::DOUBLE);
+    if (p) value = *static_cast<const double*>(p->data());
+    return p != nullptr;
+  };
+  const auto unit = [&](const char* name, double otherwise) {
+    const std::string text = spec.get_string_attribute(name);
+    const auto known = find_unit(text);
+    const double u = known && known->same_dimension(*find_unit("m")) ? known->to_si : 0;
+    return u > 0 ? u : otherwise;
+  };
+  if (attribute("Gwy::XReal", real)) {
+    const double xy = unit("Gwy::XYUnit", 1);
+    h.grid.lx = real * xy;
+    if (attribute("Gwy::YReal", real)) h.grid.ly = real * xy;
+    scale = unit("Gwy::ZUnit", 1e-6);
+  }
+  if (const std::string text = spec.get_string_attribute("ImageDescription");
+      !text.empty() && text.front() == '{') {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    if (!json.is_discarded() && json.contains("size_x_m") && json["size_x_m"].is_number() &&
+        json["size_y_m"].is_number()) {
+      h.grid.lx = json["size_x_m"];
+      h.grid.ly = json["size_y_m"];
+      if (spec.format == OIIO::TypeDesc::UINT16 && json["black_m"].is_number() &&
+          json["white_m"].is_number()) {
+        base = json["black_m"];
+        scale = json["white_m"].get<double>() - base;
+      }
+    }
+  } else if (spec.format == OIIO::TypeDesc::UINT16 || spec.format == OIIO::TypeDesc::UINT8) {
+    throw InputError(
+        "cannot read " + path +
+        ": an integer image without its height scale; use a float image, .gsf or .npy");
+  }
+  if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
+    throw InputError("cannot read " + path +
+                     ": the file does not say its lateral size; give the width");
+  }
+  h.z.resize(h.grid.size());
+  for (int iy = 0; iy < h.grid.ny; ++iy) {
+    for (int ix = 0; ix < h.grid.nx; ++ix) {
+      h(ix, iy) = base + scale * static_cast<double>(pixels[h.grid.index(ix, h.grid.ny - 1 - iy)]);
+    }
+  }
+  return h;
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info) {
+  check_finite(path, h);
+  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"Y"};
+  spec.attribute("compression", "zip");
+  // Gwyddion reads these as doubles only; floats are silently ignored.
+  for (const auto& [name, value] :
+       {std::pair{"Gwy::XReal", h.grid.lx}, {"Gwy::YReal", h.grid.ly}}) {
+    spec.attribute(name, OIIO::TypeDesc::DOUBLE, &value);
+  }
+  spec.attribute("Gwy::XYUnit", "m");
+  spec.attribute("Gwy::ZUnit", "um");
+  spec.attribute("Gwy::Title", info.title);
+  if (!info.comment.empty()) spec.attribute("comments", info.comment);
+  const auto pixels = micrometres(h);
+  write_image(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
+void write_tiff_float(const std::string& path, const Heightmap& h, const FileInfo& info) {
+  check_finite(path, h);
+  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
+  spec.attribute("compression", "none");
+  set_resolution(spec, h.grid);
+  spec.attribute("ImageDescription", description(h, info, "white-is-high", 0, 1e-6));
+  const auto pixels = micrometres(h);
+  write_image(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
+void write_tiff16(const std::string& path, const Heightmap& h, Polarity polarity,
+                  const FileInfo& info) {
+  write_sixteen(path, h, polarity, false, info);
+}
+
+void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polarity,
+                     const FileInfo& info) {
+  write_sixteen(path, h, polarity, true, info);
+}
+
+void write_png_rgb(const std::string& path, int width, int height,
+                   const std::vector<std::uint8_t>& rgb) {
+  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
+  write_image(path, spec, OIIO::TypeDesc::UINT8, rgb.data());
+}
+
+Heightmap read_heightmap(const std::string& path, double width) {
+  const std::string ending = fs::path(path).extension().string();
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) throw InputError("cannot read " + path + ": no such file");
+  Heightmap h;
+  if (ending == ".npy") {
+    h = read_npy(path, width);
+  } else if (ending == ".gsf") {
+    h = read_gsf(path);
+  } else if (ending == ".exr" || ending == ".tif" || ending == ".tiff") {
+    h = read_image(path, width);
+  } else {
+    throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
+  }
+  for (double z : h.z) {
+    if (!std::isfinite(z))
+      throw InputError("cannot read " + path + ": a height is not a finite number");
+  }
+  return h;
+}
+
+}  // namespace papilla

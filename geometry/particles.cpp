@@ -1,0 +1,100 @@
+#include "geometry/particles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/random.h"
+
+namespace papilla {
+namespace {
+
+// Radius of the disc that a particle covers: the whole sphere, or its cap when it sits deep.
+double disc_radius(const Particle& p, double embedding) {
+  const double above = 2 * p.radius * (1 - embedding);  // height of the cap
+  return above >= p.radius ? p.radius : std::sqrt(above * (2 * p.radius - above));
+}
+
+double periodic(double d, double length) { return d - length * std::round(d / length); }
+
+}  // namespace
+
+std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid) {
+  RandomStream random(static_cast<std::uint64_t>(film.seed), "particles");
+  std::vector<Particle> particles;
+  double covered = 0;
+  const double wanted = film.coverage * grid.area();
+  while (covered < wanted) {
+    const double r = film.radius * std::clamp(1 + film.radius_spread * random.normal(), 0.3, 1.7);
+    const Particle p{0, 0, r};
+    const double area = kPi * square(disc_radius(p, film.embedding));
+    // The last particle is placed when that brings the coverage nearer.
+    if (covered + area - wanted > wanted - covered && !particles.empty()) break;
+    particles.push_back(p);
+    covered += area;
+  }
+  std::stable_sort(particles.begin(), particles.end(),
+                   [](const Particle& a, const Particle& b) { return a.radius > b.radius; });
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    Particle& p = particles[i];
+    const double own = disc_radius(p, film.embedding);
+    bool placed = false;
+    constexpr int kTries = 100000;
+    for (int attempt = 0; attempt < kTries && !placed; ++attempt) {
+      if (i > 0 && random.uniform() < film.clustering) {
+        const Particle& other =
+            particles[static_cast<std::size_t>(random.below(static_cast<int>(i)))];
+        const double angle = random.uniform(0, 2 * kPi);
+        const double reach = (own + disc_radius(other, film.embedding)) * (1 + 1e-9);
+        p.x = other.x + reach * std::cos(angle);
+        p.y = other.y + reach * std::sin(angle);
+        p.x -= grid.lx * std::floor(p.x / grid.lx);
+        p.y -= grid.ly * std::floor(p.y / grid.ly);
+      } else {
+        p.x = random.uniform(0, grid.lx);
+        p.y = random.uniform(0, grid.ly);
+      }
+      placed = 2 * own < std::min(grid.lx, grid.ly);
+      for (std::size_t j = 0; j < i && placed; ++j) {
+        const double reach = own + disc_radius(particles[j], film.embedding);
+        placed = square(periodic(p.x - particles[j].x, grid.lx)) +
+                     square(periodic(p.y - particles[j].y, grid.ly)) >=
+                 square(reach);
+      }
+    }
+    if (!placed) {
+      throw InputError(
+          fmt::format("a coverage of {:.0f} % with particles of {:.3g} um radius cannot be reached "
+                      "on a patch of "
+                      "{:.3g} um; lower the coverage or the spread of the radius",
+                      100 * film.coverage, 1e6 * film.radius, 1e6 * grid.lx));
+    }
+  }
+  return particles;
+}
+
+Heightmap particle_heights(const ParticleFilm& film, const Grid& grid) {
+  Heightmap out{grid, std::vector<double>(grid.size(), 0)};
+  for (const Particle& p : place_particles(film, grid)) {
+    const double centre = p.radius * (1 - 2 * film.embedding);  // height of the sphere's centre
+    const double reach = disc_radius(p, film.embedding);
+    const int nx = static_cast<int>(reach / grid.dx()) + 1,
+              ny = static_cast<int>(reach / grid.dy()) + 1;
+    const int cx = static_cast<int>(p.x / grid.dx()), cy = static_cast<int>(p.y / grid.dy());
+    for (int iy = cy - ny; iy <= cy + ny; ++iy) {
+      for (int ix = cx - nx; ix <= cx + nx; ++ix) {
+        const double dx = (ix + 0.5) * grid.dx() - p.x, dy = (iy + 0.5) * grid.dy() - p.y;
+        const double rest = p.radius * p.radius - dx * dx - dy * dy;
+        if (rest <= 0) continue;
+        double& z = out(wrap(ix, grid.nx), wrap(iy, grid.ny));
+        z = std::max(z, centre + std::sqrt(rest));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace papilla

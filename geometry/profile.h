@@ -1,0 +1,24 @@
+// Cross-section of an etched wall: land, convex rim, straight wall, floor.
+#pragma once
+
+namespace papilla {
+
+class WallProfile {
+ public:
+  // depth [m], wall angle from the land (0, pi/2] [rad], rim radius [m]
+  WallProfile(double depth, double wall_angle, double rim_radius);
+
+  // Depth below the land at a distance s [m] inside the edge (negative: on the land), averaged over
+  // a pixel: exact integral of the section, so the removed volume is right. Eq. geometry.1
+  double mean_drop(double s, double pixel) const;
+
+ private:
+  double integral(double s) const;  // of the drop from far outside to s
+
+  double depth_, slope_;       // slope_: tan of the wall angle
+  double rim_, start_;         // rim radius, where the rim begins (negative)
+  double rim_end_, rim_drop_;  // end of the rim arc and the drop there, from start_
+  double floor_;               // where the floor begins, from start_
+};
+
+}  // namespace papilla

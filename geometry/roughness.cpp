@@ -1,0 +1,121 @@
+#include "geometry/roughness.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/fft.h"
+#include "base/random.h"
+
+namespace papilla {
+namespace {
+
+// Shape of C(q), 1 at the plateau.
+double shape(const Spectrum& s, double q) {
+  const double roll = 2 * kPi / s.roll_off, cut = 2 * kPi / s.cutoff;
+  if (q > cut * (1 + 1e-12)) return 0;
+  return q <= roll ? 1 : std::pow(q / roll, -2 * (1 + s.hurst));
+}
+
+// Plateau of the amplitude density: C0 (2 pi / L)^2 summed over the modes of the reference patch is
+// rms^2. The sum over modes runs on rings, exact for the reference patch.
+double plateau(const Spectrum& s) {
+  const double dq = 2 * kPi / s.reference_length;
+  const int most = static_cast<int>(s.reference_length / s.cutoff);
+  double sum = 0;
+  for (int ky = 0; ky <= most; ++ky) {
+    for (int kx = 0; kx <= most; ++kx) {
+      if (kx == 0 && ky == 0) continue;
+      const double multiplicity = (kx > 0 ? 2 : 1) * (ky > 0 ? 2 : 1);
+      sum += multiplicity * shape(s, dq * std::hypot(kx, ky));
+    }
+  }
+  return sum > 0 ? s.rms * s.rms / (sum * dq * dq) : 0;
+}
+
+// A phase [0, 2 pi) of the mode pair (k, -k), keyed by the one of the two with ky > 0 or kx > 0.
+double mode_phase(std::uint64_t key, int kx, int ky) {
+  const auto a = static_cast<std::uint64_t>(kx + (1 << 20));
+  const auto b = static_cast<std::uint64_t>(ky + (1 << 20));
+  return 2 * kPi * hash_uniform(key, a, b);
+}
+
+}  // namespace
+
+double effective_cutoff(const Spectrum& spectrum, const Grid& grid) {
+  return std::max(spectrum.cutoff, 2 * std::max(grid.dx(), grid.dy()));
+}
+
+Heightmap random_surface(const Spectrum& s, const Grid& grid, std::uint64_t seed,
+                         std::uint64_t index, double offset_x, double offset_y) {
+  Heightmap out{grid, std::vector<double>(grid.size(), 0)};
+  if (s.rms <= 0) return out;
+  const auto fft = Fft2d::shared(grid.nx, grid.ny);
+  SpectrumArray spectrum(fft->spectrum_size());
+  const double dqx = 2 * kPi / grid.lx, dqy = 2 * kPi / grid.ly;
+  const double c0 = plateau(s) * dqx * dqy;
+  const std::uint64_t key = RandomStream(seed, "skin", index).bits();
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const int ky = signed_mode(iy, grid.ny);
+    if (2 * std::abs(ky) >= grid.ny) continue;
+    for (int kx = 0; kx < fft->half(); ++kx) {
+      if (2 * kx >= grid.nx || (kx == 0 && ky == 0)) continue;
+      const double c = c0 * shape(s, std::hypot(kx * dqx, ky * dqy));
+      if (c <= 0) continue;
+      // Real field: the modes k and -k carry conjugate values; each has variance c.
+      const bool upper = kx > 0 || ky > 0;
+      const double phase = upper ? mode_phase(key, kx, ky) : -mode_phase(key, -kx, -ky);
+      const double shift = kx * dqx * offset_x + ky * dqy * offset_y;
+      // Pixel centres sit half a pixel in.
+      const double centre =
+          kPi * (static_cast<double>(kx) / grid.nx + static_cast<double>(ky) / grid.ny);
+      spectrum[static_cast<std::size_t>(iy) * fft->half() + kx] =
+          std::polar(std::sqrt(c), phase - shift + centre);
+    }
+  }
+  RealArray z(grid.size());
+  fft->inverse(spectrum.data(), z.data());
+  out.z.assign(z.begin(), z.end());
+  return out;
+}
+
+RoughnessParameters roughness_parameters(const Heightmap& h) {
+  const Grid& g = h.grid;
+  const auto n = static_cast<double>(g.size());
+  double mean = 0;
+  for (double z : h.z) mean += z;
+  mean /= n;
+  RoughnessParameters r{};
+  double s2 = 0, s3 = 0, s4 = 0, slope2 = 0, sdr = 0, steepest = 0;
+  for (double z0 : h.z) {
+    const double z = z0 - mean;
+    r.sa += std::abs(z) / n;
+    s2 += z * z / n;
+    s3 += z * z * z / n;
+    s4 += z * z * z * z / n;
+    r.sp = std::max(r.sp, z);
+    r.sv = std::max(r.sv, -z);
+  }
+  for (int iy = 0; iy < g.ny; ++iy) {
+    for (int ix = 0; ix < g.nx; ++ix) {
+      // Forward differences: slopes half a pixel on, four times nearer than central ones.
+      const double zx = (h(wrap(ix + 1, g.nx), iy) - h(ix, iy)) / g.dx();
+      const double zy = (h(ix, wrap(iy + 1, g.ny)) - h(ix, iy)) / g.dy();
+      const double slope = zx * zx + zy * zy;
+      slope2 += slope / n;
+      sdr += (std::sqrt(1 + slope) - 1) / n;
+      const double step = std::abs(h(wrap(ix + 1, g.nx), iy) - h(ix, iy));
+      steepest = std::max(steepest, step);
+    }
+  }
+  r.sq = std::sqrt(s2);
+  r.ssk = s2 > 0 ? s3 / (s2 * r.sq) : 0;
+  r.sku = s2 > 0 ? s4 / (s2 * s2) : 0;
+  r.sz = r.sp + r.sv;
+  r.sdq = std::sqrt(slope2);
+  r.sdr = sdr;
+  r.slopes_sampling_limited = r.sz > 0 && steepest > 0.25 * r.sz;
+  return r;
+}
+
+}  // namespace papilla

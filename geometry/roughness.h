@@ -1,0 +1,35 @@
+// Self-affine random surfaces and how rough a surface is.
+#pragma once
+
+#include <cstdint>
+
+#include "geometry/heightmap.h"
+
+namespace papilla {
+
+// Isotropic spectrum: flat from the patch size to the roll-off wavelength, C(q) ~ q^-2(1+H) down to
+// the cut-off wavelength; rms over a square patch of reference_length. Eq. geometry.3
+struct Spectrum {
+  double rms = 0, roll_off = 1e-6, hurst = 0.8, cutoff = 1e-7;  // [m, m, -, m]
+  double reference_length = 12e-6;
+};
+
+// A periodic surface. Amplitudes are those of the spectrum, phases random and keyed by the integer
+// mode, so that the surface changes continuously with the patch size and is the same on every grid
+// that resolves the cut-off. Modes beyond the grid's Nyquist wave number are dropped. The offset
+// [m] moves the surface. Cost: one inverse FFT.
+Heightmap random_surface(const Spectrum& spectrum, const Grid& grid, std::uint64_t seed,
+                         std::uint64_t index, double offset_x = 0, double offset_y = 0);
+
+// Shortest wavelength on that grid [m]: the cut-off, or twice the pixel.
+double effective_cutoff(const Spectrum& spectrum, const Grid& grid);
+
+// ISO 25178-2 height and slope parameters; heights about the mean. Slopes by forward differences.
+struct RoughnessParameters {
+  double sa, sq, ssk, sku, sp, sv, sz;  // [m, m, -, -, m, m, m]
+  double sdq, sdr;                      // [-]
+  bool slopes_sampling_limited;  // walls steeper than a pixel can show: sdq, sdr grow with it
+};
+RoughnessParameters roughness_parameters(const Heightmap& heightmap);
+
+}  // namespace papilla

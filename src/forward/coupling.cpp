@@ -1,0 +1,264 @@
+#include "forward/coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "physics/capillary/droplets.h"
+#include "physics/capillary/threshold.h"
+#include "physics/electrostatics/electrowetting.h"
+
+namespace papilla {
+namespace {
+
+WaterProperties water_properties(const Scene& scene, double substrate_angle) {
+  const SkinWater& water = scene.finger.water;
+  return {water.surface_tension, water.contact_angle, substrate_angle, water.hysteresis};
+}
+
+Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
+                     const WaterProperties& properties, std::uint64_t seed) {
+  const Scene& scene = *problem.scene;
+  if (scene.model.water == WaterModel::Threshold) return fill_threshold(gap, volume, properties);
+  DropletOptions options;
+  options.drops_per_volume = scene.finger.water.drops_per_um3 * 1e18;
+  options.first_step = scene.model.droplet_step;
+  return settle_droplets(gap, volume, properties, options, seed, problem.droplet_index);
+}
+
+FieldSolution solve_field(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
+                          const FieldProblem& field) {
+  return solve_local_field(gap, problem.texture, wetting, field);
+}
+
+// Preset m3: hydrophobic surfaces carry no capillary force when off.
+bool capillary_off_counts(const Scene& scene) {
+  return scene.model.preset == Preset::Papilla || scene.surface.contact_angle <= kPi / 2;
+}
+
+class PatchSolver {
+ public:
+  PatchSolver(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity)
+      : problem_(problem),
+        plan_(plan),
+        fidelity_(fidelity),
+        // Both moduli soften by one factor, so the kernel at 15 % RH serves every humidity:
+        // pressures are divided by the factor on the way in and multiplied on the way out.
+        softness_(1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
+
+  PatchResult run(ContactSolution& start, PatchFields* fields) {
+    const Scene& scene = *problem_.scene;
+    const Grid& grid = plan_.grid;
+    PatchResult out;
+    out.load = problem_.pressure * grid.area();
+
+    ContactSolution dry = contact({}, start.pressure.empty() ? nullptr : &start, out);
+    out.area_dry = measure_area(*problem_.kernel, dry).moments;
+    const Gap gap{grid, dry.gap};
+    describe_gap(dry, out);
+
+    const FieldProblem field = field_problem(scene, problem_.relative_humidity);
+    const WaterProperties rest = water_properties(scene, scene.surface.contact_angle);
+    const WaterProperties driven =
+        water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
+    out.volume = plan_.water
+                     ? scene.finger.water.volume_per_area(problem_.relative_humidity) * grid.area()
+                     : 0;
+
+    Wetting off, on;
+    off.grid = on.grid = grid;
+    if (out.volume > 0) {
+      off = settle_water(problem_, gap, out.volume, rest, fidelity_.seed);
+      note_water(off, out);
+    }
+    if (capillary_off_counts(scene)) out.capillary_off = off.capillary_force;
+    out.capillary_on = out.capillary_off;  // until a field changes the angle
+
+    FieldSolution pull;
+    pull.traction = {grid, {}};
+    if (plan_.field) {
+      if (out.volume > 0) {
+        on = rewet(off, gap, driven);
+        out.capillary_on = on.capillary_force;
+      }
+      pull = solve_field(problem_, gap, on, field);
+      note_field(pull, out);
+    }
+
+    out.area_off = out.area_on = out.area_dry;
+    ContactSolution off_state, on_state;
+    if (plan_.traction_solves) {
+      off_state = dry;
+      if (out.capillary_off != 0) {
+        off_state = contact(capillary_traction(off, gap, rest).value, &dry, out);
+        out.area_off = measure_area(*problem_.kernel, off_state).moments;
+      }
+      on_state = off_state;
+      out.area_on = out.area_off;
+    }
+    if (plan_.field) {
+      if (scene.model.coupling == Coupling::SelfConsistent) {
+        on_state = iterate(dry, gap, off, driven, field, pull, on, out);
+        if (plan_.traction_solves) out.area_on = measure_area(*problem_.kernel, on_state).moments;
+      } else if (plan_.traction_solves) {
+        on_state = contact(total_traction(on, gap, driven, pull.traction), &off_state, out);
+        out.area_on = measure_area(*problem_.kernel, on_state).moments;
+      }
+    }
+    if (fields) {
+      fields->off = plan_.traction_solves ? off_state : dry;
+      fields->on = plan_.field && !on_state.pressure.empty() ? on_state : fields->off;
+      fields->wetting_off = std::move(off);
+      fields->wetting_on = std::move(on);
+      fields->pull = std::move(pull.traction);
+    }
+    start = std::move(dry);
+    return out;
+  }
+
+ private:
+  // Contact under the preload and an attractive traction [Pa]; pressures in and out are physical.
+  ContactSolution contact(std::vector<double> traction, const ContactSolution* start,
+                          PatchResult& out) const {
+    for (double& t : traction) t *= softness_;
+    ContactOptions options;
+    options.tolerance = fidelity_.contact_tolerance;
+    options.hardness = problem_.scene->finger.skin.hardness * softness_;
+    ContactSolution solution = solve_contact(
+        *problem_.kernel, problem_.height, problem_.pressure * softness_, traction, options, start);
+    ++out.contact_solves;
+    out.fft_pairs += solution.fft_pairs;
+    if (!solution.converged() && out.status.empty()) out.status = "contact: " + solution.reason;
+    return solution;
+  }
+
+  std::vector<double> total_traction(const Wetting& wetting, const Gap& gap,
+                                     const WaterProperties& water, const Traction& pull) const {
+    std::vector<double> total = pull.value;
+    if (total.empty()) total.assign(plan_.grid.size(), 0);
+    if (wetting.capillary_force != 0) {
+      const Traction capillary = capillary_traction(wetting, gap, water);
+      for (std::size_t i = 0; i < total.size(); ++i) total[i] += capillary.value[i];
+    }
+    return total;
+  }
+
+  // Gap, water and field iterated to a fixed point. Eq. coupling.2: under-relaxed by a half in the
+  // traction; pull-in is a pull that grows without settling, or a closed gap.
+  ContactSolution iterate(const ContactSolution& dry, const Gap& dry_gap, const Wetting& off,
+                          const WaterProperties& driven, const FieldProblem& field,
+                          FieldSolution& pull, Wetting& on, PatchResult& out) const {
+    std::vector<double> traction = total_traction(on, dry_gap, driven, pull.traction);
+    ContactSolution state = dry;
+    double previous = out.pull;
+    for (int pass = 0; pass < fidelity_.coupling_passes; ++pass) {
+      state = contact(traction, &state, out);
+      const Gap gap{plan_.grid, state.gap};
+      if (out.volume > 0) {
+        on = rewet(off, gap, driven);
+        out.capillary_on = on.capillary_force;
+      }
+      pull = solve_field(problem_, gap, on, field);
+      note_field(pull, out);
+      const double change = std::abs(out.pull - previous) / std::max(out.pull, 1e-30);
+      const std::vector<double> target = total_traction(on, gap, driven, pull.traction);
+      for (std::size_t i = 0; i < traction.size(); ++i) {
+        traction[i] = pass == 0 ? target[i] : 0.5 * (traction[i] + target[i]);
+      }
+      if (measure_area(*problem_.kernel, state).raw > 0.9) {
+        out.status = "pull-in: no equilibrium short of a closed gap";
+        return state;
+      }
+      if (change < fidelity_.coupling_tolerance) return state;
+      previous = out.pull;
+    }
+    if (out.status.empty()) {
+      out.status = fmt::format("coupling: not settled after {} passes", fidelity_.coupling_passes);
+    }
+    return state;
+  }
+
+  void describe_gap(const ContactSolution& dry, PatchResult& out) const {
+    double sum = 0, mean_height = 0, highest = -1e300;
+    for (double g : dry.gap) sum += g;
+    for (double h : problem_.height) {
+      mean_height += h;
+      highest = std::max(highest, h);
+    }
+    const auto n = static_cast<double>(dry.gap.size());
+    out.mean_gap = sum / n;
+    out.indentation = highest - mean_height / n - out.mean_gap;
+  }
+
+  static void note_water(const Wetting& off, PatchResult& out) {
+    out.bridges = off.bridges;
+    out.wetted = off.wetted_fraction;
+    out.bridge_volume = off.bridge_volume;
+    out.retention = off.retention;
+  }
+
+  void note_field(const FieldSolution& pull, PatchResult& out) const {
+    out.pull = pull.mean_pressure * plan_.grid.area();
+    out.over_limit_area = pull.over_limit_area;
+    out.over_limit_share = pull.over_limit_share;
+    out.peak_air_field = pull.peak_air_field;
+    out.peak_oxide_field = pull.peak_oxide_field;
+    if (!pull.ok && out.status.empty()) out.status = "field: " + pull.reason;
+  }
+
+  const PatchProblem& problem_;
+  const Plan& plan_;
+  const Fidelity& fidelity_;
+  double softness_;
+};
+
+}  // namespace
+
+PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                        ContactSolution& start, PatchFields* fields) {
+  return PatchSolver(problem, plan, fidelity).run(start, fields);
+}
+
+FieldProblem field_problem(const Scene& scene, double relative_humidity) {
+  FieldProblem p;
+  p.v_rms = scene.drive.v_rms();
+  p.v_peak = scene.drive.amplitude;
+  p.dielectric = scene.surface.equivalent_thickness();
+  p.dielectric_thickness = 0;
+  p.oxide_strength = 0;
+  for (const Dielectric& layer : scene.surface.dielectric) {
+    p.dielectric_thickness += layer.thickness;
+    p.oxide_strength =
+        p.oxide_strength > 0 ? std::min(p.oxide_strength, layer.strength) : layer.strength;
+  }
+  // Stratum corneum in series: conducts below its corner frequency, h(w) = h / (1 + i wc/w).
+  const double h = scene.finger.electrical.equivalent_thickness(relative_humidity);
+  const double corner = scene.finger.electrical.corner_frequency;
+  const double f = scene.drive.waveform == Waveform::Dc ? 0 : scene.drive.frequency;
+  p.skin_layer = corner > 0 ? (f > 0 ? h / std::complex<double>(1, corner / f) : 0.0) : h;
+  p.breakdown_cap = scene.model.breakdown_cap;
+  p.droplet_enhancement = scene.model.droplet_enhancement;
+  if (scene.model.preset == Preset::M3) {
+    p.zero_under_droplets = true;
+    p.screening = false;
+    p.droplet_enhancement = false;
+  }
+  return p;
+}
+
+double driven_contact_angle(const Scene& scene, double relative_humidity) {
+  if (!scene.drive.driven()) return scene.surface.contact_angle;
+  const double rest = scene.surface.contact_angle;
+  const double saturated = scene.finger.saturation.angle(rest);
+  const FieldProblem field = field_problem(scene, relative_humidity);
+  const double eta =
+      electrowetting_number(scene.drive.amplitude, field.dielectric + std::abs(field.skin_layer),
+                            scene.finger.water.surface_tension);
+  const bool sine = scene.drive.waveform == Waveform::Sine || scene.drive.waveform == Waveform::Am;
+  return std::acos(
+      std::clamp(electrowetted_cosine(std::cos(rest), std::cos(saturated), eta, sine), -1.0, 1.0));
+}
+
+}  // namespace papilla

@@ -1,0 +1,59 @@
+// Contact, water and field of one patch at one humidity: the only place that knows two pieces.
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "fields/gap.h"
+#include "fields/wetting.h"
+#include "forward/fidelity.h"
+#include "forward/plan.h"
+#include "geometry/heightmap.h"
+#include "physics/contact/contact.h"
+#include "physics/electrostatics/field.h"
+#include "scene/scene.h"
+
+namespace papilla {
+
+struct PatchProblem {
+  const Scene* scene = nullptr;
+  const Heightmap* texture = nullptr;
+  std::span<const double> height;         // texture + skin [m], high touches first
+  const ContactKernel* kernel = nullptr;  // for the moduli at 15 % RH
+  double relative_humidity = 0;
+  double pressure = 0;  // mean preload on the patch [Pa]
+  std::uint64_t droplet_index = 0;
+};
+
+// Forces are on the patch [N], areas are fractions of it.
+struct PatchResult {
+  double load = 0;  // preload
+  double capillary_off = 0, capillary_on = 0, pull = 0, retention = 0;
+  double area_dry = 0, area_off = 0, area_on = 0;
+  double bridges = 0, wetted = 0, bridge_volume = 0, volume = 0;
+  double mean_gap = 0, indentation = 0;  // [m]
+  double over_limit_area = 0, over_limit_share = 0, peak_oxide_field = 0, peak_air_field = 0;
+  int contact_solves = 0;
+  double fft_pairs = 0;
+  std::string status;  // empty: sound
+};
+
+// The states behind the numbers.
+struct PatchFields {
+  ContactSolution off, on;  // at the moduli of that humidity; dry when no tractions are solved
+  Wetting wetting_off, wetting_on;
+  Traction pull;
+};
+
+// start: in: a dry solution of a nearby state (or an empty one); out: the dry solution of this one.
+// fields: filled when not null.
+PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                        ContactSolution& start, PatchFields* fields = nullptr);
+
+// The electrical problem of the scene at a humidity.
+FieldProblem field_problem(const Scene& scene, double relative_humidity);
+
+// Contact angle of the surface under the scene's drive (electrowetting) [rad].
+double driven_contact_angle(const Scene& scene, double relative_humidity);
+
+}  // namespace papilla

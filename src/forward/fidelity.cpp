@@ -1,0 +1,33 @@
+#include "forward/fidelity.h"
+
+#include "base/error.h"
+
+namespace papilla {
+
+Fidelity fidelity_level(const std::string& name) {
+  Fidelity f;
+  f.level = name;
+  if (name == "search") {
+    f.grid = 128;
+    f.skins = 12;
+    f.estimator = Estimator::Load;
+    f.contact_tolerance = 1e-4;
+  } else if (name == "draft") {
+    f.grid = 128;
+    f.skins = 16;
+    f.estimator = Estimator::Load;
+    f.contact_tolerance = 1e-4;
+  } else if (name == "reference") {
+    f.grid = 512;
+    f.skins = 96;
+    f.contact_tolerance = 1e-6;
+    f.coupling_tolerance = 1e-3;
+    f.coupling_passes = 40;
+    f.bridge_nodes = 6;
+  } else if (name != "design") {
+    throw InputError("unknown accuracy level \"" + name + "\"; use draft, design or reference");
+  }
+  return f;
+}
+
+}  // namespace papilla

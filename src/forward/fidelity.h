@@ -1,0 +1,37 @@
+// The one home of accuracy choices: grid, samples, tolerances, method a piece.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace papilla {
+
+// How the modulation is measured.
+enum class Estimator {
+  Load,  // from the loads on the dry contact: no solve with tractions; ranks designs (Eq.
+         // friction.3)
+  Area,  // from contact areas solved with the capillary and electrostatic tractions (Eq.
+         // friction.1)
+};
+
+struct Fidelity {
+  std::string level = "design";
+  int grid = 256;      // pixels along the patch
+  int skins = 40;      // independent skin patches
+  int first_skin = 0;  // fresh skins start beyond those of a search
+  Estimator estimator = Estimator::Area;
+  double contact_tolerance = 1e-5;   // Frank-Wolfe certificate
+  int coupling_passes = 12;          // self-consistent coupling: largest number of passes
+  double coupling_tolerance = 5e-3;  // relative change of the pull between passes
+  int bridge_nodes = 3;              // patch-pressure nodes of the Persson closure
+  double load_exponent = 0.965;      // beta of the load-based estimator (Eq. friction.3)
+  std::uint64_t seed = 1;            // of skins, offsets and droplets: common to all designs
+  int threads = 0;                   // 0: all
+
+  bool operator==(const Fidelity&) const = default;
+};
+
+// "search", "draft", "design" or "reference"; throws InputError for another name.
+Fidelity fidelity_level(const std::string& name);
+
+}  // namespace papilla

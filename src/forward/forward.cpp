@@ -1,0 +1,275 @@
+#include "forward/forward.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "geometry/roughness.h"
+
+namespace papilla {
+namespace {
+
+LayeredSolid solid(const Skin& skin) {
+  return {skin.layer_modulus, skin.layer_poisson, skin.layer_thickness, skin.bulk_modulus,
+          skin.bulk_poisson};
+}
+
+// Sliding offset of skin k against the texture: the R2 low-discrepancy sequence over the patch.
+double offset_share(int k, bool second) {
+  const double step = second ? 0.56984029099805327 : 0.75487766624669276;
+  return std::fmod(0.5 + step * (k + 1), 1.0);
+}
+
+// Skin of a patch: common to every design, because its modes are keyed by integer index.
+Heightmap skin_patch(const Scene& scene, const Grid& grid, const Fidelity& fidelity, int index) {
+  const Skin& skin = scene.finger.skin;
+  const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, skin.cutoff};
+  return random_surface(spectrum, grid, fidelity.seed, static_cast<std::uint64_t>(index),
+                        offset_share(index, false) * grid.lx, offset_share(index, true) * grid.ly);
+}
+
+std::vector<double> added(const Heightmap& a, const Heightmap& b) {
+  std::vector<double> sum(a.z.size());
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = a.z[i] + b.z[i];
+  return sum;
+}
+
+Measured sampled_mean(const std::vector<PatchResult>& patches, double PatchResult::*member,
+                      double factor = 1) {
+  std::vector<double> values;
+  values.reserve(patches.size());
+  for (const PatchResult& p : patches) values.push_back(p.*member);
+  const Estimate e = mean_estimate(values);
+  return {factor * e.value, {.sampling = std::abs(factor) * e.se}};
+}
+
+// Relative errors beyond sampling, measured against the reference level by `papilla accuracy`
+// (docs/accuracy.md): area by moments on a grid of dx against the skin's cut-off, and the load law.
+struct StatedErrors {
+  double area, modulation_grid, modulation_method, pull, solver;
+};
+StatedErrors stated_errors(const Plan& plan, const Fidelity& fidelity, const Scene& scene) {
+  const double pixel = plan.grid.dx();
+  StatedErrors e{};
+  e.area = std::min(0.5, 0.02 * pixel / 23e-9);
+  e.modulation_grid = std::min(0.2, 0.01 * pixel / 47e-9);
+  e.modulation_method = fidelity.estimator == Estimator::Load && plan.field ? 0.02 : 0;
+  e.pull = scene.model.field == FieldMethod::Local ? 0.014 : 0.005;
+  e.solver = 1e2 * fidelity.contact_tolerance;
+  return e;
+}
+
+class PointBuilder {
+ public:
+  PointBuilder(const Scene& scene, const Plan& plan, const Fidelity& fidelity)
+      : scene_(scene),
+        plan_(plan),
+        fidelity_(fidelity),
+        errors_(stated_errors(plan, fidelity, scene)) {}
+
+  ResponsePoint build(double rh, double weight, const std::vector<PatchResult>& patches) const {
+    ResponsePoint point;
+    point.relative_humidity = rh;
+    point.weight = weight;
+    point.patch_pressure = scene_.finger.patch_pressure(rh);
+    const MacroContact& macro = scene_.finger.macro;
+    const double carrying = macro.load_share * macro.gross_area(scene_.finger.load, rh);  // [m^2]
+    const double patches_per_finger = carrying / plan_.grid.area();
+
+    std::vector<double> load_dry, water_share;
+    for (const PatchResult& p : patches) {
+      point.samples.load_off.push_back(p.load + p.capillary_off);
+      point.samples.load_on.push_back(p.load + p.capillary_on + p.pull);
+      point.samples.area_off.push_back(p.area_off);
+      point.samples.area_on.push_back(p.area_on);
+      load_dry.push_back(p.load);
+      point.over_limit_area += p.over_limit_area / static_cast<double>(patches.size());
+      point.over_limit_share += p.over_limit_share / static_cast<double>(patches.size());
+      point.peak_oxide_field = std::max(point.peak_oxide_field, p.peak_oxide_field);
+      point.peak_air_field = std::max(point.peak_air_field, p.peak_air_field);
+      if (p.volume > 0) {
+        point.bridge_water_share +=
+            p.bridge_volume / p.volume / static_cast<double>(patches.size());
+      }
+      if (!p.status.empty() && point.status == "ok") point.status = p.status;
+    }
+
+    if (fidelity_.estimator == Estimator::Load || !plan_.traction_solves) {
+      load_based(point, patches);
+    } else {
+      area_based(point);
+    }
+    const double strength = macro.shear_strength * carrying;
+    point.retention_force = plan_.retention
+                                ? sampled_mean(patches, &PatchResult::retention, patches_per_finger)
+                                : Measured{};
+    point.friction_off = friction(strength, point.area_fraction_off, point.retention_force);
+    point.friction_on = friction(strength, point.area_fraction_on, point.retention_force);
+    if (plan_.field) {
+      // The retention force is part of both frictions (Eq. friction.1).
+      const double dry_ratio = point.modulation.value;
+      const double share = point.friction_off.value > 0
+                               ? 1 - point.retention_force.value / point.friction_off.value
+                               : 1;
+      point.modulation.value = dry_ratio * share;
+      add_relative(point.modulation, point.modulation.value);
+    } else {
+      point.modulation = {};
+    }
+    point.capillary_force = sampled_mean(patches, &PatchResult::capillary_off, patches_per_finger);
+    point.electrostatic_force = sampled_mean(patches, &PatchResult::pull, patches_per_finger);
+    point.electrostatic_force.parts.method = errors_.pull * point.electrostatic_force.value;
+    point.bridges = sampled_mean(patches, &PatchResult::bridges);
+    point.wetted_fraction = sampled_mean(patches, &PatchResult::wetted);
+    point.mean_gap = sampled_mean(patches, &PatchResult::mean_gap);
+    point.indentation = sampled_mean(patches, &PatchResult::indentation);
+    return point;
+  }
+
+ private:
+  // Eq. friction.3: F ~ L^beta on the dry contact area.
+  void load_based(ResponsePoint& point, const std::vector<PatchResult>& patches) const {
+    const double beta = fidelity_.load_exponent;
+    const Measured dry = sampled_mean(patches, &PatchResult::area_dry);
+    std::vector<double> loads;
+    for (const PatchResult& p : patches) loads.push_back(p.load);
+    const Estimate off = ratio_estimate(point.samples.load_off, loads);
+    const Estimate on = ratio_estimate(point.samples.load_on, loads);
+    const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
+    point.area_fraction_off = scaled(dry, off, beta);
+    point.area_fraction_on = scaled(dry, on, beta);
+    const double ratio = std::pow(std::max(gain.value, 0.0), beta);
+    point.modulation.value = ratio - 1;
+    point.modulation.parts.sampling = beta * ratio * gain.se / std::max(gain.value, 1e-12);
+  }
+
+  // Eq. friction.1: resolved areas, ratio of sums over the skins.
+  static void area_based(ResponsePoint& point) {
+    const Estimate off = mean_estimate(point.samples.area_off);
+    const Estimate on = mean_estimate(point.samples.area_on);
+    point.area_fraction_off = {off.value, {.sampling = off.se}};
+    point.area_fraction_on = {on.value, {.sampling = on.se}};
+    if (off.value > 0) {
+      const Estimate gain = ratio_estimate(point.samples.area_on, point.samples.area_off);
+      point.modulation = {gain.value - 1, {.sampling = gain.se}};
+    }
+  }
+
+  static Measured scaled(const Measured& dry, const Estimate& load_ratio, double beta) {
+    const double base = std::max(load_ratio.value, 0.0);
+    const double factor = std::pow(base, beta);
+    const double relative = base > 0 ? beta * load_ratio.se / base : 0;
+    return {dry.value * factor,
+            {.sampling = std::hypot(dry.parts.sampling * factor, dry.value * factor * relative)}};
+  }
+
+  Measured friction(double strength, const Measured& area, const Measured& retention) const {
+    Measured f;
+    f.value = strength * area.value + retention.value;
+    f.parts.sampling = std::hypot(strength * area.parts.sampling, retention.parts.sampling);
+    f.parts.grid = errors_.area * strength * area.value;
+    f.parts.solver = errors_.solver * f.value;
+    return f;
+  }
+
+  void add_relative(Measured& modulation, double value) const {
+    const double size = std::abs(value);
+    modulation.parts.grid = errors_.modulation_grid * size;
+    modulation.parts.solver = errors_.solver * size;
+    modulation.parts.method = std::hypot(errors_.modulation_method, errors_.pull) * size;
+  }
+
+  const Scene& scene_;
+  const Plan& plan_;
+  const Fidelity& fidelity_;
+  StatedErrors errors_;
+};
+
+}  // namespace
+
+std::string Response::trouble() const {
+  for (const ResponsePoint& point : points) {
+    if (point.status != "ok") {
+      return fmt::format("{:.0f} % RH: {}", 100 * point.relative_humidity, point.status);
+    }
+  }
+  return {};
+}
+
+Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  const auto begin = std::chrono::steady_clock::now();
+  Response response;
+  response.plan = make_plan(scene, texture, fidelity);
+  response.driven = response.plan.field;
+  const Grid& grid = response.plan.grid;
+  const Heightmap surface = generate(texture, grid);
+  const auto kernel = make_contact_kernel(grid, solid(scene.finger.skin));
+  const std::vector<double>& humidities = scene.environment.relative_humidity;
+  PAPILLA_CHECK(!humidities.empty(), "one humidity at least");
+
+  // results[humidity][skin]
+  std::vector<std::vector<PatchResult>> results(
+      humidities.size(), std::vector<PatchResult>(static_cast<std::size_t>(fidelity.skins)));
+  parallel_for(
+      fidelity.skins,
+      [&](int k) {
+        const int index = fidelity.first_skin + k;
+        const Heightmap skin = skin_patch(scene, grid, fidelity, index);
+        const std::vector<double> height = added(surface, skin);
+        ContactSolution start;  // the dry contact of the previous humidity
+        for (std::size_t i = 0; i < humidities.size(); ++i) {
+          const PatchProblem problem{&scene,
+                                     &surface,
+                                     height,
+                                     kernel.get(),
+                                     humidities[i],
+                                     scene.finger.patch_pressure(humidities[i]),
+                                     static_cast<std::uint64_t>(index)};
+          results[i][static_cast<std::size_t>(k)] =
+              solve_patch(problem, response.plan, fidelity, start);
+        }
+      },
+      fidelity.threads);
+
+  const PointBuilder builder(scene, response.plan, fidelity);
+  for (std::size_t i = 0; i < humidities.size(); ++i) {
+    const double weight = scene.environment.weights.empty() ? 1 : scene.environment.weights[i];
+    response.points.push_back(builder.build(humidities[i], weight, results[i]));
+    for (const PatchResult& patch : results[i]) {
+      response.contact_solves += patch.contact_solves;
+      response.fft_pairs += patch.fft_pairs;
+    }
+  }
+  response.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return response;
+}
+
+PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                           double relative_humidity, int index) {
+  const Plan plan = make_plan(scene, texture, fidelity);
+  PatchPicture picture;
+  picture.texture = generate(texture, plan.grid);
+  picture.skin = skin_patch(scene, plan.grid, fidelity, fidelity.first_skin + index);
+  const std::vector<double> height = added(picture.texture, picture.skin);
+  const auto kernel = make_contact_kernel(plan.grid, solid(scene.finger.skin));
+  ContactSolution start;
+  const PatchProblem problem{&scene,
+                             &picture.texture,
+                             height,
+                             kernel.get(),
+                             relative_humidity,
+                             scene.finger.patch_pressure(relative_humidity),
+                             static_cast<std::uint64_t>(fidelity.first_skin + index)};
+  solve_patch(problem, plan, fidelity, start, &picture.fields);
+  return picture;
+}
+
+}  // namespace papilla

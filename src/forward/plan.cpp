@@ -1,0 +1,154 @@
+#include "forward/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "geometry/roughness.h"
+
+namespace papilla {
+namespace {
+
+// Seconds of one forward and inverse FFT of n pixels on one core (measured, results/bench).
+double pair_seconds(std::size_t n) {
+  return 2.2e-10 * static_cast<double>(n) * std::log2(static_cast<double>(n));
+}
+
+// One standard error of the modulation from one skin patch, relative (m3-prototype, section 3).
+double patch_scatter(const Fidelity& f) { return f.estimator == Estimator::Load ? 0.09 : 0.11; }
+
+}  // namespace
+
+double Plan::seconds() const {
+  double sum = 0;
+  for (const PlanStep& step : steps) sum += step.seconds;
+  return sum;
+}
+
+Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  Plan plan;
+  plan.grid = patch_grid(texture, fidelity.grid);
+  const Skin& skin = scene.finger.skin;
+  const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, skin.cutoff};
+  plan.effective_cutoff = effective_cutoff(spectrum, plan.grid);
+
+  double largest_volume = 0;
+  for (double rh : scene.environment.relative_humidity) {
+    largest_volume = std::max(largest_volume, scene.finger.water.volume_per_area(rh));
+  }
+  plan.water = largest_volume > 0;
+  plan.field = scene.drive.driven();
+  plan.retention =
+      plan.water && scene.finger.water.hysteresis > 0 &&
+      (scene.model.preset == Preset::Papilla || scene.surface.contact_angle > 1.5707963267948966);
+  plan.traction_solves = fidelity.estimator == Estimator::Area && (plan.water || plan.field);
+
+  const auto states = static_cast<double>(fidelity.skins) *
+                      static_cast<double>(scene.environment.relative_humidity.size()) *
+                      (scene.model.closure == Closure::Persson ? fidelity.bridge_nodes : 1);
+  const double pair = pair_seconds(plan.grid.size());
+
+  plan.steps.push_back(
+      {"contact", fmt::format("layered half-space, certified to {:g}", fidelity.contact_tolerance),
+       fmt::format("{} skins on {} x {} pixels, skin resolved to {:.0f} nm", fidelity.skins,
+                   plan.grid.nx, plan.grid.ny, 1e9 * plan.effective_cutoff),
+       states * 38 * pair, 0});
+  if (plan.water) {
+    const bool droplets = scene.model.water == WaterModel::Droplets;
+    plan.steps.push_back(
+        {"water", droplets ? "droplet ensemble by lowest energy" : "volume threshold",
+         droplets ? "its variation over humidity is what textures change"
+                  : "cheap and smooth; it reverses the sign of the texture's effect on variation",
+         states * (droplets ? 1.5e-3 : 4e-4), droplets ? 0 : 0.5});
+  } else {
+    plan.skipped.push_back({"water", "no water at any of these humidities", 0});
+  }
+  if (plan.field) {
+    const bool full = scene.model.field == FieldMethod::Full;
+    plan.steps.push_back(
+        {"field", full ? "3-D potential" : "local rule with screening around bridges",
+         full ? "asked for" : "within 1.4 % of the 3-D field below 0.2 um gap",
+         states * (full ? 2.0 * static_cast<double>(plan.grid.size()) / 65536 : 1e-3),
+         full ? 0.005 : 0.014});
+    plan.steps.push_back(
+        {"electrowetting", "saturated law, averaged over the cycle",
+         plan.water ? "bridges conduct; the angle saturates" : "no bridges: no effect", 0, 0});
+    if (!plan.water) {
+      plan.steps.pop_back();
+      plan.skipped.push_back({"electrowetting", "no bridges without water", 0});
+    }
+  } else {
+    plan.skipped.push_back({"field", "the drive is at 0 V", 0});
+    plan.skipped.push_back({"electrowetting", "the drive is at 0 V", 0});
+  }
+  if (plan.traction_solves) {
+    plan.steps.push_back({"contact with tractions", plan.field ? "off and on states" : "off state",
+                          "areas from resolved contact, not from the load law",
+                          states * (plan.field ? 2 : 1) * 45 * pair, 0});
+  } else if (plan.water || plan.field) {
+    plan.skipped.push_back({"contact with tractions",
+                            "the load law F ~ L^0.965 ranks designs (Eq. friction.3)", 0.06});
+  }
+  if (scene.model.coupling == Coupling::SelfConsistent && plan.field) {
+    plan.steps.push_back({"coupling", "self-consistent",
+                          fmt::format("gap, field and water to a fixed point, {} passes at most",
+                                      fidelity.coupling_passes),
+                          states * 6 * 45 * pair, 0});
+  } else if (plan.field) {
+    plan.skipped.push_back(
+        {"self-consistent coupling",
+         "one pass, as the finger was calibrated; iterating would raise the modulation by 30-60 %",
+         0.6});
+  }
+  if (plan.retention) {
+    plan.steps.push_back({"retention", "contact-angle hysteresis", "F = tau A + F_ret", 0, 0});
+  } else {
+    plan.skipped.push_back(
+        {"retention", plan.water ? "preset m3 counts it for hydrophobic surfaces only" : "no water",
+         plan.water ? 0.05 : 0});
+  }
+  if (scene.model.closure == Closure::Persson) {
+    plan.steps.push_back({"scale bridge",
+                          fmt::format("Persson, {} patch pressures", fidelity.bridge_nodes),
+                          "patches under a fingertip do not share one pressure", 0, 0.03});
+  } else {
+    plan.skipped.push_back({"distribution of patch pressures",
+                            "closure = uniform: phi of the finger file stands for it", 0});
+  }
+  plan.skipped.push_back({"van der Waals",
+                          "Hamaker estimate below 5 % of the contact load (reported by reproduce)",
+                          0.05});
+  plan.skipped.push_back(
+      {"Kelvin condensation", "menisci of nanometres at these humidities", 0.01});
+  plan.skipped.push_back({"optics", "no optical metric asked for", 0});
+
+  const double se = patch_scatter(fidelity) / std::sqrt(static_cast<double>(fidelity.skins));
+  plan.steps.push_back({"sampling", fmt::format("{} skins, common to all designs", fidelity.skins),
+                        "patches differ by tens of percent; designs are compared on the same skins",
+                        0, se});
+  return plan;
+}
+
+std::string Plan::text() const {
+  std::string out = fmt::format("patch {:.3g} x {:.3g} um, {} x {} pixels of {:.0f} nm\n",
+                                1e6 * grid.lx, 1e6 * grid.ly, grid.nx, grid.ny, 1e9 * grid.dx());
+  out += "modelled:\n";
+  for (const PlanStep& step : steps) {
+    out += fmt::format("  {:<22} {:<44} {}", step.piece, step.method, step.reason);
+    if (step.seconds > 0) out += fmt::format("; about {:.2g} s", step.seconds);
+    if (step.error > 0) out += fmt::format("; error {:.1f} %", 100 * step.error);
+    out += '\n';
+  }
+  out += "not modelled:\n";
+  for (const PlanSkip& skip : skipped) {
+    out += fmt::format("  {:<32} {}", skip.piece, skip.reason);
+    if (skip.bound > 0) out += fmt::format(" (bound {:.0f} % of friction)", 100 * skip.bound);
+    out += '\n';
+  }
+  out += fmt::format("expected {:.2g} s on one core\n", seconds());
+  return out;
+}
+
+}  // namespace papilla

@@ -1,0 +1,48 @@
+// What is modelled and what is skipped, why, at which cost and error: the one home of "model only
+// what a scene needs". A pure function of the scene; `papilla explain` prints it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "forward/fidelity.h"
+#include "geometry/texture.h"
+#include "scene/scene.h"
+
+namespace papilla {
+
+struct PlanStep {
+  std::string piece, method, reason;
+  double seconds = 0;  // expected, on one core of a usual machine
+  double error = 0;    // expected relative error of the modulation; 0: none beyond sampling
+
+  bool operator==(const PlanStep&) const = default;
+};
+
+struct PlanSkip {
+  std::string piece, reason;
+  double bound = 0;  // bound on the relative error of friction made by skipping
+
+  bool operator==(const PlanSkip&) const = default;
+};
+
+struct Plan {
+  std::vector<PlanStep> steps;
+  std::vector<PlanSkip> skipped;
+  Grid grid;
+  double effective_cutoff = 0;  // shortest skin wavelength on this grid [m]
+
+  // The decisions as data, for the forward model.
+  bool field = false;            // electrostatics and electrowetting
+  bool water = false;            // capillary bridges
+  bool retention = false;        // lateral hysteresis force
+  bool traction_solves = false;  // contact solved again with tractions
+
+  double seconds() const;
+  std::string text() const;  // for people, one line a step
+  bool operator==(const Plan&) const = default;
+};
+
+Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+}  // namespace papilla

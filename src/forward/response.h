@@ -1,0 +1,81 @@
+// What the forward model answers: one point a humidity, each number with its error by origin.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "forward/plan.h"
+
+namespace papilla {
+
+// One standard error by origin, in the unit of the value. Independent: they add in squares.
+struct ErrorParts {
+  double sampling = 0;    // skins, offsets, droplets
+  double grid = 0;        // discretisation
+  double solver = 0;      // tolerance of the contact solve
+  double humidity = 0;    // quadrature over humidity (zero at a point)
+  double method = 0;      // estimator or field rule in place of the better one
+  double parameters = 0;  // calibration covariance
+
+  double total() const {
+    return std::sqrt(sampling * sampling + grid * grid + solver * solver + humidity * humidity +
+                     method * method + parameters * parameters);
+  }
+  bool operator==(const ErrorParts&) const = default;
+};
+
+struct Measured {
+  double value = 0;
+  ErrorParts parts;
+
+  double se() const { return parts.total(); }
+  bool operator==(const Measured&) const = default;
+};
+
+// Per-skin quantities of one humidity, kept for paired differences between designs.
+struct PatchSamples {
+  std::vector<double> load_off, load_on;  // [N] on the patch: preload + capillary (+ pull)
+  std::vector<double> area_off, area_on;  // contact fractions of the patch
+
+  bool operator==(const PatchSamples&) const = default;
+};
+
+struct ResponsePoint {
+  double relative_humidity = 0;
+  double weight = 1;
+  double patch_pressure = 0;                     // [Pa] on the load-carrying patches
+  Measured friction_off, friction_on;            // [N], whole finger
+  Measured modulation;                           // (F_on - F_off) / F_off; 0 when undriven
+  Measured area_fraction_off, area_fraction_on;  // of the load-carrying patches
+  Measured capillary_force;                      // [N], whole finger, off
+  Measured electrostatic_force;                  // [N], whole finger
+  Measured retention_force;                      // [N], whole finger
+  Measured bridges;                              // a patch
+  Measured wetted_fraction;
+  Measured mean_gap;              // [m]
+  Measured indentation;           // approach since first touch [m]
+  double over_limit_area = 0;     // share of the patch where air is beyond its breakdown field
+  double over_limit_share = 0;    // of the pull from there
+  double peak_oxide_field = 0;    // [V/m]
+  double peak_air_field = 0;      // [V/m]
+  double bridge_water_share = 0;  // share of the water that sits in bridges
+  std::string status = "ok";      // else what went wrong: "flooded: ...", "pull-in: ..."
+  PatchSamples samples;
+
+  bool operator==(const ResponsePoint&) const = default;
+};
+
+struct Response {
+  std::vector<ResponsePoint> points;
+  Plan plan;
+  bool driven = false;
+  double seconds = 0;  // wall time; in no file that must be reproducible
+  int contact_solves = 0;
+  double fft_pairs = 0;
+
+  // Empty when every point is sound, else the first trouble.
+  std::string trouble() const;
+};
+
+}  // namespace papilla

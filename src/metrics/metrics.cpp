@@ -1,0 +1,196 @@
+#include "metrics/metrics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace papilla {
+namespace {
+
+struct Entry {
+  MetricInfo info;
+  Measured ResponsePoint::*member;
+};
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> list{
+      {{"modulation", "", "(F_on - F_off) / F_off", Better::Higher, true},
+       &ResponsePoint::modulation},
+      {{"friction", "N", "friction of the finger, drive off", Better::Lower, false},
+       &ResponsePoint::friction_off},
+      {{"friction_on", "N", "friction of the finger, drive on", Better::Higher, true},
+       &ResponsePoint::friction_on},
+      {{"adhesion", "N", "capillary force on the finger, drive off", Better::Lower, false},
+       &ResponsePoint::capillary_force},
+      {{"capillary_force", "N", "the same as adhesion", Better::Lower, false},
+       &ResponsePoint::capillary_force},
+      {{"electrostatic_force", "N", "pull of the field on the finger", Better::Higher, true},
+       &ResponsePoint::electrostatic_force},
+      {{"retention_force", "N", "lateral force of contact-angle hysteresis", Better::Lower, false},
+       &ResponsePoint::retention_force},
+      {{"contact_area", "", "contact fraction of the load-carrying patches, drive off",
+        Better::Neither, false},
+       &ResponsePoint::area_fraction_off},
+      {{"bridges", "", "capillary bridges a patch", Better::Neither, false},
+       &ResponsePoint::bridges},
+      {{"wetted_fraction", "", "bridged share of the patch", Better::Neither, false},
+       &ResponsePoint::wetted_fraction},
+      {{"mean_gap", "m", "mean gap of the patch", Better::Neither, false},
+       &ResponsePoint::mean_gap},
+  };
+  return list;
+}
+
+constexpr std::array<std::pair<const char*, Summary>, 8> kSummaries{
+    {{"mean", Summary::Mean},
+     {"variation", Summary::Variation},
+     {"range", Summary::Range},
+     {"std", Summary::Std},
+     {"worst", Summary::Worst},
+     {"best", Summary::Best},
+     {"first", Summary::First},
+     {"last", Summary::Last}}};
+
+// Indentation over pressure [m/Pa]: how far the finger sinks in.
+Measured compliance(const ResponsePoint& point) {
+  Measured c = point.indentation;
+  c.value /= point.patch_pressure;
+  c.parts.sampling /= point.patch_pressure;
+  return c;
+}
+
+}  // namespace
+
+const std::vector<MetricInfo>& metric_list() {
+  static const std::vector<MetricInfo> list = [] {
+    std::vector<MetricInfo> infos;
+    for (const Entry& entry : entries()) infos.push_back(entry.info);
+    infos.push_back({"compliance", "m/Pa", "indentation since first touch over patch pressure",
+                     Better::Neither, false});
+    return infos;
+  }();
+  return list;
+}
+
+const MetricInfo* find_metric(const std::string& name) {
+  for (const MetricInfo& info : metric_list()) {
+    if (info.name == name) return &info;
+  }
+  return nullptr;
+}
+
+std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point) {
+  if (name == "compliance") return compliance(point);
+  for (const Entry& entry : entries()) {
+    if (entry.info.name == name) return point.*entry.member;
+  }
+  return std::nullopt;
+}
+
+std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
+                                      const Response& response) {
+  const MetricInfo* info = find_metric(metric);
+  if (!info || response.points.empty() || (info->needs_drive && !response.driven))
+    return std::nullopt;
+  double total = 0, mean = 0;
+  std::vector<double> values, errors, weights;
+  for (const ResponsePoint& point : response.points) {
+    const Measured m = *metric_at(metric, point);
+    if (!std::isfinite(m.value)) return std::nullopt;
+    values.push_back(m.value);
+    errors.push_back(m.se());
+    weights.push_back(point.weight);
+    total += point.weight;
+    mean += point.weight * m.value;
+  }
+  if (total <= 0) return std::nullopt;
+  mean /= total;
+  double variance = 0, mean_se = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double w = weights[i] / total;
+    variance += w * (values[i] - mean) * (values[i] - mean);
+    mean_se += w * errors[i];  // the points share their skins: errors add linearly
+  }
+  const double sd = std::sqrt(variance);
+  const auto low = std::min_element(values.begin(), values.end()) - values.begin();
+  const auto high = std::max_element(values.begin(), values.end()) - values.begin();
+  const auto at = [&](std::ptrdiff_t i) {
+    return SummaryValue{values[static_cast<std::size_t>(i)], errors[static_cast<std::size_t>(i)]};
+  };
+  // d(sd)/d(value_i) = w_i (value_i - mean) / sd
+  double sd_se = 0;
+  for (std::size_t i = 0; i < values.size() && sd > 0; ++i) {
+    sd_se += std::pow(weights[i] / total * (values[i] - mean) / sd * errors[i], 2);
+  }
+  sd_se = std::sqrt(sd_se);
+  switch (summary) {
+    case Summary::Mean:
+      return SummaryValue{mean, mean_se};
+    case Summary::Std:
+      return SummaryValue{sd, sd_se};
+    case Summary::Variation:
+      if (mean == 0) return std::nullopt;
+      return SummaryValue{sd / std::abs(mean),
+                          std::hypot(sd_se, sd / mean * mean_se) / std::abs(mean)};
+    case Summary::Range:
+      if (mean == 0) return std::nullopt;
+      return SummaryValue{(at(high).value - at(low).value) / std::abs(mean),
+                          std::hypot(at(high).se, at(low).se) / std::abs(mean)};
+    case Summary::Worst:
+      return at(info->better == Better::Lower ? high : low);
+    case Summary::Best:
+      return at(info->better == Better::Lower ? low : high);
+    case Summary::First:
+      return at(0);
+    case Summary::Last:
+      return at(static_cast<std::ptrdiff_t>(values.size()) - 1);
+  }
+  return std::nullopt;
+}
+
+MetricExpression parse_metric(const std::string& text) {
+  MetricExpression expression;
+  std::string name = text;
+  const std::size_t open = text.find('(');
+  if (open != std::string::npos) {
+    const std::string word = text.substr(0, open);
+    if (text.back() != ')') throw InputError("\"" + text + "\": missing )");
+    name = text.substr(open + 1, text.size() - open - 2);
+    std::vector<std::string> known;
+    bool found = false;
+    for (const auto& [label, summary] : kSummaries) {
+      known.push_back(label);
+      if (word == label) {
+        expression.summary = summary;
+        found = true;
+      }
+    }
+    if (!found) {
+      throw InputError(fmt::format("\"{}\" is no summary over humidity; use one of {}", word,
+                                   join_names(known)));
+    }
+  }
+  if (!find_metric(name)) {
+    std::vector<std::string> known;
+    for (const MetricInfo& info : metric_list()) known.push_back(info.name);
+    const std::string near = nearest_name(name, known);
+    throw InputError(fmt::format("\"{}\" is no metric{}; see `papilla describe metrics`", name,
+                                 near.empty() ? "" : ", did you mean \"" + near + "\"?"));
+  }
+  expression.metric = name;
+  return expression;
+}
+
+std::string metric_text(const MetricExpression& expression) {
+  for (const auto& [label, summary] : kSummaries) {
+    if (summary == expression.summary) return std::string(label) + "(" + expression.metric + ")";
+  }
+  return expression.metric;
+}
+
+}  // namespace papilla

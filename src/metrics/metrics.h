@@ -1,0 +1,50 @@
+// Numbers that judge a design: functions of a Response over humidity. `papilla describe metrics` is
+// this list.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "forward/response.h"
+
+namespace papilla {
+
+enum class Better { Higher, Lower, Neither };
+
+struct MetricInfo {
+  std::string name, unit, doc;
+  Better better = Better::Neither;
+  bool needs_drive = false;
+};
+
+// A quantity at each humidity: modulation, friction, friction_on, adhesion, ...
+const std::vector<MetricInfo>& metric_list();
+const MetricInfo* find_metric(const std::string& name);
+
+// Value at one point; nothing when undefined there (modulation of an undriven design).
+std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point);
+
+// How a quantity is summarised over humidity with the points' weights. Eq. metrics.1-5
+enum class Summary { Mean, Variation, Range, Std, Worst, Best, First, Last };
+
+struct SummaryValue {
+  double value = 0;
+  double se = 0;  // from the points' sampling errors, taken as one common sample (fully correlated
+                  // errors cancel in variation and range; this is the uncorrelated bound)
+};
+// Worst: the smallest for Better::Higher, the largest for Better::Lower. Variation is the weighted
+// population standard deviation / mean; range is (max - min) / mean. Nothing when undefined
+// (undriven, or a mean of zero).
+std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
+                                      const Response& response);
+
+// "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name).
+struct MetricExpression {
+  Summary summary = Summary::Mean;
+  std::string metric;
+};
+MetricExpression parse_metric(const std::string& text);  // throws InputError
+std::string metric_text(const MetricExpression& expression);
+
+}  // namespace papilla

@@ -1,0 +1,115 @@
+// Frictionless contact of a layered elastic half-space with a rough surface on a periodic grid.
+//
+// Unknown: contact pressure p >= 0 (and <= hardness). It minimises 1/2 pSp + p.g0 at a given mean,
+// so that the gap v = S p + g0 - shift is zero under pressure and positive elsewhere (Eq.
+// contact.2). Attractive tractions shift the initial gap and the mean load (Eq. contact.3): every
+// state is one standard problem. The result carries a Frank-Wolfe certificate (Eq. contact.4)
+// computed on the returned pressure, a bound on the distance to the minimum energy.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/fft.h"
+#include "geometry/grid.h"
+
+namespace papilla {
+
+// A layer bonded on a half-space. Young's moduli [Pa], Poisson ratios in [0, 0.5], thickness [m]
+// from 0 (half-space of the bulk alone) to infinity (of the layer alone).
+struct LayeredSolid {
+  double layer_modulus = 1, layer_poisson = 0.5, layer_thickness = 0;
+  double bulk_modulus = 1, bulk_poisson = 0.5;
+
+  bool operator==(const LayeredSolid&) const = default;
+};
+
+// Normal surface compliance C(q) [m/Pa] at wave number q > 0 [1/m]: u_hat = C p_hat. Eq. contact.1
+double compliance(const LayeredSolid& solid, double q);
+
+// The compliance on one grid; immutable, shared by all solves.
+class ContactKernel {
+ public:
+  ContactKernel(const Grid& grid, const LayeredSolid& solid);
+
+  const Grid& grid() const { return grid_; }
+  const LayeredSolid& solid() const { return solid_; }
+  const Fft2d& fft() const { return *fft_; }
+  const std::vector<double>& symbol() const { return symbol_; }  // C(q)/n on the half spectrum
+  // Truncated inverse kernel: preconditioner between contact pixels at most 4 apart.
+  static constexpr int kReach = 4;
+  double inverse(int dx, int dy) const {
+    return inverse_[static_cast<std::size_t>((dy + kReach) * (2 * kReach + 1) + dx + kReach)];
+  }
+  double self_compliance() const {
+    return self_;
+  }  // displacement of a pixel under its own unit pressure
+  const ContactKernel* coarse() const { return coarse_.get(); }  // half the pixels, or null
+  double contact_modulus() const;  // E1 / (1 - nu1^2) of the surface [Pa]
+
+  // u = S p: one forward and one inverse transform. scratch: spectrum-sized.
+  void displace(const RealArray& p, RealArray& u, SpectrumArray& scratch) const;
+
+ private:
+  Grid grid_;
+  LayeredSolid solid_;
+  std::shared_ptr<const Fft2d> fft_;
+  std::vector<double> symbol_;
+  std::vector<double> inverse_;
+  double self_ = 0;
+  std::shared_ptr<const ContactKernel> coarse_;
+};
+
+std::shared_ptr<const ContactKernel> make_contact_kernel(const Grid& grid,
+                                                         const LayeredSolid& solid);
+
+enum class ContactMethod { Auto, Sparse, Dense };
+
+struct ContactOptions {
+  double tolerance = 1e-5;  // on the certificate
+  double hardness = 0;      // cap on the pressure [Pa]; 0: none
+  int max_iterations = 1000;
+  ContactMethod method = ContactMethod::Auto;
+};
+
+enum class ContactStatus { NotRun, Converged, Stagnated, IterationLimit, NoLoad, Invalid };
+
+struct ContactSolution {
+  ContactStatus status = ContactStatus::NotRun;
+  std::string reason;
+  std::vector<double> pressure;  // [Pa]
+  std::vector<double> gap;       // [m] >= 0, zero under pressure
+  double shift = 0;              // rigid approach [m]
+  double certificate = 0;        // normalised bound on the energy error, Eq. contact.4
+  int iterations = 0;
+  double fft_pairs = 0;       // forward + inverse transforms, in units of the finest grid
+  double elastic_energy = 0;  // [J]
+
+  bool converged() const {
+    return status == ContactStatus::Converged || status == ContactStatus::NoLoad;
+  }
+};
+
+// height: rigid counter-body plus skin topography [m], grid.size() values, high touches first.
+// mean_pressure: external load over the patch area [Pa]. traction: attractive pressure [Pa] a
+// pixel, or empty. start: a nearby solution. Cost: 25-60 transforms pairs. Status NoLoad: nothing
+// presses (the patch hangs free or lifts off); Invalid: NaN input, or a mean load beyond the
+// hardness.
+ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,
+                              double mean_pressure, std::span<const double> traction,
+                              const ContactOptions& options,
+                              const ContactSolution* start = nullptr);
+
+// Contact area as fractions of the patch, by four estimators (Eq. contact.5-8).
+struct ContactArea {
+  double raw = 0;        // pixels under pressure
+  double perimeter = 0;  // raw minus 0.106 of the perimeter
+  double near_edge = 0;  // sub-pixel edge from the square-root law of the pressure
+  double moments = 0;    // (9/8)(sum p)^2 / sum p^2 a cluster: exact for Hertz
+  double se = 0;         // stated discretisation error of near_edge, a fraction of the patch
+};
+ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& solution);
+
+}  // namespace papilla

@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+
+#include "base/check.h"
+#include "base/constants.h"
+#include "physics/contact/contact.h"
+
+namespace papilla {
+
+double compliance(const LayeredSolid& s, double q) {
+  PAPILLA_CHECK(q > 0, "wave number");
+  const double bulk = 2 * (1 - square(s.bulk_poisson)) / (s.bulk_modulus * q);
+  const double layer = 2 * (1 - square(s.layer_poisson)) / (s.layer_modulus * q);
+  const double x = q * s.layer_thickness;
+  if (x <= 0) return bulk;
+  if (x > 40) return layer;
+  // Eq. contact.1 (Burmister 1945; O'Sullivan and King 1988)
+  const double g1 = s.layer_modulus / (2 * (1 + s.layer_poisson));
+  const double mu = g1 / (s.bulk_modulus / (2 * (1 + s.bulk_poisson)));
+  const double n1 = s.layer_poisson, n2 = s.bulk_poisson;
+  const double lam = 1 - 4 * (1 - n1) / (1 + mu * (3 - 4 * n2));
+  const double kap = (mu - 1) / (mu + 3 - 4 * n1);
+  const double t = std::exp(-2 * x);
+  // The denominator 1 - (lam + kap + 4 kap x^2) t + lam kap t^2, written so that thin stiff layers
+  // do not cancel: with t = 1 + m, m = expm1(-2x),
+  // (1-lam)(1-kap) - m (lam + kap - 2 lam kap) + lam kap m^2 - 4 kap x^2 t.
+  const double m = std::expm1(-2 * x);
+  const double denominator = (1 - lam) * (1 - kap) - m * (lam + kap - 2 * lam * kap) +
+                             lam * kap * m * m - 4 * kap * x * x * t;
+  const double numerator = 1 + 4 * x * kap * t - lam * kap * t * t;
+  return (1 - n1) / (g1 * q) * numerator / denominator;
+}
+
+double ContactKernel::contact_modulus() const {
+  return solid_.layer_thickness > 0 ? solid_.layer_modulus / (1 - square(solid_.layer_poisson))
+                                    : solid_.bulk_modulus / (1 - square(solid_.bulk_poisson));
+}
+
+ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
+    : grid_(grid), solid_(solid), fft_(Fft2d::shared(grid.nx, grid.ny)) {
+  const auto n = static_cast<double>(grid.size());
+  symbol_.assign(fft_->spectrum_size(), 0);
+  SpectrumArray stiffness(fft_->spectrum_size());
+  for (int ky = 0; ky < grid.ny; ++ky) {
+    const double qy = 2 * kPi * signed_mode(ky, grid.ny) / grid.ly;
+    for (int kx = 0; kx < fft_->half(); ++kx) {
+      if (kx == 0 && ky == 0) continue;  // the mean displacement belongs to the rigid shift
+      const double qx = 2 * kPi * kx / grid.lx;
+      const double c = compliance(solid, std::hypot(qx, qy));
+      const std::size_t i = static_cast<std::size_t>(ky) * fft_->half() + kx;
+      symbol_[i] = c / n;
+      stiffness[i] = 1 / (c * n);
+    }
+  }
+  RealArray table(grid.size());
+  fft_->inverse(stiffness.data(), table.data());
+  for (int dy = -kReach; dy <= kReach; ++dy) {
+    for (int dx = -kReach; dx <= kReach; ++dx) {
+      inverse_.push_back(table[grid.index(wrap(dx, grid.nx), wrap(dy, grid.ny))]);
+    }
+  }
+  RealArray impulse(grid.size(), 0.0);
+  impulse[0] = 1;
+  SpectrumArray scratch(fft_->spectrum_size());
+  displace(impulse, table, scratch);
+  self_ = table[0];
+  if (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::min(grid.nx, grid.ny) >= 64) {
+    coarse_ = make_contact_kernel({grid.nx / 2, grid.ny / 2, grid.lx, grid.ly}, solid);
+  }
+}
+
+void ContactKernel::displace(const RealArray& p, RealArray& u, SpectrumArray& scratch) const {
+  fft_->forward(p.data(), scratch.data());
+  for (std::size_t i = 0; i < scratch.size(); ++i) scratch[i] *= symbol_[i];
+  fft_->inverse(scratch.data(), u.data());
+}
+
+std::shared_ptr<const ContactKernel> make_contact_kernel(const Grid& grid, const LayeredSolid& s) {
+  // Kernels of recent scenes are kept: a search solves thousands of states on a few grids.
+  struct Entry {
+    Grid grid;
+    LayeredSolid solid;
+    std::shared_ptr<const ContactKernel> kernel;
+  };
+  static std::mutex mutex;
+  static std::vector<Entry> cache;
+  {
+    std::lock_guard lock(mutex);
+    for (const Entry& e : cache) {
+      if (e.grid == grid && e.solid == s) return e.kernel;
+    }
+  }
+  auto kernel = std::make_shared<const ContactKernel>(grid, s);
+  std::lock_guard lock(mutex);
+  constexpr std::size_t kKept = 64;
+  if (cache.size() >= kKept) cache.erase(cache.begin());
+  cache.push_back({grid, s, kernel});
+  return kernel;
+}
+
+}  // namespace papilla

@@ -1,0 +1,16 @@
+// Contact angle of water under voltage, with saturation.
+#pragma once
+
+namespace papilla {
+
+// eta = eps0 V^2 / (2 gamma sum d/eps). v [V], dielectric_equivalent = sum of d/eps [m], gamma
+// [N/m]. Infinite for a bare electrode under voltage. Eq. electrostatics.5
+double electrowetting_number(double v, double dielectric_equivalent, double surface_tension);
+
+// cos theta = c0 + dC tanh(eta/dC), dC = c_sat - c0; the right slope at 0 (Lippmann-Young), c_sat
+// at infinity. eta_peak is that of the peak voltage; for a sine the cosine is averaged over the
+// cycle (droplets of micrometres follow 5 kHz quasi-statically). No effect where c_sat <= c0. Eq.
+// electrostatics.6
+double electrowetted_cosine(double cos_rest, double cos_saturated, double eta_peak, bool sine);
+
+}  // namespace papilla

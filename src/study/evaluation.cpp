@@ -1,0 +1,174 @@
+#include "study/evaluation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "metrics/metrics.h"
+
+namespace papilla {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json measured(const Measured& m) {
+  return {{"value", number(m.value)},
+          {"se", number(m.se())},
+          {"parts",
+           {{"sampling", number(m.parts.sampling)},
+            {"grid", number(m.parts.grid)},
+            {"solver", number(m.parts.solver)},
+            {"humidity", number(m.parts.humidity)},
+            {"method", number(m.parts.method)},
+            {"parameters", number(m.parts.parameters)}}}};
+}
+
+Json summary_json(const Response& response) {
+  Json out = Json::object();
+  const std::array<std::pair<const char*, Summary>, 5> kinds{{{"mean_modulation", Summary::Mean},
+                                                              {"variation", Summary::Variation},
+                                                              {"range", Summary::Range},
+                                                              {"worst", Summary::Worst},
+                                                              {"std", Summary::Std}}};
+  for (const auto& [name, kind] : kinds) {
+    const auto value = summarise(kind, "modulation", response);
+    out[name] =
+        value ? Json{{"value", number(value->value)}, {"se", number(value->se)}} : Json(nullptr);
+  }
+  for (const char* metric : {"friction", "adhesion", "compliance"}) {
+    const auto value = summarise(Summary::Mean, metric, response);
+    out[std::string("mean_") + metric] =
+        value ? Json{{"value", number(value->value)}, {"se", number(value->se)}} : Json(nullptr);
+  }
+  return out;
+}
+
+Json plan_json(const Plan& plan) {
+  Json steps = Json::array(), skipped = Json::array();
+  for (const PlanStep& s : plan.steps) {
+    steps.push_back({{"piece", s.piece},
+                     {"method", s.method},
+                     {"reason", s.reason},
+                     {"seconds", s.seconds},
+                     {"error", s.error}});
+  }
+  for (const PlanSkip& s : plan.skipped) {
+    skipped.push_back({{"piece", s.piece}, {"reason", s.reason}, {"bound", s.bound}});
+  }
+  return {
+      {"grid",
+       {{"nx", plan.grid.nx}, {"ny", plan.grid.ny}, {"lx", plan.grid.lx}, {"ly", plan.grid.ly}}},
+      {"effective_cutoff", plan.effective_cutoff},
+      {"seconds", plan.seconds()},
+      {"steps", steps},
+      {"skipped", skipped}};
+}
+
+std::string with_error(const Measured& m, double scale, int digits) {
+  return fmt::format("{:.{}f} ±{:.{}f}", m.value * scale, digits, m.se() * scale, digits);
+}
+
+}  // namespace
+
+std::string response_json(const Response& response, bool with_time) {
+  Json points = Json::array();
+  for (const ResponsePoint& p : response.points) {
+    Json point;
+    point["relative_humidity"] = p.relative_humidity;
+    point["weight"] = p.weight;
+    point["patch_pressure"] = number(p.patch_pressure);
+    point["F_off"] = measured(p.friction_off);
+    point["F_on"] = response.driven ? measured(p.friction_on) : Json(nullptr);
+    point["modulation"] = response.driven ? measured(p.modulation) : Json(nullptr);
+    point["area_fraction_off"] = measured(p.area_fraction_off);
+    point["area_fraction_on"] = response.driven ? measured(p.area_fraction_on) : Json(nullptr);
+    point["capillary_force"] = measured(p.capillary_force);
+    point["electrostatic_force"] = measured(p.electrostatic_force);
+    point["retention_force"] = measured(p.retention_force);
+    point["bridges"] = measured(p.bridges);
+    point["wetted_fraction"] = measured(p.wetted_fraction);
+    point["mean_gap"] = measured(p.mean_gap);
+    point["indentation"] = measured(p.indentation);
+    point["bridge_water_share"] = number(p.bridge_water_share);
+    point["over_limit_area"] = number(p.over_limit_area);
+    point["over_limit_share"] = number(p.over_limit_share);
+    point["peak_air_field"] = number(p.peak_air_field);
+    point["peak_oxide_field"] = number(p.peak_oxide_field);
+    point["status"] = p.status;
+    points.push_back(std::move(point));
+  }
+  Json out{{"schema", 1},
+           {"points", points},
+           {"summary", summary_json(response)},
+           {"plan", plan_json(response.plan)}};
+  if (with_time) out["seconds"] = response.seconds;
+  out["contact_solves"] = response.contact_solves;
+  out["fft_pairs"] = number(response.fft_pairs);
+  return out.dump(2);
+}
+
+std::string modulation_sparkline(const Response& response) {
+  if (!response.driven || response.points.empty()) return {};
+  static constexpr std::array<const char*, 8> kBars{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  double high = 0;
+  for (const ResponsePoint& p : response.points) high = std::max(high, p.modulation.value);
+  std::string out;
+  for (const ResponsePoint& p : response.points) {
+    const double share = high > 0 ? std::clamp(p.modulation.value / high, 0.0, 1.0) : 0;
+    out += kBars[static_cast<std::size_t>(std::lround(7 * share))];
+  }
+  return out;
+}
+
+std::string response_table(const Response& response) {
+  std::string out =
+      fmt::format("{:>6} {:>9} {:>16} {:>16} {:>15} {:>14} {:>14} {:>14} {:>9} {:>9}\n", "RH",
+                  "patch kPa", "F_off mN", "F_on mN", "modulation", "contact off %", "capillary mN",
+                  "electro mN", "bridges", "gap nm");
+  for (const ResponsePoint& p : response.points) {
+    out += fmt::format(
+        "{:>5.0f}% {:>9.0f} {:>16} {:>16} {:>15} {:>14} {:>14} {:>14} {:>9.1f} {:>9.0f}\n",
+        100 * p.relative_humidity, 1e-3 * p.patch_pressure, with_error(p.friction_off, 1e3, 1),
+        response.driven ? with_error(p.friction_on, 1e3, 1) : "-",
+        response.driven ? with_error(p.modulation, 1, 3) : "-",
+        with_error(p.area_fraction_off, 100, 3), with_error(p.capillary_force, 1e3, 1),
+        response.driven ? with_error(p.electrostatic_force, 1e3, 1) : "-", p.bridges.value,
+        1e9 * p.mean_gap.value);
+  }
+  if (response.driven) {
+    const auto mean = summarise(Summary::Mean, "modulation", response);
+    const auto variation = summarise(Summary::Variation, "modulation", response);
+    const auto range = summarise(Summary::Range, "modulation", response);
+    const auto worst = summarise(Summary::Worst, "modulation", response);
+    out += fmt::format("modulation {}", modulation_sparkline(response));
+    if (mean) out += fmt::format("  mean {:.3f} ±{:.3f}", mean->value, mean->se);
+    if (worst) out += fmt::format("  worst {:.3f} ±{:.3f}", worst->value, worst->se);
+    if (variation)
+      out += fmt::format("  variation (sd/mean) {:.3f} ±{:.3f}", variation->value, variation->se);
+    if (range) out += fmt::format("  range/mean {:.3f} ±{:.3f}", range->value, range->se);
+    out += '\n';
+    double area = 0, share = 0, oxide = 0;
+    for (const ResponsePoint& p : response.points) {
+      area = std::max(area, p.over_limit_area);
+      share = std::max(share, p.over_limit_share);
+      oxide = std::max(oxide, p.peak_oxide_field);
+    }
+    out += fmt::format(
+        "air beyond its breakdown field on up to {:.1f} % of the patch, {:.0f} % of the pull; "
+        "peak field in the dielectric {:.0f} V/um\n",
+        100 * area, 100 * share, 1e-6 * oxide);
+  } else {
+    out += "undriven (0 V): no modulation\n";
+  }
+  if (const std::string trouble = response.trouble(); !trouble.empty()) {
+    out += "note: " + trouble + "\n";
+  }
+  return out;
+}
+
+}  // namespace papilla

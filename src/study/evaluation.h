@@ -1,0 +1,21 @@
+// A Response for people (table) and for programs (JSON, schema 1).
+#pragma once
+
+#include <string>
+
+#include "forward/response.h"
+
+namespace papilla {
+
+// Humidity table with error bars, summary lines, and what limits trust in it.
+std::string response_table(const Response& response);
+
+// {"schema": 1, "points": [...], "summary": {...}, "plan": {...}, "seconds", "contact_solves",
+// "fft_pairs"}: SI units, fractions for percentages, null never NaN.
+// with_time = false leaves the clock out, for files that must be reproducible.
+std::string response_json(const Response& response, bool with_time = true);
+
+// Unicode bars of the modulation over humidity; "" when undriven.
+std::string modulation_sparkline(const Response& response);
+
+}  // namespace papilla

@@ -1,0 +1,140 @@
+#include "forward/forward.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "metrics/metrics.h"
+
+namespace papilla {
+namespace {
+
+Scene driven_scene() {
+  Scene scene;
+  scene.drive.amplitude = 200;
+  return scene;
+}
+
+Fidelity small(int skins = 4) {
+  Fidelity f = fidelity_level("search");
+  f.grid = 64;
+  f.skins = skins;
+  return f;
+}
+
+TEST(Forward, IsTheSameForOneAndTwoThreads) {
+  Fidelity one = small(), two = small();
+  one.threads = 1;
+  two.threads = 2;
+  const Response a = evaluate(driven_scene(), Texture{HoleArray{}}, one);
+  const Response b = evaluate(driven_scene(), Texture{HoleArray{}}, two);
+  ASSERT_EQ(a.points.size(), b.points.size());
+  for (std::size_t i = 0; i < a.points.size(); ++i) EXPECT_EQ(a.points[i], b.points[i]);
+}
+
+TEST(Forward, WithoutVoltageOnIsOff) {
+  const Response r = evaluate(Scene{}, Texture{HoleArray{}}, small());
+  EXPECT_FALSE(r.driven);
+  for (const ResponsePoint& p : r.points) {
+    EXPECT_EQ(p.friction_on.value, p.friction_off.value);
+    EXPECT_EQ(p.electrostatic_force.value, 0);
+  }
+  EXPECT_FALSE(summarise(Summary::Mean, "modulation", r));
+}
+
+TEST(Forward, WithoutWaterThereIsNoCapillaryForce) {
+  Scene scene = driven_scene();
+  scene.finger.water.volume = {0, 0, 0, 0};
+  const Response r = evaluate(scene, Texture{}, small());
+  for (const ResponsePoint& p : r.points) {
+    EXPECT_EQ(p.capillary_force.value, 0);
+    EXPECT_EQ(p.bridges.value, 0);
+    EXPECT_GT(p.modulation.value, 0);
+  }
+}
+
+TEST(Forward, PullGrowsWithTheSquareOfTheVoltage) {
+  Scene scene = driven_scene();
+  scene.finger.water.volume = {0, 0, 0, 0};  // water saturates; the dry field does not
+  const Response high = evaluate(scene, Texture{}, small(2));
+  scene.drive.amplitude = 100;
+  const Response low = evaluate(scene, Texture{}, small(2));
+  for (std::size_t i = 0; i < high.points.size(); ++i) {
+    EXPECT_NEAR(high.points[i].electrostatic_force.value / low.points[i].electrostatic_force.value,
+                4, 1e-9);
+  }
+}
+
+TEST(Forward, AFlatTextureOfAnyKindIsTheFlatSurface) {
+  const Response flat = evaluate(driven_scene(), Texture{}, small(2));
+  const Response holes = evaluate(driven_scene(), Texture{HoleArray{.depth = 0}}, small(2));
+  for (std::size_t i = 0; i < flat.points.size(); ++i) {
+    EXPECT_EQ(flat.points[i].modulation.value, holes.points[i].modulation.value);
+  }
+}
+
+TEST(Forward, TheLoadLawAgreesWithResolvedAreas) {
+  // Prototype: within 4-6 % of the modulation at this grid, before the exponent corrects it.
+  Fidelity load = small(8);
+  load.grid = 128;
+  Fidelity area = load;
+  area.estimator = Estimator::Area;
+  area.contact_tolerance = 1e-5;
+  const Response a = evaluate(driven_scene(), Texture{}, load);
+  const Response b = evaluate(driven_scene(), Texture{}, area);
+  const double x = summarise(Summary::Mean, "modulation", a)->value;
+  const double y = summarise(Summary::Mean, "modulation", b)->value;
+  EXPECT_NEAR(x, y, 0.15 * y);
+}
+
+TEST(Forward, TheStartingFingerGivesThePrototypesMagnitudes) {
+  // Set E, flat, 50 deg, fresh skins: modulation .73/.78/.61/.38; F_off rises 2.33x.
+  Fidelity f = fidelity_level("search");
+  f.skins = 16;
+  const Response r = evaluate(driven_scene(), Texture{}, f);
+  const double expected[4] = {0.73, 0.78, 0.61, 0.38};
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(r.points[i].modulation.value, expected[i], 0.2 * expected[i]);
+  EXPECT_NEAR(r.points[3].friction_off.value / r.points[0].friction_off.value, 2.33, 0.25);
+}
+
+TEST(Forward, SelfConsistentCouplingRaisesThePull) {
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.35};
+  const Response once = evaluate(scene, Texture{}, small(2));
+  scene.model.coupling = Coupling::SelfConsistent;
+  Fidelity f = small(2);
+  f.coupling_passes = 40;
+  const Response settled = evaluate(scene, Texture{}, f);
+  EXPECT_GT(settled.points[0].electrostatic_force.value, once.points[0].electrostatic_force.value);
+  EXPECT_EQ(settled.points[0].status, "ok");
+}
+
+TEST(Forward, VoltagePastPullInEndsInAStatus) {
+  Scene scene = driven_scene();
+  scene.drive.amplitude = 20000;
+  scene.environment.relative_humidity = {0.15};
+  scene.model.coupling = Coupling::SelfConsistent;
+  const Response r = evaluate(scene, Texture{}, small(1));
+  EXPECT_NE(r.points[0].status, "ok");
+}
+
+TEST(Plan, SaysWhatIsSkippedAndWhy) {
+  Scene scene;
+  scene.finger.water.volume = {0, 0, 0, 0};
+  const Plan plan = make_plan(scene, Texture{}, fidelity_level("design"));
+  bool field = false, water = false;
+  for (const PlanSkip& skip : plan.skipped) {
+    field = field || (skip.piece == "field" && skip.reason.find("0 V") != std::string::npos);
+    water = water || skip.piece == "water";
+  }
+  EXPECT_TRUE(field);
+  EXPECT_TRUE(water);
+  EXPECT_FALSE(plan.traction_solves);
+}
+
+TEST(Fidelity, AnUnknownLevelIsRefused) { EXPECT_THROW(fidelity_level("best"), InputError); }
+
+}  // namespace
+}  // namespace papilla

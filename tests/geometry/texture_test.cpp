@@ -1,0 +1,177 @@
+#include "geometry/texture.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "geometry/particles.h"
+#include "geometry/roughness.h"
+
+namespace papilla {
+namespace {
+
+double mean(const Heightmap& h) {
+  return std::accumulate(h.z.begin(), h.z.end(), 0.0) / static_cast<double>(h.z.size());
+}
+
+TEST(HoleArray, RemovesThePublishedVolume) {
+  // Vertical walls: mean height is -depth x pi a^2 / (4 period^2), also at 8 pixels a diameter.
+  for (double diameter : {3e-6, 4e-6}) {
+    Texture t{HoleArray{.diameter = diameter, .depth = 350e-9, .wall_angle = kPi / 2}};
+    for (int pixels : {32, 128, 256}) {
+      const Grid grid = patch_grid(t, pixels);
+      const double expected = -350e-9 * kPi / 4 * square(diameter / 6e-6);
+      EXPECT_NEAR(mean(generate(t, grid)), expected, 2e-3 * std::abs(expected)) << pixels;
+    }
+  }
+}
+
+TEST(HoleArray, HexagonalPatchHoldsWholePeriods) {
+  Texture t{HoleArray{.lattice = Lattice::Hexagonal,
+                      .period = 3e-6,
+                      .diameter = 2e-6,
+                      .depth = 1e-7,
+                      .wall_angle = kPi / 2}};
+  const Grid grid = patch_grid(t, 128);
+  EXPECT_NEAR(std::fmod(grid.lx / 3e-6 + 1e-9, 1), 0, 1e-6);
+  EXPECT_NEAR(std::fmod(grid.ly / (std::sqrt(3.0) * 3e-6) + 1e-9, 1), 0, 1e-6);
+  EXPECT_NEAR(mean(generate(t, grid)), -1e-7 * open_fraction(t), 3e-3 * 1e-7);
+}
+
+TEST(HoleArray, SlopedWallsRemoveAFrustum) {
+  const double r = 1.5e-6, depth = 600e-9, angle = 70 * kPi / 180;
+  Texture t{HoleArray{.depth = depth, .wall_angle = angle}};
+  const double floor = r - depth / std::tan(angle);
+  const double volume = kPi * depth / 3 * (r * r + r * floor + floor * floor);
+  const Grid grid = patch_grid(t, 256);
+  EXPECT_NEAR(mean(generate(t, grid)), -volume / 36e-12, 1e-3 * volume / 36e-12);
+  EXPECT_NEAR(fabrication_margins(t).min_hole, 2 * floor, 1e-15);
+}
+
+TEST(HoleArray, ZeroDepthIsFlat) {
+  Texture t{HoleArray{.depth = 0}};
+  for (double z : generate(t, patch_grid(t, 64)).z) EXPECT_EQ(z, 0);
+  EXPECT_TRUE(std::isinf(fabrication_margins(t).min_hole));
+}
+
+TEST(HoleArray, RimRadiusTakesAwayMaterialAtTheEdgeOnly) {
+  Texture sharp{HoleArray{.depth = 600e-9, .wall_angle = kPi / 2}};
+  Texture round{HoleArray{.depth = 600e-9, .wall_angle = kPi / 2, .edge_radius = 250e-9}};
+  const Grid grid = patch_grid(sharp, 256);
+  const Heightmap a = generate(sharp, grid), b = generate(round, grid);
+  for (std::size_t i = 0; i < a.z.size(); ++i) EXPECT_LE(b.z[i], a.z[i] + 1e-15);
+  // Pappus: the corner r^2 (1 - pi/4) swept round the hole at its centroid.
+  // The spandrel's centroid lies (10 - 3 pi)/(12 - 3 pi) r = 0.2234 r from the wall.
+  const double r = 250e-9;
+  const double corner = r * r * (1 - kPi / 4);
+  const double removed = (mean(a) - mean(b)) * grid.area() / 4;
+  EXPECT_NEAR(removed, 2 * kPi * (1.5e-6 + 0.2234 * r) * corner, 0.02 * removed);
+}
+
+TEST(PillarArray, IsTheHoleArrayUpsideDown) {
+  Texture pillars{PillarArray{.height = 3e-7, .wall_angle = kPi / 2}};
+  const Heightmap h = generate(pillars, patch_grid(pillars, 128));
+  EXPECT_NEAR(mean(h), 3e-7 * kPi / 16, 1e-3 * 3e-7);
+  EXPECT_GE(*std::min_element(h.z.begin(), h.z.end()), -1e-20);
+}
+
+TEST(Grating, HasItsFill) {
+  Texture t{Grating{.period = 4e-6, .width = 1.3e-6, .depth = 2e-7, .wall_angle = kPi / 2}};
+  EXPECT_NEAR(mean(generate(t, patch_grid(t, 128))), -2e-7 * 1.3 / 4, 1e-12);
+}
+
+TEST(Texture, ContradictionsAreNamed) {
+  EXPECT_EQ(problems(Texture{HoleArray{.period = 3e-6, .diameter = 3e-6}}).front().first,
+            "diameter");
+  EXPECT_EQ(problems(Texture{HoleArray{.depth = 1e-6, .wall_angle = 20 * kPi / 180}}).front().first,
+            "wall_angle");
+  EXPECT_EQ(problems(Texture{ParticleFilm{.coverage = 0.6}}).front().first, "coverage");
+  EXPECT_TRUE(problems(Texture{HoleArray{}}).empty());
+}
+
+TEST(ParticleFilm, CoversItsShareWithoutOverlap) {
+  const ParticleFilm film{.radius = 1e-6, .radius_spread = 0.1, .coverage = 0.35, .embedding = 0.5};
+  const Grid grid{128, 128, 24e-6, 24e-6};
+  const auto particles = place_particles(film, grid);
+  double covered = 0;
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    covered += kPi * square(particles[i].radius);
+    for (std::size_t j = 0; j < i; ++j) {
+      double dx = particles[i].x - particles[j].x, dy = particles[i].y - particles[j].y;
+      dx -= 24e-6 * std::round(dx / 24e-6);
+      dy -= 24e-6 * std::round(dy / 24e-6);
+      EXPECT_GE(std::hypot(dx, dy), (particles[i].radius + particles[j].radius) * (1 - 1e-12));
+    }
+  }
+  EXPECT_NEAR(covered / grid.area(), 0.35, 0.005);
+  EXPECT_THROW(
+      place_particles(ParticleFilm{.radius = 7e-6, .coverage = 0.5}, {64, 64, 12e-6, 12e-6}),
+      InputError);
+}
+
+TEST(Stack, SumsItsParts) {
+  Stack stack;
+  stack.parts = {Texture{HoleArray{}}, Texture{RandomRough{}}};
+  const Texture t{stack};
+  const Grid grid = patch_grid(t, 64);
+  const Heightmap sum = generate(t, grid), a = generate(stack.parts[0], grid),
+                  b = generate(stack.parts[1], grid);
+  for (std::size_t i = 0; i < sum.z.size(); ++i) EXPECT_DOUBLE_EQ(sum.z[i], a.z[i] + b.z[i]);
+}
+
+TEST(RandomSurface, HasItsRmsAndIsTheSameOnFinerGrids) {
+  const Spectrum s{256e-9, 3.7e-6, 0.8, 400e-9};
+  const Heightmap coarse = random_surface(s, {64, 64, 12e-6, 12e-6}, 1, 2);
+  const Heightmap fine = random_surface(s, {192, 192, 12e-6, 12e-6}, 1, 2);
+  EXPECT_NEAR(roughness_parameters(fine).sq, 256e-9, 1e-12);
+  // Pixel centres coincide for an odd ratio.
+  for (int iy = 0; iy < 64; ++iy) {
+    for (int ix = 0; ix < 64; ++ix)
+      EXPECT_NEAR(coarse(ix, iy), fine(3 * ix + 1, 3 * iy + 1), 1e-18);
+  }
+}
+
+TEST(RandomSurface, OffsetMovesIt) {
+  const Spectrum s{1e-7, 3e-6, 0.8, 5e-7};
+  const Grid grid{64, 64, 12e-6, 12e-6};
+  const Heightmap a = random_surface(s, grid, 1, 0),
+                  b = random_surface(s, grid, 1, 0, 3 * grid.dx(), 5 * grid.dy());
+  for (int iy = 0; iy < 64; ++iy) {
+    for (int ix = 0; ix < 64; ++ix)
+      EXPECT_NEAR(a(ix, iy), b(wrap(ix + 3, 64), wrap(iy + 5, 64)), 1e-18);
+  }
+}
+
+TEST(Roughness, CosineHasItsClosedForms) {
+  const double amplitude = 0.3e-6, period = 6e-6;
+  Heightmap h{{256, 4, period, period / 64}, {}};
+  h.z.resize(h.grid.size());
+  for (int iy = 0; iy < 4; ++iy) {
+    for (int ix = 0; ix < 256; ++ix)
+      h(ix, iy) = amplitude * std::cos(2 * kPi * h.grid.x(ix) / period);
+  }
+  const RoughnessParameters r = roughness_parameters(h);
+  EXPECT_NEAR(r.sa, 2 * amplitude / kPi, 1e-4 * amplitude);
+  EXPECT_NEAR(r.sq, amplitude / std::sqrt(2.0), 1e-10 * amplitude);
+  EXPECT_NEAR(r.ssk, 0, 1e-10);
+  EXPECT_NEAR(r.sku, 1.5, 1e-10);
+  EXPECT_NEAR(r.sdq, std::sqrt(2.0) * kPi * amplitude / period, 2e-4);
+  EXPECT_NEAR(r.sdr, 0.0242352, 1e-4 * 0.0242);
+  EXPECT_FALSE(r.slopes_sampling_limited);
+}
+
+TEST(Roughness, HolesHaveTheirMomentsAndFlagTheirSlopes) {
+  Texture t{HoleArray{.diameter = 4e-6, .depth = 350e-9, .wall_angle = kPi / 2}};
+  const RoughnessParameters r = roughness_parameters(generate(t, patch_grid(t, 512)));
+  const double f = open_fraction(t);
+  EXPECT_NEAR(r.sq, 350e-9 * std::sqrt(f * (1 - f)), 0.01 * r.sq);
+  EXPECT_NEAR(r.ssk, -(1 - 2 * f) / std::sqrt(f * (1 - f)), 0.03);
+  EXPECT_TRUE(r.slopes_sampling_limited);
+}
+
+}  // namespace
+}  // namespace papilla

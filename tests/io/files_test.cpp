@@ -1,0 +1,127 @@
+#include "geometry/io/files.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "base/error.h"
+#include "geometry/texture.h"
+
+namespace papilla {
+namespace {
+
+class Files : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() /
+              ("papilla_files_" + std::to_string(::getpid()) + "_" +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  std::filesystem::path folder_;
+};
+
+Heightmap holes() {
+  const Texture t{HoleArray{}};
+  return generate(t, patch_grid(t, 96));
+}
+
+void expect_equal(const Heightmap& a, const Heightmap& b, double tolerance, double offset = 0) {
+  EXPECT_EQ(a.grid.nx, b.grid.nx);
+  EXPECT_NEAR(a.grid.lx, b.grid.lx, 1e-12 * a.grid.lx);
+  EXPECT_NEAR(a.grid.ly, b.grid.ly, 1e-12 * a.grid.ly);
+  for (std::size_t i = 0; i < a.z.size(); ++i) ASSERT_NEAR(a.z[i] + offset, b.z[i], tolerance);
+}
+
+TEST_F(Files, NpyKeepsEveryBit) {
+  const Heightmap h = holes();
+  write_npy(path("h.npy"), h);
+  const Heightmap back = read_heightmap(path("h.npy"), h.grid.lx);
+  for (std::size_t i = 0; i < h.z.size(); ++i) EXPECT_EQ(h.z[i], back.z[i]);
+  EXPECT_THROW(read_heightmap(path("h.npy")), InputError);  // no size in the file
+}
+
+TEST_F(Files, GsfExrAndTiffKeepSizeAndHeights) {
+  const Heightmap h = holes();
+  const double depth = 350e-9;
+  write_gsf(path("h.gsf"), h, {});
+  expect_equal(h, read_heightmap(path("h.gsf")), 1e-7 * depth);
+  write_exr(path("h.exr"), h, {});
+  expect_equal(h, read_heightmap(path("h.exr")), 1e-6 * depth, depth);  // lowest plane is 0
+  write_tiff_float(path("f.tif"), h, {});
+  expect_equal(h, read_heightmap(path("f.tif")), 1e-6 * depth, depth);
+  for (Polarity polarity : {Polarity::WhiteHigh, Polarity::WhiteDeep}) {
+    write_tiff16(path("h.tif"), h, polarity, {});
+    expect_equal(h, read_heightmap(path("h.tif")), depth / 65535);
+  }
+}
+
+TEST_F(Files, TheSameHeightmapGivesTheSameBytes) {
+  const Heightmap h = holes();
+  for (const char* name : {"a.exr", "a.tif", "a.gsf", "a.png"}) {
+    const auto write = [&] {
+      const std::string p = path(name);
+      if (p.ends_with("exr")) write_exr(p, h, {});
+      if (p.ends_with("tif")) write_tiff16(p, h, Polarity::WhiteHigh, {});
+      if (p.ends_with("gsf")) write_gsf(p, h, {});
+      if (p.ends_with("png")) write_png(p, h);
+      return read_bytes(p);
+    };
+    EXPECT_EQ(write(), write()) << name;
+  }
+}
+
+TEST_F(Files, MaskPolarityIsWhatWasAskedFor) {
+  const Heightmap h = holes();
+  write_mask_tiff(path("m.tif"), h, Polarity::WhiteDeep, {});
+  const std::string bytes = read_bytes(path("m.tif"));
+  EXPECT_NE(bytes.find("white-is-deep"), std::string::npos);
+}
+
+TEST_F(Files, AFailedWriteLeavesTheOldFile) {
+  write_bytes(path("x.txt"), "old");
+  EXPECT_THROW(write_bytes(path("missing/x.txt"), "new"), InputError);
+  Heightmap broken = holes();
+  write_exr(path("x.exr"), holes(), {});
+  const std::string before = read_bytes(path("x.exr"));
+  broken.z[3] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(write_exr(path("x.exr"), broken, {}), InputError);
+  EXPECT_EQ(read_bytes(path("x.exr")), before);
+  EXPECT_THROW(write_exr(path("missing/x.exr"), holes(), {}), InputError);
+  EXPECT_FALSE(std::filesystem::exists(path("x.part.exr")));
+}
+
+TEST_F(Files, HostileFilesAreRefused) {
+  const auto file = [&](const std::string& name, const std::string& bytes) {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+    return path(name);
+  };
+  EXPECT_THROW(
+      read_heightmap(file(
+          "a.gsf",
+          "Gwyddion Simple Field 1.0\nXRes = 1000000\nYRes = 1000000\nXReal = 1\nYReal = 1\n\0\0")),
+      InputError);
+  EXPECT_THROW(read_heightmap(file("b.gsf", "Gwyddion Simple Field 1.0\nXRes = nan\nYRes = 4\n")),
+               InputError);
+  EXPECT_THROW(read_heightmap(file("c.npy", "\x93NUMPY\x01")), InputError);
+  EXPECT_THROW(
+      read_heightmap(
+          file("d.npy", std::string("\x93NUMPY\x01\x00\x40\x00", 10) +
+                            "{'descr': '<f8', 'fortran_order': False, 'shape': (-3, 99999999), }"),
+          1),
+      InputError);
+  EXPECT_THROW(read_heightmap(file("e.exr", "not an image")), InputError);
+  EXPECT_THROW(read_heightmap(file("f.tif", "II*\0garbage")), InputError);
+  EXPECT_THROW(read_heightmap(path("absent.gsf")), InputError);
+  EXPECT_THROW(read_heightmap(file("g.xyz", "1 2 3")), InputError);
+}
+
+}  // namespace
+}  // namespace papilla
