@@ -187,7 +187,7 @@ Decimal shortest_decimal(double value) {
 std::string decimal_text(const Decimal& d) {
   const int n = static_cast<int>(d.digits.size());
   if (d.digits == "0") return fmt::format("{}0", d.sign);
-  if (d.exponent > 15 || d.exponent < -4) {
+  if (d.exponent > 15 || d.exponent < -4 || d.exponent - n > 6) {
     return fmt::format("{}{}{}{}e{}", d.sign, d.digits.substr(0, 1), n > 1 ? "." : "",
                        d.digits.substr(1), d.exponent - 1);
   }

@@ -7,10 +7,12 @@
 
 namespace papilla {
 
+void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 
 // In the order of `papilla --help`.
 inline constexpr std::array kCommands{
+    add_describe,
     add_completion,
 };
 

@@ -581,6 +581,11 @@ const Node* Document::take(const std::string& path) {
   return node;
 }
 
+bool Document::number(const Node& node, const std::string& key, const NumberSpec& spec,
+                      double& si) {
+  return state_->convert(spec, node, key, si);
+}
+
 bool Document::has(const std::string& path) const { return find_path(state_->root, path); }
 
 void Document::problem(const Place& place, const std::string& key, const std::string& message) {

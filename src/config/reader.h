@@ -35,6 +35,9 @@ class Document {
   const Node* take(const std::string& path);
   bool has(const std::string& path) const;
 
+  // Reads one number at a node by a spec; false (and a problem at `key`) when it does not fit.
+  bool number(const Node& node, const std::string& key, const NumberSpec& spec, double& si);
+
   void problem(const Place& place, const std::string& key, const std::string& message);
   // At the value of `path` (or its nearest section that is in the file).
   void problem_at(const std::string& path, const std::string& message);

@@ -1,0 +1,54 @@
+// papilla describe [SECTION]: the reference of every key.
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "config/writer.h"
+#include "study/reference.h"
+
+namespace papilla {
+namespace {
+
+struct DescribeOptions {
+  std::string section, out;
+  bool markdown = false;
+};
+
+int describe(const DescribeOptions& options) {
+  const auto format = options.markdown ? ReferenceFormat::Markdown : ReferenceFormat::Text;
+  if (!options.out.empty()) {
+    std::filesystem::create_directories(options.out);
+    for (const std::string& section : reference_sections()) {
+      write_text_file(options.out + "/" + section + ".md",
+                      reference_section(section, ReferenceFormat::Markdown));
+    }
+    return kSuccess;
+  }
+  if (!options.section.empty()) {
+    std::cout << reference_section(options.section, format);
+    return kSuccess;
+  }
+  for (const std::string& section : reference_sections()) {
+    std::cout << reference_section(section, format) << '\n';
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_describe(CLI::App& app, Context& context) {
+  CLI::App* command =
+      app.add_subcommand("describe", "The reference of every key: unit, range, default, source");
+  auto options = std::make_shared<DescribeOptions>();
+  command->add_option("section", options->section,
+                      "texture, surface, finger, ...; all when left out");
+  command->add_flag("--markdown", options->markdown, "Markdown tables");
+  command->add_option("--out", options->out, "Write one Markdown page a section into this folder")
+      ->type_name("DIR");
+  command->callback(
+      [&context, options] { context.action = [options] { return describe(*options); }; });
+}
+
+}  // namespace papilla

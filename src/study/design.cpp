@@ -1,0 +1,483 @@
+#include "study/design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "config/describe.h"
+#include "config/writer.h"
+
+namespace papilla {
+namespace {
+namespace fs = std::filesystem;
+}
+
+const std::vector<std::string>& accuracy_level_names() {
+  static const std::vector<std::string> names{"draft", "design", "reference"};
+  return names;
+}
+
+std::string AccuracySettings::level_name() const {
+  return accuracy_level_names()[static_cast<std::size_t>(level)];
+}
+
+void fields(FieldVisitor& v, AccuracySettings& s) {
+  v.choice({"level", "grid, samples and tolerances by name"}, accuracy_level_names(), s.level);
+  v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
+           s.target);
+}
+
+void fields(FieldVisitor& v, Design& s) {
+  v.integer(
+      {"schema_version", "version of the file format", Source::Choice, "", Presence::Required}, 1,
+      1, s.schema_version);
+  v.text({"title", "a line for reports"}, s.title);
+  v.section({"texture", "the shape of the surface"}, s.texture);
+  v.section({"surface", "the finish of the surface"}, s.surface);
+  v.section({"finger", "the finger that touches it"}, s.finger);
+  v.section({"environment", "the air"}, s.environment);
+  v.section({"drive", "the voltage"}, s.drive);
+  if (v.reading()) s.model = s.finger.calibrated_for;
+  v.section({"model", "model options; default: those that the finger was fitted with"}, s.model);
+  v.section({"accuracy", "speed against error"}, s.accuracy);
+}
+
+void fields(FieldVisitor& v, Search& s) {
+  int method =
+      static_cast<int>(std::find(search_methods().begin(), search_methods().end(), s.method) -
+                       search_methods().begin());
+  v.choice({"method", "search method"}, search_methods(), method);
+  s.method = search_methods()[static_cast<std::size_t>(method)];
+  v.integer({"seed", "of the search's random numbers"}, 0, 1 << 30, s.seed);
+  v.integer({"evaluations", "largest number of evaluated designs; 0: the method's default"}, 0,
+            100000000, s.evaluations);
+  v.number({"time", "min", 0, 1e6, "largest wall-clock time; 0: no limit"}, s.time);
+  v.integer({"jobs", "evaluations at a time; 0: one a processor"}, 0, 4096, s.jobs);
+}
+
+const std::vector<std::string>& search_methods() {
+  static const std::vector<std::string> names{"auto", "bobyqa", "direct", "cmaes", "nsga2"};
+  return names;
+}
+
+const std::vector<ConstraintKind>& constraint_kinds() {
+  static const std::vector<ConstraintKind> kinds{
+      {"min_hole", "um", true, "smallest hole or gap between features"},
+      {"min_wall", "um", true, "smallest wall or feature"},
+      {"aspect_ratio", "", false, "largest depth / smallest width of a hole"},
+      {"oxide_breakdown_margin", "", true,
+       "breakdown field of the dielectric / largest field in it"},
+  };
+  return kinds;
+}
+
+std::vector<DesignProblem> design_problems(const Design& design) {
+  std::vector<DesignProblem> out;
+  const auto problem = [&](const char* path, std::string message) {
+    out.push_back({path, std::move(message)});
+  };
+  const FabricationMargins margins = fabrication_margins(design.texture);
+  if (margins.min_wall <= 0) {
+    problem("texture.diameter", "the features overlap: expected less than the period");
+  }
+  const Environment& air = design.environment;
+  if (air.relative_humidity.empty()) {
+    problem("environment.relative_humidity", "expected at least one humidity");
+  }
+  for (std::size_t i = 1; i < air.relative_humidity.size(); ++i) {
+    if (air.relative_humidity[i] <= air.relative_humidity[i - 1]) {
+      problem("environment.relative_humidity", "expected rising values");
+      break;
+    }
+  }
+  if (!air.weights.empty()) {
+    if (air.weights.size() != air.relative_humidity.size()) {
+      problem("environment.weights", fmt::format("expected {} weights, one a humidity, got {}",
+                                                 air.relative_humidity.size(), air.weights.size()));
+    } else if (*std::max_element(air.weights.begin(), air.weights.end()) <= 0) {
+      problem("environment.weights", "expected at least one weight above 0");
+    }
+  }
+  const SkinWater& water = design.finger.water;
+  if (water.volume.empty() || water.volume.size() != water.relative_humidity.size()) {
+    problem("finger.water.volume",
+            fmt::format("expected {} volumes, one a humidity of finger.water.relative_humidity, "
+                        "got {}",
+                        water.relative_humidity.size(), water.volume.size()));
+  }
+  for (std::size_t i = 1; i < water.relative_humidity.size(); ++i) {
+    if (water.relative_humidity[i] <= water.relative_humidity[i - 1]) {
+      problem("finger.water.relative_humidity", "expected rising values");
+      break;
+    }
+  }
+  if (design.finger.load <= 0) problem("finger.load", "expected a force above 0 N");
+  if (design.finger.saturation.rest_low == design.finger.saturation.rest_high) {
+    problem("finger.saturation.rest_high", "expected another angle than rest_low");
+  }
+  if (design.finger.skin.map.empty() && design.finger.skin.cutoff >= design.finger.skin.roll_off) {
+    problem("finger.skin.cutoff", "expected a shorter wavelength than roll_off");
+  }
+  const Drive& drive = design.drive;
+  if (drive.control == DriveControl::Current && drive.current <= 0) {
+    problem("drive.current", "expected a current above 0 mA under current control");
+  }
+  if (drive.waveform == Waveform::Am && drive.driven() && drive.modulation_frequency <= 0) {
+    problem("drive.modulation_frequency", "expected a frequency above 0 Hz for am");
+  }
+  if (drive.source_compliance > 0 && drive.amplitude > drive.source_compliance) {
+    problem("drive.amplitude",
+            fmt::format("{} is above source_compliance, {}", format_quantity(drive.amplitude, "V"),
+                        format_quantity(drive.source_compliance, "V")));
+  }
+  if (drive.driven() && design.surface.equivalent_thickness() <= 0) {
+    problem("surface.dielectric", "a driven surface needs a dielectric layer thicker than 0");
+  }
+  return out;
+}
+
+Design with_settings(Design design, const std::vector<Setting>& settings) {
+  for (const Setting& setting : settings) set_number(design, setting.path, setting.value);
+  return design;
+}
+
+std::vector<std::string> design_roots() {
+  std::vector<std::string> roots;
+  std::error_code error;
+  const char* named = std::getenv("PAPILLA_DESIGNS");
+  for (const char* folder : {named, PAPILLA_DESIGNS_DIR, PAPILLA_INSTALLED_DESIGNS_DIR}) {
+    if (folder && fs::is_directory(folder, error)) roots.emplace_back(folder);
+  }
+  return roots;
+}
+
+namespace {
+
+// "texture.diameter" = ... and texture.diameter = ... mean the same: members by full path.
+void flatten(const Node& table, const std::string& path, bool stop_at_choice,
+             std::vector<std::pair<std::string, const Node*>>& out) {
+  for (const Node& child : table.children) {
+    const std::string full = path.empty() ? child.key : path + "." + child.key;
+    const bool leaf = !child.is_table() || (stop_at_choice && child.find("choice"));
+    if (leaf) {
+      out.emplace_back(full, &child);
+    } else {
+      flatten(child, full, stop_at_choice, out);
+    }
+  }
+}
+
+class StudyReader {
+ public:
+  StudyReader(Document& document, Study& study) : document_(document), study_(study) {}
+
+  void read() {
+    read_section(document_, "", study_.design);
+    if (document_.problems().empty()) {  // else values may stand for ones that could not be read
+      for (const DesignProblem& p : design_problems(study_.design)) {
+        document_.problem_at(p.path, p.message);
+      }
+    }
+    numbers_ = number_fields(study_.design);
+    read_variables();
+    read_objective();
+    read_constraints();
+    read_population();
+    read_scenarios();
+    read_section(document_, "search", study_.search);
+    if (study_.is_study()) {
+      study_.study_sections.set("search", to_table(study_.search, &document_.origins(), "search"));
+    }
+    check_whole();
+  }
+
+ private:
+  const Node* table(const std::string& path) {
+    const Node* node = document_.take(path);
+    if (!node) return nullptr;
+    if (!node->is_table()) {
+      document_.problem(node->place, path,
+                        fmt::format("expected a section [{}], got {}", path, describe(*node)));
+      return nullptr;
+    }
+    keep(path);
+    return node;
+  }
+
+  void keep(const std::string& path) {
+    if (const Node* node = document_.take(path)) study_.study_sections.set(path, *node);
+  }
+
+  const NumberField* number_field(const std::string& path, const Node& node,
+                                  const std::string& where) {
+    for (const NumberField& field : numbers_) {
+      if (field.path == path) return &field;
+    }
+    std::vector<std::string> names;
+    for (const NumberField& field : numbers_) names.push_back(field.path);
+    const std::string near = nearest_name(path, names);
+    document_.problem(
+        node.key_place, where,
+        near.empty()
+            ? fmt::format("`{}` is no number of this design", path)
+            : fmt::format("`{}` is no number of this design, did you mean `{}`?", path, near));
+    return nullptr;
+  }
+
+  bool value(const NumberField& field, const Node& node, const std::string& where, double& si) {
+    return document_.number(
+        node, where, {field.path.c_str(), field.unit.c_str(), field.low, field.high, ""}, si);
+  }
+
+  void read_variables() {
+    const Node* space = table("design_space");
+    if (!space) return;
+    std::vector<std::pair<std::string, const Node*>> members;
+    flatten(*space, "", true, members);
+    for (const auto& [path, node] : members) {
+      const std::string where = "design_space." + path;
+      const NumberField* field = number_field(path, *node, "design_space");
+      if (!field) continue;
+      Variable variable{path, field->unit, 0, 0, {}};
+      const Node* choice = node->is_table() ? node->find("choice") : nullptr;
+      const Node& list = choice ? *choice : *node;
+      if (!list.is_array() || (!choice && list.children.size() != 2) || list.children.empty()) {
+        document_.problem(
+            list.place, where,
+            fmt::format("expected [low, high] or {{ choice = [...] }}, got {}", describe(list)));
+        continue;
+      }
+      if (choice && node->children.size() > 1) {
+        document_.problem(node->place, where, "expected `choice` alone");
+      }
+      std::vector<double> values(list.children.size());
+      bool good = true;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        good &= value(*field, list.children[i], where, values[i]);
+      }
+      if (!good) continue;
+      variable.low = *std::min_element(values.begin(), values.end());
+      variable.high = *std::max_element(values.begin(), values.end());
+      if (choice) {
+        variable.choices = values;
+      } else if (values[0] >= values[1]) {
+        document_.problem(list.place, where, "expected low < high");
+        continue;
+      }
+      study_.variables.push_back(std::move(variable));
+    }
+  }
+
+  std::vector<std::string> texts(const Node& section, const char* key, const std::string& path) {
+    const Node* node = section.find(key);
+    std::vector<std::string> out;
+    if (!node) return out;
+    const auto add = [&](const Node& item) {
+      if (item.is_text()) {
+        out.push_back(item.text);
+      } else {
+        document_.problem(item.place, path + "." + key,
+                          "expected a text or a list of texts, got " + describe(item));
+      }
+    };
+    if (node->is_array()) {
+      for (const Node& item : node->children) add(item);
+    } else {
+      add(*node);
+    }
+    return out;
+  }
+
+  void only(const Node& section, const std::string& path, const std::vector<std::string>& names) {
+    for (const Node& child : section.children) {
+      if (std::find(names.begin(), names.end(), child.key) != names.end()) continue;
+      const std::string near = nearest_name(child.key, names);
+      document_.problem(child.key_place, path,
+                        fmt::format("unknown key `{}`{}", child.key,
+                                    near.empty() ? "; known here: " + join_names(names)
+                                                 : fmt::format(", did you mean `{}`?", near)));
+    }
+  }
+
+  void read_objective() {
+    const Node* section = table("objective");
+    if (!section) return;
+    only(*section, "objective", {"maximise", "minimise", "risk"});
+    study_.objective.maximise = texts(*section, "maximise", "objective");
+    study_.objective.minimise = texts(*section, "minimise", "objective");
+    const std::vector<std::string> risk = texts(*section, "risk", "objective");
+    if (!risk.empty()) study_.objective.risk = risk.front();
+  }
+
+  void read_constraints() {
+    const Node* section = table("constraints");
+    if (!section) return;
+    std::vector<std::string> names;
+    for (const ConstraintKind& kind : constraint_kinds()) names.push_back(kind.name);
+    only(*section, "constraints", names);
+    for (const Node& child : section->children) {
+      for (const ConstraintKind& kind : constraint_kinds()) {
+        if (kind.name != child.key) continue;
+        double limit = 0;
+        if (document_.number(child, "constraints." + child.key,
+                             {kind.name.c_str(), kind.unit.c_str(), 0, 1e9, ""}, limit)) {
+          study_.constraints.push_back({kind.name, limit, kind.at_least});
+        }
+      }
+    }
+  }
+
+  void read_population() {
+    const Node* section = table("population");
+    if (!section) return;
+    only(*section, "population", {"fingers"});
+    const Node* list = section->find("fingers");
+    if (!list || !list->is_array() || list->children.empty()) {
+      document_.problem(list ? list->place : section->place, "population.fingers",
+                        "expected a list of finger files");
+      return;
+    }
+    std::vector<Node> files;  // absolute, for resolved.toml in another folder
+    for (const Node& item : list->children) {
+      const std::string file =
+          item.is_text() ? find_beside(item.text, item.place.file, design_roots()) : "";
+      if (file.empty()) {
+        document_.problem(item.place, "population.fingers",
+                          item.is_text() ? fmt::format("no file \"{}\" beside this file or in the "
+                                                       "designs folder",
+                                                       item.text)
+                                         : "expected the name of a file, got " + describe(item));
+        continue;
+      }
+      try {
+        Finger finger = read_finger(file);
+        // What the study says of the touch itself holds for everyone.
+        if (document_.origins().count("finger.load")) finger.load = study_.design.finger.load;
+        if (document_.origins().count("finger.state")) finger.state = study_.design.finger.state;
+        study_.population.push_back(std::move(finger));
+        files.push_back(text_node(fs::absolute(file).lexically_normal().string()));
+      } catch (const InputError& error) {
+        for (const Problem& p : error.problems()) {
+          document_.problem({p.file, p.line, p.column}, p.key, p.message);
+        }
+      }
+    }
+    study_.study_sections.find("population")->set("fingers", array_node(std::move(files)));
+  }
+
+  void read_scenarios() {
+    const Node* list = document_.take("scenarios");
+    if (!list) return;
+    keep("scenarios");
+    if (!list->is_array()) {
+      document_.problem(list->place, "scenarios",
+                        "expected a list of sections [[scenarios]], got " + describe(*list));
+      return;
+    }
+    for (std::size_t i = 0; i < list->children.size(); ++i) {
+      const Node& item = list->children[i];
+      const std::string path = fmt::format("scenarios.{}", i);
+      if (!item.is_table()) {
+        document_.problem(item.place, path, "expected a section { ... }, got " + describe(item));
+        continue;
+      }
+      only(item, path, {"name", "weight", "set"});
+      Scenario scenario;
+      const Node* name = item.find("name");
+      if (!name || !name->is_text()) {
+        document_.problem(name ? name->place : item.place, path, "missing `name` (a text)");
+      } else {
+        scenario.name = name->text;
+      }
+      if (const Node* weight = item.find("weight")) {
+        document_.number(*weight, path + ".weight", {"weight", "", 0, 1e6, ""}, scenario.weight);
+      }
+      if (const Node* set = item.find("set"); set && set->is_table()) {
+        std::vector<std::pair<std::string, const Node*>> members;
+        flatten(*set, "", false, members);
+        for (const auto& [key, node] : members) {
+          const NumberField* field = number_field(key, *node, path + ".set");
+          double si = 0;
+          if (field && value(*field, *node, path + ".set." + key, si)) {
+            scenario.set.push_back({key, si});
+          }
+        }
+      } else if (set) {
+        document_.problem(set->place, path + ".set",
+                          "expected a section, e.g. { \"surface.contact_angle\" = \"80 deg\" }");
+      }
+      study_.scenarios.push_back(std::move(scenario));
+    }
+  }
+
+  void check_whole() {
+    if (!study_.variables.empty() && study_.objective.maximise.empty() &&
+        study_.objective.minimise.empty()) {
+      document_.problem_at("objective",
+                           "a study needs `maximise` or `minimise`, e.g. maximise = "
+                           "\"mean(modulation)\"");
+    }
+  }
+
+  Document& document_;
+  Study& study_;
+  std::vector<NumberField> numbers_;
+};
+
+std::string study_name(const std::string& path) {
+  const fs::path file(path);
+  const std::string stem = file.stem().string();
+  if (stem != "study" && stem != "resolved" && stem != "design") return stem;
+  const std::string folder =
+      fs::absolute(file).lexically_normal().parent_path().filename().string();
+  return folder.empty() ? stem : folder;
+}
+
+}  // namespace
+
+Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
+  Document document = load_document(path, overrides, design_roots());
+  Study study;
+  study.file = path;
+  study.name = study_name(path);
+  study.study_sections = table_node();
+  StudyReader(document, study).read();
+  finish(document);
+  study.origins = document.origins();
+  return study;
+}
+
+Design read_design(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_study(path, overrides).design;
+}
+
+Finger read_finger(const std::string& path) {
+  Document document = load_document(path, {}, design_roots());
+  document.take("schema_version");
+  Finger finger;
+  read_section(document, "", finger);
+  finish(document);
+  return finger;
+}
+
+void write_design(const std::string& path, const Design& design) {
+  write_text_file(path, to_toml(design));
+}
+
+void write_finger(const std::string& path, const Finger& finger, const std::string& comment) {
+  write_text_file(path, (comment.empty() ? "" : "# " + comment + "\n") + "schema_version = 1\n" +
+                            to_toml(finger));
+}
+
+std::string resolved_toml(const Study& study) {
+  Node table = to_table(study.design, &study.origins);
+  for (const Node& section : study.study_sections.children) table.set(section.key, section);
+  return write_toml(table);
+}
+
+}  // namespace papilla

@@ -1,0 +1,144 @@
+// A design (what to make and where it is felt) and a study (a design, what may change, what is
+// wanted). Read from TOML with every problem at once, written back with the origin of each value.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/node.h"
+#include "config/reader.h"
+#include "geometry/texture.h"
+#include "scene/environment.h"
+#include "scene/finger.h"
+
+namespace papilla {
+
+enum class AccuracyLevel { Draft, Design, Reference };
+const std::vector<std::string>& accuracy_level_names();
+
+struct AccuracySettings {
+  AccuracyLevel level = AccuracyLevel::Design;
+  double target = 0;  // wanted standard error of the modulation, as a share of it; 0: by level
+
+  std::string level_name() const;
+  bool operator==(const AccuracySettings&) const = default;
+};
+void fields(FieldVisitor& v, AccuracySettings& s);
+
+struct Design {
+  int schema_version = 1;
+  std::string title;
+  Texture texture;
+  Surface surface;
+  Finger finger;
+  Environment environment;
+  Drive drive;
+  ModelOptions model;  // starts from finger.calibrated_for
+  AccuracySettings accuracy;
+
+  bool operator==(const Design&) const = default;
+};
+void fields(FieldVisitor& v, Design& s);
+
+// A mistake across fields, at the path of the value to change.
+struct DesignProblem {
+  std::string path, message;
+};
+std::vector<DesignProblem> design_problems(const Design& design);
+
+// One number that the search may change.
+struct Variable {
+  std::string path;             // into Design: "texture.diameter"
+  std::string unit;             // for people
+  double low = 0, high = 0;     // SI
+  std::vector<double> choices;  // SI; when not empty, one of these
+
+  bool operator==(const Variable&) const = default;
+};
+
+// Metric expressions such as "mean(modulation)"; two objectives make a Pareto front.
+struct Objective {
+  std::vector<std::string> maximise, minimise;
+  std::string risk;  // "mean - 2 std", "cvar 20 %", "worst"; "": mean over the population
+
+  bool operator==(const Objective&) const = default;
+};
+
+struct ConstraintKind {
+  std::string name, unit;
+  bool at_least = true;  // else at most
+  std::string doc;
+};
+const std::vector<ConstraintKind>& constraint_kinds();
+
+struct Constraint {
+  std::string name;
+  double limit = 0;  // SI
+  bool at_least = true;
+
+  bool operator==(const Constraint&) const = default;
+};
+
+struct Setting {
+  std::string path;
+  double value = 0;  // SI
+
+  bool operator==(const Setting&) const = default;
+};
+
+// A state of the product that counts beside the others: new, worn.
+struct Scenario {
+  std::string name;
+  double weight = 1;
+  std::vector<Setting> set;  // numbers of the design that this scenario fixes
+
+  bool operator==(const Scenario&) const = default;
+};
+
+struct Search {
+  std::string method = "auto";
+  int seed = 1;
+  int evaluations = 0;  // 0: as many as the time allows, or the method's default
+  double time = 0;      // wall clock [s]; 0: no limit
+  int jobs = 0;         // 0: all processors
+
+  bool operator==(const Search&) const = default;
+};
+void fields(FieldVisitor& v, Search& s);
+const std::vector<std::string>& search_methods();
+
+struct Study {
+  Design design;
+  std::vector<Variable> variables;
+  Objective objective;
+  std::vector<Constraint> constraints;
+  std::vector<Finger> population;  // empty: the design's finger alone
+  std::vector<Scenario> scenarios;
+  Search search;
+
+  std::string file;     // as given
+  std::string name;     // of the results folder: the file's stem, or its folder's for study.toml
+  Origins origins;      // of every value that was read
+  Node study_sections;  // the study's own sections as read, for resolved.toml
+
+  bool is_study() const { return !variables.empty(); }
+};
+
+// Where `base` files are looked for besides the user's own folder: $PAPILLA_DESIGNS, the source
+// tree's and the installed designs folder, those that exist.
+std::vector<std::string> design_roots();
+
+// Throws InputError with every problem. A study file is a design too.
+Design read_design(const std::string& path, const std::vector<std::string>& overrides = {});
+Study read_study(const std::string& path, const std::vector<std::string>& overrides = {});
+Finger read_finger(const std::string& path);
+
+void write_design(const std::string& path, const Design& design);
+void write_finger(const std::string& path, const Finger& finger, const std::string& comment = "");
+// Every value of the study with its origin; reads back to the same study.
+std::string resolved_toml(const Study& study);
+
+// The design with numbers changed by path (SI).
+Design with_settings(Design design, const std::vector<Setting>& settings);
+
+}  // namespace papilla

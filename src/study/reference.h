@@ -1,0 +1,18 @@
+// The reference of every key, generated from the fields() lists (`papilla describe`,
+// docs/reference).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace papilla {
+
+// "texture", "surface", "finger", "environment", "drive", "model", "accuracy", "study", "metrics".
+std::vector<std::string> reference_sections();
+
+enum class ReferenceFormat { Text, Markdown };
+
+// Throws InputError, with a "did you mean", for an unknown section.
+std::string reference_section(const std::string& section, ReferenceFormat format);
+
+}  // namespace papilla

@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "study/design.h"
+#include "study/reference.h"
+#include "tests/architecture/source_tree.h"
+
+namespace papilla {
+namespace {
+
+TEST(Designs, AllRead) {
+  int read = 0;
+  for (const std::string& file : source_files({"designs"}, {".toml"})) {
+    const std::string path = std::string(PAPILLA_SOURCE_DIR) + "/" + file;
+    try {
+      if (file.starts_with("designs/fingers/")) {
+        read_finger(path);
+      } else if (file.find("calibration") == std::string::npos) {
+        read_study(path);
+      }
+      ++read;
+    } catch (const InputError& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+  EXPECT_GE(read, 13);
+}
+
+TEST(Reference, PagesAreUpToDate) {
+  for (const std::string& section : reference_sections()) {
+    const std::string page =
+        read_source(std::string(PAPILLA_SOURCE_DIR) + "/docs/reference/" + section + ".md");
+    EXPECT_EQ(page, reference_section(section, ReferenceFormat::Markdown))
+        << "docs/reference/" << section
+        << ".md is out of date; write it again with: papilla describe --out docs/reference";
+  }
+}
+
+}  // namespace
+}  // namespace papilla

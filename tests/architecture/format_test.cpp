@@ -1,0 +1,38 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/architecture/source_tree.h"
+
+namespace papilla {
+namespace {
+
+TEST(Sources, AreFormattedByClangFormat) {
+  if (std::system("clang-format --version > /dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "no clang-format here";
+  }
+  std::string command = "cd '" PAPILLA_SOURCE_DIR "' && clang-format --dry-run -Werror";
+  for (const std::string& file :
+       source_files({"src", "geometry", "optim", "tests"}, {".h", ".cpp"})) {
+    command += " '" + file + "'";
+  }
+  EXPECT_EQ(std::system((command + " 2>&1 | grep -E 'error|warning' | head -n 20 | grep . && "
+                                   "exit 1 || exit 0")
+                            .c_str()),
+            0);
+}
+
+TEST(Sources, HaveNoUnfinishedMarks) {
+  for (const std::string& file :
+       source_files({"src", "geometry", "optim", "tests", "designs", "docs"},
+                    {".h", ".cpp", ".md", ".toml"})) {
+    if (file == "tests/architecture/format_test.cpp") continue;
+    const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
+    for (const char* mark : {"TODO", "FIXME", "XXX", "HACK"}) {
+      EXPECT_EQ(text.find(mark), std::string::npos) << file << " has a " << mark;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace papilla
