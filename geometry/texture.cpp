@@ -279,6 +279,8 @@ void fields(FieldVisitor& v, Texture& texture) {
   std::visit([&](auto& kind) { fields(v, kind); }, texture.kind);
 }
 
+const std::vector<std::string>& texture_kinds() { return kKinds; }
+
 std::string texture_name(const Texture& texture) { return kKinds[texture.kind.index()]; }
 
 std::vector<std::pair<std::string, std::string>> problems(const Texture& texture) {
@@ -309,11 +311,11 @@ std::vector<std::pair<std::string, std::string>> problems(const Texture& texture
             const double largest = unit_cell(texture).x;
             for (std::size_t i = 0; i < t.parts.size(); ++i) {
               for (auto& [key, message] : problems(t.parts[i])) {
-                out.emplace_back(fmt::format("parts[{}].{}", i, key), message);
+                out.emplace_back(fmt::format("parts.{}.{}", i, key), message);
               }
               const double period = texture_period(t.parts[i]);
               if (period > 0 && std::abs(largest / period - std::round(largest / period)) > 1e-6) {
-                out.emplace_back(fmt::format("parts[{}].period", i),
+                out.emplace_back(fmt::format("parts.{}.period", i),
                                  "does not divide the largest period of the stack");
               }
             }

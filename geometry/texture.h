@@ -98,6 +98,7 @@ inline bool Stack::operator==(const Stack& other) const {
 // Key `type` chooses the kind; the kind's own keys follow.
 void fields(FieldVisitor& v, Texture& texture);
 std::string texture_name(const Texture& texture);  // "hole_array"
+const std::vector<std::string>& texture_kinds();   // every such name, in the order of the variant
 
 // What a single key cannot say: (key, message) of every contradiction between keys.
 std::vector<std::pair<std::string, std::string>> problems(const Texture& texture);

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 #include "config/writer.h"
+#include "metrics/metrics.h"
 
 namespace papilla {
 namespace {
@@ -81,9 +82,8 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   const auto problem = [&](const char* path, std::string message) {
     out.push_back({path, std::move(message)});
   };
-  const FabricationMargins margins = fabrication_margins(design.texture);
-  if (margins.min_wall <= 0) {
-    problem("texture.diameter", "the features overlap: expected less than the period");
+  for (const auto& [key, message] : problems(design.texture)) {
+    out.push_back({"texture." + key, message});
   }
   const Environment& air = design.environment;
   if (air.relative_humidity.empty()) {
@@ -304,12 +304,25 @@ class StudyReader {
     }
   }
 
+  std::vector<std::string> metrics(const Node& section, const char* key) {
+    std::vector<std::string> out = texts(section, key, "objective");
+    for (const std::string& text : out) {
+      try {
+        parse_metric(text);
+      } catch (const InputError& error) {
+        document_.problem(section.find(key)->place, std::string("objective.") + key,
+                          error.problems().front().message);
+      }
+    }
+    return out;
+  }
+
   void read_objective() {
     const Node* section = table("objective");
     if (!section) return;
     only(*section, "objective", {"maximise", "minimise", "risk"});
-    study_.objective.maximise = texts(*section, "maximise", "objective");
-    study_.objective.minimise = texts(*section, "minimise", "objective");
+    study_.objective.maximise = metrics(*section, "maximise");
+    study_.objective.minimise = metrics(*section, "minimise");
     const std::vector<std::string> risk = texts(*section, "risk", "objective");
     if (!risk.empty()) study_.objective.risk = risk.front();
   }

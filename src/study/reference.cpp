@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "config/describe.h"
+#include "metrics/metrics.h"
 #include "study/design.h"
 
 namespace papilla {
@@ -27,6 +28,11 @@ const char* about(const std::string& section) {
            "(`finger.calibrated_for`).";
   }
   if (section == "accuracy") return "Speed against error.";
+  if (section == "metrics") {
+    return "What a design is judged by, at one humidity. Over humidity: mean, variation (standard "
+           "deviation / mean), range ((max - min) / mean), std, worst, best, first, last; written "
+           "`mean(modulation)`.";
+  }
   if (section == "study") return "The sections that only a study has.";
   return "";
 }
@@ -86,10 +92,25 @@ std::string study_reference(ReferenceFormat format) {
          render(field_rows(Search{}, "search"), format);
 }
 
+std::string metrics_reference(ReferenceFormat format) {
+  std::vector<Row> rows;
+  for (const MetricInfo& metric : metric_list()) {
+    rows.push_back(
+        {metric.name, fmt::format("{}{}{}{}", metric.doc,
+                                  metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit),
+                                  metric.better == Better::Higher  ? "; higher is better"
+                                  : metric.better == Better::Lower ? "; lower is better"
+                                                                   : "",
+                                  metric.needs_drive ? "; driven designs only" : "")});
+  }
+  return render(rows, format);
+}
+
 }  // namespace
 
 std::vector<std::string> reference_sections() {
-  return {"texture", "surface", "finger", "environment", "drive", "model", "accuracy", "study"};
+  return {"texture", "surface",  "finger", "environment", "drive",
+          "model",   "accuracy", "study",  "metrics"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {
@@ -103,6 +124,7 @@ std::string reference_section(const std::string& section, ReferenceFormat format
   if (section == "drive") return top + render(field_rows(Drive{}, section), format);
   if (section == "model") return top + render(field_rows(ModelOptions{}, section), format);
   if (section == "accuracy") return top + render(field_rows(AccuracySettings{}, section), format);
+  if (section == "metrics") return top + metrics_reference(format);
   if (section == "study") return top + study_reference(format);
   const std::string near = nearest_name(section, reference_sections());
   throw InputError(

@@ -158,9 +158,10 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
 }
 
 TEST(Design, AHoleLargerThanItsPeriodIsRefused) {
-  EXPECT_EQ(problems_of("schema_version = 1\n[texture]\ntype = \"hole_array\"\nperiod = \"3 um\"\n"
-                        "diameter = \"4 um\"\ndepth = \"350 nm\"\n"),
-            ":5:12: texture.diameter: the features overlap: expected less than the period");
+  EXPECT_EQ(
+      problems_of("schema_version = 1\n[texture]\ntype = \"hole_array\"\nperiod = \"3 um\"\n"
+                  "diameter = \"4 um\"\ndepth = \"350 nm\"\n"),
+      ":5:12: texture.diameter: 4 um is not smaller than the period 3 um; features would overlap");
 }
 
 }  // namespace
