@@ -1,0 +1,148 @@
+#include "physics/capillary/bridge.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/random.h"
+#include "physics/capillary/water.h"
+
+namespace papilla {
+namespace {
+
+constexpr double kDegree = kPi / 180;
+
+std::vector<std::vector<std::string>> read_rows(const std::string& name) {
+  std::ifstream in(std::string(PAPILLA_TEST_DATA) + "/capillary/" + name);
+  std::vector<std::vector<std::string>> rows;
+  std::string line;
+  bool header = true;
+  while (std::getline(in, line)) {
+    if (line.empty() || line[0] == '#') continue;
+    if (header) {
+      header = false;
+      continue;
+    }
+    std::vector<std::string> row;
+    std::stringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(Bridge, AgreesWithTheReferenceTable) {
+  const auto rows = read_rows("bridge_reference.csv");
+  ASSERT_EQ(rows.size(), 34u);
+  for (const auto& row : rows) {
+    const double t1 = std::stod(row[0]) * kDegree, t2 = std::stod(row[1]) * kDegree;
+    const double h = std::stod(row[2]);
+    const Bridge b = solve_bridge(1, h, t1, t2, 1);
+    ASSERT_EQ(b.status, BridgeStatus::Converged) << row[0] << " " << row[1] << " " << h;
+    const double got[] = {b.energy, b.force, b.pressure, b.radius1, b.radius2, b.free_area, b.arc};
+    for (int k = 0; k < 7; ++k) {
+      const double want = std::stod(row[3 + k]);
+      EXPECT_NEAR(got[k], want, 1e-9 * std::max(1.0, std::abs(want)))
+          << row[0] << " " << row[1] << " " << h << " column " << k;
+    }
+  }
+}
+
+TEST(Bridge, LimitsAgreeWithTheReferenceTable) {
+  const auto rows = read_rows("bridge_limits.csv");
+  ASSERT_EQ(rows.size(), 91u);
+  for (const auto& row : rows) {
+    const double t1 = std::stod(row[0]) * kDegree, t2 = std::stod(row[1]) * kDegree;
+    const BridgeLimits b = bridge_limits(t1, t2);
+    ASSERT_EQ(b.status, BridgeStatus::Converged) << row[0] << " " << row[1];
+    EXPECT_NEAR(b.rupture, std::stod(row[2]), 1e-4) << row[0] << " " << row[1];
+    EXPECT_EQ(b.pitchfork, row[3] == "bifurcation") << row[0] << " " << row[1];
+    EXPECT_NEAR(b.switching, std::stod(row[6]), 1e-4) << row[0] << " " << row[1];
+    EXPECT_NEAR(b.snap_in, std::stod(row[8]), 1e-5);
+    if (row.size() > 11 && !row[11].empty()) {
+      EXPECT_NEAR(b.zero_force, std::stod(row[11]), 1e-5) << row[0] << " " << row[1];
+    }
+  }
+}
+
+TEST(Bridge, TheCylinderRupturesAtItsPerimeter) {
+  EXPECT_NEAR(bridge_limits(kPi / 2, kPi / 2).rupture, std::cbrt(kPi), 1e-6);
+}
+
+TEST(Bridge, VirialIdentityForceAndSymmetryHoldAtRandom) {
+  RandomStream random(1, "bridges");
+  int solved = 0;
+  double worst_virial = 0, worst_force = 0, worst_swap = 0;
+  for (int pair = 0; pair < 200; ++pair) {
+    const double t1 = random.uniform(3, 177) * kDegree, t2 = random.uniform(3, 177) * kDegree;
+    const double top = bridge_limits(t1, t2).rupture;
+    if (top == 0) continue;
+    for (int k = 0; k < 50; ++k) {
+      const double h = top * random.uniform(0.02, 0.97);
+      const double v = std::exp(random.uniform(-3, 3)), size = std::cbrt(v);
+      const Bridge b = solve_bridge(v, h * size, t1, t2, 1);
+      ASSERT_EQ(b.status, BridgeStatus::Converged)
+          << t1 / kDegree << " " << t2 / kDegree << " " << h;
+      ++solved;
+      const double scale = std::abs(b.energy) + std::abs(3 * v * b.pressure);
+      worst_virial = std::max(
+          worst_virial, std::abs(3 * v * b.pressure + h * size * b.force - 2 * b.energy) / scale);
+      if (k % 10) continue;
+      const double step = 1e-4 * h * size;
+      const auto e = [&](double x) { return solve_bridge(v, h * size + x, t1, t2, 1).energy; };
+      const double slope = (8 * (e(step) - e(-step)) - (e(2 * step) - e(-2 * step))) / (12 * step);
+      worst_force = std::max(worst_force, std::abs(slope - b.force) / (std::abs(b.force) + size));
+      const Bridge s = solve_bridge(v, h * size, t2, t1, 1);
+      worst_swap = std::max(worst_swap, std::abs(s.energy - b.energy) / scale);
+      worst_swap = std::max(worst_swap, std::abs(s.force - b.force) / (std::abs(b.force) + size));
+    }
+  }
+  EXPECT_GE(solved, 9900);
+  EXPECT_LT(worst_virial, 1e-9);
+  EXPECT_LT(worst_force, 1e-6);
+  EXPECT_LT(worst_swap, 1e-9);
+}
+
+TEST(Bridge, BeyondRuptureItSaysSo) {
+  EXPECT_EQ(solve_bridge(1, 1.0, 80 * kDegree, 50 * kDegree, 1).status, BridgeStatus::Ruptured);
+  EXPECT_EQ(solve_bridge(1, 1.47, 90 * kDegree, 90 * kDegree, 1).status, BridgeStatus::Ruptured);
+  EXPECT_EQ(solve_bridge(0, 1.47, 1, 1, 1).status, BridgeStatus::Invalid);
+  EXPECT_EQ(solve_bridge(1, 0.1, 4, 1, 1).status, BridgeStatus::Invalid);
+}
+
+TEST(Cap, AgreesWithTheReferenceTable) {
+  const auto rows = read_rows("cap.csv");
+  ASSERT_FALSE(rows.empty());
+  for (const auto& row : rows) {
+    const CapShape cap = cap_shape(std::stod(row[0]) * kDegree);
+    EXPECT_NEAR(cap.sphere_radius, std::stod(row[1]), 1e-9 * cap.sphere_radius);
+    EXPECT_NEAR(cap.height, std::stod(row[2]), 1e-10);
+    EXPECT_NEAR(cap.footprint, std::stod(row[3]), 1e-9);
+    EXPECT_NEAR(cap.energy, std::stod(row[4]), 1e-9);
+  }
+}
+
+TEST(SphereBridge, AgreesWithTheReferenceTable) {
+  for (const auto& row : read_rows("sphere_plate.csv")) {
+    // The distances are printed to six digits; they are round multiples of V^(1/3).
+    const double v = std::stod(row[2]), size = std::cbrt(v);
+    const double d = std::round(std::stod(row[3]) / size * 100) / 100 * size;
+    const Bridge b =
+        solve_sphere_bridge(v, d, 1, std::stod(row[0]) * kDegree, std::stod(row[1]) * kDegree, 1);
+    if (d > 0.9 * size && b.status != BridgeStatus::Converged) continue;  // near rupture
+    ASSERT_EQ(b.status, BridgeStatus::Converged) << row[0] << " " << row[1] << " " << v << " " << d;
+    EXPECT_NEAR(b.energy, std::stod(row[4]), 1e-8 * (std::abs(b.energy) + std::cbrt(v * v)));
+    EXPECT_NEAR(b.force, std::stod(row[5]), 1e-8 * std::abs(b.force));
+    EXPECT_NEAR(b.radius1, std::stod(row[7]), 1e-8);
+    EXPECT_NEAR(b.radius2, std::stod(row[8]), 1e-8);
+  }
+}
+
+}  // namespace
+}  // namespace papilla
