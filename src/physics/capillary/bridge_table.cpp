@@ -73,6 +73,7 @@ std::shared_ptr<const BridgeTable> bridge_table(double theta1, double theta2) {
   static std::map<std::pair<double, double>, std::shared_ptr<const BridgeTable>> tables;
   const auto key = std::minmax(theta1, theta2);
   const std::lock_guard lock(mutex);
+  if (tables.size() > 4096) tables.clear();  // a search over angles must not grow without end
   auto& table = tables[{key.first, key.second}];
   if (!table) table = std::make_shared<const BridgeTable>(key.second, key.first);
   return table;

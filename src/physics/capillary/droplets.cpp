@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "base/check.h"
 #include "base/constants.h"
 #include "base/random.h"
+#include "physics/capillary/bridge_table.h"
 #include "physics/capillary/gap_table.h"
 #include "physics/capillary/threshold.h"
 
@@ -23,6 +25,10 @@ constexpr std::array<std::array<double, 2>, 8> kDirections = {
      {-0.7071067811865476, -0.7071067811865476},
      {0, -1},
      {0.7071067811865476, -0.7071067811865476}}};
+
+// Slopes of the gap beyond this are walls, not bowls: they are taken as this [rad].
+constexpr double kLargestTilt = kPi / 4;
+constexpr double kFlatTilt = kPi / 12;
 
 double into_period(double x, double period) {
   x -= period * std::floor(x / period);
@@ -49,17 +55,30 @@ class Ensemble {
         options_(options),
         water_(water),
         gain_(wetting_gain(water.theta_skin, water.theta_substrate)),
-        meniscus_(meniscus_factor(water.theta_skin, water.theta_substrate)),
+        cos_skin_(std::cos(water.theta_skin)),
+        exact_(bridge_table(water.theta_skin, water.theta_substrate)),
         cap_(cap_shape(std::min(water.theta_skin, water.theta_substrate))),
         cap_state_(water.theta_skin < water.theta_substrate ? DropletState::OnSkin
                                                             : DropletState::OnSubstrate),
         lx_(gap.grid.lx),
         ly_(gap.grid.ly) {
-    // Gap per volume^(1/3) beyond which a flat bridge costs more than the cap, with a margin for
-    // rough gaps: a drop whose centre sees a larger gap is not worth trying as a bridge.
-    double h = 4;
-    while (h > 0.05 && -gain_ / h + 2 * meniscus_ * std::sqrt(kPi * h) > cap_.energy) h *= 0.98;
-    reach_ = std::max(1.3 * h, cap_.height);
+    // The meniscus factor over the slope angle, a polynomial through five angles.
+    const auto tilted = [&](double share) {
+      return meniscus_factor(water.theta_substrate,
+                             std::clamp(water.theta_skin + share * kLargestTilt, 0.0, kPi));
+    };
+    meniscus_ = tilted(0);
+    const double odd_half = 0.5 * (tilted(0.5) - tilted(-0.5)),
+                 odd = 0.5 * (tilted(1) - tilted(-1));
+    const double even_half = 0.5 * (tilted(0.5) + tilted(-0.5)) - meniscus_;
+    const double even = 0.5 * (tilted(1) + tilted(-1)) - meniscus_;
+    const double cubic = (odd - 2 * odd_half) * 4 / 3, quartic = (even - 4 * even_half) * 4 / 3;
+    tilt_terms_ = {odd - cubic, even - quartic, cubic, quartic};
+    // A drop whose centre sees a gap (per volume^(1/3)) well beyond the largest at which a flat
+    // bridge has the lower energy is not worth trying as a bridge.
+    rupture_ = exact_->valid() ? exact_->limits().rupture : 2;
+    const double favoured = exact_->valid() ? exact_->limits().switching : 1;
+    reach_ = std::max(1.3 * favoured, cap_.height);
   }
 
   void scatter(double volume, std::uint64_t seed, std::uint64_t index) {
@@ -85,6 +104,7 @@ class Ensemble {
   }
 
   void restore(const Wetting& wetting) {
+    metastable_ = true;  // a bridge that exists stays until it ruptures
     for (const Droplet& d : wetting.droplets) {
       Drop drop;
       drop.x = d.x;
@@ -98,6 +118,7 @@ class Ensemble {
       }
       drops_.push_back(drop);
     }
+    metastable_ = false;
     build_hash();
     merge_overlaps();
   }
@@ -175,9 +196,62 @@ class Ensemble {
   }
 
  private:
-  double bridge_energy(double radius, double edge_gap) const {  // Eq. capillary.4
+  double meniscus_at(const GapTable::Rim& rim, double& tilt) const {
+    tilt = std::clamp(std::atan(rim.slope), -kLargestTilt, kLargestTilt);
+    const double x = tilt / kLargestTilt;
+    const auto& [a1, a2, a3, a4] = tilt_terms_;
+    return meniscus_ + x * (a1 + x * (a2 + x * (a3 + x * a4)));
+  }
+
+  // Eq. capillary.4, per tension: wetting and meniscus, with the slope of the gap at the rim.
+  double slab_energy(double radius, const GapTable::Rim& rim) const {
+    double tilt;
+    const double factor = meniscus_at(rim, tilt);
+    const double bowl = square(std::tan(0.5 * tilt));  // wet area of a sphere over its base, less 1
+    return -(gain_ + cos_skin_ * bowl) * kPi * square(radius) + 2 * kPi * radius * factor * rim.gap;
+  }
+
+  // What the exact flat bridge of this volume and mean gap has beyond the slab, per tension.
+  BridgeTable::Value beyond_slab(double volume, double radius) const {
+    if (!exact_->valid()) return {0, 0};
+    const double size = std::cbrt(volume);
+    const double h = volume / (kPi * square(radius)) / size;
+    if (h >= rupture_) return {0, 0};
+    const BridgeTable::Value exact = (*exact_)(h);
+    const double root = std::sqrt(kPi * h);
+    return {square(size) * (exact.energy + gain_ / h - 2 * meniscus_ * root),
+            size * (exact.force - gain_ / square(h) - meniscus_ * root / h)};
+  }
+
+  // Under a bowl that remainder fades (fitted on sphere and plate).
+  static double flatness(const GapTable::Rim& rim) {
+    return 1 / (1 + square(std::atan(rim.slope) / kFlatTilt));
+  }
+
+  double bridge_energy(double volume, double radius, const GapTable::Rim& rim) const {
     return water_.surface_tension *
-           (-gain_ * kPi * square(radius) + 2 * kPi * radius * meniscus_ * edge_gap);
+           (slab_energy(radius, rim) + flatness(rim) * beyond_slab(volume, radius).energy);
+  }
+
+  // Eq. capillary.6: dE/dh of that energy when the whole gap opens, at fixed volume and place. The
+  // footprint shrinks by dr/dh = -r / (2 h_edge).
+  double bridge_force(const Drop& d) const {
+    const double r = d.radius;
+    const GapTable::Rule rule = table_.rule(r);
+    const GapTable::Rim rim{d.edge_gap, d.edge_slope};
+    double tilt;
+    const double fixed = 2 * kPi * r * meniscus_at(rim, tilt);
+    // Over about a pixel: the slope of a bilinear gap jumps from cell to cell.
+    const double step = std::min(0.2 * r, std::max(0.02 * r, 0.5 * gap_.grid.dx()));
+    const GapTable::Rim out = table_.rim(d.x, d.y, r + step, rule);
+    const GapTable::Rim in = table_.rim(d.x, d.y, r - step, rule);
+    const BridgeTable::Value beyond = beyond_slab(d.volume, r);
+    const double by_radius = (slab_energy(r + step, out) - slab_energy(r - step, in) +
+                              beyond.energy * (flatness(out) - flatness(in))) /
+                             (2 * step);
+    const double mean_gap = d.volume / (kPi * square(r));
+    return water_.surface_tension * (fixed - r / (2 * d.edge_gap) * by_radius +
+                                     flatness(rim) * beyond.force * mean_gap / d.edge_gap);
   }
 
   double cap_energy(double volume) const {
@@ -190,7 +264,9 @@ class Ensemble {
     ++report_.evaluations;
     double r = guess > 0 ? guess : std::sqrt(d.volume / (kPi * table_.at(d.x, d.y)));
     GapTable::Rule rule = table_.rule(r);
+    GapTable::Rule earlier{};
     GapTable::Rim rim;
+    bool seen = false, last_pass = false;
     for (int resampled = 0;; ++resampled) {
       rim = table_.rim(d.x, d.y, r, rule);
       const double miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
@@ -203,13 +279,22 @@ class Ensemble {
         continue;
       }
       r = refine_radius(d, rule, r, miss, next, linear);
-      break;
+      const GapTable::Rule proper = table_.rule(r);  // of the result, whatever the guess was
+      if (proper == rule || last_pass) break;
+      if (seen &&
+          proper == earlier) {  // each asks for the other: the finer one, whatever the guess
+        if (proper.chords + proper.rim_points < rule.chords + rule.rim_points) break;
+        last_pass = true;
+      }
+      seen = true;
+      earlier = rule;
+      rule = proper;
     }
     rim = table_.rim(d.x, d.y, r, rule);
     d.radius = r;
     d.edge_gap = rim.gap;
     d.edge_slope = rim.slope;
-    d.energy = bridge_energy(r, rim.gap);
+    d.energy = bridge_energy(d.volume, r, rim);
     d.bridge = true;
   }
 
@@ -247,8 +332,9 @@ class Ensemble {
       solve_bridge(trial, 0);
       return trial.energy;
     }
-    return bridge_energy(r, rim.gap) + water_.surface_tension * 2 * kPi * change *
-                                           (-gain_ * r + meniscus_ * (rim.gap + r * rim.slope));
+    return bridge_energy(d.volume, r, rim) +
+           water_.surface_tension * 2 * kPi * change *
+               (-gain_ * r + meniscus_ * (rim.gap + r * rim.slope));
   }
 
   // The state of lowest energy at a place; a cap taller than the gap must bridge (snap-in).
@@ -261,7 +347,8 @@ class Ensemble {
     const double cap = cap_energy(volume);
     if (was_bridge || centre < reach_ * size) {
       solve_bridge(d, guess);
-      if (d.energy < cap || cap_.height * size >= centre) return d;
+      const bool whole = volume < rupture_ * size * kPi * square(d.radius);
+      if ((whole && (d.energy < cap || metastable_)) || cap_.height * size >= centre) return d;
     }
     d.bridge = false;
     d.radius = cap_.widest * size;
@@ -487,10 +574,7 @@ class Ensemble {
       out.radius = d.radius;
       out.height = d.volume / area;
       out.edge_gap = d.edge_gap;
-      // Eq. capillary.6: dE/dh of the energy above at fixed volume and place.
-      out.force = water_.surface_tension *
-                  (gain_ * area / d.edge_gap +
-                   meniscus_ * (kPi * d.radius - area * d.edge_slope / d.edge_gap));
+      out.force = bridge_force(d);
     } else {
       const double size = std::cbrt(d.volume);
       out.state = cap_state_;
@@ -555,7 +639,12 @@ class Ensemble {
   GapTable table_;
   DropletOptions options_;
   WaterProperties water_;
-  double gain_, meniscus_;
+  double gain_, cos_skin_;
+  std::shared_ptr<const BridgeTable> exact_;
+  double meniscus_ = 0;
+  std::array<double, 4> tilt_terms_{};
+  double rupture_ = 0;  // per volume^(1/3)
+  bool metastable_ = false;
   CapShape cap_;
   DropletState cap_state_;
   double lx_, ly_;

@@ -20,6 +20,8 @@ class GapTable {
   // How finely a disc of one size is sampled; the same rule for every disc of about that radius.
   struct Rule {
     int chords, rim_points;  // indices of the node tables
+
+    bool operator==(const Rule&) const = default;
   };
 
   double at(double x, double y) const;  // [m]
