@@ -7,11 +7,15 @@
 
 namespace papilla {
 
+void add_evaluate(CLI::App& app, Context& context);
+void add_explain(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 
 // In the order of `papilla --help`.
 inline constexpr std::array kCommands{
+    add_evaluate,
+    add_explain,
     add_describe,
     add_completion,
 };

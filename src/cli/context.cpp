@@ -9,6 +9,12 @@ void Context::note(const std::string& text) const {
   if (!quiet) std::cerr << text << std::endl;
 }
 
+void add_design_options(CLI::App& command, DesignOptions& options) {
+  command.add_option("file", options.file, "Design or study file")->required()->type_name("FILE");
+  add_set_option(command, options.overrides);
+  command.add_flag("--json", options.json, "One JSON object on standard output");
+}
+
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
   command
       .add_option("--set", overrides,

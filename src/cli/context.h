@@ -23,6 +23,14 @@ struct Context {
   void note(const std::string& text) const;
 };
 
+// What a command that reads one design takes.
+struct DesignOptions {
+  std::string file;
+  std::vector<std::string> overrides;
+  bool json = false;
+};
+void add_design_options(CLI::App& command, DesignOptions& options);
+
 // --set KEY=VALUE, for every command that reads a design.
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 

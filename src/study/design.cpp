@@ -85,6 +85,10 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   for (const auto& [key, message] : problems(design.texture)) {
     out.push_back({"texture." + key, message});
   }
+  if (design.accuracy.target > 0) {
+    problem("accuracy.target", "accuracy by target is not available; choose a level: " +
+                                   join_names(accuracy_level_names()));
+  }
   const Environment& air = design.environment;
   if (air.relative_humidity.empty()) {
     problem("environment.relative_humidity", "expected at least one humidity");
@@ -137,6 +141,25 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   }
   if (drive.driven() && design.surface.equivalent_thickness() <= 0) {
     problem("surface.dielectric", "a driven surface needs a dielectric layer thicker than 0");
+  }
+  return out;
+}
+
+Scene scene_of(const Design& design) {
+  return {design.surface, design.finger, design.environment, design.drive, design.model};
+}
+
+Fidelity fidelity_of(const Design& design) { return fidelity_level(design.accuracy.level_name()); }
+
+std::vector<std::string> calibration_mismatch(const Design& design) {
+  const Node now = to_table(design.model), fitted = to_table(design.finger.calibrated_for);
+  std::vector<std::string> out;
+  for (const Node& option : fitted.children) {
+    const Node& used = *now.find(option.key);
+    if (describe(used) != describe(option)) {
+      out.push_back(fmt::format("model.{} is {}, the finger \"{}\" was fitted with {}", option.key,
+                                describe(used), design.finger.name, describe(option)));
+    }
   }
   return out;
 }

@@ -7,9 +7,11 @@
 
 #include "config/node.h"
 #include "config/reader.h"
+#include "forward/fidelity.h"
 #include "geometry/texture.h"
 #include "scene/environment.h"
 #include "scene/finger.h"
+#include "scene/scene.h"
 
 namespace papilla {
 
@@ -39,6 +41,14 @@ struct Design {
   bool operator==(const Design&) const = default;
 };
 void fields(FieldVisitor& v, Design& s);
+
+// What the forward model takes.
+Scene scene_of(const Design& design);
+Fidelity fidelity_of(const Design& design);
+
+// Model options that differ from those the finger was fitted with, one line each. They shift the
+// modulation by tens of percent: running so needs the user's word.
+std::vector<std::string> calibration_mismatch(const Design& design);
 
 // A mistake across fields, at the path of the value to change.
 struct DesignProblem {

@@ -112,6 +112,10 @@ std::string response_json(const Response& response, bool with_time) {
   return out.dump(2);
 }
 
+std::string plan_document(const Plan& plan) {
+  return Json{{"schema", 1}, {"plan", plan_json(plan)}}.dump(2);
+}
+
 std::string modulation_sparkline(const Response& response) {
   if (!response.driven || response.points.empty()) return {};
   static constexpr std::array<const char*, 8> kBars{"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};

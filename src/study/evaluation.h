@@ -15,6 +15,9 @@ std::string response_table(const Response& response);
 // with_time = false leaves the clock out, for files that must be reproducible.
 std::string response_json(const Response& response, bool with_time = true);
 
+// {"schema": 1, "plan": {...}} of the same form.
+std::string plan_document(const Plan& plan);
+
 // Unicode bars of the modulation over humidity; "" when undriven.
 std::string modulation_sparkline(const Response& response);
 

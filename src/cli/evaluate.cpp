@@ -1,0 +1,204 @@
+// papilla evaluate DESIGN.toml: the forward model over humidity.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "cli/commands.h"
+#include "config/describe.h"
+#include "config/writer.h"
+#include "forward/forward.h"
+#include "geometry/io/files.h"
+#include "metrics/metrics.h"
+#include "study/design.h"
+#include "study/evaluation.h"
+
+namespace papilla {
+namespace {
+
+struct EvaluateOptions {
+  DesignOptions design;
+  std::string sweep, out;
+  int jobs = 0;
+  bool force = false;
+};
+
+// "drive.amplitude=50..200" or "texture.depth=0 nm..1 um:5": a number of the design and its values.
+struct Sweep {
+  std::string path, unit;
+  std::vector<double> values;  // SI
+};
+
+double sweep_limit(const std::string& text, const NumberField& field) {
+  double si = 0;
+  if (const auto quantity = parse_quantity(text); quantity && quantity->unit.empty()) {
+    si = quantity->value * find_unit(field.unit)->to_si;  // 50..200: in the unit of the key
+  } else {
+    si = parse_si(text, field.unit);
+  }
+  const double scaled = si / find_unit(field.unit)->to_si;
+  if (scaled < field.low * (1 - 1e-12) || scaled > field.high * (1 + 1e-12)) {
+    throw InputError(
+        {Problem{"--sweep", 0, 0, field.path,
+                 fmt::format("{} is outside {} to {} {}", text, format_number(field.low),
+                             format_number(field.high), field.unit)}});
+  }
+  return si;
+}
+
+Sweep parse_sweep(const std::string& text, const Design& design) {
+  const std::size_t equals = text.find('='), dots = text.find("..");
+  if (equals == std::string::npos || dots == std::string::npos || dots < equals) {
+    throw InputError({Problem{"--sweep " + text, 0, 0, "",
+                              "expected PATH=LOW..HIGH or PATH=LOW..HIGH:COUNT, e.g. "
+                              "drive.amplitude=50..200:4"}});
+  }
+  Design copy = design;
+  const NumberField field = find_number(copy, text.substr(0, equals));
+  std::string high = text.substr(dots + 2);
+  int count = 5;
+  if (const std::size_t colon = high.find(':'); colon != std::string::npos) {
+    count = std::atoi(high.c_str() + colon + 1);
+    high.erase(colon);
+    if (count < 2 || count > 10000) {
+      throw InputError({Problem{"--sweep " + text, 0, 0, "", "expected a count of 2 to 10000"}});
+    }
+  }
+  const double from = sweep_limit(text.substr(equals + 1, dots - equals - 1), field);
+  const double to = sweep_limit(high, field);
+  Sweep sweep{field.path, field.unit, {}};
+  for (int i = 0; i < count; ++i) sweep.values.push_back(from + (to - from) * i / (count - 1));
+  return sweep;
+}
+
+void check_design(const Design& design) {
+  std::vector<Problem> problems;
+  for (const DesignProblem& p : design_problems(design)) {
+    problems.push_back({"", 0, 0, p.path, p.message});
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
+                   const Fidelity& fidelity, bool json) {
+  std::string documents;
+  if (!json) {
+    std::cout << fmt::format("{:>16} {:>12} {:>18} {:>14} {:>14}\n", sweep.path, "F_off mN",
+                             "mean modulation", "variation", "worst");
+  }
+  for (const double value : sweep.values) {
+    Design changed = design;
+    set_number(changed, sweep.path, value);
+    check_design(changed);
+    const Response response = evaluate(scene_of(changed), changed.texture, fidelity);
+    if (json) {
+      documents +=
+          fmt::format("{}{{\"value\": {}, \"response\": {}}}", documents.empty() ? "" : ",\n",
+                      format_number(value), response_json(response));
+      context.note(fmt::format("{} = {}", sweep.path, format_quantity(value, sweep.unit)));
+      continue;
+    }
+    const auto column = [&](Summary summary, const char* metric, double scale) {
+      const auto v = summarise(summary, metric, response);
+      return v ? fmt::format("{:.3f} ±{:.3f}", v->value * scale, v->se * scale) : std::string("-");
+    };
+    std::cout << fmt::format(
+                     "{:>16} {:>12} {:>18} {:>14} {:>14}", format_quantity(value, sweep.unit),
+                     column(Summary::Mean, "friction", 1e3), column(Summary::Mean, "modulation", 1),
+                     column(Summary::Variation, "modulation", 1),
+                     column(Summary::Worst, "modulation", 1))
+              << std::endl;
+  }
+  if (json) {
+    std::cout << fmt::format("{{\"schema\": 1, \"sweep\": \"{}\", \"runs\": [\n{}\n]}}\n",
+                             sweep.path, documents);
+  }
+  return kSuccess;
+}
+
+// Gap, pressure, water and pull of the first skin at each humidity, as pictures and arrays.
+void write_pictures(const std::string& folder, const Design& design, const Fidelity& fidelity) {
+  for (const double humidity : design.environment.relative_humidity) {
+    const PatchPicture picture =
+        picture_patch(scene_of(design), design.texture, fidelity, humidity);
+    const Grid& grid = picture.texture.grid;
+    const auto write = [&](const char* name, const std::vector<double>& values) {
+      if (values.size() != grid.size()) return;
+      const std::string path = fmt::format("{}/{}_{:.0f}", folder, name, 100 * humidity);
+      int width = 0, height = 0;
+      const auto rgb = render_field(grid, values, width, height);
+      write_png_rgb(path + ".png", width, height, rgb);
+      write_npy(path + ".npy", Heightmap{grid, values});
+    };
+    write("gap", picture.fields.off.gap);
+    write("pressure_off", picture.fields.off.pressure);
+    write("pressure_on", picture.fields.on.pressure);
+    write("pull", picture.fields.pull.value);
+    const auto& bridged = picture.fields.wetting_off.bridged;
+    write("water", std::vector<double>(bridged.begin(), bridged.end()));
+  }
+}
+
+int evaluate_file(const Context& context, const EvaluateOptions& options) {
+  const Study study = read_study(options.design.file, options.design.overrides);
+  const Design& design = study.design;
+  if (const auto mismatch = calibration_mismatch(design); !mismatch.empty() && !options.force) {
+    std::vector<Problem> problems;
+    for (const std::string& line : mismatch)
+      problems.push_back({options.design.file, 0, 0, "", line});
+    problems.push_back({"", 0, 0, "",
+                        "such a change moves the modulation by tens of percent; fit the finger "
+                        "again, or run with --force"});
+    throw InputError(problems);
+  }
+  Fidelity fidelity = fidelity_of(design);
+  fidelity.threads = options.jobs;
+  if (!options.sweep.empty()) {
+    return evaluate_sweep(context, parse_sweep(options.sweep, design), design, fidelity,
+                          options.design.json);
+  }
+
+  const Response response = evaluate(scene_of(design), design.texture, fidelity);
+  if (!options.out.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (error) {
+      throw InputError(
+          {Problem{options.out, 0, 0, "", "no such folder can be made: " + error.message()}});
+    }
+    write_text_file(options.out + "/resolved.toml", resolved_toml(study));
+    write_text_file(options.out + "/response.json", response_json(response, false) + "\n");
+    write_text_file(options.out + "/response.txt", response_table(response));
+    write_pictures(options.out, design, fidelity);
+    context.note("wrote " + options.out);
+  }
+  std::cout << (options.design.json ? response_json(response) + "\n" : response_table(response));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app, Context& context) {
+  CLI::App* command =
+      app.add_subcommand("evaluate", "Friction over humidity, drive off and on, with error bars");
+  auto options = std::make_shared<EvaluateOptions>();
+  add_design_options(*command, options->design);
+  command->add_option("--sweep", options->sweep, "Evaluate over a number of the design")
+      ->type_name("PATH=LOW..HIGH[:COUNT]");
+  command->add_option("--out", options->out, "Also write the numbers and pictures of the fields")
+      ->type_name("DIR");
+  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
+      ->check(CLI::Range(0, 4096));
+  command->add_flag("--force", options->force,
+                    "Run with model options that the finger was not fitted with");
+  command->callback([&context, options] {
+    context.action = [&context, options] { return evaluate_file(context, *options); };
+  });
+}
+
+}  // namespace papilla

@@ -1,0 +1,40 @@
+// papilla explain FILE: what would be modelled, what not, why, at which cost and error.
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+
+#include "cli/commands.h"
+#include "forward/plan.h"
+#include "study/design.h"
+#include "study/evaluation.h"
+
+namespace papilla {
+namespace {
+
+int explain(const DesignOptions& options) {
+  const Study study = read_study(options.file, options.overrides);
+  const Design& design = study.design;
+  const Plan plan = make_plan(scene_of(design), design.texture, fidelity_of(design));
+  if (options.json) {
+    std::cout << plan_document(plan) << '\n';
+    return kSuccess;
+  }
+  std::cout << (design.title.empty() ? study.name : design.title) << '\n' << plan.text();
+  for (const std::string& line : calibration_mismatch(design)) {
+    std::cout << "warning: " << line << '\n';
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_explain(CLI::App& app, Context& context) {
+  CLI::App* command = app.add_subcommand(
+      "explain", "The plan: what is modelled or skipped, why, expected cost and error");
+  auto options = std::make_shared<DesignOptions>();
+  add_design_options(*command, *options);
+  command->callback(
+      [&context, options] { context.action = [options] { return explain(*options); }; });
+}
+
+}  // namespace papilla
