@@ -35,7 +35,11 @@ double into_period(double x, double period) {
   return x < period ? x : 0;
 }
 
-double nearest_image(double d, double period) { return d - period * std::round(d / period); }
+// Of a difference between two places inside the period.
+double nearest_image(double d, double period) {
+  if (d > 0.5 * period) return d - period;
+  return d < -0.5 * period ? d + period : d;
+}
 
 struct Drop {
   double x = 0, y = 0, volume = 0;
@@ -262,14 +266,19 @@ class Ensemble {
   // (second order), then secants, inside a bracket.
   void solve_bridge(Drop& d, double guess) {
     ++report_.evaluations;
-    double r = guess > 0 ? guess : std::sqrt(d.volume / (kPi * table_.at(d.x, d.y)));
-    GapTable::Rule rule = table_.rule(r);
-    GapTable::Rule earlier{};
+    double r = guess;
+    if (r <= 0) {  // from the centre's gap, then from what lies around it
+      r = std::sqrt(d.volume / (kPi * table_.at(d.x, d.y)));
+      r = std::min(r, std::cbrt(d.volume) * 4);
+      const double around = table_.rim(d.x, d.y, 0.7 * r, table_.rule(0.7 * r)).gap;
+      r = std::sqrt(d.volume / (kPi * around));
+    }
+    GapTable::Rule rule = table_.rule(r), earlier{};
     GapTable::Rim rim;
     bool seen = false, last_pass = false;
     for (int resampled = 0;; ++resampled) {
       rim = table_.rim(d.x, d.y, r, rule);
-      const double miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
+      double miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
       const double linear = 2 * kPi * r * rim.gap, quadratic = kPi * (rim.gap + r * rim.slope);
       const double first = -miss / linear;
       double next = r + first - quadratic * square(first) / linear;
@@ -277,6 +286,11 @@ class Ensemble {
         r = std::clamp(r + first, 0.5 * r, 2 * r);
         rule = table_.rule(r);
         continue;
+      }
+      const GapTable::Rule ahead = table_.rule(next);
+      if (ahead != rule && !seen) {
+        rule = ahead;
+        miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
       }
       r = refine_radius(d, rule, r, miss, next, linear);
       const GapTable::Rule proper = table_.rule(r);  // of the result, whatever the guess was
@@ -298,6 +312,7 @@ class Ensemble {
     d.bridge = true;
   }
 
+  // Secants inside a bracket, from one miss [m^3] and a step of known slope.
   double refine_radius(const Drop& d, const GapTable::Rule& rule, double last, double last_miss,
                        double r, double slope) const {
     double low = 0, high = 0;  // bracket; high = 0: none yet
@@ -428,40 +443,45 @@ class Ensemble {
       return true;
     }
     double before = 0;
-    const Drop merged = merge(trial, before);
+    const Drop merged = merge(trial, before, true);
     if (merged.energy >= before) return false;
     adopt(i, merged);
     return true;
   }
 
-  // members_ (closed under overlap) as one drop, at the best of: where the mover is, the centres,
-  // the centroid.
-  Drop merge(const Drop& mover, double& before) {
+  // members_ (closed under overlap) as one drop: at the centroid, or, when it must pay, at the best
+  // of that, where the mover is, and the others' centres.
+  Drop merge(const Drop& mover, double& before, bool best_place) {
     std::size_t known = 0;
     Drop best;
     double sum = 0;
     while (known != members_.size()) {
       known = members_.size();
       sum = 0;
-      double volume = 0, cx = 0, cy = 0;
-      bool bridged = false;
+      double volume = 0, cx = 0, cy = 0, guess = 0, largest = 0;
       for (std::size_t m = 0; m < members_.size(); ++m) {
         const Drop& d = drops_[members_[m]];
         sum += d.energy;
         volume += d.volume;
-        bridged = bridged || d.bridge;
+        if (d.bridge && d.volume > largest) {
+          largest = d.volume;
+          guess = d.radius;
+        }
         if (m == 0) continue;  // the mover itself is the origin
         cx += d.volume * nearest_image(d.x - mover.x, lx_);
         cy += d.volume * nearest_image(d.y - mover.y, ly_);
       }
-      best = placed(mover.x, mover.y, volume, 0, bridged);
-      const Drop centroid =
-          placed(mover.x + cx / volume, mover.y + cy / volume, volume, 0, bridged);
-      if (centroid.energy < best.energy) best = centroid;
-      for (std::size_t m = 1; m < std::min<std::size_t>(members_.size(), 5); ++m) {
-        const Drop& d = drops_[members_[m]];
-        const Drop there = placed(d.x, d.y, volume, 0, bridged);
+      const bool bridged = largest > 0;
+      if (bridged) guess *= std::sqrt(volume / largest);
+      best = placed(mover.x + cx / volume, mover.y + cy / volume, volume, guess, bridged);
+      if (best_place) {
+        const Drop there = placed(mover.x, mover.y, volume, guess, bridged);
         if (there.energy < best.energy) best = there;
+        for (std::size_t m = 1; m < std::min<std::size_t>(members_.size(), 5); ++m) {
+          const Drop& d = drops_[members_[m]];
+          const Drop at = placed(d.x, d.y, volume, guess, bridged);
+          if (at.energy < best.energy) best = at;
+        }
       }
       collect_overlaps(best);
     }
@@ -487,7 +507,7 @@ class Ensemble {
         if (members_.size() == 1) break;
         double before = 0;
         const Drop mover = drops_[i];
-        adopt(i, merge(mover, before));
+        adopt(i, merge(mover, before, false));
       }
     }
   }
@@ -519,13 +539,16 @@ class Ensemble {
   }
 
   void build_hash() {
-    const double per_side = std::sqrt(static_cast<double>(drops_.size()) + 1);
-    const double aspect = std::sqrt(lx_ / ly_);
-    cells_x_ = std::max(1, static_cast<int>(per_side * aspect));
-    cells_y_ = std::max(1, static_cast<int>(per_side / aspect));
+    // Cells hold about one drop, and are wide enough for most drops to count as small.
+    double typical = 0;
+    for (const Drop& d : drops_) typical += d.radius / static_cast<double>(drops_.size());
+    small_radius_ = 2 * typical;
+    const double cell =
+        std::max(std::sqrt(lx_ * ly_ / static_cast<double>(drops_.size() + 1)), small_radius_);
+    cells_x_ = std::max(1, static_cast<int>(lx_ / cell));
+    cells_y_ = std::max(1, static_cast<int>(ly_ / cell));
     cell_x_ = lx_ / cells_x_;
     cell_y_ = ly_ / cells_y_;
-    small_radius_ = 0.5 * std::min(cell_x_, cell_y_);
     head_.assign(static_cast<std::size_t>(cells_x_) * cells_y_, -1);
     next_.assign(drops_.size(), -1);
     for (int i = 0; i < static_cast<int>(drops_.size()); ++i) link(i);

@@ -13,7 +13,7 @@ namespace papilla {
 struct DropletOptions {
   double drops_per_volume = 100e18;  // initial droplets per water volume [1/m^3]
   double first_step = 200e-9;        // [m]; the mobility of droplets: a stated model option
-  int halvings = 5;                  // the last step is first_step / 2^halvings
+  int halvings = 4;                  // the last step is first_step / 2^halvings
   double gap_floor = 0.3e-9;         // smaller gaps count as this [m]: a water molecule's size
   double film_width = 1.0 / 3;       // a bridge wider than this share of the patch, or
   double film_area = 0.40;           // more wetted area than this: one film at one pressure
