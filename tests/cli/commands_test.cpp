@@ -1,0 +1,134 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/program.h"
+
+namespace papilla {
+namespace {
+
+const std::string kSample = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
+const std::string kDraft = " --set accuracy.level=draft ";
+
+TEST(Program, HelpAndVersionSucceed) {
+  const Workplace place;
+  EXPECT_EQ(place.run("--help").status, 0);
+  const Outcome version = place.run("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_EQ(version.out, "papilla " PAPILLA_VERSION "\n");
+  // Every command that --help lists explains itself.
+  std::istringstream help(place.run("--help").out);
+  int commands = 0;
+  bool listed = false;
+  for (std::string line; std::getline(help, line);) {
+    if (listed && line.size() > 2 && line[2] != ' ') {
+      const std::string name = line.substr(2, line.find(' ', 2) - 2);
+      EXPECT_EQ(place.run(name + " --help").status, 0) << name;
+      ++commands;
+    }
+    if (line == "Subcommands:") listed = true;
+  }
+  EXPECT_GE(commands, 4);
+}
+
+TEST(Program, CompletionIsValidShell) {
+  const Workplace place;
+  const Outcome run = place.shell("'" PAPILLA_PROGRAM "' completion bash > c.sh && bash -n c.sh");
+  EXPECT_EQ(run.status, 0) << run.err;
+  const Outcome bash = place.shell(
+      "bash -c 'source c.sh; COMP_WORDS=(papilla expl); COMP_CWORD=1; _papilla; echo "
+      "${COMPREPLY[*]}'");
+  EXPECT_EQ(bash.out, "explain\n") << bash.err;
+}
+
+TEST(Explain, NamesWhatItSkipsAndWhy) {
+  const Workplace place;
+  const Outcome undriven = place.run("explain " + kSample + " --set drive.amplitude=0V");
+  EXPECT_EQ(undriven.status, 0);
+  EXPECT_NE(undriven.out.find("the drive is at 0 V"), std::string::npos) << undriven.out;
+  const Outcome dry =
+      place.run("explain " + kSample +
+                " --set 'finger.water.volume=[\"0 um3\",\"0 um3\",\"0 um3\",\"0 um3\"]'");
+  EXPECT_NE(dry.out.find("no water at any of these humidities"), std::string::npos) << dry.out;
+  const auto plan = nlohmann::json::parse(place.run("explain --json " + kSample).out);
+  EXPECT_EQ(plan["schema"], 1);
+  EXPECT_GE(plan["plan"]["steps"].size(), 3u);
+}
+
+TEST(Evaluate, GivesTheDocumentedJson) {
+  const Workplace place;
+  const Outcome run = place.run("evaluate --json " + kSample + kDraft);
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_EQ(json["schema"], 1);
+  ASSERT_EQ(json["points"].size(), 4u);
+  for (const auto& point : json["points"]) {
+    for (const char* key :
+         {"F_off", "F_on", "modulation", "area_fraction_off", "area_fraction_on", "capillary_force",
+          "electrostatic_force", "bridges", "wetted_fraction", "mean_gap"}) {
+      ASSERT_TRUE(point.contains(key)) << key;
+      EXPECT_GE(point[key]["se"].get<double>(), 0) << key;
+      for (const char* part : {"sampling", "grid", "solver", "humidity", "method", "parameters"}) {
+        EXPECT_TRUE(point[key]["parts"].contains(part)) << key << " " << part;
+      }
+    }
+    const double off = point["F_off"]["value"], on = point["F_on"]["value"];
+    EXPECT_NEAR(point["modulation"]["value"].get<double>(), (on - off) / off, 1e-9);
+  }
+  for (const char* key : {"mean_modulation", "variation", "range", "worst"}) {
+    EXPECT_TRUE(json["summary"].contains(key)) << key;
+  }
+  for (const char* key : {"plan", "seconds", "contact_solves", "fft_pairs"}) {
+    EXPECT_TRUE(json.contains(key)) << key;
+  }
+}
+
+TEST(Evaluate, AnUndrivenDesignHasNoModulationAndSaysSo) {
+  const Workplace place;
+  const std::string arguments = kSample + kDraft + "--set drive.amplitude=0V";
+  EXPECT_NE(place.run("evaluate " + arguments).out.find("undriven"), std::string::npos);
+  const auto json = nlohmann::json::parse(place.run("evaluate --json " + arguments).out);
+  EXPECT_TRUE(json["points"][0]["modulation"].is_null());
+  EXPECT_TRUE(json["summary"]["mean_modulation"].is_null());
+}
+
+TEST(Evaluate, GivesTheSameBytesForOneAndTwoThreads) {
+  const Workplace place;
+  for (const char* jobs : {"1", "2"}) {
+    const Outcome run =
+        place.run("evaluate -q " + kSample + kDraft + "--jobs " + jobs + " --out out" + jobs);
+    ASSERT_EQ(run.status, 0) << run.err;
+  }
+  EXPECT_EQ(file_text(place.path() / "out1/response.json"),
+            file_text(place.path() / "out2/response.json"));
+  EXPECT_GT(file_text(place.path() / "out1/response.json").size(), 1000u);
+}
+
+TEST(Evaluate, TheResolvedFileGivesTheSameAnswer) {
+  const Workplace place;
+  ASSERT_EQ(place.run("evaluate -q " + kSample + kDraft + "--out first").status, 0);
+  ASSERT_EQ(place.run("evaluate -q first/resolved.toml --out second").status, 0);
+  EXPECT_EQ(file_text(place.path() / "first/response.json"),
+            file_text(place.path() / "second/response.json"));
+}
+
+TEST(Evaluate, SweepsANumber) {
+  const Workplace place;
+  const Outcome run =
+      place.run("evaluate --json -q " + kSample + kDraft + "--sweep drive.amplitude=50..200:2");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json["runs"].size(), 2u);
+  EXPECT_EQ(json["runs"][1]["value"], 200);
+  // The pull grows with the square of the voltage, so does the modulation at least.
+  EXPECT_GT(json["runs"][1]["response"]["summary"]["mean_modulation"]["value"].get<double>(),
+            8 * json["runs"][0]["response"]["summary"]["mean_modulation"]["value"].get<double>());
+}
+
+TEST(Program, OutputThatCannotBeWrittenIsAFailure) {
+  const Workplace place;
+  EXPECT_EQ(place.shell("'" PAPILLA_PROGRAM "' describe > /dev/full").status, 1);
+}
+
+}  // namespace
+}  // namespace papilla
