@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "base/constants.h"
+#include "base/parallel.h"
 #include "base/random.h"
+#include "base/statistics.h"
 #include "physics/capillary/bridge.h"
 #include "physics/capillary/threshold.h"
 
@@ -244,6 +246,60 @@ TEST(Droplets, SameSeedSameBytes) {
   ASSERT_EQ(a.droplets.size(), b.droplets.size());
   for (std::size_t i = 0; i < a.droplets.size(); ++i) EXPECT_EQ(a.droplets[i].x, b.droplets[i].x);
   EXPECT_EQ(a.capillary_force, b.capillary_force);
+}
+
+// The ensemble's mean force, with its standard error.
+Estimate mean_force(const Gap& gap, double volume, int members) {
+  std::vector<double> force(members);
+  parallel_for(members, [&](int k) {
+    force[k] =
+        settle_droplets(gap, volume, {}, {}, 11, static_cast<std::uint64_t>(k)).capillary_force;
+  });
+  return mean_estimate(force);
+}
+
+TEST(Droplets, ShiftedAndMirroredGapsHoldTheSameForceInTheMean) {
+  const int n = 96;
+  const Gap gap = rough_gap(n, 200e-9, 9);
+  Gap shifted = gap, mirrored = gap;
+  for (int iy = 0; iy < n; ++iy) {
+    for (int ix = 0; ix < n; ++ix) {
+      shifted.value[gap.grid.index(ix, iy)] = gap((ix + 37) % n, (iy + 11) % n);
+      mirrored.value[gap.grid.index(ix, iy)] = gap(n - 1 - ix, iy);
+    }
+  }
+  const Estimate a = mean_force(gap, 1e-18, 200), b = mean_force(shifted, 1e-18, 200),
+                 c = mean_force(mirrored, 1e-18, 200);
+  EXPECT_LT(std::abs(a.value - b.value), 3 * std::hypot(a.se, b.se));
+  EXPECT_LT(std::abs(a.value - c.value), 3 * std::hypot(a.se, c.se));
+  EXPECT_LT(a.se, 0.03 * a.value);
+}
+
+TEST(Droplets, MembersDoNotDependOnThreads) {
+  const Gap gap = rough_gap(64, 200e-9, 10);
+  std::vector<double> one(16), two(16);
+  const auto run = [&](std::vector<double>& force, int threads) {
+    parallel_for(
+        16,
+        [&](int k) {
+          force[k] =
+              settle_droplets(gap, 1e-18, {}, {}, 3, static_cast<std::uint64_t>(k)).capillary_force;
+        },
+        threads);
+  };
+  run(one, 1);
+  run(two, 2);
+  EXPECT_EQ(one, two);
+}
+
+TEST(Droplets, ASpanningBridgeInAHoleNeedsItsVolume) {
+  // 80/50 deg: between flat plates s apart a bridge has the lower energy for V > (s / 0.8746)^3.
+  const double depth = 350e-9, needed = cube(depth / 0.8746);
+  DropletOptions one;
+  one.drops_per_volume = 1e-6;
+  const Gap gap = flat_gap(64, depth);
+  EXPECT_EQ(settle_droplets(gap, 0.98 * needed, {}, one, 1, 0).bridges, 0);
+  EXPECT_EQ(settle_droplets(gap, 1.02 * needed, {}, one, 1, 0).bridges, 1);
 }
 
 TEST(Droplets, ExtremesEndInAClearStatus) {
