@@ -2,6 +2,8 @@ add_library(papilla_options INTERFACE)
 target_include_directories(papilla_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/src)
 target_compile_options(papilla_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
                                                  -Wno-sign-conversion)
+# g++ 12 reports its own AVX-512 intrinsics (GCC bug 105593).
+target_compile_options(papilla_options INTERFACE -Wno-maybe-uninitialized)
 target_compile_definitions(papilla_options INTERFACE PAPILLA_VERSION="${PROJECT_VERSION}"
                            PAPILLA_DESIGNS_DIR="${CMAKE_SOURCE_DIR}/designs"
                            PAPILLA_INSTALLED_DESIGNS_DIR="${CMAKE_INSTALL_PREFIX}/share/papilla/designs")

@@ -1,0 +1,222 @@
+// NLopt and pagmo own their loops; each runs in a thread of its own that waits in the objective
+// function until the searcher is told the outcome.
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <limits>
+#include <mutex>
+#include <nlopt.hpp>
+#include <optional>
+#include <pagmo/algorithms/cmaes.hpp>
+#include <pagmo/algorithms/nsga2.hpp>
+#include <pagmo/population.hpp>
+#include <pagmo/problem.hpp>
+#include <thread>
+
+#include "optim/algorithms/searchers.h"
+
+namespace papilla {
+namespace {
+
+struct SearchEnded {};
+
+class Blocking : public Searcher {
+ public:
+  explicit Blocking(std::function<void(const BlockingObjective&)> run) {
+    thread_ = std::thread([this, run = std::move(run)] {
+      try {
+        run([this](const Point& u) { return wait_for(u); });
+      } catch (...) {
+        // The end of the search, or an optimiser that gave up (roundoff): both end the asking.
+      }
+      std::lock_guard lock(mutex_);
+      finished_ = true;
+      changed_.notify_all();
+    });
+  }
+
+  ~Blocking() override {
+    {
+      std::lock_guard lock(mutex_);
+      ended_ = true;
+      changed_.notify_all();
+    }
+    thread_.join();
+  }
+
+  std::vector<Point> ask() override {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return question_.has_value() || finished_; });
+    if (!question_) return {};
+    return {*question_};
+  }
+
+  void tell(const std::vector<Evaluation>& evaluations) override {
+    if (evaluations.empty()) return;
+    std::lock_guard lock(mutex_);
+    answer_ = evaluations.front().outcome;
+    question_.reset();
+    changed_.notify_all();
+  }
+
+ private:
+  Outcome wait_for(const Point& u) {
+    std::unique_lock lock(mutex_);
+    if (ended_) throw SearchEnded{};
+    question_ = u;
+    answer_.reset();
+    changed_.notify_all();
+    changed_.wait(lock, [&] { return answer_.has_value() || ended_; });
+    if (!answer_) throw SearchEnded{};
+    return *answer_;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Point> question_;
+  std::optional<Outcome> answer_;
+  bool finished_ = false, ended_ = false;
+  std::thread thread_;
+};
+
+// pagmo's view: unit cube, objectives with the penalty folded in (its NSGA-II takes no
+// constraints).
+struct PagmoProblem {
+  const SearchProblem* problem = nullptr;
+  const BlockingObjective* objective = nullptr;
+  Penalty* penalty = nullptr;
+
+  pagmo::vector_double fitness(const pagmo::vector_double& u) const {
+    return penalty->finite((*objective)(problem->space.snapped(u)), problem->objectives);
+  }
+  pagmo::vector_double::size_type get_nobj() const { return problem->objectives; }
+  std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
+    return {pagmo::vector_double(problem->space.size(), 0.0),
+            pagmo::vector_double(problem->space.size(), 1.0)};
+  }
+  pagmo::thread_safety get_thread_safety() const { return pagmo::thread_safety::none; }
+};
+
+unsigned population_size(const SearchProblem& problem) {
+  const int size = std::clamp(problem.evaluations / 12, 12, 100);
+  return static_cast<unsigned>(size / 4 * 4);  // NSGA-II wants a multiple of 4
+}
+
+pagmo::population first_population(const SearchProblem& problem, const pagmo::problem& p,
+                                   unsigned size) {
+  pagmo::population population(p, 0, static_cast<unsigned>(problem.seed));
+  for (const Point& start : problem.starts) {
+    if (population.size() < size) population.push_back(problem.space.snapped(start));
+  }
+  for (std::uint64_t i = 0; population.size() < size && i < 10000; ++i) {
+    const Point u = problem.space.snapped(low_discrepancy(problem.space.size(), problem.seed, i));
+    if (problem.cheaply_feasible(u) || i > 5000) population.push_back(u);
+  }
+  return population;
+}
+
+}  // namespace
+
+std::vector<double> Penalty::finite(const Outcome& outcome, std::size_t objectives) {
+  if (outcome.feasible()) {
+    if (worst_.empty()) worst_ = best_ = outcome.objectives;
+    for (std::size_t k = 0; k < objectives; ++k) {
+      worst_[k] = std::max(worst_[k], outcome.objectives[k]);
+      best_[k] = std::min(best_[k], outcome.objectives[k]);
+    }
+    return outcome.objectives;
+  }
+  std::vector<double> out(objectives, 1.0);
+  for (std::size_t k = 0; k < objectives && !worst_.empty(); ++k) {
+    const double span = std::max(worst_[k] - best_[k], 1e-6 * std::max(1.0, std::abs(worst_[k])));
+    // Bounded: worst + 10 % for the smallest violation, at most one more span for the largest.
+    const double violation =
+        outcome.ok ? outcome.violation() : std::numeric_limits<double>::infinity();
+    out[k] =
+        worst_[k] + span * (0.1 + (std::isfinite(violation) ? violation / (1 + violation) : 1));
+  }
+  return out;
+}
+
+std::unique_ptr<Searcher> make_blocking(std::function<void(const BlockingObjective&)> run) {
+  return std::make_unique<Blocking>(std::move(run));
+}
+
+std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem) {
+  return make_blocking([problem](const BlockingObjective& objective) {
+    Penalty penalty;
+    const pagmo::problem p{PagmoProblem{&problem, &objective, &penalty}};
+    pagmo::population population = first_population(problem, p, population_size(problem));
+    const double mutation = 1.0 / static_cast<double>(problem.space.size());
+    unsigned generation = 0;
+    while (true) {
+      pagmo::nsga2 algorithm(1, 0.95, 10., mutation, 20.,
+                             static_cast<unsigned>(problem.seed) + generation++);
+      population = algorithm.evolve(population);
+    }
+  });
+}
+
+std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem) {
+  return make_blocking([problem](const BlockingObjective& objective) {
+    Penalty penalty;
+    const pagmo::problem p{PagmoProblem{&problem, &objective, &penalty}};
+    pagmo::population population = first_population(problem, p, 12);
+    for (unsigned restart = 0;; ++restart) {
+      // memory = true keeps the covariance between calls; a collapsed search starts anew.
+      pagmo::cmaes algorithm(static_cast<unsigned>(std::max(1, problem.evaluations / 12)), -1, -1,
+                             -1, -1, 0.3, 1e-7, 1e-9, true, true,
+                             static_cast<unsigned>(problem.seed) + restart);
+      population = algorithm.evolve(population);
+    }
+  });
+}
+
+std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProblem& problem) {
+  return make_blocking([name, problem](const BlockingObjective& objective) {
+    Penalty penalty;
+    const auto n = static_cast<unsigned>(problem.space.size());
+    nlopt::srand(static_cast<unsigned long>(problem.seed));  // the generator is per thread
+    std::vector<double> start =
+        problem.starts.empty() ? std::vector<double>(n, 0.5)
+                               : problem.space.unit(problem.space.value(problem.starts.front()));
+    struct Call {
+      const SearchProblem* problem;
+      const BlockingObjective* objective;
+      Penalty* penalty;
+      std::vector<double> best;
+      double value = std::numeric_limits<double>::infinity();
+    } call{&problem, &objective, &penalty, start};
+    const auto function = [](const std::vector<double>& u, std::vector<double>&, void* data) {
+      auto& c = *static_cast<Call*>(data);
+      const double f = c.penalty->finite((*c.objective)(c.problem->space.snapped(u)), 1)[0];
+      if (f < c.value) {
+        c.value = f;
+        c.best = u;
+      }
+      return f;
+    };
+    const nlopt::algorithm algorithm = name == "bobyqa"  ? nlopt::LN_BOBYQA
+                                       : name == "sbplx" ? nlopt::LN_SBPLX
+                                                         : nlopt::GN_DIRECT_L;
+    const auto minimise = [&](nlopt::algorithm which, double step, int budget) {
+      nlopt::opt opt(which, n);
+      opt.set_lower_bounds(0.0);
+      opt.set_upper_bounds(1.0);
+      opt.set_min_objective(function, &call);
+      opt.set_xtol_abs(1e-4);
+      opt.set_maxeval(budget);
+      opt.set_initial_step(step);
+      std::vector<double> x = call.best;
+      double f = 0;
+      opt.optimize(x, f);
+    };
+    minimise(algorithm, 0.2,
+             name == "direct" ? std::max(10, 2 * problem.evaluations / 3) : problem.evaluations);
+    // A global search is polished; a local one that stopped early is started again, smaller.
+    for (double step = 0.1; step > 1e-3; step *= 0.5)
+      minimise(nlopt::LN_SBPLX, step, problem.evaluations);
+  });
+}
+
+}  // namespace papilla

@@ -1,0 +1,41 @@
+// The algorithms behind make_searcher (internal to optim).
+#pragma once
+
+#include <memory>
+
+#include "optim/search.h"
+
+namespace papilla {
+
+// Gaussian process with expected improvement (one objective) or exact expected hypervolume
+// improvement (two), constraints by probability of feasibility. Small budgets, noise welcome.
+std::unique_ptr<Searcher> make_bayesian(const SearchProblem& problem);
+
+// NSGA-II (pagmo), constraints by a penalty in front of the objectives.
+std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem);
+std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem);
+
+// NLopt: "bobyqa", "sbplx", "direct"; one objective.
+std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProblem& problem);
+
+// A blocking optimiser as a searcher: `run` gets an objective function that it may call in one
+// thread; the call returns what tell() brought, or throws when the search ends. `penalty` turns an
+// outcome into finite numbers that the optimiser can use.
+using BlockingObjective = std::function<Outcome(const Point&)>;
+std::unique_ptr<Searcher> make_blocking(std::function<void(const BlockingObjective&)> run);
+
+// A finite stand-in for failed and infeasible outcomes: the worst so far plus a margin that grows
+// with the violation. Never a huge constant: that would spoil quadratic models.
+class Penalty {
+ public:
+  std::vector<double> finite(const Outcome& outcome, std::size_t objectives);
+
+ private:
+  std::vector<double> worst_, best_;
+};
+
+// The i-th point of a scrambled low-discrepancy sequence in the unit cube (generalised golden
+// ratio).
+Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i);
+
+}  // namespace papilla

@@ -1,0 +1,36 @@
+// Append-only record of every evaluation. Resuming replays it: the searcher asks the same points
+// again and is answered from the file, so any algorithm continues exactly where a kill -9 stopped
+// it. No clock in it: the same seed gives the same bytes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "optim/problem.h"
+
+namespace papilla {
+
+class Journal {
+ public:
+  // Opens or starts the file. `key` names the problem (a hash of the resolved study); a file of
+  // another problem is refused with InputError. A torn last record is cut off. Records are kept
+  // only with resume = true; otherwise an existing file is refused.
+  Journal(const std::string& path, const std::string& key, bool resume);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  const std::vector<Evaluation>& records() const { return records_; }
+  void append(const Evaluation& evaluation);  // written and flushed to disk on return
+
+ private:
+  std::string path_;
+  int file_ = -1;
+  std::vector<Evaluation> records_;
+};
+
+// One line: hexadecimal floats (exact), then a checksum. Exposed for tests.
+std::string journal_line(const Evaluation& evaluation);
+bool parse_journal_line(const std::string& line, Evaluation& evaluation);
+
+}  // namespace papilla

@@ -1,0 +1,26 @@
+// Pareto fronts with constraints, feasibility first, and exact hypervolume.
+#pragma once
+
+#include <vector>
+
+#include "optim/problem.h"
+
+namespace papilla {
+
+// a is nowhere worse and somewhere better (minimisation).
+bool dominates(const std::vector<double>& a, const std::vector<double>& b);
+
+// Indices of the non-dominated feasible evaluations, by first objective; when none is feasible, the
+// single least-violating one; empty when every evaluation failed. Equal outcomes: the earliest.
+std::vector<std::size_t> pareto_front(const std::vector<Evaluation>& evaluations);
+
+// Hypervolume between the points and a reference point, exact, 1 to 3 objectives (minimisation).
+// Points beyond the reference count nothing.
+double hypervolume(std::vector<std::vector<double>> points, const std::vector<double>& reference);
+
+// Crowding-like choice of `count` points spread along the front: the ends first, then the largest
+// gaps.
+std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& points,
+                                       std::size_t count);
+
+}  // namespace papilla

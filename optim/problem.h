@@ -1,0 +1,50 @@
+// An optimisation problem as numbers only: a box, objectives to minimise, constraints <= 0.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace papilla {
+
+using Point = std::vector<double>;
+
+// One variable: an interval, or a list of choices (values in increasing order).
+struct Dimension {
+  double low = 0, high = 1;
+  std::vector<double> choices;
+};
+
+// The unit cube is what searchers see; choices split their unit interval into equal cells.
+struct Space {
+  std::vector<Dimension> dimensions;
+
+  std::size_t size() const { return dimensions.size(); }
+  Point value(const Point& unit) const;  // unit cube -> values; outside is clamped
+  Point unit(const Point& value) const;
+  Point snapped(const Point& unit) const;  // unit(value(unit)): the point that is really evaluated
+  bool single_point() const;
+};
+
+struct Outcome {
+  bool ok = false;
+  std::string reason;               // when not ok
+  std::vector<double> objectives;   // minimised; finite when ok
+  std::vector<double> constraints;  // <= 0 is feasible; finite when ok
+  std::vector<double> info;         // carried along, not optimised
+
+  double violation() const;  // sum of positive constraints
+  bool feasible() const { return ok && violation() <= 0; }
+  bool operator==(const Outcome&) const = default;
+};
+
+struct Evaluation {
+  Point unit;  // in the unit cube, snapped
+  Outcome outcome;
+};
+
+// Checks what an evaluation returned: wrong counts, NaN or Inf become a failed outcome with a
+// reason.
+Outcome guarded(Outcome outcome, std::size_t objectives, std::size_t constraints);
+
+}  // namespace papilla

@@ -1,0 +1,58 @@
+#include "optim/search.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "optim/algorithms/searchers.h"
+
+namespace papilla {
+
+bool SearchProblem::cheaply_feasible(const Point& unit) const {
+  if (!cheap_constraints) return true;
+  const std::vector<double> c = cheap_constraints(unit);
+  return std::all_of(c.begin(), c.end(), [](double v) { return v <= 0; });
+}
+
+std::vector<std::string> searcher_names() {
+  return {"auto", "bayesian", "nsga2", "cmaes", "bobyqa", "sbplx", "direct"};
+}
+
+SearchMethod choose_method(const std::string& name, const SearchProblem& problem) {
+  const std::size_t n = problem.space.size(), m = problem.objectives;
+  if (name == "auto") {
+    if (m <= 2 && problem.evaluations <= 400 && n <= 20) {
+      return {"bayesian",
+              m == 2 ? "two objectives and few, noisy evaluations: Gaussian process with expected "
+                       "hypervolume improvement"
+                     : "few, noisy evaluations: Gaussian process with expected improvement"};
+    }
+    if (m >= 2) return {"nsga2", "a large budget for several objectives: NSGA-II"};
+    return {
+        "cmaes",
+        "a large budget for one noisy objective: CMA-ES, the local method that noise hurts least"};
+  }
+  const auto names = searcher_names();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw InputError("unknown search method \"" + name + "\"; use one of " + join_names(names));
+  }
+  if (m > 1 && name != "nsga2" && name != "bayesian") {
+    throw InputError("search.method = \"" + name + "\" has one objective; this study has " +
+                     std::to_string(m) + ": use \"bayesian\" or \"nsga2\"");
+  }
+  if (m > 2 && name == "bayesian")
+    throw InputError("search.method = \"bayesian\" handles one or two objectives; use \"nsga2\"");
+  if (m == 1 && name == "nsga2")
+    throw InputError(
+        "search.method = \"nsga2\" needs two objectives; use \"bayesian\" or \"cmaes\"");
+  return {name, "asked for"};
+}
+
+std::unique_ptr<Searcher> make_searcher(const SearchMethod& method, const SearchProblem& problem) {
+  if (method.name == "bayesian" || problem.space.single_point()) return make_bayesian(problem);
+  if (method.name == "nsga2") return make_nsga2(problem);
+  if (method.name == "cmaes") return make_cmaes(problem);
+  return make_nlopt(method.name, problem);
+}
+
+}  // namespace papilla

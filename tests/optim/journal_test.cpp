@@ -1,0 +1,75 @@
+#include "optim/journal.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+
+namespace papilla {
+namespace {
+
+class JournalFile : public ::testing::Test {
+ protected:
+  void SetUp() override { path_ = (std::filesystem::temp_directory_path() / ("papilla_journal_" + std::to_string(::getpid()))).string(); }
+  void TearDown() override { std::filesystem::remove(path_); }
+  std::string bytes() const {
+    std::stringstream out;
+    out << std::ifstream(path_, std::ios::binary).rdbuf();
+    return out.str();
+  }
+
+  std::string path_;
+};
+
+Evaluation record(int i) {
+  Evaluation e{{i / 7.0, 0.1}, {true, "", {1.0 / 3 + i, 2}, {-0.5}, {7}}};
+  if (i % 4 == 3) e.outcome = {false, "crashed", {}, {}, {}};
+  return e;
+}
+
+TEST_F(JournalFile, RecordsAreExact) {
+  for (int i = 0; i < 8; ++i) {
+    Evaluation back;
+    std::string line = journal_line(record(i));
+    line.pop_back();
+    ASSERT_TRUE(parse_journal_line(line, back));
+    EXPECT_EQ(back.unit, record(i).unit);
+    EXPECT_EQ(back.outcome, record(i).outcome);
+    line[20] ^= 1;
+    EXPECT_FALSE(parse_journal_line(line, back));
+  }
+}
+
+TEST_F(JournalFile, ACutAtAnyByteLosesAtMostTheTornRecord) {
+  {
+    Journal journal(path_, "key", false);
+    for (int i = 0; i < 5; ++i) journal.append(record(i));
+  }
+  const std::string whole = bytes();
+  for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << whole.substr(0, cut);
+    std::size_t kept = 0;
+    {
+      Journal journal(path_, "key", true);
+      kept = journal.records().size();
+      for (std::size_t i = kept; i < 5; ++i) journal.append(record(static_cast<int>(i)));
+    }
+    ASSERT_EQ(bytes(), whole) << cut;
+  }
+}
+
+TEST_F(JournalFile, AnotherStudyOrAnUnaskedResumeIsRefused) {
+  {
+    Journal journal(path_, "key", false);
+    journal.append(record(0));
+  }
+  EXPECT_THROW(Journal(path_, "other", true), InputError);
+  EXPECT_THROW(Journal(path_, "key", false), InputError);
+}
+
+}  // namespace
+}  // namespace papilla

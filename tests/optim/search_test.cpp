@@ -1,0 +1,244 @@
+#include "optim/search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <numbers>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "optim/gaussian_process.h"
+#include "optim/pareto.h"
+#include "optim/worker.h"
+
+namespace papilla {
+namespace {
+
+SearchProblem box(std::size_t n, std::size_t objectives, int evaluations, double low = 0, double high = 1) {
+  SearchProblem p;
+  p.space.dimensions.assign(n, {low, high, {}});
+  p.objectives = objectives;
+  p.evaluations = evaluations;
+  return p;
+}
+
+template <class F>
+std::vector<Evaluation> run(const std::string& name, const SearchProblem& problem, F&& f) {
+  const auto searcher = make_searcher(choose_method(name, problem), problem);
+  std::vector<Evaluation> all;
+  while (static_cast<int>(all.size()) < problem.evaluations) {
+    std::vector<Evaluation> batch;
+    for (const Point& u : searcher->ask()) {
+      batch.push_back({u, guarded(f(problem.space.value(u)), problem.objectives, problem.constraints)});
+    }
+    if (batch.empty()) break;
+    searcher->tell(batch);
+    all.insert(all.end(), batch.begin(), batch.end());
+  }
+  return all;
+}
+
+Outcome outcome(std::vector<double> objectives, std::vector<double> constraints = {}) {
+  return {true, {}, std::move(objectives), std::move(constraints), {}};
+}
+
+double best(const std::vector<Evaluation>& all) {
+  double value = std::numeric_limits<double>::infinity();
+  for (const Evaluation& e : all) {
+    if (e.outcome.feasible()) value = std::min(value, e.outcome.objectives[0]);
+  }
+  return value;
+}
+
+double front_volume(const std::vector<Evaluation>& all, const std::vector<double>& reference) {
+  std::vector<std::vector<double>> points;
+  for (std::size_t i : pareto_front(all)) points.push_back(all[i].outcome.objectives);
+  return hypervolume(points, reference);
+}
+
+Outcome zdt1(const Point& x) {
+  double g = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) g += x[i];
+  g = 1 + 9 * g / static_cast<double>(x.size() - 1);
+  return outcome({x[0], g * (1 - std::sqrt(x[0] / g))});
+}
+Outcome zdt2(const Point& x) {
+  double g = 0;
+  for (std::size_t i = 1; i < x.size(); ++i) g += x[i];
+  g = 1 + 9 * g / static_cast<double>(x.size() - 1);
+  return outcome({x[0], g * (1 - (x[0] / g) * (x[0] / g))});
+}
+
+TEST(Hypervolume, HasItsClosedForms) {
+  EXPECT_DOUBLE_EQ(hypervolume({{1, 2}, {2, 1}}, {3, 3}), 3);
+  EXPECT_DOUBLE_EQ(hypervolume({{1, 1, 1}}, {2, 3, 4}), 6);
+  EXPECT_DOUBLE_EQ(hypervolume({{0, 1, 1}, {1, 0, 1}, {1, 1, 0}}, {2, 2, 2}), 1 + 3 * 1);
+  // 100 points on ZDT1's front, uniform in f1: 0.871409 to the reference (1.1, 1.1).
+  std::vector<std::vector<double>> front;
+  for (int i = 0; i < 100; ++i) front.push_back({i / 99.0, 1 - std::sqrt(i / 99.0)});
+  EXPECT_NEAR(hypervolume(front, {1.1, 1.1}), 0.871409, 1e-6);
+}
+
+TEST(Bayesian, FindsTheFrontOfZdt1InSixtyEvaluations) {
+  const SearchProblem p = box(4, 2, 60);
+  const auto all = run("auto", p, zdt1);
+  EXPECT_GT(front_volume(all, {1.1, 1.1}), 0.97 * 0.876667);
+}
+
+TEST(Bayesian, BeatsNsga2AtEqualSmallBudgets) {
+  const SearchProblem p = box(4, 2, 60);
+  for (auto f : {zdt1, zdt2}) {
+    EXPECT_GT(front_volume(run("bayesian", p, f), {1.1, 1.1}), 1.1 * front_volume(run("nsga2", p, f), {1.1, 1.1}));
+  }
+}
+
+TEST(Nsga2, ConvergesWithAllItsEvaluations) {
+  const SearchProblem p = box(4, 2, 3000);
+  EXPECT_GT(front_volume(run("nsga2", p, zdt1), {1.1, 1.1}), 0.95 * 0.876667);
+}
+
+TEST(Search, EverySingleObjectiveMethodFindsANoisyMinimum) {
+  for (const char* name : {"bayesian", "cmaes", "sbplx", "direct", "bobyqa"}) {
+    SearchProblem p = box(3, 1, std::string(name) == "bayesian" ? 60 : 250);
+    RandomStream noise(5, "noise");
+    const auto all = run(name, p, [&](const Point& x) {
+      double sum = 0;
+      for (double v : x) sum += (v - 0.3) * (v - 0.3);
+      return outcome({1 + sum + 1e-3 * noise.normal()});
+    });
+    EXPECT_LT(best(all), 1.02) << name;
+  }
+}
+
+TEST(Search, TheConstrainedMinimumLiesOnTheConstraint) {
+  // min x + y subject to x y >= 0.25: (0.5, 0.5), value 1.
+  for (const char* name : {"bayesian", "sbplx"}) {
+    SearchProblem p = box(2, 1, std::string(name) == "bayesian" ? 50 : 300);
+    p.constraints = 1;
+    const auto all = run(name, p, [](const Point& x) { return outcome({x[0] + x[1]}, {0.25 - x[0] * x[1]}); });
+    EXPECT_LT(best(all), 1.05) << name;
+    EXPECT_GE(best(all), 1 - 1e-9) << name;
+  }
+}
+
+TEST(Search, HardProblemsEnd) {
+  const auto quadratic = [](const Point& x) { return outcome({x[0] * x[0]}); };
+  for (const char* name : {"bayesian", "cmaes", "sbplx", "direct", "bobyqa"}) {
+    const SearchProblem p = box(2, 1, 40, -1, 1);
+    const auto half_nan = [&](const Point& x) { return x[0] < 0 ? outcome({std::nan("")}) : quadratic(x); };
+    const auto infinite = [&](const Point& x) { return x[1] < 0 ? outcome({INFINITY}) : quadratic(x); };
+    const auto flat = [&](const Point&) { return outcome({3}); };
+    const auto never = [&](const Point&) { return Outcome{}; };
+    const auto count = static_cast<std::size_t>(40);
+    EXPECT_LE(run(name, p, half_nan).size(), count) << name;
+    EXPECT_LT(best(run(name, p, infinite)), 0.5) << name;
+    EXPECT_EQ(best(run(name, p, flat)), 3) << name;
+    EXPECT_FALSE(run(name, p, never).empty()) << name;
+  }
+}
+
+TEST(Search, ExtremeScalesAreNoDifferent) {
+  for (double scale : {1e-12, 1e9}) {
+    const SearchProblem p = box(2, 1, 40, 0, scale);
+    const auto all = run("bayesian", p, [&](const Point& x) { return outcome({std::pow(x[0] / scale - 0.4, 2) + x[1] / scale}); });
+    EXPECT_LT(best(all), 0.02) << scale;
+  }
+}
+
+TEST(Search, OnePointIsEvaluatedOnce) {
+  SearchProblem p = box(2, 1, 20, 0.5, 0.5);
+  EXPECT_EQ(run("auto", p, [](const Point&) { return outcome({1}); }).size(), 1u);
+}
+
+TEST(Search, AnEmptyFeasibleSetGivesTheLeastViolatingPoint) {
+  SearchProblem p = box(2, 1, 40);
+  p.constraints = 1;
+  const auto all = run("bayesian", p, [](const Point& x) { return outcome({x[0]}, {1 + x[1]}); });
+  const auto front = pareto_front(all);
+  ASSERT_EQ(front.size(), 1u);
+  EXPECT_LT(all[front[0]].unit[1], 0.1);
+}
+
+TEST(Search, ChoicesAreTaken) {
+  SearchProblem p;
+  p.space.dimensions = {{0, 1, {}}, {0, 0, {1, 5, 9}}};
+  p.evaluations = 30;
+  const auto all = run("auto", p, [](const Point& x) { return outcome({std::abs(x[1] - 5) + x[0]}); });
+  EXPECT_LT(best(all), 0.05);
+  for (const Evaluation& e : all) {
+    const double c = p.space.value(e.unit)[1];
+    EXPECT_TRUE(c == 1 || c == 5 || c == 9);
+  }
+}
+
+TEST(Search, TheSameSeedAsksTheSamePoints) {
+  for (const char* name : {"bayesian", "nsga2"}) {
+    const SearchProblem p = box(3, 2, 30);
+    const auto a = run(name, p, zdt1), b = run(name, p, zdt1);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].unit, b[i].unit);
+  }
+}
+
+TEST(GaussianProcess, InterpolatesAndKnowsWhereItDoesNotKnow) {
+  std::vector<Point> x;
+  std::vector<double> y;
+  for (int i = 0; i <= 10; ++i) {
+    if (i == 5) continue;
+    x.push_back({i / 10.0});
+    y.push_back(std::sin(4 * i / 10.0));
+  }
+  const GaussianProcess gp(x, y);
+  EXPECT_NEAR(gp.predict({0.5}).mean, std::sin(2.0), 0.02);
+  EXPECT_NEAR(gp.predict({0.3}).mean, std::sin(1.2), 1e-2);
+  EXPECT_GT(gp.predict({0.5}).sd, gp.predict({0.3}).sd);
+}
+
+TEST(Worker, ACrashAHangAndAnExceptionBecomeFailures) {
+  const auto evaluate = [](const Point& u) -> Outcome {
+    if (u[0] < 0.2) ::abort();
+    if (u[0] < 0.4) throw std::runtime_error("no water left");
+    if (u[0] < 0.6) {
+      while (true) {
+      }
+    }
+    return outcome({u[0]});
+  };
+  Worker worker(evaluate, {.seconds = 1});
+  const auto ask = [&](double u) {
+    worker.send({u});
+    return worker.receive();
+  };
+  EXPECT_NE(ask(0.1).reason.find("crashed"), std::string::npos);
+  EXPECT_EQ(ask(0.3).reason, "no water left");
+  EXPECT_NE(ask(0.5).reason.find("longer"), std::string::npos);
+  EXPECT_EQ(ask(0.75).objectives[0], 0.75);
+}
+
+TEST(Worker, AnyNumberGivesTheSameOutcomes) {
+  std::vector<Point> points;
+  for (int i = 0; i < 7; ++i) points.push_back({i / 7.0});
+  std::vector<Outcome> first;
+  for (int jobs : {1, 2, 3}) {
+    std::vector<std::unique_ptr<Worker>> workers;
+    for (int j = 0; j < jobs; ++j) {
+      workers.push_back(std::make_unique<Worker>([](const Point& u) { return outcome({u[0] * 3}); }, WorkerLimits{}));
+    }
+    const auto outcomes = evaluate_all(workers, points);
+    if (first.empty()) first = outcomes;
+    EXPECT_EQ(outcomes, first);
+  }
+}
+
+TEST(Method, WhatCannotDoTheProblemIsRefused) {
+  EXPECT_THROW(choose_method("bobyqa", box(2, 2, 10)), InputError);
+  EXPECT_THROW(choose_method("annealing", box(2, 1, 10)), InputError);
+  EXPECT_EQ(choose_method("auto", box(4, 2, 100)).name, "bayesian");
+  EXPECT_EQ(choose_method("auto", box(4, 3, 10000)).name, "nsga2");
+}
+
+}  // namespace
+}  // namespace papilla
