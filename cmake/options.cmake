@@ -2,9 +2,11 @@ add_library(papilla_options INTERFACE)
 target_include_directories(papilla_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/src)
 target_compile_options(papilla_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
                                                  -Wno-sign-conversion)
-# g++ 12 reports its own AVX-512 intrinsics (GCC bug 105593).
-target_compile_options(papilla_options INTERFACE -Wno-maybe-uninitialized)
 target_compile_definitions(papilla_options INTERFACE PAPILLA_VERSION="${PROJECT_VERSION}"
+                           # Eigen's memory as in Debian's Ceres and pagmo: with wider instructions it
+                           # would align, and free, differently from them.
+                           EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=16
+                           EIGEN_MAX_STATIC_ALIGN_BYTES=16
                            PAPILLA_DESIGNS_DIR="${CMAKE_SOURCE_DIR}/designs"
                            PAPILLA_INSTALLED_DESIGNS_DIR="${CMAKE_INSTALL_PREFIX}/share/papilla/designs")
 if(PAPILLA_WARNINGS_AS_ERRORS)
@@ -18,7 +20,6 @@ elseif(PAPILLA_NATIVE)
   include(CheckCXXCompilerFlag)
   check_cxx_compiler_flag(-march=native PAPILLA_HAS_MARCH_NATIVE)
   if(PAPILLA_HAS_MARCH_NATIVE)
-    # Eigen's memory alignment depends on this flag: every target gets it, or none.
     target_compile_options(papilla_options INTERFACE -march=native)
   endif()
 endif()

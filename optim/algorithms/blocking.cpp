@@ -160,14 +160,20 @@ std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem) {
 std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem) {
   return make_blocking([problem](const BlockingObjective& objective) {
     Penalty penalty;
-    const pagmo::problem p{PagmoProblem{&problem, &objective, &penalty}};
+    long calls = 0;
+    const BlockingObjective counted = [&](const Point& u) {
+      ++calls;
+      return objective(u);
+    };
+    const pagmo::problem p{PagmoProblem{&problem, &counted, &penalty}};
     pagmo::population population = first_population(problem, p, 12);
     for (unsigned restart = 0;; ++restart) {
-      // memory = true keeps the covariance between calls; a collapsed search starts anew.
+      const long before = calls;
       pagmo::cmaes algorithm(static_cast<unsigned>(std::max(1, problem.evaluations / 12)), -1, -1,
-                             -1, -1, 0.3, 1e-7, 1e-9, true, true,
+                             -1, -1, 0.3, 1e-7, 1e-9, false, true,
                              static_cast<unsigned>(problem.seed) + restart);
       population = algorithm.evolve(population);
+      if (calls == before) return;  // converged at once: a flat or failing objective
     }
   });
 }
