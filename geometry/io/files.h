@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/files.h"
 #include "geometry/heightmap.h"
 
 namespace papilla {
@@ -41,10 +42,6 @@ void write_png(const std::string& path, const Heightmap& h);
 // (float: um; 16-bit: needs our JSON). width: lateral size in x [m] where the file does not say; 0:
 // the file must say. Refuses more than 2^28 pixels, NaN, and broken files.
 Heightmap read_heightmap(const std::string& path, double width = 0);
-
-// Writes bytes atomically (temporary file beside it, fsync, rename).
-void write_bytes(const std::string& path, const std::string& bytes);
-std::string read_bytes(const std::string& path, std::size_t limit = std::size_t{1} << 31);
 
 // RGB rows, top first, 3 bytes a pixel.
 void write_png_rgb(const std::string& path, int width, int height,

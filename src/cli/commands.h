@@ -9,22 +9,30 @@ namespace papilla {
 
 void add_evaluate(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
-void add_describe(CLI::App& app, Context& context);
+void add_export(CLI::App& app, Context& context);
 void add_solve(CLI::App& app, Context& context);
+void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
-
-// In the order of `papilla --help`.
-inline constexpr std::array kCommands{
-    add_evaluate, add_explain, add_solve, add_describe, add_completion,
-};
 
 // The pieces of `papilla solve`.
 void add_solve_bridge(CLI::App& solve, Context& context);
 void add_solve_droplets(CLI::App& solve, Context& context);
 
+// clang-format off
+// In the order of `papilla --help`, one a line.
+inline constexpr std::array kCommands{
+    add_evaluate,
+    add_explain,
+    add_export,
+    add_solve,
+    add_describe,
+    add_completion,
+};
+
 inline constexpr std::array kPieces{
     add_solve_bridge,
     add_solve_droplets,
 };
+// clang-format on
 
 }  // namespace papilla

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <memory>
 
+#include "base/files.h"
 #include "cli/commands.h"
-#include "config/writer.h"
 #include "study/reference.h"
 
 namespace papilla {
@@ -21,8 +21,8 @@ int describe(const DescribeOptions& options) {
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);
     for (const std::string& section : reference_sections()) {
-      write_text_file(options.out + "/" + section + ".md",
-                      reference_section(section, ReferenceFormat::Markdown));
+      write_bytes(options.out + "/" + section + ".md",
+                  reference_section(section, ReferenceFormat::Markdown));
     }
     return kSuccess;
   }

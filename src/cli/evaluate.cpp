@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "config/describe.h"
@@ -171,9 +172,9 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
       throw InputError(
           {Problem{options.out, 0, 0, "", "no such folder can be made: " + error.message()}});
     }
-    write_text_file(options.out + "/resolved.toml", resolved_toml(study));
-    write_text_file(options.out + "/response.json", response_json(response, false) + "\n");
-    write_text_file(options.out + "/response.txt", response_table(response));
+    write_bytes(options.out + "/resolved.toml", resolved_toml(study));
+    write_bytes(options.out + "/response.json", response_json(response, false) + "\n");
+    write_bytes(options.out + "/response.txt", response_table(response));
     write_pictures(options.out, design, fidelity);
     context.note("wrote " + options.out);
   }

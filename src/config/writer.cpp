@@ -1,11 +1,8 @@
 #include "config/writer.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "base/units.h"
 
@@ -107,25 +104,5 @@ bool TableWriter::begin_item(int index) {
 
 void TableWriter::end_item() { pop_into_parent(); }
 void TableWriter::end_list() { pop_into_parent(); }
-
-void write_text_file(const std::string& path, const std::string& text) {
-  const std::string temporary = fmt::format("{}.{}.part", path, getpid());
-  std::error_code error;
-  {
-    std::ofstream stream(temporary, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) {
-      std::filesystem::remove(temporary, error);
-      throw InputError({Problem{path, 0, 0, "", "cannot be written"}});
-    }
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    throw InputError({Problem{path, 0, 0, "", "cannot be written: " + error.message()}});
-  }
-}
 
 }  // namespace papilla

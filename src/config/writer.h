@@ -60,7 +60,4 @@ std::string to_toml(const S& s, const Origins* origins = nullptr) {
 // "study.toml:8:10", "--set texture.depth=1 um".
 std::string place_text(const Place& place);
 
-// Writes a whole file or nothing (a temporary beside it, then a rename). Throws InputError.
-void write_text_file(const std::string& path, const std::string& text);
-
 }  // namespace papilla

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "base/files.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
@@ -502,12 +503,12 @@ Finger read_finger(const std::string& path) {
 }
 
 void write_design(const std::string& path, const Design& design) {
-  write_text_file(path, to_toml(design));
+  write_bytes(path, to_toml(design));
 }
 
 void write_finger(const std::string& path, const Finger& finger, const std::string& comment) {
-  write_text_file(path, (comment.empty() ? "" : "# " + comment + "\n") + "schema_version = 1\n" +
-                            to_toml(finger));
+  write_bytes(path, (comment.empty() ? "" : "# " + comment + "\n") + "schema_version = 1\n" +
+                        to_toml(finger));
 }
 
 std::string resolved_toml(const Study& study) {

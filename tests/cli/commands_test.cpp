@@ -125,6 +125,40 @@ TEST(Evaluate, SweepsANumber) {
             8 * json["runs"][0]["response"]["summary"]["mean_modulation"]["value"].get<double>());
 }
 
+TEST(Export, WritesTheFilesThatItNames) {
+  const Workplace place;
+  const Outcome run =
+      place.run("export " + kSample + " --pixels 64 --polarity white-deep --out out");
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::istringstream names(run.out);
+  int count = 0;
+  for (std::string name; std::getline(names, name); ++count) {
+    EXPECT_TRUE(std::filesystem::exists(place.path() / name)) << name;
+  }
+  EXPECT_EQ(count, 8);
+  const auto json = nlohmann::json::parse(file_text(place.path() / "out/export.json"));
+  EXPECT_EQ(json["min_hole"], 3e-6);
+  EXPECT_NEAR(json["lowest"].get<double>(), -600e-9, 1e-15);
+  // The same design, the same bytes.
+  ASSERT_EQ(place.run("export " + kSample + " --pixels 64 --polarity white-deep --out two").status,
+            0);
+  for (const char* name : {"heightmap.exr", "heightmap.tif", "mask.tif", "texture.gds"}) {
+    EXPECT_EQ(file_text(place.path() / "out" / name), file_text(place.path() / "two" / name))
+        << name;
+  }
+}
+
+TEST(Export, MasksNeedAPolarityAndLayoutsAnArray) {
+  const Workplace place;
+  const Outcome mask = place.run("export " + kSample + " --format mask --out out");
+  EXPECT_EQ(mask.status, 2);
+  EXPECT_NE(mask.err.find("needs a polarity"), std::string::npos) << mask.err;
+  const Outcome gds = place.run("export " PAPILLA_SOURCE_DIR
+                                "/designs/m3_samples/flat.toml --format gds --out out");
+  EXPECT_EQ(gds.status, 2);
+  EXPECT_EQ(place.entries(), 0);
+}
+
 TEST(Program, OutputThatCannotBeWrittenIsAFailure) {
   const Workplace place;
   EXPECT_EQ(place.shell("'" PAPILLA_PROGRAM "' describe > /dev/full").status, 1);

@@ -1,3 +1,5 @@
+#include "base/files.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -9,7 +11,6 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "geometry/io/files.h"
 
 namespace papilla {
 

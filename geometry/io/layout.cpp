@@ -1,0 +1,239 @@
+#include "geometry/io/layout.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
+
+namespace papilla {
+namespace {
+
+// --- GDSII stream: big-endian records [length, type, data] ---
+
+using Points = std::vector<std::pair<std::int32_t, std::int32_t>>;  // nm
+
+class GdsStream {
+ public:
+  void empty(int type) { record(type, {}); }
+  void shorts(int type, const std::vector<int>& values) {
+    std::string data;
+    for (const int v : values) {
+      data += static_cast<char>((v >> 8) & 0xff);
+      data += static_cast<char>(v & 0xff);
+    }
+    record(type, data);
+  }
+  void text(int type, std::string value) {
+    if (value.size() % 2) value += '\0';
+    record(type, value);
+  }
+  void reals(int type, const std::vector<double>& values) {
+    std::string data;
+    for (const double v : values) data += real(v);
+    record(type, data);
+  }
+  void points(const Points& points) {
+    std::string data;
+    for (const auto& [x, y] : points) data += word(x) + word(y);
+    record(0x1003, data);
+  }
+  const std::string& bytes() const { return bytes_; }
+
+ private:
+  void record(int type, const std::string& data) {
+    const std::size_t length = data.size() + 4;
+    bytes_ += static_cast<char>(length >> 8);
+    bytes_ += static_cast<char>(length & 0xff);
+    bytes_ += static_cast<char>(type >> 8);
+    bytes_ += static_cast<char>(type & 0xff);
+    bytes_ += data;
+  }
+  static std::string word(std::int32_t value) {
+    const auto u = static_cast<std::uint32_t>(value);
+    std::string out;
+    for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>((u >> shift) & 0xff);
+    return out;
+  }
+  // Excess-64, base-16 exponent, 56-bit mantissa.
+  static std::string real(double value) {
+    int exponent = 64;
+    while (value >= 1) value /= 16, ++exponent;
+    while (value < 1.0 / 16) value *= 16, --exponent;
+    const auto mantissa = static_cast<std::uint64_t>(std::llround(std::ldexp(value, 56)));
+    std::string out(1, static_cast<char>(exponent));
+    for (int shift = 48; shift >= 0; shift -= 8) {
+      out += static_cast<char>((mantissa >> shift) & 0xff);
+    }
+    return out;
+  }
+
+  std::string bytes_;
+};
+
+std::int32_t nanometres(double metres) {
+  return static_cast<std::int32_t>(std::lround(1e9 * metres));
+}
+
+void boundary(GdsStream& gds, Points points) {
+  points.push_back(points.front());
+  gds.empty(0x0800);
+  gds.shorts(0x0D02, {1});
+  gds.shorts(0x0E02, {0});
+  gds.points(points);
+  gds.empty(0x1100);
+}
+
+Points circle(double x, double y, double diameter) {
+  constexpr int kSides = 128;
+  // The polygon has the area of the circle.
+  const double step = 2 * kPi / kSides;
+  const double radius = 0.5 * diameter * std::sqrt(step / std::sin(step));
+  Points points;
+  for (int i = 0; i < kSides; ++i) {
+    const double angle = (i + 0.5) * step;
+    points.emplace_back(nanometres(x + radius * std::cos(angle)),
+                        nanometres(y + radius * std::sin(angle)));
+  }
+  return points;
+}
+
+struct ArrayCell {
+  double x = 0, y = 0;  // pitch [m]
+  std::vector<Points> polygons;
+};
+
+ArrayCell round_cell(Lattice lattice, double period, double diameter) {
+  if (lattice == Lattice::Square) {
+    return {period, period, {circle(0.5 * period, 0.5 * period, diameter)}};
+  }
+  const double row = std::sqrt(3.0) * period;
+  return {
+      period,
+      row,
+      {circle(0.25 * period, 0.25 * row, diameter), circle(0.75 * period, 0.75 * row, diameter)}};
+}
+
+ArrayCell array_cell(const Texture& texture, double size_y) {
+  if (const auto* t = std::get_if<HoleArray>(&texture.kind)) {
+    return round_cell(t->lattice, t->period, t->diameter);
+  }
+  if (const auto* t = std::get_if<PillarArray>(&texture.kind)) {
+    return round_cell(t->lattice, t->period, t->diameter);
+  }
+  if (const auto* t = std::get_if<Grating>(&texture.kind)) {
+    const std::int32_t left = nanometres(0.5 * (t->period - t->width));
+    const std::int32_t right = nanometres(0.5 * (t->period + t->width));
+    const std::int32_t top = nanometres(size_y);
+    return {t->period, size_y, {{{left, 0}, {right, 0}, {right, top}, {left, top}}}};
+  }
+  throw InputError(fmt::format(
+      "GDSII holds arrays of holes, pillars or grooves, not \"{}\"; use exr, tiff or stl",
+      texture_name(texture)));
+}
+
+// --- STL ---
+
+struct Vertex {
+  float x, y, z;
+};
+
+void triangle(std::string& out, const Vertex& a, const Vertex& b, const Vertex& c) {
+  const float ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const float vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  float nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+  const float length = std::sqrt(nx * nx + ny * ny + nz * nz);
+  if (length > 0) nx /= length, ny /= length, nz /= length;
+  const std::array<float, 12> values{nx, ny, nz, a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
+  out.append(reinterpret_cast<const char*>(values.data()), sizeof(values));
+  out.append(2, '\0');
+}
+
+}  // namespace
+
+void write_gds(const std::string& path, const Texture& texture, double size_x, double size_y) {
+  const ArrayCell cell = array_cell(texture, size_y);
+  const long columns = std::max(1L, std::lround(size_x / cell.x));
+  const long rows = std::max(1L, std::lround(size_y / cell.y));
+  if (columns > 32767 || rows > 32767 || size_x > 2.1 || size_y > 2.1) {
+    throw InputError(fmt::format("{} x {} cells are more than one GDSII array holds (32767 a side)",
+                                 columns, rows));
+  }
+  const std::vector<int> date{2025, 1, 1, 0, 0, 0, 2025, 1, 1, 0, 0, 0};
+  GdsStream gds;
+  gds.shorts(0x0002, {600});
+  gds.shorts(0x0102, date);
+  gds.text(0x0206, "PAPILLA");
+  gds.reals(0x0305, {1e-3, 1e-9});  // one database unit is 1e-3 um, 1e-9 m
+  gds.shorts(0x0502, date);
+  gds.text(0x0606, "CELL");
+  for (const Points& polygon : cell.polygons) boundary(gds, polygon);
+  gds.empty(0x0700);
+  gds.shorts(0x0502, date);
+  gds.text(0x0606, "TEXTURE");
+  gds.empty(0x0B00);
+  gds.text(0x1206, "CELL");
+  gds.shorts(0x1302, {static_cast<int>(columns), static_cast<int>(rows)});
+  gds.points({{0, 0},
+              {nanometres(static_cast<double>(columns) * cell.x), 0},
+              {0, nanometres(static_cast<double>(rows) * cell.y)}});
+  gds.empty(0x1100);
+  gds.empty(0x0700);
+  gds.empty(0x0400);
+  write_bytes(path, gds.bytes());
+}
+
+void write_stl(const std::string& path, const Heightmap& h, double base) {
+  const Grid& grid = h.grid;
+  if (grid.size() > 4000000) {
+    throw InputError(
+        fmt::format("{} x {} pixels are too many for STL; export fewer", grid.nx, grid.ny));
+  }
+  const double floor = *std::min_element(h.z.begin(), h.z.end()) - base;
+  const auto at = [&](int ix, int iy) {
+    return Vertex{static_cast<float>(1e6 * grid.x(ix)), static_cast<float>(1e6 * grid.y(iy)),
+                  static_cast<float>(1e6 * (h(ix, iy) - floor))};
+  };
+  const auto below = [](Vertex v) {
+    v.z = 0;
+    return v;
+  };
+  const int nx = grid.nx, ny = grid.ny;
+  const auto faces = static_cast<std::uint32_t>(4L * (nx - 1) * (ny - 1) + 4L * (nx - 1 + ny - 1));
+  std::string out(80, '\0');
+  out.replace(0, 24, "papilla heightmap in um ");
+  out.append(reinterpret_cast<const char*>(&faces), 4);
+  out.reserve(84 + 50 * static_cast<std::size_t>(faces));
+  for (int iy = 0; iy + 1 < ny; ++iy) {
+    for (int ix = 0; ix + 1 < nx; ++ix) {
+      const Vertex a = at(ix, iy), b = at(ix + 1, iy), c = at(ix + 1, iy + 1), d = at(ix, iy + 1);
+      triangle(out, a, b, c);
+      triangle(out, a, c, d);
+      triangle(out, below(a), below(c), below(b));
+      triangle(out, below(a), below(d), below(c));
+    }
+  }
+  const auto wall = [&](const Vertex& a, const Vertex& b) {  // seen from outside, a left of b
+    triangle(out, below(a), below(b), b);
+    triangle(out, below(a), b, a);
+  };
+  for (int ix = 0; ix + 1 < nx; ++ix) {
+    wall(at(ix, 0), at(ix + 1, 0));
+    wall(at(ix + 1, ny - 1), at(ix, ny - 1));
+  }
+  for (int iy = 0; iy + 1 < ny; ++iy) {
+    wall(at(nx - 1, iy), at(nx - 1, iy + 1));
+    wall(at(0, iy + 1), at(0, iy));
+  }
+  write_bytes(path, out);
+}
+
+}  // namespace papilla

@@ -1,0 +1,14 @@
+// Files written whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace papilla {
+
+// Writes bytes atomically: temporary file beside it, flushed to disk, renamed. Throws InputError.
+void write_bytes(const std::string& path, const std::string& bytes);
+// Throws InputError when there is no such file or it is larger than the limit.
+std::string read_bytes(const std::string& path, std::size_t limit = std::size_t{1} << 31);
+
+}  // namespace papilla

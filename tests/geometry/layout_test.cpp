@@ -1,0 +1,144 @@
+#include "geometry/io/layout.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
+
+namespace papilla {
+namespace {
+
+struct GdsRecord {
+  int type;
+  std::string data;
+  int i16(std::size_t at) const {
+    return static_cast<std::int16_t>(static_cast<unsigned char>(data[at]) << 8 |
+                                     static_cast<unsigned char>(data[at + 1]));
+  }
+  std::int32_t i32(std::size_t at) const {
+    std::uint32_t v = 0;
+    for (std::size_t i = 0; i < 4; ++i) v = v << 8 | static_cast<unsigned char>(data[at + i]);
+    return static_cast<std::int32_t>(v);
+  }
+  double real(std::size_t at) const {
+    double mantissa = 0;
+    for (std::size_t i = 1; i < 8; ++i)
+      mantissa = mantissa * 256 + static_cast<unsigned char>(data[at + i]);
+    return std::ldexp(mantissa, -56) *
+           std::pow(16.0, (static_cast<unsigned char>(data[at]) & 0x7f) - 64);
+  }
+};
+
+std::vector<GdsRecord> records(const std::string& path) {
+  const std::string bytes = read_bytes(path);
+  std::vector<GdsRecord> out;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[at + i]); };
+    const std::size_t length = byte(0) * 256u + byte(1);
+    EXPECT_GE(length, 4u);
+    EXPECT_EQ(length % 2, 0u);
+    out.push_back({byte(2) * 256 + byte(3), bytes.substr(at + 4, length - 4)});
+    at += length;
+  }
+  return out;
+}
+
+double polygon_area(const GdsRecord& xy) {  // nm^2
+  double sum = 0;
+  const std::size_t n = xy.data.size() / 8;
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    sum += static_cast<double>(xy.i32(8 * i)) * xy.i32(8 * i + 12) -
+           static_cast<double>(xy.i32(8 * i + 8)) * xy.i32(8 * i + 4);
+  }
+  return 0.5 * std::abs(sum);
+}
+
+std::string temporary(const char* name) { return testing::TempDir() + "papilla_" + name; }
+
+TEST(Gds, TheArrayHasTheOpenAreaOfTheTexture) {
+  for (const Lattice lattice : {Lattice::Square, Lattice::Hexagonal}) {
+    HoleArray holes;
+    holes.lattice = lattice;
+    const Texture texture{holes};
+    const std::string path = temporary("array.gds");
+    write_gds(path, texture, 600e-6, 600e-6);
+    double area = 0;
+    int columns = 0, rows = 0;
+    std::int32_t width = 0, height = 0;
+    bool array = false;
+    for (const GdsRecord& record : records(path)) {
+      if (record.type == 0x0305) {
+        EXPECT_DOUBLE_EQ(record.real(0), 1e-3);  // database units in um
+        EXPECT_DOUBLE_EQ(record.real(8), 1e-9);
+      }
+      if (record.type == 0x1302) {
+        array = true;
+        columns = record.i16(0);
+        rows = record.i16(2);
+      }
+      if (record.type == 0x1003 && !array) area += polygon_area(record);
+      if (record.type == 0x1003 && array) {
+        width = record.i32(8);
+        height = record.i32(20);
+      }
+    }
+    EXPECT_EQ(columns, 100);
+    EXPECT_EQ(width, 600000);
+    const double open = area * columns * rows / (static_cast<double>(width) * height);
+    // Rounding to 1 nm: at most half a database unit along the rim.
+    EXPECT_NEAR(open, open_fraction(texture), 4 * 0.5e-9 / holes.diameter * open);
+  }
+}
+
+TEST(Gds, RefusesWhatIsNoArray) {
+  EXPECT_THROW(write_gds(temporary("no.gds"), Texture{}, 1e-5, 1e-5), InputError);
+  EXPECT_THROW(write_gds(temporary("no.gds"), Texture{HoleArray{}}, 1.0, 1e-5), InputError);
+}
+
+TEST(Stl, IsAClosedBodyOfTheRightVolume) {
+  const Texture texture{HoleArray{}};
+  const Grid grid = patch_grid(texture, 64);
+  const Heightmap h = generate(texture, grid);
+  const std::string path = temporary("block.stl");
+  write_stl(path, h, 1e-6);
+  const std::string bytes = read_bytes(path);
+  std::uint32_t faces = 0;
+  std::memcpy(&faces, bytes.data() + 80, 4);
+  ASSERT_EQ(bytes.size(), 84 + 50 * static_cast<std::size_t>(faces));
+  using Point = std::array<float, 3>;
+  std::map<std::pair<Point, Point>, int> edges;  // directed
+  double volume = 0;
+  for (std::uint32_t f = 0; f < faces; ++f) {
+    std::array<Point, 3> p;
+    std::memcpy(p.data(), bytes.data() + 84 + 50 * static_cast<std::size_t>(f) + 12, 36);
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{p[i], p[(i + 1) % 3]}];
+    volume += (static_cast<double>(p[0][0]) * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
+               static_cast<double>(p[0][1]) * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +
+               static_cast<double>(p[0][2]) * (p[1][0] * p[2][1] - p[1][1] * p[2][0])) /
+              6;
+  }
+  for (const auto& [edge, count] : edges) {
+    EXPECT_EQ(count, 1);
+    EXPECT_TRUE(edges.count({edge.second, edge.first}));
+  }
+  // Trapezoids over the pixel centres of the block of depth + 1 um.
+  double expected = 0;
+  for (int iy = 0; iy + 1 < grid.ny; ++iy) {
+    for (int ix = 0; ix + 1 < grid.nx; ++ix) {
+      const double a = h(ix, iy), b = h(ix + 1, iy), c = h(ix + 1, iy + 1), d = h(ix, iy + 1);
+      expected += 1e18 * grid.pixel_area() * ((2 * a + b + 2 * c + d) / 6 + 350e-9 + 1e-6);
+    }
+  }
+  EXPECT_NEAR(volume, expected, 1e-4 * expected);
+}
+
+}  // namespace
+}  // namespace papilla
