@@ -292,6 +292,31 @@ TEST(Droplets, MembersDoNotDependOnThreads) {
   EXPECT_EQ(one, two);
 }
 
+TEST(Droplets, AWideBridgeBecomesAFilmOfTheSameWaterAndSimilarForce) {
+  int films = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const Gap gap = rough_gap(128, 200e-9, seed);
+    DropletOptions discs;
+    discs.film_width = discs.film_area = 10;
+    const double v = 14e-18;
+    const Wetting film = settle_droplets(gap, v, {}, {}, seed, 0);
+    if (film.status != WettingStatus::Film || film.wetted_fraction > 0.4) continue;
+    ++films;
+    const Wetting disc = settle_droplets(gap, v, {}, discs, seed, 0);
+    double free = 0;
+    for (const Droplet& d : film.droplets) free += d.state == DropletState::Bridge ? 0 : d.volume;
+    EXPECT_NEAR(free + film.bridge_volume, v, 1e-12 * v);
+    EXPECT_GT(film.capillary_force, 0.8 * disc.capillary_force);
+    EXPECT_LT(film.capillary_force, 2 * disc.capillary_force);
+    const Traction t = capillary_traction(film, gap, {});
+    EXPECT_NEAR(t.mean() * gap.grid.area(), film.capillary_force, 1e-9 * film.capillary_force);
+    const Wetting again = rewet(film, gap, {});
+    EXPECT_EQ(again.status, WettingStatus::Film);
+    EXPECT_NEAR(again.capillary_force, film.capillary_force, 0.05 * film.capillary_force);
+  }
+  EXPECT_GE(films, 3);
+}
+
 TEST(Droplets, ASpanningBridgeInAHoleNeedsItsVolume) {
   // 80/50 deg: between flat plates s apart a bridge has the lower energy for V > (s / 0.8746)^3.
   const double depth = 350e-9, needed = cube(depth / 0.8746);

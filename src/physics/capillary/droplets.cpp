@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 #include "physics/capillary/bridge_table.h"
+#include "physics/capillary/film.h"
 #include "physics/capillary/gap_table.h"
 #include "physics/capillary/threshold.h"
 
@@ -141,26 +142,32 @@ class Ensemble {
     report_.final_energy = last;
   }
 
-  Wetting result(double total_volume) const {
+  // What there is now, as discs; wide bridges (or all, above the wetted area's limit) as film.
+  // film_seeds and film_volume: film that was there before.
+  Wetting result(double total_volume, std::vector<std::size_t> film_seeds = {},
+                 double film_volume = 0) {
+    const double side = std::min(lx_, ly_);
+    double area = 0;
+    for (const Drop& d : drops_) {
+      if (d.alive && d.bridge) area += kPi * square(d.radius);
+    }
+    const bool everywhere = area > options_.film_area * gap_.grid.area();
+    for (Drop& d : drops_) {
+      if (!d.alive) continue;
+      const bool wide = 2 * d.radius > (d.bridge ? options_.film_width : 1) * side;
+      if (wide || (d.bridge && everywhere)) {
+        film_seeds.push_back(lowest_pixel(d));
+        film_volume += d.volume;
+        d.alive = false;
+      }
+    }
     Wetting out;
     out.grid = gap_.grid;
     out.volume = total_volume;
     out.status = WettingStatus::Discs;
-    double area = 0, widest = 0;
-    bool film = false;
-    for (const Drop& d : drops_) {
-      if (!d.alive) continue;
-      if (d.bridge) {
-        area += kPi * square(d.radius);
-        widest = std::max(widest, 2 * d.radius);
-      } else if (2 * d.radius > std::min(lx_, ly_)) {
-        film = true;  // a cap wider than the patch wets all of it
-      }
-    }
-    film = film || widest > options_.film_width * std::min(lx_, ly_) ||
-           area > options_.film_area * gap_.grid.area();
-    if (film) return as_film(total_volume);
     out.bridged.assign(gap_.grid.size(), 0);
+    if (!film_seeds.empty()) add_film(film_seeds, film_volume, out);
+    double wet = out.wetted_fraction * gap_.grid.area();
     for (const Drop& d : drops_) {
       if (!d.alive) continue;
       out.droplets.push_back(reported(d));
@@ -170,13 +177,10 @@ class Ensemble {
       out.capillary_force += bridge.force;
       out.bridge_volume += d.volume;
       out.retention += kPi / 4 * water_.surface_tension * 2 * d.radius * water_.hysteresis;
+      wet += kPi * square(d.radius);
+      for_pixels(gap_.grid, bridge, [&](std::size_t k) { out.bridged[k] = 1; });
     }
-    out.wetted_fraction = area / gap_.grid.area();
-    for (const Droplet& d : out.droplets) {
-      if (d.state == DropletState::Bridge) {
-        for_pixels(gap_.grid, d, [&](std::size_t k) { out.bridged[k] = 1; });
-      }
-    }
+    out.wetted_fraction = std::min(1.0, wet / gap_.grid.area());
     return out;
   }
 
@@ -607,57 +611,53 @@ class Ensemble {
     return out;
   }
 
-  // Discs do not describe what is left: all bridges share one pressure, and caps that the film
-  // reaches join it.
-  Wetting as_film(double total_volume) const {
-    std::vector<Drop> caps;
-    double volume = 0;
-    for (const Drop& d : drops_) {
+  std::size_t pixel_of(double x, double y) const {
+    const Grid& g = gap_.grid;
+    return g.index(std::min(static_cast<int>(x / g.dx()), g.nx - 1),
+                   std::min(static_cast<int>(y / g.dy()), g.ny - 1));
+  }
+
+  std::size_t lowest_pixel(const Drop& d) const {
+    std::size_t best = pixel_of(d.x, d.y);
+    Droplet disc;
+    disc.x = d.x;
+    disc.y = d.y;
+    disc.radius = d.radius;
+    for_pixels(gap_.grid, disc, [&](std::size_t k) {
+      if (gap_.value[k] < gap_.value[best]) best = k;
+    });
+    return best;
+  }
+
+  // The film takes in every bridge whose disc and every cap whose centre it reaches.
+  void add_film(const std::vector<std::size_t>& seeds, double volume, Wetting& out) {
+    std::vector<int> owner(gap_.grid.size(), -1);
+    for (int i = 0; i < static_cast<int>(drops_.size()); ++i) {
+      const Drop& d = drops_[i];
       if (!d.alive) continue;
-      if (d.bridge || 2 * d.radius > std::min(lx_, ly_)) {
-        volume += d.volume;
-      } else {
-        caps.push_back(d);
-      }
+      owner[pixel_of(d.x, d.y)] = i;
+      if (!d.bridge) continue;
+      Droplet disc;
+      disc.x = d.x;
+      disc.y = d.y;
+      disc.radius = d.radius;
+      for_pixels(gap_.grid, disc, [&](std::size_t k) { owner[k] = i; });
     }
-    return film_with(caps, volume, total_volume);
+    Film film = grow_film(gap_, seeds, volume, water_, [&](std::size_t k) {
+      const int i = owner[k];
+      if (i < 0 || !drops_[i].alive) return 0.0;
+      drops_[i].alive = false;
+      return drops_[i].volume;
+    });
+    out.status = film.full ? WettingStatus::Flooded : WettingStatus::Film;
+    out.bridges = film.regions;
+    out.bridge_volume = film.volume;
+    out.capillary_force = film.force;
+    out.retention = film.retention;
+    out.wetted_fraction = film.area / gap_.grid.area();
+    out.bridged = std::move(film.wet);
   }
 
-  Wetting film_with(std::vector<Drop> caps, double volume, double total_volume) const {
-    Wetting out;
-    for (;;) {
-      out = fill_threshold(gap_, volume, water_);
-      const std::size_t before = caps.size();
-      std::erase_if(caps, [&](const Drop& d) {
-        const int ix = std::min(static_cast<int>(d.x / gap_.grid.dx()), gap_.grid.nx - 1);
-        const int iy = std::min(static_cast<int>(d.y / gap_.grid.dy()), gap_.grid.ny - 1);
-        if (out.bridged.empty() || !out.bridged[gap_.grid.index(ix, iy)]) return false;
-        volume += d.volume;
-        return true;
-      });
-      if (caps.size() == before) break;
-    }
-    for (const Drop& d : caps) out.droplets.push_back(reported(d));
-    out.volume = total_volume;
-    return out;
-  }
-
- public:
-  // The film state again, with the drops that `restore` has put back.
-  Wetting refilled(double film_volume, double total_volume) const {
-    std::vector<Drop> caps;
-    for (const Drop& d : drops_) {
-      if (!d.alive) continue;
-      if (d.bridge) {
-        film_volume += d.volume;
-      } else {
-        caps.push_back(d);
-      }
-    }
-    return film_with(caps, film_volume, total_volume);
-  }
-
- private:
   const Gap& gap_;
   GapTable table_;
   DropletOptions options_;
@@ -680,6 +680,17 @@ class Ensemble {
   std::vector<int> head_, next_, large_;
   SettleReport report_;
 };
+
+// Where the film is: what is bridged but lies in no disc.
+std::vector<std::uint8_t> film_pixels(const Wetting& wetting) {
+  std::vector<std::uint8_t> film = wetting.bridged;
+  for (const Droplet& d : wetting.droplets) {
+    if (d.state == DropletState::Bridge) {
+      Ensemble::for_pixels(wetting.grid, d, [&](std::size_t k) { film[k] = 0; });
+    }
+  }
+  return film;
+}
 
 }  // namespace
 
@@ -707,34 +718,49 @@ Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& wat
   if (wetting.status == WettingStatus::Flooded) return fill_threshold(gap, wetting.volume, water);
   Ensemble ensemble(gap, water, options);
   ensemble.restore(wetting);
-  return wetting.status == WettingStatus::Film
-             ? ensemble.refilled(wetting.bridge_volume, wetting.volume)
-             : ensemble.result(wetting.volume);
+  if (wetting.status == WettingStatus::Discs) return ensemble.result(wetting.volume);
+  // The film starts again from the lowest place of each of its regions.
+  const std::vector<std::uint8_t> film = film_pixels(wetting);
+  std::vector<int> label;
+  const int regions = label_regions(gap.grid, film, label);
+  std::vector<std::size_t> seeds(regions, gap.grid.size());
+  for (std::size_t k = 0; k < label.size(); ++k) {
+    if (label[k] == 0) continue;
+    std::size_t& seed = seeds[label[k] - 1];
+    if (seed == gap.grid.size() || gap.value[k] < gap.value[seed]) seed = k;
+  }
+  double film_volume = wetting.bridge_volume;
+  for (const Droplet& d : wetting.droplets) {
+    if (d.state == DropletState::Bridge) film_volume -= d.volume;
+  }
+  return ensemble.result(wetting.volume, std::move(seeds), film_volume);
 }
 
 Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterProperties&) {
   const Grid& g = gap.grid;
   Traction out{g, std::vector<double>(g.size(), 0.0)};
-  if (wetting.status == WettingStatus::Discs) {
-    for (const Droplet& d : wetting.droplets) {
-      if (d.state != DropletState::Bridge) continue;
-      std::size_t count = 0;
-      Ensemble::for_pixels(g, d, [&](std::size_t) { ++count; });
-      if (count > 0) {
-        const double pressure = d.force / (static_cast<double>(count) * g.pixel_area());
-        Ensemble::for_pixels(g, d, [&](std::size_t k) { out.value[k] += pressure; });
-      } else {
-        const int ix = std::min(static_cast<int>(d.x / g.dx()), g.nx - 1);
-        const int iy = std::min(static_cast<int>(d.y / g.dy()), g.ny - 1);
-        out.value[g.index(ix, iy)] += d.force / g.pixel_area();
-      }
-    }
-  } else if (wetting.status != WettingStatus::Dry) {
-    double count = 0;
-    for (std::uint8_t wet : wetting.bridged) count += wet;
+  double rest = wetting.capillary_force;  // of the film
+  for (const Droplet& d : wetting.droplets) {
+    if (d.state != DropletState::Bridge) continue;
+    rest -= d.force;
+    std::size_t count = 0;
+    Ensemble::for_pixels(g, d, [&](std::size_t) { ++count; });
     if (count > 0) {
-      const double pressure = wetting.capillary_force / (count * g.pixel_area());
-      for (std::size_t k = 0; k < g.size(); ++k) out.value[k] = wetting.bridged[k] ? pressure : 0.0;
+      const double pressure = d.force / (static_cast<double>(count) * g.pixel_area());
+      Ensemble::for_pixels(g, d, [&](std::size_t k) { out.value[k] += pressure; });
+    } else {
+      const int ix = std::min(static_cast<int>(d.x / g.dx()), g.nx - 1);
+      const int iy = std::min(static_cast<int>(d.y / g.dy()), g.ny - 1);
+      out.value[g.index(ix, iy)] += d.force / g.pixel_area();
+    }
+  }
+  if (wetting.status == WettingStatus::Film) {
+    const std::vector<std::uint8_t> film = film_pixels(wetting);
+    double count = 0;
+    for (std::uint8_t wet : film) count += wet;
+    if (count > 0) {
+      const double pressure = rest / (count * g.pixel_area());
+      for (std::size_t k = 0; k < g.size(); ++k) out.value[k] += film[k] ? pressure : 0.0;
     }
   }
   return out;

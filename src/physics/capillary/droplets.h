@@ -15,8 +15,8 @@ struct DropletOptions {
   double first_step = 200e-9;        // [m]; the mobility of droplets: a stated model option
   int halvings = 4;                  // the last step is first_step / 2^halvings
   double gap_floor = 0.3e-9;         // smaller gaps count as this [m]: a water molecule's size
-  double film_width = 1.0 / 3;       // a bridge wider than this share of the patch, or
-  double film_area = 0.40;           // more wetted area than this: one film at one pressure
+  double film_width = 1.0 / 3;       // a bridge wider than this share of the patch is a film
+  double film_area = 0.40;           // more wetted area than this: all bridges are
   int max_moves = 1000;              // per droplet
 };
 
@@ -32,9 +32,9 @@ struct SettleReport {
 // Settles `volume` [m^3] of water in the patch (Eqs. capillary.4-8). The number of droplets is
 // max(1, round(drops_per_volume * volume)); their places are uniform and their volumes proportional
 // to uniform random numbers (common for every design: stream "droplets" of seed and index).
-// Status: Dry (no water), Discs, Film (a bridge or the wetted area too large for discs: all bridges
-// become one film at one pressure, Eq. capillary.9), Flooded (more water than gap: no meniscus).
-// Cost: about 10 us a droplet that bridges, well below 1 us a droplet that does not.
+// Status: Dry (no water), Discs, Film (a bridge or the wetted area too large for discs: those
+// bridges become a film of one pressure, Eq. capillary.15; it is the part of `bridged` outside all
+// discs), Flooded (more water than gap: no meniscus, no force). Cost: about 5 us a droplet.
 Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& water,
                         const DropletOptions& options, std::uint64_t seed, std::uint64_t index,
                         SettleReport* report = nullptr);
