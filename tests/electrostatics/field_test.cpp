@@ -2,144 +2,402 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 
 #include "base/constants.h"
+#include "physics/electrostatics/breakdown.h"
+#include "physics/electrostatics/electrode.h"
 #include "physics/electrostatics/electrowetting.h"
+#include "physics/electrostatics/screening.h"
+#include "tests/electrostatics/table.h"
 
 namespace papilla {
 namespace {
 
-FieldProblem glass(double v_rms) {
+FieldProblem oxide(double v_peak, double thickness = 500e-9) {
   FieldProblem p;
-  p.v_rms = v_rms;
-  p.v_peak = v_rms * std::sqrt(2.0);
-  p.dielectric = 500e-9 / 3.9;
-  p.dielectric_thickness = 500e-9;
+  p.v_rms = v_peak / std::sqrt(2.0);
+  p.v_peak = v_peak;
+  p.dielectric = thickness / 3.9;
+  p.dielectric_thickness = thickness;
   return p;
 }
 
-Gap uniform_gap(double g, int n = 32) {
-  return {{n, n, 4e-6, 4e-6}, std::vector<double>(static_cast<std::size_t>(n) * n, g)};
+Gap uniform_gap(double g, int n = 32, double length = 4e-6) {
+  return {{n, n, length, length}, std::vector<double>(static_cast<std::size_t>(n) * n, g)};
 }
 
-// eps0/2 (141.42 V)^2 / (u + 128 nm)^2: the published parameters' table (m3-parameters 2.5).
-TEST(LocalField, UniformGapsHaveTheCapacitorsPressure) {
-  for (auto [gap, kilopascal] :
-       {std::pair{100e-9, 1700.0}, {500e-9, 224.0}, {1e-6, 69.6}, {5e-6, 3.37}}) {
-    const FieldSolution s = solve_local_field(uniform_gap(gap), nullptr, {}, glass(141.42));
-    EXPECT_NEAR(s.mean_pressure, 1e3 * kilopascal, 3e-3 * 1e3 * kilopascal);
+Wetting bridge_at_centre(const Gap& gap, double radius) {
+  const Grid& grid = gap.grid;
+  Wetting w;
+  w.grid = grid;
+  w.status = WettingStatus::Discs;
+  w.bridges = 1;
+  Droplet d;
+  d.x = 0.5 * grid.lx;
+  d.y = 0.5 * grid.ly;
+  d.state = DropletState::Bridge;
+  d.radius = radius;
+  d.edge_gap = d.height = gap.value[0];
+  w.droplets = {d};
+  w.bridged.assign(grid.size(), 0);
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      w.bridged[grid.index(ix, iy)] = std::hypot(grid.x(ix) - d.x, grid.y(iy) - d.y) < radius;
+    }
+  }
+  return w;
+}
+
+TEST(LocalField, UniformGapsHaveTheCapacitorsPressureAndAirField) {
+  for (const Row& row : read_table("electro_pressure_breakdown.csv")) {
+    const double g = 1e-6 * number(row, "gap_um");
+    for (auto [layer, column] : {std::pair{0.0, "p_kPa_V141.4_no_SC"},
+                                 {0.07e-6, "p_kPa_h0_plus0.07um_SC"},
+                                 {0.17e-6, "p_kPa_h0_plus0.17um_SC"}}) {
+      FieldProblem p = oxide(200);
+      p.skin_layer = layer;
+      const FieldSolution s = solve_local_field(uniform_gap(g), nullptr, {}, p);
+      const double expected = 1e3 * number(row, column);
+      EXPECT_NEAR(s.mean_pressure, expected, 1e-4 * expected);
+      if (layer > 0) continue;
+      EXPECT_NEAR(s.peak_air_field, 1e6 * number(row, "E_air_V_per_um_peak200V"),
+                  1e-4 * s.peak_air_field);
+      EXPECT_NEAR(s.peak_oxide_field, 1e6 * number(row, "E_oxide_V_per_um_peak200V"),
+                  1e-4 * s.peak_oxide_field);
+      EXPECT_EQ(s.over_limit_area > 0.5, number(row, "utilisation_peak") > 1) << g;
+      EXPECT_EQ(s.over_limit_share > 0.5, number(row, "utilisation_peak") > 1) << g;
+    }
   }
 }
 
-TEST(LocalField, TheStratumCorneumCutsThePull) {
-  FieldProblem p = glass(141.42);
-  p.skin_layer = 70e-9;
-  EXPECT_NEAR(solve_local_field(uniform_gap(100e-9), nullptr, {}, p).mean_pressure, 1.00e6, 0.01e6);
-  p.skin_layer = {0, -70e-9};  // a conducting share turns the phase, |g + t + h|
-  const double expected =
-      0.5 * kVacuumPermittivity * square(141.42) / (square(100e-9 + p.dielectric) + square(70e-9));
+TEST(LocalField, ALossySkinLayerTurnsThePhase) {
+  FieldProblem p = oxide(200);
+  p.skin_layer = {30e-9, 60e-9};
+  const double expected = 0.5 * kVacuumPermittivity * square(p.v_rms) /
+                          (square(100e-9 + p.dielectric + 30e-9) + square(60e-9));
   EXPECT_NEAR(solve_local_field(uniform_gap(100e-9), nullptr, {}, p).mean_pressure, expected,
-              1e-9 * expected);
+              1e-12 * expected);
+}
+
+TEST(LocalField, ContactPixelsCarryTheFieldOfTheDielectricAlone) {
+  const FieldProblem p = oxide(200);
+  const FieldSolution s = solve_local_field(uniform_gap(0), nullptr, {}, p);
+  EXPECT_NEAR(s.mean_pressure, 0.5 * kVacuumPermittivity * square(p.v_rms / p.dielectric), 1);
+  EXPECT_NEAR(s.peak_oxide_field, 400e6, 1);  // 200 V over 500 nm
+  EXPECT_EQ(s.peak_air_field, 0);
+  EXPECT_EQ(s.over_limit_area, 0);
 }
 
 TEST(LocalField, NoVoltageNoPull) {
-  EXPECT_EQ(solve_local_field(uniform_gap(1e-7), nullptr, {}, glass(0)).mean_pressure, 0);
+  EXPECT_EQ(solve_local_field(uniform_gap(1e-7), nullptr, {}, oxide(0)).mean_pressure, 0);
 }
 
-TEST(LocalField, AShortedDriveIsAStatus) {
+TEST(LocalField, AShortedDriveAndAGapThatIsNoNumberAreStatuses) {
   FieldProblem p;
   p.v_rms = p.v_peak = 10;
   EXPECT_FALSE(solve_local_field(uniform_gap(0), nullptr, {}, p).ok);
+  Gap gap = uniform_gap(1e-7);
+  gap.value[5] = std::nan("");
+  const FieldSolution s = solve_local_field(gap, nullptr, {}, oxide(10));
+  EXPECT_FALSE(s.ok);
+  EXPECT_EQ(s.mean_pressure, 0);
 }
 
-// Exact for a straight wall without dielectric: the lost pull is p_inf times a strip (2/pi) g.
-TEST(Screening, PlanarWallWithoutDielectricLosesTwoOverPiGaps) {
-  EXPECT_NEAR(screening_length(1e-7, 0), 2 / kPi * 1e-7, 1e-20);
-  // Deficit lengths with eps = 3.9 (capillary-electrostatics 4.3), fit within 4.8 %.
-  for (auto [x, length] :
-       {std::pair{0.1, 0.66}, {0.5, 0.80}, {1.0, 1.02}, {2.0, 1.45}, {5.0, 2.45}}) {
-    EXPECT_NEAR(screening_length(1e-7, x * 1e-7) / 1e-7, length, 0.05 * length) << x;
+TEST(LocalField, SinusoidsHaveDerjaguinsMean) {
+  for (const Row& row : read_table("sinusoidal_electrode.csv")) {
+    const double a = number(row, "a_over_g"), g = 1e-7;
+    Gap gap = uniform_gap(g, 64);
+    for (int iy = 0; iy < 64; ++iy) {
+      for (int ix = 0; ix < 64; ++ix) {
+        gap.value[gap.grid.index(ix, iy)] =
+            g * (1 - a * std::cos(2 * kPi * gap.grid.x(ix) / gap.grid.lx));
+      }
+    }
+    FieldProblem p = oxide(10);
+    p.dielectric = 1e-18;  // a bare electrode that does not touch
+    p.dielectric_thickness = 0;
+    const double p0 = 0.5 * kVacuumPermittivity * square(p.v_rms / g);
+    EXPECT_NEAR(solve_local_field(gap, nullptr, {}, p).mean_pressure / p0,
+                number(row, "p_mean_local_derjaguin"), 1e-6);
   }
 }
 
-TEST(Screening, ABridgeKillsADiscOfItsRadiusPlusTheReach) {
-  const double g = 2e-7, a = 5e-7;
-  Gap gap = uniform_gap(g, 400);
-  gap.grid.lx = gap.grid.ly = 8e-6;
+// The rule for a sphere is the proximity force, off by a known amount from the exact series.
+TEST(LocalField, SpheresHaveTheProximityForceWithinItsStatedError) {
+  for (const Row& row : read_table("sphere_plane_exact.csv")) {
+    const double ratio = number(row, "d_over_R");
+    if (ratio < 0.01 || ratio > 0.1) continue;
+    const double radius = 1e-6, d = ratio * radius, reach = radius;
+    Gap gap = uniform_gap(0, 512, 2 * radius);
+    for (int iy = 0; iy < 512; ++iy) {
+      for (int ix = 0; ix < 512; ++ix) {
+        const double r2 = square(gap.grid.x(ix) - radius) + square(gap.grid.y(iy) - radius);
+        gap.value[gap.grid.index(ix, iy)] = r2 < reach * reach ? d + r2 / (2 * radius) : 1;
+      }
+    }
+    FieldProblem p = oxide(10);
+    p.dielectric = 1e-18;
+    p.dielectric_thickness = 0;
+    const double unit = kVacuumPermittivity * square(p.v_rms);
+    const double tail = kPi * radius / (d + square(reach) / (2 * radius));  // beyond the patch
+    const double force =
+        solve_local_field(gap, nullptr, {}, p).mean_pressure * gap.grid.area() / unit + tail;
+    EXPECT_NEAR(force, number(row, "F_PFA_over_eps0V2"), 2e-3 * force);
+    const double exact = number(row, "F_over_eps0V2");
+    EXPECT_NEAR(force / exact - 1, number(row, "PFA_rel_err"), 3e-3);
+  }
+}
+
+// Hole arrays of 6 um period against the finite-volume solution of their equivalent cell: the rule
+// is within 1.4 % up to 0.2 um of gap and 3 % up to 1 um, where either simple rule errs up to 8 %.
+TEST(LocalField, HoleArraysAreWithinTheStatedErrorOfTheStepRule) {
+  double worst_near = 0, worst_far = 0;
+  for (const Row& row : read_table("hole_array_derjaguin.csv")) {
+    const double d1 = 1e-6 * number(row, "d1_um"), depth = 1e-6 * number(row, "depth_um");
+    const double opening = 0.5e-6 * number(row, "hole_diam_um") - d1;
+    const double g = 1e-6 * number(row, "gap_um");
+    Gap gap = uniform_gap(g, 300, 6e-6);
+    Heightmap texture{gap.grid, std::vector<double>(gap.grid.size(), 0)};
+    for (int iy = 0; iy < 300; ++iy) {
+      for (int ix = 0; ix < 300; ++ix) {
+        if (std::hypot(gap.grid.x(ix) - 3e-6, gap.grid.y(iy) - 3e-6) > opening) continue;
+        texture(ix, iy) = -depth;
+        gap.value[gap.grid.index(ix, iy)] += depth;
+      }
+    }
+    const FieldProblem p = oxide(200, d1);
+    const double unit = kVacuumPermittivity * square(p.v_rms) / gap.grid.area();
+    const double exact = number(row, "F_over_eps0V2") * 1.0;
+    const double local = solve_local_field(gap, nullptr, {}, p).mean_pressure / unit;
+    EXPECT_NEAR(local, number(row, "F_local_over_eps0V2"), 3e-3 * local);
+    const double error =
+        std::abs(solve_local_field(gap, &texture, {}, p).mean_pressure / unit / exact - 1);
+    if (g <= 0.2e-6) {
+      worst_near = std::max(worst_near, error);
+    } else {
+      worst_far = std::max(worst_far, error);
+    }
+  }
+  EXPECT_LT(worst_near, 0.014);
+  EXPECT_LT(worst_far, 0.031);
+}
+
+TEST(Electrode, LiesOneThicknessBelowFlatsAndBelowTheFootBehindWalls) {
+  Heightmap h{{40, 4, 4e-6, 0.4e-6}, std::vector<double>(160, 0.0)};
+  for (int iy = 0; iy < 4; ++iy) {
+    for (int ix = 0; ix < 20; ++ix) h(ix, iy) = -0.6e-6;
+  }
+  const Heightmap e = electrode_below(h, 0.5e-6);
+  EXPECT_DOUBLE_EQ(e(10, 1), -1.1e-6);
+  EXPECT_DOUBLE_EQ(e(20, 1), -1.1e-6);  // within 0.5 um of the wall at x = 2 um
+  EXPECT_DOUBLE_EQ(e(24, 1), -1.1e-6);
+  EXPECT_DOUBLE_EQ(e(25, 1), -0.5e-6);
+  EXPECT_DOUBLE_EQ(e(34, 1), -0.5e-6);
+  EXPECT_DOUBLE_EQ(e(35, 1), -1.1e-6);  // the wall at the periodic seam
+}
+
+// Lost pull around a bridge, as the radius of a disc without pull beyond the bridge.
+TEST(Screening, TheReachIsWithinItsStatedErrorOfFiniteVolumes) {
+  for (const Row& row : read_table("screening_bridge.csv")) {
+    const double d = number(row, "d1_over_g"), expected = number(row, "a_eff_minus_a_over_g");
+    const std::string& a = row.at("geometry_a_over_g");
+    const double reach =
+        a == "planar" ? screening_length(1, d) : screening_reach(1, d, std::stod(a));
+    EXPECT_NEAR(reach, expected, 0.034 * expected) << a << " " << d;
+  }
+}
+
+TEST(Screening, TheProfileOfADiscLosesThePullOfItsReach) {
+  for (auto [a, g] : {std::pair{5e-7, 1e-7}, {3e-7, 3e-7}, {1e-7, 4e-7}}) {
+    const Gap gap = uniform_gap(g, 400, 8e-6);
+    const FieldProblem p = oxide(100);
+    const double open = solve_local_field(gap, nullptr, {}, p).mean_pressure;
+    const FieldSolution s = solve_local_field(gap, nullptr, bridge_at_centre(gap, a), p);
+    const double lost = (1 - s.mean_pressure / open) * gap.grid.area();
+    const double disc = kPi * square(a + screening_reach(g, 500e-9, a));
+    EXPECT_NEAR(lost, disc, 0.02 * disc);
+    EXPECT_EQ(s.traction.value[gap.grid.index(200, 200)], 0);
+    EXPECT_NEAR(s.peak_oxide_field, 200e6, 1);  // the bridge leaves all 100 V to the oxide
+  }
+}
+
+TEST(Screening, AFilmsEdgeHasTheProfileOfAWall) {
+  for (const Row& row : read_table("screening_profiles.csv")) {
+    if (row.at("geometry_a_over_g") != "planar") continue;
+    const double d = number(row, "d1_over_g"), g = 1e-7;
+    if (d > 1) continue;
+    Gap gap = uniform_gap(g, 800, 20 * g);
+    gap.grid.ny = 4;
+    gap.value.resize(gap.grid.size());
+    Wetting w;
+    w.grid = gap.grid;
+    w.status = WettingStatus::Film;
+    w.bridged.assign(gap.grid.size(), 0);
+    for (int iy = 0; iy < 4; ++iy) w.bridged[gap.grid.index(399, iy)] = 1;
+    const std::vector<double> factor = screening_factor(gap, w, d * g, true);
+    const int ix = 399 + static_cast<int>(std::lround(number(row, "x_over_g") * 40));
+    // The stated errors of the profile (0.006 up to half a gap of oxide, 0.034 at one) and of its
+    // length (3.3 %, which moves tanh^2 by 0.02 at most) add up.
+    EXPECT_NEAR(factor[gap.grid.index(ix, 1)], number(row, "p_over_pinf"),
+                0.02 + (d > 0.5 ? 0.034 : 0.006));
+  }
+}
+
+TEST(Screening, AFilmOfAnyShapeFadesWithTheDistanceToItsNearestPixel) {
+  const Gap gap = uniform_gap(1e-7, 24, 2.4e-6);
   Wetting w;
   w.grid = gap.grid;
-  w.status = WettingStatus::Discs;
-  w.bridges = 1;
-  w.droplets = {{.x = 4e-6,
-                 .y = 4e-6,
-                 .volume = kPi * a * a * g,
-                 .state = DropletState::Bridge,
-                 .radius = a,
-                 .edge_gap = g}};
+  w.status = WettingStatus::Film;
   w.bridged.assign(gap.grid.size(), 0);
-  for (int iy = 0; iy < 400; ++iy) {
-    for (int ix = 0; ix < 400; ++ix)
-      w.bridged[gap.grid.index(ix, iy)] =
-          std::hypot(gap.grid.x(ix) - 4e-6, gap.grid.y(iy) - 4e-6) < a;
+  w.bridged[gap.grid.index(2, 3)] = w.bridged[gap.grid.index(20, 22)] = 1;
+  const std::vector<double> factor = screening_factor(gap, w, 0, true);
+  const double width = screening_length(1e-7, 0);
+  for (int iy = 0; iy < 24; ++iy) {
+    for (int ix = 0; ix < 24; ++ix) {
+      double nearest = 1;
+      for (auto [wx, wy] : {std::pair{2, 3}, {20, 22}}) {
+        const int dx = std::min(wrap(ix - wx, 24), wrap(wx - ix, 24));
+        const int dy = std::min(wrap(iy - wy, 24), wrap(wy - iy, 24));
+        nearest = std::min(nearest, 1e-7 * std::hypot(dx, dy));
+      }
+      EXPECT_NEAR(factor[gap.grid.index(ix, iy)], square(std::tanh(nearest / width)), 1.4e-3);
+    }
   }
-  const FieldProblem p = glass(100);
-  const double open = solve_local_field(gap, nullptr, {}, p).mean_pressure;
-  const double lost =
-      (1 - solve_local_field(gap, nullptr, w, p).mean_pressure / open) * gap.grid.area();
-  const double disc = kPi * square(a + screening_reach(g, 500e-9, a));
-  EXPECT_NEAR(lost, disc, 0.25 * disc);
 }
 
-TEST(Droplets, OneThatDoesNotBridgeRaisesThePull) {
-  const double g = 1e-6;
-  Gap gap = uniform_gap(g, 100);
+TEST(Droplets, OnesThatDoNotBridgeRaiseThePullAsCapacitorsInSeries) {
+  for (const Row& row : read_table("droplet_nonbridging_electro.csv")) {
+    const double g = 1e-6, a = g * number(row, "drop_radius_over_g");
+    const double b = g * number(row, "drop_height_over_g"), d1 = g * number(row, "d1_over_g");
+    const Gap gap = uniform_gap(g, 101, 20e-6);
+    Wetting w;
+    w.grid = gap.grid;
+    w.status = WettingStatus::Discs;
+    Droplet drop;
+    drop.x = drop.y = 10e-6;
+    drop.radius = a;
+    drop.height = b;
+    drop.state = row.at("where") == "skin" ? DropletState::OnSkin : DropletState::OnSubstrate;
+    w.droplets = {drop};
+    FieldProblem p = oxide(100, d1);
+    const std::size_t centre = gap.grid.index(50, 50);
+    const FieldSolution dry = solve_local_field(gap, nullptr, {}, p);
+    const double raised =
+        solve_local_field(gap, nullptr, w, p).traction.value[centre] / dry.traction.value[centre];
+    EXPECT_NEAR(raised, number(row, "p_center_local_formula"), 1e-4 * raised);
+    const double exact = number(row, "p_center_over_pinf");
+    if (a >= 2 * g && b <= 0.6 * g) {
+      EXPECT_NEAR(raised, exact, 0.1 * exact);
+    }
+    p.droplet_enhancement = false;
+    EXPECT_EQ(solve_local_field(gap, nullptr, w, p).traction.value, dry.traction.value);
+    p.zero_under_droplets = true;  // the published rule
+    EXPECT_EQ(solve_local_field(gap, nullptr, w, p).traction.value[centre], 0);
+  }
+}
+
+TEST(Droplets, CapsAreSpheres) {
+  const Grid grid{200, 200, 4e-6, 4e-6};
   Wetting w;
-  w.grid = gap.grid;
-  w.status = WettingStatus::Discs;
-  w.droplets = {{.x = 2e-6,
-                 .y = 2e-6,
-                 .volume = 1e-19,
-                 .state = DropletState::OnSubstrate,
-                 .radius = 8e-7,
-                 .height = 3e-7}};
-  FieldProblem p = glass(100);
-  p.dielectric = 1e-12;  // as the finite-volume table: no dielectric
-  const FieldSolution dry = solve_local_field(gap, nullptr, {}, p),
-                      wet = solve_local_field(gap, nullptr, w, p);
-  const double centre = wet.traction.value[gap.grid.index(50, 50)] / dry.traction.value[0];
-  EXPECT_GT(centre, 1.7);  // 1.7-1.9 at b = 0.3 g by finite volumes; series formula 10 % above
-  EXPECT_LT(centre, 2.1);
-  p.zero_under_droplets = true;
-  EXPECT_EQ(solve_local_field(gap, nullptr, w, p).traction.value[gap.grid.index(50, 50)], 0);
+  w.grid = grid;
+  for (double angle : {50 * kPi / 180, 110 * kPi / 180}) {
+    const double sphere = 0.7e-6, c = std::cos(angle);
+    Droplet drop;
+    drop.x = 3.9e-6;  // across the seam
+    drop.y = 0.1e-6;
+    drop.radius = sphere * std::sin(angle);
+    drop.height = sphere * (1 - c);
+    w.droplets = {drop};
+    double volume = 0;
+    for (double b : droplet_columns(grid, w)) volume += b * grid.pixel_area();
+    const double cap = kPi / 3 * cube(sphere) * (2 + c) * square(1 - c);
+    EXPECT_NEAR(volume, cap, 3e-3 * cap);
+  }
 }
 
-TEST(Breakdown, LimitsAreThoseOfMicrogaps) {
-  EXPECT_DOUBLE_EQ(air_breakdown_voltage(100e-9), 35);
-  EXPECT_DOUBLE_EQ(air_breakdown_voltage(7.5e-6), 350);
-  FieldProblem p = glass(141.42);
-  EXPECT_GT(solve_local_field(uniform_gap(0.40e-6), nullptr, {}, p).over_limit_area, 0.99);
-  EXPECT_LT(solve_local_field(uniform_gap(0.48e-6), nullptr, {}, p).over_limit_area, 0.01);
+TEST(LocalField, TakesWellBelowAMillisecondAtAHundredAndTwentyEightSquared) {
+  const Gap gap = uniform_gap(3e-7, 128, 12e-6);
+  Wetting w = bridge_at_centre(gap, 4e-7);
+  for (int i = 1; i < 20; ++i) {
+    Droplet d = w.droplets[0];
+    d.x = 0.6e-6 * i;
+    d.y = std::fmod(2.9e-6 * i, 12e-6);
+    w.droplets.push_back(d);
+  }
+  w.bridges = 20;
+  const FieldProblem p = oxide(200);
+  double best = 1;
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    const auto start = std::chrono::steady_clock::now();
+    ASSERT_TRUE(solve_local_field(gap, nullptr, w, p).ok);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    best = std::min(best, time.count());
+  }
+  RecordProperty("microseconds", static_cast<int>(1e6 * best));
+  EXPECT_LT(best, 1e-3);
+}
+
+TEST(Breakdown, AirHoldsThreeHundredAndFiftyVoltsAMicrometreUpToThePaschenMinimum) {
+  for (const Row& row : read_table("electro_pressure_breakdown.csv")) {
+    const double gap = number(row, "gap_um");
+    if (gap > 5) continue;  // beyond: the minimum is a floor of the curve
+    EXPECT_NEAR(air_breakdown_voltage(1e-6 * gap), number(row, "V_BD_design_V"), 1e-9);
+  }
+  EXPECT_EQ(air_breakdown_voltage(10e-6), 327);
+  EXPECT_NEAR(air_breakdown_voltage(100e-6), 865, 1);  // the Paschen curve itself
+}
+
+TEST(Breakdown, TheCapHoldsThePressureAtTheFieldOfAir) {
+  FieldProblem p = oxide(200);
   p.breakdown_cap = true;
-  EXPECT_NEAR(solve_local_field(uniform_gap(1e-8), nullptr, {}, p).mean_pressure, 0.54e6, 0.01e6);
-  EXPECT_NEAR(corner_factor(1, 1), 1 / std::log(2.0), 1e-12);
-  EXPECT_NEAR(corner_factor(5, 1), 2.8, 0.02);
+  EXPECT_NEAR(solve_local_field(uniform_gap(1e-8), nullptr, {}, p).mean_pressure, 0.542e6, 1e3);
 }
 
-// cos theta table of the closed forms (500 nm SiO2, 24 C): eta = 4.788e-4 V^2.
-TEST(Electrowetting, HasLippmannsNumberAndSaturates) {
-  EXPECT_NEAR(electrowetting_number(141.42, 500e-9 / 3.9, 0.072126), 9.572, 0.01);
-  EXPECT_NEAR(electrowetting_number(10, 500e-9 / 3.9, 0.072126), 0.0479, 1e-4);
-  const double c0 = std::cos(110 * kPi / 180), cs = std::cos(60 * kPi / 180);
-  EXPECT_NEAR(electrowetted_cosine(c0, cs, 1e-3, false), c0 + 1e-3,
-              1e-9);  // Lippmann-Young at small eta
-  EXPECT_NEAR(electrowetted_cosine(c0, cs, 1e3, false), cs, 1e-12);
-  EXPECT_EQ(electrowetted_cosine(cs, c0, 10, false), cs);  // no electrowetting beyond saturation
-  EXPECT_NEAR(electrowetted_cosine(c0, cs, 1e-3, true), c0 + 0.5e-3, 1e-9);
-  // Using V_rms in the saturated law overestimates the mean change by 11 % at 200 V, 110 -> 60 deg.
-  const double mean = electrowetted_cosine(c0, cs, 4.788e-4 * 4e4, true) - c0;
-  const double naive = electrowetted_cosine(c0, cs, 4.788e-4 * 2e4, false) - c0;
-  EXPECT_NEAR(naive / mean, 1.11, 0.01);
+TEST(Breakdown, CornersAndMargins) {
+  EXPECT_NEAR(corner_factor(1, 1), 1.44, 0.005);
+  EXPECT_NEAR(corner_factor(5, 1), 2.8, 0.01);
+  EXPECT_EQ(corner_factor(1, HUGE_VAL), 1);
+  const Dielectric layer;  // 500 nm of SiO2, 1 GV/m
+  EXPECT_NEAR(dielectric_margin({&layer, 1}, 200, HUGE_VAL), 2.5, 1e-12);
+  EXPECT_NEAR(dielectric_margin({&layer, 1}, 200, 100e-9), 2.5 / corner_factor(5, 1), 1e-12);
+  EXPECT_EQ(dielectric_margin({&layer, 1}, 200, 0), 0);
+  EXPECT_EQ(dielectric_margin({&layer, 1}, 0, 100e-9), HUGE_VAL);
+  Dielectric stack[2] = {layer, layer};
+  stack[1].permittivity = 7.8;  // twice the permittivity, half the field
+  stack[1].strength = 0.4e9;
+  EXPECT_NEAR(dielectric_margin(stack, 200, HUGE_VAL), 0.4e9 / (200 / (1.5 * 500e-9) / 2), 1e-9);
+}
+
+TEST(Electrowetting, HasLippmannsNumberAndTheSaturatedAngles) {
+  const auto degrees = [](double cosine) { return std::acos(cosine) * 180 / kPi; };
+  const auto cosine = [](double angle) { return std::cos(angle * kPi / 180); };
+  for (const Row& row : read_table("ewod_lippmann.csv")) {
+    const double v = number(row, "V_rms");
+    const double eta = electrowetting_number(v, 500e-9 / 3.9, kWaterSurfaceTension);
+    EXPECT_NEAR(eta, number(row, "eta_500nm_SiO2"), 1e-5 * eta);
+    const double coated =
+        electrowetting_number(v, 500e-9 / 3.9 + 100e-9 / 1.93, kWaterSurfaceTension);
+    EXPECT_NEAR(coated, number(row, "eta_plus100nm_top_er1.93"), 1e-5 * coated);
+    EXPECT_NEAR(degrees(electrowetted_cosine(cosine(110), cosine(60), eta, false)),
+                number(row, "theta_sat_smooth_110_min60"), 1e-3);
+    EXPECT_NEAR(degrees(electrowetted_cosine(cosine(50), cosine(30), eta, false)),
+                number(row, "theta_sat_smooth_50_min30"), 1e-3);
+  }
+  EXPECT_EQ(electrowetted_cosine(0.5, -0.3, 10, false), 0.5);  // already below saturation
+  EXPECT_EQ(electrowetting_number(5, 0, 0.07), HUGE_VAL);
+}
+
+TEST(Electrowetting, TheCycleMeanOfTheSaturatedLawIsBelowTheLawAtTheRmsVoltage) {
+  const double c0 = std::cos(110 * kPi / 180), cs = 0.5;
+  EXPECT_NEAR(electrowetted_cosine(c0, cs, 1e-3, true), c0 + 0.5e-3, 1e-9);  // unsaturated: equal
+  for (auto [amplitude, excess] : {std::pair{200.0, 1.11}, {100.0, 1.26}}) {
+    const double eta = electrowetting_number(amplitude, 500e-9 / 3.9, kWaterSurfaceTension);
+    const double mean = electrowetted_cosine(c0, cs, eta, true) - c0;
+    const double naive = electrowetted_cosine(c0, cs, eta / 2, false) - c0;
+    EXPECT_NEAR(naive / mean, excess, 0.01);
+  }
 }
 
 }  // namespace

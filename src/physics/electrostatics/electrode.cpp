@@ -1,0 +1,51 @@
+#include "physics/electrostatics/electrode.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+
+namespace papilla {
+namespace {
+
+// The foot of a wall: a neighbour stands higher by more than the distance to it.
+bool is_foot(const Heightmap& h, int ix, int iy) {
+  const Grid& g = h.grid;
+  const double z = h(ix, iy);
+  return std::max(h(ix + 1 < g.nx ? ix + 1 : 0, iy), h(ix > 0 ? ix - 1 : g.nx - 1, iy)) >
+             z + g.dx() ||
+         std::max(h(ix, iy + 1 < g.ny ? iy + 1 : 0), h(ix, iy > 0 ? iy - 1 : g.ny - 1)) >
+             z + g.dy();
+}
+
+}  // namespace
+
+Heightmap electrode_below(const Heightmap& surface, double thickness) {
+  const Grid& g = surface.grid;
+  Heightmap electrode{g, surface.z};
+  for (double& z : electrode.z) z -= thickness;
+  if (thickness <= 0) return electrode;
+  // Distances count from the wall, half a pixel beyond the centre of its foot.
+  const double radius = thickness + 0.5 * std::min(g.dx(), g.dy());
+  const int nx = std::min(static_cast<int>(radius / g.dx()), (g.nx - 1) / 2);
+  const int ny = std::min(static_cast<int>(radius / g.dy()), (g.ny - 1) / 2);
+  for (int iy = 0; iy < g.ny; ++iy) {
+    for (int ix = 0; ix < g.nx; ++ix) {
+      if (!is_foot(surface, ix, iy)) continue;
+      const double level = surface(ix, iy) - thickness;
+      for (int j = -ny; j <= ny; ++j) {
+        const double rest = square(radius) - square(j * g.dy());
+        const int width = std::min(static_cast<int>(std::sqrt(rest) / g.dx()), nx);
+        double* row = electrode.z.data() + g.index(0, wrap(iy + j, g.ny));
+        int column = wrap(ix - width, g.nx);
+        for (int i = -width; i <= width; ++i, ++column) {
+          if (column == g.nx) column = 0;
+          row[column] = std::min(row[column], level);
+        }
+      }
+    }
+  }
+  return electrode;
+}
+
+}  // namespace papilla

@@ -1,0 +1,15 @@
+// Where the electrode lies below a textured dielectric.
+#pragma once
+
+#include "geometry/heightmap.h"
+
+namespace papilla {
+
+// Height of an electrode that a dielectric of a thickness [m] covers conformally with square
+// corners, below the finished surface: z - thickness on flats; behind a wall (a drop steeper than
+// 45 degrees between neighbouring pixels) the side of the wall is covered as thick, so that within
+// one thickness of its foot the electrode lies one thickness below the foot. Cost: wall pixels
+// times pixels in a disc of the thickness. Eq. electrostatics.2
+Heightmap electrode_below(const Heightmap& surface, double thickness);
+
+}  // namespace papilla
