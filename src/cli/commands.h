@@ -15,6 +15,7 @@ void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 
 // The pieces of `papilla solve`.
+void add_solve_contact(CLI::App& solve, Context& context);
 void add_solve_bridge(CLI::App& solve, Context& context);
 void add_solve_droplets(CLI::App& solve, Context& context);
 
@@ -30,6 +31,7 @@ inline constexpr std::array kCommands{
 };
 
 inline constexpr std::array kPieces{
+    add_solve_contact,
     add_solve_bridge,
     add_solve_droplets,
 };

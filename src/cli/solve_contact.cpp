@@ -1,0 +1,151 @@
+// papilla solve contact: a rigid rough surface pressed on a (layered) elastic half-space.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "cli/commands.h"
+#include "geometry/io/files.h"
+#include "physics/contact/contact.h"
+
+namespace papilla {
+namespace {
+
+struct ContactCommand {
+  std::string height, size, pressure, modulus;
+  std::string layer_modulus, layer_thickness, bulk_modulus;
+  double layer_poisson = 0.5, bulk_poisson = 0.5;
+  std::string hardness = "0 Pa", out_pressure, out_gap;
+  double tolerance = 1e-8;
+  int threads = 1;
+  bool json = false;
+};
+
+double positive(const std::string& text, const char* unit, const char* option) {
+  const double value = parse_si(text, unit);
+  if (value <= 0) throw InputError(fmt::format("{} must be positive, got \"{}\"", option, text));
+  return value;
+}
+
+LayeredSolid solid_of(const ContactCommand& c) {
+  if (!c.modulus.empty() == !c.layer_modulus.empty()) {
+    throw InputError(
+        "give either --modulus (E* of a half-space) or --layer-modulus with --layer-thickness and "
+        "--bulk-modulus");
+  }
+  if (!c.modulus.empty()) {
+    const double e = positive(c.modulus, "MPa", "--modulus");
+    return {e, 0, 0, e, 0};
+  }
+  if (c.layer_thickness.empty() || c.bulk_modulus.empty()) {
+    throw InputError("a layer needs --layer-thickness and --bulk-modulus too");
+  }
+  return {positive(c.layer_modulus, "MPa", "--layer-modulus"), c.layer_poisson,
+          positive(c.layer_thickness, "um", "--layer-thickness"),
+          positive(c.bulk_modulus, "MPa", "--bulk-modulus"), c.bulk_poisson};
+}
+
+const char* status_name(ContactStatus status) {
+  switch (status) {
+    case ContactStatus::Converged:
+      return "converged";
+    case ContactStatus::NoLoad:
+      return "no load";
+    case ContactStatus::Stagnated:
+      return "stagnated";
+    case ContactStatus::IterationLimit:
+      return "iteration limit";
+    case ContactStatus::Invalid:
+      return "invalid";
+    case ContactStatus::NotRun:
+      return "not run";
+  }
+  return "";
+}
+
+int solve(const ContactCommand& c) {
+  const LayeredSolid solid = solid_of(c);
+  const double pressure = parse_si(c.pressure, "kPa");
+  if (pressure < 0) throw InputError("--pressure must not be negative");
+  const ContactOptions options{.tolerance = c.tolerance, .hardness = parse_si(c.hardness, "MPa")};
+  const Heightmap h =
+      read_heightmap(c.height, c.size.empty() ? 0 : positive(c.size, "um", "--size"));
+  const auto kernel = make_contact_kernel(h.grid, solid);
+  const auto begin = std::chrono::steady_clock::now();
+  const ContactSolution s = solve_contact(*kernel, h.z, pressure, {}, options);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (s.status == ContactStatus::Invalid) throw InputError(s.reason);
+  const ContactArea area = measure_area(*kernel, s);
+  double mean_gap = 0;
+  for (double g : s.gap) mean_gap += g / static_cast<double>(s.gap.size());
+  const double peak = *std::max_element(s.pressure.begin(), s.pressure.end());
+  if (!c.out_pressure.empty()) write_npy(c.out_pressure, {h.grid, s.pressure});
+  if (!c.out_gap.empty()) write_npy(c.out_gap, {h.grid, s.gap});
+  const std::string reason = s.reason.empty() ? status_name(s.status) : s.reason;
+  if (c.json) {
+    nlohmann::ordered_json out{{"schema", 1},
+                               {"converged", s.converged()},
+                               {"reason", reason},
+                               {"certificate", s.certificate},
+                               {"iterations", s.iterations},
+                               {"fft_pairs", s.fft_pairs},
+                               {"seconds", seconds},
+                               {"area_fraction_raw", area.raw},
+                               {"area_fraction", area.near_edge},
+                               {"area_fraction_se", area.se},
+                               {"area_fraction_moments", area.moments},
+                               {"mean_gap", mean_gap},
+                               {"max_pressure", peak},
+                               {"elastic_energy", s.elastic_energy}};
+    std::cout << out.dump(2) << '\n';
+  } else {
+    std::cout << fmt::format(
+        "{}: certificate {:.2g} after {} iterations, {:.1f} transform pairs, {:.3g} s\n"
+        "contact area      {:.4f} ±{:.4f} %  ({:.4f} % of pixels)\nmean gap          {:.5g} nm\n"
+        "largest pressure  {:.5g} MPa\nelastic energy    {:.5g} fJ\n",
+        reason, s.certificate, s.iterations, s.fft_pairs, seconds, 100 * area.near_edge,
+        100 * area.se, 100 * area.raw, 1e9 * mean_gap, 1e-6 * peak, 1e15 * s.elastic_energy);
+  }
+  return s.converged() ? kSuccess : kWorkFailed;
+}
+
+}  // namespace
+
+void add_solve_contact(CLI::App& solve_command, Context& context) {
+  CLI::App* command = solve_command.add_subcommand(
+      "contact", "Rough contact of a rigid surface with a layered elastic half-space");
+  auto c = std::make_shared<ContactCommand>();
+  command->add_option("--height", c->height, "Heightmap (.npy .gsf .exr .tif), high touches first")
+      ->required();
+  command->add_option("--size", c->size,
+                      "Lateral size in x, where the file does not say: \"12 um\"");
+  command->add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"")->required();
+  command->add_option("--modulus", c->modulus, "E* of a homogeneous half-space: \"53 MPa\"");
+  command->add_option("--layer-modulus", c->layer_modulus, "Young's modulus of the layer");
+  command->add_option("--layer-poisson", c->layer_poisson, "Its Poisson ratio")
+      ->check(CLI::Range(0.0, 0.5));
+  command->add_option("--layer-thickness", c->layer_thickness, "Its thickness");
+  command->add_option("--bulk-modulus", c->bulk_modulus, "Young's modulus below");
+  command->add_option("--bulk-poisson", c->bulk_poisson, "Poisson ratio below")
+      ->check(CLI::Range(0.0, 0.5));
+  command->add_option("--hardness", c->hardness, "Cap on the pressure; 0: none");
+  command->add_option("--tolerance", c->tolerance, "On the certificate (docs/theory/contact.md)")
+      ->check(CLI::Range(1e-15, 0.1));
+  command
+      ->add_option("--threads", c->threads, "Accepted for comparisons: a solve runs on one thread")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
+  command->add_option("--out-gap", c->out_gap, "Gap [m] as .npy");
+  command->add_flag("--json", c->json, "One JSON object");
+  command->callback([c, &context] { context.action = [c] { return solve(*c); }; });
+}
+
+}  // namespace papilla
