@@ -27,7 +27,7 @@ struct Bridge {
 // Eq. capillary.11: Delaunay surface by Newton on (radius1, pressure, arc). Angles in [0, pi]
 // [rad], surface 1 below, 2 above. Continued from the thin-slab limit, so the branch is the stable
 // one. Valid for every gap below rupture; relative accuracy 1e-12 of the force and energy scales.
-// Cost: 20-100 us.
+// Cost: about 0.3 ms (12 us a step of the continuation).
 Bridge solve_bridge(double volume, double gap, double theta1, double theta2,
                     double surface_tension);
 
@@ -45,7 +45,7 @@ struct BridgeLimits {
   double snap_in = 0;      // height of the lower cap: it touches the other plate below this gap
   double zero_force = 0;   // the gap that attracts above and repels below; 0: attracts at all gaps
 };
-// Cost: about 1 ms.
+// Cost: about 3 ms.
 BridgeLimits bridge_limits(double theta1, double theta2);
 
 }  // namespace papilla
