@@ -46,7 +46,10 @@ class PatchSolver {
         fidelity_(fidelity),
         // Both moduli soften by one factor, so the kernel at 15 % RH serves every humidity:
         // pressures are divided by the factor on the way in and multiplied on the way out.
-        softness_(1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
+        // A compliant surface comes with the kernel of this humidity.
+        softness_(problem.scene->surface.modulus > 0
+                      ? 1
+                      : 1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
 
   PatchResult run(ContactSolution& start, PatchFields* fields) {
     const Scene& scene = *problem_.scene;

@@ -18,8 +18,9 @@ namespace papilla {
 struct PatchProblem {
   const Scene* scene = nullptr;
   const Heightmap* texture = nullptr;
-  std::span<const double> height;         // texture + skin [m], high touches first
-  const ContactKernel* kernel = nullptr;  // for the moduli at 15 % RH
+  std::span<const double> height;  // texture + skin [m], high touches first
+  const ContactKernel* kernel =
+      nullptr;  // moduli at 15 % RH; of this humidity if the surface yields
   double relative_humidity = 0;
   double pressure = 0;  // mean preload on the patch [Pa]
   std::uint64_t droplet_index = 0;

@@ -16,9 +16,15 @@
 namespace papilla {
 namespace {
 
-LayeredSolid solid(const Skin& skin) {
-  return {skin.layer_modulus, skin.layer_poisson, skin.layer_thickness, skin.bulk_modulus,
-          skin.bulk_poisson};
+// The kernel of a humidity. Skin on a rigid surface softens as a whole, so the kernel at 15 % RH
+// serves all humidities (see PatchSolver); a compliant surface does not soften, and needs one each.
+std::shared_ptr<const ContactKernel> kernel_at(const Scene& scene, const Grid& grid, double rh) {
+  const Skin& skin = scene.finger.skin;
+  const double factor = scene.surface.modulus > 0 ? skin.modulus_factor(rh) : 1;
+  return make_contact_kernel(grid,
+                             {skin.layer_modulus * factor, skin.layer_poisson, skin.layer_thickness,
+                              skin.bulk_modulus * factor, skin.bulk_poisson, scene.surface.modulus,
+                              scene.surface.poisson});
 }
 
 // Sliding offset of skin k against the texture: the R2 low-discrepancy sequence over the patch.
@@ -210,9 +216,10 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
   response.driven = response.plan.field;
   const Grid& grid = response.plan.grid;
   const Heightmap surface = generate(texture, grid);
-  const auto kernel = make_contact_kernel(grid, solid(scene.finger.skin));
   const std::vector<double>& humidities = scene.environment.relative_humidity;
   PAPILLA_CHECK(!humidities.empty(), "one humidity at least");
+  std::vector<std::shared_ptr<const ContactKernel>> kernels;
+  for (double rh : humidities) kernels.push_back(kernel_at(scene, grid, rh));
 
   // results[humidity][skin]
   std::vector<std::vector<PatchResult>> results(
@@ -228,7 +235,7 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
           const PatchProblem problem{&scene,
                                      &surface,
                                      height,
-                                     kernel.get(),
+                                     kernels[i].get(),
                                      humidities[i],
                                      scene.finger.patch_pressure(humidities[i]),
                                      static_cast<std::uint64_t>(index)};
@@ -259,7 +266,7 @@ PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fid
   picture.texture = generate(texture, plan.grid);
   picture.skin = skin_patch(scene, plan.grid, fidelity, fidelity.first_skin + index);
   const std::vector<double> height = added(picture.texture, picture.skin);
-  const auto kernel = make_contact_kernel(plan.grid, solid(scene.finger.skin));
+  const auto kernel = kernel_at(scene, plan.grid, relative_humidity);
   ContactSolution start;
   const PatchProblem problem{&scene,
                              &picture.texture,

@@ -18,15 +18,19 @@
 namespace papilla {
 
 // A layer bonded on a half-space. Young's moduli [Pa], Poisson ratios in [0, 0.5], thickness [m]
-// from 0 (half-space of the bulk alone) to infinity (of the layer alone).
+// from 0 (half-space of the bulk alone) to infinity (of the layer alone). A compliant counter-body
+// (soft particles) adds the compliance of its own half-space, Eq. contact.9: right where the
+// contact spot is small against the particle, too stiff for a particle pressed flat.
 struct LayeredSolid {
   double layer_modulus = 1, layer_poisson = 0.5, layer_thickness = 0;
   double bulk_modulus = 1, bulk_poisson = 0.5;
+  double counter_modulus = 0, counter_poisson = 0.4;  // modulus 0: rigid
 
   bool operator==(const LayeredSolid&) const = default;
 };
 
-// Normal surface compliance C(q) [m/Pa] at wave number q > 0 [1/m]: u_hat = C p_hat. Eq. contact.1
+// Normal surface compliance C(q) [m/Pa] at wave number q > 0 [1/m]: u_hat = C p_hat. Eqs.
+// contact.1, contact.9
 double compliance(const LayeredSolid& solid, double q);
 
 // The compliance on one grid; immutable, shared by all solves.
@@ -47,7 +51,7 @@ class ContactKernel {
     return self_;
   }  // displacement of a pixel under its own unit pressure
   const ContactKernel* coarse() const { return coarse_.get(); }  // half the pixels, or null
-  double contact_modulus() const;  // E1 / (1 - nu1^2) of the surface [Pa]
+  double contact_modulus() const;                                // E* of the two surfaces [Pa]
 
   // u = S p: one forward and one inverse transform. scratch: spectrum-sized.
   void displace(const RealArray& p, RealArray& u, SpectrumArray& scratch) const;

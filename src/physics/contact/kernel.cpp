@@ -9,8 +9,10 @@
 
 namespace papilla {
 
-double compliance(const LayeredSolid& s, double q) {
-  PAPILLA_CHECK(q > 0, "wave number");
+namespace {
+
+// The skin alone. Eq. contact.1
+double layered_compliance(const LayeredSolid& s, double q) {
   const double bulk = 2 * (1 - square(s.bulk_poisson)) / (s.bulk_modulus * q);
   const double layer = 2 * (1 - square(s.layer_poisson)) / (s.layer_modulus * q);
   const double x = q * s.layer_thickness;
@@ -33,9 +35,24 @@ double compliance(const LayeredSolid& s, double q) {
   return (1 - n1) / (g1 * q) * numerator / denominator;
 }
 
+}  // namespace
+
+double compliance(const LayeredSolid& s, double q) {
+  PAPILLA_CHECK(q > 0, "wave number");
+  const double counter = s.counter_modulus > 0  // Eq. contact.9
+                             ? 2 * (1 - square(s.counter_poisson)) / (s.counter_modulus * q)
+                             : 0;
+  return layered_compliance(s, q) + counter;
+}
+
 double ContactKernel::contact_modulus() const {
-  return solid_.layer_thickness > 0 ? solid_.layer_modulus / (1 - square(solid_.layer_poisson))
-                                    : solid_.bulk_modulus / (1 - square(solid_.bulk_poisson));
+  double softness = solid_.layer_thickness > 0
+                        ? (1 - square(solid_.layer_poisson)) / solid_.layer_modulus
+                        : (1 - square(solid_.bulk_poisson)) / solid_.bulk_modulus;
+  if (solid_.counter_modulus > 0) {
+    softness += (1 - square(solid_.counter_poisson)) / solid_.counter_modulus;
+  }
+  return 1 / softness;
 }
 
 ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
