@@ -159,6 +159,30 @@ TEST(Export, MasksNeedAPolarityAndLayoutsAnArray) {
   EXPECT_EQ(place.entries(), 0);
 }
 
+TEST(SolveContact, AFlatSurfaceTouchesEverywhereAtTheMeanPressure) {
+  const Workplace place;
+  ASSERT_EQ(place
+                .run("export " PAPILLA_SOURCE_DIR
+                     "/designs/m3_samples/flat.toml --pixels 32 --format npy --out flat")
+                .status,
+            0);
+  const Outcome run = place.run(
+      "solve contact --height flat/heightmap.npy --size '12 um' --pressure '15 kPa' --modulus "
+      "'53 MPa' --json --out-pressure p.npy --out-gap g.npy");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  EXPECT_TRUE(json["converged"].get<bool>());
+  EXPECT_EQ(json["area_fraction_raw"], 1);
+  EXPECT_NEAR(json["max_pressure"].get<double>(), 15e3, 1e-6);
+  EXPECT_EQ(json["mean_gap"], 0);
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "p.npy"));
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "g.npy"));
+  EXPECT_EQ(
+      place.run("solve contact --height flat/heightmap.npy --size '12 um' --pressure '15 kPa'")
+          .status,
+      2);
+}
+
 TEST(Program, OutputThatCannotBeWrittenIsAFailure) {
   const Workplace place;
   EXPECT_EQ(place.shell("'" PAPILLA_PROGRAM "' describe > /dev/full").status, 1);
