@@ -1,0 +1,72 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "geometry/io/files.h"
+
+namespace papilla {
+namespace {
+
+std::string output(const std::string& arguments, int& status) {
+  const std::string command = std::string(PAPILLA_PROGRAM) + " solve " + arguments + " 2>/dev/null";
+  FILE* pipe = popen(command.c_str(), "r");
+  std::string out;
+  std::array<char, 4096> buffer;
+  while (std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) out.append(buffer.data(), n);
+  status = WEXITSTATUS(pclose(pipe));
+  return out;
+}
+
+TEST(SolveBridge, PrintsTheDocumentedJson) {
+  int status = -1;
+  const auto json = nlohmann::json::parse(
+      output("bridge --volume '1 um3' --gap '300 nm' --theta1 '80 deg' --theta2 '50 deg' "
+             "--surface-tension '1 N/m' --json",
+             status));
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(json["schema"], 1);
+  EXPECT_EQ(json["exists"], true);
+  EXPECT_NEAR(json["energy"].get<double>(), -0.898608089813e-12, 1e-21);
+  EXPECT_NEAR(json["force"].get<double>(), 12.0880249261e-6, 1e-14);
+  EXPECT_NEAR(json["laplace_pressure"].get<double>(), -1.80787455249e6, 1e-2);
+  EXPECT_NEAR(json["rupture_gap"].get<double>(), 0.99379858e-6, 1e-10);
+  EXPECT_NEAR(json["equilibrium_gap"].get<double>(), 0.874631e-6, 1e-10);
+}
+
+TEST(SolveBridge, ARupturedBridgeIsNullAndWrongInputIsRefused) {
+  int status = -1;
+  const auto json =
+      nlohmann::json::parse(output("bridge --volume '1 um3' --gap '1.2 um' --json", status));
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(json["exists"], false);
+  EXPECT_TRUE(json["force"].is_null());
+  output("bridge --volume '-1 um3' --json", status);
+  EXPECT_EQ(status, 2);
+  output("bridge --gap '100'", status);
+  EXPECT_EQ(status, 2);
+}
+
+TEST(SolveDroplets, ReadsAGapAndDrawsAPicture) {
+  Heightmap gap{{64, 64, 12e-6, 12e-6}, std::vector<double>(64 * 64, 100e-9)};
+  const std::string folder = testing::TempDir();
+  write_gsf(folder + "gap.gsf", gap, {});
+  int status = -1;
+  const auto json = nlohmann::json::parse(output("droplets --gap " + folder +
+                                                     "gap.gsf --volume '0.5 um3' --out-picture " +
+                                                     folder + "droplets.png --json",
+                                                 status));
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(json["status"], "discs");
+  double volume = 0;
+  for (const auto& d : json["droplets"]) volume += d["volume"].get<double>();
+  EXPECT_NEAR(volume, 0.5e-18, 1e-30);
+  EXPECT_EQ(read_bytes(folder + "droplets.png").substr(1, 3), "PNG");
+  output("droplets --gap " + folder + "gap.gsf --volume '-1 um3'", status);
+  EXPECT_EQ(status, 2);
+}
+
+}  // namespace
+}  // namespace papilla
