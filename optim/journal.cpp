@@ -46,6 +46,8 @@ std::string header(const std::string& key) { return "papilla-journal 1 " + key +
 
 }  // namespace
 
+std::string text_hash(const std::string& text) { return fmt::format("{:016x}", checksum(text)); }
+
 std::string journal_line(const Evaluation& e) {
   std::string reason = e.outcome.reason;
   for (char& c : reason) {

@@ -29,6 +29,9 @@ class Journal {
   std::vector<Evaluation> records_;
 };
 
+// 16 hexadecimal digits, FNV-1a: to name a problem.
+std::string text_hash(const std::string& text);
+
 // One line: hexadecimal floats (exact), then a checksum. Exposed for tests.
 std::string journal_line(const Evaluation& evaluation);
 bool parse_journal_line(const std::string& line, Evaluation& evaluation);

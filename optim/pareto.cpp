@@ -25,8 +25,9 @@ std::vector<std::size_t> pareto_front(const std::vector<Evaluation>& evaluations
   if (!any_feasible) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < evaluations.size(); ++i) {
-      if (evaluations[i].outcome.ok && evaluations[i].outcome.violation() < least) {
-        least = evaluations[i].outcome.violation();
+      const Outcome& o = evaluations[i].outcome;
+      if ((o.ok || !o.constraints.empty()) && o.violation() < least) {
+        least = o.violation();
         front = {i};
       }
     }

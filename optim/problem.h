@@ -28,9 +28,9 @@ struct Space {
 
 struct Outcome {
   bool ok = false;
-  std::string reason;               // when not ok
+  std::string reason;               // when not ok: why; when ok: text carried along
   std::vector<double> objectives;   // minimised; finite when ok
-  std::vector<double> constraints;  // <= 0 is feasible; finite when ok
+  std::vector<double> constraints;  // <= 0 is feasible; finite when ok; kept of a refused point
   std::vector<double> info;         // carried along, not optimised
 
   double violation() const;  // sum of positive constraints

@@ -125,7 +125,11 @@ class Bayesian : public Searcher {
   }
 
   double acquisition(const Point& u) const {
-    if (!problem_.cheaply_feasible(u)) return -1;
+    if (problem_.cheap_constraints) {
+      double violation = 0;
+      for (double c : problem_.cheap_constraints(u)) violation += std::max(0.0, c);
+      if (violation > 0) return -violation;
+    }
     const double p = feasibility(u);
     if (!any_feasible_) return p;
     if (problem_.objectives == 1)

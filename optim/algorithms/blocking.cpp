@@ -130,8 +130,9 @@ std::vector<double> Penalty::finite(const Outcome& outcome, std::size_t objectiv
   for (std::size_t k = 0; k < objectives && !worst_.empty(); ++k) {
     const double span = std::max(worst_[k] - best_[k], 1e-6 * std::max(1.0, std::abs(worst_[k])));
     // Bounded: worst + 10 % for the smallest violation, at most one more span for the largest.
-    const double violation =
-        outcome.ok ? outcome.violation() : std::numeric_limits<double>::infinity();
+    const double violation = outcome.ok || !outcome.constraints.empty()
+                                 ? outcome.violation()
+                                 : std::numeric_limits<double>::infinity();
     out[k] =
         worst_[k] + span * (0.1 + (std::isfinite(violation) ? violation / (1 + violation) : 1));
   }

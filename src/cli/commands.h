@@ -7,6 +7,7 @@
 
 namespace papilla {
 
+void add_optimize(CLI::App& app, Context& context);
 void add_evaluate(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_export(CLI::App& app, Context& context);
@@ -22,6 +23,7 @@ void add_solve_droplets(CLI::App& solve, Context& context);
 // clang-format off
 // In the order of `papilla --help`, one a line.
 inline constexpr std::array kCommands{
+    add_optimize,
     add_evaluate,
     add_explain,
     add_export,

@@ -63,7 +63,8 @@ void fields(FieldVisitor& v, Search& s) {
 }
 
 const std::vector<std::string>& search_methods() {
-  static const std::vector<std::string> names{"auto", "bobyqa", "direct", "cmaes", "nsga2"};
+  static const std::vector<std::string> names{"auto",   "bayesian", "nsga2", "cmaes",
+                                              "bobyqa", "sbplx",    "direct"};
   return names;
 }
 

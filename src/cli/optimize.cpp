@@ -1,0 +1,182 @@
+// papilla optimize STUDY.toml: searches the design space, writes a folder of results.
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/units.h"
+#include "cli/commands.h"
+#include "study/optimise.h"
+
+namespace papilla {
+namespace {
+
+struct OptimizeOptions {
+  std::string study, out, time, method;
+  std::vector<std::string> overrides;
+  bool resume = false, json = false;
+  int jobs = 0, evaluations = 0, seed = -1;
+};
+
+std::atomic<bool> interrupted{false};
+
+// The first Ctrl-C ends after the running evaluation; a second one ends at once (the journal is
+// safe either way).
+extern "C" void on_interrupt(int) {
+  if (interrupted.exchange(true)) ::_exit(130);
+}
+
+// A bar on a terminal, one line a tenth of the way otherwise.
+class ProgressPrinter {
+ public:
+  explicit ProgressPrinter(const Context& context)
+      : context_(context), terminal_(::isatty(STDERR_FILENO) != 0) {}
+
+  void show(const Progress& p) {
+    if (context_.quiet) return;
+    const double share = p.total > 0 ? static_cast<double>(p.done) / p.total : 0;
+    std::string text = fmt::format("{:<7} {:>3}/{}", p.stage, p.done, p.total);
+    if (!p.best.empty()) text += "  " + p.best;
+    if (p.seconds_left >= 0) text += fmt::format("  {:.0f} s left", p.seconds_left);
+    if (terminal_) {
+      constexpr int kWidth = 24;
+      const int full = static_cast<int>(share * kWidth);
+      std::string bar;
+      for (int i = 0; i < kWidth; ++i) bar += i < full ? "█" : "░";
+      std::cerr << "\r\033[K" << bar << ' ' << text << std::flush;
+      open_line_ = true;
+      return;
+    }
+    const int tenth = static_cast<int>(10 * share);
+    if (p.stage == stage_ && tenth == tenth_) return;
+    stage_ = p.stage;
+    tenth_ = tenth;
+    std::cerr << text << std::endl;
+  }
+
+  void finish() {
+    if (open_line_) std::cerr << std::endl;
+    open_line_ = false;
+  }
+
+ private:
+  const Context& context_;
+  bool terminal_, open_line_ = false;
+  std::string stage_;
+  int tenth_ = -1;
+};
+
+nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& problem,
+                                   const std::string& folder, const Study& study) {
+  using Json = nlohmann::ordered_json;
+  Json out{{"schema", 1},
+           {"folder", folder},
+           {"method", r.method},
+           {"why", r.why},
+           {"evaluations", r.evaluations},
+           {"failures", r.failures},
+           {"interrupted", r.interrupted},
+           {"feasible", r.any_feasible}};
+  const auto score = [&](const Score& s) {
+    Json j = Json::object();
+    for (std::size_t k = 0; k < s.values.size(); ++k) {
+      j[problem.objectives()[k].name] = {{"value", s.values[k]}, {"se", s.errors[k]}};
+    }
+    j["worst_modulation"] = s.worst;
+    return j;
+  };
+  out["designs"] = Json::array();
+  for (const FinalDesign& d : r.finalists) {
+    Json variables = Json::object();
+    const std::vector<double> values = problem.values(d.unit);
+    for (std::size_t i = 0; i < values.size(); ++i) variables[study.variables[i].path] = values[i];
+    out["designs"].push_back({{"folder", d.folder},
+                              {"on_front", d.on_front},
+                              {"feasible", d.feasible},
+                              {"variables", variables},
+                              {"objectives", score(d.confirmed)}});
+  }
+  if (r.has_flat) out["flat"] = score(r.flat);
+  out["best"] = r.finalists.empty() ? Json(nullptr) : Json(r.best);
+  return out;
+}
+
+int optimize(const OptimizeOptions& options, const Context& context) {
+  Study study = read_study(options.study, options.overrides);
+  if (options.jobs > 0) study.search.jobs = options.jobs;
+  if (options.evaluations > 0) study.search.evaluations = options.evaluations;
+  if (options.seed >= 0) study.search.seed = options.seed;
+  if (!options.time.empty()) study.search.time = parse_si(options.time, "min");
+  if (!options.method.empty()) study.search.method = options.method;
+
+  OptimiseOptions run;
+  run.folder = options.out.empty() ? "results/" + study.name : options.out;
+  run.resume = options.resume;
+  run.stop = &interrupted;
+  ProgressPrinter printer(context);
+  run.progress = [&](const Progress& p) { printer.show(p); };
+  struct sigaction action {};
+  action.sa_handler = on_interrupt;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+
+  const auto begin = std::chrono::steady_clock::now();
+  const OptimiseResult result = optimise(study, run);
+  printer.finish();
+  if (options.json) {
+    std::cout << result_json(result, StudyProblem(study), run.folder, study).dump(2) << '\n';
+  } else if (!result.interrupted) {
+    std::cout << result_table(study, result);
+  }
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (result.interrupted) {
+    context.note(fmt::format("interrupted; continue with: papilla optimize {} --out {} --resume",
+                             options.study, run.folder));
+    return kWorkFailed;
+  }
+  context.note(
+      fmt::format("{} evaluations in {:.0f} s; results in {}/ (summary.md, pareto.csv, "
+                  "best/design.toml)",
+                  result.evaluations, seconds, run.folder));
+  if (!result.any_feasible) {
+    context.note("no design keeps every constraint; summary.md says which comes nearest");
+    return kWorkFailed;
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_optimize(CLI::App& app, Context& context) {
+  CLI::App* command =
+      app.add_subcommand("optimize", "Search the design space of a study; write results/<study>/");
+  auto options = std::make_shared<OptimizeOptions>();
+  command->add_option("study", options->study, "STUDY.toml, a design with a [design_space]")
+      ->required();
+  command->add_option("--out", options->out, "Folder of results; default results/<study>")
+      ->type_name("DIR");
+  command->add_flag("--resume", options->resume, "Continue an interrupted run of the same study");
+  command->add_option("--jobs", options->jobs, "Evaluations at a time; default: one a processor")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--evaluations", options->evaluations, "Largest number of evaluated designs")
+      ->check(CLI::Range(1, 100000000));
+  command->add_option("--time", options->time, "Largest wall-clock time, e.g. \"5 min\"");
+  command->add_option("--seed", options->seed, "Seed of the search and of the skins")
+      ->check(CLI::Range(0, 1 << 30));
+  command->add_option("--method", options->method,
+                      "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct");
+  add_set_option(*command, options->overrides);
+  command->add_flag("--json", options->json, "The result as one JSON object on standard output");
+  command->callback([&context, options] {
+    context.action = [&context, options] { return optimize(*options, context); };
+  });
+}
+
+}  // namespace papilla

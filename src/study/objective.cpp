@@ -1,0 +1,348 @@
+#include "study/objective.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/units.h"
+#include "config/describe.h"
+#include "config/writer.h"
+#include "forward/forward.h"
+#include "study/evaluation.h"
+
+namespace papilla {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// <= 0 when kept, relative to the limit, bounded.
+double relative_violation(double value, double limit, bool at_least) {
+  if (limit <= 0) return at_least ? -1 : std::clamp(value, -1.0, 10.0);
+  if (!at_least) return std::clamp(value / limit - 1, -1.0, 10.0);
+  return value <= 0 ? 10 : std::clamp(limit / value - 1, -1.0, 10.0);
+}
+
+double margin_of(const std::string& name, const FabricationMargins& m) {
+  if (name == "min_hole") return m.min_hole;
+  if (name == "min_wall") return m.min_wall;
+  return m.aspect_ratio;
+}
+
+bool needs_evaluation(const Constraint& c) { return c.name == "oxide_breakdown_margin"; }
+
+double parse_number(const std::string& text, const std::string& whole) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) {
+    throw InputError("objective.risk: \"" + whole +
+                     "\": expected \"mean\", \"mean - 2 std\", \"cvar 20 %\" or \"worst\"");
+  }
+  return value;
+}
+
+}  // namespace
+
+Risk parse_risk(const std::string& text) {
+  std::string compact;
+  for (char c : text) {
+    if (c != ' ') compact += c;
+  }
+  if (compact.empty() || compact == "mean") return {};
+  if (compact == "worst") return {Risk::Kind::Worst, 0};
+  if (compact.starts_with("mean-") && compact.ends_with("std")) {
+    const std::string factor = compact.substr(5, compact.size() - 8);
+    return {Risk::Kind::MeanStd, factor.empty() ? 1 : parse_number(factor, text)};
+  }
+  if (compact.starts_with("cvar") && compact.ends_with("%")) {
+    const double share = 0.01 * parse_number(compact.substr(4, compact.size() - 5), text);
+    if (share > 0 && share <= 1) return {Risk::Kind::Cvar, share};
+  }
+  parse_number("", text);
+  return {};
+}
+
+double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<double>& values,
+                  const std::vector<double>& weights) {
+  PAPILLA_CHECK(!values.empty() && values.size() == weights.size(), "one weight a value");
+  const double sign = higher_is_better ? 1 : -1;  // from here on, low is bad
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  double mean = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) mean += sign * values[i] * weights[i] / total;
+  switch (risk.kind) {
+    case Risk::Kind::Mean:
+      return sign * mean;
+    case Risk::Kind::MeanStd: {
+      double variance = 0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        const double d = sign * values[i] - mean;
+        variance += d * d * weights[i] / total;
+      }
+      return sign * (mean - risk.parameter * std::sqrt(variance));
+    }
+    case Risk::Kind::Worst: {
+      double worst = kInfinity;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        if (weights[i] > 0) worst = std::min(worst, sign * values[i]);
+      }
+      return sign * worst;
+    }
+    case Risk::Kind::Cvar: {
+      std::vector<std::size_t> order(values.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return sign * values[a] < sign * values[b];
+      });
+      double left = risk.parameter, sum = 0;
+      for (std::size_t i : order) {
+        const double share = std::min(left, weights[i] / total);
+        sum += share * sign * values[i];
+        left -= share;
+      }
+      return sign * sum / (risk.parameter - left);
+    }
+  }
+  return sign * mean;
+}
+
+StudyProblem::StudyProblem(const Study& study) : study_(study) {
+  for (const Variable& v : study.variables) {
+    Dimension d{v.low, v.high, v.choices};
+    std::sort(d.choices.begin(), d.choices.end());
+    space_.dimensions.push_back(d);
+  }
+  const std::vector<Finger> fingers =
+      study.population.empty() ? std::vector<Finger>{study.design.finger} : study.population;
+  const std::vector<Scenario> scenarios =
+      study.scenarios.empty() ? std::vector<Scenario>{Scenario{}} : study.scenarios;
+  for (const Scenario& scenario : scenarios) {
+    for (const Finger& finger : fingers) {
+      tasks_.push_back({scenario.name.empty() ? finger.name : finger.name + ", " + scenario.name,
+                        scenario.weight, finger, scenario.set});
+    }
+  }
+  if (std::none_of(tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.weight > 0; }))
+    throw InputError("scenarios: at least one weight above 0 is needed");
+  const auto add = [&](const std::string& text, bool maximise) {
+    const MetricExpression expression = parse_metric(text);
+    objectives_.push_back({expression, maximise, metric_text(expression)});
+    const bool driven = std::all_of(tasks_.begin(), tasks_.end(), [&](const StudyTask& t) {
+      return with_settings(study.design, t.settings).drive.driven();
+    });
+    const bool searched =
+        std::any_of(study.variables.begin(), study.variables.end(),
+                    [](const Variable& v) { return v.path == "drive.amplitude" && v.low > 0; });
+    if (find_metric(expression.metric)->needs_drive && !driven && !searched) {
+      throw InputError(fmt::format("objective: {} needs a driven design; drive.amplitude is 0 V",
+                                   objectives_.back().name));
+    }
+  };
+  for (const std::string& text : study.objective.maximise) add(text, true);
+  for (const std::string& text : study.objective.minimise) add(text, false);
+  if (objectives_.empty() || objectives_.size() > 3) {
+    throw InputError(
+        fmt::format("objective: one to three objectives are possible, got {}", objectives_.size()));
+  }
+  risk_ = parse_risk(study.objective.risk);
+}
+
+Design StudyProblem::design(const Point& unit) const {
+  Design design = study_.design;
+  const std::vector<double> v = space_.value(unit);
+  for (std::size_t i = 0; i < v.size(); ++i) set_number(design, study_.variables[i].path, v[i]);
+  return design;
+}
+
+Point StudyProblem::unit_of_study() const {
+  Point value;
+  for (const Variable& v : study_.variables) value.push_back(get_number(study_.design, v.path));
+  return space_.unit(value);
+}
+
+std::vector<Point> StudyProblem::starts() const {
+  std::vector<Point> out{unit_of_study()};
+  // The flat surface, where one variable alone makes it.
+  for (std::size_t i = 0; i < space_.size(); ++i) {
+    Point flat = out.front();
+    flat[i] = 0;
+    if (texture_depth(study_.design.texture) > 0 && texture_depth(design(flat).texture) <= 0)
+      out.push_back(flat);
+  }
+  return out;
+}
+
+std::vector<double> StudyProblem::geometry(const Point& unit) const {
+  const Design d = design(unit);
+  std::vector<double> out{design_problems(d).empty() ? -1.0 : 1.0};
+  const FabricationMargins margins = fabrication_margins(d.texture);
+  for (const Constraint& c : study_.constraints) {
+    if (!needs_evaluation(c)) {
+      out.push_back(relative_violation(margin_of(c.name, margins), c.limit, c.at_least));
+    }
+  }
+  return out;
+}
+
+std::string StudyProblem::geometry_reason(const Point& unit) const {
+  const Design d = design(unit);
+  const std::vector<DesignProblem> wrong = design_problems(d);
+  if (!wrong.empty()) return wrong.front().path + ": " + wrong.front().message;
+  const FabricationMargins margins = fabrication_margins(d.texture);
+  for (const Constraint& c : study_.constraints) {
+    if (needs_evaluation(c)) continue;
+    const double value = margin_of(c.name, margins);
+    if (relative_violation(value, c.limit, c.at_least) <= 0) continue;
+    const std::string& u = std::find_if(constraint_kinds().begin(), constraint_kinds().end(),
+                                        [&](const ConstraintKind& k) { return k.name == c.name; })
+                               ->unit;
+    const double scale = u == "um" ? 1e6 : 1;
+    return fmt::format("{} {:.3g} {} is {} {:.3g} {}", c.name, value * scale, u,
+                       c.at_least ? "below" : "above", c.limit * scale, u);
+  }
+  return {};
+}
+
+// info of a task: a summary and its error an objective, worst modulation, oxide margin, then the
+// metric of each objective at each humidity.
+Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const Fidelity& fidelity,
+                                    bool report) const {
+  const StudyTask& task = tasks_.at(index);
+  Design d = with_settings(base, task.settings);
+  d.finger = task.finger;
+  Outcome out;
+  if (const auto wrong = design_problems(d); !wrong.empty()) {
+    out.reason = wrong.front().path + ": " + wrong.front().message;
+    return out;
+  }
+  const Response response =
+      evaluate({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture, fidelity);
+  for (const StudyObjective& o : objectives_) {
+    const auto value = summarise(o.expression.summary, o.expression.metric, response);
+    if (!value || !std::isfinite(value->value)) {
+      out.reason = o.name + " is not defined for " + task.name;
+      return out;
+    }
+    out.info.push_back(value->value);
+    out.info.push_back(value->se);
+  }
+  double worst = 0, peak = 0;
+  if (const auto w = summarise(Summary::Worst, "modulation", response)) worst = w->value;
+  for (const ResponsePoint& p : response.points) peak = std::max(peak, p.peak_oxide_field);
+  double strength = kInfinity;
+  for (const Dielectric& layer : d.surface.dielectric)
+    strength = std::min(strength, layer.strength);
+  out.info.push_back(worst);
+  out.info.push_back(peak > 0 ? strength / peak : kInfinity);
+  for (const StudyObjective& o : objectives_) {
+    for (const ResponsePoint& p : response.points) {
+      const auto value = metric_at(o.expression.metric, p);
+      out.info.push_back(value ? value->value : 0);
+    }
+  }
+  out.ok = true;
+  if (report) out.reason = response_json(response, false);
+  return out;
+}
+
+Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
+  PAPILLA_CHECK(tasks.size() == tasks_.size(), "one outcome a task");
+  Score score;
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    if (!tasks[t].ok) {
+      score.reason = tasks_[t].name + ": " + tasks[t].reason;
+      return score;
+    }
+    score.reports.push_back(tasks[t].reason);
+  }
+  const std::size_t m = objectives_.size();
+  const std::vector<double>& rh = study_.design.environment.relative_humidity;
+  std::vector<double> rh_weights = study_.design.environment.weights;
+  if (rh_weights.empty()) rh_weights.assign(rh.size(), 1.0);
+  for (std::size_t k = 0; k < m; ++k) {
+    const StudyObjective& o = objectives_[k];
+    const bool points = risk_.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean;
+    Risk risk = risk_;
+    if (o.expression.summary == Summary::Worst) risk.kind = Risk::Kind::Worst;
+    std::vector<double> values, weights;
+    double error = 0, total = 0;
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+      const std::vector<double>& info = tasks[t].info;
+      PAPILLA_CHECK(info.size() == 2 * m + 2 + m * rh.size(), "numbers of a task");
+      error += tasks_[t].weight * info[2 * k + 1];  // tasks share their skins: errors add linearly
+      total += tasks_[t].weight;
+      if (!points) {
+        values.push_back(info[2 * k]);
+        weights.push_back(tasks_[t].weight);
+        continue;
+      }
+      for (std::size_t i = 0; i < rh.size(); ++i) {
+        values.push_back(info[2 * m + 2 + k * rh.size() + i]);
+        weights.push_back(tasks_[t].weight * rh_weights[i]);
+      }
+    }
+    score.values.push_back(apply_risk(risk, o.maximise, values, weights));
+    score.errors.push_back(error / total);
+  }
+  score.worst = kInfinity;
+  score.oxide_margin = kInfinity;
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    if (tasks_[t].weight <= 0) continue;
+    score.worst = std::min(score.worst, tasks[t].info[2 * m]);
+    score.oxide_margin = std::min(score.oxide_margin, tasks[t].info[2 * m + 1]);
+  }
+  score.ok = true;
+  return score;
+}
+
+std::size_t StudyProblem::constraints() const {
+  return static_cast<std::size_t>(
+      std::count_if(study_.constraints.begin(), study_.constraints.end(), needs_evaluation));
+}
+
+Outcome StudyProblem::outcome(const Score& score) const {
+  Outcome out;
+  out.ok = score.ok;
+  if (!score.ok) {
+    out.reason = score.reason;
+    return out;
+  }
+  for (std::size_t k = 0; k < objectives_.size(); ++k)
+    out.objectives.push_back(objectives_[k].maximise ? -score.values[k] : score.values[k]);
+  for (const Constraint& c : study_.constraints) {
+    if (needs_evaluation(c))
+      out.constraints.push_back(relative_violation(score.oxide_margin, c.limit, c.at_least));
+  }
+  out.info = score.errors;
+  out.info.push_back(score.worst);
+  return out;
+}
+
+bool StudyProblem::feasible(const Score& score, const Point& unit) const {
+  const std::vector<double> g = geometry(unit);
+  return outcome(score).feasible() &&
+         std::all_of(g.begin(), g.end(), [](double v) { return v <= 0; });
+}
+
+std::string StudyProblem::identity() const {
+  std::string out = fmt::format("papilla {}\n", PAPILLA_VERSION) + to_toml(study_.design);
+  for (const Variable& v : study_.variables) {
+    out += fmt::format("{} {:a} {:a}", v.path, v.low, v.high);
+    for (double c : v.choices) out += fmt::format(" {:a}", c);
+    out += '\n';
+  }
+  for (const StudyObjective& o : objectives_) out += (o.maximise ? "max " : "min ") + o.name + "\n";
+  out += study_.objective.risk + "\n";
+  for (const Constraint& c : study_.constraints) out += fmt::format("{} {:a}\n", c.name, c.limit);
+  for (const StudyTask& t : tasks_) {
+    out += fmt::format("{} {:a}\n", t.name, t.weight) + to_toml(t.finger);
+    for (const Setting& s : t.settings) out += fmt::format("{} {:a}\n", s.path, s.value);
+  }
+  return out + fmt::format("{} {}\n", study_.search.method, study_.search.seed);
+}
+
+}  // namespace papilla

@@ -1,0 +1,93 @@
+// What a study wants, as numbers for a search: variables to a unit cube, fingers and scenarios to
+// tasks, metrics over humidity to objectives and constraints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "forward/fidelity.h"
+#include "metrics/metrics.h"
+#include "optim/problem.h"
+#include "study/design.h"
+
+namespace papilla {
+
+// One finger in one scenario: the unit of work.
+struct StudyTask {
+  std::string name;  // "reference", "moist, worn"
+  double weight = 1;
+  Finger finger;
+  std::vector<Setting> settings;  // of the scenario
+};
+
+// How a set of values becomes one number. Eq. search.4-6
+struct Risk {
+  enum class Kind { Mean, MeanStd, Cvar, Worst };
+  Kind kind = Kind::Mean;
+  double parameter = 0;  // k of mean - k std; share of the cvar
+};
+Risk parse_risk(const std::string& text);  // "" is the mean; throws InputError
+// Weighted values to one, towards the bad side (low when higher is better).
+double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<double>& values,
+                  const std::vector<double>& weights);
+
+struct StudyObjective {
+  MetricExpression expression;
+  bool maximise = true;
+  std::string name;  // "mean(modulation)"
+};
+
+// A design judged: objectives in the user's sign, over all tasks.
+struct Score {
+  bool ok = false;
+  std::string reason;
+  std::vector<double> values, errors;  // one an objective; one standard error
+  double worst = 0;                    // lowest modulation over tasks and humidities; 0: undriven
+  double oxide_margin = 0;             // smallest; infinite without a field
+  std::vector<std::string> reports;    // JSON of the response of each task, where asked for
+};
+
+class StudyProblem {
+ public:
+  explicit StudyProblem(const Study& study);  // throws InputError for what cannot be judged
+
+  const Space& space() const { return space_; }
+  const std::vector<StudyTask>& tasks() const { return tasks_; }
+  const std::vector<StudyObjective>& objectives() const { return objectives_; }
+
+  Design design(const Point& unit) const;
+  std::vector<double> values(const Point& unit) const { return space_.value(unit); }
+  Point unit_of_study() const;  // the study's own design
+  std::vector<Point> starts() const;
+
+  // Fabrication limits, known without an evaluation: <= 0 feasible, relative to the limit; the
+  // first is 1 for a shape that cannot exist. Reasons for people.
+  std::vector<double> geometry(const Point& unit) const;
+  std::string geometry_reason(const Point& unit) const;
+
+  // One task of one design: numbers for score(), with the response as JSON where wanted. Runs the
+  // forward model; this is what a worker does.
+  Outcome evaluate_task(const Design& design, std::size_t task, const Fidelity& fidelity,
+                        bool report) const;
+  Outcome evaluate_task(const Point& unit, std::size_t task, const Fidelity& fidelity,
+                        bool report) const {
+    return evaluate_task(design(unit), task, fidelity, report);
+  }
+  Score score(const std::vector<Outcome>& tasks) const;
+
+  std::size_t constraints() const;            // that need an evaluation
+  Outcome outcome(const Score& score) const;  // for the searcher: minimised
+  bool feasible(const Score& score, const Point& unit) const;
+
+  // Everything that decides the result, for the journal's key.
+  std::string identity() const;
+
+ private:
+  const Study& study_;
+  Space space_;
+  std::vector<StudyTask> tasks_;
+  std::vector<StudyObjective> objectives_;
+  Risk risk_;
+};
+
+}  // namespace papilla

@@ -1,0 +1,408 @@
+#include "study/optimise.h"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "base/error.h"
+#include "config/writer.h"
+#include "forward/plan.h"
+#include "optim/journal.h"
+#include "optim/pareto.h"
+#include "optim/search.h"
+#include "optim/worker.h"
+#include "study/results.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kFreshSkins = 1000;  // the confirmation's skins start here: none of the search
+constexpr std::size_t kFinalists = 6;
+// Last coordinate of a journal record: what was evaluated.
+enum Stage { kSearch = 0, kConfirm = 1 };
+
+Fidelity search_fidelity(const Study& study) {
+  Fidelity f = fidelity_level("search");
+  f.seed = static_cast<std::uint64_t>(study.search.seed);
+  return f;
+}
+
+// The finger population shares the samples of the level: the mean over fingers is as sure as one
+// finger at that level.
+Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
+  Fidelity f = fidelity_level(study.design.accuracy.level_name());
+  f.seed = static_cast<std::uint64_t>(study.search.seed);
+  f.first_skin = kFreshSkins;
+  f.skins = std::max(12, f.skins / static_cast<int>(tasks));
+  return f;
+}
+
+// Work on several processes: a request is (task, stage, unit point...).
+class Pool {
+ public:
+  Pool(const StudyProblem& problem, const Study& study) {
+    const int jobs = study.search.jobs > 0 ? study.search.jobs : omp_get_num_procs();
+    const int tasks = static_cast<int>(problem.tasks().size());
+    const int count = std::max(1, std::min(jobs, tasks));
+    const int threads = std::max(1, jobs / count);
+    const auto evaluate = [&problem, &study, threads](const Point& request) {
+      const auto task = static_cast<std::size_t>(request[0]);
+      const bool confirm = request[1] > 0;
+      Fidelity fidelity =
+          confirm ? confirm_fidelity(study, problem.tasks().size()) : search_fidelity(study);
+      fidelity.threads = threads;
+      Design design = problem.design(Point(request.begin() + 3, request.end()));
+      if (request[2] > 0) design.texture = Texture{};
+      return problem.evaluate_task(design, task, fidelity, confirm);
+    };
+    for (int i = 0; i < count; ++i)
+      workers_.push_back(std::make_unique<Worker>(evaluate, WorkerLimits{}));
+    tasks_ = problem.tasks().size();
+  }
+
+  // Every task of every point; outcomes by point, then task. flat: without the texture.
+  std::vector<std::vector<Outcome>> evaluate(const std::vector<Point>& units, Stage stage,
+                                             bool flat) {
+    std::vector<Point> requests;
+    for (const Point& u : units) {
+      for (std::size_t t = 0; t < tasks_; ++t) {
+        Point request{static_cast<double>(t), static_cast<double>(stage), flat ? 1.0 : 0.0};
+        request.insert(request.end(), u.begin(), u.end());
+        requests.push_back(std::move(request));
+      }
+    }
+    const std::vector<Outcome> flat_list = evaluate_all(workers_, requests);
+    std::vector<std::vector<Outcome>> out;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      out.emplace_back(flat_list.begin() + static_cast<std::ptrdiff_t>(i * tasks_),
+                       flat_list.begin() + static_cast<std::ptrdiff_t>((i + 1) * tasks_));
+    }
+    return out;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Worker>> workers_;
+  std::size_t tasks_ = 1;
+};
+
+SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
+  SearchProblem p;
+  p.space = problem.space();
+  p.objectives = problem.objectives().size();
+  p.constraints = problem.constraints();
+  p.cheap_constraints = [&problem](const Point& u) { return problem.geometry(u); };
+  p.starts = problem.starts();
+  p.evaluations =
+      study.search.evaluations > 0 ? study.search.evaluations : default_evaluations(study);
+  p.seed = static_cast<std::uint64_t>(study.search.seed);
+  return p;
+}
+
+class Run {
+ public:
+  Run(const Study& study, const OptimiseOptions& options)
+      : study_(study),
+        options_(options),
+        problem_(study),
+        search_(search_problem(problem_, study)),
+        method_(choose_method(study.search.method, search_)),
+        folder_(options.folder),
+        lock_(open_folder(options.folder)),
+        journal_(options.folder + "/journal", text_hash(problem_.identity()), options.resume),
+        pool_(problem_, study) {}
+
+  OptimiseResult run() {
+    result_.method = method_.name;
+    result_.why = method_.why;
+    write_text_file(folder_ + "/resolved.toml", resolved_toml(study_));
+    write_text_file(folder_ + "/plan.txt", search_plan(study_));
+    search();
+    const double searched = seconds();
+    if (!result_.interrupted) confirm();
+    ResultFiles files{folder_, study_, problem_, history_, result_};
+    write_results(files);
+    write_text_file(
+        folder_ + "/timing.json",
+        fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
+                    "\"confirm_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
+                    searched, seconds() - searched, evaluation_seconds()));
+    return std::move(result_);
+  }
+
+ private:
+  static FolderLock open_folder(const std::string& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
+    return FolderLock(folder);
+  }
+
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  double evaluation_seconds() const { return fresh_ > 0 ? spent_ / fresh_ : 0; }
+  bool stopped() const { return options_.stop && options_.stop->load(); }
+
+  // The record of a question, from the journal while there is one, else evaluated and written.
+  template <class Evaluate>
+  Outcome recorded(const Point& key, Evaluate&& evaluate) {
+    if (next_record_ < journal_.records().size()) {
+      const Evaluation& e = journal_.records()[next_record_++];
+      if (e.unit != key) {
+        throw InputError(folder_ +
+                         "/journal: the earlier run took another path (other budget or another "
+                         "version of Papilla); start again with another --out folder");
+      }
+      return e.outcome;
+    }
+    Outcome outcome = evaluate();
+    journal_.append({key, outcome});
+    ++next_record_;
+    return outcome;
+  }
+
+  static Point keyed(Point unit, Stage stage, double part = 0) {
+    unit.push_back(static_cast<double>(stage));
+    unit.push_back(part);
+    return unit;
+  }
+
+  Outcome search_outcome(const Point& unit) {
+    return recorded(keyed(unit, kSearch), [&] {
+      if (!search_.cheaply_feasible(unit)) {
+        Outcome refused;
+        refused.reason = problem_.geometry_reason(unit);
+        refused.constraints = problem_.geometry(unit);
+        return refused;
+      }
+      const double from = seconds();
+      const Score score = problem_.score(pool_.evaluate({unit}, kSearch, false).front());
+      spent_ += seconds() - from;
+      ++fresh_;
+      return guarded(problem_.outcome(score), search_.objectives, search_.constraints);
+    });
+  }
+
+  double confirm_seconds_expected() const {
+    const Scene scene{study_.design.surface, study_.design.finger, study_.design.environment,
+                      study_.design.drive, study_.design.model};
+    const double ratio =
+        make_plan(scene, study_.design.texture, confirm_fidelity(study_, problem_.tasks().size()))
+            .seconds() /
+        make_plan(scene, study_.design.texture, search_fidelity(study_)).seconds();
+    return evaluation_seconds() * ratio * static_cast<double>(kFinalists + 1);
+  }
+
+  void report_progress(const char* stage, int done, int total, double left) {
+    if (!options_.progress) return;
+    std::string best;
+    const auto front = pareto_front(history_);
+    const auto& objectives = problem_.objectives();
+    for (std::size_t k = 0; k < objectives.size() && !front.empty(); ++k) {
+      double value = history_[front[0]].outcome.objectives[k];
+      for (std::size_t i : front) value = std::min(value, history_[i].outcome.objectives[k]);
+      best += fmt::format("{}{} {:.3f}", best.empty() ? "best " : ", ", objectives[k].name,
+                          objectives[k].maximise ? -value : value);
+    }
+    options_.progress({stage, done, total, best, left});
+  }
+
+  void search() {
+    const auto searcher = make_searcher(method_, search_);
+    const std::size_t budget = static_cast<std::size_t>(search_.evaluations);
+    const auto out_of_time = [&] {
+      return study_.search.time > 0 && seconds() + confirm_seconds_expected() > study_.search.time;
+    };
+    const auto searching_record = [&] {  // a resumed run stops where its confirmation began
+      const auto& records = journal_.records();
+      return next_record_ >= records.size() || records[next_record_].unit.size() < 2 ||
+             records[next_record_].unit.rbegin()[1] == static_cast<double>(kSearch);
+    };
+    std::size_t evaluated = 0;
+    while (evaluated < budget && history_.size() < 10 * budget && searching_record()) {
+      std::vector<Evaluation> batch;
+      for (const Point& unit : searcher->ask()) {
+        if (evaluated >= budget || !searching_record()) break;
+        const bool replayed = next_record_ < journal_.records().size();
+        if (!replayed && stopped()) {
+          result_.interrupted = true;
+          return;
+        }
+        if (!replayed && evaluated > 0 && out_of_time()) return;
+        batch.push_back({unit, search_outcome(unit)});
+        history_.push_back(batch.back());
+        const bool refused = !batch.back().outcome.ok && !search_.cheaply_feasible(unit);
+        result_.refused += refused;
+        evaluated += !refused;
+        result_.failures += !batch.back().outcome.ok && !refused;
+        result_.evaluations = static_cast<int>(evaluated);
+        const double left = fresh_ > 0 ? static_cast<double>(budget - evaluated) *
+                                                 evaluation_seconds() * overhead() +
+                                             confirm_seconds_expected()
+                                       : -1;
+        report_progress("search", static_cast<int>(evaluated), search_.evaluations, left);
+      }
+      if (batch.empty()) break;
+      searcher->tell(batch);
+    }
+  }
+
+  // Clock over evaluation time: what the searcher itself takes.
+  double overhead() const { return spent_ > 0 ? std::max(1.0, seconds() / spent_) : 1; }
+
+  // Per task, so that an interrupted confirmation loses one task at most a worker.
+  Score confirmed(const Point& unit, bool flat) {
+    std::vector<Outcome> tasks;
+    const std::size_t count = problem_.tasks().size();
+    const bool complete = next_record_ + count <= journal_.records().size();
+    std::vector<Outcome> fresh;
+    if (!complete) fresh = pool_.evaluate({unit}, kConfirm, flat).front();
+    for (std::size_t t = 0; t < count; ++t) {
+      tasks.push_back(recorded(keyed(unit, kConfirm, static_cast<double>(flat ? count + t : t)),
+                               [&] { return fresh[t]; }));
+    }
+    return problem_.score(tasks);
+  }
+
+  std::vector<std::size_t> finalists() const {
+    const std::vector<std::size_t> front = pareto_front(history_);
+    std::vector<std::vector<double>> values;
+    for (std::size_t i : front) values.push_back(history_[i].outcome.objectives);
+    if (values.empty()) return front;
+    std::vector<std::size_t> chosen;
+    for (std::size_t i : spread_points(values, kFinalists)) chosen.push_back(front[i]);
+    // The one with the highest worst modulation is always confirmed.
+    std::size_t steady = front.front();
+    for (std::size_t i : front) {
+      const auto& info = history_[i].outcome.info;
+      if (!info.empty() && info.back() > history_[steady].outcome.info.back()) steady = i;
+    }
+    if (std::find(chosen.begin(), chosen.end(), steady) == chosen.end()) chosen.push_back(steady);
+    return chosen;
+  }
+
+  void confirm() {
+    const std::vector<std::size_t> chosen = finalists();
+    const int total = static_cast<int>(chosen.size()) + 1;
+    const double from = seconds();
+    int done = 0;
+    const auto step = [&] {
+      ++done;
+      report_progress("confirm", done, total, (seconds() - from) / done * (total - done));
+    };
+    report_progress("confirm", 0, total, confirm_seconds_expected());
+    for (std::size_t i : chosen) {
+      if (stopped()) {
+        result_.interrupted = true;
+        return;
+      }
+      FinalDesign f;
+      f.unit = history_[i].unit;
+      f.design = problem_.design(f.unit);
+      f.searched.ok = history_[i].outcome.ok;
+      for (std::size_t k = 0; k < search_.objectives; ++k) {
+        const double v =
+            history_[i].outcome.objectives.empty() ? 0 : history_[i].outcome.objectives[k];
+        f.searched.values.push_back(problem_.objectives()[k].maximise ? -v : v);
+      }
+      f.confirmed = confirmed(f.unit, false);
+      f.feasible = f.confirmed.ok && problem_.feasible(f.confirmed, f.unit);
+      result_.finalists.push_back(std::move(f));
+      step();
+    }
+    if (!chosen.empty() && texture_depth(study_.design.texture) > 0) {
+      result_.flat = confirmed(problem_.unit_of_study(), true);
+      result_.has_flat = result_.flat.ok;
+    }
+    step();
+    judge();
+  }
+
+  // The confirmed numbers decide the front and the best.
+  void judge() {
+    std::vector<Evaluation> confirmed;
+    for (const FinalDesign& f : result_.finalists) {
+      Evaluation e{f.unit, problem_.outcome(f.confirmed)};
+      if (f.confirmed.ok && !f.feasible && e.outcome.violation() <= 0)
+        e.outcome.constraints.push_back(1);  // outside the fabrication limits
+      confirmed.push_back(std::move(e));
+      result_.any_feasible = result_.any_feasible || f.feasible;
+    }
+    for (std::size_t i : pareto_front(confirmed)) result_.finalists[i].on_front = true;
+    std::stable_sort(result_.finalists.begin(), result_.finalists.end(),
+                     [&](const FinalDesign& a, const FinalDesign& b) {
+                       if (a.on_front != b.on_front) return a.on_front;
+                       if (!a.confirmed.ok || !b.confirmed.ok) return a.confirmed.ok;
+                       const double d = a.confirmed.values[0] - b.confirmed.values[0];
+                       return problem_.objectives()[0].maximise ? d > 0 : d < 0;
+                     });
+    int number = 0;
+    for (FinalDesign& f : result_.finalists) {
+      if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
+    }
+    for (std::size_t i = 1; i < result_.finalists.size(); ++i) {
+      const FinalDesign& a = result_.finalists[i];
+      if (a.on_front && a.confirmed.worst > result_.finalists[result_.best].confirmed.worst)
+        result_.best = i;
+    }
+  }
+
+  const Study& study_;
+  const OptimiseOptions& options_;
+  StudyProblem problem_;
+  SearchProblem search_;
+  SearchMethod method_;
+  std::string folder_;
+  FolderLock lock_;
+  Journal journal_;
+  Pool pool_;
+  OptimiseResult result_;
+  std::vector<Evaluation> history_;
+  std::size_t next_record_ = 0;
+  double spent_ = 0;
+  int fresh_ = 0;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+int default_evaluations(const Study& study) {
+  const int n = static_cast<int>(study.variables.size());
+  return std::clamp(20 * n, 20, 200);
+}
+
+std::string search_plan(const Study& study) {
+  const StudyProblem problem(study);
+  const SearchProblem search = search_problem(problem, study);
+  const SearchMethod method = choose_method(study.search.method, search);
+  std::string out = fmt::format("search: {} ({}), {} evaluations, seed {}\n", method.name,
+                                method.why, search.evaluations, study.search.seed);
+  out += "tasks of an evaluation (finger, scenario):";
+  for (const StudyTask& task : problem.tasks()) out += " [" + task.name + "]";
+  const Scene scene{study.design.surface, study.design.finger, study.design.environment,
+                    study.design.drive, study.design.model};
+  out +=
+      "\n\nsearch level:\n" + make_plan(scene, study.design.texture, search_fidelity(study)).text();
+  out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
+         make_plan(scene, study.design.texture, confirm_fidelity(study, problem.tasks().size()))
+             .text();
+  return out;
+}
+
+OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
+  if (!study.is_study()) {
+    throw InputError(
+        study.file +
+        ": no [design_space]: nothing to search; `papilla evaluate` judges one design");
+  }
+  return Run(study, options).run();
+}
+
+}  // namespace papilla

@@ -1,0 +1,60 @@
+// Runs a study: searches cheaply, confirms the finalists at the study's accuracy on fresh skins,
+// writes the folder of results. Resumable after a kill at any moment.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "study/objective.h"
+
+namespace papilla {
+
+struct Progress {
+  std::string stage;  // "search", "confirm"
+  int done = 0, total = 0;
+  std::string best;         // best values so far, for people
+  double seconds_left = 0;  // < 0: not known yet
+};
+
+struct OptimiseOptions {
+  std::string folder;
+  bool resume = false;
+  std::function<void(const Progress&)> progress;  // may be empty
+  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after the running evaluation
+};
+
+struct FinalDesign {
+  Point unit;
+  Design design;
+  Score searched, confirmed;
+  bool feasible = false, on_front = false;
+  std::string folder;  // "front/01"; empty when dominated
+};
+
+struct OptimiseResult {
+  std::string method, why;
+  int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
+  bool interrupted = false;
+  bool any_feasible = false;
+  std::vector<FinalDesign> finalists;  // by first objective, best first
+  std::size_t best = 0;                // of the finalists: highest worst modulation
+  Score flat;                          // the same surface without texture, confirmed
+  bool has_flat = false;
+  std::vector<double> hypervolumes;  // after each evaluation (two objectives or more)
+};
+
+// Throws InputError for a folder that belongs to another study or is in use.
+OptimiseResult optimise(const Study& study, const OptimiseOptions& options);
+
+// Evaluations that a study gets when nothing else is said.
+int default_evaluations(const Study& study);
+
+// The finalists as a table for people (Markdown).
+std::string result_table(const Study& study, const OptimiseResult& result);
+
+// What will run, for plan.txt and people.
+std::string search_plan(const Study& study);
+
+}  // namespace papilla

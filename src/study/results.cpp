@@ -1,0 +1,280 @@
+#include "study/results.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "config/writer.h"
+#include "geometry/io/files.h"
+#include "optim/pareto.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kExportPixels = 512;  // across one patch
+
+Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+std::string csv_text(std::string text) {
+  for (char& c : text) {
+    if (c == ',' || c == '"' || c == '\n') c = ';';
+  }
+  return text;
+}
+
+class Writer {
+ public:
+  explicit Writer(const ResultFiles& files) : f_(files) {}
+
+  void write() {
+    write_text_file(f_.folder + "/history.csv", history());
+    write_text_file(f_.folder + "/pareto.csv", pareto());
+    std::error_code ignored;
+    fs::remove_all(f_.folder + "/front", ignored);
+    fs::remove_all(f_.folder + "/best", ignored);
+    for (const FinalDesign& d : f_.result.finalists) {
+      if (d.on_front) write_design_folder(d, f_.folder + "/" + d.folder);
+    }
+    if (!f_.result.finalists.empty() && f_.result.finalists[f_.result.best].on_front)
+      write_design_folder(f_.result.finalists[f_.result.best], f_.folder + "/best");
+    write_text_file(f_.folder + "/summary.md", summary());
+  }
+
+ private:
+  std::string variable_header() const {
+    std::string out;
+    for (const Variable& v : f_.study.variables) {
+      out += "," + v.path + (v.unit.empty() ? "" : " [" + v.unit + "]");
+    }
+    return out;
+  }
+  std::string variable_values(const Point& unit) const {
+    std::string out;
+    const std::vector<double> values = f_.problem.values(unit);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      out += fmt::format(",{:.6g}", values[i] / find_unit(f_.study.variables[i].unit)->to_si);
+    return out;
+  }
+
+  std::string history() const {
+    const auto& objectives = f_.problem.objectives();
+    std::string out = "evaluation" + variable_header();
+    for (const StudyObjective& o : objectives) out += "," + o.name;
+    out += ",worst modulation,feasible,hypervolume,status\n";
+    // Hypervolume to the worst feasible values of the run, as a share of the box to the best.
+    std::vector<double> worst, best;
+    for (const Evaluation& e : f_.history) {
+      if (!e.outcome.feasible()) continue;
+      if (worst.empty()) worst = best = e.outcome.objectives;
+      for (std::size_t k = 0; k < worst.size(); ++k) {
+        worst[k] = std::max(worst[k], e.outcome.objectives[k]);
+        best[k] = std::min(best[k], e.outcome.objectives[k]);
+      }
+    }
+    double box = 1;
+    for (std::size_t k = 0; k < worst.size(); ++k)
+      box *= worst[k] > best[k] ? worst[k] - best[k] : 1;
+    std::vector<std::vector<double>> points;
+    f_.result.hypervolumes.clear();
+    for (std::size_t i = 0; i < f_.history.size(); ++i) {
+      const Evaluation& e = f_.history[i];
+      out += std::to_string(i + 1) + variable_values(e.unit);
+      for (std::size_t k = 0; k < objectives.size(); ++k) {
+        out += e.outcome.ok
+                   ? fmt::format(",{:.6g}", objectives[k].maximise ? -e.outcome.objectives[k]
+                                                                   : e.outcome.objectives[k])
+                   : std::string(",");
+      }
+      out += e.outcome.ok ? fmt::format(",{:.6g}", e.outcome.info.back()) : std::string(",");
+      if (e.outcome.feasible()) points.push_back(e.outcome.objectives);
+      const double volume = points.empty() ? 0 : hypervolume(points, worst) / box;
+      f_.result.hypervolumes.push_back(volume);
+      out += fmt::format(",{},{:.6g},{}\n", e.outcome.feasible() ? "yes" : "no", volume,
+                         e.outcome.ok ? "ok" : csv_text(e.outcome.reason));
+    }
+    return out;
+  }
+
+  std::string pareto() const {
+    const auto& objectives = f_.problem.objectives();
+    std::string out = "design" + variable_header();
+    for (const StudyObjective& o : objectives)
+      out += fmt::format(",{0},{0} se,{0} at search level", o.name);
+    out += ",worst modulation,breakdown margin,feasible,on front,status\n";
+    const auto row = [&](const std::string& name, const Point& unit, const Score& c,
+                         const Score& searched, bool feasible, bool front) {
+      out += name + variable_values(unit);
+      for (std::size_t k = 0; k < objectives.size(); ++k) {
+        out += c.ok ? fmt::format(",{:.6g},{:.3g}", c.values[k], c.errors[k]) : std::string(",,");
+        out += k < searched.values.size() ? fmt::format(",{:.6g}", searched.values[k])
+                                          : std::string(",");
+      }
+      out += fmt::format(",{:.6g},{},{},{},{}\n", c.worst,
+                         std::isfinite(c.oxide_margin) ? fmt::format("{:.4g}", c.oxide_margin) : "",
+                         feasible ? "yes" : "no", front ? "yes" : "no",
+                         c.ok ? "ok" : csv_text(c.reason));
+    };
+    for (const FinalDesign& d : f_.result.finalists) {
+      row(d.folder.empty() ? "dominated" : d.folder, d.unit, d.confirmed, d.searched, d.feasible,
+          d.on_front);
+    }
+    return out;
+  }
+
+  Json score_json(const Score& score) const {
+    Json out = Json::object();
+    for (std::size_t k = 0; k < score.values.size(); ++k) {
+      Json value{{"value", number(score.values[k])}};
+      if (k < score.errors.size()) value["se"] = number(score.errors[k]);
+      out[f_.problem.objectives()[k].name] = value;
+    }
+    return out;
+  }
+
+  std::string metrics(const FinalDesign& d) const {
+    Json out{{"schema", 1}, {"title", d.design.title}};
+    Json variables = Json::object();
+    const std::vector<double> values = f_.problem.values(d.unit);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      variables[f_.study.variables[i].path] = values[i];
+    out["variables"] = variables;
+    out["objectives"] = score_json(d.confirmed);
+    out["objectives_at_search_level"] = score_json(d.searched);
+    out["worst_modulation"] = number(d.confirmed.worst);
+    out["oxide_breakdown_margin"] = number(d.confirmed.oxide_margin);
+    out["feasible"] = d.feasible;
+    if (f_.result.has_flat)
+      out["flat"] = {{"objectives", score_json(f_.result.flat)},
+                     {"worst_modulation", number(f_.result.flat.worst)}};
+    out["tasks"] = Json::array();
+    for (std::size_t t = 0; t < d.confirmed.reports.size(); ++t) {
+      Json task{{"name", f_.problem.tasks()[t].name},
+                {"response", Json::parse(d.confirmed.reports[t])}};
+      if (f_.result.has_flat) task["flat"] = Json::parse(f_.result.flat.reports[t]);
+      out["tasks"].push_back(std::move(task));
+    }
+    return out.dump(1) + "\n";
+  }
+
+  void write_design_folder(const FinalDesign& d, const std::string& folder) const {
+    fs::create_directories(folder);
+    write_design(folder + "/design.toml", d.design);
+    write_text_file(folder + "/metrics.json", metrics(d));
+    const Heightmap h = generate(d.design.texture, patch_grid(d.design.texture, kExportPixels));
+    FileInfo info;
+    info.title = d.design.title.empty() ? f_.study.name : d.design.title;
+    write_exr(folder + "/heightmap.exr", h, info);
+    write_gsf(folder + "/heightmap.gsf", h, info);
+    write_mask_tiff(folder + "/mask.tif", h, Polarity::WhiteDeep, info);
+    write_png(folder + "/preview.png", h);
+  }
+
+  std::string summary() const {
+    const OptimiseResult& r = f_.result;
+    const auto& objectives = f_.problem.objectives();
+    std::string out =
+        "# " + (f_.study.design.title.empty() ? f_.study.name : f_.study.design.title) + "\n\n";
+    if (r.interrupted) {
+      return out + fmt::format("Interrupted after {} evaluations; continue with --resume.\n",
+                               r.evaluations);
+    }
+    out += fmt::format("Search: {} ({}). {} evaluations", r.method, r.why, r.evaluations);
+    if (r.refused) out += fmt::format(", {} refused by the fabrication limits", r.refused);
+    if (r.failures) out += fmt::format(", **{} failed** (history.csv says why)", r.failures);
+    out += ".\n\n";
+    if (r.finalists.empty()) {
+      return out +
+             "**No design could be evaluated**: every one failed or lies outside the fabrication "
+             "limits; history.csv says why for each.\n";
+    }
+    if (!r.any_feasible) {
+      out +=
+          "**No design keeps every constraint.** The one that violates them least is shown; loosen "
+          "a constraint or widen the design space.\n\n";
+    }
+    out += result_table(f_.study, r);
+    const FinalDesign& best = r.finalists[r.best];
+    out += fmt::format("\n`best/` is {}: the highest worst modulation over fingers and humidity.\n",
+                       best.folder.empty() ? "not on the front" : best.folder);
+    if (r.has_flat && best.confirmed.ok) {
+      out += "\nThe same surface without texture:";
+      for (std::size_t k = 0; k < objectives.size(); ++k) {
+        out += fmt::format(" {} {:.3f} ± {:.3f} (best: {:.3f}){}", objectives[k].name,
+                           r.flat.values[k], r.flat.errors[k], best.confirmed.values[k],
+                           k + 1 < objectives.size() ? "," : "");
+      }
+      out += fmt::format(", worst modulation {:.3f} (best: {:.3f}).\n", r.flat.worst,
+                         best.confirmed.worst);
+    }
+    out +=
+        "\nFiles: pareto.csv (finalists), history.csv (every evaluation), front/ and best/ "
+        "(design.toml, metrics.json, heightmap.exr, heightmap.gsf, mask.tif, preview.png), "
+        "resolved.toml (every value and where it came from), plan.txt, journal.\n";
+    return out;
+  }
+
+  const ResultFiles& f_;
+};
+
+}  // namespace
+
+std::string result_table(const Study& study, const OptimiseResult& result) {
+  const StudyProblem problem(study);
+  const auto& objectives = problem.objectives();
+  std::string out = "Finalists, confirmed on fresh skins at level \"" +
+                    study.design.accuracy.level_name() + "\":\n\n| design";
+  for (const Variable& v : study.variables) out += " | " + v.path;
+  for (const StudyObjective& o : objectives)
+    out += fmt::format(" | {} {}", o.maximise ? "max" : "min", o.name);
+  out += " | worst modulation |\n|";
+  for (std::size_t i = 0; i < study.variables.size() + objectives.size() + 2; ++i) out += "---|";
+  out += "\n";
+  for (const FinalDesign& d : result.finalists) {
+    out += "| " + (d.folder.empty() ? "(dominated)" : d.folder);
+    const std::vector<double> values = problem.values(d.unit);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string& unit = study.variables[i].unit;
+      out += fmt::format(" | {:.3g}{}", values[i] / find_unit(unit)->to_si,
+                         unit.empty() ? "" : " " + unit);
+    }
+    for (std::size_t k = 0; k < objectives.size(); ++k) {
+      out += d.confirmed.ok
+                 ? fmt::format(" | {:.3f} ± {:.3f}", d.confirmed.values[k], d.confirmed.errors[k])
+                 : " | failed";
+    }
+    out += fmt::format(" | {:.3f} |\n", d.confirmed.worst);
+  }
+  return out;
+}
+
+FolderLock::FolderLock(const std::string& folder) {
+  const std::string path = folder + "/.lock";
+  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file_ < 0)
+    throw InputError(fmt::format("cannot write in {}: {}", folder, std::strerror(errno)));
+  // A record lock belongs to this process alone: workers that outlive it do not hold it.
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  if (::fcntl(file_, F_SETLK, &lock) != 0) {
+    ::close(file_);
+    throw InputError(folder + ": another run is working in this folder");
+  }
+}
+
+FolderLock::~FolderLock() { ::close(file_); }
+
+void write_results(const ResultFiles& files) { Writer(files).write(); }
+
+}  // namespace papilla
