@@ -1,0 +1,153 @@
+#include "study/optimise.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/statistics.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+// One finger at one humidity: small enough for a test.
+Study small_study() {
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml");
+  study.population.clear();
+  study.design.environment.relative_humidity = {0.35, 0.75};
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  study.search.evaluations = 6;
+  study.search.jobs = 2;
+  return study;
+}
+
+std::string fresh_folder(const std::string& name) {
+  const fs::path folder = fs::path(testing::TempDir()) / ("papilla_optimise_" + name);
+  fs::remove_all(folder);
+  return folder.string();
+}
+
+std::string bytes(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+TEST(Risk, HasItsClosedForms) {
+  const std::vector<double> values{1, 2, 3, 4}, weights{1, 1, 1, 1};
+  EXPECT_DOUBLE_EQ(apply_risk(parse_risk(""), true, values, weights), 2.5);
+  EXPECT_DOUBLE_EQ(apply_risk(parse_risk("worst"), true, values, weights), 1);
+  EXPECT_DOUBLE_EQ(apply_risk(parse_risk("worst"), false, values, weights), 4);
+  EXPECT_DOUBLE_EQ(apply_risk(parse_risk("mean - 2 std"), true, values, weights),
+                   2.5 - 2 * std::sqrt(1.25));
+  EXPECT_DOUBLE_EQ(apply_risk(parse_risk("mean - 2 std"), false, values, weights),
+                   2.5 + 2 * std::sqrt(1.25));
+  EXPECT_DOUBLE_EQ(apply_risk(parse_risk("cvar 50 %"), true, values, weights), 1.5);
+  EXPECT_DOUBLE_EQ(apply_risk(parse_risk("cvar 37.5 %"), false, values, weights),
+                   (4 + 0.5 * 3) / 1.5);
+  EXPECT_THROW(parse_risk("mean - two std"), InputError);
+  EXPECT_THROW(parse_risk("cvar 0 %"), InputError);
+}
+
+TEST(Risk, CvarOfANormalSampleIsItsFormula) {
+  std::vector<double> values, weights;
+  for (int i = 0; i < 4000; ++i) {
+    values.push_back(normal_quantile((i + 0.5) / 4000));
+    weights.push_back(1);
+  }
+  const double z = normal_quantile(0.2);
+  EXPECT_NEAR(apply_risk(parse_risk("cvar 20 %"), true, values, weights),
+              -std::exp(-0.5 * z * z) / std::sqrt(2 * std::acos(-1.0)) / 0.2, 2e-3);
+}
+
+TEST(StudyProblem, RefusesShapesOutsideTheFabricationLimits) {
+  const Study study = small_study();
+  const StudyProblem problem(study);
+  // period 5 um, diameter 4.8 um, depth 350 nm, 50 deg
+  const Point thin = problem.space().unit({5e-6, 4.8e-6, 350e-9, 0.87});
+  EXPECT_EQ(problem.geometry_reason(thin), "min_wall 0.2 um is below 0.4 um");
+  const Point flat = problem.space().unit({5e-6, 4.8e-6, 0, 0.87});
+  EXPECT_EQ(problem.geometry_reason(flat), "");
+  EXPECT_EQ(problem.starts().size(), 2u);  // the study's own design and the flat surface
+}
+
+TEST(StudyProblem, RefusesToMaximiseTheModulationOfAnUndrivenDesign) {
+  Study study = small_study();
+  study.design.drive.amplitude = 0;
+  EXPECT_THROW(StudyProblem{study}, InputError);
+}
+
+TEST(Optimise, WritesItsResultsAndResumesToTheSameBytes) {
+  const Study study = small_study();
+  const std::string whole = fresh_folder("whole");
+  const OptimiseResult result = optimise(study, {whole, false, {}, nullptr});
+  EXPECT_EQ(result.evaluations, 6);
+  EXPECT_TRUE(result.any_feasible);
+  for (const char* file : {"resolved.toml", "plan.txt", "journal", "timing.json", "pareto.csv",
+                           "history.csv", "summary.md", "best/design.toml", "best/metrics.json",
+                           "best/heightmap.exr", "best/mask.tif", "front/01/design.toml"}) {
+    EXPECT_TRUE(fs::exists(whole + "/" + file)) << file;
+  }
+  EXPECT_EQ(read_design(whole + "/best/design.toml"), result.finalists[result.best].design);
+
+  // The journal cut in the middle of a record, as by a kill, then resumed with another worker
+  // count.
+  const std::string journal = bytes(whole + "/journal");
+  for (const double share : {0.12, 0.6}) {
+    const std::string folder = fresh_folder("resumed");
+    fs::create_directories(folder);
+    std::ofstream(folder + "/journal", std::ios::binary)
+        << journal.substr(0, static_cast<std::size_t>(share * static_cast<double>(journal.size())));
+    Study again = study;
+    again.search.jobs = 1;
+    optimise(again, {folder, true, {}, nullptr});
+    for (const char* file : {"journal", "pareto.csv", "history.csv", "best/metrics.json"}) {
+      EXPECT_EQ(bytes(folder + "/" + file), bytes(whole + "/" + file)) << file;
+    }
+  }
+  EXPECT_THROW(optimise(study, {whole, false, {}, nullptr}),
+               InputError);  // an earlier run's folder
+  Study other = study;
+  other.search.seed = 2;
+  EXPECT_THROW(optimise(other, {whole, true, {}, nullptr}), InputError);  // of another study
+}
+
+TEST(Optimise, AnInterruptLeavesAResumableFolder) {
+  const Study study = small_study();
+  const std::string folder = fresh_folder("interrupted");
+  std::atomic<bool> stop{false};
+  const auto progress = [&](const Progress& p) { stop = p.done >= 2; };
+  EXPECT_TRUE(optimise(study, {folder, false, progress, &stop}).interrupted);
+  const OptimiseResult result = optimise(study, {folder, true, {}, nullptr});
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_EQ(result.evaluations, 6);
+}
+
+TEST(Optimise, AnEmptyFeasibleSetNamesTheLeastViolatingDesign) {
+  Study study = small_study();
+  study.search.evaluations = 3;
+  study.constraints = {{"min_wall", 20e-6, true}, {"min_hole", 20e-6, true}};
+  study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}}};
+  const OptimiseResult result = optimise(study, {fresh_folder("empty"), false, {}, nullptr});
+  EXPECT_FALSE(result.any_feasible);
+  ASSERT_EQ(result.finalists.size(), 1u);
+  EXPECT_FALSE(result.finalists[0].feasible);
+}
+
+TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
+  Study study = small_study();
+  study.variables = {{"texture.diameter", "um", 3e-6, 3e-6, {3e-6}}};
+  const OptimiseResult result = optimise(study, {fresh_folder("point"), false, {}, nullptr});
+  EXPECT_EQ(result.evaluations, 1);
+  EXPECT_TRUE(result.any_feasible);
+}
+
+}  // namespace
+}  // namespace papilla
