@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "config/writer.h"
 #include "forward/plan.h"
 #include "optim/journal.h"
@@ -121,18 +122,17 @@ class Run {
   OptimiseResult run() {
     result_.method = method_.name;
     result_.why = method_.why;
-    write_text_file(folder_ + "/resolved.toml", resolved_toml(study_));
-    write_text_file(folder_ + "/plan.txt", search_plan(study_));
+    write_bytes(folder_ + "/resolved.toml", resolved_toml(study_));
+    write_bytes(folder_ + "/plan.txt", search_plan(study_));
     search();
     const double searched = seconds();
     if (!result_.interrupted) confirm();
     ResultFiles files{folder_, study_, problem_, history_, result_};
     write_results(files);
-    write_text_file(
-        folder_ + "/timing.json",
-        fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
-                    "\"confirm_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
-                    searched, seconds() - searched, evaluation_seconds()));
+    write_bytes(folder_ + "/timing.json",
+                fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
+                            "\"confirm_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
+                            searched, seconds() - searched, evaluation_seconds()));
     return std::move(result_);
   }
 

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/units.h"
 #include "config/writer.h"
 #include "geometry/io/files.h"
@@ -38,8 +39,8 @@ class Writer {
   explicit Writer(const ResultFiles& files) : f_(files) {}
 
   void write() {
-    write_text_file(f_.folder + "/history.csv", history());
-    write_text_file(f_.folder + "/pareto.csv", pareto());
+    write_bytes(f_.folder + "/history.csv", history());
+    write_bytes(f_.folder + "/pareto.csv", pareto());
     std::error_code ignored;
     fs::remove_all(f_.folder + "/front", ignored);
     fs::remove_all(f_.folder + "/best", ignored);
@@ -48,7 +49,7 @@ class Writer {
     }
     if (!f_.result.finalists.empty() && f_.result.finalists[f_.result.best].on_front)
       write_design_folder(f_.result.finalists[f_.result.best], f_.folder + "/best");
-    write_text_file(f_.folder + "/summary.md", summary());
+    write_bytes(f_.folder + "/summary.md", summary());
   }
 
  private:
@@ -170,7 +171,7 @@ class Writer {
   void write_design_folder(const FinalDesign& d, const std::string& folder) const {
     fs::create_directories(folder);
     write_design(folder + "/design.toml", d.design);
-    write_text_file(folder + "/metrics.json", metrics(d));
+    write_bytes(folder + "/metrics.json", metrics(d));
     const Heightmap h = generate(d.design.texture, patch_grid(d.design.texture, kExportPixels));
     FileInfo info;
     info.title = d.design.title.empty() ? f_.study.name : d.design.title;

@@ -14,7 +14,11 @@ namespace {
 
 class JournalFile : public ::testing::Test {
  protected:
-  void SetUp() override { path_ = (std::filesystem::temp_directory_path() / ("papilla_journal_" + std::to_string(::getpid()))).string(); }
+  void SetUp() override {
+    path_ =
+        (std::filesystem::temp_directory_path() / ("papilla_journal_" + std::to_string(::getpid())))
+            .string();
+  }
   void TearDown() override { std::filesystem::remove(path_); }
   std::string bytes() const {
     std::stringstream out;

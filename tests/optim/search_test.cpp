@@ -17,7 +17,8 @@
 namespace papilla {
 namespace {
 
-SearchProblem box(std::size_t n, std::size_t objectives, int evaluations, double low = 0, double high = 1) {
+SearchProblem box(std::size_t n, std::size_t objectives, int evaluations, double low = 0,
+                  double high = 1) {
   SearchProblem p;
   p.space.dimensions.assign(n, {low, high, {}});
   p.objectives = objectives;
@@ -32,7 +33,8 @@ std::vector<Evaluation> run(const std::string& name, const SearchProblem& proble
   while (static_cast<int>(all.size()) < problem.evaluations) {
     std::vector<Evaluation> batch;
     for (const Point& u : searcher->ask()) {
-      batch.push_back({u, guarded(f(problem.space.value(u)), problem.objectives, problem.constraints)});
+      batch.push_back(
+          {u, guarded(f(problem.space.value(u)), problem.objectives, problem.constraints)});
     }
     if (batch.empty()) break;
     searcher->tell(batch);
@@ -91,7 +93,8 @@ TEST(Bayesian, FindsTheFrontOfZdt1InSixtyEvaluations) {
 TEST(Bayesian, BeatsNsga2AtEqualSmallBudgets) {
   const SearchProblem p = box(4, 2, 60);
   for (auto f : {zdt1, zdt2}) {
-    EXPECT_GT(front_volume(run("bayesian", p, f), {1.1, 1.1}), 1.1 * front_volume(run("nsga2", p, f), {1.1, 1.1}));
+    EXPECT_GT(front_volume(run("bayesian", p, f), {1.1, 1.1}),
+              1.1 * front_volume(run("nsga2", p, f), {1.1, 1.1}));
   }
 }
 
@@ -118,7 +121,8 @@ TEST(Search, TheConstrainedMinimumLiesOnTheConstraint) {
   for (const char* name : {"bayesian", "sbplx"}) {
     SearchProblem p = box(2, 1, std::string(name) == "bayesian" ? 50 : 300);
     p.constraints = 1;
-    const auto all = run(name, p, [](const Point& x) { return outcome({x[0] + x[1]}, {0.25 - x[0] * x[1]}); });
+    const auto all =
+        run(name, p, [](const Point& x) { return outcome({x[0] + x[1]}, {0.25 - x[0] * x[1]}); });
     EXPECT_LT(best(all), 1.05) << name;
     EXPECT_GE(best(all), 1 - 1e-9) << name;
   }
@@ -128,8 +132,12 @@ TEST(Search, HardProblemsEnd) {
   const auto quadratic = [](const Point& x) { return outcome({x[0] * x[0]}); };
   for (const char* name : {"bayesian", "cmaes", "sbplx", "direct", "bobyqa"}) {
     const SearchProblem p = box(2, 1, 40, -1, 1);
-    const auto half_nan = [&](const Point& x) { return x[0] < 0 ? outcome({std::nan("")}) : quadratic(x); };
-    const auto infinite = [&](const Point& x) { return x[1] < 0 ? outcome({INFINITY}) : quadratic(x); };
+    const auto half_nan = [&](const Point& x) {
+      return x[0] < 0 ? outcome({std::nan("")}) : quadratic(x);
+    };
+    const auto infinite = [&](const Point& x) {
+      return x[1] < 0 ? outcome({INFINITY}) : quadratic(x);
+    };
     const auto flat = [&](const Point&) { return outcome({3}); };
     const auto never = [&](const Point&) { return Outcome{}; };
     const auto count = static_cast<std::size_t>(40);
@@ -143,7 +151,9 @@ TEST(Search, HardProblemsEnd) {
 TEST(Search, ExtremeScalesAreNoDifferent) {
   for (double scale : {1e-12, 1e9}) {
     const SearchProblem p = box(2, 1, 40, 0, scale);
-    const auto all = run("bayesian", p, [&](const Point& x) { return outcome({std::pow(x[0] / scale - 0.4, 2) + x[1] / scale}); });
+    const auto all = run("bayesian", p, [&](const Point& x) {
+      return outcome({std::pow(x[0] / scale - 0.4, 2) + x[1] / scale});
+    });
     EXPECT_LT(best(all), 0.02) << scale;
   }
 }
@@ -166,7 +176,8 @@ TEST(Search, ChoicesAreTaken) {
   SearchProblem p;
   p.space.dimensions = {{0, 1, {}}, {0, 0, {1, 5, 9}}};
   p.evaluations = 30;
-  const auto all = run("auto", p, [](const Point& x) { return outcome({std::abs(x[1] - 5) + x[0]}); });
+  const auto all =
+      run("auto", p, [](const Point& x) { return outcome({std::abs(x[1] - 5) + x[0]}); });
   EXPECT_LT(best(all), 0.05);
   for (const Evaluation& e : all) {
     const double c = p.space.value(e.unit)[1];
@@ -225,7 +236,8 @@ TEST(Worker, AnyNumberGivesTheSameOutcomes) {
   for (int jobs : {1, 2, 3}) {
     std::vector<std::unique_ptr<Worker>> workers;
     for (int j = 0; j < jobs; ++j) {
-      workers.push_back(std::make_unique<Worker>([](const Point& u) { return outcome({u[0] * 3}); }, WorkerLimits{}));
+      workers.push_back(std::make_unique<Worker>([](const Point& u) { return outcome({u[0] * 3}); },
+                                                 WorkerLimits{}));
     }
     const auto outcomes = evaluate_all(workers, points);
     if (first.empty()) first = outcomes;
