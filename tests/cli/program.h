@@ -28,7 +28,8 @@ inline std::string file_text(const std::filesystem::path& path) {
 class Workplace {
  public:
   Workplace() {
-    std::string name = std::filesystem::temp_directory_path() / "papilla-cli-XXXXXX";
+    std::string name =
+        std::filesystem::temp_directory_path() / ("papilla-cli-" + std::string(6, 'X'));
     path_ = mkdtemp(name.data());
   }
   ~Workplace() { std::filesystem::remove_all(path_); }

@@ -366,8 +366,9 @@ TEST(Plasticity, SmoothedRoughnessHasThePrintedValues) {
 TEST(GapDistribution, CapacitanceGapMatchesTheTable) {
   for (const TableRow& row : read_table("t52_gap_calibration.csv", true)) {
     const auto& v = row.values;
-    const MeanField field(wrist_spectrum().scaled(v[1]), {v[0] * 1e6, 0.5, 200e-6, 10e3, 0.5},
-                          kTables);
+    const MeanField field(
+        wrist_spectrum().scaled(v[1]), {v[0] * 1e6, 0.5, 200e-6, 10e3, 0.5},
+        {.kappa = 2, .energy_factor = 0.45, .intervals = 450, .smallest_gap = 1e-11});
     const double p = 1.0 / 30e-6, h0 = 0.256e-6;
     EXPECT_LT(relative(field.area(p), v[4]), 5e-3);
     if (v[4] > 0.3) continue;
