@@ -8,8 +8,23 @@
 
 namespace papilla {
 
-std::string FieldCollector::join(const std::string& key) const {
+std::string PathVisitor::join(const char* key) const {
   return paths_.back().empty() ? key : paths_.back() + "." + key;
+}
+
+bool PathVisitor::begin_section(const FieldSpec& spec) {
+  paths_.push_back(join(spec.key));
+  return true;
+}
+
+int PathVisitor::begin_list(const FieldSpec& spec, int current, bool&) {
+  paths_.push_back(join(spec.key));
+  return current;
+}
+
+bool PathVisitor::begin_item(int index) {
+  paths_.push_back(paths_.back() + "." + std::to_string(index));
+  return true;
 }
 
 void FieldCollector::add(const FieldSpec& spec, std::string kind, std::string range,
@@ -43,16 +58,11 @@ std::string value_of(const NumberSpec& spec, double si) { return format_quantity
 
 void FieldCollector::number(const NumberSpec& spec, double& si) {
   add(plain(spec), kind_of(spec), range_of(spec), value_of(spec, si));
-  numbers_found.push_back({join(spec.key), spec.unit, spec.low, spec.high, spec.doc, &si});
 }
 
 void FieldCollector::numbers(const NumberSpec& spec, std::vector<double>& si) {
   std::vector<std::string> values;
-  for (std::size_t i = 0; i < si.size(); ++i) {
-    values.push_back(value_of(spec, si[i]));
-    numbers_found.push_back({fmt::format("{}.{}", join(spec.key), i), spec.unit, spec.low,
-                             spec.high, spec.doc, &si[i]});
-  }
+  for (double v : si) values.push_back(value_of(spec, v));
   add(plain(spec), "a list, each " + kind_of(spec), range_of(spec),
       fmt::format("[{}]", join_names(values)));
 }
@@ -83,28 +93,32 @@ void FieldCollector::choice(const FieldSpec& spec, const std::vector<std::string
 bool FieldCollector::begin_section(const FieldSpec& spec) {
   add(spec, "a section", "", "");
   rows.back().section = true;
-  paths_.push_back(join(spec.key));
-  return true;
+  return PathVisitor::begin_section(spec);
 }
 
-int FieldCollector::begin_list(const FieldSpec& spec, int current, bool&) {
+int FieldCollector::begin_list(const FieldSpec& spec, int current, bool& replace) {
   add(spec, "a list of sections", "", "");
   rows.back().section = true;
-  paths_.push_back(join(spec.key));
-  return current;
+  return PathVisitor::begin_list(spec, current, replace);
 }
 
-bool FieldCollector::begin_item(int index) {
-  paths_.push_back(fmt::format("{}.{}", paths_.back(), index));
-  return true;
+void NumberCollector::number(const NumberSpec& spec, double& si) {
+  found.push_back({join(spec.key), spec.unit, spec.low, spec.high, spec.doc, &si});
+}
+
+void NumberCollector::numbers(const NumberSpec& spec, std::vector<double>& si) {
+  for (std::size_t i = 0; i < si.size(); ++i) {
+    found.push_back({join(spec.key) + "." + std::to_string(i), spec.unit, spec.low, spec.high,
+                     spec.doc, &si[i]});
+  }
 }
 
 NumberField find_number_field(const std::vector<NumberField>& known, const std::string& path) {
-  std::vector<std::string> names;
   for (const NumberField& field : known) {
     if (field.path == path) return field;
-    names.push_back(field.path);
   }
+  std::vector<std::string> names;
+  for (const NumberField& field : known) names.push_back(field.path);
   const std::string near = nearest_name(path, names);
   throw InputError({Problem{
       "", 0, 0, path,

@@ -21,18 +21,36 @@ struct FieldRow {
 
 struct NumberField {
   std::string path;
-  std::string unit;  // limits are in it
+  const char* unit = "";  // limits are in it
   double low = 0, high = 0;
-  std::string doc;
+  const char* doc = "";
   double* value = nullptr;  // SI, within the visited struct
 };
 
-class FieldCollector final : public FieldVisitor {
+// Walks a struct and knows the path of the member it is at.
+class PathVisitor : public FieldVisitor {
  public:
-  explicit FieldCollector(std::string path) : paths_{std::move(path)} {}
+  explicit PathVisitor(std::string path) : paths_{std::move(path)} {}
+
+ protected:
+  bool begin_section(const FieldSpec& spec) override;
+  void end_section() override { paths_.pop_back(); }
+  int begin_list(const FieldSpec& spec, int current, bool& replace) override;
+  bool begin_item(int index) override;
+  void end_item() override { paths_.pop_back(); }
+  void end_list() override { paths_.pop_back(); }
+
+  std::string join(const char* key) const;
+
+ private:
+  std::vector<std::string> paths_;
+};
+
+class FieldCollector final : public PathVisitor {
+ public:
+  using PathVisitor::PathVisitor;
 
   std::vector<FieldRow> rows;
-  std::vector<NumberField> numbers_found;
 
   void number(const NumberSpec& spec, double& si) override;
   void numbers(const NumberSpec& spec, std::vector<double>& si) override;
@@ -45,17 +63,27 @@ class FieldCollector final : public FieldVisitor {
 
  protected:
   bool begin_section(const FieldSpec& spec) override;
-  void end_section() override { paths_.pop_back(); }
   int begin_list(const FieldSpec& spec, int current, bool& replace) override;
-  bool begin_item(int index) override;
-  void end_item() override { paths_.pop_back(); }
-  void end_list() override { paths_.pop_back(); }
 
  private:
-  std::string join(const std::string& key) const;
   void add(const FieldSpec& spec, std::string kind, std::string range, std::string value);
+};
 
-  std::vector<std::string> paths_;
+// Numbers alone: quick enough for the inner loop of a search.
+class NumberCollector final : public PathVisitor {
+ public:
+  using PathVisitor::PathVisitor;
+
+  std::vector<NumberField> found;
+
+  void number(const NumberSpec& spec, double& si) override;
+  void numbers(const NumberSpec& spec, std::vector<double>& si) override;
+  void integer(const FieldSpec&, int, int, int&) override {}
+  void flag(const FieldSpec&, bool&) override {}
+  void text(const FieldSpec&, std::string&) override {}
+  void path(const FieldSpec&, std::string&) override {}
+  void choice(const FieldSpec&, const std::vector<std::string>&, int&) override {}
+  using FieldVisitor::choice;
 };
 
 template <class S>
@@ -69,9 +97,9 @@ std::vector<FieldRow> field_rows(const S& s, const std::string& path = "") {
 // Every number of a struct, with pointers into it.
 template <class S>
 std::vector<NumberField> number_fields(S& s, const std::string& path = "") {
-  FieldCollector collector(path);
+  NumberCollector collector(path);
   fields(collector, s);
-  return collector.numbers_found;
+  return std::move(collector.found);
 }
 
 // The number at a path; throws InputError with a "did you mean" if there is none.

@@ -167,7 +167,10 @@ std::vector<std::string> calibration_mismatch(const Design& design) {
 }
 
 Design with_settings(Design design, const std::vector<Setting>& settings) {
-  for (const Setting& setting : settings) set_number(design, setting.path, setting.value);
+  const std::vector<NumberField> known = number_fields(design);
+  for (const Setting& setting : settings) {
+    *find_number_field(known, setting.path).value = setting.value;
+  }
   return design;
 }
 
@@ -256,7 +259,7 @@ class StudyReader {
 
   bool value(const NumberField& field, const Node& node, const std::string& where, double& si) {
     return document_.number(
-        node, where, {field.path.c_str(), field.unit.c_str(), field.low, field.high, ""}, si);
+        node, where, {field.path.c_str(), field.unit, field.low, field.high, ""}, si);
   }
 
   void read_variables() {

@@ -152,10 +152,10 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
 }
 
 Design StudyProblem::design(const Point& unit) const {
-  Design design = study_.design;
+  std::vector<Setting> settings;
   const std::vector<double> v = space_.value(unit);
-  for (std::size_t i = 0; i < v.size(); ++i) set_number(design, study_.variables[i].path, v[i]);
-  return design;
+  for (std::size_t i = 0; i < v.size(); ++i) settings.push_back({study_.variables[i].path, v[i]});
+  return with_settings(study_.design, settings);
 }
 
 Point StudyProblem::unit_of_study() const {

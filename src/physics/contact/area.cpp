@@ -11,13 +11,12 @@ namespace {
 // g), as a fraction d in (0, 1) of their distance from the contact pixel: p = c sqrt(d) inside and
 // gap = (4c/3E*) s^1.5 outside with s = 1 - d. Eq. contact.7
 double edge_position(double p, double g, double modulus, double pixel) {
-  const double ratio = 3 * modulus * g / (4 * p * pixel);
-  double low = 1e-9, high = 1 - 1e-9;
-  for (int i = 0; i < 40; ++i) {
-    const double d = 0.5 * (low + high);
-    ((1 - d) * std::sqrt(1 - d) / std::sqrt(d) > ratio ? low : high) = d;
-  }
-  return 0.5 * (low + high);
+  // (1-d)^1.5 = r sqrt(d) with x = 1-d: x^3 + r^2 x - r^2 = 0, one real root (Cardano), in (0, 1).
+  const double r = 3 * modulus * g / (4 * p * pixel), r2 = r * r;
+  const double half = 0.5 * r2, root = std::sqrt(half * half + r2 * r2 * r2 / 27);
+  const double u = std::cbrt(half + root);
+  const double x = u > 0 ? u - r2 / (3 * u) : 0;
+  return std::clamp(1 - x, 0.0, 1.0);
 }
 
 struct Clusters {
