@@ -104,7 +104,7 @@ const std::vector<std::string>& texture_kinds();   // every such name, in the or
 std::vector<std::pair<std::string, std::string>> problems(const Texture& texture);
 
 // Smallest rectangle with a whole number of periods, n = max(2, round(target / period)) along x,
-// sampled with `pixels` along x and nearly square pixels; even counts.
+// sampled with `pixels` along x and nearly square pixels; even counts. Eq. geometry.2
 Grid patch_grid(const Texture& texture, int pixels, double target = 12e-6);
 
 // Heights on a grid whose sides are whole numbers of periods (patch_grid, or tiles of it). Edges

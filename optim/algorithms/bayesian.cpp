@@ -15,6 +15,7 @@ namespace {
 double normal_density(double t) { return std::exp(-0.5 * t * t) / std::sqrt(2 * kPi); }
 
 // Integral of the normal distribution function of (m, s) from -inf to z.
+// Expected improvement below z. Eq. search.1
 double integrated_cdf(double z, const Prediction& p) {
   if (p.sd <= 0) return std::max(0.0, z - p.mean);
   const double t = (z - p.mean) / p.sd;
@@ -113,6 +114,7 @@ class Bayesian : public Searcher {
     }
   }
 
+  // Eq. search.3: chance that every constraint holds and the evaluation succeeds.
   double feasibility(const Point& u) const {
     double p = 1;
     for (const GaussianProcess& model : constraints_) {

@@ -90,6 +90,7 @@ class PatchSolver {
       note_field(pull, out);
     }
 
+    // Eq. coupling.1: capillary tractions off; the same water and the field on.
     out.area_off = out.area_on = out.area_dry;
     ContactSolution off_state, on_state;
     if (plan_.traction_solves) {

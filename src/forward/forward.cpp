@@ -156,7 +156,7 @@ class PointBuilder {
     point.modulation.parts.sampling = beta * ratio * gain.se / std::max(gain.value, 1e-12);
   }
 
-  // Eq. friction.1: resolved areas, ratio of sums over the skins.
+  // Eq. friction.1, friction.2: resolved areas, ratio of sums over the skins.
   static void area_based(ResponsePoint& point) {
     const Estimate off = mean_estimate(point.samples.area_off);
     const Estimate on = mean_estimate(point.samples.area_on);

@@ -258,8 +258,8 @@ class StudyReader {
   }
 
   bool value(const NumberField& field, const Node& node, const std::string& where, double& si) {
-    return document_.number(
-        node, where, {field.path.c_str(), field.unit, field.low, field.high, ""}, si);
+    return document_.number(node, where,
+                            {field.path.c_str(), field.unit, field.low, field.high, ""}, si);
   }
 
   void read_variables() {

@@ -83,16 +83,18 @@ double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<dou
         const double d = sign * values[i] - mean;
         variance += d * d * weights[i] / total;
       }
+      // Eq. search.4
       return sign * (mean - risk.parameter * std::sqrt(variance));
     }
     case Risk::Kind::Worst: {
-      double worst = kInfinity;
+      double worst = kInfinity;  // Eq. search.6
       for (std::size_t i = 0; i < values.size(); ++i) {
         if (weights[i] > 0) worst = std::min(worst, sign * values[i]);
       }
       return sign * worst;
     }
     case Risk::Kind::Cvar: {
+      // Eq. search.5: mean over the worst share.
       std::vector<std::size_t> order(values.size());
       std::iota(order.begin(), order.end(), 0);
       std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

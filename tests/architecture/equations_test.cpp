@@ -11,12 +11,15 @@ namespace papilla {
 namespace {
 
 // "Eq. contact.3", "Eq. metrics.1-5", "Eq. field.1, field.2": all ids, with a file that names each.
+// A mention may be broken over lines of comment.
 std::map<std::string, std::string> equations_in_code() {
   const std::regex mention("Eqs?\\. ((?:[a-z_]+\\.[0-9]+(?:-[0-9]+)?(?:, | and )?)+)");
   const std::regex id("([a-z_]+)\\.([0-9]+)(?:-([0-9]+))?");
+  const std::regex line_break("\\s*\n\\s*//\\s*");
   std::map<std::string, std::string> out;
   for (const std::string& file : source_files({"src", "geometry", "optim"}, {".h", ".cpp"})) {
-    const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
+    const std::string text = std::regex_replace(
+        read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file), line_break, " ");
     for (std::sregex_iterator it(text.begin(), text.end(), mention), end; it != end; ++it) {
       const std::string ids = (*it)[1];
       for (std::sregex_iterator one(ids.begin(), ids.end(), id); one != end; ++one) {

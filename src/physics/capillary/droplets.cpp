@@ -176,6 +176,7 @@ class Ensemble {
       ++out.bridges;
       out.capillary_force += bridge.force;
       out.bridge_volume += d.volume;
+      // Eq. capillary.14
       out.retention += kPi / 4 * water_.surface_tension * 2 * d.radius * water_.hysteresis;
       wet += kPi * square(d.radius);
       for_pixels(gap_.grid, bridge, [&](std::size_t k) { out.bridged[k] = 1; });
