@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "base/constants.h"
@@ -13,13 +14,29 @@
 namespace papilla {
 namespace {
 
+// Adds the time until the end of its scope.
+class Timed {
+ public:
+  explicit Timed(double& seconds) : seconds_(seconds) {}
+  ~Timed() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  Timed(const Timed&) = delete;
+  Timed& operator=(const Timed&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
 WaterProperties water_properties(const Scene& scene, double substrate_angle) {
   const SkinWater& water = scene.finger.water;
   return {water.surface_tension, water.contact_angle, substrate_angle, water.hysteresis};
 }
 
 Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
-                     const WaterProperties& properties, std::uint64_t seed) {
+                     const WaterProperties& properties, std::uint64_t seed, PatchResult& out) {
+  const Timed timed(out.seconds.water);
   const Scene& scene = *problem.scene;
   if (scene.model.water == WaterModel::Threshold) return fill_threshold(gap, volume, properties);
   DropletOptions options;
@@ -28,8 +45,15 @@ Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
   return settle_droplets(gap, volume, properties, options, seed, problem.droplet_index);
 }
 
+Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& driven,
+                    PatchResult& out) {
+  const Timed timed(out.seconds.water);
+  return rewet(off, gap, driven);
+}
+
 FieldSolution solve_field(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
-                          const FieldProblem& field) {
+                          const FieldProblem& field, PatchResult& out) {
+  const Timed timed(out.seconds.field);
   return solve_local_field(gap, problem.texture, wetting, field);
 }
 
@@ -73,7 +97,7 @@ class PatchSolver {
     Wetting off, on;
     off.grid = on.grid = grid;
     if (out.volume > 0) {
-      off = settle_water(problem_, gap, out.volume, rest, fidelity_.seed);
+      off = settle_water(problem_, gap, out.volume, rest, fidelity_.seed, out);
       note_water(off, out);
     }
     if (capillary_off_counts(scene)) out.capillary_off = off.capillary_force;
@@ -83,10 +107,10 @@ class PatchSolver {
     pull.traction = {grid, {}};
     if (plan_.field) {
       if (out.volume > 0) {
-        on = rewet(off, gap, driven);
+        on = rewet_timed(off, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field(problem_, gap, on, field);
+      pull = solve_field(problem_, gap, on, field, out);
       note_field(pull, out);
     }
 
@@ -126,6 +150,7 @@ class PatchSolver {
   // Contact under the preload and an attractive traction [Pa]; pressures in and out are physical.
   ContactSolution contact(std::vector<double> traction, const ContactSolution* start,
                           PatchResult& out) const {
+    const Timed timed(out.seconds.contact);
     for (double& t : traction) t *= softness_;
     ContactOptions options;
     options.tolerance = fidelity_.contact_tolerance;
@@ -161,10 +186,10 @@ class PatchSolver {
       state = contact(traction, &state, out);
       const Gap gap{plan_.grid, state.gap};
       if (out.volume > 0) {
-        on = rewet(off, gap, driven);
+        on = rewet_timed(off, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field(problem_, gap, on, field);
+      pull = solve_field(problem_, gap, on, field, out);
       note_field(pull, out);
       const double change = std::abs(out.pull - previous) / std::max(out.pull, 1e-30);
       const std::vector<double> target = total_traction(on, gap, driven, pull.traction);

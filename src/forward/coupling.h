@@ -8,6 +8,7 @@
 #include "fields/wetting.h"
 #include "forward/fidelity.h"
 #include "forward/plan.h"
+#include "forward/response.h"
 #include "geometry/heightmap.h"
 #include "physics/contact/contact.h"
 #include "physics/electrostatics/field.h"
@@ -36,6 +37,7 @@ struct PatchResult {
   double over_limit_area = 0, over_limit_share = 0, peak_oxide_field = 0, peak_air_field = 0;
   int contact_solves = 0;
   double fft_pairs = 0;
+  PieceSeconds seconds;
   std::string status;  // empty: sound
 };
 

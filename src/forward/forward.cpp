@@ -252,6 +252,9 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
     for (const PatchResult& patch : results[i]) {
       response.contact_solves += patch.contact_solves;
       response.fft_pairs += patch.fft_pairs;
+      response.piece_seconds.contact += patch.seconds.contact;
+      response.piece_seconds.water += patch.seconds.water;
+      response.piece_seconds.field += patch.seconds.field;
     }
   }
   response.seconds =

@@ -66,11 +66,17 @@ struct ResponsePoint {
   bool operator==(const ResponsePoint&) const = default;
 };
 
+// Processor time by piece of physics [s], summed over threads; in no reproducible file.
+struct PieceSeconds {
+  double contact = 0, water = 0, field = 0;
+};
+
 struct Response {
   std::vector<ResponsePoint> points;
   Plan plan;
   bool driven = false;
   double seconds = 0;  // wall time; in no file that must be reproducible
+  PieceSeconds piece_seconds;
   int contact_solves = 0;
   double fft_pairs = 0;
 

@@ -106,7 +106,12 @@ std::string response_json(const Response& response, bool with_time) {
            {"points", points},
            {"summary", summary_json(response)},
            {"plan", plan_json(response.plan)}};
-  if (with_time) out["seconds"] = response.seconds;
+  if (with_time) {
+    out["seconds"] = response.seconds;
+    const PieceSeconds& pieces = response.piece_seconds;
+    out["processor_seconds"] = {
+        {"contact", pieces.contact}, {"water", pieces.water}, {"field", pieces.field}};
+  }
   out["contact_solves"] = response.contact_solves;
   out["fft_pairs"] = number(response.fft_pairs);
   return out.dump(2);
