@@ -12,6 +12,7 @@ void add_evaluate(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_export(CLI::App& app, Context& context);
 void add_solve(CLI::App& app, Context& context);
+void add_reproduce(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 
@@ -28,6 +29,7 @@ inline constexpr std::array kCommands{
     add_explain,
     add_export,
     add_solve,
+    add_reproduce,
     add_describe,
     add_completion,
 };

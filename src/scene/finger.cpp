@@ -180,6 +180,9 @@ void fields(FieldVisitor& v, Finger& s) {
   v.section({"electrical", "the stratum corneum as a dielectric"}, s.electrical);
   v.section({"water", "sweat against humidity"}, s.water);
   v.section({"saturation", "electrowetting saturation law"}, s.saturation);
+  v.text(
+      {"fitted_to", "published claims (papilla reproduce) that the fit used, separated by spaces"},
+      s.fitted_to);
   v.section({"calibrated_for", "model options the finger was fitted with"}, s.calibrated_for);
 }
 

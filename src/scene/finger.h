@@ -122,6 +122,7 @@ struct Finger {
   SkinWater water;
   Saturation saturation;
   ModelOptions calibrated_for;
+  std::string fitted_to;  // ids of the published claims that its fit used, separated by spaces
 
   double patch_pressure(double relative_humidity) const;  // F_N / (phi A) [Pa], Eq. scene.6
 

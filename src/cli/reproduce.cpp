@@ -1,0 +1,78 @@
+// papilla reproduce: every published claim beside the model's number.
+#include "study/reproduce.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/commands.h"
+#include "study/design.h"
+
+namespace papilla {
+namespace {
+
+struct ReproduceCommand {
+  std::vector<std::string> claims;
+  std::string finger, out;
+  int jobs = 0;
+  bool json = false;
+};
+
+std::string reference_finger() {
+  for (const std::string& root : design_roots()) {
+    const std::string path = root + "/fingers/reference.toml";
+    if (std::filesystem::exists(path)) return path;
+  }
+  throw InputError("fingers/reference.toml is in no designs folder; name one with --finger");
+}
+
+int run(const Context& context, const ReproduceCommand& command) {
+  ReproduceOptions options;
+  options.ids = command.claims;
+  options.finger = read_finger(command.finger.empty() ? reference_finger() : command.finger);
+  options.threads = command.jobs;
+  options.done = [&](const ClaimResult& r) {
+    if (r.seconds > 1) context.note(r.claim->id + ": " + verdict_name(r.papilla.verdict));
+  };
+  const std::vector<ClaimResult> results = reproduce(options);
+  if (!command.out.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(command.out, error);
+    if (error) {
+      throw InputError(
+          {Problem{command.out, 0, 0, "", "no such folder can be made: " + error.message()}});
+    }
+    write_bytes(command.out + "/claims.csv", claims_csv(results));
+    write_bytes(command.out + "/claims.md", claims_markdown(results, options.finger.name));
+    context.note("wrote " + command.out);
+  }
+  std::cout << (command.json ? claims_json(results) + "\n" : claims_text(results));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, Context& context) {
+  CLI::App* command =
+      app.add_subcommand("reproduce", "Every published claim beside the model, with a verdict");
+  auto options = std::make_shared<ReproduceCommand>();
+  command->add_option("--claim", options->claims, "Only this claim, e.g. M13; may be repeated")
+      ->type_name("ID")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--finger", options->finger, "Finger file; default: fingers/reference.toml")
+      ->type_name("FILE");
+  command->add_option("--out", options->out, "Also write claims.csv and claims.md")
+      ->type_name("DIR");
+  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
+      ->check(CLI::Range(0, 4096));
+  command->add_flag("--json", options->json, "One JSON object on standard output");
+  command->callback([&context, options] {
+    context.action = [&context, options] { return run(context, *options); };
+  });
+}
+
+}  // namespace papilla
