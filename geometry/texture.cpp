@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/check.h"
 #include "base/constants.h"
@@ -17,7 +16,6 @@
 namespace papilla {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 const std::vector<std::string> kKinds{"flat",         "hole_array",    "pillar_array", "grating",
                                       "random_rough", "particle_film", "measured",     "stack"};
 

@@ -1,11 +1,13 @@
 // Physical constants and water at 24 degrees C, SI.
 #pragma once
 
+#include <limits>
 #include <numbers>
 
 namespace papilla {
 
 inline constexpr double kPi = std::numbers::pi;
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kVacuumPermittivity = 8.8541878128e-12;  // F/m, CODATA 2018
 inline constexpr double kWaterSurfaceTension = 0.072126;         // N/m, 24 C, IAPWS R1-76(2014)
 inline constexpr double kWaterMolarVolume = 1.80641e-5;          // m^3/mol, 24 C

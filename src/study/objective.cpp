@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "base/check.h"
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "config/describe.h"
@@ -19,7 +19,6 @@
 namespace papilla {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // <= 0 when kept, relative to the limit, bounded.
 double relative_violation(double value, double limit, bool at_least) {
