@@ -21,18 +21,11 @@ struct ReproduceCommand {
   bool json = false;
 };
 
-std::string reference_finger() {
-  for (const std::string& root : design_roots()) {
-    const std::string path = root + "/fingers/reference.toml";
-    if (std::filesystem::exists(path)) return path;
-  }
-  throw InputError("fingers/reference.toml is in no designs folder; name one with --finger");
-}
-
 int run(const Context& context, const ReproduceCommand& command) {
   ReproduceOptions options;
   options.ids = command.claims;
-  options.finger = read_finger(command.finger.empty() ? reference_finger() : command.finger);
+  options.finger =
+      read_finger(command.finger.empty() ? find_design("fingers/reference.toml") : command.finger);
   options.threads = command.jobs;
   options.done = [&](const ClaimResult& r) {
     if (r.seconds > 1) context.note(r.claim->id + ": " + verdict_name(r.papilla.verdict));

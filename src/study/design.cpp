@@ -184,6 +184,14 @@ std::vector<std::string> design_roots() {
   return roots;
 }
 
+std::string find_design(const std::string& name) {
+  for (const std::string& root : design_roots()) {
+    const std::string path = root + "/" + name;
+    if (std::filesystem::exists(path)) return path;
+  }
+  throw InputError(name + " is in no designs folder; set PAPILLA_DESIGNS to the one that has it");
+}
+
 namespace {
 
 // "texture.diameter" = ... and texture.diameter = ... mean the same: members by full path.

@@ -137,6 +137,8 @@ struct Study {
 // Where `base` files are looked for besides the user's own folder: $PAPILLA_DESIGNS, the source
 // tree's and the installed designs folder, those that exist.
 std::vector<std::string> design_roots();
+// The file below the first of those folders that has it; throws InputError.
+std::string find_design(const std::string& name);
 
 // Throws InputError with every problem. A study file is a design too.
 Design read_design(const std::string& path, const std::vector<std::string>& overrides = {});

@@ -19,7 +19,6 @@
 namespace papilla {
 namespace {
 
-
 // <= 0 when kept, relative to the limit, bounded.
 double relative_violation(double value, double limit, bool at_least) {
   if (limit <= 0) return at_least ? -1 : std::clamp(value, -1.0, 10.0);

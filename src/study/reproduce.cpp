@@ -84,7 +84,8 @@ Judgement agrees_if(bool agrees, double value, double se, std::string model, std
 
 const std::vector<Claim>& claims() {
   static const std::vector<Claim> list = [] {
-    std::vector<Claim> all = theory_claims();
+    std::vector<Claim> all = m3_claims();
+    for (Claim& claim : theory_claims()) all.push_back(std::move(claim));
     std::set<std::string> ids;
     for (const Claim& claim : all) {
       PAPILLA_CHECK(ids.insert(claim.id).second, "every claim has an id of its own");

@@ -69,6 +69,7 @@ struct Claim {
 
 // All claims, in the order of the papers; ids are unique.
 const std::vector<Claim>& claims();
+std::vector<Claim> m3_claims();      // M: the M3 model's samples and screens
 std::vector<Claim> theory_claims();  // P, J, B, S: mean field, impedance, modulation, stiction
 
 struct ClaimResult {
