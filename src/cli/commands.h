@@ -20,6 +20,7 @@ void add_completion(CLI::App& app, Context& context);
 void add_solve_contact(CLI::App& solve, Context& context);
 void add_solve_bridge(CLI::App& solve, Context& context);
 void add_solve_droplets(CLI::App& solve, Context& context);
+void add_solve_persson(CLI::App& solve, Context& context);
 
 // clang-format off
 // In the order of `papilla --help`, one a line.
@@ -38,6 +39,7 @@ inline constexpr std::array kPieces{
     add_solve_contact,
     add_solve_bridge,
     add_solve_droplets,
+    add_solve_persson,
 };
 // clang-format on
 

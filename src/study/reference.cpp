@@ -9,6 +9,7 @@
 #include "config/describe.h"
 #include "metrics/metrics.h"
 #include "study/design.h"
+#include "study/mean_field.h"
 
 namespace papilla {
 namespace {
@@ -33,6 +34,7 @@ const char* about(const std::string& section) {
            "deviation / mean), range ((max - min) / mean), std, worst, best, first, last; written "
            "`mean(modulation)`.";
   }
+  if (section == "persson") return "A case of `papilla solve persson`.";
   if (section == "study") return "The sections that only a study has.";
   return "";
 }
@@ -110,7 +112,7 @@ std::string metrics_reference(ReferenceFormat format) {
 
 std::vector<std::string> reference_sections() {
   return {"texture", "surface",  "finger", "environment", "drive",
-          "model",   "accuracy", "study",  "metrics"};
+          "model",   "accuracy", "study",  "metrics",     "persson"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {
@@ -124,6 +126,7 @@ std::string reference_section(const std::string& section, ReferenceFormat format
   if (section == "drive") return top + render(field_rows(Drive{}, section), format);
   if (section == "model") return top + render(field_rows(ModelOptions{}, section), format);
   if (section == "accuracy") return top + render(field_rows(AccuracySettings{}, section), format);
+  if (section == "persson") return top + render(field_rows(MeanFieldCase{}, ""), format);
   if (section == "metrics") return top + metrics_reference(format);
   if (section == "study") return top + study_reference(format);
   const std::string near = nearest_name(section, reference_sections());

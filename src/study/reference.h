@@ -7,7 +7,8 @@
 
 namespace papilla {
 
-// "texture", "surface", "finger", "environment", "drive", "model", "accuracy", "study", "metrics".
+// "texture", "surface", "finger", "environment", "drive", "model", "accuracy", "study", "metrics",
+// "persson".
 std::vector<std::string> reference_sections();
 
 enum class ReferenceFormat { Text, Markdown };

@@ -13,7 +13,9 @@ TEST(Designs, AllRead) {
   for (const std::string& file : source_files({"designs"}, {".toml"})) {
     const std::string path = std::string(PAPILLA_SOURCE_DIR) + "/" + file;
     try {
-      if (file.starts_with("designs/fingers/")) {
+      if (file.starts_with("designs/physics/")) {
+        continue;  // cases of `papilla solve`, read by their own tests
+      } else if (file.starts_with("designs/fingers/")) {
         read_finger(path);
       } else if (file.find("calibration") == std::string::npos) {
         read_study(path);

@@ -1,0 +1,118 @@
+// papilla solve persson: mean field of a rough skin under voltage.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "study/mean_field.h"
+
+namespace papilla {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+double ratio(const MeanFieldPoint& p) {
+  return p.area_off > 0 ? p.on.pull.area / p.area_off : std::numeric_limits<double>::infinity();
+}
+
+Json point_json(const MeanFieldPoint& p) {
+  return {{"voltage", p.voltage},
+          {"load", p.load},
+          {"frequency", p.frequency},
+          {"equivalent_thickness", number(std::abs(p.thickness))},
+          {"collapsed", p.on.pull.status == PullStatus::Collapsed},
+          {"pressure", p.on.pull.pressure},
+          {"pull", p.on.pull.pull},
+          {"area_off", p.area_off},
+          {"area_on", p.on.pull.area},
+          {"area_ratio", number(ratio(p))},
+          {"mean_gap", p.on.pull.mean_gap},
+          {"friction", p.on.friction},
+          {"coefficient", p.on.coefficient},
+          {"capacitance", p.capacitance}};
+}
+
+std::string table(const std::vector<MeanFieldPoint>& points, const char* name) {
+  std::string out =
+      fmt::format("\nover {}\n{:>8} {:>8} {:>10} {:>11} {:>11} {:>9} {:>9} {:>10} {:>7}\n", name,
+                  "V", "N", "Hz", "pull Pa", "A/A0", "on/off", "gap um", "friction N", "mu");
+  for (const MeanFieldPoint& p : points) {
+    out += fmt::format(
+        "{:>8.4g} {:>8.4g} {:>10.5g} {:>11.5g} {:>11.5g} {:>9.5g} {:>9.4g} {:>10.4g} "
+        "{:>7.4g}{}\n",
+        p.voltage, p.load, p.frequency, p.on.pull.pull, p.on.pull.area, ratio(p),
+        1e6 * p.on.pull.mean_gap, p.on.friction, p.on.coefficient,
+        p.on.pull.status == PullStatus::Collapsed ? "  pulled in" : "");
+  }
+  return out;
+}
+
+int solve(const DesignOptions& options) {
+  const MeanFieldCase c = read_mean_field(options.file, options.overrides);
+  const auto begin = std::chrono::steady_clock::now();
+  const MeanFieldResult r = solve_mean_field(c);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (options.json) {
+    Json out{{"schema", 1},
+             {"title", c.title},
+             {"rms", r.rms},
+             {"slope", r.slope},
+             {"contact_modulus", r.contact_modulus},
+             {"point", point_json(r.point)}};
+    const auto list = [&](const char* name, const std::vector<MeanFieldPoint>& points) {
+      Json rows = Json::array();
+      for (const MeanFieldPoint& p : points) rows.push_back(point_json(p));
+      out[name] = rows;
+    };
+    list("over_voltage", r.voltage);
+    list("over_load", r.load);
+    list("over_frequency", r.frequency);
+    out["seconds"] = seconds;
+    std::cout << out.dump(2) << '\n';
+  } else {
+    const MeanFieldPoint& p = r.point;
+    std::cout << fmt::format(
+        "{}{}roughness        rms {:.4g} um, slope {:.4g}{}\npressure         {:.5g} kPa, of it "
+        "pull "
+        "{:.5g} kPa\ncontact area     {:.5g} % of the nominal area; off {:.5g} %, ratio {:.5g}\n"
+        "mean gap         {:.5g} um\nfriction         {:.5g} N (coefficient {:.4g})\n"
+        "capacitance      {:.5g} pF\n",
+        c.title, c.title.empty() ? "" : "\n", 1e6 * r.rms, r.slope,
+        c.skin.hardness > 0 ? " after plastic smoothing" : "", 1e-3 * p.on.pull.pressure,
+        1e-3 * p.on.pull.pull, 100 * p.on.pull.area, 100 * p.area_off, ratio(p),
+        1e6 * p.on.pull.mean_gap, p.on.friction, p.on.coefficient, 1e12 * p.capacitance);
+    if (p.on.pull.status == PullStatus::Collapsed) {
+      std::cout << "pulled in: no equilibrium below 1 GPa\n";
+    }
+    if (!r.voltage.empty()) std::cout << table(r.voltage, "voltage");
+    if (!r.load.empty()) std::cout << table(r.load, "load");
+    if (!r.frequency.empty()) std::cout << table(r.frequency, "frequency");
+    std::cout << fmt::format("{:.3g} s\n", seconds);
+  }
+  return r.point.on.pull.status == PullStatus::Collapsed ? kWorkFailed : kSuccess;
+}
+
+}  // namespace
+
+void add_solve_persson(CLI::App& solve_command, Context& context) {
+  CLI::App* command = solve_command.add_subcommand(
+      "persson", "Mean field of a rough skin under voltage: area, gap, pull, friction");
+  auto options = std::make_shared<DesignOptions>();
+  command->add_option("file", options->file, "Case, e.g. designs/physics/wrist_on_glass.toml")
+      ->required()
+      ->type_name("FILE");
+  add_set_option(*command, options->overrides);
+  command->add_flag("--json", options->json, "One JSON object, SI units");
+  command->callback(
+      [&context, options] { context.action = [options] { return solve(*options); }; });
+}
+
+}  // namespace papilla

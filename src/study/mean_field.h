@@ -1,0 +1,93 @@
+// A rough layered skin on a driven dielectric as a file (`papilla solve persson`): mean field of
+// the roughness spectrum, no texture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "physics/persson/persson.h"
+#include "scene/environment.h"
+
+namespace papilla {
+
+// Self-affine by four numbers, or a measured spectrum by its knots (then the numbers are ignored).
+struct SpectrumSettings {
+  double rms = 22e-6, lowest = 800, roll_off = 5998.2, cutoff = 1e8, hurst = 0.86;
+  double scale = 1;                          // C(q) times this
+  std::vector<double> wave_number, density;  // [1/m], [m^4]
+
+  PowerSpectrum spectrum() const;
+};
+void fields(FieldVisitor& v, SpectrumSettings& s);
+
+struct SolidSettings {
+  MeanFieldSolid solid;
+  double hardness = 0;  // [Pa]; 0: elastic
+};
+void fields(FieldVisitor& v, SolidSettings& s);
+
+// Layers in series with the gap: the surface's dielectrics and the stratum corneum.
+struct InterfaceSettings {
+  std::vector<Dielectric> dielectric = {{"oxide", 1e-6, 3.9, 1e14, 1e9}};
+  double skin_equivalent = 0;  // d2/eps2 where the skin is taken as lossless [m]
+  bool lossy_skin = true;      // instead: thickness of the solid's layer, SkinDielectric
+  double gap_resistivity = 0;  // [ohm m]; 0: insulating
+
+  // h0 at a frequency; at 0 Hz lossy skin conducts. Infinite where the gap conducts at 0 Hz.
+  std::complex<double> thickness(double skin_thickness, double frequency) const;
+};
+void fields(FieldVisitor& v, InterfaceSettings& s);
+
+struct TouchSettings {
+  double load = 0.5;                   // [N]
+  double area = 1e-4;                  // nominal [m^2]
+  double shear_strength = 8e6;         // [Pa]
+  double finite_size_pressure = 10e3;  // [Pa]
+};
+void fields(FieldVisitor& v, TouchSettings& s);
+
+// Each list that is given makes one table, the rest held at its value.
+struct SweepSettings {
+  std::vector<double> voltage, load, frequency;  // peak [V], [N], [Hz]
+};
+void fields(FieldVisitor& v, SweepSettings& s);
+
+struct TheorySettings {
+  double kappa = 2, energy_factor = 0.45;
+};
+void fields(FieldVisitor& v, TheorySettings& s);
+
+struct MeanFieldCase {
+  int schema_version = 1;
+  std::string title;
+  SpectrumSettings roughness;
+  SolidSettings skin;
+  InterfaceSettings interface;
+  TouchSettings touch;
+  Drive drive;
+  SweepSettings sweep;
+  TheorySettings theory;
+};
+void fields(FieldVisitor& v, MeanFieldCase& s);
+
+// Throws InputError with every problem.
+MeanFieldCase read_mean_field(const std::string& path,
+                              const std::vector<std::string>& overrides = {});
+
+struct MeanFieldPoint {
+  double voltage = 0, load = 0, frequency = 0;  // peak [V], [N], [Hz]
+  std::complex<double> thickness;               // h0 [m]
+  double area_off = 0;                          // A/A0 without voltage
+  FrictionPoint on;
+  double capacitance = 0;  // of the nominal area, gap and layers in series [F]
+};
+
+struct MeanFieldResult {
+  double rms = 0, slope = 0, contact_modulus = 0;  // of the smoothed spectrum; E* at its cut-off
+  MeanFieldPoint point;
+  std::vector<MeanFieldPoint> voltage, load, frequency;  // one a sweep
+};
+// Milliseconds a point. Throws InputError for what has no answer (no load and no finite size).
+MeanFieldResult solve_mean_field(const MeanFieldCase& c);
+
+}  // namespace papilla
