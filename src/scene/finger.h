@@ -122,7 +122,8 @@ struct Finger {
   SkinWater water;
   Saturation saturation;
   ModelOptions calibrated_for;
-  std::string fitted_to;  // ids of the published claims that its fit used, separated by spaces
+  // Ids of the published claims that its fit used, separated by spaces.
+  std::string fitted_to = "M1 M2 M3 M4 M5 M6 M7 M8 M9 M10 M11 M12 M13 M14 M15 M16 M17 M21";
 
   double patch_pressure(double relative_humidity) const;  // F_N / (phi A) [Pa], Eq. scene.6
 
