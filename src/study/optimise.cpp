@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -347,10 +348,16 @@ class Run {
     for (FinalDesign& f : result_.finalists) {
       if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
     }
+    std::vector<Design> designs;
+    for (const FinalDesign& f : result_.finalists) designs.push_back(f.design);
+    result_.stability = check_stability(problem_, designs, search_fidelity(study_));
+    // An unstable design is best only where no other is on the front.
+    const auto rank = [&](std::size_t i) {
+      const FinalDesign& f = result_.finalists[i];
+      return std::tuple(f.on_front, result_.stability.stable(i), f.confirmed.worst);
+    };
     for (std::size_t i = 1; i < result_.finalists.size(); ++i) {
-      const FinalDesign& a = result_.finalists[i];
-      if (a.on_front && a.confirmed.worst > result_.finalists[result_.best].confirmed.worst)
-        result_.best = i;
+      if (rank(i) > rank(result_.best)) result_.best = i;
     }
   }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "study/objective.h"
+#include "study/stability.h"
 
 namespace papilla {
 
@@ -42,6 +43,7 @@ struct OptimiseResult {
   std::size_t best = 0;                // of the finalists: highest worst modulation
   Score flat;                          // the same surface without texture, confirmed
   bool has_flat = false;
+  Stability stability;               // of the finalists' order, in their order
   std::vector<double> hypervolumes;  // after each evaluation (two objectives or more)
 };
 

@@ -155,6 +155,13 @@ class Writer {
     out["worst_modulation"] = number(d.confirmed.worst);
     out["oxide_breakdown_margin"] = number(d.confirmed.oxide_margin);
     out["feasible"] = d.feasible;
+    const Stability& stability = f_.result.stability;
+    const auto index = static_cast<std::size_t>(&d - f_.result.finalists.data());
+    if (index < stability.times_on_front.size()) {
+      out["stability"] = {{"on_front", stability.times_on_front[index]},
+                          {"variants", stability.variants.size()},
+                          {"stable", stability.stable(index)}};
+    }
     if (f_.result.has_flat)
       out["flat"] = {{"objectives", score_json(f_.result.flat)},
                      {"worst_modulation", number(f_.result.flat.worst)}};
@@ -206,8 +213,11 @@ class Writer {
     }
     out += result_table(f_.study, r);
     const FinalDesign& best = r.finalists[r.best];
-    out += fmt::format("\n`best/` is {}: the highest worst modulation over fingers and humidity.\n",
-                       best.folder.empty() ? "not on the front" : best.folder);
+    out += fmt::format(
+        "\n`best/` is {}: the highest worst modulation over fingers and humidity{}.\n",
+        best.folder.empty() ? "not on the front" : best.folder,
+        r.stability.stable(r.best) ? " among the designs whose place on the front holds"
+                                   : "; its place on the front does not hold, see below");
     if (r.has_flat && best.confirmed.ok) {
       out += "\nThe same surface without texture:";
       for (std::size_t k = 0; k < objectives.size(); ++k) {
@@ -218,11 +228,45 @@ class Writer {
       out += fmt::format(", worst modulation {:.3f} (best: {:.3f}).\n", r.flat.worst,
                          best.confirmed.worst);
     }
+    out += stability_text();
     out +=
         "\nFiles: pareto.csv (finalists), history.csv (every evaluation), front/ and best/ "
         "(design.toml, metrics.json, heightmap.exr, heightmap.gsf, mask.tif, preview.png), "
         "resolved.toml (every value and where it came from), plan.txt, journal.\n";
     return out;
+  }
+
+  // How the finalists fare on each finger alone and under other choices of the model.
+  std::string stability_text() const {
+    const Stability& s = f_.result.stability;
+    const auto& objectives = f_.problem.objectives();
+    if (s.variants.empty() || f_.result.finalists.size() < 2) return {};
+    std::string out =
+        "\n## Does the order hold?\n\nEach finalist on each finger alone, then on the first finger "
+        "with one choice of the model changed (search level, common random numbers; " +
+        objectives.front().name + (objectives.size() > 1 ? ", " + objectives[1].name : "") +
+        "; * on the front of these designs):\n\n|";
+    for (const FinalDesign& d : f_.result.finalists)
+      out += " | " + (d.folder.empty() ? "(dominated)" : d.folder);
+    out += " |\n|---";
+    for (std::size_t i = 0; i < f_.result.finalists.size(); ++i) out += "|---";
+    out += "|\n";
+    for (const StabilityVariant& v : s.variants) {
+      out += "| " + v.name;
+      for (std::size_t i = 0; i < v.values.size(); ++i) {
+        out += " |";
+        for (std::size_t k = 0; k < std::min<std::size_t>(2, v.values[i].size()); ++k)
+          out += fmt::format("{}{:.3f}", k == 0 ? " " : ", ", v.values[i][k]);
+        out += v.on_front[i] ? " *" : "";
+      }
+      out += " |\n";
+    }
+    out += "| **on the front** |";
+    for (std::size_t i = 0; i < f_.result.finalists.size(); ++i) {
+      out += fmt::format(" {} of {}{} |", s.times_on_front[i], s.variants.size(),
+                         s.stable(i) ? "" : ", **unstable**");
+    }
+    return out + "\n";
   }
 
   const ResultFiles& f_;

@@ -1,0 +1,36 @@
+// Does the order of the finalists survive other fingers and other choices of the model? The
+// choices that move results at first order are not known well enough to trust one of them alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "study/objective.h"
+
+namespace papilla {
+
+struct StabilityVariant {
+  std::string name;                         // "finger rough", "first droplet step 50 nm"
+  std::vector<std::vector<double>> values;  // [design][objective], the user's sign; empty: failed
+  std::vector<bool> on_front;               // of these designs, within the tolerance
+};
+
+struct Stability {
+  std::vector<StabilityVariant> variants;
+  std::vector<int> times_on_front;  // of a design, over the variants
+
+  // On the front in two thirds of the variants at least.
+  bool stable(std::size_t design) const {
+    return 3 * times_on_front[design] >= 2 * static_cast<int>(variants.size());
+  }
+};
+
+// Each design on each finger of the study alone, then on its first finger with one model choice
+// changed: droplet mobility, droplets per volume, the pull over droplets that do not bridge,
+// breakdown cap, self-consistent coupling. Common random numbers throughout, so a design counts as
+// beaten only by one that is better by `tolerance` (relative) in every objective. Cost: designs x
+// (fingers + 7) evaluations of one finger at this fidelity.
+Stability check_stability(const StudyProblem& problem, const std::vector<Design>& designs,
+                          const Fidelity& fidelity, double tolerance = 0.01);
+
+}  // namespace papilla
