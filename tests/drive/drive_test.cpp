@@ -1,0 +1,241 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "physics/drive/network.h"
+#include "physics/drive/signal.h"
+#include "physics/drive/stiction.h"
+
+namespace papilla {
+namespace {
+
+std::vector<std::vector<double>> table(const std::string& name) {
+  std::ifstream file(std::string(PAPILLA_TEST_DATA) + "/drive/" + name);
+  EXPECT_TRUE(file.good()) << name;
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(file, line);) {
+    if (line.empty() || line[0] == '#' || std::isalpha(static_cast<unsigned char>(line[0])) != 0)
+      continue;
+    std::vector<double> row;
+    std::stringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) row.push_back(std::stod(cell));
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+double relative(double a, double b) { return std::abs(a / b - 1); }
+
+// Finger on coated glass of the impedance table.
+Network table_network(double dielectric_resistance) {
+  const double area = 30e-6;
+  Network n;
+  n.dielectric = {dielectric_resistance, kVacuumPermittivity * 3.9 * area / 1e-6};
+  n.gap = plane_gap(1.1e-6, 1, 17e6, area);
+  n.gap.layer.capacitance = 250e-12;
+  n.skin = slab(200e-6, 2000, 2e4, area);
+  return n;
+}
+
+TEST(Network, MatchesTheImpedanceTable) {
+  const Network insulating = table_network(1e12), leaky = table_network(1e8);
+  for (const auto& row : table("t41_impedance_force.csv")) {
+    const double f = row[0];
+    EXPECT_LT(relative(std::abs(insulating.gap.layer.impedance(f)), row[1]), 1e-4) << f;
+    const auto peak = [&](const Network& n, DriveControl c, double amplitude) {
+      const DriveResponse r = respond(n, c, amplitude, f);
+      EXPECT_DOUBLE_EQ(r.mean_force, r.ripple);
+      return r.mean_force + r.ripple;
+    };
+    EXPECT_LT(relative(peak(insulating, DriveControl::Voltage, 100), row[2]), 1e-3) << f;
+    EXPECT_LT(relative(peak(leaky, DriveControl::Voltage, 100), row[3]), 1e-3) << f;
+    EXPECT_LT(relative(peak(insulating, DriveControl::Current, 10e-6), row[4]), 1e-3) << f;
+    const double ripple = 0.2 * respond(insulating, DriveControl::Current, 10e-6, f).ripple;
+    EXPECT_LT(relative(ripple, row[5] * 1e-3), 1e-3) << f;
+  }
+}
+
+TEST(Network, LimitsAreResistiveAndCapacitiveDividers) {
+  Network n = table_network(5e6);
+  const double rd = 5e6, rg = 17e6, rs = n.skin.resistance;
+  EXPECT_LT(
+      relative(std::abs(transfer(n, DriveControl::Voltage, 0).gap_voltage), rg / (rd + rg + rs)),
+      1e-12);
+  const auto series = [](double a, double b, double c) { return 1 / (1 / a + 1 / b + 1 / c); };
+  const double cg = n.gap.layer.capacitance;
+  EXPECT_LT(relative(std::abs(transfer(n, DriveControl::Voltage, 1e9).gap_voltage),
+                     series(n.dielectric.capacitance, cg, n.skin.capacitance) / cg),
+            1e-9);
+  // An ideal dielectric holds the whole constant voltage; with an insulating gap they share it.
+  n.dielectric.resistance = kInfinity;
+  EXPECT_EQ(respond(n, DriveControl::Voltage, 100, 0).mean_force, 0);
+  EXPECT_EQ(respond(n, DriveControl::Voltage, 100, 0).current, 0);
+  n.gap.layer.resistance = kInfinity;
+  EXPECT_LT(relative(std::abs(transfer(n, DriveControl::Voltage, 0).gap_voltage),
+                     n.dielectric.capacitance / (n.dielectric.capacitance + cg)),
+            1e-12);
+}
+
+TEST(Network, UnderCurrentOnlyTheGapMatters) {
+  Network a = table_network(1e8), b = table_network(1e6);
+  b.skin = slab(1e-3, 100, 1e5, 30e-6);
+  for (double f : {1.0, 100.0, 25e3}) {
+    EXPECT_DOUBLE_EQ(respond(a, DriveControl::Current, 1e-3, f).mean_force,
+                     respond(b, DriveControl::Current, 1e-3, f).mean_force);
+  }
+}
+
+TEST(Network, ARoughGapOfOneHeightIsAPlaneGap) {
+  const double u = 0.7e-6, h0 = 0.2e-6, area = 1e-5;
+  const GapElement rough = rough_gap(1 / (u + h0), 1 / square(u + h0), h0, 1e7, area);
+  const GapElement plane = plane_gap(u, 1, 1e7, area);
+  EXPECT_LT(relative(rough.distance, u), 1e-12);
+  EXPECT_LT(relative(rough.force_factor, plane.force_factor), 1e-12);
+  EXPECT_LT(relative(rough.layer.capacitance, plane.layer.capacitance), 1e-12);
+}
+
+// Ideal square law: the gap is a resistor.
+Network resistor() {
+  Network n;
+  n.gap = plane_gap(1e-6, 1, 1e6, 1e-5);
+  n.gap.layer.capacitance = 1e-20;
+  return n;
+}
+
+TEST(Modulation, DistortionLinesMatchTheTable) {
+  const Modulation m{{10, 100, 1000}, {1. / 3, 1. / 3, 1. / 3}};
+  for (double exponent : {1.0, 0.5}) {
+    const Signal source = source_signal(Waveform::Am, 4e-3, 25e3, m, exponent, 0.1, 32768);
+    const ForceSeries s = force_series(resistor(), DriveControl::Current, source);
+    const double wanted = line_amplitude(s.force, 100);
+    for (const auto& row : table("t42_am_distortion.csv")) {
+      const double line = line_amplitude(s.force, row[0]) / wanted;
+      if (exponent == 1) {
+        EXPECT_NEAR(line, row[2], 1e-6) << row[0];
+      } else {
+        EXPECT_NEAR(line, row[3], 1e-9) << row[0];
+      }
+    }
+    EXPECT_NEAR(total_distortion(s.force, m.frequency, 10e3), exponent == 1 ? 0.25 : 0, 1e-8);
+    EXPECT_NEAR(s.mean_force / wanted, exponent == 1 ? 1.75 : 3, 1e-8);
+  }
+}
+
+TEST(Modulation, ForceOfASineIsRectifiedPartPlusRippleAtTwiceTheFrequency) {
+  const Signal source = source_signal(Waveform::Sine, 100, 5e3, {}, 1, 1. / 5e3, 64);
+  const ForceSeries s = force_series(table_network(1e12), DriveControl::Voltage, source);
+  const auto lines = spectrum_lines(s.force, 1e5, 1e-12);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].frequency, 0);
+  EXPECT_NEAR(lines[1].frequency, 1e4, 1e-6);
+  const DriveResponse r = respond(table_network(1e12), DriveControl::Voltage, 100, 5e3);
+  EXPECT_LT(relative(lines[0].amplitude, r.mean_force), 1e-10);
+  EXPECT_LT(relative(lines[1].amplitude, r.ripple), 1e-10);
+  EXPECT_LT(relative(s.peak_current, r.current), 2e-3);  // sampled peak
+}
+
+TEST(Modulation, CommonPeriodIsTheShortest) {
+  EXPECT_DOUBLE_EQ(common_period({10, 100, 25e3}), 0.1);
+  EXPECT_DOUBLE_EQ(common_period({15e3, 25e3}), 1. / 5e3);
+  EXPECT_EQ(common_period({1, std::sqrt(2.0)}), 0);
+  EXPECT_EQ(common_period({0}), 1);
+}
+
+// A finger that drags a stiff spring to and fro: friction follows the Dahl law.
+struct Swipe {
+  std::vector<double> lateral;
+  std::vector<SlipState> state;
+  std::vector<double> current;
+};
+Swipe swipe(const StictionOptions& options) {
+  Swipe out;
+  StictionMachine machine(options);
+  const double load = 0.5, friction = 0.25, stiffness = 800, frequency = 3.8;  // N, N, N/m, Hz
+  double force = 0, before = 0, current = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double x = 10e-3 * std::sin(2 * kPi * frequency * i * options.step);
+    const double v = x - before;
+    before = x;
+    const double limit = friction * (1 + 0.5 * square(current / 8e-3));
+    const int parts = 50;
+    for (int k = 0; k < parts; ++k) {
+      force += stiffness * (v / parts) * (1 - force / limit * (v > 0 ? 1 : -1));
+    }
+    current = machine.update(force, load);
+    out.lateral.push_back(force);
+    out.state.push_back(machine.state());
+    out.current.push_back(current);
+  }
+  return out;
+}
+
+TEST(Stiction, ASwipeGoesFromStuckOverPartialToFullSlip) {
+  StictionOptions options;
+  options.stuck_current = options.partial_current = 4e-3;
+  const Swipe s = swipe(options);
+  std::vector<SlipState> sequence;
+  for (std::size_t i = 0; i < s.state.size(); ++i) {
+    if (sequence.empty() || sequence.back() != s.state[i]) sequence.push_back(s.state[i]);
+    EXPECT_EQ(s.current[i] > 0, s.state[i] == SlipState::Stuck || s.state[i] == SlipState::Partial);
+  }
+  // 3.8 Hz for a second: seven reversals after the start.
+  ASSERT_GE(sequence.size(), 18u);
+  for (std::size_t i = 0; i + 1 < sequence.size(); ++i) {
+    const SlipState next = sequence[i] == SlipState::Stuck     ? SlipState::Partial
+                           : sequence[i] == SlipState::Partial ? SlipState::Full
+                                                               : SlipState::Stuck;
+    EXPECT_EQ(sequence[i + 1], next) << i;
+  }
+}
+
+TEST(Stiction, ALightTouchClearsTheMemory) {
+  StictionOptions options;
+  options.stuck_current = options.partial_current = 4e-3;
+  StictionMachine machine(options);
+  EXPECT_EQ(machine.state(), SlipState::Idle);
+  EXPECT_EQ(machine.update(0.2, 0.5), 0);  // already sliding at first touch: not known, no current
+  EXPECT_EQ(machine.state(), SlipState::Idle);
+  EXPECT_GT(machine.update(0.01, 0.5), 0);
+  EXPECT_EQ(machine.state(), SlipState::Stuck);
+  EXPECT_EQ(machine.update(0.01, 0.01), 0);
+  EXPECT_EQ(machine.state(), SlipState::Idle);
+}
+
+TEST(Stiction, NoiseInTheStuckBandIsNoSlip) {
+  StictionOptions options;
+  options.stuck_current = 4e-3;
+  StictionMachine machine(options);
+  for (int i = 0; i < 100; ++i) {
+    machine.update(0.02 * std::sin(1.7 * i), 0.5);
+    EXPECT_EQ(machine.state(), SlipState::Stuck);
+  }
+}
+
+TEST(Stiction, ExponentOfTheLoadIsRecovered) {
+  for (double n : {-0.69, -0.74}) {
+    std::vector<double> friction, load, stimulus;
+    for (int i = 0; i < 160; ++i) {
+      const double w = 0.2 + 0.8 * std::fmod(0.618 * i, 1.0);
+      const double current = 2 + i % 7;
+      load.push_back(w);
+      stimulus.push_back(current * current);
+      friction.push_back((0.1 + 0.01 * current * current) * std::pow(w, -n) *
+                         (1 + 0.02 * std::sin(37.0 * i)));
+    }
+    EXPECT_NEAR(stickiness_exponent(friction, load, stimulus), n, 0.02);
+  }
+}
+
+TEST(Onset, FrictionOfAPatchInStaticContactIsItsAdhesionAlone) {
+  EXPECT_DOUBLE_EQ(onset_friction(9e6, 1e-8, 0.3, 0.5, 0.2, 1), 0.09);
+  EXPECT_DOUBLE_EQ(onset_friction(9e6, 1e-8, 0.3, 0.5, 0.2, 0), 0.09 + 0.21);
+}
+
+}  // namespace
+}  // namespace papilla
