@@ -11,6 +11,7 @@
 #include <iostream>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "cli/commands.h"
 
@@ -89,4 +90,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace papilla
 
-int main(int argc, char** argv) { return papilla::run(argc, argv); }
+int main(int argc, char** argv) {
+  papilla::keep_freed_memory();
+  return papilla::run(argc, argv);
+}

@@ -11,12 +11,12 @@ Fidelity fidelity_level(const std::string& name) {
     f.grid = 128;
     f.skins = 12;
     f.estimator = Estimator::Load;
-    f.contact_tolerance = 1e-4;
+    f.contact_tolerance = 1e-3;
   } else if (name == "draft") {
     f.grid = 128;
     f.skins = 16;
     f.estimator = Estimator::Load;
-    f.contact_tolerance = 1e-4;
+    f.contact_tolerance = 1e-3;
   } else if (name == "reference") {
     f.grid = 512;
     f.skins = 96;

@@ -20,7 +20,7 @@ struct Fidelity {
   int skins = 40;      // independent skin patches
   int first_skin = 0;  // fresh skins start beyond those of a search
   Estimator estimator = Estimator::Area;
-  double contact_tolerance = 1e-5;   // Frank-Wolfe certificate
+  double contact_tolerance = 1e-4;   // Frank-Wolfe certificate (docs/theory/contact.md: its worth)
   int coupling_passes = 12;          // self-consistent coupling: largest number of passes
   double coupling_tolerance = 5e-3;  // relative change of the pull between passes
   int bridge_nodes = 3;              // patch-pressure nodes of the Persson closure

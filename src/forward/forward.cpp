@@ -68,7 +68,7 @@ StatedErrors stated_errors(const Plan& plan, const Fidelity& fidelity, const Sce
   e.modulation_grid = std::min(0.2, 0.01 * pixel / 47e-9);
   e.modulation_method = fidelity.estimator == Estimator::Load && plan.field ? 0.02 : 0;
   e.pull = scene.model.field == FieldMethod::Local ? 0.014 : 0.005;
-  e.solver = 1e2 * fidelity.contact_tolerance;
+  e.solver = 5 * fidelity.contact_tolerance;  // docs/theory/contact.md
   return e;
 }
 
@@ -188,7 +188,7 @@ class PointBuilder {
   void add_relative(Measured& modulation, double value) const {
     const double size = std::abs(value);
     modulation.parts.grid = errors_.modulation_grid * size;
-    modulation.parts.solver = errors_.solver * size;
+    modulation.parts.solver = errors_.solver * (1 + size);
     modulation.parts.method = std::hypot(errors_.modulation_method, errors_.pull) * size;
   }
 

@@ -3,11 +3,13 @@
 // pressure. Run by hand: ninja -C build profile_bench && build/tests/profile_bench
 #include <fmt/format.h>
 
+#include "base/memory.h"
 #include "forward/forward.h"
 #include "study/design.h"
 
 int main() {
   using namespace papilla;
+  keep_freed_memory();
   const Study study = read_study(design_roots().front() + "/electroadhesive_glass/study.toml");
   fmt::print(
       "finger,texture,estimator,grid,skins,seconds,contact,water,field,rest,contact_solves,"

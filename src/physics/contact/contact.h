@@ -42,11 +42,10 @@ class ContactKernel {
   const LayeredSolid& solid() const { return solid_; }
   const Fft2d& fft() const { return *fft_; }
   const std::vector<double>& symbol() const { return symbol_; }  // C(q)/n on the half spectrum
-  // Truncated inverse kernel: preconditioner between contact pixels at most 4 apart.
-  static constexpr int kReach = 4;
-  double inverse(int dx, int dy) const {
-    return inverse_[static_cast<std::size_t>((dy + kReach) * (2 * kReach + 1) + dx + kReach)];
-  }
+  // Truncated inverse kernel, the preconditioner between contact pixels at most kReach apart: row
+  // dy - kReach of its coefficients from dx = -kReach on, padded with zeros to kStencilWidth.
+  static constexpr int kReach = 4, kStencilWidth = 16;
+  const float* stencil(int row) const { return stencil_.data() + row * kStencilWidth; }
   double self_compliance() const {
     return self_;
   }  // displacement of a pixel under its own unit pressure
@@ -61,7 +60,7 @@ class ContactKernel {
   LayeredSolid solid_;
   std::shared_ptr<const Fft2d> fft_;
   std::vector<double> symbol_;
-  std::vector<double> inverse_;
+  std::vector<float> stencil_;
   double self_ = 0;
   std::shared_ptr<const ContactKernel> coarse_;
 };

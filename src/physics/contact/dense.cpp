@@ -1,4 +1,5 @@
-// Nested, stencil-preconditioned conjugate gradients on the full grid.
+// Nested, stencil-preconditioned conjugate gradients on the full grid: one transform pair an
+// iteration, everything else on the list of pixels that may carry pressure.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 namespace papilla {
 namespace {
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 class DenseSolver {
  public:
   DenseSolver(const ContactKernel& kernel, std::span<const double> g0, double spread,
@@ -18,14 +21,16 @@ class DenseSolver {
         grid_(kernel.grid()),
         g0_(g0),
         spread_(spread),
-        cap_(options.hardness > 0 ? options.hardness : std::numeric_limits<double>::infinity()),
+        cap_(options.hardness > 0 ? options.hardness : kInfinity),
         options_(options),
         p_(grid_.size()),
         w_(grid_.size()),
-        d_(grid_.size(), 0.0),
-        u_(grid_.size()),
+        next_(grid_.size()),
+        step_(grid_.size(), 0.0),
         scratch_(kernel.fft().spectrum_size()),
-        slot_(grid_.size(), -1) {}
+        width_(grid_.nx + 2 * kReach + ContactKernel::kStencilWidth),
+        residual_(static_cast<std::size_t>(width_) * (grid_.ny + 2 * kReach), 0.0F),
+        inside_(residual_.size(), 0.0F) {}
 
   RealArray& pressure() { return p_; }
   const RealArray& gap_function() const { return w_; }
@@ -34,248 +39,307 @@ class DenseSolver {
   double certificate() const { return certificate_; }
   double shift() const { return shift_; }
 
-  // p_ holds a start with any mean; returns true when certified.
+  // p_ holds a start with any mean; returns true when certified. w_ is at every moment a transform
+  // of the pressure itself (between two of them where a step was shortened), so that the
+  // certificate is that of the pressure returned.
   bool solve(double mean) {
     load_ = mean * static_cast<double>(grid_.size());
-    rescale();
-    refresh();
-    gather();
-    double previous_gz = 0;
-    bool fresh = true;  // w_ was computed from p_, not by recurrence
-    double best = std::numeric_limits<double>::infinity();
+    start();
+    double alpha = 0.4;  // expected step along the preconditioned direction
+    double best = kInfinity;
     int since_best = 0;
-    std::vector<double> old_r;
-    bool restart = true;
-    for (iterations_ = 0; iterations_ < options_.max_iterations; ++iterations_) {
+    bool conjugate = false;
+    for (iterations_ = 0;; ++iterations_) {
       certificate_ = certify();
-      if (certificate_ <= options_.tolerance) {
-        if (fresh) return true;
-        refresh();
-        fresh = true;
-        gather();
-        certificate_ = certify();
-        if (certificate_ <= options_.tolerance) return true;
-        restart = true;
-      }
+      if (certificate_ <= options_.tolerance) return true;
       if (certificate_ < 0.98 * best) {
         best = certificate_;
         since_best = 0;
-      } else if (++since_best > 150) {
-        break;
+      } else if (++since_best > 100) {
+        return false;
       }
-      // Residual on the free set, its preconditioned direction, Polak-Ribiere+.
-      const std::size_t m = free_.size();
-      r_.resize(m);
-      for (std::size_t k = 0; k < m; ++k) r_[k] = w_[free_[k]] - shift_;
+      if (iterations_ >= options_.max_iterations) return false;
+
       precondition();
-      double gz = 0, cross = 0;
-      for (std::size_t k = 0; k < m; ++k) {
-        gz += r_[k] * z_[k];
-        if (!restart) cross += z_[k] * previous_r_[free_[k]];
-      }
-      const double beta =
-          restart || previous_gz <= 0 ? 0 : std::max(0.0, (gz - cross) / previous_gz);
-      previous_gz = gz;
-      if (previous_r_.size() != grid_.size()) previous_r_.assign(grid_.size(), 0);
-      for (std::size_t k = 0; k < m; ++k) previous_r_[free_[k]] = r_[k];
-      for (std::size_t k = 0; k < m; ++k) {
-        d_[free_[k]] = z_[k] + beta * d_[free_[k]];
-      }
-      remove_mean(beta > 0);
-      kernel_.displace(d_, u_, scratch_);
+      direct(conjugate);
+      const bool clipped = move(alpha);
+      kernel_.displace(p_, next_, scratch_);
       ++pairs_;
-      double rd = 0, dud = 0;
-      for (std::size_t k = 0; k < m; ++k) {
-        const std::size_t i = free_[k];
-        rd += r_[k] * d_[i];
-        dud += d_[i] * u_[i];
+      // Exact minimum along the step taken, t = 1 being its end. A step that ran into the bounds is
+      // kept unless it went too far: its end tells which pixels are free.
+      double slope = 0, curvature = 0, longest = kInfinity;
+      for (std::size_t k = 0; k < free_.size(); ++k) {
+        const int i = free_[k];
+        const double s = step_[i];
+        slope += r_[k] * s;
+        curvature += (next_[i] + g0_[i] - w_[i]) * s;
+        if (s < 0) longest = std::min(longest, (p_[i] - s) / -s);
+        if (s > 0) longest = std::min(longest, (cap_ - p_[i] + s) / s);
       }
-      const double alpha = dud > 0 ? rd / dud : 0;
-      restart = alpha <= 0;
-      // Step; what leaves the box is clipped; free pixels that would penetrate join.
-      bool clipped = false;
-      for (std::size_t i : free_) {
-        p_[i] -= alpha * d_[i];
-        if (p_[i] <= 0) {
-          clipped = clipped || p_[i] < 0;
-          p_[i] = 0;
-        } else if (p_[i] >= cap_) {
-          clipped = clipped || p_[i] > cap_;
-          p_[i] = cap_;
-        }
-      }
-      for (std::size_t i = 0; i < p_.size(); ++i) w_[i] -= alpha * u_[i];
-      const bool joined = join();
-      if (clipped || joined) {
-        rescale();
-        refresh();
-        fresh = true;
+      double t = curvature > 0 ? -slope / curvature : 0;
+      if (t > 0) alpha = std::clamp(alpha * t, 0.05, 20.0);
+      if (clipped) {
+        t = t > 0.85 ? 1 : std::max(t, 0.0);
       } else {
-        fresh = false;
+        t = std::clamp(t, 0.0, longest);
       }
-      gather();
+      conjugate = t > 0;
+      if (t == 0) alpha = std::max(0.05, 0.3 * alpha);
+      advance(t);
     }
-    refresh();
-    gather();
-    certificate_ = certify();
-    return certificate_ <= options_.tolerance;
   }
 
  private:
-  // Pixels outside the free set whose gap has the wrong sign get the pressure that their own
-  // compliance asks for, times a safety share: independent of any preconditioner's scale.
-  bool join() {
-    bool any = false;
-    const double step = 0.5 / kernel_.self_compliance();
-    const double shift = free_shift();
+  static constexpr int kReach = ContactKernel::kReach;
+
+  void start() {
+    scale_to_load();
+    kernel_.displace(p_, next_, scratch_);
+    ++pairs_;
+    old_.clear();
     for (std::size_t i = 0; i < p_.size(); ++i) {
-      const double v = w_[i] - shift;
-      if (p_[i] == 0 && v < 0 && slot_[i] < 0) {
-        p_[i] = std::min(-v * step, cap_);
-        any = true;
-      } else if (p_[i] == cap_ && v > 0 && slot_[i] < 0) {
-        p_[i] = std::max(0.0, cap_ - v * step);
-        any = true;
-      }
+      if (p_[i] > 0) old_.push_back(static_cast<int>(i));
     }
-    return any;
+    arrive(1);
   }
 
-  // p scaled (below a cap: shifted by bisection) to the load.
-  void rescale() {
+  // p scaled to the load over the whole grid; below a cap what overflows goes to the others.
+  void scale_to_load() {
+    const auto n = static_cast<double>(p_.size());
     double sum = 0;
     for (double v : p_) sum += v;
     if (sum <= 0) {
-      std::fill(p_.begin(), p_.end(), load_ / static_cast<double>(p_.size()));
-      return;
-    }
-    if (!std::isfinite(cap_)) {
-      const double factor = load_ / sum;
-      for (double& v : p_) v *= factor;
+      std::fill(p_.begin(), p_.end(), load_ / n);
       return;
     }
     double factor = load_ / sum;
-    for (int i = 0; i < 60; ++i) {  // capped pixels stay capped: scale the rest until the load fits
-      double total = 0;
+    if (!std::isfinite(cap_)) {
+      for (double& v : p_) v *= factor;
+      return;
+    }
+    for (int k = 0; k < 60; ++k) {
+      double total = 0, open = 0;
       for (double& v : p_) {
         v = std::min(v * factor, cap_);
         total += v;
+        if (v < cap_) open += v;
       }
-      if (std::abs(total - load_) <= 1e-14 * load_) break;
-      factor = load_ / total;
-      if (i == 59 || total <= 0) break;
-      double free = 0;
-      for (double v : p_) free += v < cap_ ? v : 0;
-      if (free <= 0) {  // everything at the cap but load left: open the whole patch
-        const double extra = (load_ - total) / static_cast<double>(p_.size());
-        for (double& v : p_) v = std::min(v + extra, cap_);
-      } else {
-        factor = 1 + (load_ - total) / free;
+      if (std::abs(total - load_) <= 1e-14 * load_) return;
+      if (open > 0 && open + load_ - total > 0) {
+        factor = 1 + (load_ - total) / open;
+      } else {  // everything is at the cap but load is left: open the whole patch
+        for (double& v : p_) v = std::min(v + (load_ - total) / n, cap_);
+        factor = 1;
       }
     }
   }
 
-  void refresh() {
-    kernel_.displace(p_, w_, scratch_);
-    ++pairs_;
-    for (std::size_t i = 0; i < w_.size(); ++i) w_[i] += g0_[i];
-  }
-
-  void gather() {
-    for (std::size_t i : free_) slot_[i] = -1;
-    std::vector<std::size_t>& next = next_free_;
-    next.clear();
-    for (std::size_t i = 0; i < p_.size(); ++i) {
-      if (p_[i] > 0 && p_[i] < cap_) next.push_back(i);
-    }
-    for (std::size_t k = 0; k < next.size(); ++k) slot_[next[k]] = static_cast<int>(k);
-    // directions of pixels that left the set are forgotten
-    for (std::size_t i : free_) {
-      if (slot_[i] < 0) d_[i] = 0;
-    }
-    free_.swap(next);
-    shift_ = free_shift();
-  }
-
-  double free_shift() const {
+  // Gap function and lists of the new p_, at t from the old gap function w_ to that of the
+  // transform in next_, where the old one is kept. old_ holds every pixel under pressure; then
+  // free_: pixels between the bounds and those at a bound whose gap has the wrong sign; held_:
+  // others at the cap.
+  void arrive(double t) {
+    const auto blend = [&](std::size_t i) {
+      return t == 1 ? next_[i] + g0_[i] : w_[i] + t * (next_[i] + g0_[i] - w_[i]);
+    };
     double sum = 0;
     std::size_t count = 0;
-    for (std::size_t i : free_) {
-      sum += w_[i];
-      ++count;
+    for (int i : old_) {
+      if (p_[i] > 0 && p_[i] < cap_) {
+        sum += blend(i);
+        ++count;
+      }
     }
-    if (count > 0) return sum / static_cast<double>(count);
-    double low = std::numeric_limits<double>::infinity();
-    for (double w : w_) low = std::min(low, w);
-    return low;
+    shift_ = count > 0 ? sum / static_cast<double>(count) : kInfinity;
+    if (count == 0) {  // all at the cap: the lowest pixel that is not
+      for (std::size_t i = 0; i < p_.size(); ++i) {
+        if (p_[i] == 0) shift_ = std::min(shift_, blend(i));
+      }
+    }
+    free_.clear();
+    held_.clear();
+    for (int i : old_) {
+      if (p_[i] <= 0) continue;
+      if (p_[i] < cap_ || blend(i) > shift_) {
+        free_.push_back(i);
+      } else {
+        held_.push_back(i);
+      }
+    }
+    constexpr std::size_t kBlock = 64;
+    low_ = kInfinity;
+    for (std::size_t begin = 0; begin < p_.size(); begin += kBlock) {
+      const std::size_t end = std::min(begin + kBlock, p_.size());
+      double low = kInfinity, joining = 0;
+#pragma omp simd reduction(min : low) reduction(+ : joining)
+      for (std::size_t i = begin; i < end; ++i) {
+        const double fresh = next_[i] + g0_[i];
+        const double w = t == 1 ? fresh : w_[i] + t * (fresh - w_[i]);
+        next_[i] = w;
+        low = low < w ? low : w;
+        joining += w < shift_ && p_[i] == 0 ? 1.0 : 0.0;
+      }
+      low_ = std::min(low_, low);
+      if (joining == 0) continue;
+      for (std::size_t i = begin; i < end; ++i) {
+        if (p_[i] == 0 && next_[i] < shift_) free_.push_back(static_cast<int>(i));
+      }
+    }
+    w_.swap(next_);
+    r_.resize(free_.size());
+    for (std::size_t k = 0; k < free_.size(); ++k) r_[k] = w_[free_[k]] - shift_;
   }
 
-  // z = inverse-kernel stencil on the free set, projected to zero mean in the metric of the
-  // stencil.
+  // z = inverse-kernel stencil on the free set (single precision suffices for a direction),
+  // projected to zero mean in the metric of the stencil.
   void precondition() {
-    constexpr int reach = ContactKernel::kReach;
+    constexpr int kWide = ContactKernel::kStencilWidth;
     const std::size_t m = free_.size();
     z_.resize(m);
     ones_.resize(m);
-    for (std::size_t k = 0; k < m; ++k) {
-      const int ix = static_cast<int>(free_[k]) % grid_.nx,
-                iy = static_cast<int>(free_[k]) / grid_.nx;
-      const bool inside =
-          ix >= reach && ix + reach < grid_.nx && iy >= reach && iy + reach < grid_.ny;
-      double sum = 0, one = 0;
-      for (int dy = -reach; dy <= reach; ++dy) {
-        const std::size_t row = grid_.index(0, inside ? iy + dy : wrap(iy + dy, grid_.ny));
-        for (int dx = -reach; dx <= reach; ++dx) {
-          const int jx = inside ? ix + dx : wrap(ix + dx, grid_.nx);
-          const int slot = slot_[row + static_cast<std::size_t>(jx)];
-          if (slot < 0) continue;
-          const double t = kernel_.inverse(dx, dy);
-          sum += t * r_[static_cast<std::size_t>(slot)];
-          one += t;
-        }
-      }
-      z_[k] = sum;
-      ones_[k] = one;
-    }
+    for (std::size_t k = 0; k < m; ++k) spread(free_[k], static_cast<float>(r_[k]), 1.0F);
     double sum_z = 0, sum_one = 0;
     for (std::size_t k = 0; k < m; ++k) {
+      const int ix = free_[k] % grid_.nx, iy = free_[k] / grid_.nx;
+      float value[kWide] = {}, one[kWide] = {};
+      for (int dy = 0; dy <= 2 * kReach; ++dy) {
+        const std::size_t at = static_cast<std::size_t>(iy + dy) * width_ + ix;
+        const float* t = kernel_.stencil(dy);
+        const float* a = residual_.data() + at;
+        const float* b = inside_.data() + at;
+#pragma omp simd
+        for (int j = 0; j < kWide; ++j) {
+          value[j] += t[j] * a[j];
+          one[j] += t[j] * b[j];
+        }
+      }
+      float z = 0, o = 0;
+      for (int j = 0; j < kWide; ++j) {
+        z += value[j];
+        o += one[j];
+      }
+      z_[k] = z;
+      ones_[k] = o;
       sum_z += z_[k];
       sum_one += ones_[k];
     }
+    for (int i : free_) spread(i, 0, 0);
     if (sum_one > 0) {
       for (std::size_t k = 0; k < m; ++k) z_[k] -= sum_z / sum_one * ones_[k];
     }
   }
 
-  // The direction must not change the load (the old direction loses pixels when they leave).
-  void remove_mean(bool needed) {
-    if (!needed || free_.empty()) return;
+  // A pixel and its periodic images within the margin.
+  void spread(int i, float value, float one) {
+    const int ix = i % grid_.nx, iy = i / grid_.nx;
+    for (int y = iy - grid_.ny; y < grid_.ny + kReach; y += grid_.ny) {
+      if (y < -kReach) continue;
+      for (int x = ix - grid_.nx; x < grid_.nx + kReach; x += grid_.nx) {
+        if (x < -kReach) continue;
+        const std::size_t at = static_cast<std::size_t>(y + kReach) * width_ + (x + kReach);
+        residual_[at] = value;
+        inside_[at] = one;
+      }
+    }
+  }
+
+  // d_ = z plus the share of the last step that makes it conjugate to it (Polak-Ribiere+), without
+  // load. step_ and next_ hold the last step and the gap function before it.
+  void direct(bool conjugate) {
+    const std::size_t m = free_.size();
+    double share = 0;
+    if (conjugate) {
+      double cross = 0, own = 0;
+      for (std::size_t k = 0; k < m; ++k) {
+        const int i = free_[k];
+        const double y = w_[i] - next_[i];
+        cross += z_[k] * y;
+        own += step_[i] * y;
+      }
+      if (own > 0) share = std::min(0.0, -cross / own);
+    }
+    d_.resize(m);
     double sum = 0, ones = 0;
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      sum += d_[free_[k]];
+    for (std::size_t k = 0; k < m; ++k) {
+      d_[k] = z_[k] + share * step_[free_[k]];
+      sum += d_[k];
       ones += ones_[k];
     }
-    for (std::size_t k = 0; k < free_.size(); ++k) d_[free_[k]] -= sum / ones * ones_[k];
+    if (ones > 0) {
+      for (std::size_t k = 0; k < m; ++k) d_[k] -= sum / ones * ones_[k];
+    }
+    for (int i : old_) step_[i] = 0;
+  }
+
+  // p_ along -alpha d_, cut at the bounds, the load restored; step_ = what it changed by. True if a
+  // pixel under pressure met a bound. No step where the free pixels cannot carry the load.
+  bool move(double alpha) {
+    bool clipped = false;
+    double sum = 0;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      const int i = free_[k];
+      double v = p_[i] - alpha * d_[k];
+      if (v <= 0) {
+        clipped = clipped || p_[i] > 0;
+        v = 0;
+      } else if (v >= cap_) {
+        clipped = clipped || p_[i] < cap_;
+        v = cap_;
+      }
+      step_[i] = -p_[i];
+      p_[i] = v;
+      sum += v;
+    }
+    const double load = held_.empty() ? load_ : load_ - cap_ * static_cast<double>(held_.size());
+    for (int k = 0; k < 60 && std::abs(sum - load) > 1e-15 * load; ++k) {
+      double open = 0;  // too much scales down what is at the cap too, too little cannot raise it
+      for (int i : free_) open += sum > load || p_[i] < cap_ ? p_[i] : 0;
+      if (open <= 0) {
+        for (int i : free_) {
+          p_[i] = -step_[i];
+          step_[i] = 0;
+        }
+        return true;
+      }
+      const double factor = 1 + (load - sum) / open;
+      double total = 0;
+      for (int i : free_) {
+        if (sum > load || p_[i] < cap_) p_[i] = std::min(p_[i] * factor, cap_);
+        total += p_[i];
+      }
+      sum = total;
+      if (!std::isfinite(cap_)) break;
+    }
+    for (int i : free_) step_[i] += p_[i];
+    return clipped;
+  }
+
+  // State at t of the step.
+  void advance(double t) {
+    if (t != 1) {
+      for (int i : free_) {
+        p_[i] = std::clamp(p_[i] - (1 - t) * step_[i], 0.0, cap_);
+        step_[i] *= t;
+      }
+    }
+    old_ = free_;
+    old_.insert(old_.end(), held_.begin(), held_.end());
+    arrive(t);
   }
 
   // Frank-Wolfe gap over load and height spread. Eq. contact.4
   double certify() {
-    double low = std::numeric_limits<double>::infinity(), work = 0;
-    for (std::size_t i = 0; i < p_.size(); ++i) {
-      low = std::min(low, w_[i]);
-      work += p_[i] * w_[i];
-    }
-    double least = low * load_;
-    if (std::isfinite(
-            cap_)) {  // the cheapest admissible pressure fills the lowest pixels to the cap
-      std::vector<double> sorted(w_.begin(), w_.end());
-      const double full = load_ / cap_;
-      const auto whole = std::min(sorted.size() - 1, static_cast<std::size_t>(full));
-      std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(whole),
-                       sorted.end());
+    double work = 0;
+    for (int i : old_) work += p_[i] * w_[i];
+    double least = low_ * load_;
+    if (std::isfinite(cap_)) {  // the cheapest pressure fills the lowest pixels to the cap
+      next_low_.assign(w_.begin(), w_.end());
+      const auto whole = std::min(next_low_.size() - 1, static_cast<std::size_t>(load_ / cap_));
+      std::nth_element(next_low_.begin(), next_low_.begin() + static_cast<std::ptrdiff_t>(whole),
+                       next_low_.end());
       least = 0;
-      for (std::size_t i = 0; i < whole; ++i) least += cap_ * sorted[i];
-      least += (load_ - cap_ * static_cast<double>(whole)) * sorted[whole];
+      for (std::size_t i = 0; i < whole; ++i) least += cap_ * next_low_[i];
+      least += (load_ - cap_ * static_cast<double>(whole)) * next_low_[whole];
     }
     return std::max(0.0, work - least) / (load_ * spread_);
   }
@@ -285,19 +349,20 @@ class DenseSolver {
   std::span<const double> g0_;
   double spread_, cap_, load_ = 0;
   const ContactOptions& options_;
-  RealArray p_, w_, d_, u_;
+  RealArray p_, w_, next_, step_;
   SpectrumArray scratch_;
-  std::vector<int> slot_;  // position in free_, or -1
-  std::vector<std::size_t> free_, next_free_;
-  std::vector<double> r_, z_, ones_, previous_r_;
-  double pairs_ = 0, certificate_ = 0, shift_ = 0;
+  int width_;                             // of the padded images below
+  std::vector<float> residual_, inside_;  // of the free pixels; zero between uses
+  std::vector<int> free_, held_, old_;    // old_: the free set of the last step, held ones included
+  std::vector<double> r_, z_, ones_, d_, next_low_;
+  double pairs_ = 0, certificate_ = 0, shift_ = 0, low_ = 0;
   int iterations_ = 0;
 };
 
-// Start from the grid of half the pixels: gaps by the 2x2 minimum, pressure handed back a pixel
-// each.
+// Start from the grid of half the pixels, its gaps the 2x2 minimum, solved as far as the start is
+// worth. pairs grows in units of the finest grid, of which this grid's pair costs `unit`.
 RealArray nested_start(const ContactKernel& kernel, std::span<const double> g0, double spread,
-                       double mean, const ContactOptions& options, double& pairs) {
+                       double mean, const ContactOptions& options, double unit, double& pairs) {
   const ContactKernel& coarse = *kernel.coarse();
   const Grid &fine_grid = kernel.grid(), &grid = coarse.grid();
   std::vector<double> gap(grid.size());
@@ -310,23 +375,35 @@ RealArray nested_start(const ContactKernel& kernel, std::span<const double> g0, 
     }
   }
   ContactOptions loose = options;
-  loose.tolerance = std::max(options.tolerance, 3e-4);
+  loose.tolerance = std::max(options.tolerance, 2e-2);
   loose.max_iterations = 200;
   DenseSolver solver(coarse, gap, spread, loose);
   if (coarse.coarse()) {
-    solver.pressure() = nested_start(coarse, gap, spread, mean, loose, pairs);
+    solver.pressure() = nested_start(coarse, gap, spread, mean, loose, 0.25 * unit, pairs);
   } else {
     std::fill(solver.pressure().begin(), solver.pressure().end(), mean);
   }
   solver.solve(mean);
-  pairs += 0.25 * solver.pairs();
-  // Only children below the coarse rigid level can touch; the lowest child always may.
+  pairs += 0.25 * unit * solver.pairs();
+  // The load of a coarse pixel goes to its children as if they were springs of a pixel's own
+  // compliance at their heights.
   RealArray fine(fine_grid.size(), 0.0);
+  const double yield = kernel.self_compliance();
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       const double p = solver.pressure()[grid.index(ix, iy)];
       if (p <= 0) continue;
-      for (int k = 0; k < 4; ++k) fine[fine_grid.index(2 * ix + k % 2, 2 * iy + k / 2)] = p;
+      std::size_t child[4];
+      for (int k = 0; k < 4; ++k) child[k] = fine_grid.index(2 * ix + k % 2, 2 * iy + k / 2);
+      std::sort(child, child + 4, [&](std::size_t i, std::size_t j) { return g0[i] < g0[j]; });
+      double level = 0, below = 0;
+      int count = 0;
+      while (count < 4) {
+        below += g0[child[count++]];
+        level = (4 * p * yield + below) / count;
+        if (count == 4 || level <= g0[child[count]]) break;
+      }
+      for (int k = 0; k < count; ++k) fine[child[k]] = (level - g0[child[k]]) / yield;
     }
   }
   return fine;
@@ -342,7 +419,7 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   ContactSolution out;
   out.pressure.assign(n, 0);
   out.gap.assign(n, 0);
-  double mean_height = 0, squares = 0, highest = -std::numeric_limits<double>::infinity();
+  double mean_height = 0, squares = 0, highest = -kInfinity;
   bool finite = std::isfinite(mean_pressure);
   for (double h : height) mean_height += h;
   mean_height /= static_cast<double>(n);
@@ -401,7 +478,7 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   if (warm) {
     std::copy(start->pressure.begin(), start->pressure.end(), solver.pressure().begin());
   } else if (kernel.coarse()) {
-    solver.pressure() = nested_start(kernel, g0, spread, mean, options, coarse_pairs);
+    solver.pressure() = nested_start(kernel, g0, spread, mean, options, 1, coarse_pairs);
   } else {
     std::fill(solver.pressure().begin(), solver.pressure().end(), mean);
   }

@@ -73,9 +73,15 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
   }
   RealArray table(grid.size());
   fft_->inverse(stiffness.data(), table.data());
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    for (int dx = -kReach; dx <= kReach; ++dx) {
-      inverse_.push_back(table[grid.index(wrap(dx, grid.nx), wrap(dy, grid.ny))]);
+  stencil_.assign((2 * kReach + 1) * kStencilWidth, 0);
+  const auto first = [](int count) {
+    return -std::min(kReach, (count - 1) / 2);
+  };  // each pixel once
+  const auto last = [](int count) { return std::min(kReach, count / 2); };
+  for (int dy = first(grid.ny); dy <= last(grid.ny); ++dy) {
+    for (int dx = first(grid.nx); dx <= last(grid.nx); ++dx) {
+      stencil_[static_cast<std::size_t>((dy + kReach) * kStencilWidth + dx + kReach)] =
+          static_cast<float>(table[grid.index(wrap(dx, grid.nx), wrap(dy, grid.ny))]);
     }
   }
   RealArray impulse(grid.size(), 0.0);
