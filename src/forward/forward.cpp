@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
+#include "forward/scale_bridge.h"
 #include "geometry/roughness.h"
 
 namespace papilla {
@@ -80,13 +81,15 @@ class PointBuilder {
         fidelity_(fidelity),
         errors_(stated_errors(plan, fidelity, scene)) {}
 
-  ResponsePoint build(double rh, double weight, const std::vector<PatchResult>& patches) const {
+  ResponsePoint build(double rh, double weight, const ScaleBridge& bridge,
+                      const std::vector<PatchResult>& patches) const {
     ResponsePoint point;
     point.relative_humidity = rh;
     point.weight = weight;
-    point.patch_pressure = scene_.finger.patch_pressure(rh);
+    point.patch_pressure = bridge.mean_pressure();
     const MacroContact& macro = scene_.finger.macro;
-    const double carrying = macro.load_share * macro.gross_area(scene_.finger.load, rh);  // [m^2]
+    const double carrying =
+        bridge.carrying_share() * macro.gross_area(scene_.finger.load, rh);  // [m^2]
     const double patches_per_finger = carrying / plan_.grid.area();
 
     std::vector<double> load_dry, water_share;
@@ -219,7 +222,11 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
   const std::vector<double>& humidities = scene.environment.relative_humidity;
   PAPILLA_CHECK(!humidities.empty(), "one humidity at least");
   std::vector<std::shared_ptr<const ContactKernel>> kernels;
-  for (double rh : humidities) kernels.push_back(kernel_at(scene, grid, rh));
+  std::vector<ScaleBridge> bridges;
+  for (double rh : humidities) {
+    kernels.push_back(kernel_at(scene, grid, rh));
+    bridges.emplace_back(scene, fidelity, grid, rh);
+  }
 
   // results[humidity][skin]
   std::vector<std::vector<PatchResult>> results(
@@ -230,17 +237,22 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
         const int index = fidelity.first_skin + k;
         const Heightmap skin = skin_patch(scene, grid, fidelity, index);
         const std::vector<double> height = added(surface, skin);
-        ContactSolution start;  // the dry contact of the previous humidity
+        // One a patch pressure: the dry contact of the previous humidity.
+        std::vector<ContactSolution> start(bridges[0].pressures().size());
+        std::vector<PatchResult> patches;
         for (std::size_t i = 0; i < humidities.size(); ++i) {
-          const PatchProblem problem{&scene,
-                                     &surface,
-                                     height,
-                                     kernels[i].get(),
-                                     humidities[i],
-                                     scene.finger.patch_pressure(humidities[i]),
-                                     static_cast<std::uint64_t>(index)};
-          results[i][static_cast<std::size_t>(k)] =
-              solve_patch(problem, response.plan, fidelity, start);
+          patches.clear();
+          for (double pressure : bridges[i].pressures()) {
+            const PatchProblem problem{&scene,
+                                       &surface,
+                                       height,
+                                       kernels[i].get(),
+                                       humidities[i],
+                                       pressure,
+                                       static_cast<std::uint64_t>(index)};
+            patches.push_back(solve_patch(problem, response.plan, fidelity, start[patches.size()]));
+          }
+          results[i][static_cast<std::size_t>(k)] = bridges[i].combine(patches);
         }
       },
       fidelity.threads);
@@ -248,7 +260,7 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
   const PointBuilder builder(scene, response.plan, fidelity);
   for (std::size_t i = 0; i < humidities.size(); ++i) {
     const double weight = scene.environment.weights.empty() ? 1 : scene.environment.weights[i];
-    response.points.push_back(builder.build(humidities[i], weight, results[i]));
+    response.points.push_back(builder.build(humidities[i], weight, bridges[i], results[i]));
     for (const PatchResult& patch : results[i]) {
       response.contact_solves += patch.contact_solves;
       response.fft_pairs += patch.fft_pairs;
@@ -271,13 +283,14 @@ PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fid
   const std::vector<double> height = added(picture.texture, picture.skin);
   const auto kernel = kernel_at(scene, plan.grid, relative_humidity);
   ContactSolution start;
-  const PatchProblem problem{&scene,
-                             &picture.texture,
-                             height,
-                             kernel.get(),
-                             relative_humidity,
-                             scene.finger.patch_pressure(relative_humidity),
-                             static_cast<std::uint64_t>(fidelity.first_skin + index)};
+  const PatchProblem problem{
+      &scene,
+      &picture.texture,
+      height,
+      kernel.get(),
+      relative_humidity,
+      ScaleBridge(scene, fidelity, plan.grid, relative_humidity).mean_pressure(),
+      static_cast<std::uint64_t>(fidelity.first_skin + index)};
   solve_patch(problem, plan, fidelity, start, &picture.fields);
   return picture;
 }

@@ -74,6 +74,19 @@ void fields(FieldVisitor& v, MacroContact& s) {
   v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength tau", Source::Paper,
             "M3: 9 MPa"},
            s.shear_strength);
+  v.number(
+      {"ridge_rms", "um", 1e-3, 1e4, "closure persson: rms height of ridges above the patch size",
+       Source::Fit, "capacitance gap 1.06 um (seed 004); casts: below 5 um"},
+      s.ridge_rms);
+  v.number({"ridge_longest", "mm", 1e-3, 1e3, "closure persson: longest wavelength of that",
+            Source::Estimate, "seed 001: roll-off of wrist skin"},
+           s.ridge_longest);
+  v.number({"corneum_thickness", "um", 0, 1e5, "closure persson: thickness of the stratum corneum",
+            Source::Paper, "seed 001"},
+           s.corneum_thickness);
+  v.number({"tissue_modulus", "kPa", 1e-3, 1e9, "closure persson: Young's modulus below it",
+            Source::Paper, "seed 001"},
+           s.tissue_modulus);
 }
 
 double ElectricalLayer::equivalent_thickness(double relative_humidity) const {

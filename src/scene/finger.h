@@ -41,6 +41,9 @@ struct MacroContact {
   double ridge_share = 0.3;     // share of the gross area on ridges
   double load_share = 0.0063;   // phi: share of the gross area that carries the load
   double shear_strength = 9e6;  // tau, interfacial [Pa]
+  // Of closure "persson": the ridges' surface above the patch size, and what it lies on.
+  double ridge_rms = 2.2e-6, ridge_longest = 1e-3;           // rms height, longest wavelength [m]
+  double corneum_thickness = 200e-6, tissue_modulus = 10e3;  // [m], Young's modulus [Pa]
 
   // Gross contact area at a load [N] and relative humidity (0-1). Eq. scene.2
   double gross_area(double load, double relative_humidity) const;

@@ -136,5 +136,51 @@ TEST(Plan, SaysWhatIsSkippedAndWhy) {
 
 TEST(Fidelity, AnUnknownLevelIsRefused) { EXPECT_THROW(fidelity_level("best"), InputError); }
 
+TEST(ScaleBridge, ClosuresGiveTheSameFrictionWithoutVoltage) {
+  // Area is proportional to load, so it does not matter how the load is shared out.
+  Scene uniform;
+  uniform.finger.water.volume = {0, 0, 0, 0};
+  Scene persson = uniform;
+  persson.model.closure = Closure::Persson;
+  const Response a = evaluate(uniform, Texture{}, small());
+  const Response b = evaluate(persson, Texture{}, small());
+  EXPECT_EQ(b.trouble(), "");
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    EXPECT_NEAR(b.points[i].friction_off.value, a.points[i].friction_off.value,
+                0.15 * a.points[i].friction_off.value);
+    EXPECT_GT(b.points[i].patch_pressure, a.points[i].patch_pressure);
+  }
+  EXPECT_EQ(b.contact_solves, 3 * a.contact_solves);
+}
+
+TEST(ScaleBridge, OpenGapsAddToThePull) {
+  Scene scene = driven_scene();
+  scene.drive.amplitude = 100;
+  scene.model.closure = Closure::Persson;
+  Scene rough = scene;
+  rough.finger.macro.ridge_rms = 5e-6;
+  const Response smooth_ridge = evaluate(scene, Texture{}, small());
+  const Response rough_ridge = evaluate(rough, Texture{}, small());
+  for (std::size_t i = 0; i < smooth_ridge.points.size(); ++i) {
+    const ResponsePoint& p = smooth_ridge.points[i];
+    EXPECT_GT(p.modulation.value, rough_ridge.points[i].modulation.value);
+    // The load of a patch: preload, capillary force and all of the pull.
+    const double ratio = p.electrostatic_force.value / scene.finger.load;
+    EXPECT_GT(ratio, 0.1);
+    EXPECT_LT(p.modulation.value, 1.2 * ratio);
+  }
+}
+
+TEST(ScaleBridge, RidgesThatCloseUnderVoltageAreAPullIn) {
+  Scene scene = driven_scene();
+  scene.drive.amplitude = 5e3;
+  scene.environment.relative_humidity = {0.75};
+  scene.model.closure = Closure::Persson;
+  scene.finger.macro.ridge_rms = 0.2e-6;
+  const Response r = evaluate(scene, Texture{}, small(1));
+  EXPECT_NE(r.trouble(), "");
+  EXPECT_TRUE(std::isfinite(r.points[0].friction_on.value));
+}
+
 }  // namespace
 }  // namespace papilla

@@ -157,7 +157,10 @@ double PowerSpectrum::moment(int order, double low, double high) const {
     if (!(b > a)) continue;
     const double e =
         std::log(density[i + 1] / density[i]) / std::log(wave_number[i + 1] / wave_number[i]);
-    sum += density[i] * std::pow(wave_number[i], -e) * power_integral(order + 1 + e, a, b);
+    // In units of the knot: steep pieces (steps) do not overflow.
+    const double unit = wave_number[i];
+    sum +=
+        density[i] * std::pow(unit, order + 2) * power_integral(order + 1 + e, a / unit, b / unit);
   }
   return 2 * kPi * sum;
 }
@@ -234,7 +237,7 @@ MeanField::MeanField(PowerSpectrum spectrum, MeanFieldSolid solid, MeanFieldOpti
 
   const double step = std::log(spectrum_.highest() / spectrum_.lowest()) / options_.intervals;
   q_ = {spectrum_.lowest()};
-  std::vector<double> exponent, scale;  // C = scale q^exponent in each interval
+  std::vector<double> exponent, scale, unit;  // C = scale (q/unit)^exponent in each interval
   for (std::size_t i = 0; i + 1 < spectrum_.wave_number.size(); ++i) {
     const double a = spectrum_.wave_number[i], b = spectrum_.wave_number[i + 1];
     PAPILLA_CHECK(a > 0 && b > a && spectrum_.density[i] > 0 && spectrum_.density[i + 1] > 0,
@@ -245,7 +248,8 @@ MeanField::MeanField(PowerSpectrum spectrum, MeanFieldSolid solid, MeanFieldOpti
     for (int k = 1; k <= pieces; ++k) {
       q_.push_back(k == pieces ? b : a * std::exp(length * k / pieces));
       exponent.push_back(e);
-      scale.push_back(spectrum_.density[i] * std::pow(a, -e));
+      scale.push_back(spectrum_.density[i]);
+      unit.push_back(a);
     }
   }
   const std::size_t n = q_.size() - 1;
@@ -259,7 +263,7 @@ MeanField::MeanField(PowerSpectrum spectrum, MeanFieldSolid solid, MeanFieldOpti
     double sum = 0;
     for (int k = 0; k < 4; ++k) {
       const double q = std::exp(mid + half * rule.nodes[k]);
-      const double c = scale[i] * std::pow(q, exponent[i]);
+      const double c = scale[i] * std::pow(q / unit[i], exponent[i]);
       sum += half * rule.weights[k] * square(q * q * effective_modulus(solid_, q)) * c;
     }
     return kPi * reduction * sum;
@@ -273,14 +277,15 @@ MeanField::MeanField(PowerSpectrum spectrum, MeanFieldSolid solid, MeanFieldOpti
     measure_[i + 1] = measure_mid_[2 * i + 1] + measure_between(i, second, q_[i + 1]);
     for (int k = 0; k < 2; ++k) {
       const double q = k == 0 ? first : second;
-      weight_[2 * i + k] = std::sqrt(kPi) * cube(q) * scale[i] * std::pow(q, exponent[i]) *
-                           effective_modulus(solid_, q) * half;
+      weight_[2 * i + k] = std::sqrt(kPi) * cube(q) * scale[i] *
+                           std::pow(q / unit[i], exponent[i]) * effective_modulus(solid_, q) * half;
     }
   }
   variance_.assign(n + 1, 0);
   for (std::size_t i = n; i-- > 0;) {
-    variance_[i] =
-        variance_[i + 1] + 2 * kPi * scale[i] * power_integral(1 + exponent[i], q_[i], q_[i + 1]);
+    variance_[i] = variance_[i + 1] +
+                   2 * kPi * scale[i] * square(unit[i]) *
+                       power_integral(1 + exponent[i], q_[i] / unit[i], q_[i + 1] / unit[i]);
   }
   const GapIntegrals& integrals = gap_integrals();
   gap_table_.resize(kTableSize);

@@ -1,0 +1,124 @@
+#include "forward/scale_bridge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numeric>
+
+#include "base/check.h"
+#include "base/constants.h"
+#include "physics/persson/persson.h"
+
+namespace papilla {
+namespace {
+
+// Spectrum of the ridge above the patch size, then that of the skin within patches.
+PowerSpectrum ridge_and_skin(const Finger& finger, double q_patch) {
+  const MacroContact& macro = finger.macro;
+  const Skin& skin = finger.skin;
+  const double lowest = std::min(2 * kPi / macro.ridge_longest, 0.5 * q_patch);
+  PowerSpectrum all = self_affine_spectrum(macro.ridge_rms, lowest, lowest, q_patch, skin.hurst);
+  const double roll_off = 2 * kPi / skin.roll_off, cutoff = 2 * kPi / skin.cutoff;
+  if (cutoff <= q_patch || skin.rms == 0) return all;
+  const double begin = std::min(q_patch, roll_off);
+  const PowerSpectrum within =
+      self_affine_spectrum(skin.rms, begin, roll_off, cutoff, skin.hurst).between(q_patch, cutoff);
+  for (std::size_t i = 0; i < within.wave_number.size(); ++i) {
+    const double q = i == 0 ? q_patch * (1 + 1e-9) : within.wave_number[i];
+    if (q <= all.wave_number.back()) continue;
+    all.wave_number.push_back(q);
+    all.density.push_back(within.density[i]);
+  }
+  return all;
+}
+
+}  // namespace
+
+ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Grid& grid,
+                         double relative_humidity)
+    : closure_(scene.model.closure), patch_area_(grid.area()) {
+  const Finger& finger = scene.finger;
+  const MacroContact& macro = finger.macro;
+  if (closure_ == Closure::Uniform) {
+    carrying_share_ = macro.load_share;
+    mean_pressure_ = nominal_ = finger.patch_pressure(relative_humidity);
+    pressures_ = {mean_pressure_};
+    return;
+  }
+  carrying_share_ = macro.ridge_share;
+  nominal_ = finger.load / (macro.ridge_share * macro.gross_area(finger.load, relative_humidity));
+  const double q_patch = 2 * kPi / std::sqrt(grid.area());
+  const double factor = finger.skin.modulus_factor(relative_humidity);
+  const MeanField field(ridge_and_skin(finger, q_patch),
+                        {finger.skin.bulk_modulus * factor, finger.skin.bulk_poisson,
+                         macro.corneum_thickness, macro.tissue_modulus, 0.5});
+  if (nominal_ == 0 || field.stress_measure(q_patch) == 0) {  // no load, or a flat ridge
+    pressures_ = {nominal_};
+    share_off_ = share_on_ = {1};
+    mean_pressure_ = nominal_;
+    return;
+  }
+  const PatchPressures patches(field.stress_measure(q_patch), nominal_, fidelity.bridge_nodes);
+  pressures_ = patches.pressure();
+  share_off_ = share_on_ = patches.share();
+  mean_pressure_ = nominal_ / std::accumulate(share_off_.begin(), share_off_.end(), 0.0);
+  if (!scene.drive.driven()) return;
+  // Pull of the open gaps at the pressure that it makes itself.
+  const FieldProblem electric = field_problem(scene, relative_humidity);
+  const std::complex<double> h0 = electric.dielectric + electric.skin_layer;
+  const double scale = 0.5 * kVacuumPermittivity * square(electric.v_rms);
+  bool settled = false;
+  for (int i = 0; i < 100 && !settled; ++i) {
+    const double pull = scale * field.gaps(nominal_ + far_pull_).far_inverse_square(h0, q_patch);
+    settled = std::abs(pull - far_pull_) <= 1e-6 * (nominal_ + pull);
+    far_pull_ = pull;
+    if (far_pull_ > 1e3 * nominal_) break;
+  }
+  if (!settled) {
+    status_ = "pull-in: the gaps between patches in contact close";
+    far_pull_ = 0;
+  }
+  share_on_ = patches.share_at(nominal_ + far_pull_);
+}
+
+PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
+  PAPILLA_CHECK(patches.size() == pressures_.size(), "one result a pressure");
+  if (closure_ == Closure::Uniform) return patches[0];
+  PatchResult out;
+  const double touching = std::accumulate(share_off_.begin(), share_off_.end(), 0.0);
+  double over_limit_pull = 0;
+  out.load = nominal_ * patch_area_;
+  out.pull = far_pull_ * patch_area_;
+  out.status = status_;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const PatchResult& p = patches[k];
+    const double off = share_off_[k], on = share_on_[k], part = off / touching;
+    out.capillary_off += off * p.capillary_off;
+    out.retention += off * p.retention;
+    out.area_dry += off * p.area_dry;
+    out.area_off += off * p.area_off;
+    out.capillary_on += on * p.capillary_on;
+    out.pull += on * p.pull;
+    out.area_on += on * p.area_on;
+    over_limit_pull += on * p.over_limit_share * p.pull;
+    out.bridges += part * p.bridges;
+    out.wetted += part * p.wetted;
+    out.bridge_volume += part * p.bridge_volume;
+    out.volume += part * p.volume;
+    out.mean_gap += part * p.mean_gap;
+    out.indentation += part * p.indentation;
+    out.over_limit_area += part * p.over_limit_area;
+    out.peak_oxide_field = std::max(out.peak_oxide_field, p.peak_oxide_field);
+    out.peak_air_field = std::max(out.peak_air_field, p.peak_air_field);
+    out.contact_solves += p.contact_solves;
+    out.fft_pairs += p.fft_pairs;
+    out.seconds.contact += p.seconds.contact;
+    out.seconds.water += p.seconds.water;
+    out.seconds.field += p.seconds.field;
+    if (out.status.empty()) out.status = p.status;
+  }
+  if (out.pull > 0) out.over_limit_share = over_limit_pull / out.pull;
+  return out;
+}
+
+}  // namespace papilla

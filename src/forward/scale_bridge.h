@@ -1,0 +1,44 @@
+// From the fingertip to its patches and back: which pressures patches are solved at, and how their
+// results make up the load-carrying area. The one home of the closures.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "forward/coupling.h"
+#include "physics/persson/patches.h"
+
+namespace papilla {
+
+// One humidity of one scene; patches of the grid's size.
+//   uniform: every load-carrying patch has the pressure F_N / (phi A_gross).
+//   persson: the ridges press with F_N / (phi_ridge A_gross) on a surface whose roughness above the
+//   patch size lets only some patches touch, at distributed pressures; the open gaps between them
+//   pull as well and add to the load. Eq. coupling.3
+class ScaleBridge {
+ public:
+  ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Grid& grid,
+              double relative_humidity);
+
+  const std::vector<double>& pressures() const { return pressures_; }  // to solve patches at [Pa]
+  double mean_pressure() const { return mean_pressure_; }              // of patches in contact [Pa]
+  double carrying_share() const {
+    return carrying_share_;
+  }                                              // of the gross area, that combine is of
+  double far_pull() const { return far_pull_; }  // of the gaps of patches that do not touch [Pa]
+  const std::string& status() const { return status_; }
+
+  // Results at pressures() to one result for a mean patch of the carrying area: forces and contact
+  // areas are means over it, the rest over its patches in contact.
+  PatchResult combine(std::span<const PatchResult> patches) const;
+
+ private:
+  Closure closure_;
+  double patch_area_, carrying_share_, mean_pressure_ = 0, nominal_ = 0, far_pull_ = 0;
+  std::vector<double> pressures_, share_off_, share_on_;
+  std::string status_;
+};
+
+}  // namespace papilla
