@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,7 +17,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "base/error.h"
+#include "base/constants.h"
 #include "optim/journal.h"
 
 namespace papilla {
@@ -33,20 +34,26 @@ bool write_all(int fd, const std::string& bytes) {
   return true;
 }
 
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+int poll_milliseconds(double seconds) {
+  return static_cast<int>(std::clamp(seconds, 0.0, 3600.0) * 1000) + 1;
+}
+
 // One line, or "" at the end of the stream or the deadline (timed_out tells which).
-std::string read_line(int fd, double seconds, bool& timed_out) {
+std::string read_line(int fd, double deadline, bool& timed_out) {
   std::string line;
   timed_out = false;
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (true) {
-    const double left =
-        std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
+    const double left = deadline - steady_seconds();
     if (left <= 0) {
       timed_out = true;
       return {};
     }
     pollfd p{fd, POLLIN, 0};
-    const int ready = ::poll(&p, 1, static_cast<int>(std::min(left, 3600.0) * 1000) + 1);
+    const int ready = ::poll(&p, 1, poll_milliseconds(left));
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) continue;
     char buffer[4096];
@@ -63,7 +70,7 @@ std::string read_line(int fd, double seconds, bool& timed_out) {
 
 }  // namespace
 
-Worker::Worker(std::function<Outcome(const Point&)> evaluate, const WorkerLimits& limits)
+Worker::Worker(Evaluate evaluate, const WorkerLimits& limits)
     : evaluate_(std::move(evaluate)), limits_(limits) {}
 
 Worker::~Worker() { stop(true); }
@@ -72,18 +79,21 @@ void Worker::start() {
   int down[2], up[2];
   if (::pipe2(down, O_CLOEXEC) != 0 || ::pipe2(up, O_CLOEXEC) != 0)
     throw std::runtime_error("cannot make a pipe for a worker");
+  const pid_t parent = ::getpid();
   child_ = ::fork();
   if (child_ < 0)
     throw std::runtime_error(fmt::format("cannot start a worker: {}", std::strerror(errno)));
   if (child_ == 0) {
     ::close(down[1]);
     ::close(up[0]);
+    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan computes on
+    if (::getppid() != parent) ::_exit(0);
     ::signal(SIGINT, SIG_IGN);  // Ctrl-C is the parent's to handle; the closed pipe ends the child
     rlimit limit{static_cast<rlim_t>(limits_.bytes), static_cast<rlim_t>(limits_.bytes)};
     ::setrlimit(RLIMIT_AS, &limit);
     bool timed_out = false;
     while (true) {
-      const std::string line = read_line(down[0], 1e9, timed_out);
+      const std::string line = read_line(down[0], kInfinity, timed_out);
       Evaluation request;
       if (line.empty() || !parse_journal_line(line, request)) ::_exit(0);
       Evaluation reply;
@@ -95,6 +105,9 @@ void Worker::start() {
       } catch (const std::exception& e) {
         reply.outcome = {};
         reply.outcome.reason = e.what();
+      } catch (...) {
+        reply.outcome = {};
+        reply.outcome.reason = "an exception of an unknown kind";
       }
       if (!write_all(up[1], journal_line(reply))) ::_exit(0);
     }
@@ -122,14 +135,17 @@ void Worker::send(const Point& point) {
   Evaluation request;
   request.unit = point;
   sent_ = write_all(to_child_, journal_line(request));
+  deadline_ = steady_seconds() + limits_.seconds;
 }
+
+double Worker::seconds_left() const { return deadline_ - steady_seconds(); }
 
 Outcome Worker::receive() {
   Outcome failed;
   bool timed_out = false;
-  const std::string line =
-      sent_ ? read_line(from_child_, limits_.seconds, timed_out) : std::string{};
+  const std::string line = sent_ ? read_line(from_child_, deadline_, timed_out) : std::string{};
   Evaluation reply;
+  sent_ = false;
   if (!line.empty() && parse_journal_line(line, reply)) return reply.outcome;
   if (timed_out) {
     failed.reason = fmt::format("took longer than {:.0f} s and was ended", limits_.seconds);
@@ -140,15 +156,58 @@ Outcome Worker::receive() {
   return failed;
 }
 
-std::vector<Outcome> evaluate_all(std::vector<std::unique_ptr<Worker>>& workers,
-                                  const std::vector<Point>& points) {
-  std::vector<Outcome> out(points.size());
-  for (std::size_t first = 0; first < points.size(); first += workers.size()) {
-    const std::size_t last = std::min(points.size(), first + workers.size());
-    for (std::size_t i = first; i < last; ++i) workers[i - first]->send(points[i]);
-    for (std::size_t i = first; i < last; ++i) out[i] = workers[i - first]->receive();
+namespace {
+
+class LocalTeam : public Team {
+ public:
+  LocalTeam(std::size_t count, Evaluate evaluate, const WorkerLimits& limits) {
+    for (std::size_t i = 0; i < count; ++i)
+      workers_.push_back(std::make_unique<Worker>(evaluate, limits));
   }
-  return out;
+
+  std::size_t size() const override { return workers_.size(); }
+
+  std::vector<Outcome> evaluate(const std::vector<Point>& points) override {
+    constexpr std::size_t kFree = static_cast<std::size_t>(-1);
+    std::vector<Outcome> out(points.size());
+    std::vector<std::size_t> task(workers_.size(), kFree);
+    std::size_t next = 0, done = 0;
+    while (done < points.size()) {
+      for (std::size_t w = 0; w < workers_.size() && next < points.size(); ++w) {
+        if (task[w] != kFree) continue;
+        workers_[w]->send(points[next]);
+        task[w] = next++;
+      }
+      std::vector<pollfd> waiting;
+      double left = kInfinity;
+      for (std::size_t w = 0; w < workers_.size(); ++w) {
+        waiting.push_back({task[w] == kFree ? -1 : workers_[w]->descriptor(), POLLIN, 0});
+        if (task[w] == kFree) continue;
+        left = std::min(left, workers_[w]->descriptor() < 0 ? 0 : workers_[w]->seconds_left());
+      }
+      if (left > 0) ::poll(waiting.data(), waiting.size(), poll_milliseconds(left));
+      for (std::size_t w = 0; w < workers_.size(); ++w) {
+        if (task[w] == kFree) continue;
+        const bool ready = waiting[w].revents != 0 || waiting[w].fd < 0;
+        if (!ready && workers_[w]->seconds_left() > 0) continue;
+        out[task[w]] = workers_[w]->receive();
+        task[w] = kFree;
+        ++done;
+      }
+    }
+    return out;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Worker>> workers_;
+};
+
+}  // namespace
+
+std::unique_ptr<Team> make_local_team(std::size_t workers, Evaluate evaluate,
+                                      const WorkerLimits& limits) {
+  return std::make_unique<LocalTeam>(std::max<std::size_t>(1, workers), std::move(evaluate),
+                                     limits);
 }
 
 }  // namespace papilla

@@ -9,6 +9,8 @@
 #include <optional>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
+#include <pagmo/batch_evaluators/member_bfe.hpp>
+#include <pagmo/bfe.hpp>
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
 #include <thread>
@@ -25,7 +27,7 @@ class Blocking : public Searcher {
   explicit Blocking(std::function<void(const BlockingObjective&)> run) {
     thread_ = std::thread([this, run = std::move(run)] {
       try {
-        run([this](const Point& u) { return wait_for(u); });
+        run([this](const std::vector<Point>& u) { return wait_for(u); });
       } catch (...) {
         // The end of the search, or an optimiser that gave up (roundoff): both end the asking.
       }
@@ -48,33 +50,34 @@ class Blocking : public Searcher {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [&] { return question_.has_value() || finished_; });
     if (!question_) return {};
-    return {*question_};
+    return *question_;
   }
 
   void tell(const std::vector<Evaluation>& evaluations) override {
     if (evaluations.empty()) return;
     std::lock_guard lock(mutex_);
-    answer_ = evaluations.front().outcome;
+    answer_.emplace();
+    for (const Evaluation& e : evaluations) answer_->push_back(e.outcome);
     question_.reset();
     changed_.notify_all();
   }
 
  private:
-  Outcome wait_for(const Point& u) {
+  std::vector<Outcome> wait_for(const std::vector<Point>& points) {
     std::unique_lock lock(mutex_);
     if (ended_) throw SearchEnded{};
-    question_ = u;
+    question_ = points;
     answer_.reset();
     changed_.notify_all();
     changed_.wait(lock, [&] { return answer_.has_value() || ended_; });
-    if (!answer_) throw SearchEnded{};
+    if (!answer_ || answer_->size() < points.size()) throw SearchEnded{};  // a last, cut batch
     return *answer_;
   }
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<Point> question_;
-  std::optional<Outcome> answer_;
+  std::optional<std::vector<Point>> question_;
+  std::optional<std::vector<Outcome>> answer_;
   bool finished_ = false, ended_ = false;
   std::thread thread_;
 };
@@ -86,8 +89,17 @@ struct PagmoProblem {
   const BlockingObjective* objective = nullptr;
   Penalty* penalty = nullptr;
 
-  pagmo::vector_double fitness(const pagmo::vector_double& u) const {
-    return penalty->finite((*objective)(problem->space.snapped(u)), problem->objectives);
+  pagmo::vector_double fitness(const pagmo::vector_double& u) const { return batch_fitness(u); }
+  pagmo::vector_double batch_fitness(const pagmo::vector_double& all) const {
+    const auto n = static_cast<std::ptrdiff_t>(problem->space.size());
+    std::vector<Point> points;
+    for (auto u = all.begin(); u != all.end(); u += n)
+      points.push_back(problem->space.snapped(Point(u, u + n)));
+    pagmo::vector_double out;
+    for (const Outcome& o : (*objective)(points)) {
+      for (double f : penalty->finite(o, problem->objectives)) out.push_back(f);
+    }
+    return out;
   }
   pagmo::vector_double::size_type get_nobj() const { return problem->objectives; }
   std::pair<pagmo::vector_double, pagmo::vector_double> get_bounds() const {
@@ -104,13 +116,22 @@ unsigned population_size(const SearchProblem& problem) {
 
 pagmo::population first_population(const SearchProblem& problem, const pagmo::problem& p,
                                    unsigned size) {
-  pagmo::population population(p, 0, static_cast<unsigned>(problem.seed));
+  std::vector<Point> points;
   for (const Point& start : problem.starts) {
-    if (population.size() < size) population.push_back(problem.space.snapped(start));
+    if (points.size() < size) points.push_back(problem.space.snapped(start));
   }
-  for (std::uint64_t i = 0; population.size() < size && i < 10000; ++i) {
+  for (std::uint64_t i = 0; points.size() < size; ++i) {
     const Point u = problem.space.snapped(low_discrepancy(problem.space.size(), problem.seed, i));
-    if (problem.cheaply_feasible(u) || i > 5000) population.push_back(u);
+    if (problem.cheaply_feasible(u) || i > 5000) points.push_back(u);
+  }
+  pagmo::vector_double all;
+  for (const Point& u : points) all.insert(all.end(), u.begin(), u.end());
+  const pagmo::vector_double fitness = p.batch_fitness(all);
+  pagmo::population population(p, 0, static_cast<unsigned>(problem.seed));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto f = fitness.begin() + static_cast<std::ptrdiff_t>(i * problem.objectives);
+    population.push_back(
+        points[i], pagmo::vector_double(f, f + static_cast<std::ptrdiff_t>(problem.objectives)));
   }
   return population;
 }
@@ -153,6 +174,7 @@ std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem) {
     while (true) {
       pagmo::nsga2 algorithm(1, 0.95, 10., mutation, 20.,
                              static_cast<unsigned>(problem.seed) + generation++);
+      algorithm.set_bfe(pagmo::bfe{pagmo::member_bfe{}});  // a generation is asked at once
       population = algorithm.evolve(population);
     }
   });
@@ -162,9 +184,9 @@ std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem) {
   return make_blocking([problem](const BlockingObjective& objective) {
     Penalty penalty;
     long calls = 0;
-    const BlockingObjective counted = [&](const Point& u) {
-      ++calls;
-      return objective(u);
+    const BlockingObjective counted = [&](const std::vector<Point>& points) {
+      calls += static_cast<long>(points.size());
+      return objective(points);
     };
     const pagmo::problem p{PagmoProblem{&problem, &counted, &penalty}};
     pagmo::population population = first_population(problem, p, 12);
@@ -196,7 +218,7 @@ std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProble
     } call{&problem, &objective, &penalty, start};
     const auto function = [](const std::vector<double>& u, std::vector<double>&, void* data) {
       auto& c = *static_cast<Call*>(data);
-      const double f = c.penalty->finite((*c.objective)(c.problem->space.snapped(u)), 1)[0];
+      const double f = c.penalty->finite((*c.objective)({c.problem->space.snapped(u)})[0], 1)[0];
       if (f < c.value) {
         c.value = f;
         c.best = u;

@@ -18,10 +18,9 @@ std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem);
 // NLopt: "bobyqa", "sbplx", "direct"; one objective.
 std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProblem& problem);
 
-// A blocking optimiser as a searcher: `run` gets an objective function that it may call in one
-// thread; the call returns what tell() brought, or throws when the search ends. `penalty` turns an
-// outcome into finite numbers that the optimiser can use.
-using BlockingObjective = std::function<Outcome(const Point&)>;
+// A blocking optimiser as a searcher: `run` gets an objective function of a list of points that it
+// may call in one thread; the call returns what tell() brought, or throws when the search ends.
+using BlockingObjective = std::function<std::vector<Outcome>(const std::vector<Point>&)>;
 std::unique_ptr<Searcher> make_blocking(std::function<void(const BlockingObjective&)> run);
 
 // A finite stand-in for failed and infeasible outcomes: the worst so far plus a margin that grows

@@ -6,12 +6,14 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "base/units.h"
 #include "cli/commands.h"
+#include "optim/mpi.h"
 #include "study/optimise.h"
 
 namespace papilla {
@@ -108,6 +110,10 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
 }
 
 int optimize(const OptimizeOptions& options, const Context& context) {
+  if (launched_rank() > 0) {  // of an MPI job: one voice is enough
+    [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
+    [[maybe_unused]] const auto* err = std::freopen("/dev/null", "w", stderr);
+  }
   Study study = read_study(options.study, options.overrides);
   if (options.jobs > 0) study.search.jobs = options.jobs;
   if (options.evaluations > 0) study.search.evaluations = options.evaluations;
@@ -128,6 +134,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
 
   const auto begin = std::chrono::steady_clock::now();
   const OptimiseResult result = optimise(study, run);
+  if (launched_rank() > 0) return kSuccess;
   printer.finish();
   if (options.json) {
     std::cout << result_json(result, StudyProblem(study), run.folder, study).dump(2) << '\n';

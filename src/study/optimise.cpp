@@ -15,6 +15,7 @@
 #include "config/writer.h"
 #include "forward/plan.h"
 #include "optim/journal.h"
+#include "optim/mpi.h"
 #include "optim/pareto.h"
 #include "optim/search.h"
 #include "optim/worker.h"
@@ -28,7 +29,7 @@ namespace fs = std::filesystem;
 constexpr int kFreshSkins = 1000;  // the confirmation's skins start here: none of the search
 constexpr std::size_t kFinalists = 6;
 // Last coordinate of a journal record: what was evaluated.
-enum Stage { kSearch = 0, kConfirm = 1 };
+enum Stage { kSearch = 0, kConfirm = 1, kStability = 2 };
 
 Fidelity search_fidelity(const Study& study) {
   Fidelity f = fidelity_level("search");
@@ -46,27 +47,49 @@ Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
   return f;
 }
 
-// Work on several processes: a request is (task, stage, unit point...).
+// What a worker is asked: (task, stage, flat, unit point...). Of kStability the task is the
+// variant.
+Point work_request(std::size_t task, Stage stage, bool flat, const Point& unit) {
+  Point request{static_cast<double>(task), static_cast<double>(stage), flat ? 1.0 : 0.0};
+  request.insert(request.end(), unit.begin(), unit.end());
+  return request;
+}
+
+Evaluate work_function(const StudyProblem& problem, const Study& study, int threads) {
+  return [&problem, &study, threads](const Point& request) {
+    const auto task = static_cast<std::size_t>(request[0]);
+    const auto stage = static_cast<Stage>(static_cast<int>(request[1]));
+    Fidelity fidelity = stage == kConfirm ? confirm_fidelity(study, problem.tasks().size())
+                                          : search_fidelity(study);
+    fidelity.threads = threads;
+    Design design = problem.design(Point(request.begin() + 3, request.end()));
+    if (request[2] > 0) design.texture = Texture{};
+    if (stage == kStability) return evaluate_variant(problem, design, task, fidelity);
+    return problem.evaluate_task(design, task, fidelity, stage == kConfirm);
+  };
+}
+
+// Work on several processes: here, or on the ranks of an MPI job.
 class Pool {
  public:
-  Pool(const StudyProblem& problem, const Study& study) {
+  Pool(const StudyProblem& problem, const Study& study, const MpiSession& mpi)
+      : tasks_(problem.tasks().size()) {
+    if (mpi.active()) {
+      team_ = mpi.team();
+      return;
+    }
     const int jobs = study.search.jobs > 0 ? study.search.jobs : omp_get_num_procs();
-    const int tasks = static_cast<int>(problem.tasks().size());
-    const int count = std::max(1, std::min(jobs, tasks));
-    const int threads = std::max(1, jobs / count);
-    const auto evaluate = [&problem, &study, threads](const Point& request) {
-      const auto task = static_cast<std::size_t>(request[0]);
-      const bool confirm = request[1] > 0;
-      Fidelity fidelity =
-          confirm ? confirm_fidelity(study, problem.tasks().size()) : search_fidelity(study);
-      fidelity.threads = threads;
-      Design design = problem.design(Point(request.begin() + 3, request.end()));
-      if (request[2] > 0) design.texture = Texture{};
-      return problem.evaluate_task(design, task, fidelity, confirm);
-    };
-    for (int i = 0; i < count; ++i)
-      workers_.push_back(std::make_unique<Worker>(evaluate, WorkerLimits{}));
-    tasks_ = problem.tasks().size();
+    const int count = std::max(1, std::min(jobs, static_cast<int>(tasks_)));
+    team_ =
+        make_local_team(static_cast<std::size_t>(count),
+                        work_function(problem, study, std::max(1, jobs / count)), WorkerLimits{});
+  }
+
+  // Designs at a time that keep everyone busy; no more, so that a kill loses little.
+  std::size_t designs() const { return (team_->size() + tasks_ - 1) / tasks_ + 1; }
+
+  std::vector<Outcome> evaluate(const std::vector<Point>& requests) {
+    return team_->evaluate(requests);
   }
 
   // Every task of every point; outcomes by point, then task. flat: without the texture.
@@ -74,13 +97,9 @@ class Pool {
                                              bool flat) {
     std::vector<Point> requests;
     for (const Point& u : units) {
-      for (std::size_t t = 0; t < tasks_; ++t) {
-        Point request{static_cast<double>(t), static_cast<double>(stage), flat ? 1.0 : 0.0};
-        request.insert(request.end(), u.begin(), u.end());
-        requests.push_back(std::move(request));
-      }
+      for (std::size_t t = 0; t < tasks_; ++t) requests.push_back(work_request(t, stage, flat, u));
     }
-    const std::vector<Outcome> flat_list = evaluate_all(workers_, requests);
+    const std::vector<Outcome> flat_list = team_->evaluate(requests);
     std::vector<std::vector<Outcome>> out;
     for (std::size_t i = 0; i < units.size(); ++i) {
       out.emplace_back(flat_list.begin() + static_cast<std::ptrdiff_t>(i * tasks_),
@@ -90,7 +109,7 @@ class Pool {
   }
 
  private:
-  std::vector<std::unique_ptr<Worker>> workers_;
+  std::unique_ptr<Team> team_;
   std::size_t tasks_ = 1;
 };
 
@@ -109,7 +128,7 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
 
 class Run {
  public:
-  Run(const Study& study, const OptimiseOptions& options)
+  Run(const Study& study, const OptimiseOptions& options, const MpiSession& mpi)
       : study_(study),
         options_(options),
         problem_(study),
@@ -118,7 +137,7 @@ class Run {
         folder_(options.folder),
         lock_(open_folder(options.folder)),
         journal_(options.folder + "/journal", text_hash(problem_.identity()), options.resume),
-        pool_(problem_, study) {}
+        pool_(problem_, study, mpi) {}
 
   OptimiseResult run() {
     result_.method = method_.name;
@@ -151,22 +170,22 @@ class Run {
   double evaluation_seconds() const { return fresh_ > 0 ? spent_ / fresh_ : 0; }
   bool stopped() const { return options_.stop && options_.stop->load(); }
 
-  // The record of a question, from the journal while there is one, else evaluated and written.
-  template <class Evaluate>
-  Outcome recorded(const Point& key, Evaluate&& evaluate) {
-    if (next_record_ < journal_.records().size()) {
-      const Evaluation& e = journal_.records()[next_record_++];
-      if (e.unit != key) {
-        throw InputError(folder_ +
-                         "/journal: the earlier run took another path (other budget or another "
-                         "version of Papilla); start again with another --out folder");
-      }
-      return e.outcome;
+  bool replaying() const { return next_record_ < journal_.records().size(); }
+
+  // The earlier run's answer to a question.
+  const Outcome& replayed(const Point& key) {
+    const Evaluation& e = journal_.records()[next_record_++];
+    if (e.unit != key) {
+      throw InputError(folder_ +
+                       "/journal: the earlier run took another path (other budget or another "
+                       "version of Papilla); start again with another --out folder");
     }
-    Outcome outcome = evaluate();
+    return e.outcome;
+  }
+
+  void record(const Point& key, const Outcome& outcome) {
     journal_.append({key, outcome});
     ++next_record_;
-    return outcome;
   }
 
   static Point keyed(Point unit, Stage stage, double part = 0) {
@@ -175,20 +194,33 @@ class Run {
     return unit;
   }
 
-  Outcome search_outcome(const Point& unit) {
-    return recorded(keyed(unit, kSearch), [&] {
-      if (!search_.cheaply_feasible(unit)) {
-        Outcome refused;
-        refused.reason = problem_.geometry_reason(unit);
-        refused.constraints = problem_.geometry(unit);
-        return refused;
+  // Outcomes of designs, from the journal while there are records, else evaluated together.
+  std::vector<Outcome> search_outcomes(const std::vector<Point>& units) {
+    std::vector<Outcome> out;
+    while (out.size() < units.size() && replaying())
+      out.push_back(replayed(keyed(units[out.size()], kSearch)));
+    std::vector<Point> fresh;
+    for (std::size_t i = out.size(); i < units.size(); ++i) {
+      if (search_.cheaply_feasible(units[i])) fresh.push_back(units[i]);
+    }
+    const double from = seconds();
+    const auto answers = pool_.evaluate(fresh, kSearch, false);
+    spent_ += seconds() - from;
+    fresh_ += static_cast<int>(fresh.size());
+    std::size_t next = 0;
+    for (std::size_t i = out.size(); i < units.size(); ++i) {
+      Outcome outcome;
+      if (search_.cheaply_feasible(units[i])) {
+        outcome = guarded(problem_.outcome(problem_.score(answers[next++])), search_.objectives,
+                          search_.constraints);
+      } else {
+        outcome.reason = problem_.geometry_reason(units[i]);
+        outcome.constraints = problem_.geometry(units[i]);
       }
-      const double from = seconds();
-      const Score score = problem_.score(pool_.evaluate({unit}, kSearch, false).front());
-      spent_ += seconds() - from;
-      ++fresh_;
-      return guarded(problem_.outcome(score), search_.objectives, search_.constraints);
-    });
+      record(keyed(units[i], kSearch), outcome);
+      out.push_back(std::move(outcome));
+    }
+    return out;
   }
 
   double confirm_seconds_expected() const {
@@ -228,21 +260,33 @@ class Run {
     };
     std::size_t evaluated = 0;
     while (evaluated < budget && history_.size() < 10 * budget && searching_record()) {
+      const std::vector<Point> asked = searcher->ask();
+      if (asked.empty()) break;
       std::vector<Evaluation> batch;
-      for (const Point& unit : searcher->ask()) {
-        if (evaluated >= budget || !searching_record()) break;
-        const bool replayed = next_record_ < journal_.records().size();
-        if (!replayed && stopped()) {
+      while (batch.size() < asked.size() && evaluated < budget && searching_record()) {
+        if (!replaying() && stopped()) {
           result_.interrupted = true;
           return;
         }
-        if (!replayed && evaluated > 0 && out_of_time()) return;
-        batch.push_back({unit, search_outcome(unit)});
-        history_.push_back(batch.back());
-        const bool refused = !batch.back().outcome.ok && !search_.cheaply_feasible(unit);
-        result_.refused += refused;
-        evaluated += !refused;
-        result_.failures += !batch.back().outcome.ok && !refused;
+        if (!replaying() && evaluated > 0 && out_of_time()) return;
+        // One at a time from the journal, which may end or change stage within the batch.
+        std::vector<Point> units;
+        std::size_t counted = evaluated;
+        const std::size_t most = replaying() ? 1 : pool_.designs();
+        for (std::size_t i = batch.size();
+             i < asked.size() && units.size() < most && counted < budget; ++i) {
+          units.push_back(asked[i]);
+          counted += search_.cheaply_feasible(asked[i]);
+        }
+        const std::vector<Outcome> outcomes = search_outcomes(units);
+        for (std::size_t i = 0; i < units.size(); ++i) {
+          batch.push_back({units[i], outcomes[i]});
+          history_.push_back(batch.back());
+          const bool refused = !outcomes[i].ok && !search_.cheaply_feasible(units[i]);
+          result_.refused += refused;
+          evaluated += !refused;
+          result_.failures += !outcomes[i].ok && !refused;
+        }
         result_.evaluations = static_cast<int>(evaluated);
         const double left = fresh_ > 0 ? static_cast<double>(budget - evaluated) *
                                                  evaluation_seconds() * overhead() +
@@ -250,7 +294,6 @@ class Run {
                                        : -1;
         report_progress("search", static_cast<int>(evaluated), search_.evaluations, left);
       }
-      if (batch.empty()) break;
       searcher->tell(batch);
     }
   }
@@ -258,18 +301,42 @@ class Run {
   // Clock over evaluation time: what the searcher itself takes.
   double overhead() const { return spent_ > 0 ? std::max(1.0, seconds() / spent_) : 1; }
 
-  // Per task, so that an interrupted confirmation loses one task at most a worker.
-  Score confirmed(const Point& unit, bool flat) {
-    std::vector<Outcome> tasks;
-    const std::size_t count = problem_.tasks().size();
-    const bool complete = next_record_ + count <= journal_.records().size();
-    std::vector<Outcome> fresh;
-    if (!complete) fresh = pool_.evaluate({unit}, kConfirm, flat).front();
-    for (std::size_t t = 0; t < count; ++t) {
-      tasks.push_back(recorded(keyed(unit, kConfirm, static_cast<double>(flat ? count + t : t)),
-                               [&] { return fresh[t]; }));
+  // Answers of the workers, in order: from the journal while there are records.
+  std::vector<Outcome> answers(const std::vector<Point>& requests) {
+    const auto key = [](const Point& r) {
+      return keyed(Point(r.begin() + 3, r.end()), static_cast<Stage>(static_cast<int>(r[1])),
+                   2 * r[0] + r[2]);
+    };
+    std::vector<Outcome> out;
+    while (out.size() < requests.size() && replaying())
+      out.push_back(replayed(key(requests[out.size()])));
+    const std::vector<Point> rest(requests.begin() + static_cast<std::ptrdiff_t>(out.size()),
+                                  requests.end());
+    const std::vector<Outcome> fresh = pool_.evaluate(rest);
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      record(key(rest[i]), fresh[i]);
+      out.push_back(fresh[i]);
     }
-    return problem_.score(tasks);
+    return out;
+  }
+
+  Score confirmed(const Point& unit, bool flat) {
+    std::vector<Point> requests;
+    for (std::size_t t = 0; t < problem_.tasks().size(); ++t)
+      requests.push_back(work_request(t, kConfirm, flat, unit));
+    return problem_.score(answers(requests));
+  }
+
+  void check_stability() {
+    const std::size_t variants = stability_variants(problem_).size();
+    std::vector<std::vector<Outcome>> outcomes;
+    for (const FinalDesign& f : result_.finalists) {
+      std::vector<Point> requests;
+      for (std::size_t v = 0; v < variants; ++v)
+        requests.push_back(work_request(v, kStability, false, f.unit));
+      outcomes.push_back(answers(requests));
+    }
+    result_.stability = judge_stability(problem_, outcomes);
   }
 
   std::vector<std::size_t> finalists() const {
@@ -348,9 +415,7 @@ class Run {
     for (FinalDesign& f : result_.finalists) {
       if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
     }
-    std::vector<Design> designs;
-    for (const FinalDesign& f : result_.finalists) designs.push_back(f.design);
-    result_.stability = check_stability(problem_, designs, search_fidelity(study_));
+    check_stability();
     // An unstable design is best only where no other is on the front.
     const auto rank = [&](std::size_t i) {
       const FinalDesign& f = result_.finalists[i];
@@ -409,7 +474,13 @@ OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
         study.file +
         ": no [design_space]: nothing to search; `papilla evaluate` judges one design");
   }
-  return Run(study, options).run();
+  MpiSession mpi;
+  if (mpi.rank() > 0) {
+    const StudyProblem problem(study);
+    mpi.serve(work_function(problem, study, 1), WorkerLimits{});
+    return {};
+  }
+  return Run(study, options, mpi).run();
 }
 
 }  // namespace papilla

@@ -47,7 +47,8 @@ struct OptimiseResult {
   std::vector<double> hypervolumes;  // after each evaluation (two objectives or more)
 };
 
-// Throws InputError for a folder that belongs to another study or is in use.
+// Throws InputError for a folder that belongs to another study or is in use. Launched by mpirun as
+// several processes, rank 0 does this and the others evaluate for it and return an empty result.
 OptimiseResult optimise(const Study& study, const OptimiseOptions& options);
 
 // Evaluations that a study gets when nothing else is said.

@@ -53,31 +53,48 @@ bool beats(const std::vector<StudyObjective>& objectives, const std::vector<doub
 
 }  // namespace
 
-Stability check_stability(const StudyProblem& problem, const std::vector<Design>& designs,
-                          const Fidelity& fidelity, double tolerance) {
-  const auto& objectives = problem.objectives();
-  Stability out;
-  out.times_on_front.assign(designs.size(), 0);
-  for (const Variant& variant : variants(problem)) {
-    const StudyTask& task = problem.tasks()[variant.task];
-    StabilityVariant result;
-    result.name = variant.name;
-    for (const Design& design : designs) {
-      const Design d = with_settings(design, task.settings);
-      Scene scene{d.surface, task.finger, d.environment, d.drive, d.model};
-      variant.change(scene);
-      const Response response = evaluate(scene, d.texture, fidelity);
-      std::vector<double> values;
-      for (const StudyObjective& o : objectives) {
-        const auto v = summarise(o.expression.summary, o.expression.metric, response);
-        if (v && std::isfinite(v->value)) values.push_back(v->value);
-      }
-      if (values.size() < objectives.size()) values.clear();
-      result.values.push_back(std::move(values));
+std::vector<std::string> stability_variants(const StudyProblem& problem) {
+  std::vector<std::string> out;
+  for (const Variant& v : variants(problem)) out.push_back(v.name);
+  return out;
+}
+
+Outcome evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t index,
+                         const Fidelity& fidelity) {
+  const Variant variant = variants(problem).at(index);
+  const StudyTask& task = problem.tasks()[variant.task];
+  const Design d = with_settings(design, task.settings);
+  Scene scene{d.surface, task.finger, d.environment, d.drive, d.model};
+  variant.change(scene);
+  const Response response = evaluate(scene, d.texture, fidelity);
+  Outcome out;
+  for (const StudyObjective& o : problem.objectives()) {
+    const auto v = summarise(o.expression.summary, o.expression.metric, response);
+    if (!v || !std::isfinite(v->value)) {
+      out.objectives.clear();
+      out.reason = o.name + " is not defined";
+      return out;
     }
-    for (std::size_t i = 0; i < designs.size(); ++i) {
+    out.objectives.push_back(v->value);
+  }
+  out.ok = true;
+  return out;
+}
+
+Stability judge_stability(const StudyProblem& problem,
+                          const std::vector<std::vector<Outcome>>& outcomes, double tolerance) {
+  const auto& objectives = problem.objectives();
+  const std::size_t designs = outcomes.size();
+  Stability out;
+  out.times_on_front.assign(designs, 0);
+  const std::vector<std::string> names = stability_variants(problem);
+  for (std::size_t v = 0; v < names.size(); ++v) {
+    StabilityVariant result;
+    result.name = names[v];
+    for (const auto& design : outcomes) result.values.push_back(design[v].objectives);
+    for (std::size_t i = 0; i < designs; ++i) {
       bool front = !result.values[i].empty();
-      for (std::size_t j = 0; j < designs.size() && front; ++j) {
+      for (std::size_t j = 0; j < designs && front; ++j) {
         if (j != i && !result.values[j].empty())
           front = !beats(objectives, result.values[j], result.values[i], tolerance);
       }

@@ -27,10 +27,17 @@ struct Stability {
 
 // Each design on each finger of the study alone, then on its first finger with one model choice
 // changed: droplet mobility, droplets per volume, the pull over droplets that do not bridge,
-// breakdown cap, self-consistent coupling. Common random numbers throughout, so a design counts as
-// beaten only by one that is better by `tolerance` (relative) in every objective. Cost: designs x
-// (fingers + 7) evaluations of one finger at this fidelity.
-Stability check_stability(const StudyProblem& problem, const std::vector<Design>& designs,
-                          const Fidelity& fidelity, double tolerance = 0.01);
+// breakdown cap, self-consistent coupling.
+std::vector<std::string> stability_variants(const StudyProblem& problem);
+
+// One design in one variant: objectives in the user's sign. Cost: one finger at this fidelity.
+Outcome evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t variant,
+                         const Fidelity& fidelity);
+
+// From outcomes[design][variant]. Common random numbers throughout, so a design counts as beaten
+// only by one that is better by `tolerance` (relative) in every objective.
+Stability judge_stability(const StudyProblem& problem,
+                          const std::vector<std::vector<Outcome>>& outcomes,
+                          double tolerance = 0.01);
 
 }  // namespace papilla

@@ -1,6 +1,7 @@
 #include "optim/search.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -229,20 +230,46 @@ TEST(Worker, ACrashAHangAndAnExceptionBecomeFailures) {
   EXPECT_EQ(ask(0.75).objectives[0], 0.75);
 }
 
-TEST(Worker, AnyNumberGivesTheSameOutcomes) {
+TEST(Worker, TooMuchMemoryBecomesAFailure) {
+  Worker worker(
+      [](const Point& u) {
+        std::vector<double> field(static_cast<std::size_t>(u[0]), 1.0);
+        return outcome({field.back()});
+      },
+      {.seconds = 20, .bytes = 1e9});
+  worker.send({4e9});
+  EXPECT_EQ(worker.receive().reason, "not enough memory");
+  worker.send({1e3});
+  EXPECT_EQ(worker.receive().objectives[0], 1);
+}
+
+TEST(Team, AnyNumberGivesTheSameOutcomes) {
   std::vector<Point> points;
-  for (int i = 0; i < 7; ++i) points.push_back({i / 7.0});
+  for (int i = 0; i < 9; ++i) points.push_back({i / 9.0});
+  const auto evaluate = [](const Point& u) -> Outcome {
+    if (u[0] > 0.3 && u[0] < 0.4) ::abort();
+    ::usleep(static_cast<unsigned>(2e4 * (1 - u[0])));  // the first are the slowest
+    return outcome({u[0] * 3});
+  };
   std::vector<Outcome> first;
-  for (int jobs : {1, 2, 3}) {
-    std::vector<std::unique_ptr<Worker>> workers;
-    for (int j = 0; j < jobs; ++j) {
-      workers.push_back(std::make_unique<Worker>([](const Point& u) { return outcome({u[0] * 3}); },
-                                                 WorkerLimits{}));
-    }
-    const auto outcomes = evaluate_all(workers, points);
+  for (std::size_t jobs : {1u, 2u, 3u}) {
+    const auto outcomes = make_local_team(jobs, evaluate, {})->evaluate(points);
     if (first.empty()) first = outcomes;
     EXPECT_EQ(outcomes, first);
   }
+  EXPECT_FALSE(first[3].ok);
+  EXPECT_EQ(first[8].objectives[0], 8 / 9.0 * 3);
+}
+
+TEST(Team, AHangHoldsUpNobodyElse) {
+  const auto evaluate = [](const Point& u) -> Outcome {
+    while (u[0] < 0) {
+    }
+    return outcome({u[0]});
+  };
+  const auto out = make_local_team(2, evaluate, {.seconds = 1})->evaluate({{-1}, {1}, {2}, {3}});
+  EXPECT_FALSE(out[0].ok);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(out[i].objectives[0], static_cast<double>(i));
 }
 
 TEST(Method, WhatCannotDoTheProblemIsRefused) {

@@ -1,0 +1,97 @@
+// papilla optimize as a program: kills, signals, two runs in a folder, any number of workers.
+#include <gtest/gtest.h>
+
+#include "tests/cli/program.h"
+
+namespace papilla {
+namespace {
+
+const std::string kStudy = PAPILLA_TEST_DATA "/study/tiny.toml";
+const std::string kOptimize = "'" PAPILLA_PROGRAM "' --quiet optimize '" + kStudy + "'";
+const std::string kLaunch =
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe ";
+
+void expect_same(const Workplace& place, const std::string& a, const std::string& b) {
+  for (const char* file :
+       {"journal", "pareto.csv", "history.csv", "summary.md", "best/metrics.json"}) {
+    const std::string text = file_text(place.path() / a / file);
+    EXPECT_FALSE(text.empty()) << file;
+    EXPECT_EQ(text, file_text(place.path() / b / file)) << b << "/" << file;
+  }
+}
+
+bool has_mpi(const Workplace& place) {
+  return place.shell("command -v mpirun").status == 0 &&
+         place.shell(kLaunch + "-n 2 '" PAPILLA_PROGRAM "' --quiet optimize none.toml")
+                 .err.find("without MPI") == std::string::npos;
+}
+
+TEST(Optimize, KillsAtRandomMomentsChangeNothing) {
+  Workplace place;
+  const Outcome run = place.shell(
+      "'" PAPILLA_SOURCE_DIR "/tests/kill_test' '" PAPILLA_PROGRAM "' 5 '" + kStudy + "'");
+  EXPECT_EQ(run.status, 0) << run.out << run.err;
+}
+
+TEST(Optimize, AnyNumberOfWorkersOrRanksGivesTheSameBytes) {
+  Workplace place;
+  for (const char* jobs : {"1", "2", "3"}) {
+    const Outcome run = place.shell(kOptimize + " --jobs " + jobs + " --out jobs" + jobs);
+    ASSERT_EQ(run.status, 0) << run.err;
+    expect_same(place, "jobs1", std::string("jobs") + jobs);
+  }
+  if (!has_mpi(place)) GTEST_SKIP() << "no MPI here";
+  for (const char* ranks : {"1", "2", "3"}) {
+    const Outcome run =
+        place.shell(kLaunch + "-n " + ranks + " " + kOptimize + " --out ranks" + ranks);
+    ASSERT_EQ(run.status, 0) << run.err;
+    expect_same(place, "jobs1", std::string("ranks") + ranks);
+  }
+}
+
+TEST(Optimize, TheLossOfARankIsResumed) {
+  Workplace place;
+  if (!has_mpi(place)) GTEST_SKIP() << "no MPI here";
+  ASSERT_EQ(place.shell(kOptimize + " --out whole").status, 0);
+  const Outcome lost = place.shell(
+      "cp '" PAPILLA_PROGRAM "' papilla_here; " + kLaunch +
+      "-n 3 ./papilla_here --quiet optimize '" + kStudy +
+      "' --out run & launcher=$!; while [ ! -s run/journal ]; do sleep 0.1; done; sleep 0.5; "
+      "for process in /proc/[0-9]*; do"
+      "  [ \"$(readlink $process/exe)\" = \"$PWD/papilla_here\" ] &&"
+      "  grep -qz '^OMPI_COMM_WORLD_RANK=2$' $process/environ && kill -9 ${process#/proc/};"
+      "done; wait $launcher");
+  EXPECT_NE(lost.status, 0);
+  const Outcome again = place.shell(kLaunch + "-n 2 " + kOptimize + " --out run --resume");
+  ASSERT_EQ(again.status, 0) << again.err;
+  expect_same(place, "whole", "run");
+}
+
+TEST(Optimize, ASecondRunInAFolderIsRefusedWhileTheFirstLives) {
+  Workplace place;
+  const Outcome second = place.shell(
+      kOptimize +
+      " --out run > first.txt 2>&1 & first=$!; while [ ! -s run/journal ]; do sleep "
+      "0.1; done; " +
+      kOptimize + " --out run --resume; status=$?; kill -INT $first; wait $first; exit $status");
+  EXPECT_EQ(second.status, 2) << second.out;
+  EXPECT_NE(second.err.find("another run is working in this folder"), std::string::npos)
+      << second.err;
+}
+
+TEST(Optimize, AnInterruptEndsTidilyAndIsResumed) {
+  Workplace place;
+  ASSERT_EQ(place.shell(kOptimize + " --out whole").status, 0);
+  const Outcome ended =
+      place.shell(kOptimize +
+                  " --out run & run=$!; while [ ! -s run/journal ]; do sleep 0.1; done; sleep 0.4; "
+                  "kill -INT $run; wait $run");
+  EXPECT_EQ(ended.status, 1) << ended.err;
+  const std::string summary = file_text(place.path() / "run/summary.md");
+  EXPECT_NE(summary.find("continue with --resume"), std::string::npos) << summary;
+  ASSERT_EQ(place.shell(kOptimize + " --out run --resume").status, 0);
+  expect_same(place, "whole", "run");
+}
+
+}  // namespace
+}  // namespace papilla
