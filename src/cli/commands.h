@@ -20,6 +20,7 @@ void add_completion(CLI::App& app, Context& context);
 void add_solve_contact(CLI::App& solve, Context& context);
 void add_solve_bridge(CLI::App& solve, Context& context);
 void add_solve_droplets(CLI::App& solve, Context& context);
+void add_solve_drive(CLI::App& solve, Context& context);
 void add_solve_persson(CLI::App& solve, Context& context);
 
 // clang-format off
@@ -40,6 +41,7 @@ inline constexpr std::array kPieces{
     add_solve_bridge,
     add_solve_droplets,
     add_solve_persson,
+    add_solve_drive,
 };
 // clang-format on
 

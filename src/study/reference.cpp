@@ -9,6 +9,7 @@
 #include "config/describe.h"
 #include "metrics/metrics.h"
 #include "study/design.h"
+#include "study/drive_case.h"
 #include "study/mean_field.h"
 
 namespace papilla {
@@ -35,6 +36,7 @@ const char* about(const std::string& section) {
            "`mean(modulation)`.";
   }
   if (section == "persson") return "A case of `papilla solve persson`.";
+  if (section == "circuit") return "A case of `papilla solve drive`.";
   if (section == "study") return "The sections that only a study has.";
   return "";
 }
@@ -111,8 +113,8 @@ std::string metrics_reference(ReferenceFormat format) {
 }  // namespace
 
 std::vector<std::string> reference_sections() {
-  return {"texture", "surface",  "finger", "environment", "drive",
-          "model",   "accuracy", "study",  "metrics",     "persson"};
+  return {"texture",  "surface", "finger",  "environment", "drive",  "model",
+          "accuracy", "study",   "metrics", "persson",     "circuit"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {
@@ -127,6 +129,7 @@ std::string reference_section(const std::string& section, ReferenceFormat format
   if (section == "model") return top + render(field_rows(ModelOptions{}, section), format);
   if (section == "accuracy") return top + render(field_rows(AccuracySettings{}, section), format);
   if (section == "persson") return top + render(field_rows(MeanFieldCase{}, ""), format);
+  if (section == "circuit") return top + render(field_rows(DriveCase{}, ""), format);
   if (section == "metrics") return top + metrics_reference(format);
   if (section == "study") return top + study_reference(format);
   const std::string near = nearest_name(section, reference_sections());

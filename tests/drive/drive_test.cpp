@@ -91,6 +91,18 @@ TEST(Network, UnderCurrentOnlyTheGapMatters) {
   }
 }
 
+TEST(Network, AShuntTakesTheCurrentThatTheGapCannot) {
+  Network n = table_network(kInfinity);
+  n.shunt = 1e6;
+  const Transfer dc = transfer(n, DriveControl::Current, 0);
+  EXPECT_EQ(std::abs(dc.current), 0);
+  EXPECT_DOUBLE_EQ(std::abs(dc.source_voltage), 1e6);
+  const Transfer carrier = transfer(n, DriveControl::Current, 25e3);
+  EXPECT_LT(relative(std::abs(carrier.current), 1), 0.03);
+  // Kirchhoff.
+  EXPECT_LT(std::abs(carrier.current + carrier.source_voltage / 1e6 - 1.0), 1e-12);
+}
+
 TEST(Network, ARoughGapOfOneHeightIsAPlaneGap) {
   const double u = 0.7e-6, h0 = 0.2e-6, area = 1e-5;
   const GapElement rough = rough_gap(1 / (u + h0), 1 / square(u + h0), h0, 1e7, area);

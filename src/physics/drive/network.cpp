@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "base/constants.h"
 
 namespace papilla {
 
@@ -55,26 +54,27 @@ Transfer transfer(const Network& network, DriveControl control, double frequency
     z[i] = layers[i]->impedance(frequency);
     open = open || std::isinf(z[i].real());
   }
-  Transfer out;
-  if (control == DriveControl::Current) {
-    out.gap_voltage = z[0];
-    out.source_voltage = open ? kInfinity : z[0] + z[1] + z[2];
-    out.current = 1;
-    return out;
+  const std::complex<double> total = z[0] + z[1] + z[2];
+  if (control == DriveControl::Current && std::isinf(network.shunt)) {
+    return {z[0], open ? kInfinity : total, 1};
   }
-  out.source_voltage = 1;
+  Transfer out{0, 1, 0};  // of a volt
   if (!open) {
-    const std::complex<double> total = z[0] + z[1] + z[2];
     out.gap_voltage = z[0] / total;
     out.current = 1.0 / total;
-    return out;
+  } else {  // only insulators hold a constant voltage, by their capacitances
+    double elastance = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (std::isinf(z[i].real())) elastance += 1 / layers[i]->capacitance;
+    }
+    if (std::isinf(z[0].real())) out.gap_voltage = 1 / layers[0]->capacitance / elastance;
   }
-  // Only insulators hold a constant voltage, by their capacitances.
-  double elastance = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (std::isinf(z[i].real())) elastance += 1 / layers[i]->capacitance;
+  if (control == DriveControl::Current) {
+    const std::complex<double> volts = 1.0 / (1 / network.shunt + out.current);
+    out.gap_voltage *= volts;
+    out.source_voltage = volts;
+    out.current *= volts;
   }
-  out.gap_voltage = std::isinf(z[0].real()) ? 1 / layers[0]->capacitance / elastance : 0.0;
   return out;
 }
 

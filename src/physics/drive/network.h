@@ -4,6 +4,7 @@
 
 #include <complex>
 
+#include "base/constants.h"
 #include "scene/environment.h"
 
 namespace papilla {
@@ -37,11 +38,14 @@ GapElement rough_gap(double mean_inverse, double mean_inverse_square, double h0,
 struct Network {
   ImpedanceLayer dielectric, skin;
   GapElement gap;
+  // Across a current source: its output resistance, or one that keeps charge from building up
+  // [ohm]; the voltage source does not feel it.
+  double shunt = kInfinity;
 };
 
 // What the network makes of a unit of the source (1 V or 1 A) at a frequency. Ideal insulators at 0
-// Hz share the voltage by capacitance, and no current flows; a current source then has no answer
-// (infinite). Eq. drive.4
+// Hz share the voltage by capacitance, and no current flows; a current source without a shunt then
+// has no answer (infinite). Eq. drive.4
 struct Transfer {
   std::complex<double> gap_voltage, source_voltage, current;
 };

@@ -1,0 +1,103 @@
+// A source, a finger and what lies between as a file (`papilla solve drive`): forces over time and
+// frequency, and what limits the drive.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "physics/drive/network.h"
+#include "physics/drive/signal.h"
+#include "scene/environment.h"
+
+namespace papilla {
+
+// The gap: given, or that of a design's solved patches.
+struct GapSettings {
+  double distance = 1.06e-6;   // [m]
+  double resistivity = 4.8e8;  // [ohm m]; 0: an insulator
+  double permittivity = 1;
+  std::string design;               // file; then distance, surface, skin and area come from it
+  double relative_humidity = 0.55;  // of that design
+  int skins = 4;                    // patches that are averaged
+};
+void fields(FieldVisitor& v, GapSettings& s);
+
+struct CoatingSettings {
+  std::vector<Dielectric> dielectric = {{"oxide", 1e-6, 3.9, 1e14, 1e9}};
+};
+void fields(FieldVisitor& v, CoatingSettings& s);
+
+struct SkinLayerSettings {
+  double thickness = 200e-6, permittivity = 2000, resistivity = 2e4;  // of the stratum corneum
+};
+void fields(FieldVisitor& v, SkinLayerSettings& s);
+
+struct DriveTouch {
+  double load = 1;           // [N]
+  double area = 30e-6;       // electrical contact area [m^2]
+  double coefficient = 0.2;  // friction = coefficient (load + pull)
+};
+void fields(FieldVisitor& v, DriveTouch& s);
+
+struct Tones {
+  std::vector<double> frequency;  // [Hz]; empty: drive.modulation_frequency at full depth
+  std::vector<double> amplitude;  // relative; empty: equal, 1 in all
+};
+void fields(FieldVisitor& v, Tones& s);
+
+struct SourceSettings {
+  double shunt = 1e6;  // across a current source [ohm]; 0: none
+};
+void fields(FieldVisitor& v, SourceSettings& s);
+
+struct ResponseSweep {
+  std::vector<double> frequency;  // [Hz]; of a plain sine
+};
+void fields(FieldVisitor& v, ResponseSweep& s);
+
+struct DriveCase {
+  int schema_version = 1;
+  std::string title;
+  Drive drive;
+  SourceSettings source;
+  Tones tones;
+  GapSettings gap;
+  CoatingSettings surface;
+  SkinLayerSettings skin;
+  DriveTouch touch;
+  ResponseSweep sweep;
+};
+void fields(FieldVisitor& v, DriveCase& s);
+
+// Throws InputError with every problem.
+DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides = {});
+
+struct DriveCheck {
+  std::string name, unit;
+  double value = 0, limit = 0;  // SI; passes while value <= limit
+  bool passes() const { return value <= limit; }
+};
+
+struct DriveResult {
+  Network network;
+  double area = 0;                      // [m^2]
+  DriveResponse carrier;                // unmodulated, at the drive's frequency and peak amplitude
+  Modulation modulation;                // am only
+  ForceSeries series;                   // one common period
+  Signal friction;                      // coefficient (load + pull) [N]
+  double distortion = 0;                // of the friction below half the carrier; am only
+  std::vector<SpectrumLine> lines;      // of the friction, 1e-6 of the largest and above
+  std::vector<DriveResponse> response;  // one a frequency of the sweep
+  std::vector<DriveCheck> checks;       // body current, source compliance, air in the gap
+};
+// Milliseconds with a given gap, seconds with a design's. Throws InputError for frequencies without
+// a common period.
+DriveResult solve_drive(const DriveCase& c);
+
+// Columns t, source voltage, current, gap voltage, pull, friction; frequency, amplitude.
+std::string drive_series_csv(const DriveResult& result);
+std::string drive_lines_csv(const DriveResult& result);
+// Friction over time and its spectrum as a picture.
+std::string drive_svg(const DriveCase& c, const DriveResult& result);
+
+}  // namespace papilla
