@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "metrics/metrics.h"
+#include "study/design.h"
 
 namespace papilla {
 namespace {
@@ -180,6 +181,18 @@ TEST(ScaleBridge, RidgesThatCloseUnderVoltageAreAPullIn) {
   const Response r = evaluate(scene, Texture{}, small(1));
   EXPECT_NE(r.trouble(), "");
   EXPECT_TRUE(std::isfinite(r.points[0].friction_on.value));
+}
+
+TEST(Forward, NearlyClosedGapsHoldTheirWater) {
+  // Pressed until only pockets are open, where the volume under a disc jumps with its radius.
+  const Design design = read_design(PAPILLA_SOURCE_DIR "/designs/m3_samples/flat.toml",
+                                    {"accuracy.level=draft", "finger.macro.load_share=1e-4"});
+  const Response r = evaluate(scene_of(design), design.texture, fidelity_of(design));
+  EXPECT_EQ(r.points.size(), 4u);
+  for (const ResponsePoint& p : r.points) {
+    EXPECT_TRUE(std::isfinite(p.friction_on.value));
+    EXPECT_TRUE(std::isfinite(p.capillary_force.value));
+  }
 }
 
 }  // namespace

@@ -292,6 +292,8 @@ class Ensemble {
         rule = table_.rule(r);
         continue;
       }
+      // Pockets in a nearly closed gap: the volume jumps with the radius, Newton goes astray.
+      next = next > 0.5 * r && next < 2 * r ? next : std::clamp(r + first, 0.5 * r, 2 * r);
       const GapTable::Rule ahead = table_.rule(next);
       if (ahead != rule && !seen) {
         rule = ahead;
