@@ -188,5 +188,41 @@ TEST(Program, OutputThatCannotBeWrittenIsAFailure) {
   EXPECT_EQ(place.shell("'" PAPILLA_PROGRAM "' describe > /dev/full").status, 1);
 }
 
+TEST(Solve, PerssonAndDriveGiveTheDocumentedJson) {
+  const Workplace place;
+  const std::string physics = PAPILLA_SOURCE_DIR "/designs/physics/";
+  const Outcome persson = place.run("solve persson --json " + physics + "wrist_on_glass.toml");
+  ASSERT_EQ(persson.status, 0) << persson.err;
+  const auto mean_field = nlohmann::json::parse(persson.out);
+  EXPECT_EQ(mean_field["schema"], 1);
+  EXPECT_GT(mean_field["point"]["area_ratio"].get<double>(), 1);
+  EXPECT_EQ(mean_field["over_voltage"].size(), 5u);
+
+  const Outcome drive = place.run("solve drive --json --out d " + physics + "fingertip_drive.toml");
+  ASSERT_EQ(drive.status, 0) << drive.err;
+  const auto circuit = nlohmann::json::parse(drive.out);
+  EXPECT_EQ(circuit["schema"], 1);
+  EXPECT_EQ(circuit["checks"].size(), 3u);
+  for (const char* file : {"series.csv", "lines.csv", "drive.svg"}) {
+    EXPECT_TRUE(std::filesystem::exists(place.path() / "d" / file)) << file;
+  }
+  EXPECT_EQ(
+      place.run("solve drive " + physics + "fingertip_drive.toml --set gap.distanc=1um").status, 2);
+}
+
+TEST(Reproduce, GivesTheDocumentedJsonAndTables) {
+  const Workplace place;
+  const Outcome run = place.run("reproduce --json --claim P1 --claim J2 --out claims");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const auto json = nlohmann::json::parse(run.out);
+  ASSERT_EQ(json["claims"].size(), 2u);
+  EXPECT_EQ(json["claims"][1]["verdict"], "paper inconsistent");
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "claims/claims.csv"));
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "claims/claims.md"));
+  const Outcome wrong = place.run("reproduce --claim M133");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("did you mean `M13`"), std::string::npos) << wrong.err;
+}
+
 }  // namespace
 }  // namespace papilla
