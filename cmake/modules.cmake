@@ -26,3 +26,20 @@ function(papilla_program name folder)
     target_link_libraries(${name} PRIVATE papilla_options ${ARG_USES} ${ARG_LIBS})
   endif()
 endfunction()
+
+# papilla_embed(module OUT name file ...): each file becomes `extern const std::string_view name` in namespace papilla.
+function(papilla_embed module out)
+  set(spec "")
+  set(files "")
+  while(ARGN)
+    list(POP_FRONT ARGN name file)
+    list(APPEND files ${file})
+    list(APPEND spec "${name}=${file}")
+  endwhile()
+  list(JOIN spec "|" spec)
+  set(source ${CMAKE_CURRENT_BINARY_DIR}/${out}.cpp)
+  add_custom_command(OUTPUT ${source} VERBATIM
+    COMMAND ${CMAKE_COMMAND} -DOUT=${source} "-DSPEC=${spec}" -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+    DEPENDS ${files} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
+  target_sources(papilla_${module} PRIVATE ${source})
+endfunction()

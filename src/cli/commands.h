@@ -11,6 +11,7 @@ void add_optimize(CLI::App& app, Context& context);
 void add_evaluate(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_export(CLI::App& app, Context& context);
+void add_report(CLI::App& app, Context& context);
 void add_solve(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
@@ -30,6 +31,7 @@ inline constexpr std::array kCommands{
     add_evaluate,
     add_explain,
     add_export,
+    add_report,
     add_solve,
     add_reproduce,
     add_describe,

@@ -149,8 +149,8 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     return kWorkFailed;
   }
   context.note(
-      fmt::format("{} evaluations in {:.0f} s; results in {}/ (summary.md, pareto.csv, "
-                  "best/design.toml)",
+      fmt::format("{} evaluations in {:.0f} s; results in {}/ (report.html, summary.md, "
+                  "pareto.csv, best/design.toml)",
                   result.evaluations, seconds, run.folder));
   if (!result.any_feasible) {
     context.note("no design keeps every constraint; summary.md says which comes nearest");

@@ -19,6 +19,7 @@
 #include "optim/pareto.h"
 #include "optim/search.h"
 #include "optim/worker.h"
+#include "study/report.h"
 #include "study/results.h"
 
 namespace papilla {
@@ -149,6 +150,10 @@ class Run {
     if (!result_.interrupted) confirm();
     ResultFiles files{folder_, study_, problem_, history_, result_};
     write_results(files);
+    if (!result_.interrupted && !result_.finalists.empty() &&
+        result_.finalists[result_.best].on_front) {
+      write_bytes(folder_ + "/report.html", report_page(folder_));
+    }
     write_bytes(folder_ + "/timing.json",
                 fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
                             "\"confirm_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",

@@ -230,7 +230,8 @@ class Writer {
     }
     out += stability_text();
     out +=
-        "\nFiles: pareto.csv (finalists), history.csv (every evaluation), front/ and best/ "
+        "\nFiles: report.html (all of this with charts), pareto.csv (finalists), history.csv "
+        "(every evaluation), front/ and best/ "
         "(design.toml, metrics.json, heightmap.exr, heightmap.gsf, mask.tif, preview.png), "
         "resolved.toml (every value and where it came from), plan.txt, journal.\n";
     return out;

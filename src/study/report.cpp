@@ -1,0 +1,230 @@
+#include "study/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/sha256.h"
+#include "forward/forward.h"
+#include "geometry/io/files.h"
+#include "study/design.h"
+
+namespace papilla {
+
+// The files of src/study/report and the two libraries, embedded at build time.
+extern const std::string_view kReportHtml, kReportStyle, kReportScript, kChartScript, kThreeScript;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kPicturePixels = 128;  // across one picture, at most
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned v = 0;
+    for (std::size_t k = 0; k < 3; ++k) v = v << 8 | (k < left ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= left ? kDigits[v >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+// Values as bytes between low and high, averaged down to kPicturePixels.
+Json picture(const Grid& grid, const std::vector<double>& values) {
+  const int step = std::max(1, (std::max(grid.nx, grid.ny) + kPicturePixels - 1) / kPicturePixels);
+  const int nx = grid.nx / step, ny = grid.ny / step;
+  std::vector<double> mean;
+  for (int y = 0; y < ny; ++y) {
+    for (int x = 0; x < nx; ++x) {
+      double sum = 0;
+      for (int k = 0; k < step * step; ++k)
+        sum += values[grid.index(x * step + k % step, y * step + k / step)];
+      mean.push_back(sum / (step * step));
+    }
+  }
+  const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
+  const double span = *high - *low;
+  std::vector<std::uint8_t> bytes;
+  for (double v : mean) {
+    bytes.push_back(span > 0 ? static_cast<std::uint8_t>(std::lround(255 * (v - *low) / span)) : 0);
+  }
+  return {
+      {"nx", nx},    {"ny", ny},      {"lx", nx * step * grid.dx()}, {"ly", ny * step * grid.dy()},
+      {"low", *low}, {"high", *high}, {"bytes", base64(bytes)}};
+}
+
+// What the charts need of a response.
+Json trimmed(const Json& response) {
+  Json points = Json::array();
+  for (const Json& p : response.at("points")) {
+    Json point;
+    for (const char* key : {"relative_humidity", "weight", "F_off", "F_on", "modulation",
+                            "capillary_force", "electrostatic_force", "status"}) {
+      point[key] = p.at(key);
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+Json design_json(const fs::path& folder, bool with_flat) {
+  const Json metrics = Json::parse(read_bytes(folder / "metrics.json"));
+  Json out;
+  for (const char* key : {"variables", "objectives", "worst_modulation", "oxide_breakdown_margin",
+                          "feasible", "stability", "flat"}) {
+    if (metrics.contains(key)) out[key] = metrics[key];
+  }
+  out["tasks"] = Json::array();
+  for (const Json& task : metrics.at("tasks")) {
+    Json t{{"name", task.at("name")}, {"points", trimmed(task.at("response"))}};
+    if (with_flat && task.contains("flat")) t["flat"] = trimmed(task["flat"]);
+    out["tasks"].push_back(std::move(t));
+  }
+  if (with_flat) {
+    const Json& response = metrics["tasks"][0]["response"];
+    out["plan"] = response.at("plan");
+  }
+  out["toml"] = read_bytes(folder / "design.toml");
+  const Heightmap h = read_heightmap(folder / "heightmap.gsf");
+  out["heights"] = picture(h.grid, h.z);
+  return out;
+}
+
+Json field_json(const Design& design) {
+  Json out = Json::array();
+  for (const double humidity : design.environment.relative_humidity) {
+    const PatchPicture patch =
+        picture_patch(scene_of(design), design.texture, fidelity_of(design), humidity);
+    const Grid& grid = patch.texture.grid;
+    Json maps = Json::array();
+    const auto add = [&](const char* name, const char* unit, double scale,
+                         std::vector<double> values) {
+      if (values.size() != grid.size()) return;
+      for (double& v : values) v *= scale;
+      Json map = picture(grid, values);
+      map["name"] = name;
+      map["unit"] = unit;
+      maps.push_back(std::move(map));
+    };
+    add("gap, drive off", "nm", 1e9, patch.fields.off.gap);
+    add("contact pressure, drive off", "MPa", 1e-6, patch.fields.off.pressure);
+    if (design.drive.driven()) {
+      add("contact pressure, drive on", "MPa", 1e-6, patch.fields.on.pressure);
+      add("pull of the field", "MPa", 1e-6, patch.fields.pull.value);
+    }
+    const auto& water = patch.fields.wetting_off.bridged;
+    add("water that bridges the gap", "", 1, std::vector<double>(water.begin(), water.end()));
+    out.push_back({{"relative_humidity", humidity}, {"maps", maps}});
+  }
+  return out;
+}
+
+Json file_list(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).generic_string();
+    // The page itself, the lock, and what holds clock times.
+    if (!entry.is_regular_file() || name == "report.html" || name == "timing.json" ||
+        name.front() == '.') {
+      continue;
+    }
+    names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  Json out = Json::array();
+  for (const std::string& name : names) {
+    const std::string bytes = read_bytes(folder / name);
+    out.push_back({{"name", name}, {"bytes", bytes.size()}, {"sha256", sha256(bytes)}});
+  }
+  return out;
+}
+
+std::string html_text(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+// No text of a design can end the script element that holds the numbers.
+std::string script_text(std::string text) {
+  for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
+    text.replace(at, 1, "\\u003c");
+  return text;
+}
+
+}  // namespace
+
+std::string report_page(const std::string& folder) {
+  const fs::path root(folder);
+  for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md",
+                           "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
+    if (!fs::exists(root / name)) {
+      throw InputError(fmt::format("{} has no {}: not the folder of a finished `papilla optimize`",
+                                   folder, name));
+    }
+  }
+  Json data{{"schema", 1}, {"version", PAPILLA_VERSION}};
+  Json designs = Json::object();
+  std::vector<std::string> front;
+  if (fs::exists(root / "front")) {
+    for (const auto& entry : fs::directory_iterator(root / "front"))
+      front.push_back("front/" + entry.path().filename().string());
+  }
+  std::sort(front.begin(), front.end());
+  std::string title;
+  try {
+    const Json best = Json::parse(read_bytes(root / "best/metrics.json"));
+    title = best.at("title").get<std::string>();
+    designs["best"] = design_json(root / "best", true);
+    for (const std::string& name : front) designs[name] = design_json(root / name, false);
+  } catch (const Json::exception& e) {
+    throw InputError(fmt::format("{}: metrics.json is damaged: {}", folder, e.what()));
+  }
+  if (title.empty()) title = fs::absolute(root).lexically_normal().filename().string();
+  const Study best = read_study((root / "best/design.toml").string());
+  data["title"] = title;
+  data["designs"] = std::move(designs);
+  data["fields"] = field_json(best.design);
+  data["pareto"] = read_bytes(root / "pareto.csv");
+  data["history"] = read_bytes(root / "history.csv");
+  data["plan"] = read_bytes(root / "plan.txt");
+  data["summary"] = read_bytes(root / "summary.md");
+  data["files"] = file_list(root);
+
+  std::string page(kReportHtml);
+  const auto put = [&page](const std::string& mark, std::string_view text) {
+    const std::size_t at = page.find(mark);
+    page.replace(at, mark.size(), text);
+  };
+  // Last marks first: what is put in is never searched.
+  put("{{script}}", kReportScript);
+  put("{{data}}", script_text(data.dump()));
+  put("{{three}}", kThreeScript);
+  put("{{chart}}", kChartScript);
+  put("{{heading}}", html_text(title));
+  put("{{style}}", kReportStyle);
+  put("{{title}}", html_text(title));
+  return page;
+}
+
+}  // namespace papilla

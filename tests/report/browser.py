@@ -1,0 +1,165 @@
+"""Opens a report in headless Chromium: browser.py PAGE.html [PICTURE_FOLDER]. Exit 0: all as it should be.
+
+Every chart has drawn something, nothing is written to the console, nothing is asked of the network, pointing and
+selecting work, no sideways scrolling at 400 px, the page prints.
+"""
+import base64
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.request
+
+CHARTS = ["section", "humidity", "pareto", "budget", "progress"]
+
+
+class Browser:
+    def __init__(self, folder):
+        self.driver = subprocess.Popen(["chromedriver", "--port=0"], stdout=subprocess.PIPE,
+                                       stderr=subprocess.DEVNULL, text=True)
+        for line in self.driver.stdout:
+            found = re.search(r"started successfully on port (\d+)", line)
+            if found:
+                break
+        self.base = f"http://127.0.0.1:{found[1]}"
+        options = {"args": ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--hide-scrollbars",
+                            "--enable-unsafe-swiftshader", "--user-data-dir=" + folder]}
+        answer = self.call("POST", "/session", {"capabilities": {"alwaysMatch": {
+            "browserName": "chrome", "goog:chromeOptions": options,
+            "goog:loggingPrefs": {"browser": "ALL", "performance": "ALL"}}}})
+        self.base += "/session/" + answer["sessionId"]
+
+    def call(self, method, path, body=None):
+        data = None if body is None else json.dumps(body).encode()
+        request = urllib.request.Request(self.base + path, data, {"Content-Type": "application/json"}, method=method)
+        opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        return json.load(opener.open(request, timeout=60))["value"]
+
+    def run(self, script):
+        return self.call("POST", "/execute/sync", {"script": script, "args": []})
+
+    def log(self, kind):
+        return self.call("POST", "/se/log", {"type": kind})
+
+    def metrics(self, width, height):
+        self.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setDeviceMetricsOverride", "params": {
+            "width": width, "height": height, "deviceScaleFactor": 1, "mobile": False}})
+
+    def picture(self, name):
+        if len(sys.argv) > 2:
+            shot = self.call("POST", "/goog/cdp/execute", {"cmd": "Page.captureScreenshot", "params": {
+                "captureBeyondViewport": True, "clip": {
+                    "x": 0, "y": 0, "scale": 1, "width": self.run("return innerWidth"),
+                    "height": self.run("return document.documentElement.scrollHeight")}}})
+            with open(os.path.join(sys.argv[2], name), "wb") as file:
+                file.write(base64.b64decode(shot["data"]))
+
+    def pointer(self, x, y, press):
+        actions = [{"type": "pointerMove", "x": int(x), "y": int(y), "duration": 0}]
+        if press:
+            actions += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
+        self.call("POST", "/actions", {"actions": [
+            {"type": "pointer", "id": "mouse", "parameters": {"pointerType": "mouse"}, "actions": actions}]})
+
+    def close(self):
+        try:
+            self.call("DELETE", "")
+        finally:
+            self.driver.terminate()
+            self.driver.wait()
+
+
+def eventually(question):
+    """The page answers events a frame later."""
+    for _ in range(50):
+        if question():
+            return True
+        time.sleep(0.05)
+    return False
+
+
+def check(truth, text):
+    if not truth:
+        raise AssertionError(text)
+
+
+# How many colours a canvas shows: an empty one has one.
+COLOURS = """
+const c = document.getElementById(arguments_id), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+const seen = new Set(); for (let i = 0; i < d.length; i += 4) seen.add(d[i] << 16 | d[i+1] << 8 | d[i+2]); return seen.size;
+"""
+
+
+def inspect(browser, page):
+    browser.metrics(1100, 900)
+    browser.call("POST", "/url", {"url": "file://" + os.path.abspath(page)})
+    check(browser.run("return document.documentElement.dataset.charts") == str(len(CHARTS)), "the page script ended early")
+    browser.picture("wide.png")
+    for name in CHARTS + ["top"]:
+        colours = browser.run(COLOURS.replace("arguments_id", f"'{name}'"))
+        check(colours > 4, f"chart {name} is empty")
+    if browser.run("return papilla.solid.ready"):
+        distinct = browser.run("""
+            const s = papilla.solid; s.renderer.render(s.scene, s.camera);
+            const c = document.createElement('canvas'); c.width = c.height = 64;
+            c.getContext('2d').drawImage(s.renderer.domElement, 0, 0, 64, 64);
+            return new Set(c.getContext('2d').getImageData(0, 0, 64, 64).data).size""")
+        check(distinct > 4, "the solid is empty")
+    check(browser.run("return document.querySelectorAll('#maps canvas').length") >= 4, "no pictures of the contact")
+    check(browser.run("return document.querySelectorAll('#filelist tr').length") > 5, "no list of files")
+
+    # Point at the last design of the front, then select it.
+    spot = browser.run("""
+        const c = papilla.charts.pareto, set = c.data.datasets.findIndex(s => s.label.startsWith('front'));
+        const meta = c.getDatasetMeta(set).data, p = meta[meta.length - 1];
+        c.canvas.scrollIntoView({block: 'center', behavior: 'instant'});
+        const box = c.canvas.getBoundingClientRect();
+        return [box.left + p.x, box.top + p.y, c.data.datasets[set].data[meta.length - 1].row.design]""")
+    browser.pointer(spot[0], spot[1], False)
+    tip = "const t = papilla.charts.pareto.tooltip; return t.opacity ? t.body.map(b => b.lines.join()).join() : ''"
+    check(eventually(lambda: spot[2] in browser.run(tip)), f"pointing at {spot[2]} says '{browser.run(tip)}'")
+    browser.pointer(spot[0], spot[1], True)
+    chosen = "return document.documentElement.dataset.design"
+    check(eventually(lambda: browser.run(chosen) == spot[2]), "selecting a design does nothing")
+    check(browser.run("return document.getElementById('design').value") == spot[2], "the choice does not follow")
+
+    browser.metrics(400, 800)
+    wide = browser.run("return document.documentElement.scrollWidth")
+    over = browser.run("""return [...document.querySelectorAll('main *, header *')].filter(
+        e => e.getBoundingClientRect().right > 400 && !e.closest('.scroll, pre')).map(e => e.tagName + '#' + e.id).join()""")
+    check(wide <= 400, f"{wide} px wide at 400 px: {over}")
+    browser.picture("narrow.png")
+    paper = base64.b64decode(browser.call("POST", "/print", {}))
+    check(paper.startswith(b"%PDF") and len(paper) > 20000, "does not print")
+
+    # The software renderer complains about its own speed when this script reads the solid back.
+    console = [entry["message"] for entry in browser.log("browser") if "(OpenGL, Performance" not in entry["message"]]
+    check(not console, "console: " + "; ".join(console))
+    requests = set()
+    for entry in browser.log("performance"):
+        message = json.loads(entry["message"])["message"]
+        # Of this page alone: the browser's own start page asks for things too.
+        if message["method"] == "Network.requestWillBeSent" and message["params"]["documentURL"].startswith("file:"):
+            requests.add(message["params"]["request"]["url"][:100])
+    outside = [url for url in requests if not url.startswith(("file://", "data:", "blob:"))]
+    check(not outside and len(requests) >= 1, f"asked for {outside}")
+
+
+def main():
+    folder = tempfile.mkdtemp()
+    browser = Browser(folder)
+    try:
+        inspect(browser, sys.argv[1])
+    finally:
+        browser.close()
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+try:
+    main()
+except AssertionError as error:
+    sys.exit(str(error))
