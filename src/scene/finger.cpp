@@ -76,7 +76,7 @@ void fields(FieldVisitor& v, MacroContact& s) {
            s.shear_strength);
   v.number(
       {"ridge_rms", "um", 1e-3, 1e4, "closure persson: rms height of ridges above the patch size",
-       Source::Fit, "capacitance gap 1.06 um (seed 004); casts: below 5 um"},
+       Source::Estimate, "casts: below 5 um (seed 003); see docs/theory/coupling.md"},
       s.ridge_rms);
   v.number({"ridge_longest", "mm", 1e-3, 1e3, "closure persson: longest wavelength of that",
             Source::Estimate, "seed 001: roll-off of wrist skin"},
