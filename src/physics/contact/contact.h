@@ -46,14 +46,16 @@ class ContactKernel {
   // dy - kReach of its coefficients from dx = -kReach on, padded with zeros to kStencilWidth.
   static constexpr int kReach = 4, kStencilWidth = 16;
   const float* stencil(int row) const { return stencil_.data() + row * kStencilWidth; }
-  double self_compliance() const {
-    return self_;
-  }  // displacement of a pixel under its own unit pressure
+  // Displacement at (dx, dy) pixels, 0 <= dx < nx, from a pixel under unit pressure [m/Pa].
+  double influence(int dx, int dy) const { return influence_[grid_.index(dx, dy)]; }
+  double self_compliance() const { return influence_[0]; }
   const ContactKernel* coarse() const { return coarse_.get(); }  // half the pixels, or null
   double contact_modulus() const;                                // E* of the two surfaces [Pa]
 
   // u = S p: one forward and one inverse transform. scratch: spectrum-sized.
   void displace(const RealArray& p, RealArray& u, SpectrumArray& scratch) const;
+  // In place, the pressure of zero mean that displaces the whole plane by u (its mean apart).
+  void press(RealArray& u, SpectrumArray& scratch) const;
 
  private:
   Grid grid_;
@@ -61,13 +63,15 @@ class ContactKernel {
   std::shared_ptr<const Fft2d> fft_;
   std::vector<double> symbol_;
   std::vector<float> stencil_;
-  double self_ = 0;
+  RealArray influence_;
   std::shared_ptr<const ContactKernel> coarse_;
 };
 
 std::shared_ptr<const ContactKernel> make_contact_kernel(const Grid& grid,
                                                          const LayeredSolid& solid);
 
+// Sparse: a candidate set of pixels, for light contact; falls back to Dense where too many touch.
+// Auto expects the contact and chooses.
 enum class ContactMethod { Auto, Sparse, Dense };
 
 struct ContactOptions {
@@ -89,6 +93,7 @@ struct ContactSolution {
   int iterations = 0;
   double fft_pairs = 0;       // forward + inverse transforms, in units of the finest grid
   double elastic_energy = 0;  // [J]
+  ContactMethod method = ContactMethod::Auto;  // that solved it
 
   bool converged() const {
     return status == ContactStatus::Converged || status == ContactStatus::NoLoad;
@@ -97,13 +102,20 @@ struct ContactSolution {
 
 // height: rigid counter-body plus skin topography [m], grid.size() values, high touches first.
 // mean_pressure: external load over the patch area [Pa]. traction: attractive pressure [Pa] a
-// pixel, or empty. start: a nearby solution. Cost: 25-60 transforms pairs. Status NoLoad: nothing
-// presses (the patch hangs free or lifts off); Invalid: NaN input, or a mean load beyond the
-// hardness.
+// pixel, or empty. start: a nearby solution. Cost: 2-4 transform pairs (sparse), 5-25 (dense).
+// Status NoLoad: nothing presses (the patch hangs free or lifts off); Invalid: NaN input, or a mean
+// load beyond the hardness.
 ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,
                               double mean_pressure, std::span<const double> traction,
                               const ContactOptions& options,
                               const ContactSolution* start = nullptr);
+
+// The same with the rigid approach given [m], from 0 at first touch to full contact at mean(height)
+// below the highest point (the mean displacement of a half-space belongs to the approach, so more
+// does not exist: Invalid). The load is the result: mean of the pressure.
+ContactSolution solve_approach(const ContactKernel& kernel, std::span<const double> height,
+                               double approach, const ContactOptions& options,
+                               const ContactSolution* start = nullptr);
 
 // Contact area as fractions of the patch, by four estimators (Eq. contact.5-8).
 struct ContactArea {

@@ -1,70 +1,95 @@
 // Nested, stencil-preconditioned conjugate gradients on the full grid: one transform pair an
 // iteration, everything else on the list of pixels that may carry pressure.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstring>
 
-#include "physics/contact/contact.h"
+#include "base/constants.h"
+#include "physics/contact/solvers.h"
 
 namespace papilla {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// One row of the stencil in vector registers.
+using Row = float __attribute__((vector_size(ContactKernel::kStencilWidth * sizeof(float))));
+
+Row load_row(const float* from) {
+  Row row;
+  std::memcpy(&row, from, sizeof row);
+  return row;
+}
+
+float total(const Row& row) {
+  float part[8], sum = 0;
+  for (int j = 0; j < 8; ++j) part[j] = row[j] + row[j + 8];
+  for (int j = 0; j < 4; ++j) sum += part[j] + part[j + 4];
+  return sum;
+}
 
 class DenseSolver {
  public:
-  DenseSolver(const ContactKernel& kernel, std::span<const double> g0, double spread,
-              const ContactOptions& options)
-      : kernel_(kernel),
-        grid_(kernel.grid()),
-        g0_(g0),
-        spread_(spread),
-        cap_(options.hardness > 0 ? options.hardness : kInfinity),
-        options_(options),
-        p_(grid_.size()),
-        w_(grid_.size()),
+  DenseSolver(const StandardProblem& problem, double tolerance, int max_iterations,
+              StandardState& state)
+      : problem_(problem),
+        kernel_(problem.kernel),
+        grid_(kernel_.grid()),
+        g0_(problem.g0),
+        cap_(problem.cap),
+        load_(problem.load),
+        tolerance_(tolerance),
+        max_iterations_(max_iterations),
+        state_(state),
+        p_(state.p),
+        w_(state.w),
         next_(grid_.size()),
         step_(grid_.size(), 0.0),
-        scratch_(kernel.fft().spectrum_size()),
+        scratch_(kernel_.fft().spectrum_size()),
         width_(grid_.nx + 2 * kReach + ContactKernel::kStencilWidth),
         residual_(static_cast<std::size_t>(width_) * (grid_.ny + 2 * kReach), 0.0F),
-        inside_(residual_.size(), 0.0F) {}
+        inside_(residual_.size(), 0.0F) {
+    w_.resize(grid_.size());
+  }
 
-  RealArray& pressure() { return p_; }
-  const RealArray& gap_function() const { return w_; }
-  double pairs() const { return pairs_; }
-  int iterations() const { return iterations_; }
-  double certificate() const { return certificate_; }
-  double shift() const { return shift_; }
-
-  // p_ holds a start with any mean; returns true when certified. w_ is at every moment a transform
+  // From the pressure of the state, with any mean. The gap function is at every moment a transform
   // of the pressure itself (between two of them where a step was shortened), so that the
   // certificate is that of the pressure returned.
-  bool solve(double mean) {
-    load_ = mean * static_cast<double>(grid_.size());
+  void solve() {
+    state_.certified = iterate();
+    state_.exhausted = state_.iterations >= max_iterations_;
+    state_.shift = shift_;
+  }
+
+ private:
+  static constexpr int kReach = ContactKernel::kReach;
+
+  bool iterate() {
     start();
     double alpha = 0.4;  // expected step along the preconditioned direction
     double best = kInfinity;
     int since_best = 0;
-    bool conjugate = false;
-    for (iterations_ = 0;; ++iterations_) {
-      certificate_ = certify();
-      if (certificate_ <= options_.tolerance) return true;
-      if (certificate_ < 0.98 * best) {
-        best = certificate_;
+    bool conjugate = false, plain = false;
+    for (;; ++state_.iterations) {
+      state_.certificate = certify();
+      if (state_.certificate <= tolerance_) return true;
+      if (state_.certificate < 0.98 * best) {
+        best = state_.certificate;
         since_best = 0;
       } else if (++since_best > 100) {
         return false;
       }
-      if (iterations_ >= options_.max_iterations) return false;
+      if (state_.iterations >= max_iterations_) return false;
 
-      precondition();
+      if (plain) {
+        descend();
+      } else if (4 * free_.size() > grid_.size()) {
+        precondition_all();
+      } else {
+        precondition();
+      }
       direct(conjugate);
       const bool clipped = move(alpha);
       kernel_.displace(p_, next_, scratch_);
-      ++pairs_;
+      ++state_.pairs;
       // Exact minimum along the step taken, t = 1 being its end. A step that ran into the bounds is
       // kept unless it went too far: its end tells which pixels are free.
       double slope = 0, curvature = 0, longest = kInfinity;
@@ -77,25 +102,29 @@ class DenseSolver {
         if (s > 0) longest = std::min(longest, (cap_ - p_[i] + s) / s);
       }
       double t = curvature > 0 ? -slope / curvature : 0;
-      if (t > 0) alpha = std::clamp(alpha * t, 0.05, 20.0);
+      if (t > 0) alpha = std::clamp(alpha * t, 1e-4, 20.0);
       if (clipped) {
         t = t > 0.85 ? 1 : std::max(t, 0.0);
       } else {
         t = std::clamp(t, 0.0, longest);
       }
       conjugate = t > 0;
-      if (t == 0) alpha = std::max(0.05, 0.3 * alpha);
+      // Cut at many bounds a preconditioned direction may climb; the gradient never does.
+      if (t == 0) {
+        alpha = plain ? std::max(1e-6, 0.3 * alpha) : 0.3;
+        plain = true;
+      } else if (plain) {
+        alpha = 0.3;
+        plain = false;
+      }
       advance(t);
     }
   }
 
- private:
-  static constexpr int kReach = ContactKernel::kReach;
-
   void start() {
-    scale_to_load();
+    if (!problem_.approach) scale_to_load();
     kernel_.displace(p_, next_, scratch_);
-    ++pairs_;
+    ++state_.pairs;
     old_.clear();
     for (std::size_t i = 0; i < p_.size(); ++i) {
       if (p_[i] > 0) old_.push_back(static_cast<int>(i));
@@ -142,19 +171,30 @@ class DenseSolver {
     const auto blend = [&](std::size_t i) {
       return t == 1 ? next_[i] + g0_[i] : w_[i] + t * (next_[i] + g0_[i] - w_[i]);
     };
-    double sum = 0;
+    double sum = 0, total = 0;
     std::size_t count = 0;
     for (int i : old_) {
+      total += p_[i];
       if (p_[i] > 0 && p_[i] < cap_) {
         sum += blend(i);
         ++count;
       }
     }
-    shift_ = count > 0 ? sum / static_cast<double>(count) : kInfinity;
-    if (count == 0) {  // all at the cap: the lowest pixel that is not
+    if (problem_.approach) {
+      shift_ = problem_.level;
+      load_ = total;
+    } else if (count > 0) {
+      shift_ = sum / static_cast<double>(count);
+    } else {  // all at the cap: between the highest of them and the lowest of the others
+      double lowest = kInfinity, highest = -kInfinity;
       for (std::size_t i = 0; i < p_.size(); ++i) {
-        if (p_[i] == 0) shift_ = std::min(shift_, blend(i));
+        if (p_[i] == 0) {
+          lowest = std::min(lowest, blend(i));
+        } else {
+          highest = std::max(highest, blend(i));
+        }
       }
+      shift_ = std::isfinite(lowest) ? 0.5 * (lowest + highest) : highest;
     }
     free_.clear();
     held_.clear();
@@ -190,41 +230,61 @@ class DenseSolver {
     for (std::size_t k = 0; k < free_.size(); ++k) r_[k] = w_[free_[k]] - shift_;
   }
 
+  // z = the residual over a pixel's own compliance.
+  void descend() {
+    const double stiffness = 1 / kernel_.self_compliance();
+    double sum = 0;
+    for (double r : r_) sum += stiffness * r;
+    const double mean = problem_.approach ? 0 : sum / static_cast<double>(r_.size());
+    ones_.assign(r_.size(), stiffness);
+    z_.resize(r_.size());
+    for (std::size_t k = 0; k < r_.size(); ++k) z_[k] = stiffness * r_[k] - mean;
+  }
+
+  // z = the inverse kernel of the whole plane on the residual: where much of it is in contact, as
+  // cheap as the stencil and without its truncation.
+  void precondition_all() {
+    field_.assign(grid_.size(), 0);
+    for (std::size_t k = 0; k < free_.size(); ++k) field_[free_[k]] = r_[k];
+    kernel_.press(field_, scratch_);
+    ++state_.pairs;
+    z_.resize(free_.size());
+    double mean = 0;
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      z_[k] = field_[free_[k]];
+      mean += z_[k];
+    }
+    mean = problem_.approach ? 0 : mean / static_cast<double>(free_.size());
+    for (double& z : z_) z -= mean;
+    ones_.assign(free_.size(), 1 / kernel_.self_compliance());
+  }
+
   // z = inverse-kernel stencil on the free set (single precision suffices for a direction),
   // projected to zero mean in the metric of the stencil.
   void precondition() {
-    constexpr int kWide = ContactKernel::kStencilWidth;
     const std::size_t m = free_.size();
     z_.resize(m);
     ones_.resize(m);
     for (std::size_t k = 0; k < m; ++k) spread(free_[k], static_cast<float>(r_[k]), 1.0F);
+    const float least_weight = 1e-3F * kernel_.stencil(kReach)[kReach];
     double sum_z = 0, sum_one = 0;
     for (std::size_t k = 0; k < m; ++k) {
       const int ix = free_[k] % grid_.nx, iy = free_[k] / grid_.nx;
-      float value[kWide] = {}, one[kWide] = {};
+      Row value{}, one{};
       for (int dy = 0; dy <= 2 * kReach; ++dy) {
         const std::size_t at = static_cast<std::size_t>(iy + dy) * width_ + ix;
-        const float* t = kernel_.stencil(dy);
-        const float* a = residual_.data() + at;
-        const float* b = inside_.data() + at;
-#pragma omp simd
-        for (int j = 0; j < kWide; ++j) {
-          value[j] += t[j] * a[j];
-          one[j] += t[j] * b[j];
-        }
+        const Row t = load_row(kernel_.stencil(dy));
+        value += t * load_row(residual_.data() + at);
+        one += t * load_row(inside_.data() + at);
       }
-      float z = 0, o = 0;
-      for (int j = 0; j < kWide; ++j) {
-        z += value[j];
-        o += one[j];
-      }
+      const float z = total(value), o = total(one);
       z_[k] = z;
-      ones_[k] = o;
+      ones_[k] = std::max(o, least_weight);
       sum_z += z_[k];
       sum_one += ones_[k];
     }
     for (int i : free_) spread(i, 0, 0);
-    if (sum_one > 0) {
+    if (sum_one > 0 && !problem_.approach) {
       for (std::size_t k = 0; k < m; ++k) z_[k] -= sum_z / sum_one * ones_[k];
     }
   }
@@ -265,52 +325,57 @@ class DenseSolver {
       sum += d_[k];
       ones += ones_[k];
     }
-    if (ones > 0) {
+    if (ones > 0 && !problem_.approach) {
       for (std::size_t k = 0; k < m; ++k) d_[k] -= sum / ones * ones_[k];
     }
     for (int i : old_) step_[i] = 0;
   }
 
-  // p_ along -alpha d_, cut at the bounds, the load restored; step_ = what it changed by. True if a
-  // pixel under pressure met a bound. No step where the free pixels cannot carry the load.
+  // level at which raw_ - level ones_, cut at the bounds, carries the load: Newton's method on a
+  // falling, piecewise linear function, kept between bounds.
+  double load_level() const {
+    const double load = load_ - (held_.empty() ? 0 : cap_ * static_cast<double>(held_.size()));
+    double level = 0, below = -kInfinity, above = kInfinity;
+    for (int pass = 0; pass < 100; ++pass) {
+      double sum = 0, weight = 0, size = 0;
+      for (std::size_t k = 0; k < raw_.size(); ++k) {
+        const double v = raw_[k] - level * ones_[k];
+        size = std::max(size, std::abs(v) / ones_[k]);
+        if (v <= 0) continue;
+        sum += std::min(v, cap_);
+        if (v < cap_) weight += ones_[k];
+      }
+      if (std::abs(sum - load) <= 1e-15 * load_) break;
+      (sum > load ? below : above) = level;
+      double next = weight > 0 ? level + (sum - load) / weight : kInfinity;
+      if (!(next > below && next < above)) {
+        next = std::isinf(below)   ? above - 2 * size
+               : std::isinf(above) ? below + 2 * size
+                                   : 0.5 * (below + above);
+      }
+      if (next == level || next == below || next == above) break;
+      level = next;
+    }
+    return level;
+  }
+
+  // p_ along -alpha d_, cut at the bounds; the load is restored by a shift of the rigid level, that
+  // is along the preconditioned constant, so that a short step always descends. step_ = what p_
+  // changed by. True if a pixel under pressure met a bound. No step where the free pixels cannot
+  // carry the load.
   bool move(double alpha) {
+    const std::size_t m = free_.size();
+    raw_.resize(m);
+    for (std::size_t k = 0; k < m; ++k) raw_[k] = p_[free_[k]] - alpha * d_[k];
+    const double level = problem_.approach ? 0 : load_level();
     bool clipped = false;
-    double sum = 0;
-    for (std::size_t k = 0; k < free_.size(); ++k) {
+    for (std::size_t k = 0; k < m; ++k) {
       const int i = free_[k];
-      double v = p_[i] - alpha * d_[k];
-      if (v <= 0) {
-        clipped = clipped || p_[i] > 0;
-        v = 0;
-      } else if (v >= cap_) {
-        clipped = clipped || p_[i] < cap_;
-        v = cap_;
-      }
-      step_[i] = -p_[i];
+      const double v = std::clamp(raw_[k] - level * ones_[k], 0.0, cap_);
+      clipped = clipped || (v == 0 && p_[i] > 0) || (v == cap_ && p_[i] < cap_);
+      step_[i] = v - p_[i];
       p_[i] = v;
-      sum += v;
     }
-    const double load = held_.empty() ? load_ : load_ - cap_ * static_cast<double>(held_.size());
-    for (int k = 0; k < 60 && std::abs(sum - load) > 1e-15 * load; ++k) {
-      double open = 0;  // too much scales down what is at the cap too, too little cannot raise it
-      for (int i : free_) open += sum > load || p_[i] < cap_ ? p_[i] : 0;
-      if (open <= 0) {
-        for (int i : free_) {
-          p_[i] = -step_[i];
-          step_[i] = 0;
-        }
-        return true;
-      }
-      const double factor = 1 + (load - sum) / open;
-      double total = 0;
-      for (int i : free_) {
-        if (sum > load || p_[i] < cap_) p_[i] = std::min(p_[i] * factor, cap_);
-        total += p_[i];
-      }
-      sum = total;
-      if (!std::isfinite(cap_)) break;
-    }
-    for (int i : free_) step_[i] += p_[i];
     return clipped;
   }
 
@@ -329,6 +394,7 @@ class DenseSolver {
 
   // Frank-Wolfe gap over load and height spread. Eq. contact.4
   double certify() {
+    if (load_ <= 0) return low_ < shift_ ? kInfinity : 0;  // given approach, nothing touches yet
     double work = 0;
     for (int i : old_) work += p_[i] * w_[i];
     double least = low_ * load_;
@@ -341,29 +407,36 @@ class DenseSolver {
       for (std::size_t i = 0; i < whole; ++i) least += cap_ * next_low_[i];
       least += (load_ - cap_ * static_cast<double>(whole)) * next_low_[whole];
     }
-    return std::max(0.0, work - least) / (load_ * spread_);
+    if (problem_.approach) {  // Eq. contact.10
+      work -= load_ * shift_;
+      least = 2 * std::min(0.0, least - load_ * shift_);
+    }
+    return std::max(0.0, work - least) / (load_ * problem_.spread);
   }
 
+  const StandardProblem& problem_;
   const ContactKernel& kernel_;
   const Grid& grid_;
   std::span<const double> g0_;
-  double spread_, cap_, load_ = 0;
-  const ContactOptions& options_;
-  RealArray p_, w_, next_, step_;
+  double cap_, load_, tolerance_;
+  int max_iterations_;
+  StandardState& state_;
+  RealArray &p_, &w_;  // of the state
+  RealArray next_, step_, field_;
   SpectrumArray scratch_;
   int width_;                             // of the padded images below
   std::vector<float> residual_, inside_;  // of the free pixels; zero between uses
   std::vector<int> free_, held_, old_;    // old_: the free set of the last step, held ones included
-  std::vector<double> r_, z_, ones_, d_, next_low_;
-  double pairs_ = 0, certificate_ = 0, shift_ = 0, low_ = 0;
-  int iterations_ = 0;
+  std::vector<double> r_, z_, ones_, d_, raw_, next_low_;
+  double shift_ = 0, low_ = 0;
 };
 
 // Start from the grid of half the pixels, its gaps the 2x2 minimum, solved as far as the start is
-// worth. pairs grows in units of the finest grid, of which this grid's pair costs `unit`.
-RealArray nested_start(const ContactKernel& kernel, std::span<const double> g0, double spread,
-                       double mean, const ContactOptions& options, double unit, double& pairs) {
+// worth. pairs: in units of the finer grid.
+RealArray nested_start(const StandardProblem& fine_problem, double tolerance, double& pairs) {
+  const ContactKernel& kernel = fine_problem.kernel;
   const ContactKernel& coarse = *kernel.coarse();
+  const std::span<const double> g0 = fine_problem.g0;
   const Grid &fine_grid = kernel.grid(), &grid = coarse.grid();
   std::vector<double> gap(grid.size());
   for (int iy = 0; iy < grid.ny; ++iy) {
@@ -374,24 +447,22 @@ RealArray nested_start(const ContactKernel& kernel, std::span<const double> g0, 
           std::min(std::min(g0[i], g0[i + 1]), std::min(g0[i + row], g0[i + row + 1]));
     }
   }
-  ContactOptions loose = options;
-  loose.tolerance = std::max(options.tolerance, 2e-2);
-  loose.max_iterations = 200;
-  DenseSolver solver(coarse, gap, spread, loose);
-  if (coarse.coarse()) {
-    solver.pressure() = nested_start(coarse, gap, spread, mean, loose, 0.25 * unit, pairs);
-  } else {
-    std::fill(solver.pressure().begin(), solver.pressure().end(), mean);
-  }
-  solver.solve(mean);
-  pairs += 0.25 * unit * solver.pairs();
+  StandardProblem problem{coarse,
+                          gap,
+                          fine_problem.spread,
+                          fine_problem.load / 4,
+                          fine_problem.cap,
+                          fine_problem.approach,
+                          fine_problem.level};
+  const StandardState state = solve_dense(problem, std::max(tolerance, 2e-2), 200, {});
+  pairs += 0.25 * state.pairs;
   // The load of a coarse pixel goes to its children as if they were springs of a pixel's own
   // compliance at their heights.
   RealArray fine(fine_grid.size(), 0.0);
   const double yield = kernel.self_compliance();
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
-      const double p = solver.pressure()[grid.index(ix, iy)];
+      const double p = state.p[grid.index(ix, iy)];
       if (p <= 0) continue;
       std::size_t child[4];
       for (int k = 0; k < 4; ++k) child[k] = fine_grid.index(2 * ix + k % 2, 2 * iy + k / 2);
@@ -411,99 +482,19 @@ RealArray nested_start(const ContactKernel& kernel, std::span<const double> g0, 
 
 }  // namespace
 
-ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,
-                              double mean_pressure, std::span<const double> traction,
-                              const ContactOptions& options, const ContactSolution* start) {
-  const Grid& grid = kernel.grid();
-  const std::size_t n = grid.size();
-  ContactSolution out;
-  out.pressure.assign(n, 0);
-  out.gap.assign(n, 0);
-  double mean_height = 0, squares = 0, highest = -kInfinity;
-  bool finite = std::isfinite(mean_pressure);
-  for (double h : height) mean_height += h;
-  mean_height /= static_cast<double>(n);
-  for (double h : height) {
-    squares += (h - mean_height) * (h - mean_height);
-    highest = std::max(highest, h);
-  }
-  finite = finite && std::isfinite(squares);
-  double mean_traction = 0;
-  for (double t : traction) mean_traction += t;
-  mean_traction /= static_cast<double>(n);
-  finite = finite && std::isfinite(mean_traction);
-  if (height.size() != n || (!traction.empty() && traction.size() != n) || !finite) {
-    out.status = ContactStatus::Invalid;
-    out.reason = "heights, load or tractions are not finite numbers on the kernel's grid";
-    return out;
-  }
-
-  // Eq. contact.3: tractions deform the surface and add to the load.
-  RealArray g0(n);
-  SpectrumArray scratch(kernel.fft().spectrum_size());
-  if (!traction.empty()) {
-    RealArray t(traction.begin(), traction.end());
-    kernel.displace(t, g0, scratch);
-    out.fft_pairs += 1;
-    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i] - g0[i];
+StandardState solve_dense(const StandardProblem& problem, double tolerance, int max_iterations,
+                          std::span<const double> start) {
+  StandardState state;
+  const std::size_t n = problem.g0.size();
+  if (!start.empty()) {
+    state.p.assign(start.begin(), start.end());
+  } else if (problem.kernel.coarse()) {
+    state.p = nested_start(problem, tolerance, state.pairs);
   } else {
-    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i];
+    state.p.assign(n, problem.load / static_cast<double>(n));
   }
-  const double mean = mean_pressure + mean_traction;
-  if (mean <= 0) {
-    const double lowest = *std::min_element(g0.begin(), g0.end());
-    for (std::size_t i = 0; i < n; ++i) out.gap[i] = g0[i] - lowest;
-    out.shift = lowest;
-    out.status = ContactStatus::NoLoad;
-    out.reason = mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch";
-    return out;
-  }
-  if (options.hardness > 0 && mean >= options.hardness) {
-    out.status = ContactStatus::Invalid;
-    out.reason = fmt::format("mean load {:.3g} Pa is beyond the hardness {:.3g} Pa everywhere",
-                             mean, options.hardness);
-    std::fill(out.pressure.begin(), out.pressure.end(), options.hardness);
-    return out;
-  }
-  // Height spread that normalises the certificate; a flat surface is measured by what a pixel
-  // yields.
-  const double spread =
-      std::max(std::sqrt(squares / static_cast<double>(n)), 1e-6 * mean * kernel.self_compliance());
-
-  DenseSolver solver(kernel, g0, spread, options);
-  double coarse_pairs = 0;
-  const bool warm =
-      start && start->pressure.size() == n && start->converged() &&
-      std::any_of(start->pressure.begin(), start->pressure.end(), [](double p) { return p > 0; });
-  if (warm) {
-    std::copy(start->pressure.begin(), start->pressure.end(), solver.pressure().begin());
-  } else if (kernel.coarse()) {
-    solver.pressure() = nested_start(kernel, g0, spread, mean, options, 1, coarse_pairs);
-  } else {
-    std::fill(solver.pressure().begin(), solver.pressure().end(), mean);
-  }
-  const bool certified = solver.solve(mean);
-  out.pressure.assign(solver.pressure().begin(), solver.pressure().end());
-  out.certificate = solver.certificate();
-  out.iterations = solver.iterations();
-  out.fft_pairs += solver.pairs() + coarse_pairs;
-  out.shift = solver.shift();
-  double energy = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double v = solver.gap_function()[i];
-    out.gap[i] = out.pressure[i] > 0 ? 0 : std::max(0.0, v - out.shift);
-    energy += 0.5 * out.pressure[i] * (v - g0[i]);
-  }
-  out.elastic_energy = energy * grid.pixel_area();
-  out.status = certified
-                   ? ContactStatus::Converged
-                   : (solver.iterations() >= options.max_iterations ? ContactStatus::IterationLimit
-                                                                    : ContactStatus::Stagnated);
-  if (!certified) {
-    out.reason = fmt::format("certificate {:.2g} above {:.2g} after {} iterations", out.certificate,
-                             options.tolerance, out.iterations);
-  }
-  return out;
+  DenseSolver(problem, tolerance, max_iterations, state).solve();
+  return state;
 }
 
 }  // namespace papilla

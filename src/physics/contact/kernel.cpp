@@ -84,11 +84,11 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
           static_cast<float>(table[grid.index(wrap(dx, grid.nx), wrap(dy, grid.ny))]);
     }
   }
-  RealArray impulse(grid.size(), 0.0);
-  impulse[0] = 1;
+  table.assign(grid.size(), 0.0);
+  table[0] = 1;
   SpectrumArray scratch(fft_->spectrum_size());
-  displace(impulse, table, scratch);
-  self_ = table[0];
+  influence_.resize(grid.size());
+  displace(table, influence_, scratch);
   if (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::min(grid.nx, grid.ny) >= 64) {
     coarse_ = make_contact_kernel({grid.nx / 2, grid.ny / 2, grid.lx, grid.ly}, solid);
   }
@@ -97,6 +97,14 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
 void ContactKernel::displace(const RealArray& p, RealArray& u, SpectrumArray& scratch) const {
   fft_->forward(p.data(), scratch.data());
   for (std::size_t i = 0; i < scratch.size(); ++i) scratch[i] *= symbol_[i];
+  fft_->inverse(scratch.data(), u.data());
+}
+
+void ContactKernel::press(RealArray& u, SpectrumArray& scratch) const {
+  fft_->forward(u.data(), scratch.data());
+  const double n = static_cast<double>(grid_.size());
+  scratch[0] = 0;
+  for (std::size_t i = 1; i < scratch.size(); ++i) scratch[i] /= symbol_[i] * n * n;
   fft_->inverse(scratch.data(), u.data());
 }
 

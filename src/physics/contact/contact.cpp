@@ -1,0 +1,186 @@
+// Heights, load and tractions as a standard problem, its solver, the solution in the caller's
+// terms.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "physics/contact/solvers.h"
+
+namespace papilla {
+namespace {
+
+// About the mean; NaN or infinite where a value is.
+double variance(std::span<const double> values) {
+  const auto n = static_cast<double>(values.size());
+  const double origin = values[0];  // near enough to the mean against cancellation
+  double sum = 0, squares = 0;
+#pragma omp simd reduction(+ : sum, squares)
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double v = values[i] - origin;
+    sum += v;
+    squares += v * v;
+  }
+  return std::max(squares / n - (sum / n) * (sum / n), 0 * squares);
+}
+
+bool usable(const ContactSolution* start, std::size_t n) {
+  return start && start->pressure.size() == n && start->converged() &&
+         std::any_of(start->pressure.begin(), start->pressure.end(),
+                     [](double p) { return p > 0; });
+}
+
+void fail(std::size_t n, ContactSolution& out) {
+  out.pressure.assign(n, 0);
+  out.gap.assign(n, 0);
+  out.status = ContactStatus::Invalid;
+}
+
+void finish(const StandardProblem& problem, const StandardState& state,
+            const ContactOptions& options, ContactSolution& out) {
+  out.pressure.assign(state.p.begin(), state.p.end());
+  out.gap.resize(state.w.size());
+  out.certificate = state.certificate;
+  out.iterations = state.iterations;
+  out.fft_pairs += state.pairs;
+  out.shift = state.shift;
+  double energy = 0;
+  const double shift = out.shift;
+#pragma omp simd reduction(+ : energy)
+  for (std::size_t i = 0; i < out.gap.size(); ++i) {
+    const double p = state.p[i], v = state.w[i], above = v - shift;
+    out.gap[i] = p > 0 || above < 0 ? 0 : above;
+    energy += 0.5 * p * (v - problem.g0[i]);
+  }
+  out.elastic_energy = energy * problem.kernel.grid().pixel_area();
+  if (state.certified) {
+    out.status = ContactStatus::Converged;
+    return;
+  }
+  out.status = state.exhausted ? ContactStatus::IterationLimit : ContactStatus::Stagnated;
+  out.reason = fmt::format("certificate {:.2g} above {:.2g} after {} iterations", out.certificate,
+                           options.tolerance, out.iterations);
+}
+
+// First touch without load: gaps above the lowest point.
+void hang(std::span<const double> g0, double level, const std::string& reason,
+          ContactSolution& out) {
+  out.pressure.assign(g0.size(), 0);
+  out.gap.resize(g0.size());
+  for (std::size_t i = 0; i < g0.size(); ++i) out.gap[i] = g0[i] - level;
+  out.shift = level;
+  out.status = ContactStatus::NoLoad;
+  out.reason = reason;
+}
+
+}  // namespace
+
+ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,
+                              double mean_pressure, std::span<const double> traction,
+                              const ContactOptions& options, const ContactSolution* start) {
+  const Grid& grid = kernel.grid();
+  const std::size_t n = grid.size();
+  ContactSolution out;
+  const double square_height = height.size() == n ? variance(height) : 0;
+  double mean_traction = 0;
+  for (double t : traction) mean_traction += t;
+  mean_traction /= static_cast<double>(n);
+  if (height.size() != n || (!traction.empty() && traction.size() != n) ||
+      !std::isfinite(square_height) || !std::isfinite(mean_traction) ||
+      !std::isfinite(mean_pressure)) {
+    fail(n, out);
+    out.reason = "heights, load or tractions are not finite numbers on the kernel's grid";
+    return out;
+  }
+
+  // Eq. contact.3: tractions deform the surface and add to the load.
+  RealArray g0(n);
+  SpectrumArray scratch(kernel.fft().spectrum_size());
+  if (!traction.empty()) {
+    RealArray t(traction.begin(), traction.end());
+    kernel.displace(t, g0, scratch);
+    out.fft_pairs += 1;
+    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i] - g0[i];
+  } else {
+    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i];
+  }
+  const double mean = mean_pressure + mean_traction;
+  if (mean <= 0) {
+    hang(g0, *std::min_element(g0.begin(), g0.end()),
+         mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch", out);
+    return out;
+  }
+  if (options.hardness > 0 && mean >= options.hardness) {
+    out.status = ContactStatus::Invalid;
+    out.reason = fmt::format("mean load {:.3g} Pa is beyond the hardness {:.3g} Pa everywhere",
+                             mean, options.hardness);
+    out.pressure.assign(n, options.hardness);
+    return out;
+  }
+  // Height spread that normalises the certificate; a flat surface is measured by what a pixel
+  // yields.
+  const double spread = std::max(std::sqrt(square_height), 1e-6 * mean * kernel.self_compliance());
+  StandardProblem problem{kernel, g0, spread, mean * static_cast<double>(n)};
+  if (options.hardness > 0) problem.cap = options.hardness;
+
+  if (!usable(start, n)) start = nullptr;
+  const bool demand = options.method == ContactMethod::Sparse;
+  std::span<const double> first;
+  if (start) first = start->pressure;
+  StandardState state;
+  if (options.method != ContactMethod::Dense && options.hardness <= 0) {
+    if (solve_sparse(problem, options.tolerance, start, demand, state)) {
+      out.method = ContactMethod::Sparse;
+      finish(problem, state, options, out);
+      return out;
+    }
+    out.fft_pairs += state.pairs;
+    if (state.pairs > 0) first = state.p;
+  }
+  out.method = ContactMethod::Dense;
+  finish(problem, solve_dense(problem, options.tolerance, options.max_iterations, first), options,
+         out);
+  return out;
+}
+
+ContactSolution solve_approach(const ContactKernel& kernel, std::span<const double> height,
+                               double approach, const ContactOptions& options,
+                               const ContactSolution* start) {
+  const std::size_t n = kernel.grid().size();
+  ContactSolution out;
+  const double square_height = height.size() == n ? variance(height) : 0;
+  if (height.size() != n || !std::isfinite(square_height) || !std::isfinite(approach)) {
+    fail(n, out);
+    out.reason = "heights or approach are not finite numbers on the kernel's grid";
+    return out;
+  }
+  RealArray g0(n);
+  double mean = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    g0[i] = -height[i];
+    mean += g0[i] / static_cast<double>(n);
+  }
+  const double level = *std::min_element(g0.begin(), g0.end()) + approach;
+  if (approach <= 0) {
+    hang(g0, level, "the surfaces do not touch yet", out);
+    return out;
+  }
+  if (level >= mean) {  // the mean surface cannot be passed: every load closes the gap there
+    fail(n, out);
+    out.reason = fmt::format("approach {:.4g} m beyond full contact, reached at {:.4g} m", approach,
+                             approach + mean - level);
+    return out;
+  }
+  StandardProblem problem{kernel, g0, std::sqrt(square_height)};
+  if (options.hardness > 0) problem.cap = options.hardness;
+  problem.approach = true;
+  problem.level = level;
+  out.method = ContactMethod::Dense;
+  std::span<const double> first;
+  if (usable(start, n)) first = start->pressure;
+  finish(problem, solve_dense(problem, options.tolerance, options.max_iterations, first), options,
+         out);
+  return out;
+}
+
+}  // namespace papilla

@@ -1,0 +1,42 @@
+// The two solvers of the standard problem (Eq. contact.2), inside this folder.
+#pragma once
+
+#include <span>
+
+#include "base/constants.h"
+#include "base/fft.h"
+#include "physics/contact/contact.h"
+
+namespace papilla {
+
+// Minimise 1/2 pSp + p.g0 over 0 <= p <= cap: with the sum of p given (load control), or with the
+// rigid level given (approach control: minimise 1/2 pSp + p.(g0 - level)).
+struct StandardProblem {
+  const ContactKernel& kernel;
+  std::span<const double> g0;  // [m]
+  double spread = 1;           // height that normalises the certificate [m]
+  double load = 0;             // sum of p [Pa]
+  double cap = kInfinity;
+  bool approach = false;
+  double level = 0;  // [m], approach control
+};
+
+struct StandardState {
+  RealArray p, w;  // pressure [Pa]; gap function S p + g0 [m]
+  double shift = 0, certificate = 0;
+  double pairs = 0;  // in units of the problem's grid
+  int iterations = 0;
+  bool certified = false, exhausted = false;  // exhausted: by the number of iterations
+};
+
+// start: pressures of a nearby problem, or empty: from coarser grids.
+StandardState solve_dense(const StandardProblem& problem, double tolerance, int max_iterations,
+                          std::span<const double> start);
+
+// Candidate set with an exact active set; certified by a full transform pair. False: too much
+// contact for it (state is then a start for the dense solver, its pairs count). start: a nearby
+// solution or null. demand: tried whatever amount of contact is expected.
+bool solve_sparse(const StandardProblem& problem, double tolerance, const ContactSolution* start,
+                  bool demand, StandardState& state);
+
+}  // namespace papilla

@@ -1,0 +1,129 @@
+#include "physics/contact/closed_forms.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/constants.h"
+#include "physics/contact/contact.h"
+
+namespace papilla {
+namespace {
+
+const LayeredSolid kHalfSpace{1e6, 0, 0, 1e6, 0};
+
+std::vector<double> sampled(const Grid& grid, const std::function<double(double, double)>& h) {
+  std::vector<double> z(grid.size());
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) z[grid.index(ix, iy)] = h(grid.x(ix), grid.y(iy));
+  }
+  return z;
+}
+
+TEST(ClosedForms, WaveInOneDirectionIsSolvedToTheExactPressure) {
+  const Westergaard exact{1e6, 1e-8, 1e-6};
+  const Grid grid{1024, 2, 1e-6, 1e-6 / 512};
+  const ContactKernel kernel(grid, kHalfSpace);
+  const std::vector<double> h =
+      sampled(grid, [](double x, double) { return 1e-8 * std::cos(2 * kPi * x / 1e-6); });
+  for (double share : {0.05, 0.2, 0.5, 0.8}) {
+    const double p = share * exact.full_pressure();
+    const ContactSolution s = solve_contact(kernel, h, p, {}, {.tolerance = 1e-9});
+    ASSERT_TRUE(s.converged()) << s.reason;
+    EXPECT_NEAR(measure_area(kernel, s).near_edge, exact.area(p), 0.005 * exact.area(p));
+    double error = 0;
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const double x = std::remainder(grid.x(ix), 1e-6);
+      if (std::abs(std::abs(x) / 1e-6 - exact.area(p) / 2) < 0.01) continue;  // the edge itself
+      error = std::max(error, std::abs(s.pressure[ix] - exact.pressure(p, x)));
+    }
+    EXPECT_LT(error, 0.01 * exact.peak_pressure(p)) << share;
+  }
+}
+
+TEST(ClosedForms, EggBoxHasTheAreaOfTheTable) {
+  const EggBox exact{1e6, 1e-8, 1e-6};
+  const Grid grid{256, 256, 1e-6, 1e-6};
+  const ContactKernel kernel(grid, kHalfSpace);
+  const std::vector<double> h = sampled(grid, [](double x, double y) {
+    return 1e-8 * std::cos(2 * kPi * x / 1e-6) * std::cos(2 * kPi * y / 1e-6);
+  });
+  for (double share : {0.05, 0.1, 0.3, 0.5, 0.8, 0.95}) {
+    const double p = share * exact.full_pressure();
+    const ContactSolution s = solve_contact(kernel, h, p, {}, {.tolerance = 1e-8});
+    ASSERT_TRUE(s.converged()) << s.reason;
+    EXPECT_NEAR(measure_area(kernel, s).near_edge, exact.area(p), 0.005 * exact.area(p)) << share;
+  }
+  EXPECT_NEAR(exact.area(1e-4 * exact.full_pressure()),  // the Hertz limit, two peaks a period
+              kPi * std::pow(3e-4 / (8 * kPi), 2.0 / 3),
+              0.01 * exact.area(1e-4 * exact.full_pressure()));
+}
+
+TEST(ClosedForms, SphereAndConeHaveTheirContactRadius) {
+  const Grid grid{256, 256, 1e-5, 1e-5};
+  const ContactKernel kernel(grid, kHalfSpace);
+  const double middle = 5.003e-6;
+  const Hertz sphere{1e6, 2e-5};
+  const Cone cone{1e6, 0.05};
+  const auto distance = [&](double x, double y) { return std::hypot(x - middle, y - middle); };
+  const std::vector<double> ball = sampled(
+      grid, [&](double x, double y) { return -square(distance(x, y)) / (2 * sphere.radius); });
+  const std::vector<double> tip =
+      sampled(grid, [&](double x, double y) { return -cone.slope * distance(x, y); });
+  for (double a : {6 * grid.dx(), 12 * grid.dx()}) {
+    const double exact = kPi * a * a / grid.area();
+    const double force = 4 * 1e6 * cube(a) / (3 * sphere.radius);
+    EXPECT_NEAR(sphere.contact_radius(force), a, 1e-12 * a);
+    const ContactSolution s =
+        solve_contact(kernel, ball, force / grid.area(), {}, {.tolerance = 1e-9});
+    EXPECT_NEAR(measure_area(kernel, s).near_edge, exact, 0.01 * exact);
+    EXPECT_NEAR(*std::max_element(s.pressure.begin(), s.pressure.end()),
+                sphere.peak_pressure(force), 0.02 * sphere.peak_pressure(force));
+    const double press = kPi * 1e6 * a * a * cone.slope / 2;
+    EXPECT_NEAR(cone.contact_radius(press), a, 1e-12 * a);
+    const ContactSolution c =
+        solve_contact(kernel, tip, press / grid.area(), {}, {.tolerance = 1e-9});
+    EXPECT_NEAR(measure_area(kernel, c).near_edge, exact, 0.02 * exact);
+  }
+  // delta = dU/dF: the approach is the derivative of the energy with the force.
+  for (double f : {1e-6, 1e-4}) {
+    const double d = 1e-4 * f;
+    const auto work = [](const auto& body, double force) {  // integral of F d(delta) by parts
+      double sum = 0;
+      for (int k = 0; k < 20000; ++k) sum += body.approach(force * (k + 0.5) / 20000) * force / 2e4;
+      return sum;
+    };
+    EXPECT_NEAR((work(sphere, f + d) - work(sphere, f - d)) / (2 * d), sphere.approach(f),
+                1e-4 * sphere.approach(f));
+  }
+}
+
+TEST(ClosedForms, AdhesiveSpheresPullOffWhereTheirForceIsLeast) {
+  const AdhesiveSphere s{1e6, 1e-6, 0.05};
+  double least = 0, at = 0;
+  for (int k = 1; k < 4000; ++k) {
+    const double a = 1e-9 * k;
+    if (s.jkr_force(a) < least) {
+      least = s.jkr_force(a);
+      at = a;
+    }
+  }
+  EXPECT_NEAR(least, s.jkr_pull_off(), 1e-5 * std::abs(least));
+  EXPECT_NEAR(cube(at), 9 * kPi * 0.05 * square(1e-6) / (8 * 1e6), 0.02 * cube(at));
+  const double rest = std::cbrt(9 * kPi * 0.05 * square(1e-6) / (2 * 1e6));  // no force
+  EXPECT_NEAR(s.jkr_force(rest), 0, 1e-12 * std::abs(s.jkr_pull_off()) + 1e-18);
+  EXPECT_DOUBLE_EQ(s.dmt_force(0), s.dmt_pull_off());
+  // Without adhesion both are Hertz.
+  const AdhesiveSphere dry{1e6, 1e-6, 0};
+  const Hertz hertz{1e6, 1e-6};
+  EXPECT_NEAR(hertz.contact_radius(dry.jkr_force(1e-7)), 1e-7, 1e-16);
+  EXPECT_NEAR(dry.jkr_approach(1e-7), hertz.approach(dry.dmt_force(1e-7)), 1e-20);
+  // dF/d(delta) > 0 along the stable branch, work of a closed loop is none: F = -dU/d(delta) with
+  // U = stored energy - w pi a^2 has dU/da = 0 at fixed delta.
+  EXPECT_NEAR(s.tabor(1e-9) / s.tabor(8e-9), 8, 1e-12);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,168 @@
+// The sparse and the dense solver, load and approach control, the hardness cap, warm starts.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "geometry/roughness.h"
+#include "physics/contact/contact.h"
+
+namespace papilla {
+namespace {
+
+// The paper's uniform preload: light contact, 2-4e-4 of the patch.
+struct Light {
+  Grid grid{256, 256, 12e-6, 12e-6};
+  std::shared_ptr<const ContactKernel> kernel =
+      make_contact_kernel(grid, {200e6, 0.5, 1e-6, 25e6, 0.5});
+  Heightmap skin(std::uint64_t index) const {
+    return random_surface({330e-9, 12e-6, 0.8, 50e-9}, grid, 3, index);
+  }
+};
+
+double mean(const std::vector<double>& v) {
+  double sum = 0;
+  for (double x : v) sum += x;
+  return sum / static_cast<double>(v.size());
+}
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double squares = 0, norm = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    squares += square(a[i] - b[i]);
+    norm += square(b[i]);
+  }
+  return std::sqrt(squares / norm);
+}
+
+TEST(Sparse, LightContactIsSolvedToRoundingInFewPairs) {
+  const Light light;
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    const Heightmap skin = light.skin(k);
+    for (double load : {5e3, 15e3, 30e3}) {
+      const ContactSolution s = solve_contact(*light.kernel, skin.z, load, {}, {.tolerance = 1e-8});
+      EXPECT_EQ(s.method, ContactMethod::Sparse);
+      EXPECT_TRUE(s.converged()) << s.reason;
+      EXPECT_LE(s.fft_pairs, 2);
+      const ContactSolution dense = solve_contact(
+          *light.kernel, skin.z, load, {}, {.tolerance = 1e-11, .method = ContactMethod::Dense});
+      EXPECT_EQ(dense.method, ContactMethod::Dense);
+      EXPECT_TRUE(dense.converged()) << dense.reason;
+      EXPECT_LT(difference(s.pressure, dense.pressure), 1e-4);
+      EXPECT_EQ(measure_area(*light.kernel, s).raw, measure_area(*light.kernel, dense).raw);
+      EXPECT_NEAR(s.elastic_energy, dense.elastic_energy, 1e-7 * dense.elastic_energy);
+      const ContactSolution more =
+          solve_contact(*light.kernel, skin.z, 1.1 * load, {}, {.tolerance = 1e-8}, &s);
+      EXPECT_EQ(more.method, ContactMethod::Sparse);
+      EXPECT_LE(more.fft_pairs, 2);
+    }
+  }
+}
+
+TEST(Sparse, FallsBackToTheDenseSolverWhereMuchTouches) {
+  const Grid grid{64, 64, 6e-6, 6e-6};
+  const auto kernel = make_contact_kernel(grid, {1e6, 0.5, 0, 1e6, 0.5});
+  const ContactOptions sparse{.tolerance = 1e-6, .method = ContactMethod::Sparse};
+  const Heightmap skin = random_surface({1e-7, 3e-6, 0.8, 4e-7}, grid, 1, 3);
+  for (double load : {1e3, 1e4, 1e5}) {
+    const ContactSolution s = solve_contact(*kernel, skin.z, load, {}, sparse);
+    EXPECT_TRUE(s.converged()) << s.reason;
+    EXPECT_NEAR(mean(s.pressure), load, 1e-9 * load);
+  }
+  const std::vector<double> flat(grid.size(), 0.0);
+  EXPECT_TRUE(solve_contact(*kernel, flat, 1e4, {}, sparse).converged());
+}
+
+// A start far from the solution cuts most of the first step.
+TEST(Dense, WarmStartsFarAwayConverge) {
+  const Grid grid{128, 128, 12e-6, 12e-6};
+  const auto kernel = make_contact_kernel(grid, {200e6, 0.5, 1e-6, 25e6, 0.5});
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    const Heightmap skin = random_surface({330e-9, 12e-6, 0.8, 1e-7}, grid, 3, k);
+    const ContactOptions dense{.tolerance = 1e-8, .method = ContactMethod::Dense};
+    const ContactSolution low = solve_contact(*kernel, skin.z, 150e3, {}, dense);
+    for (double factor : {0.02, 0.5, 2.0, 20.0}) {
+      const ContactSolution s = solve_contact(*kernel, skin.z, factor * 150e3, {}, dense, &low);
+      EXPECT_TRUE(s.converged()) << factor << " " << s.reason;
+      EXPECT_LT(s.iterations, 60);
+    }
+  }
+}
+
+TEST(Dense, PrimeAndNarrowGridsConverge) {
+  for (const Grid& grid : {Grid{97, 61, 9e-6, 6e-6}, Grid{127, 127, 12e-6, 12e-6},
+                           Grid{200, 3, 12e-6, 2e-7}, Grid{1, 64, 1e-7, 6e-6}}) {
+    const auto kernel = make_contact_kernel(grid, {66e6, 0.5, 1e-6, 20e6, 0.5});
+    const Heightmap skin = random_surface({1e-7, 3e-6, 0.8, 3e-7}, grid, 1, 0);
+    const ContactSolution s = solve_contact(*kernel, skin.z, 2e5, {},
+                                            {.tolerance = 1e-8, .method = ContactMethod::Dense});
+    EXPECT_TRUE(s.converged()) << grid.nx << " " << grid.ny << " " << s.reason;
+  }
+}
+
+TEST(Approach, GivesTheLoadThatGivesTheApproach) {
+  const Grid grid{96, 80, 9e-6, 8e-6};
+  const auto kernel = make_contact_kernel(grid, {66e6, 0.5, 1e-6, 20e6, 0.5});
+  const Heightmap skin = random_surface({1e-7, 3e-6, 0.8, 4e-7}, grid, 1, 3);
+  const double top = *std::max_element(skin.z.begin(), skin.z.end());
+  for (double load : {1e4, 3e5, 3e6}) {
+    const ContactSolution by_load = solve_contact(*kernel, skin.z, load, {}, {.tolerance = 1e-10});
+    const ContactSolution s =
+        solve_approach(*kernel, skin.z, by_load.shift + top, {.tolerance = 1e-10});
+    ASSERT_TRUE(s.converged()) << load << " " << s.reason;
+    EXPECT_NEAR(mean(s.pressure), load, 1e-4 * load);
+    EXPECT_LT(difference(s.pressure, by_load.pressure), 1e-3);
+  }
+  EXPECT_EQ(solve_approach(*kernel, skin.z, -1e-9, {}).status, ContactStatus::NoLoad);
+  EXPECT_EQ(solve_approach(*kernel, skin.z, top + 1e-9, {}).status, ContactStatus::Invalid);
+}
+
+// A thin compressible layer on a rigid base is a bed of springs of stiffness
+// E (1-n) / ((1+n)(1-2n) d).
+TEST(Approach, ThinLayerOnARigidBaseIsABedOfSprings) {
+  const double wave = 1e-4, d = 2e-7, amplitude = 1e-9;
+  const Grid grid{256, 8, wave, wave / 32};
+  const auto kernel = make_contact_kernel(grid, {1e6, 0.3, d, 1e16, 0.3});
+  std::vector<double> height(grid.size());
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    height[i] = amplitude * std::cos(2 * kPi * grid.x(static_cast<int>(i) % 256) / wave);
+  }
+  const double stiffness = 1e6 * 0.7 / (1.3 * 0.4 * d);
+  const ContactSolution s =
+      solve_contact(*kernel, height, 0.1 * stiffness * amplitude, {}, {.tolerance = 1e-9});
+  ASSERT_TRUE(s.converged()) << s.reason;
+  // The periodic kernel has no mean displacement: p = k (h + level) with some level, in contact.
+  const double level = s.pressure[0] / stiffness - height[0];
+  double largest = 0;
+  for (std::size_t i = 0; i < height.size(); ++i) {
+    const double spring = stiffness * std::max(0.0, height[i] + level);
+    largest = std::max(largest, std::abs(s.pressure[i] - spring));
+  }
+  EXPECT_LT(largest, 0.02 * s.pressure[0]);
+}
+
+TEST(Hardness, ASoftSurfaceFlowsUntilItsAreaCarriesTheLoad) {
+  const Grid grid{128, 128, 12e-6, 12e-6};
+  const auto kernel = make_contact_kernel(grid, {66e6, 0.5, 1e-6, 60e6, 0.5});
+  const Heightmap skin = random_surface({256e-9, 3.7e-6, 0.8, 2e-7}, grid, 1, 0);
+  const ContactSolution elastic = solve_contact(*kernel, skin.z, 7e5, {}, {.tolerance = 1e-7});
+  const double peak = *std::max_element(elastic.pressure.begin(), elastic.pressure.end());
+  double previous = measure_area(*kernel, elastic).raw;
+  for (double hardness : {10 * peak, 0.5 * peak, 0.1 * peak, 0.05 * peak}) {
+    const ContactSolution s =
+        solve_contact(*kernel, skin.z, 7e5, {}, {.tolerance = 1e-7, .hardness = hardness});
+    ASSERT_TRUE(s.converged()) << hardness / peak << " " << s.reason;
+    EXPECT_LE(s.certificate, 1e-7);
+    EXPECT_NEAR(mean(s.pressure), 7e5, 1e-6 * 7e5);
+    EXPECT_LE(*std::max_element(s.pressure.begin(), s.pressure.end()), hardness);
+    const double area = measure_area(*kernel, s).raw;
+    EXPECT_GE(area, 0.999 * previous);
+    EXPECT_GE(area, 7e5 / hardness);
+    previous = area;
+  }
+  EXPECT_NEAR(previous, 7e5 / (0.05 * peak), 0.15 * previous);  // nearly all of it flows
+}
+
+}  // namespace
+}  // namespace papilla
