@@ -152,12 +152,55 @@ std::vector<double> GaussianProcess::leave_one_out() const {
   return out;
 }
 
+double GaussianProcess::leave_one_out_error() const {
+  const State& s = *state_;
+  const Eigen::MatrixXd inverse = s.factor.solve(Eigen::MatrixXd::Identity(s.y.size(), s.y.size()));
+  double sum = 0;
+  for (Eigen::Index i = 0; i < s.y.size(); ++i) sum += square(s.alpha(i) / inverse(i, i));
+  return s.scale * std::sqrt(sum / static_cast<double>(s.y.size()));
+}
+
 const std::vector<double>& GaussianProcess::parameters() const { return state_->parameters; }
 
 std::vector<double> GaussianProcess::lengths() const {
   std::vector<double> out(state_->parameters.begin(), state_->parameters.end() - 1);
   for (double& v : out) v = std::exp(v);
   return out;
+}
+
+DraftedProcess::DraftedProcess(const std::vector<Point>& points, const std::vector<double>& values,
+                               const GaussianProcess* draft, const DraftedProcess* before) {
+  plain_ =
+      std::make_unique<GaussianProcess>(points, values, before ? before->plain_.get() : nullptr);
+  if (!draft || points.size() < 4) return;
+  // Eq. search.7: offset and ratio by least squares.
+  const auto n = static_cast<double>(points.size());
+  std::vector<double> drafts;
+  double mean_draft = 0, mean_value = 0, variance = 0, covariance = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    drafts.push_back(draft->predict(points[i]).mean);
+    mean_draft += drafts[i] / n;
+    mean_value += values[i] / n;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    variance += square(drafts[i] - mean_draft);
+    covariance += (drafts[i] - mean_draft) * (values[i] - mean_value);
+  }
+  if (variance <= 0) return;
+  ratio_ = covariance / variance;
+  offset_ = mean_value - ratio_ * mean_draft;
+  std::vector<double> left;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    left.push_back(values[i] - offset_ - ratio_ * drafts[i]);
+  left_ = std::make_unique<GaussianProcess>(points, left, before ? before->left_.get() : nullptr);
+  if (left_->leave_one_out_error() < plain_->leave_one_out_error()) draft_ = draft;
+}
+
+Prediction DraftedProcess::predict(const Point& x) const {
+  if (!draft_) return plain_->predict(x);
+  const Prediction d = draft_->predict(x), left = left_->predict(x);
+  return {offset_ + ratio_ * d.mean + left.mean,  // Eq. search.8
+          std::sqrt(square(ratio_ * d.sd) + square(left.sd))};
 }
 
 }  // namespace papilla

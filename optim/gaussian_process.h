@@ -26,12 +26,32 @@ class GaussianProcess {
   Prediction predict(const Point& x) const;
   // Error of each value when predicted from the others, in predicted standard deviations.
   std::vector<double> leave_one_out() const;
+  double leave_one_out_error() const;  // the same, root mean square, in units of the values
   const std::vector<double>& parameters() const;  // log lengths, log noise share
   std::vector<double> lengths() const;
 
  private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+// Full evaluations explained by drafts: offset + ratio x (process through the drafts) + process
+// through what is left. Falls back to the full evaluations alone where drafts do not help: when
+// leave-one-out errors say so. Eq. search.7-8
+class DraftedProcess {
+ public:
+  // draft may be null and must outlive this.
+  DraftedProcess(const std::vector<Point>& points, const std::vector<double>& values,
+                 const GaussianProcess* draft, const DraftedProcess* before = nullptr);
+
+  Prediction predict(const Point& x) const;
+  bool uses_draft() const { return draft_ != nullptr; }
+  double ratio() const { return ratio_; }
+
+ private:
+  const GaussianProcess* draft_ = nullptr;
+  double offset_ = 0, ratio_ = 0;
+  std::unique_ptr<GaussianProcess> plain_, left_;
 };
 
 }  // namespace papilla

@@ -85,7 +85,7 @@ double hypervolume(std::vector<std::vector<double>> points, const std::vector<do
 }
 
 std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& points,
-                                       std::size_t count) {
+                                       std::size_t count, double nearest_allowed) {
   std::vector<std::size_t> chosen;
   if (points.empty() || count == 0) return chosen;
   const std::size_t m = points.front().size();
@@ -124,6 +124,7 @@ std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& p
         best = i;
       }
     }
+    if (farthest < nearest_allowed * nearest_allowed) break;
     chosen.push_back(best);
   }
   std::sort(chosen.begin(), chosen.end());

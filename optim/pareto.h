@@ -19,8 +19,8 @@ std::vector<std::size_t> pareto_front(const std::vector<Evaluation>& evaluations
 double hypervolume(std::vector<std::vector<double>> points, const std::vector<double>& reference);
 
 // Crowding-like choice of `count` points spread along the front: the ends first, then the largest
-// gaps.
+// gaps, until every other point is nearer than `nearest` (of the extent) to a chosen one.
 std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& points,
-                                       std::size_t count);
+                                       std::size_t count, double nearest = 0);
 
 }  // namespace papilla

@@ -19,6 +19,9 @@ struct SearchProblem {
   std::function<std::vector<double>(const Point&)> cheap_constraints;
   std::vector<Point> starts;  // points to try first (the user's design)
   int evaluations = 100;      // the budget that the searcher plans for
+  // Cheap, biased evaluations of the same objectives and constraints that may be asked besides
+  // (Searcher::asks_drafts): their largest number.
+  int drafts = 0;
   std::uint64_t seed = 1;
 
   bool cheaply_feasible(const Point& unit) const;
@@ -29,6 +32,8 @@ class Searcher {
   virtual ~Searcher() = default;
   // The next points, snapped; empty when the searcher has nothing more to try.
   virtual std::vector<Point> ask() = 0;
+  // The last ask wants drafts, not full evaluations.
+  virtual bool asks_drafts() const { return false; }
   // Outcomes of the last ask, in its order.
   virtual void tell(const std::vector<Evaluation>& evaluations) = 0;
 };

@@ -26,87 +26,155 @@ class Bayesian : public Searcher {
  public:
   explicit Bayesian(const SearchProblem& problem) : problem_(problem) {
     const std::size_t n = problem.space.size();
-    initial_ = static_cast<int>(std::clamp<std::size_t>(
-        3 * n + 4, 6, static_cast<std::size_t>(std::max(6, problem.evaluations / 3))));
+    const auto third = static_cast<std::size_t>(std::max(6, problem.evaluations / 3));
+    // Drafts know the landscape already: a few full evaluations fix their ratio.
+    initial_ =
+        static_cast<int>(std::clamp<std::size_t>(problem.drafts > 0 ? n + 4 : 3 * n + 4, 6, third));
+    drafts_left_ = problem.drafts;
   }
 
+  bool asks_drafts() const override { return asking_drafts_; }
+
   std::vector<Point> ask() override {
+    asking_drafts_ = false;
     if (problem_.space.single_point()) {
       if (!seen_.empty()) return {};
       return {problem_.space.snapped(Point(problem_.space.size(), 0.5))};
     }
+    if (drafts_left_ > 0) {
+      const std::vector<Point> points = draft_points();
+      drafts_left_ = std::max(0, drafts_left_ - static_cast<int>(points.size()));
+      asking_drafts_ = !points.empty();
+      if (asking_drafts_) return points;
+      drafts_left_ = 0;
+    }
     if (static_cast<int>(seen_.size()) < initial_) return start_points();
-    return {next_point()};
+    return {next_point(seen_)};
   }
 
   void tell(const std::vector<Evaluation>& evaluations) override {
-    for (const Evaluation& e : evaluations) seen_.push_back(e);
+    auto& list = asking_drafts_ ? drafts_ : seen_;
+    list.insert(list.end(), evaluations.begin(), evaluations.end());
   }
 
  private:
-  bool is_new(const Point& u, const std::vector<Point>& others = {}) const {
+  bool is_new(const Point& u, const std::vector<Evaluation>& known,
+              const std::vector<Point>& others = {}) const {
     const auto same = [&](const Point& v) {
       for (std::size_t k = 0; k < u.size(); ++k) {
         if (std::abs(u[k] - v[k]) > 1e-6) return false;
       }
       return true;
     };
-    return std::none_of(seen_.begin(), seen_.end(),
+    return std::none_of(known.begin(), known.end(),
                         [&](const Evaluation& e) { return same(e.unit); }) &&
            std::none_of(others.begin(), others.end(), same);
   }
 
-  // The user's points, then a low-discrepancy set that keeps the cheap constraints.
-  std::vector<Point> start_points() {
-    std::vector<Point> out;
-    if (seen_.empty()) {
-      for (const Point& p : problem_.starts) {
-        const Point u = problem_.space.snapped(p);
-        if (is_new(u, out)) out.push_back(u);
-      }
-    }
-    for (int tries = 0; static_cast<int>(seen_.size() + out.size()) < initial_ && tries < 4000;
-         ++tries) {
+  // Points of a low-discrepancy set that keep the cheap constraints, added up to `count`.
+  void fill(std::vector<Point>& out, std::size_t count, const std::vector<Evaluation>& known) {
+    for (int tries = 0; out.size() < count && tries < 4000; ++tries) {
       const Point u =
           problem_.space.snapped(low_discrepancy(problem_.space.size(), problem_.seed, drawn_++));
-      if (is_new(u, out) && (problem_.cheaply_feasible(u) || tries > 3000)) out.push_back(u);
+      if (is_new(u, known, out) && (problem_.cheaply_feasible(u) || tries > 3000)) out.push_back(u);
     }
+  }
+
+  // Two thirds of the drafts spread over the space, the rest where they say that the front is: in
+  // rounds, each point taking its prediction for an outcome until the round's outcomes are known.
+  std::vector<Point> draft_points() {
+    std::vector<Point> out;
+    if (drafts_.empty()) {
+      add_starts(out, drafts_);
+      fill(out, std::max<std::size_t>(out.size(), static_cast<std::size_t>(2 * drafts_left_ / 3)),
+           drafts_);
+      return out;
+    }
+    constexpr int kRound = 8;
+    std::vector<Evaluation> believed = drafts_;
+    for (int i = 0; i < std::min(kRound, drafts_left_); ++i) {
+      if (std::none_of(believed.begin(), believed.end(),
+                       [](const Evaluation& e) { return e.outcome.ok; }))
+        return {};
+      fit(believed, nullptr, nullptr);
+      const Point u = next_point(believed, false);
+      Evaluation belief{u, {}};
+      belief.outcome.ok = true;
+      for (const auto& model : objectives_)
+        belief.outcome.objectives.push_back(model.predict(u).mean);
+      for (const auto& model : constraints_)
+        belief.outcome.constraints.push_back(model.predict(u).mean);
+      believed.push_back(belief);
+      out.push_back(u);
+    }
+    return out;
+  }
+
+  void add_starts(std::vector<Point>& out, const std::vector<Evaluation>& known) const {
+    for (const Point& p : problem_.starts) {
+      const Point u = problem_.space.snapped(p);
+      if (is_new(u, known, out)) out.push_back(u);
+    }
+  }
+
+  // The user's points, the drafts' front, then a low-discrepancy set.
+  std::vector<Point> start_points() {
+    std::vector<Point> out;
+    if (seen_.empty()) add_starts(out, seen_);
+    const auto count = static_cast<std::size_t>(initial_) - seen_.size();
+    if (seen_.empty() && !drafts_.empty()) {
+      std::vector<Point> front;
+      std::vector<std::vector<double>> values;
+      for (std::size_t i : pareto_front(drafts_)) {
+        if (drafts_[i].outcome.objectives.empty() || !is_new(drafts_[i].unit, seen_, out)) continue;
+        front.push_back(drafts_[i].unit);
+        values.push_back(drafts_[i].outcome.objectives);
+      }
+      const std::size_t room = count > out.size() ? (count - out.size() + 1) / 2 : 0;
+      for (std::size_t i : spread_points(values, room)) out.push_back(front[i]);
+    }
+    fill(out, count, seen_);
     if (out.empty()) initial_ = static_cast<int>(seen_.size());  // nothing new left
     return out.empty() ? ask_exhausted() : out;
   }
 
   std::vector<Point> ask_exhausted() {
     if (seen_.size() < 2) return {};
-    return {next_point()};
+    return {next_point(seen_)};
   }
 
-  void fit() {
+  // Models through `known`; drafts below them where given.
+  void fit(const std::vector<Evaluation>& known,
+           const std::vector<GaussianProcess>* draft_objectives,
+           const std::vector<GaussianProcess>* draft_constraints) {
     std::vector<Point> points;
     std::vector<const Outcome*> outcomes;
-    for (const Evaluation& e : seen_) {
+    for (const Evaluation& e : known) {
       if (!e.outcome.ok) continue;
       points.push_back(e.unit);
       outcomes.push_back(&e.outcome);
     }
-    const auto refit = [&](std::vector<GaussianProcess>& models, std::size_t count, auto value) {
-      std::vector<GaussianProcess> fresh;
+    const auto refit = [&](std::vector<DraftedProcess>& models, std::size_t count,
+                           const std::vector<GaussianProcess>* drafts, auto value) {
+      std::vector<DraftedProcess> fresh;
       for (std::size_t k = 0; k < count; ++k) {
         std::vector<double> y;
         for (const Outcome* o : outcomes) y.push_back(value(*o, k));
-        fresh.emplace_back(points, y, models.size() == count ? &models[k] : nullptr);
+        fresh.emplace_back(points, y, drafts && drafts->size() == count ? &(*drafts)[k] : nullptr,
+                           models.size() == count ? &models[k] : nullptr);
       }
       models = std::move(fresh);
     };
-    refit(objectives_, problem_.objectives,
+    refit(objectives_, problem_.objectives, draft_objectives,
           [](const Outcome& o, std::size_t k) { return o.objectives[k]; });
-    refit(constraints_, problem_.constraints,
+    refit(constraints_, problem_.constraints, draft_constraints,
           [](const Outcome& o, std::size_t k) { return o.constraints[k]; });
     // Chance that an evaluation fails at all, from where others failed.
     failures_.clear();
-    if (points.size() < seen_.size() && !points.empty()) {
+    if (points.size() < known.size() && !points.empty()) {
       std::vector<Point> all;
       std::vector<double> failed;
-      for (const Evaluation& e : seen_) {
+      for (const Evaluation& e : known) {
         all.push_back(e.unit);
         failed.push_back(e.outcome.ok ? 0 : 1);
       }
@@ -114,10 +182,37 @@ class Bayesian : public Searcher {
     }
   }
 
+  // Processes through the drafts, once: no more drafts come after the first full evaluation.
+  void fit_drafts() {
+    if (!draft_objectives_.empty() || drafts_.empty()) return;
+    std::vector<Point> points;
+    for (const Evaluation& e : drafts_) {
+      if (e.outcome.ok) points.push_back(e.unit);
+    }
+    if (points.size() < 4) return;
+    const auto model = [&](std::size_t count, auto value) {
+      std::vector<GaussianProcess> out;
+      for (std::size_t k = 0; k < count; ++k) {
+        std::vector<double> y;
+        for (const Evaluation& e : drafts_) {
+          if (e.outcome.ok) y.push_back(value(e.outcome, k));
+        }
+        out.emplace_back(points, y);
+      }
+      return out;
+    };
+    draft_objectives_ =
+        model(problem_.objectives, [](const Outcome& o, std::size_t k) { return o.objectives[k]; });
+    draft_constraints_ = model(problem_.constraints,
+                               [](const Outcome& o, std::size_t k) { return o.constraints[k]; });
+    objectives_.clear();
+    constraints_.clear();
+  }
+
   // Eq. search.3: chance that every constraint holds and the evaluation succeeds.
   double feasibility(const Point& u) const {
     double p = 1;
-    for (const GaussianProcess& model : constraints_) {
+    for (const DraftedProcess& model : constraints_) {
       const Prediction c = model.predict(u);
       p *= c.sd > 0 ? normal_cdf(-c.mean / c.sd) : (c.mean <= 0 ? 1 : 0);
     }
@@ -148,19 +243,19 @@ class Bayesian : public Searcher {
     return p * sum;
   }
 
-  void set_front() {
+  void set_front(const std::vector<Evaluation>& known) {
     front_.clear();
     any_feasible_ = false;
-    const std::vector<std::size_t> indices = pareto_front(seen_);
+    const std::vector<std::size_t> indices = pareto_front(known);
     for (std::size_t i : indices) {
-      any_feasible_ = any_feasible_ || seen_[i].outcome.feasible();
-      front_.push_back(seen_[i].outcome.objectives);
+      any_feasible_ = any_feasible_ || known[i].outcome.feasible();
+      front_.push_back(known[i].outcome.objectives);
     }
     // Reference: the worst of the middle of what was seen, a tenth beyond.
     reference_.assign(problem_.objectives, 0);
     for (std::size_t k = 0; k < problem_.objectives; ++k) {
       std::vector<double> values;
-      for (const Evaluation& e : seen_) {
+      for (const Evaluation& e : known) {
         if (e.outcome.feasible()) values.push_back(e.outcome.objectives[k]);
       }
       if (values.empty()) continue;
@@ -172,30 +267,34 @@ class Bayesian : public Searcher {
     }
   }
 
-  Point next_point() {
+  // Where the acquisition is highest, given what is known. Models are fitted unless they fit.
+  Point next_point(const std::vector<Evaluation>& known, bool fitting = true) {
     const bool any_ok =
-        std::any_of(seen_.begin(), seen_.end(), [](const Evaluation& e) { return e.outcome.ok; });
-    RandomStream random(problem_.seed, "acquisition", seen_.size());
+        std::any_of(known.begin(), known.end(), [](const Evaluation& e) { return e.outcome.ok; });
+    RandomStream random(problem_.seed, "acquisition", known.size());
     const std::size_t n = problem_.space.size();
     if (!any_ok) {  // nothing to learn from yet
       for (int tries = 0; tries < 2000; ++tries) {
         const Point u = problem_.space.snapped(low_discrepancy(n, problem_.seed, drawn_++));
-        if (is_new(u) && problem_.cheaply_feasible(u)) return u;
+        if (is_new(u, known) && problem_.cheaply_feasible(u)) return u;
       }
       return problem_.space.snapped(low_discrepancy(n, problem_.seed, drawn_++));
     }
-    fit();
-    set_front();
+    if (fitting) {
+      fit_drafts();
+      fit(known, &draft_objectives_, &draft_constraints_);
+    }
+    set_front(known);
     std::vector<Point> candidates;
     for (int i = 0; i < 1200; ++i) {
       Point u(n);
       for (double& v : u) v = random.uniform();
       candidates.push_back(u);
     }
-    for (std::size_t i : pareto_front(seen_)) {
+    for (std::size_t i : pareto_front(known)) {
       for (int k = 0; k < 400 / static_cast<int>(std::max<std::size_t>(1, front_.size())) + 4;
            ++k) {
-        Point u = seen_[i].unit;
+        Point u = known[i].unit;
         const double width = std::pow(10.0, random.uniform(-2.5, -0.5));
         for (double& v : u) v = std::clamp(v + width * random.normal(), 0.0, 1.0);
         candidates.push_back(u);
@@ -206,7 +305,7 @@ class Bayesian : public Searcher {
     const auto consider = [&](const Point& raw) {
       const Point u = problem_.space.snapped(raw);
       const double a = acquisition(u);
-      if (a <= value || !is_new(u)) return false;
+      if (a <= value || !is_new(u, known)) return false;
       value = a;
       best = u;
       return true;
@@ -231,10 +330,12 @@ class Bayesian : public Searcher {
   }
 
   SearchProblem problem_;
-  std::vector<Evaluation> seen_;
-  int initial_ = 0;
+  std::vector<Evaluation> seen_, drafts_;
+  int initial_ = 0, drafts_left_ = 0;
+  bool asking_drafts_ = false;
   std::uint64_t drawn_ = 0;
-  std::vector<GaussianProcess> objectives_, constraints_, failures_;
+  std::vector<DraftedProcess> objectives_, constraints_;
+  std::vector<GaussianProcess> failures_, draft_objectives_, draft_constraints_;
   std::vector<std::vector<double>> front_;
   std::vector<double> reference_;
   bool any_feasible_ = false;

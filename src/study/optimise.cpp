@@ -29,12 +29,23 @@ namespace fs = std::filesystem;
 
 constexpr int kFreshSkins = 1000;  // the confirmation's skins start here: none of the search
 constexpr std::size_t kFinalists = 6;
+constexpr double kSameDesign = 0.03;  // of the front's extent
+constexpr int kDraftsPerVariable = 20;
 // Last coordinate of a journal record: what was evaluated.
-enum Stage { kSearch = 0, kConfirm = 1, kStability = 2 };
+enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3 };
 
 Fidelity search_fidelity(const Study& study) {
   Fidelity f = fidelity_level("search");
   f.seed = static_cast<std::uint64_t>(study.search.seed);
+  return f;
+}
+
+// One finger stands for all: a biased, cheap answer that steers.
+Fidelity draft_fidelity(const Study& study) {
+  Fidelity f = search_fidelity(study);
+  f.level = "steer";
+  f.grid = 64;
+  f.skins = 6;
   return f;
 }
 
@@ -61,6 +72,7 @@ Evaluate work_function(const StudyProblem& problem, const Study& study, int thre
     const auto task = static_cast<std::size_t>(request[0]);
     const auto stage = static_cast<Stage>(static_cast<int>(request[1]));
     Fidelity fidelity = stage == kConfirm ? confirm_fidelity(study, problem.tasks().size())
+                        : stage == kDraft ? draft_fidelity(study)
                                           : search_fidelity(study);
     fidelity.threads = threads;
     Design design = problem.design(Point(request.begin() + 3, request.end()));
@@ -92,6 +104,7 @@ class Pool {
   std::vector<Outcome> evaluate(const std::vector<Point>& requests) {
     return team_->evaluate(requests);
   }
+  std::size_t size() const { return team_->size(); }
 
   // Every task of every point; outcomes by point, then task. flat: without the texture.
   std::vector<std::vector<Outcome>> evaluate(const std::vector<Point>& units, Stage stage,
@@ -124,6 +137,8 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   p.evaluations =
       study.search.evaluations > 0 ? study.search.evaluations : default_evaluations(study);
   p.seed = static_cast<std::uint64_t>(study.search.seed);
+  if (choose_method(study.search.method, p).name == "bayesian")
+    p.drafts = kDraftsPerVariable * static_cast<int>(p.space.size());
   return p;
 }
 
@@ -228,6 +243,46 @@ class Run {
     return out;
   }
 
+  // Drafts: the first finger of each scenario stands for the others.
+  void draft(Searcher& searcher, const std::vector<Point>& units) {
+    const auto& tasks = problem_.tasks();
+    std::vector<std::size_t> first(tasks.size());
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+      first[t] = t;
+      for (std::size_t s = 0; s < t && first[t] == t; ++s) {
+        if (tasks[s].settings == tasks[t].settings) first[t] = s;
+      }
+    }
+    std::vector<Evaluation> batch;
+    // Few at a time, so that a kill loses little and Ctrl-C is heard.
+    while (batch.size() < units.size()) {
+      if (!replaying() && stopped()) {
+        result_.interrupted = true;
+        return;
+      }
+      const std::size_t begin = batch.size();
+      const std::size_t end = std::min(units.size(), begin + 4 * pool_.size());
+      std::vector<Point> requests;
+      for (std::size_t i = begin; i < end; ++i) {
+        for (std::size_t t = 0; t < tasks.size(); ++t) {
+          if (first[t] == t) requests.push_back(work_request(t, kDraft, false, units[i]));
+        }
+      }
+      const std::vector<Outcome> outcomes = answers(requests);
+      std::size_t next = 0;
+      for (std::size_t i = begin; i < end; ++i) {
+        std::vector<Outcome> all(tasks.size());
+        for (std::size_t t = 0; t < tasks.size(); ++t)
+          all[t] = first[t] == t ? outcomes[next++] : all[first[t]];
+        batch.push_back({units[i], guarded(problem_.outcome(problem_.score(all)),
+                                           search_.objectives, search_.constraints)});
+      }
+      drafts_ += static_cast<int>(end - begin);
+      report_progress("draft", drafts_, search_.drafts, -1);
+    }
+    searcher.tell(batch);
+  }
+
   double confirm_seconds_expected() const {
     const Scene scene{study_.design.surface, study_.design.finger, study_.design.environment,
                       study_.design.drive, study_.design.model};
@@ -261,12 +316,18 @@ class Run {
     const auto searching_record = [&] {  // a resumed run stops where its confirmation began
       const auto& records = journal_.records();
       return next_record_ >= records.size() || records[next_record_].unit.size() < 2 ||
-             records[next_record_].unit.rbegin()[1] == static_cast<double>(kSearch);
+             records[next_record_].unit.rbegin()[1] == static_cast<double>(kSearch) ||
+             records[next_record_].unit.rbegin()[1] == static_cast<double>(kDraft);
     };
     std::size_t evaluated = 0;
     while (evaluated < budget && history_.size() < 10 * budget && searching_record()) {
       const std::vector<Point> asked = searcher->ask();
       if (asked.empty()) break;
+      if (searcher->asks_drafts()) {
+        draft(*searcher, asked);
+        if (result_.interrupted) return;
+        continue;
+      }
       std::vector<Evaluation> batch;
       while (batch.size() < asked.size() && evaluated < budget && searching_record()) {
         if (!replaying() && stopped()) {
@@ -350,7 +411,8 @@ class Run {
     for (std::size_t i : front) values.push_back(history_[i].outcome.objectives);
     if (values.empty()) return front;
     std::vector<std::size_t> chosen;
-    for (std::size_t i : spread_points(values, kFinalists)) chosen.push_back(front[i]);
+    // Points closer together than the search can tell apart are one finalist.
+    for (std::size_t i : spread_points(values, kFinalists, kSameDesign)) chosen.push_back(front[i]);
     // The one with the highest worst modulation is always confirmed.
     std::size_t steady = front.front();
     for (std::size_t i : front) {
@@ -444,7 +506,7 @@ class Run {
   std::vector<Evaluation> history_;
   std::size_t next_record_ = 0;
   double spent_ = 0;
-  int fresh_ = 0;
+  int fresh_ = 0, drafts_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
@@ -452,15 +514,20 @@ class Run {
 
 int default_evaluations(const Study& study) {
   const int n = static_cast<int>(study.variables.size());
-  return std::clamp(20 * n, 20, 200);
+  const std::size_t objectives = study.objective.maximise.size() + study.objective.minimise.size();
+  const bool drafted =
+      (study.search.method == "auto" && objectives <= 2) || study.search.method == "bayesian";
+  return drafted ? std::clamp(8 * n, 20, 100) : std::clamp(20 * n, 20, 200);
 }
 
 std::string search_plan(const Study& study) {
   const StudyProblem problem(study);
   const SearchProblem search = search_problem(problem, study);
   const SearchMethod method = choose_method(study.search.method, search);
-  std::string out = fmt::format("search: {} ({}), {} evaluations, seed {}\n", method.name,
-                                method.why, search.evaluations, study.search.seed);
+  std::string out =
+      fmt::format("search: {} ({}), {}{} evaluations, seed {}\n", method.name, method.why,
+                  search.drafts > 0 ? fmt::format("{} drafts, ", search.drafts) : "",
+                  search.evaluations, study.search.seed);
   out += "tasks of an evaluation (finger, scenario):";
   for (const StudyTask& task : problem.tasks()) out += " [" + task.name + "]";
   const Scene scene{study.design.surface, study.design.finger, study.design.environment,

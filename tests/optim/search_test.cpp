@@ -209,6 +209,41 @@ TEST(GaussianProcess, InterpolatesAndKnowsWhereItDoesNotKnow) {
   EXPECT_GT(gp.predict({0.5}).sd, gp.predict({0.3}).sd);
 }
 
+// A quadratic whose draft is tilted and scaled: twelve full evaluations and 60 drafts.
+double drafted_best(double tilt, int drafts) {
+  SearchProblem p = box(4, 1, 12);
+  p.drafts = drafts;
+  const auto f = [](const Point& x) {
+    double sum = 0;
+    for (std::size_t k = 0; k < x.size(); ++k)
+      sum += std::pow(x[k] - 0.2 - 0.2 * static_cast<double>(k), 2);
+    return sum;
+  };
+  const auto searcher = make_searcher({"bayesian", ""}, p);
+  double found = 1e9;
+  for (int count = 0; count < p.evaluations;) {
+    std::vector<Evaluation> batch;
+    for (const Point& u : searcher->ask()) {
+      if (searcher->asks_drafts()) {
+        batch.push_back({u, outcome({tilt < 0 ? std::sin(40 * u[0] + 9 * u[1])
+                                              : 1 + 0.5 * f(u) + tilt * u[0]})});
+      } else {
+        batch.push_back({u, outcome({f(u)})});
+        found = std::min(found, f(u));
+        ++count;
+      }
+    }
+    searcher->tell(batch);
+  }
+  return found;
+}
+
+TEST(Drafts, BiasedOnesHelpAndMisleadingOnesAreDropped) {
+  EXPECT_LT(drafted_best(0.1, 60), 0.01);
+  EXPECT_LT(drafted_best(0.1, 60), 0.3 * drafted_best(0.1, 0));
+  EXPECT_LT(drafted_best(-1, 60), 0.3);
+}
+
 TEST(Worker, ACrashAHangAndAnExceptionBecomeFailures) {
   const auto evaluate = [](const Point& u) -> Outcome {
     if (u[0] < 0.2) ::abort();
