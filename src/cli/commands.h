@@ -9,6 +9,7 @@ namespace papilla {
 
 void add_optimize(CLI::App& app, Context& context);
 void add_evaluate(CLI::App& app, Context& context);
+void add_rank(CLI::App& app, Context& context);
 void add_explain(CLI::App& app, Context& context);
 void add_export(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
@@ -29,6 +30,7 @@ void add_solve_persson(CLI::App& solve, Context& context);
 inline constexpr std::array kCommands{
     add_optimize,
     add_evaluate,
+    add_rank,
     add_explain,
     add_export,
     add_report,

@@ -28,6 +28,13 @@ std::shared_ptr<const ContactKernel> kernel_at(const Scene& scene, const Grid& g
                               scene.surface.poisson});
 }
 
+// The finger in its state, with nothing more to apply.
+Scene applied(const Scene& scene) {
+  Scene out = scene;
+  out.finger = scene.finger.applied();
+  return out;
+}
+
 // Sliding offset of skin k against the texture: the R2 low-discrepancy sequence over the patch.
 double offset_share(int k, bool second) {
   const double step = second ? 0.56984029099805327 : 0.75487766624669276;
@@ -212,25 +219,31 @@ std::string Response::trouble() const {
   return {};
 }
 
-Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+void PatchSet::add(const PatchSet& other) {
+  PAPILLA_CHECK(results.size() == other.results.size(), "the same humidities");
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    results[i].insert(results[i].end(), other.results[i].begin(), other.results[i].end());
+  }
+  seconds += other.seconds;
+}
+
+PatchSet solve_patches(const Scene& given, const Texture& texture, const Fidelity& fidelity) {
   const auto begin = std::chrono::steady_clock::now();
-  Response response;
-  response.plan = make_plan(scene, texture, fidelity);
-  response.driven = response.plan.field;
-  const Grid& grid = response.plan.grid;
+  const Scene scene = applied(given);
+  PatchSet set;
+  set.plan = make_plan(scene, texture, fidelity);
+  const Grid& grid = set.plan.grid;
   const Heightmap surface = generate(texture, grid);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
   PAPILLA_CHECK(!humidities.empty(), "one humidity at least");
   std::vector<std::shared_ptr<const ContactKernel>> kernels;
-  std::vector<ScaleBridge> bridges;
   for (double rh : humidities) {
     kernels.push_back(kernel_at(scene, grid, rh));
-    bridges.emplace_back(scene, fidelity, grid, rh);
+    set.bridges.emplace_back(scene, fidelity, grid, rh);
   }
 
-  // results[humidity][skin]
-  std::vector<std::vector<PatchResult>> results(
-      humidities.size(), std::vector<PatchResult>(static_cast<std::size_t>(fidelity.skins)));
+  set.results.assign(humidities.size(),
+                     std::vector<PatchResult>(static_cast<std::size_t>(fidelity.skins)));
   parallel_for(
       fidelity.skins,
       [&](int k) {
@@ -238,11 +251,11 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
         const Heightmap skin = skin_patch(scene, grid, fidelity, index);
         const std::vector<double> height = added(surface, skin);
         // One a patch pressure: the dry contact of the previous humidity.
-        std::vector<ContactSolution> start(bridges[0].pressures().size());
+        std::vector<ContactSolution> start(set.bridges[0].pressures().size());
         std::vector<PatchResult> patches;
         for (std::size_t i = 0; i < humidities.size(); ++i) {
           patches.clear();
-          for (double pressure : bridges[i].pressures()) {
+          for (double pressure : set.bridges[i].pressures()) {
             const PatchProblem problem{&scene,
                                        &surface,
                                        height,
@@ -250,18 +263,30 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
                                        humidities[i],
                                        pressure,
                                        static_cast<std::uint64_t>(index)};
-            patches.push_back(solve_patch(problem, response.plan, fidelity, start[patches.size()]));
+            patches.push_back(solve_patch(problem, set.plan, fidelity, start[patches.size()]));
           }
-          results[i][static_cast<std::size_t>(k)] = bridges[i].combine(patches);
+          set.results[i][static_cast<std::size_t>(k)] = set.bridges[i].combine(patches);
         }
       },
       fidelity.threads);
+  set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return set;
+}
 
+Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set, int without) {
+  const Scene scene = applied(given);
+  Response response;
+  response.plan = set.plan;
+  response.driven = set.plan.field;
+  response.seconds = set.seconds;
   const PointBuilder builder(scene, response.plan, fidelity);
+  const std::vector<double>& humidities = scene.environment.relative_humidity;
   for (std::size_t i = 0; i < humidities.size(); ++i) {
+    std::vector<PatchResult> patches = set.results[i];
+    if (without >= 0) patches.erase(patches.begin() + without);
     const double weight = scene.environment.weights.empty() ? 1 : scene.environment.weights[i];
-    response.points.push_back(builder.build(humidities[i], weight, bridges[i], results[i]));
-    for (const PatchResult& patch : results[i]) {
+    response.points.push_back(builder.build(humidities[i], weight, set.bridges[i], patches));
+    for (const PatchResult& patch : patches) {
       response.contact_solves += patch.contact_solves;
       response.fft_pairs += patch.fft_pairs;
       response.piece_seconds.contact += patch.seconds.contact;
@@ -269,13 +294,16 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
       response.piece_seconds.field += patch.seconds.field;
     }
   }
-  response.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return response;
 }
 
-PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  return respond(scene, fidelity, solve_patches(scene, texture, fidelity));
+}
+
+PatchPicture picture_patch(const Scene& given, const Texture& texture, const Fidelity& fidelity,
                            double relative_humidity, int index) {
+  const Scene scene = applied(given);
   const Plan plan = make_plan(scene, texture, fidelity);
   PatchPicture picture;
   picture.texture = generate(texture, plan.grid);

@@ -4,13 +4,34 @@
 #include "forward/coupling.h"
 #include "forward/fidelity.h"
 #include "forward/response.h"
+#include "forward/scale_bridge.h"
 #include "geometry/texture.h"
 #include "scene/scene.h"
 
 namespace papilla {
 
-// Friction, modulation and their causes at each humidity of the scene. Parallel over skins; the
-// same bytes for any number of threads. Cost: skins x humidities x (1 or 3) contact solves.
+// The solved patches of a scene: what a Response is made of. More skins can be added later.
+struct PatchSet {
+  Plan plan;
+  std::vector<ScaleBridge> bridges;               // one a humidity
+  std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
+  double seconds = 0;                             // wall time
+
+  int skins() const { return results.empty() ? 0 : static_cast<int>(results.front().size()); }
+  void add(const PatchSet& other);  // the same scene, other skins
+};
+
+// Skins first_skin ... first_skin + skins - 1 of the fidelity, at each humidity. Parallel over
+// skins; the same bytes for any number of threads. Cost: skins x humidities x (1 or 3) contact
+// solves.
+PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+// Friction, modulation and their causes at each humidity. without: leaves out that skin (for the
+// jackknife); -1: none.
+Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches,
+                 int without = -1);
+
+// Both: friction, modulation and their causes at each humidity of the scene.
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
 // One patch with all its fields, for pictures: skin `index` of the fidelity at one humidity.

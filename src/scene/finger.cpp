@@ -183,6 +183,29 @@ double Finger::patch_pressure(double relative_humidity) const {
   return load / (macro.load_share * macro.gross_area(load, relative_humidity));
 }
 
+void fields(FieldVisitor& v, SkinState& s) {
+  v.number({"contact_angle", "deg", 0, 180, "of water on the skin", Source::Estimate,
+            "unwashed skin 55 to 65 deg"},
+           s.contact_angle);
+  v.number({"water_factor", "", 0, 1e3, "on the sweat of the clean finger", Source::Estimate,
+            "3 to 8 um3 against 0.3 to 1 um3 in a patch at 55 % humidity"},
+           s.water_factor);
+  v.number({"shear_factor", "", 0, 10, "on the shear strength of the clean finger",
+            Source::Estimate, "13 MPa dry, 5 MPa wet (Kovalev 2014); lipids between"},
+           s.shear_factor);
+}
+
+Finger Finger::applied() const {
+  Finger out = *this;
+  if (state == FingerState::Clean) return out;
+  const SkinState& change = state == FingerState::Natural ? natural : wet;
+  out.state = FingerState::Clean;
+  out.water.contact_angle = change.contact_angle;
+  for (double& v : out.water.volume) v *= change.water_factor;
+  out.macro.shear_strength *= change.shear_factor;
+  return out;
+}
+
 void fields(FieldVisitor& v, Finger& s) {
   v.text({"name", "name of the finger"}, s.name);
   v.choice({"state", "clean (degreased), natural (sebum and sweat), wet"},
@@ -192,6 +215,8 @@ void fields(FieldVisitor& v, Finger& s) {
   v.section({"macro", "gross contact and load-carrying share"}, s.macro);
   v.section({"electrical", "the stratum corneum as a dielectric"}, s.electrical);
   v.section({"water", "sweat against humidity"}, s.water);
+  v.section({"natural", "what sebum and sweat change: state = \"natural\""}, s.natural);
+  v.section({"wet", "what a film of water changes: state = \"wet\""}, s.wet);
   v.section({"saturation", "electrowetting saturation law"}, s.saturation);
   v.text(
       {"fitted_to", "published claims (papilla reproduce) that the fit used, separated by spaces"},

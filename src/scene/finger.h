@@ -115,9 +115,21 @@ void fields(FieldVisitor& v, ModelOptions& s);
 
 enum class FingerState { Clean, Natural, Wet };
 
+// How sebum and sweat change the clean finger.
+struct SkinState {
+  double contact_angle;  // of the skin [rad]
+  double water_factor;   // on the volume of sweat
+  double shear_factor;   // on the interfacial shear strength: lipids and water lower it
+
+  bool operator==(const SkinState&) const = default;
+};
+void fields(FieldVisitor& v, SkinState& s);
+
 struct Finger {
   std::string name = "reference";
   FingerState state = FingerState::Clean;
+  SkinState natural{1.0471975511965976, 8, 0.75};  // 60 deg
+  SkinState wet{1.0471975511965976, 20, 0.56};
   double load = 0.2;  // normal force [N]
   Skin skin;
   MacroContact macro;
@@ -129,6 +141,7 @@ struct Finger {
   std::string fitted_to = "M1 M2 M3 M4 M5 M6 M7 M8 M9 M10 M11 M12 M13 M14 M15 M16 M17 M21";
 
   double patch_pressure(double relative_humidity) const;  // F_N / (phi A) [Pa], Eq. scene.6
+  Finger applied() const;  // the clean finger with the skin angle, sweat and shear of its state
 
   bool operator==(const Finger&) const = default;
 };

@@ -1,0 +1,117 @@
+// papilla rank: candidates in order, with intervals and the probability of being best.
+#include "study/rank.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "cli/commands.h"
+
+namespace papilla {
+namespace {
+
+struct RankCommand {
+  std::vector<std::string> files, overrides;
+  std::string by, states, out;
+  int max_skins = 96, jobs = 0;
+  bool json = false;
+};
+
+std::vector<FingerState> parse_states(const std::string& text) {
+  std::vector<FingerState> out;
+  for (const std::string& word : split(text, ',')) {
+    const auto& names = finger_state_names();
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end())
+      throw InputError("\"" + word + "\" is no finger state; use " + join_names(names));
+    out.push_back(static_cast<FingerState>(found - names.begin()));
+  }
+  return out;
+}
+
+// File stems; with the folder where stems repeat.
+std::vector<std::string> short_names(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files)
+    names.push_back(std::filesystem::path(file).stem().string());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (std::count(names.begin(), names.end(), names[i]) > 1) names[i] = files[i];
+  }
+  return names;
+}
+
+int run(const Context& context, const RankCommand& command) {
+  if (command.files.size() < 2) throw InputError("name two designs at least");
+  std::vector<Design> designs;
+  for (const std::string& file : command.files)
+    designs.push_back(read_design(file, command.overrides));
+  RankOptions options;
+  const bool driven =
+      std::all_of(designs.begin(), designs.end(), [](const Design& d) { return d.drive.driven(); });
+  options.criteria = parse_criteria(!command.by.empty() ? command.by
+                                    : driven            ? "modulation:high"
+                                                        : "friction:low,adhesion:low");
+  options.states = command.states.empty() ? std::vector<FingerState>{designs.front().finger.state}
+                                          : parse_states(command.states);
+  options.max_skins = command.max_skins;
+  options.threads = command.jobs;
+  options.note = [&](const std::string& text) { context.note(text); };
+  const std::vector<std::string> names = short_names(command.files);
+  const Ranking ranking = rank(designs, options);
+  if (!command.out.empty()) {
+    std::error_code error;
+    std::filesystem::create_directories(command.out, error);
+    if (error) {
+      throw InputError(
+          {Problem{command.out, 0, 0, "", "no such folder can be made: " + error.message()}});
+    }
+    write_bytes(command.out + "/ranking.txt", ranking_table(names, options, ranking));
+    write_bytes(command.out + "/ranking.json", ranking_json(names, options, ranking) + "\n");
+    if (options.criteria.size() > 2) {
+      for (const StateRanking& state : ranking.states) {
+        write_bytes(command.out + "/radar_" +
+                        finger_state_names()[static_cast<std::size_t>(state.state)] + ".svg",
+                    radar_svg(names, options, state));
+      }
+    }
+    context.note("wrote " + command.out);
+  }
+  std::cout << (command.json ? ranking_json(names, options, ranking) + "\n"
+                             : ranking_table(names, options, ranking));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_rank(CLI::App& app, Context& context) {
+  CLI::App* command = app.add_subcommand(
+      "rank", "Designs in order, by paired differences, with the probability of being best");
+  auto options = std::make_shared<RankCommand>();
+  command->add_option("designs", options->files, "DESIGN.toml of each candidate")->required();
+  command
+      ->add_option(
+          "--by", options->by,
+          "Criteria, e.g. friction:low,variation(modulation):low; default modulation:high, "
+          "or friction:low,adhesion:low without a drive")
+      ->type_name("METRIC[:low|:high],...");
+  command->add_option("--state", options->states, "Finger states: clean,natural,wet")
+      ->type_name("STATE,...");
+  command->add_option("--max-skins", options->max_skins, "Most skins a candidate and state")
+      ->check(CLI::Range(12, 100000));
+  command->add_option("--out", options->out, "Also write table, JSON and radar pictures")
+      ->type_name("DIR");
+  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
+      ->check(CLI::Range(0, 4096));
+  add_set_option(*command, options->overrides);
+  command->add_flag("--json", options->json, "One JSON object on standard output");
+  command->callback([&context, options] {
+    context.action = [&context, options] { return run(context, *options); };
+  });
+}
+
+}  // namespace papilla

@@ -1,0 +1,418 @@
+#include "study/rank.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/random.h"
+#include "base/statistics.h"
+#include "base/text.h"
+#include "forward/forward.h"
+
+namespace papilla {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kDraws = 4000;  // of the orders, for p_best: an error of 0.8 points at most
+
+// One design in one finger state, and the skins solved so far.
+class Candidate {
+ public:
+  Candidate(const Design& design, FingerState state, const RankOptions& options)
+      : design_(design),
+        options_(options),
+        scene_(scene_of(design)),
+        fidelity_(fidelity_of(design)) {
+    scene_.finger.state = state;
+    fidelity_.threads = options.threads;
+    fidelity_.skins = options.batch;
+  }
+
+  int skins() const { return patches_.skins(); }
+
+  // More skins: the next of the common sequence.
+  void extend() {
+    fidelity_.first_skin = skins();
+    PatchSet more = solve_patches(scene_, design_.texture, fidelity_);
+    if (skins() == 0) {
+      patches_ = std::move(more);
+    } else {
+      patches_.add(more);
+    }
+    // Jackknife pseudo-values: a sample a skin of any metric. Eq. ranking.2
+    const int n = skins();
+    const std::vector<double> all = values(-1);
+    pseudo_.assign(all.size(), std::vector<double>(static_cast<std::size_t>(n)));
+    for (int k = 0; k < n; ++k) {
+      const std::vector<double> rest = values(k);
+      for (std::size_t c = 0; c < all.size(); ++c)
+        pseudo_[c][static_cast<std::size_t>(k)] = n * all[c] - (n - 1) * rest[c];
+    }
+  }
+
+  const std::vector<double>& samples(std::size_t criterion) const { return pseudo_[criterion]; }
+
+ private:
+  std::vector<double> values(int without) const {
+    const Response response = respond(scene_, fidelity_, patches_, without);
+    std::vector<double> out;
+    for (const Criterion& c : options_.criteria) {
+      const auto v = summarise(c.expression.summary, c.expression.metric, response);
+      if (!v || !std::isfinite(v->value)) {
+        throw InputError(fmt::format("{} is not defined for \"{}\"{}", metric_text(c.expression),
+                                     design_.title,
+                                     response.driven ? "" : ": it is not driven (0 V)"));
+      }
+      out.push_back(v->value);
+    }
+    return out;
+  }
+
+  const Design& design_;
+  const RankOptions& options_;
+  Scene scene_;
+  Fidelity fidelity_;
+  PatchSet patches_;
+  std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
+};
+
+Interval interval(const std::vector<double>& samples) {
+  const Estimate e = mean_estimate(samples);
+  const double half = samples.size() > 1
+                          ? student_t_quantile(0.975, static_cast<int>(samples.size()) - 1) * e.se
+                          : kInfinity;
+  return {e.value, e.value - half, e.value + half};
+}
+
+class StateRanker {
+ public:
+  StateRanker(const std::vector<Design>& designs, FingerState state, const RankOptions& options)
+      : options_(options), state_(state) {
+    for (const Design& d : designs) candidates_.emplace_back(d, state, options);
+  }
+
+  // Everyone gets a batch; then only neighbours in the order whose difference is open.
+  StateRanking run(int& skins) {
+    for (Candidate& c : candidates_) c.extend();
+    for (;;) {
+      score();
+      std::vector<bool> open(candidates_.size(), false);
+      for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
+        if (decided(order_[i], order_[i + 1])) continue;
+        open[order_[i]] = open[order_[i + 1]] = true;
+      }
+      bool more = false;
+      for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        if (!open[i] || candidates_[i].skins() + options_.batch > options_.max_skins) continue;
+        candidates_[i].extend();
+        more = true;
+      }
+      if (!more) break;
+      if (options_.note) {
+        options_.note(fmt::format("{}: {} of {} candidates still open",
+                                  finger_state_names()[static_cast<std::size_t>(state_)],
+                                  std::count(open.begin(), open.end(), true), open.size()));
+      }
+    }
+    for (const Candidate& c : candidates_) skins += c.skins();
+    return result();
+  }
+
+ private:
+  // Scores a skin. Eq. ranking.1
+  void score() {
+    const std::size_t criteria = options_.criteria.size();
+    std::vector<double> typical(criteria, 0);
+    for (std::size_t c = 0; c < criteria; ++c) {
+      for (const Candidate& x : candidates_)
+        typical[c] +=
+            std::abs(mean_estimate(x.samples(c)).value) / static_cast<double>(candidates_.size());
+    }
+    scores_.clear();
+    for (const Candidate& x : candidates_) {
+      std::vector<double> s(static_cast<std::size_t>(x.skins()), 0);
+      for (std::size_t c = 0; c < criteria; ++c) {
+        const double sign = options_.criteria[c].high ? 1 : -1;
+        const double scale = typical[c] > 0 ? typical[c] : 1;
+        for (std::size_t k = 0; k < s.size(); ++k)
+          s[k] += sign * x.samples(c)[k] / scale / static_cast<double>(criteria);
+      }
+      scores_.push_back(std::move(s));
+    }
+    order_.resize(candidates_.size());
+    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::size_t a, std::size_t b) { return difference(a, b).value > 0; });
+  }
+
+  // Score of a minus b over the skins that both have.
+  Interval difference(std::size_t a, std::size_t b) const {
+    const std::size_t n = std::min(scores_[a].size(), scores_[b].size());
+    std::vector<double> d(n);
+    for (std::size_t k = 0; k < n; ++k) d[k] = scores_[a][k] - scores_[b][k];
+    return interval(d);
+  }
+  bool decided(std::size_t a, std::size_t b) const {
+    const Interval d = difference(a, b);
+    return d.low > 0 || d.high < 0;
+  }
+
+  // Eq. ranking.3: normal scores with the covariance of the common skins.
+  std::vector<double> probabilities() const {
+    const std::size_t m = scores_.size();
+    std::size_t n = scores_.front().size();
+    for (const auto& s : scores_) n = std::min(n, s.size());
+    std::vector<double> mean(m), best(m, 0);
+    for (std::size_t i = 0; i < m; ++i) mean[i] = mean_estimate(scores_[i]).value;
+    // A draw of the means is a random combination of the centred samples.
+    std::vector<std::vector<double>> centred(m, std::vector<double>(n));
+    for (std::size_t i = 0; i < m; ++i) {
+      double average = 0;
+      for (std::size_t k = 0; k < n; ++k) average += scores_[i][k] / static_cast<double>(n);
+      const double factor = 1 / std::sqrt(static_cast<double>(n) * (static_cast<double>(n) - 1));
+      for (std::size_t k = 0; k < n; ++k) centred[i][k] = factor * (scores_[i][k] - average);
+    }
+    RandomStream random(1, "ranking", static_cast<std::uint64_t>(state_));
+    std::vector<double> z(n);
+    for (int draw = 0; draw < kDraws; ++draw) {
+      for (double& v : z) v = random.normal();
+      std::size_t winner = 0;
+      double highest = -kInfinity;
+      for (std::size_t i = 0; i < m; ++i) {
+        double v = mean[i];
+        for (std::size_t k = 0; k < n; ++k) v += centred[i][k] * z[k];
+        if (v > highest) {
+          highest = v;
+          winner = i;
+        }
+      }
+      best[winner] += 1.0 / kDraws;
+    }
+    return best;
+  }
+
+  StateRanking result() const {
+    StateRanking out;
+    out.state = state_;
+    const std::vector<double> p = probabilities();
+    for (std::size_t place = 0; place < order_.size(); ++place) {
+      const std::size_t i = order_[place];
+      RankedCandidate r;
+      r.index = i;
+      r.score = interval(scores_[i]);
+      if (place > 0) r.behind_best = difference(i, order_.front());
+      if (place + 1 < order_.size()) {
+        r.ahead_of_next = difference(i, order_[place + 1]);
+        r.tied_with_next = !decided(i, order_[place + 1]);
+      }
+      r.rank = static_cast<int>(place) + 1;
+      if (place > 0 && out.candidates.back().tied_with_next) r.rank = out.candidates.back().rank;
+      r.p_best = p[i];
+      for (std::size_t c = 0; c < options_.criteria.size(); ++c)
+        r.metrics.push_back(interval(candidates_[i].samples(c)));
+      r.skins = candidates_[i].skins();
+      out.candidates.push_back(std::move(r));
+    }
+    return out;
+  }
+
+  const RankOptions& options_;
+  FingerState state_;
+  std::vector<Candidate> candidates_;
+  std::vector<std::vector<double>> scores_;  // [design][skin]
+  std::vector<std::size_t> order_;
+};
+
+const MetricInfo& info_of(const Criterion& c) { return *find_metric(c.expression.metric); }
+
+// A number of a metric for people: its scale and unit.
+std::pair<double, std::string> people(const Criterion& c) {
+  const bool relative =
+      c.expression.summary == Summary::Variation || c.expression.summary == Summary::Range;
+  const std::string& unit = info_of(c).unit;
+  if (relative || unit.empty()) return {1, ""};
+  if (unit == "N") return {1e3, "mN"};
+  if (unit == "m") return {1e9, "nm"};
+  if (unit == "m/Pa") return {1e12, "um/MPa"};
+  return {1, unit};
+}
+
+}  // namespace
+
+const std::vector<std::string>& finger_state_names() {
+  static const std::vector<std::string> names{"clean", "natural", "wet"};
+  return names;
+}
+
+std::string Criterion::text() const { return metric_text(expression) + (high ? ":high" : ":low"); }
+
+std::vector<Criterion> parse_criteria(const std::string& text) {
+  std::vector<Criterion> out;
+  for (std::string word : split(text, ',')) {
+    if (word.empty()) throw InputError("\"" + text + "\": expected METRIC:low or METRIC:high");
+    Criterion c;
+    std::string direction;
+    if (const std::size_t colon = word.rfind(':'); colon != std::string::npos) {
+      direction = word.substr(colon + 1);
+      word.resize(colon);
+    }
+    c.expression = parse_metric(word);
+    const bool spread = c.expression.summary == Summary::Variation ||
+                        c.expression.summary == Summary::Range ||
+                        c.expression.summary == Summary::Std;
+    const Better better = spread ? Better::Lower : info_of(c).better;
+    if (direction.empty() && better == Better::Neither) {
+      throw InputError(
+          fmt::format("{0} has no better direction of its own; say {0}:low or "
+                      "{0}:high",
+                      word));
+    }
+    if (!direction.empty() && direction != "low" && direction != "high") {
+      throw InputError(fmt::format("\"{}\" is no direction; use low or high", direction));
+    }
+    c.high = direction.empty() ? better == Better::Higher : direction == "high";
+    out.push_back(c);
+  }
+  return out;
+}
+
+Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  Ranking out;
+  for (FingerState state : options.states)
+    out.states.push_back(StateRanker(designs, state, options).run(out.skins));
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return out;
+}
+
+std::string ranking_table(const std::vector<std::string>& names, const RankOptions& options,
+                          const Ranking& ranking) {
+  std::size_t width = 9;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  std::string out;
+  for (const StateRanking& state : ranking.states) {
+    out += fmt::format("finger {}\n{:>4}  {:<{}}",
+                       finger_state_names()[static_cast<std::size_t>(state.state)], "rank",
+                       "design", width);
+    for (const Criterion& c : options.criteria) {
+      const std::string unit = people(c).second;
+      out += fmt::format("  {:>24}", c.text() + (unit.empty() ? "" : " " + unit));
+    }
+    out += fmt::format("  {:>24}  {:>7}  {:>5}\n", "ahead of the next, %", "p(best)", "skins");
+    for (const RankedCandidate& r : state.candidates) {
+      out += fmt::format("{:>3}{}  {:<{}}", r.rank, r.tied_with_next ? "=" : " ", names[r.index],
+                         width);
+      for (std::size_t c = 0; c < r.metrics.size(); ++c) {
+        const double scale = people(options.criteria[c]).first;
+        out += fmt::format("  {:>24}",
+                           fmt::format("{:.4g} ± {:.2g}", r.metrics[c].value * scale,
+                                       (r.metrics[c].high - r.metrics[c].low) / 2 * scale));
+      }
+      const bool last = &r == &state.candidates.back();
+      out += fmt::format("  {:>24}  {:>7.3f}  {:>5}\n",
+                         last ? std::string("-")
+                              : fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * r.ahead_of_next.value,
+                                            100 * r.ahead_of_next.low, 100 * r.ahead_of_next.high),
+                         r.p_best, r.skins);
+    }
+    out += '\n';
+  }
+  return out + fmt::format(
+                   "± and [ ] are 95 % intervals, differences are paired over common skins; = "
+                   "marks a tie with the next. {} skins solved, {:.1f} s\n",
+                   ranking.skins, ranking.seconds);
+}
+
+std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
+                         const Ranking& ranking) {
+  const auto number = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
+  const auto interval_json = [&](const Interval& i) {
+    return Json{{"value", number(i.value)}, {"low", number(i.low)}, {"high", number(i.high)}};
+  };
+  Json states = Json::array();
+  for (const StateRanking& state : ranking.states) {
+    Json list = Json::array();
+    for (const RankedCandidate& r : state.candidates) {
+      Json metrics = Json::object();
+      for (std::size_t c = 0; c < r.metrics.size(); ++c)
+        metrics[metric_text(options.criteria[c].expression)] = interval_json(r.metrics[c]);
+      list.push_back({{"name", names[r.index]},
+                      {"rank", r.rank},
+                      {"tied_with_next", r.tied_with_next},
+                      {"score", interval_json(r.score)},
+                      {"behind_best", interval_json(r.behind_best)},
+                      {"ahead_of_next", interval_json(r.ahead_of_next)},
+                      {"p_best", r.p_best},
+                      {"metrics", metrics},
+                      {"skins", r.skins}});
+    }
+    states.push_back({{"state", finger_state_names()[static_cast<std::size_t>(state.state)]},
+                      {"candidates", list}});
+  }
+  Json criteria = Json::array();
+  for (const Criterion& c : options.criteria) criteria.push_back(c.text());
+  return Json{
+      {"schema", 1},      {"by", criteria},         {"candidates", states.front()["candidates"]},
+      {"states", states}, {"skins", ranking.skins}, {"seconds", ranking.seconds}}
+      .dump(2);
+}
+
+std::string radar_svg(const std::vector<std::string>& names, const RankOptions& options,
+                      const StateRanking& state) {
+  static constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#3c8d5a", "#8a5fbf",
+                                             "#c98a1b", "#4a4a4a", "#2aa9a9", "#b0467d"};
+  constexpr double kCentre = 260, kRadius = 180;
+  const std::size_t axes = options.criteria.size();
+  const auto point = [&](std::size_t axis, double share) {
+    const double angle = 2 * kPi * static_cast<double>(axis) / static_cast<double>(axes) - kPi / 2;
+    return fmt::format("{:.1f},{:.1f}", kCentre + kRadius * share * std::cos(angle),
+                       kCentre + kRadius * share * std::sin(angle));
+  };
+  std::string out =
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"760\" height=\"540\" "
+      "font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"760\" height=\"540\" "
+      "fill=\"white\"/>\n";
+  for (double ring : {0.25, 0.5, 0.75, 1.0}) {
+    out += "<polygon fill=\"none\" stroke=\"#cccccc\" points=\"";
+    for (std::size_t a = 0; a < axes; ++a) out += point(a, ring) + " ";
+    out += "\"/>\n";
+  }
+  for (std::size_t a = 0; a < axes; ++a) {
+    const double angle = 2 * kPi * static_cast<double>(a) / static_cast<double>(axes) - kPi / 2;
+    out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
+                       kCentre + (kRadius + 26) * std::cos(angle),
+                       kCentre + (kRadius + 26) * std::sin(angle), options.criteria[a].text());
+  }
+  // On each axis the best candidate reaches the rim; the others the ratio to it.
+  for (std::size_t i = 0; i < state.candidates.size(); ++i) {
+    const RankedCandidate& r = state.candidates[i];
+    const char* colour = kColours[i % std::size(kColours)];
+    out += fmt::format(
+        "<polygon fill=\"{0}\" fill-opacity=\"0.12\" stroke=\"{0}\" stroke-width=\"2\" points=\"",
+        colour);
+    for (std::size_t a = 0; a < axes; ++a) {
+      double low = kInfinity, high = -kInfinity;
+      for (const RankedCandidate& other : state.candidates) {
+        low = std::min(low, std::abs(other.metrics[a].value));
+        high = std::max(high, std::abs(other.metrics[a].value));
+      }
+      const double v = std::abs(r.metrics[a].value);
+      const double share =
+          options.criteria[a].high ? (high > 0 ? v / high : 1) : (v > 0 ? low / v : 1);
+      out += point(a, share) + " ";
+    }
+    out += "\"/>\n";
+    out += fmt::format("<text x=\"500\" y=\"{}\" fill=\"{}\">{}. {}</text>\n",
+                       60 + 22 * static_cast<int>(i), colour, r.rank, names[r.index]);
+  }
+  return out + "</svg>\n";
+}
+
+}  // namespace papilla

@@ -1,0 +1,74 @@
+// Which of several designs is better, and how sure that is: paired differences on common skins,
+// with more skins only where the order is open. Equations ranking.N: docs/theory/ranking.md.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "metrics/metrics.h"
+#include "study/design.h"
+
+namespace papilla {
+
+// One criterion: a metric over humidity and which direction is better.
+struct Criterion {
+  MetricExpression expression;
+  bool high = false;
+
+  std::string text() const;  // "mean(friction):low"
+};
+// "friction:low,adhesion:low"; a metric with a better direction of its own may stand alone.
+// Throws InputError.
+std::vector<Criterion> parse_criteria(const std::string& text);
+
+struct Interval {
+  double value = 0, low = 0, high = 0;  // 95 %
+};
+
+struct RankedCandidate {
+  std::size_t index = 0;  // into the designs as given
+  int rank = 1;           // ties share the better rank
+  bool tied_with_next = false;
+  Interval score;                 // Eq. ranking.1; higher is better
+  Interval behind_best;           // score difference to the first, <= 0 up to noise; 0 for itself
+  Interval ahead_of_next;         // score difference to the next one; 0 for the last
+  double p_best = 0;              // probability of the highest score, Eq. ranking.3
+  std::vector<Interval> metrics;  // one a criterion, in its unit
+  int skins = 0;
+};
+
+struct StateRanking {
+  FingerState state = FingerState::Clean;
+  std::vector<RankedCandidate> candidates;  // best first
+};
+
+struct RankOptions {
+  std::vector<Criterion> criteria;
+  std::vector<FingerState> states;
+  int batch = 12;      // skins a step
+  int max_skins = 96;  // a candidate and state
+  int threads = 0;
+  std::function<void(const std::string&)> note;  // progress for people; may be empty
+};
+
+struct Ranking {
+  std::vector<StateRanking> states;
+  int skins = 0;  // solved in all
+  double seconds = 0;
+};
+
+// Throws InputError when a criterion is not defined for a design (modulation without a drive).
+Ranking rank(const std::vector<Design>& designs, const RankOptions& options);
+
+std::string ranking_table(const std::vector<std::string>& names, const RankOptions& options,
+                          const Ranking& ranking);
+std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
+                         const Ranking& ranking);
+// One polygon a candidate over the criteria, for a finger state; larger is better on every axis.
+std::string radar_svg(const std::vector<std::string>& names, const RankOptions& options,
+                      const StateRanking& state);
+
+const std::vector<std::string>& finger_state_names();  // "clean", "natural", "wet"
+
+}  // namespace papilla
