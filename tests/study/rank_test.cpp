@@ -1,0 +1,100 @@
+#include "study/rank.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+
+namespace papilla {
+namespace {
+
+Design sample(const std::string& name) {
+  Design d = read_design(std::string(PAPILLA_DESIGNS_DIR) + "/m3_samples/" + name + ".toml");
+  d.accuracy.level = AccuracyLevel::Draft;
+  return d;
+}
+
+RankOptions by(const std::string& criteria) {
+  RankOptions options;
+  options.criteria = parse_criteria(criteria);
+  options.states = {FingerState::Clean};
+  options.max_skins = 24;
+  return options;
+}
+
+TEST(Rank, OrdersTheSamplesAsThePaperDoes) {
+  // M11: a3h600 is stronger than a4h600 and than a3h900; flat is the strongest of all.
+  const std::vector<Design> designs{sample("a4h600"), sample("flat"), sample("a3h600")};
+  const Ranking r = rank(designs, by("modulation:high"));
+  const auto& c = r.states.front().candidates;
+  ASSERT_EQ(c.size(), 3u);
+  EXPECT_EQ(c[0].index, 1u);
+  EXPECT_EQ(c[1].index, 2u);
+  EXPECT_EQ(c[2].index, 0u);
+  for (const RankedCandidate& x : c) {
+    EXPECT_FALSE(x.tied_with_next);
+    EXPECT_EQ(x.skins, 12);  // decided at once: nobody needs more
+  }
+  EXPECT_GT(c[0].p_best, 0.99);
+  EXPECT_GT(c[0].ahead_of_next.low, 0);
+}
+
+TEST(Rank, CallsEqualDesignsATie) {
+  const std::vector<Design> designs{sample("flat"), sample("flat"), sample("a4h600")};
+  const Ranking r = rank(designs, by("modulation:high"));
+  const auto& c = r.states.front().candidates;
+  EXPECT_TRUE(c[0].tied_with_next);
+  EXPECT_EQ(c[0].rank, 1);
+  EXPECT_EQ(c[1].rank, 1);
+  EXPECT_EQ(c[2].rank, 3);
+  EXPECT_EQ(c[0].skins, 24);  // the open pair used all it may
+  EXPECT_EQ(c[2].skins, 12);  // the clear one did not
+  EXPECT_EQ(c[0].ahead_of_next.value, 0);
+}
+
+TEST(Rank, PairingNarrowsTheIntervalOfADifference) {
+  const std::vector<Design> designs{sample("flat"), sample("a3h350")};
+  const Ranking r = rank(designs, by("friction:low"));
+  const auto& c = r.states.front().candidates;
+  const auto width = [](const Interval& i) { return i.high - i.low; };
+  EXPECT_LT(width(c[0].ahead_of_next), 0.7 * std::hypot(width(c[0].score), width(c[1].score)));
+}
+
+TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {
+  Finger f;
+  f.state = FingerState::Natural;
+  const Finger natural = f.applied();
+  EXPECT_DOUBLE_EQ(natural.water.volume[2], 8 * f.water.volume[2]);
+  EXPECT_DOUBLE_EQ(natural.macro.shear_strength, 0.75 * f.macro.shear_strength);
+  EXPECT_LT(natural.water.contact_angle, f.water.contact_angle);
+  EXPECT_EQ(natural.applied(), natural);  // nothing more to apply
+}
+
+TEST(Rank, RefusesWhatHasNoMeaning) {
+  EXPECT_THROW(parse_criteria("frictoin:low"), InputError);
+  EXPECT_THROW(parse_criteria("friction:down"), InputError);
+  EXPECT_THROW(parse_criteria("compliance"), InputError);  // no better direction of its own
+  EXPECT_THROW(parse_criteria("friction:low,"), InputError);
+  EXPECT_FALSE(parse_criteria("variation(modulation)").front().high);
+  Design undriven = sample("flat");
+  undriven.drive.amplitude = 0;
+  EXPECT_THROW(rank({undriven, undriven}, by("modulation:high")), InputError);
+}
+
+TEST(Rank, JsonIsComplete) {
+  const std::vector<Design> designs{sample("flat"), sample("a4h600")};
+  const RankOptions options = by("modulation:high,friction:low");
+  const auto json =
+      nlohmann::json::parse(ranking_json({"flat", "a4h600"}, options, rank(designs, options)));
+  EXPECT_EQ(json["schema"], 1);
+  for (const auto& c : json["candidates"]) {
+    EXPECT_TRUE(c["score"]["low"].is_number());
+    EXPECT_TRUE(c["p_best"].is_number());
+    EXPECT_TRUE(c["metrics"]["mean(friction)"]["value"].is_number());
+  }
+}
+
+}  // namespace
+}  // namespace papilla
