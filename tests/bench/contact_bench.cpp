@@ -1,0 +1,261 @@
+// Cost of contact solves against their certificate: transform pairs and pair-times (wall time over
+// the time of one transform pair of the same grid), beside a plain restarted Polonsky-Keer solver.
+//     contact_bench [largest grid, default 512] > results/bench/contact.csv
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include "base/constants.h"
+#include "base/memory.h"
+#include "base/statistics.h"
+#include "geometry/roughness.h"
+#include "physics/contact/contact.h"
+#include "scene/finger.h"
+
+namespace papilla {
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double pair_time(const ContactKernel& kernel) {
+  RealArray p(kernel.grid().size(), 1.0), u(kernel.grid().size());
+  SpectrumArray scratch(kernel.fft().spectrum_size());
+  double best = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 15; ++k) {
+    const double start = now();
+    kernel.displace(p, u, scratch);
+    best = std::min(best, now() - start);
+  }
+  return best;
+}
+
+struct Cost {
+  double pairs = 0, seconds = 0, certificate = 0, area = 0;
+};
+
+// Polonsky and Keer 1999: Fletcher-Reeves directions, restarted when pixels join; two pairs an
+// iteration. Stops on the same certificate.
+Cost polonsky_keer(const ContactKernel& kernel, const std::vector<double>& height, double mean,
+                   double tolerance) {
+  const std::size_t n = height.size();
+  const double count = static_cast<double>(n), load = mean * count;
+  double average = 0, spread = 0;
+  for (double h : height) average += h / count;
+  for (double h : height) spread += square(h - average) / count;
+  spread = std::sqrt(spread);
+  RealArray p(n, mean), w(n), d(n, 0.0), u(n);
+  SpectrumArray scratch(kernel.fft().spectrum_size());
+  Cost cost;
+  const double begin = now();
+  double old_g = 1;
+  bool restart = true;
+  for (int k = 0; k < 3000; ++k) {
+    kernel.displace(p, w, scratch);
+    ++cost.pairs;
+    double low = std::numeric_limits<double>::infinity(), work = 0, shift = 0, inside = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      w[i] -= height[i];
+      low = std::min(low, w[i]);
+      work += p[i] * w[i];
+      if (p[i] > 0) {
+        shift += w[i];
+        inside += 1;
+      }
+    }
+    shift /= inside;
+    cost.certificate = (work - low * load) / (load * spread);
+    cost.area = inside / count;
+    if (cost.certificate <= tolerance) break;
+    double g = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (p[i] > 0) g += square(w[i] - shift);
+    }
+    const double beta = restart ? 0 : g / old_g;
+    old_g = g;
+    for (std::size_t i = 0; i < n; ++i) d[i] = p[i] > 0 ? w[i] - shift + beta * d[i] : 0;
+    kernel.displace(d, u, scratch);
+    ++cost.pairs;
+    double mean_u = 0, rd = 0, du = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (p[i] > 0) mean_u += u[i];
+    }
+    mean_u /= inside;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (p[i] > 0) {
+        rd += (w[i] - shift) * d[i];
+        du += (u[i] - mean_u) * d[i];
+      }
+    }
+    const double alpha = rd / du;
+    double sum = 0;
+    restart = false;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (p[i] > 0) {
+        p[i] = std::max(0.0, p[i] - alpha * d[i]);
+      } else if (w[i] < shift) {
+        p[i] = -alpha * (w[i] - shift);
+        restart = true;
+      }
+      sum += p[i];
+    }
+    for (double& v : p) v *= load / sum;
+  }
+  cost.seconds = now() - begin;
+  return cost;
+}
+
+Cost solve(const ContactKernel& kernel, const std::vector<double>& height, double mean,
+           const std::vector<double>& traction, const ContactOptions& options,
+           const ContactSolution* start, ContactSolution* keep = nullptr) {
+  Cost cost;
+  ContactSolution s;
+  cost.seconds = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 5; ++k) {
+    const double begin = now();
+    s = solve_contact(kernel, height, mean, traction, options, start);
+    cost.seconds = std::min(cost.seconds, now() - begin);
+  }
+  cost.pairs = s.fft_pairs;
+  cost.certificate = s.certificate;
+  cost.area = measure_area(kernel, s).raw;
+  if (keep) *keep = std::move(s);
+  return cost;
+}
+
+void row(const std::string& scene, int n, const std::string& method, double tolerance,
+         const Cost& cost, double pair) {
+  fmt::print("{},{},{},{:.0e},{:.4f},{:.1f},{:.1f},{:.5f},{:.1e}\n", scene, n, method, tolerance,
+             cost.area, cost.pairs, cost.seconds / pair, cost.seconds, cost.certificate);
+  std::fflush(stdout);
+}
+
+void dense_scenes(int n) {
+  // H = 0.8, rms slope 0.5, cut-off of 8 pixels, E* = 1: the surfaces that solvers are compared on.
+  const Grid grid{n, n, 1, 1};
+  Heightmap surface = random_surface({0.1, 1, 0.8, 8.0 / n, 1}, grid, 7, 0);
+  double slope = 0;
+  for (int iy = 0; iy < n; ++iy) {
+    for (int ix = 0; ix < n; ++ix) {
+      slope += 2 * square((surface(wrap(ix + 1, n), iy) - surface(ix, iy)) * n) /
+               static_cast<double>(grid.size());
+    }
+  }
+  for (double& z : surface.z) z *= 0.5 / std::sqrt(slope);
+  const auto kernel = make_contact_kernel(grid, {1, 0, 0, 1, 0});
+  const double pair = pair_time(*kernel);
+  for (double load : {0.01, 0.05, 0.2}) {
+    const std::string name = fmt::format("rough p/E*={}", load);
+    row(name, n, "polonsky-keer", 1e-8, polonsky_keer(*kernel, surface.z, load, 1e-8), pair);
+    for (double t : {1e-4, 1e-8}) {
+      row(name, n, "papilla cold", t,
+          solve(*kernel, surface.z, load, {}, {.tolerance = t, .method = ContactMethod::Dense},
+                nullptr),
+          pair);
+    }
+  }
+}
+
+void finger_scenes(int n) {
+  // The reference finger's skin on a flat surface at its patch pressure: the loaded regime.
+  const Finger finger;
+  const Grid grid{n, n, 12e-6, 12e-6};
+  const Skin& skin = finger.skin;
+  const auto kernel =
+      make_contact_kernel(grid, {skin.layer_modulus, skin.layer_poisson, skin.layer_thickness,
+                                 skin.bulk_modulus, skin.bulk_poisson});
+  const double pair = pair_time(*kernel);
+  const Heightmap height =
+      random_surface({skin.rms, skin.roll_off, skin.hurst, skin.cutoff}, grid, 1, 0);
+  std::vector<double> traction(grid.size(), 0.0);  // a bridge-like disc, twice the preload
+  const double mean = finger.patch_pressure(0.15),
+               humid = finger.patch_pressure(0.35) / skin.modulus_factor(0.35);
+  for (int iy = 0; iy < n; ++iy) {
+    for (int ix = 0; ix < n; ++ix) {
+      if (std::hypot(grid.x(ix) - 4e-6, grid.y(iy) - 7e-6) < 2e-6) {
+        traction[grid.index(ix, iy)] = 2 * mean;
+      }
+    }
+  }
+  for (double t : {1e-4, 1e-5, 1e-6, 1e-8}) {
+    ContactSolution base;
+    row("loaded", n, "polonsky-keer", t, polonsky_keer(*kernel, height.z, mean, t), pair);
+    row("loaded", n, "papilla cold", t,
+        solve(*kernel, height.z, mean, {}, {.tolerance = t, .method = ContactMethod::Dense},
+              nullptr, &base),
+        pair);
+    row("loaded next humidity", n, "papilla warm", t,
+        solve(*kernel, height.z, humid, {}, {.tolerance = t, .method = ContactMethod::Dense},
+              &base),
+        pair);
+    row("loaded off to on", n, "papilla warm", t,
+        solve(*kernel, height.z, mean, traction, {.tolerance = t, .method = ContactMethod::Dense},
+              &base),
+        pair);
+  }
+  // Light contact: the paper's uniform preload.
+  const auto stiff = make_contact_kernel(grid, {200e6, 0.5, 1e-6, 25e6, 0.5});
+  const Heightmap light = random_surface({330e-9, 12e-6, 0.8, 50e-9}, grid, 3, 0);
+  for (ContactMethod method : {ContactMethod::Dense, ContactMethod::Auto}) {
+    const std::string name = method == ContactMethod::Dense ? "dense" : "automatic";
+    ContactSolution base;
+    row("light 15 kPa", n, name + " cold", 1e-8,
+        solve(*stiff, light.z, 15e3, {}, {.tolerance = 1e-8, .method = method}, nullptr, &base),
+        pair);
+    row("light +10 %", n, name + " warm", 1e-8,
+        solve(*stiff, light.z, 16.5e3, {}, {.tolerance = 1e-8, .method = method}, &base), pair);
+  }
+}
+
+// Area of the light scene by every estimator against the near-edge area at 2048^2, and its cost.
+void areas() {
+  std::vector<double> reference;
+  for (int n : {2048, 1024, 512, 256}) {
+    const Grid grid{n, n, 12e-6, 12e-6};
+    const auto kernel = make_contact_kernel(grid, {200e6, 0.5, 1e-6, 25e6, 0.5});
+    const double pair = pair_time(*kernel);
+    std::vector<double> ratio[4];
+    double seconds = 0, pairs = 0, worst = 0;
+    constexpr int kSkins = 4;
+    for (int k = 0; k < kSkins; ++k) {
+      const Heightmap h =
+          random_surface({330e-9, 12e-6, 0.8, 50e-9}, grid, 3, static_cast<std::uint64_t>(k));
+      const double begin = now();
+      const ContactSolution s = solve_contact(*kernel, h.z, 15e3, {}, {.tolerance = 1e-8});
+      seconds += (now() - begin) / kSkins;
+      pairs += s.fft_pairs / kSkins;
+      worst = std::max(worst, s.certificate);
+      const ContactArea a = measure_area(*kernel, s);
+      if (n == 2048) reference.push_back(a.near_edge);
+      const double values[4] = {a.raw, a.perimeter, a.near_edge, a.moments};
+      for (int e = 0; e < 4; ++e) ratio[e].push_back(values[e] / reference[k] - 1);
+    }
+    static const char* const kNames[4] = {"raw", "perimeter", "near_edge", "moments"};
+    for (int e = 0; e < 4; ++e) {
+      const Estimate error = mean_estimate(ratio[e]);
+      fmt::print(
+          "light area {} error {:+.4f} sd {:.4f},{},automatic "
+          "cold,1e-08,{:.6f},{:.1f},{:.1f},{:.5f},{:.1e}\n",
+          kNames[e], error.value, error.se * std::sqrt(kSkins), n, reference[0], pairs,
+          seconds / pair, seconds, worst);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace papilla
+
+int main(int argc, char** argv) {
+  papilla::keep_freed_memory();
+  const int largest = argc > 1 ? std::atoi(argv[1]) : 512;
+  fmt::print("scene,n,method,tolerance,contact,pairs,pair_times,seconds,certificate\n");
+  for (int n = 128; n <= largest; n *= 2) papilla::finger_scenes(n);
+  for (int n = 256; n <= std::min(largest, 1024); n *= 2) papilla::dense_scenes(n);
+  papilla::areas();
+}
