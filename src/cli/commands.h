@@ -24,6 +24,7 @@ void add_solve_bridge(CLI::App& solve, Context& context);
 void add_solve_droplets(CLI::App& solve, Context& context);
 void add_solve_drive(CLI::App& solve, Context& context);
 void add_solve_persson(CLI::App& solve, Context& context);
+void add_solve_haze(CLI::App& solve, Context& context);
 
 // clang-format off
 // In the order of `papilla --help`, one a line.
@@ -45,6 +46,7 @@ inline constexpr std::array kPieces{
     add_solve_bridge,
     add_solve_droplets,
     add_solve_persson,
+    add_solve_haze,
     add_solve_drive,
 };
 // clang-format on

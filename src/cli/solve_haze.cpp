@@ -1,0 +1,100 @@
+// papilla solve haze: how a design or a heightmap looks on glass.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "cli/commands.h"
+#include "forward/appearance.h"
+#include "geometry/io/files.h"
+#include "study/design.h"
+
+namespace papilla {
+namespace {
+
+struct HazeOptions {
+  DesignOptions design;
+  std::string height, size;
+  double index = 0, fill = 1;
+};
+
+int solve(const HazeOptions& options) {
+  if (options.design.file.empty() == options.height.empty())
+    throw InputError("expected a design FILE or --height FILE");
+  OpticalMedia media;
+  media.fill = options.fill;
+  Optics o;
+  if (options.height.empty()) {
+    const Study study = read_study(options.design.file, options.design.overrides);
+    media.index = options.index > 0 ? options.index : study.design.surface.refractive_index;
+    if (media.fill > media.index) throw InputError("--fill-index: expected 1 to the glass's index");
+    o = appearance(study.design.texture, media);
+  } else {
+    if (options.index > 0) media.index = options.index;
+    if (media.fill > media.index) throw InputError("--fill-index: expected 1 to the glass's index");
+    const double width = options.size.empty() ? 0 : parse_si(options.size, "um");
+    o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media);
+  }
+  const bool refused = o.regime == "refused";
+  if (options.design.json) {
+    using Json = nlohmann::ordered_json;
+    const auto number = [&](double v) { return refused ? Json(nullptr) : Json(v); };
+    Json out{{"schema", 1},
+             {"regime", o.regime},
+             {"warning", o.warning},
+             {"haze", number(o.haze)},
+             {"transmittance", number(o.transmittance)},
+             {"gloss", number(o.gloss)},
+             {"colour_shift", number(o.colour_shift)},
+             {"spectrum", Json::array()}};
+    for (const SpectrumPoint& p : o.spectrum) {
+      out["spectrum"].push_back({{"wavelength", p.wavelength},
+                                 {"specular", p.specular},
+                                 {"haze", p.haze},
+                                 {"transmitted", p.transmitted},
+                                 {"gloss", p.gloss}});
+    }
+    std::cout << out.dump(2) << '\n';
+  } else {
+    std::cout << "regime         " << o.regime << '\n';
+    if (!refused) {
+      std::cout << fmt::format(
+          "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"
+          "colour shift   {:.4f} (u'v')\n\n{:>8} {:>8} {:>8} {:>8}\n",
+          100 * o.haze, 100 * o.transmittance, 100 * o.gloss, o.colour_shift, "nm", "haze %",
+          "trans. %", "gloss %");
+      for (const SpectrumPoint& p : o.spectrum) {
+        std::cout << fmt::format("{:>8.0f} {:>8.2f} {:>8.2f} {:>8.2f}\n", 1e9 * p.wavelength,
+                                 100 * p.haze, 100 * p.transmitted, 100 * p.gloss);
+      }
+    }
+    if (!o.warning.empty()) std::cout << "note: " << o.warning << '\n';
+  }
+  return refused ? kWorkFailed : kSuccess;
+}
+
+}  // namespace
+
+void add_solve_haze(CLI::App& solve_command, Context& context) {
+  CLI::App* command = solve_command.add_subcommand(
+      "haze", "Haze, transmittance, gloss and colour of a texture on glass");
+  auto options = std::make_shared<HazeOptions>();
+  command->add_option("file", options->design.file, "Design or study file")->type_name("FILE");
+  add_set_option(*command, options->design.overrides);
+  command->add_option("--height", options->height, "Heightmap instead: .npy .gsf .exr .tif")
+      ->type_name("FILE");
+  command->add_option("--size", options->size, "Its width where the file does not say");
+  command->add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
+      ->check(CLI::Range(1.0, 5.0));
+  command->add_option("--fill-index", options->fill, "Index of what fills the texture; 1: air")
+      ->check(CLI::Range(1.0, 5.0));
+  command->add_flag("--json", options->design.json, "One JSON object, SI units");
+  command->callback(
+      [&context, options] { context.action = [options] { return solve(*options); }; });
+}
+
+}  // namespace papilla

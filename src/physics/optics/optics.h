@@ -1,0 +1,54 @@
+// How a texture looks on glass: haze, transmittance, gloss and colour, scalar theory at normal
+// incidence, one textured interface. docs/theory/optics.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry/heightmap.h"
+
+namespace papilla {
+
+inline constexpr double kHazeAngle = 0.04363323129985824;  // 2.5 deg: light beyond it is haze
+
+struct OpticalMedia {
+  double index = 1.46;  // of the glass
+  double fill = 1;      // of what fills the texture: 1 air, up to `index` for a matched over-coat
+};
+
+// 400 to 720 nm in steps of 20 nm.
+const std::vector<double>& visible_wavelengths();
+
+struct SpectrumPoint {
+  double wavelength = 0;   // [m], in vacuum
+  double specular = 1;     // share of the transmitted light in the undeviated order
+  double haze = 0;         // share of the transmitted light beyond 2.5 deg
+  double transmitted = 1;  // undeviated share of the incident light, both faces of the plate
+  double gloss = 1;        // specular reflection at 60 deg over that of the flat glass
+};
+
+struct Optics {
+  double haze = 0, transmittance = 1, gloss = 1;  // photopic means of the spectrum
+  double colour_shift = 0;  // CIE 1976 u'v' distance of the undeviated light from the source
+  std::vector<SpectrumPoint> spectrum;
+  std::string regime;   // "flat", "phase screen", "effective medium"; "refused": no numbers
+  std::string warning;  // empty: inside the validity
+};
+
+// What a pixel between the lowest and the highest plane is: a slope, or an edge of a two-level
+// texture that crosses it (then its amplitude is the mean over both levels, right to 1e-4 at 96
+// pixels a period, where a mean height errs by 1 %).
+enum class PixelEdges { Sloped, TwoLevels };
+
+// Thin phase screen of one period (or a patch of 100 um and more for random textures).
+// Eq. optics.1-4. Cost: pixels x wavelengths x orders inside the cone.
+Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& media,
+                    const std::vector<double>& wavelengths = visible_wavelengths());
+
+// A layer finer than the wavelength: a share `open` of it is the fill, the rest glass. Eq.
+// optics.5. lines: grooves (mean over both polarisations), else round holes or pillars. Haze is
+// zero: a perfect array; disorder is not modelled.
+Optics effective_medium(double open, double depth, bool lines, const OpticalMedia& media,
+                        const std::vector<double>& wavelengths = visible_wavelengths());
+
+}  // namespace papilla

@@ -1,0 +1,154 @@
+#include "physics/optics/optics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/random.h"
+#include "forward/appearance.h"
+
+namespace papilla {
+namespace {
+
+Texture holes(double period, double diameter, double depth) {
+  HoleArray a;
+  a.period = period, a.diameter = diameter, a.depth = depth, a.wall_angle = kPi / 2;
+  return {a};
+}
+
+Optics green(double depth, double period = 6e-6) {
+  const Texture texture = holes(period, 0.75 * period, depth);
+  return phase_screen(generate(texture, patch_grid(texture, 192, 2 * period)),
+                      PixelEdges::TwoLevels, {1.5, 1}, {550e-9});
+}
+
+double binary_specular(double fill, double phase) {
+  return 1 - 4 * fill * (1 - fill) * square(std::sin(0.5 * phase));
+}
+
+TEST(PhaseScreen, GivesTheClosedFormOfBinaryHoles) {
+  const double fill = kPi * square(0.375);
+  for (const double depth : {50e-9, 79e-9, 100e-9, 200e-9, 300e-9, 550e-9, 900e-9}) {
+    const double phase = 2 * kPi * 0.5 * depth / 550e-9;
+    const Optics o = green(depth);
+    EXPECT_NEAR(o.spectrum[0].specular, binary_specular(fill, phase), 2e-4) << depth;
+    EXPECT_NEAR(o.haze, 1 - binary_specular(fill, phase), 2e-4) << depth;
+    // In reflection at 60 deg the phase is twice as large in air as (n - 1) makes it here.
+    EXPECT_NEAR(o.spectrum[0].gloss, binary_specular(fill, 2 * kPi * depth / 550e-9), 1e-3);
+  }
+}
+
+TEST(PhaseScreen, FivePerCentOfHazeIsReachedAt79Nanometres) {
+  EXPECT_LT(green(79e-9).haze, 0.05);
+  EXPECT_GT(green(80.5e-9).haze, 0.05);
+  EXPECT_NEAR(green(550e-9).haze, 0.986, 0.001);
+}
+
+TEST(PhaseScreen, OrdersInsideTheConeAreNoHaze) {
+  // Above 12.6 um the first orders of 550 nm are within 2.5 deg.
+  const double outside = green(300e-9, 12.5e-6).haze, within = green(300e-9, 12.7e-6).haze;
+  EXPECT_NEAR(outside - within, 4 * 0.089988, 2e-3);
+}
+
+TEST(PhaseScreen, MatchedFillRemovesHaze) {
+  const Texture texture = holes(6e-6, 4.5e-6, 500e-9);
+  const Optics o = appearance(texture, {1.5, 1.5});
+  EXPECT_NEAR(o.haze, 0, 1e-12);
+  EXPECT_NEAR(o.transmittance, 0.96, 1e-9);  // one face is left
+}
+
+TEST(PhaseScreen, GivesTheSeriesOfGaussianRoughness) {
+  // Correlation exp(-r^2/L^2): filter white noise with exp(-r^2/(L^2/2)), by sums of its waves.
+  constexpr int kPixels = 256, kWaves = 400;
+  // At this side 213 orders lie inside the cone, whose area is 212.7 orders: no bias of its rim.
+  constexpr double kSide = 103.75e-6, kLength = 4e-6, kWavelength = 550e-9;
+  for (const double rms : {80e-9, 200e-9}) {
+    double specular = 0, haze = 0;
+    constexpr int kDraws = 24;
+    for (int draw = 0; draw < kDraws; ++draw) {
+      RandomStream random(7, "optics test", static_cast<std::uint64_t>(draw));
+      Heightmap h{{kPixels, kPixels, kSide, kSide}, {}};
+      h.z.assign(h.grid.size(), 0.0);
+      for (int w = 0; w < kWaves; ++w) {
+        // The spectrum is Gaussian with variance 2/L^2 each way; periodic: whole numbers of waves.
+        const int m = static_cast<int>(
+            std::lround(random.normal() * std::sqrt(2.0) / kLength * kSide / (2 * kPi)));
+        const int n = static_cast<int>(
+            std::lround(random.normal() * std::sqrt(2.0) / kLength * kSide / (2 * kPi)));
+        const double phase = 2 * kPi * random.uniform();
+        const double amplitude = rms * std::sqrt(2.0 / kWaves);
+        std::vector<double> cx, sx;
+        for (int x = 0; x < kPixels; ++x) {
+          cx.push_back(std::cos(2 * kPi * m * x / kPixels + phase));
+          sx.push_back(std::sin(2 * kPi * m * x / kPixels + phase));
+        }
+        for (int y = 0; y < kPixels; ++y) {
+          const double c = amplitude * std::cos(2 * kPi * n * y / kPixels);
+          const double s = amplitude * std::sin(2 * kPi * n * y / kPixels);
+          for (int x = 0; x < kPixels; ++x)
+            h(x, y) += c * cx[static_cast<std::size_t>(x)] - s * sx[static_cast<std::size_t>(x)];
+        }
+      }
+      const Optics o = phase_screen(h, PixelEdges::Sloped, {1.5, 1}, {kWavelength});
+      specular += o.spectrum[0].specular / kDraws;
+      haze += o.haze / kDraws;
+    }
+    const double s = square(2 * kPi * 0.5 * rms / kWavelength);
+    double series = 0, term = std::exp(-s);
+    for (int k = 1; k < 60; ++k) {
+      term *= s / k;
+      series += term * std::exp(-square(kPi * kLength * std::sin(kHazeAngle) / kWavelength) / k);
+    }
+    EXPECT_NEAR(haze, series, 0.03 * series) << rms;
+    EXPECT_NEAR(specular, std::exp(-s), 0.03) << rms;
+  }
+}
+
+TEST(EffectiveMedium, QuarterWaveLayerOfTheGeometricMeanReflectsNothing) {
+  // Grooves share their index between polarisations only near equal indices; use round holes.
+  const OpticalMedia glass{1.5, 1};
+  // Bruggeman for eps = 1.5: f (1 - e)/(1 + e) + (1 - f)(2.25 - e)/(2.25 + e) = 0.
+  const double e = 1.5, a = (1 - e) / (1 + e), b = (2.25 - e) / (2.25 + e);
+  const double open = b / (b - a);
+  const double n = std::sqrt(e);
+  const Optics o = effective_medium(open, 550e-9 / (4 * n), false, glass, {550e-9});
+  EXPECT_NEAR(o.spectrum[0].gloss, 0, 1e-12);
+  EXPECT_NEAR(o.transmittance, 0.96, 1e-12);
+  EXPECT_EQ(o.haze, 0);
+  // Nothing open, all open, and no depth are the bare glass.
+  for (const auto& [f, depth] : {std::pair{0.0, 100e-9}, {1.0, 100e-9}, {0.4, 0.0}}) {
+    for (const bool lines : {false, true})
+      EXPECT_NEAR(effective_medium(f, depth, lines, glass).transmittance, 0.96 / 1.04, 1e-9);
+  }
+}
+
+TEST(Appearance, ChoosesTheTheoryAndRefusesTheBandBetween) {
+  const OpticalMedia glass{1.5, 1};
+  EXPECT_EQ(appearance(holes(6e-6, 3e-6, 0), glass).regime, "flat");
+  EXPECT_NEAR(appearance(holes(6e-6, 3e-6, 0), glass).transmittance, 0.96 / 1.04, 1e-12);
+  EXPECT_EQ(appearance(holes(0.2e-6, 0.1e-6, 0.1e-6), glass).regime, "effective medium");
+  EXPECT_EQ(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass).regime, "refused");
+  EXPECT_FALSE(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass).warning.empty());
+  const Optics wide = appearance(holes(6e-6, 3e-6, 100e-9), glass);
+  EXPECT_EQ(wide.regime, "phase screen");
+  EXPECT_TRUE(wide.warning.empty());
+  EXPECT_FALSE(appearance(holes(3e-6, 1.5e-6, 100e-9), glass).warning.empty());
+}
+
+TEST(Appearance, ColourOfADeepArrayIsSeen) {
+  // At 900 nm depth the haze is 0, 0.29, 0.67 at 450, 550, 650 nm.
+  const Texture texture = holes(6e-6, 4.5e-6, 900e-9);
+  const Optics o = phase_screen(generate(texture, patch_grid(texture, 192, 12e-6)),
+                                PixelEdges::TwoLevels, {1.5, 1}, {450e-9, 550e-9, 650e-9});
+  EXPECT_NEAR(o.spectrum[0].haze, 0.000, 1e-3);
+  EXPECT_NEAR(o.spectrum[1].haze, 0.288, 1e-3);
+  EXPECT_NEAR(o.spectrum[2].haze, 0.668, 1e-3);
+  const Optics photopic = appearance(texture, {1.5, 1});
+  EXPECT_NEAR(photopic.haze, 0.333, 3e-3);
+  EXPECT_GT(photopic.colour_shift, 0.02);
+  EXPECT_NEAR(appearance(holes(6e-6, 4.5e-6, 100e-9), {1.5, 1}).haze, 0.0767, 5e-4);
+}
+
+}  // namespace
+}  // namespace papilla
