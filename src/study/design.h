@@ -109,6 +109,7 @@ struct Search {
   std::string method = "auto";
   int seed = 1;
   int evaluations = 0;  // 0: as many as the time allows, or the method's default
+  int drafts = 0;       // besides; of the Gaussian process alone
   double time = 0;      // wall clock [s]; 0: no limit
   int jobs = 0;         // 0: all processors
 

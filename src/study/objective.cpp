@@ -342,7 +342,8 @@ std::string StudyProblem::identity() const {
     out += fmt::format("{} {:a}\n", t.name, t.weight) + to_toml(t.finger);
     for (const Setting& s : t.settings) out += fmt::format("{} {:a}\n", s.path, s.value);
   }
-  return out + fmt::format("{} {}\n", study_.search.method, study_.search.seed);
+  return out +
+         fmt::format("{} {} {}\n", study_.search.method, study_.search.seed, study_.search.drafts);
 }
 
 }  // namespace papilla

@@ -10,6 +10,7 @@
 #include <memory>
 #include <tuple>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "config/writer.h"
@@ -29,10 +30,11 @@ namespace fs = std::filesystem;
 
 constexpr int kFreshSkins = 1000;  // the confirmation's skins start here: none of the search
 constexpr std::size_t kFinalists = 6;
-constexpr double kSameDesign = 0.03;  // of the front's extent
-constexpr int kDraftsPerVariable = 20;
+constexpr double kSameDesign = 0.03;       // of the front's extent
+constexpr double kSensitivityStep = 0.05;  // of a variable's range
+constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
-enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3 };
+enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3, kSensitivity = 4 };
 
 Fidelity search_fidelity(const Study& study) {
   Fidelity f = fidelity_level("search");
@@ -137,8 +139,7 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   p.evaluations =
       study.search.evaluations > 0 ? study.search.evaluations : default_evaluations(study);
   p.seed = static_cast<std::uint64_t>(study.search.seed);
-  if (choose_method(study.search.method, p).name == "bayesian")
-    p.drafts = kDraftsPerVariable * static_cast<int>(p.space.size());
+  if (choose_method(study.search.method, p).name == "bayesian") p.drafts = study.search.drafts;
   return p;
 }
 
@@ -393,6 +394,81 @@ class Run {
     return problem_.score(answers(requests));
   }
 
+  // The best design moved by a step along each continuous variable, both ways where the space and
+  // the shape allow. Eq. search.9
+  void find_sensitivity() {
+    const FinalDesign& best = result_.finalists[result_.best];
+    if (!best.confirmed.ok) return;
+    const Point centre = best.unit;
+    const auto shifted = [&](std::size_t k, double step) {
+      Point u = centre;
+      u[k] += step;
+      return u;
+    };
+    const auto possible = [&](const Point& u, std::size_t k) {
+      return u[k] >= 0 && u[k] <= 1 && problem_.geometry(u).front() <= 0;
+    };
+    std::vector<Point> points{centre};
+    std::vector<std::pair<std::size_t, int>> moves;
+    for (std::size_t k = 0; k < centre.size(); ++k) {
+      if (!search_.space.dimensions[k].choices.empty()) continue;
+      for (int sign : {-1, 1}) {
+        const Point u = shifted(k, sign * kSensitivityStep);
+        if (!possible(u, k)) continue;
+        points.push_back(u);
+        moves.emplace_back(k, sign);
+      }
+    }
+    if (moves.empty()) return;
+    const std::size_t tasks = problem_.tasks().size();
+    std::vector<Point> requests;
+    for (const Point& u : points) {
+      for (std::size_t t = 0; t < tasks; ++t)
+        requests.push_back(work_request(t, kSensitivity, false, u));
+    }
+    const std::vector<Outcome> outcomes = answers(requests);
+    std::vector<Score> scores;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(i * tasks);
+      scores.push_back(problem_.score({first, first + static_cast<std::ptrdiff_t>(tasks)}));
+    }
+    if (!scores.front().ok) return;
+    const std::size_t m = problem_.objectives().size();
+    const std::vector<double> centre_values = problem_.values(centre);
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+      const auto [k, sign] = moves[i];
+      if (result_.sensitivity.empty() || result_.sensitivity.back().variable != k) {
+        result_.sensitivity.push_back({k, {}, {}, 0, 0, 0, false, false});
+        result_.sensitivity.back().share.assign(m, 0);
+      }
+      VariableSensitivity& s = result_.sensitivity.back();
+      const Score& moved = scores[i + 1];
+      if (!moved.ok) continue;
+      const double change = std::abs(problem_.values(points[i + 1])[k] - centre_values[k]);
+      s.step = change;
+      double allowed = kInfinity;
+      if (s.change.empty()) s.change.assign(m, 0);
+      const bool both = (sign > 0 && i > 0 && moves[i - 1].first == k && scores[i].ok);
+      for (std::size_t o = 0; o < m; ++o) {
+        const double up = sign * (moved.values[o] - scores[0].values[o]);
+        s.change[o] = both ? 0.5 * (s.change[o] + up) : up;
+        const double loss =
+            (problem_.objectives()[o].maximise ? -1 : 1) * (moved.values[o] - scores[0].values[o]);
+        const double most = kToleratedLoss * std::abs(scores[0].values[o]);
+        if (loss > most) allowed = std::min(allowed, change * most / loss);
+      }
+      const bool beyond = !std::isfinite(allowed);
+      (sign < 0 ? s.down : s.up) = beyond ? change : allowed;
+      (sign < 0 ? s.down_beyond : s.up_beyond) = beyond;
+    }
+    for (std::size_t o = 0; o < m; ++o) {
+      double sum = 0;
+      for (const auto& s : result_.sensitivity) sum += s.change.empty() ? 0 : square(s.change[o]);
+      for (auto& s : result_.sensitivity)
+        s.share[o] = sum > 0 && !s.change.empty() ? square(s.change[o]) / sum : 0;
+    }
+  }
+
   void check_stability() {
     const std::size_t variants = stability_variants(problem_).size();
     std::vector<std::vector<Outcome>> outcomes;
@@ -491,6 +567,7 @@ class Run {
     for (std::size_t i = 1; i < result_.finalists.size(); ++i) {
       if (rank(i) > rank(result_.best)) result_.best = i;
     }
+    if (!result_.finalists.empty()) find_sensitivity();
   }
 
   const Study& study_;
@@ -515,9 +592,9 @@ class Run {
 int default_evaluations(const Study& study) {
   const int n = static_cast<int>(study.variables.size());
   const std::size_t objectives = study.objective.maximise.size() + study.objective.minimise.size();
-  const bool drafted =
+  const bool surrogate =
       (study.search.method == "auto" && objectives <= 2) || study.search.method == "bayesian";
-  return drafted ? std::clamp(8 * n, 20, 100) : std::clamp(20 * n, 20, 200);
+  return surrogate ? std::clamp(10 * n, 20, 100) : std::clamp(20 * n, 20, 200);
 }
 
 std::string search_plan(const Study& study) {

@@ -34,6 +34,18 @@ struct FinalDesign {
   std::string folder;  // "front/01"; empty when dominated
 };
 
+// What a variable does at the best design, at search level. Eq. search.9
+struct VariableSensitivity {
+  std::size_t variable = 0;
+  std::vector<double> change;  // of each objective for +`step`, the user's sign
+  std::vector<double> share;   // of each objective's variance when all variables scatter by a step
+  double step = 0;             // SI
+  // Drift that costs no objective more than 5 % of its value, SI; beyond: even a whole step does
+  // not.
+  double down = 0, up = 0;
+  bool down_beyond = false, up_beyond = false;
+};
+
 struct OptimiseResult {
   std::string method, why;
   int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
@@ -43,8 +55,9 @@ struct OptimiseResult {
   std::size_t best = 0;                // of the finalists: highest worst modulation
   Score flat;                          // the same surface without texture, confirmed
   bool has_flat = false;
-  Stability stability;               // of the finalists' order, in their order
-  std::vector<double> hypervolumes;  // after each evaluation (two objectives or more)
+  Stability stability;                           // of the finalists' order, in their order
+  std::vector<VariableSensitivity> sensitivity;  // of the best design
+  std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
 };
 
 // Throws InputError for a folder that belongs to another study or is in use. Launched by mpirun as

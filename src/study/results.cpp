@@ -49,6 +49,7 @@ class Writer {
     }
     if (!f_.result.finalists.empty() && f_.result.finalists[f_.result.best].on_front)
       write_design_folder(f_.result.finalists[f_.result.best], f_.folder + "/best");
+    write_bytes(f_.folder + "/sensitivity.json", sensitivity());
     write_bytes(f_.folder + "/summary.md", summary());
   }
 
@@ -229,11 +230,63 @@ class Writer {
                          best.confirmed.worst);
     }
     out += stability_text();
+    out += sensitivity_text();
     out +=
         "\nFiles: report.html (all of this with charts), pareto.csv (finalists), history.csv "
         "(every evaluation), front/ and best/ "
         "(design.toml, metrics.json, heightmap.exr, heightmap.gsf, mask.tif, preview.png), "
-        "resolved.toml (every value and where it came from), plan.txt, journal.\n";
+        "sensitivity.json, resolved.toml (every value and where it came from), plan.txt, "
+        "journal.\n";
+    return out;
+  }
+
+  std::string sensitivity() const {
+    Json out{{"schema", 1}, {"variables", Json::object()}};
+    const auto& objectives = f_.problem.objectives();
+    for (const VariableSensitivity& s : f_.result.sensitivity) {
+      Json entry{{"step", s.step}, {"change", Json::object()}, {"variance_share", Json::object()}};
+      for (std::size_t k = 0; k < s.change.size(); ++k) {
+        entry["change"][objectives[k].name] = number(s.change[k]);
+        entry["variance_share"][objectives[k].name] = number(s.share[k]);
+      }
+      entry["tolerance"] = {{"down", s.down},
+                            {"down_at_least", s.down_beyond},
+                            {"up", s.up},
+                            {"up_at_least", s.up_beyond}};
+      out["variables"][f_.study.variables[s.variable].path] = entry;
+    }
+    return out.dump(1) + "\n";
+  }
+
+  std::string sensitivity_text() const {
+    if (f_.result.sensitivity.empty()) return {};
+    const auto& objectives = f_.problem.objectives();
+    std::string out =
+        "\n## What the best design is sensitive to\n\nEach continuous variable alone, by 5 % of "
+        "its "
+        "range (search level, common random numbers). Share: of the objective's variance if every "
+        "variable scattered so. Tolerance: the drift that costs no objective more than 5 % of its "
+        "value.\n\n| variable | step";
+    for (const StudyObjective& o : objectives) out += " | " + o.name + ", share";
+    out += " | tolerance down | up |\n|---|---";
+    for (std::size_t k = 0; k < objectives.size(); ++k) out += "|---";
+    out += "|---|---|\n";
+    for (const VariableSensitivity& s : f_.result.sensitivity) {
+      const Variable& v = f_.study.variables[s.variable];
+      const double unit = find_unit(v.unit)->to_si;
+      out += fmt::format("| {} | {:.3g} {}", v.path, s.step / unit, v.unit);
+      for (std::size_t k = 0; k < objectives.size(); ++k) {
+        out += k < s.change.size()
+                   ? fmt::format(" | {:+.4f}, {:.0f} %", s.change[k], 100 * s.share[k])
+                   : std::string(" | -");
+      }
+      const auto drift = [&](double value, bool beyond) {
+        return value > 0
+                   ? fmt::format("{}{:.2g} {}", beyond ? "at least " : "", value / unit, v.unit)
+                   : std::string("at its bound");
+      };
+      out += " | " + drift(s.down, s.down_beyond) + " | " + drift(s.up, s.up_beyond) + " |\n";
+    }
     return out;
   }
 

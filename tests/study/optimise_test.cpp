@@ -90,11 +90,16 @@ TEST(Optimise, WritesItsResultsAndResumesToTheSameBytes) {
   const OptimiseResult result = optimise(study, {whole, false, {}, nullptr});
   EXPECT_EQ(result.evaluations, 6);
   EXPECT_TRUE(result.any_feasible);
-  for (const char* file : {"resolved.toml", "plan.txt", "journal", "timing.json", "pareto.csv",
-                           "history.csv", "summary.md", "best/design.toml", "best/metrics.json",
-                           "best/heightmap.exr", "best/mask.tif", "front/01/design.toml"}) {
+  for (const char* file :
+       {"resolved.toml", "plan.txt", "journal", "timing.json", "pareto.csv", "history.csv",
+        "summary.md", "sensitivity.json", "best/design.toml", "best/metrics.json",
+        "best/heightmap.exr", "best/mask.tif", "front/01/design.toml"}) {
     EXPECT_TRUE(fs::exists(whole + "/" + file)) << file;
   }
+  ASSERT_FALSE(result.sensitivity.empty());
+  double shares = 0;
+  for (const VariableSensitivity& s : result.sensitivity) shares += s.share[0];
+  EXPECT_NEAR(shares, 1, 1e-12);
   EXPECT_EQ(read_design(whole + "/best/design.toml"), result.finalists[result.best].design);
 
   // The journal cut in the middle of a record, as by a kill, then resumed with another worker
