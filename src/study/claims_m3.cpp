@@ -24,6 +24,7 @@ struct Case {
   std::string design;  // below designs/
   double angle = 0;    // contact angle [deg]; 0: the design's own
   bool water = true;
+  FingerState state = FingerState::Clean;
 };
 
 struct Sample {
@@ -49,6 +50,7 @@ Design read_case(const Case& c) { return read_design(find_design(c.design)); }
 Scene scene_of(const ClaimInputs& in, const Case& c, const Design& d) {
   Scene s{d.surface, in.finger(), d.environment, d.drive, in.finger().calibrated_for};
   s.finger.load = d.finger.load;
+  s.finger.state = c.state;
   s.model.preset = in.preset();
   if (c.angle > 0) s.surface.contact_angle = c.angle * kPi / 180;
   if (!c.water) std::fill(s.finger.water.volume.begin(), s.finger.water.volume.end(), 0.0);
@@ -68,7 +70,8 @@ Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelit
 }
 
 const Sample& sample(ClaimInputs& in, const Case& c) {
-  const std::string key = fmt::format("{} {} {}", c.design, c.angle, c.water);
+  const std::string key =
+      fmt::format("{} {} {} {}", c.design, c.angle, c.water, static_cast<int>(c.state));
   return in.once<Sample>(key, [&] {
     const Design d = read_case(c);
     return evaluate_sample(scene_of(in, c, d), d.texture, fidelity_of(in));
@@ -520,6 +523,60 @@ Judgement bridges_in_holes(ClaimInputs& in) {
                                spanning, all));
 }
 
+// Both particle films in three regions each; `quantity` of the small over the large particles (or
+// of natural over clean), in percent, with `sign` the direction that the paper reports.
+template <class F>
+Judgement films(ClaimInputs& in, FingerState state, F&& quantity, double sign,
+                const std::string& why_not) {
+  std::vector<Part> parts;
+  for (int region = 1; region <= 3; ++region) {
+    const auto film = [&](const char* size) -> const Sample& {
+      return sample(
+          in, {.design = fmt::format("coatings/hdpe_{}_{}.toml", size, region), .state = state});
+    };
+    const Estimate e = paired_percent(film("large"), film("small"), quantity);
+    parts.push_back({fmt::format("small against large, region {}, %", region), e,
+                     sign > 0 ? positive(e) : negative(e)});
+  }
+  return all_of(parts, why_not);
+}
+
+double film_friction(const Sample& s, int k) { return friction_off(s, 0, k); }
+
+Judgement films_natural_area(ClaimInputs& in) {
+  std::vector<Part> parts;
+  for (const char* size : {"large", "small"}) {
+    for (int region = 1; region <= 3; ++region) {
+      const std::string design = fmt::format("coatings/hdpe_{}_{}.toml", size, region);
+      const Estimate e =
+          paired_percent(sample(in, {.design = design}),
+                         sample(in, {.design = design, .state = FingerState::Natural}),
+                         [](const Sample& s, int k) { return mean_without(s.at(0).area_off, k); });
+      parts.push_back({fmt::format("{} {}, %", size, region), e, positive(e)});
+    }
+  }
+  return all_of(parts);
+}
+
+// Compliance: indentation over pressure, of the mean response.
+Judgement films_compliance(ClaimInputs& in) {
+  std::vector<Part> parts;
+  for (int region = 1; region <= 3; ++region) {
+    const auto compliance = [&](const char* size) {
+      const ResponsePoint& p =
+          sample(in, {.design = fmt::format("coatings/hdpe_{}_{}.toml", size, region)})
+              .response.points[0];
+      return Estimate{1e12 * p.indentation.value / p.patch_pressure,
+                      1e12 * p.indentation.se() / p.patch_pressure};
+    };
+    const Estimate large = compliance("large"), small = compliance("small");
+    const Estimate gain{large.value - small.value, std::hypot(large.se, small.se)};
+    parts.push_back(
+        {fmt::format("large minus small, region {}, um/MPa", region), gain, positive(gain)});
+  }
+  return all_of(parts);
+}
+
 Claim claim(const char* id, const char* statement, const char* band,
             std::function<Judgement(ClaimInputs&)> judge) {
   return {id, "M3 model (Ma et al. 2025)", statement, band, true, std::move(judge)};
@@ -562,12 +619,24 @@ std::vector<Claim> m3_claims() {
       claim("M17", "retention by hysteresis about 5 % of F_off", "2 to 10 %", retention),
       claim("M18", "van der Waals forces negligible", "below 5 % of the contact load",
             van_der_waals),
+      claim("M19", "clean finger: films with larger, softer particles rub more",
+            "95 % intervals exclude 0, three regions",
+            [](ClaimInputs& in) { return films(in, FingerState::Clean, film_friction, -1, ""); }),
+      claim("M20", "natural finger: smaller particles have more capillary force and rub more",
+            "95 % intervals exclude 0, three regions",
+            [](ClaimInputs& in) {
+              return films(in, FingerState::Natural, film_friction, 1,
+                           "the dry areas differ more than twofold, so bridges win only at light "
+                           "patch pressure, where the claims of the hole arrays are lost");
+            }),
       claim("M21", "hydrophilic: the electrostatic force falls as bridges grow",
             "95 % intervals exclude 0", pull_falls),
       claim("M22",
             "screens: the smoothest strongest and most sensitive to humidity, the roughest "
             "weakest and least",
             "95 % intervals exclude 0", screens),
+      claim("M23", "larger, softer particles are more compliant",
+            "95 % intervals exclude 0, three regions", films_compliance),
       claim("M24", "fields well below 3 MV/m in air and 10 MV/m in SiO2", "our fields",
             fields_in_air_and_oxide),
       claim("M25", "a higher aspect ratio lowers the variation", "95 % interval excludes 0",
@@ -576,6 +645,8 @@ std::vector<Claim> m3_claims() {
             softening_alone),
       claim("M27", "bridges rarely span even holes of 350 nm", "below 5 % of the bridges",
             bridges_in_holes),
+      claim("M28", "both films: larger area with the natural than with the clean finger",
+            "95 % intervals exclude 0, three regions", films_natural_area),
   };
 }
 
