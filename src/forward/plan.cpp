@@ -88,8 +88,8 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
                           "areas from resolved contact, not from the load law",
                           states * (plan.field ? 2 : 1) * 45 * pair, 0});
   } else if (plan.water || plan.field) {
-    plan.skipped.push_back({"contact with tractions",
-                            "the load law F ~ L^0.965 ranks designs (Eq. friction.3)", 0.06});
+    plan.skipped.push_back(
+        {"contact with tractions", "the load law F ~ L^0.9 ranks designs (Eq. friction.3)", 0.02});
   }
   if (scene.model.coupling == Coupling::SelfConsistent && plan.field) {
     plan.steps.push_back({"coupling", "self-consistent",

@@ -26,7 +26,8 @@ TEST(Adjoint, AgreesWithFiniteDifferencesOfPressureGapAndSmoothedArea) {
   };
   const ContactSolution up = moved(step), down = moved(-step);
   std::vector<double> weight(grid.size()), mean_gap(grid.size(), 1.0 / 4096), area;
-  for (std::size_t i = 0; i < weight.size(); ++i) weight[i] = std::sin(0.37 * static_cast<double>(i));
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    weight[i] = std::sin(0.37 * static_cast<double>(i));
   smoothed_area(s, length, &area);
   const auto expect = [&](const ContactAdjoint& adjoint, double high, double low,
                           const char* what) {
