@@ -147,6 +147,9 @@ Heightmap read_image(const std::string& path, double width) {
   if (!in) throw InputError("cannot read " + path + ": " + OIIO::geterror());
   const OIIO::ImageSpec spec = in->spec();
   check_size(path, spec.width, spec.height);
+  if (spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 64) {
+    throw InputError("cannot read " + path + ": not a plane image of at most 64 channels");
+  }
   int channel = 0;
   for (int c = 0; c < spec.nchannels; ++c) {
     if (spec.channelnames[static_cast<std::size_t>(c)] == "Y") channel = c;
@@ -179,24 +182,28 @@ Heightmap read_image(const std::string& path, double width) {
   if (const std::string text = spec.get_string_attribute("ImageDescription");
       !text.empty() && text.front() == '{') {
     const auto json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_discarded() && json.contains("size_x_m") && json["size_x_m"].is_number() &&
-        json["size_y_m"].is_number()) {
-      h.grid.lx = json["size_x_m"];
-      h.grid.ly = json["size_y_m"];
-      if (spec.format == OIIO::TypeDesc::UINT16 && json["black_m"].is_number() &&
-          json["white_m"].is_number()) {
-        base = json["black_m"];
-        scale = json["white_m"].get<double>() - base;
+    const auto number = [&](const char* key, double& value) {
+      const auto it = json.find(key);
+      if (it == json.end() || !it->is_number()) return false;
+      value = *it;
+      return true;
+    };
+    double x = 0, y = 0, black = 0, white = 0;
+    if (number("size_x_m", x) && number("size_y_m", y)) {
+      h.grid.lx = x;
+      h.grid.ly = y;
+    }
+    if (spec.format == OIIO::TypeDesc::UINT16) {
+      if (!number("black_m", black) || !number("white_m", white)) {
+        throw InputError("cannot read " + path + ": an integer image without its height scale");
       }
+      base = black;
+      scale = white - black;
     }
   } else if (spec.format == OIIO::TypeDesc::UINT16 || spec.format == OIIO::TypeDesc::UINT8) {
     throw InputError(
         "cannot read " + path +
         ": an integer image without its height scale; use a float image, .gsf or .npy");
-  }
-  if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
-    throw InputError("cannot read " + path +
-                     ": the file does not say its lateral size; give the width");
   }
   h.z.resize(h.grid.size());
   for (int iy = 0; iy < h.grid.ny; ++iy) {
@@ -266,6 +273,10 @@ Heightmap read_heightmap(const std::string& path, double width) {
     h = read_image(path, width);
   } else {
     throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
+  }
+  if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
+    throw InputError("cannot read " + path +
+                     ": the file does not say its lateral size; give the width");
   }
   for (double z : h.z) {
     if (!std::isfinite(z))

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/units.h"
 #include "geometry/io/files.h"
 
@@ -41,6 +42,8 @@ void check_size(const std::string& path, double nx, double ny) {
   if (!(nx >= 1 && ny >= 1 && nx * ny <= kMostPixels)) {
     broken(path, fmt::format("{:.0f} x {:.0f} pixels; at most 2^28 can be read", nx, ny));
   }
+  if (nx != std::floor(nx) || ny != std::floor(ny)) broken(path, "not a whole number of pixels");
+  require_memory(16 * nx * ny, fmt::format("{} ({:.0f} x {:.0f} pixels)", path, nx, ny));
 }
 
 void write_gsf(const std::string& path, const Heightmap& h, const FileInfo& info) {

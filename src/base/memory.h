@@ -1,11 +1,20 @@
 // Memory of the process.
 #pragma once
 
+#include <string>
+
 namespace papilla {
 
 // Freed memory stays with the process instead of going back to the system after every solve: fields
 // of a few megabytes are made and dropped thousands of times, and fresh pages cost more than their
 // use (a quarter of a contact solve). Called once, by a program's main.
 void keep_freed_memory();
+
+// Bytes that a computation may ask for: the machine's memory, less where the process is limited
+// (address space, control group).
+double memory_limit();
+
+// Throws InputError, before anything is allocated, when `what` needs more than memory_limit().
+void require_memory(double bytes, const std::string& what);
 
 }  // namespace papilla

@@ -25,7 +25,9 @@ int export_files(const ExportCommand& command) {
   options.formats = command.formats;
   options.pixels = command.pixels;
   if (!command.size.empty()) options.size = parse_si(command.size, "um");
-  if (options.size <= 0) throw InputError("--size: expected a length above 0");
+  if (!(options.size > 0 && options.size <= 1)) {
+    throw InputError("--size: expected a length above 0 and up to 1 m");
+  }
   if (!command.polarity.empty()) {
     options.polarity = command.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
   }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "geometry/io/files.h"
@@ -77,6 +78,7 @@ int solve(const ContactCommand& c) {
   const ContactOptions options{.tolerance = c.tolerance, .hardness = parse_si(c.hardness, "MPa")};
   const Heightmap h =
       read_heightmap(c.height, c.size.empty() ? 0 : positive(c.size, "um", "--size"));
+  require_memory(150.0 * static_cast<double>(h.grid.size()), "a contact of " + c.height);
   const auto kernel = make_contact_kernel(h.grid, solid);
   const auto begin = std::chrono::steady_clock::now();
   const ContactSolution s = solve_contact(*kernel, h.z, pressure, {}, options);

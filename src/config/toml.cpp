@@ -48,9 +48,27 @@ Node convert(const toml::node& source, const std::string& file) {
   return node;
 }
 
+// A dotted key makes one table a dot, and the parser walks them recursively: thousands would end
+// the process. Counted over every run of characters that a key can be made of.
+void refuse_deep_keys(std::string_view text, const std::string& file) {
+  constexpr int kDeepest = 200;
+  int line = 1, dots = 0;
+  for (char c : text) {
+    if (c == '.') {
+      if (++dots > kDeepest) {
+        throw InputError({Problem{file, line, 1, "", "more than 200 dots in a key"}});
+      }
+    } else if (c == '\n' || c == '=' || c == ',') {
+      dots = 0;
+    }
+    if (c == '\n') ++line;
+  }
+}
+
 }  // namespace
 
 Node parse_toml(std::string_view text, const std::string& file) {
+  refuse_deep_keys(text, file);
   try {
     const toml::table table = toml::parse(text, std::string_view(file));
     return convert(table, file);

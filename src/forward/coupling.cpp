@@ -226,6 +226,9 @@ class PatchSolver {
     out.wetted = off.wetted_fraction;
     out.bridge_volume = off.bridge_volume;
     out.retention = off.retention;
+    if (off.status == WettingStatus::Flooded && out.status.empty()) {
+      out.status = "flooded: more water than gap, no meniscus and no capillary force";
+    }
   }
 
   void note_field(const FieldSolution& pull, PatchResult& out) const {

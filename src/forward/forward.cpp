@@ -122,6 +122,14 @@ class PointBuilder {
     } else {
       area_based(point);
     }
+    for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
+      // Resolved areas end at the patch; the load law and the moments of merged spots do not.
+      if (area->value > 1 && point.status == "ok") {
+        point.status = fmt::format(
+            "full contact: the area estimate is {:.3g} times the patch, friction is not valid",
+            area->value);
+      }
+    }
     const double strength = macro.shear_strength * carrying;
     point.retention_force = plan_.retention
                                 ? sampled_mean(patches, &PatchResult::retention, patches_per_finger)

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/text.h"
 #include "geometry/io/layout.h"
 
@@ -74,6 +75,9 @@ Export export_design(const Design& design, const ExportOptions& options,
     throw InputError(
         fmt::format("{} x {} pixels are more than 2^28; ask for fewer", grid.nx, grid.ny));
   }
+  // The heights, the encoded file, and both again when the file is read back.
+  require_memory(32.0 * static_cast<double>(grid.size()),
+                 fmt::format("a heightmap of {} x {} pixels", grid.nx, grid.ny));
   Export out;
   out.heightmap = generate(design.texture, grid);
   std::error_code error;
