@@ -163,9 +163,9 @@ Heightmap read_npy(const std::string& path, double width) {
   Heightmap h;
   h.grid = {static_cast<int>(columns), static_cast<int>(rows), width,
             width * static_cast<double>(rows) / static_cast<double>(columns)};
-  h.z.resize(h.grid.size());
   const std::size_t item = f8 ? 8 : 4;
   if (bytes.size() < at + length + item * h.grid.size()) broken(path, "the data are cut off");
+  h.z.resize(h.grid.size());
   const char* data = bytes.data() + at + length;
   for (std::size_t i = 0; i < h.z.size(); ++i) {
     if (f8) {
