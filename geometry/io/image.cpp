@@ -150,6 +150,12 @@ Heightmap read_image(const std::string& path, double width) {
   if (spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 64) {
     throw InputError("cannot read " + path + ": not a plane image of at most 64 channels");
   }
+  // Deflate packs 1032 to 1 at best: a header that claims much more is not worth its memory.
+  std::error_code error;
+  const auto pixel_count = static_cast<double>(spec.width) * spec.height;
+  if (pixel_count > 2000 * static_cast<double>(fs::file_size(path, error)) || error) {
+    throw InputError("cannot read " + path + ": the data are cut off");
+  }
   int channel = 0;
   for (int c = 0; c < spec.nchannels; ++c) {
     if (spec.channelnames[static_cast<std::size_t>(c)] == "Y") channel = c;
