@@ -82,6 +82,10 @@ class PatchSolver {
     out.load = problem_.pressure * grid.area();
 
     ContactSolution dry = contact({}, start.pressure.empty() ? nullptr : &start, out);
+    if (dry.gap.empty()) {  // no state to go on from: the status says why
+      start = {};
+      return out;
+    }
     out.area_dry = measure_area(*problem_.kernel, dry).moments;
     const Gap gap{grid, dry.gap};
     describe_gap(dry, out);
@@ -184,6 +188,7 @@ class PatchSolver {
     double previous = out.pull;
     for (int pass = 0; pass < fidelity_.coupling_passes; ++pass) {
       state = contact(traction, &state, out);
+      if (state.gap.empty()) return dry;
       const Gap gap{plan_.grid, state.gap};
       if (out.volume > 0) {
         on = rewet_timed(off, gap, driven, out);

@@ -23,7 +23,8 @@ namespace {
 class Folder {
  public:
   Folder() {
-    std::string name = std::filesystem::temp_directory_path() / "papilla-fuzz-XXXXXX";
+    std::string name =
+        std::filesystem::temp_directory_path() / ("papilla-fuzz-" + std::string(6, 'X'));
     folder_ = mkdtemp(name.data());
   }
   ~Folder() { std::filesystem::remove_all(folder_); }
