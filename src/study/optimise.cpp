@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFreshSkins = 1000;  // the confirmation's skins start here: none of the search
-constexpr std::size_t kFinalists = 6;
+constexpr std::size_t kFinalists = 5;
 constexpr double kSameDesign = 0.03;       // of the front's extent
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
