@@ -1,0 +1,74 @@
+// Potential in the whole gap between electrode and skin: holes, oxide, water, rough skin.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fields/gap.h"
+#include "fields/wetting.h"
+#include "geometry/heightmap.h"
+#include "physics/electrostatics/field.h"
+
+namespace papilla {
+
+struct PotentialOptions {
+  int levels = 64;          // nodes in height
+  double tolerance = 1e-5;  // on the relative error in energy norm
+  int max_iterations = 60;
+};
+
+// Bodies as heights over a periodic grid [m]: electrode <= surface <= skin.
+struct PotentialProblem {
+  Grid grid;
+  std::vector<double> electrode, surface, skin;
+  std::vector<double> water_below, water_above;  // of droplets that do not bridge [m]; may be empty
+  std::vector<std::uint8_t> bridged;  // water at the body's potential fills the gap; may be empty
+  double permittivity = 1;            // between electrode and surface
+  double skin_layer = 0;              // d/eps between skin surface and body [m]
+};
+
+// For one volt between electrode and body.
+struct PotentialSolution {
+  std::vector<double> flux;   // D/eps0 at the skin (at the surface in bridges) [1/m], along z
+  std::vector<double> field;  // normal field in the air at the skin [1/m]; 0 in bridges
+  double capacitance = 0;     // over eps0 [m]
+  double peak_air = 0, peak_dielectric = 0;  // largest field at a node or at the skin [1/m]
+  double residual = 0;                       // relative, energy norm, estimated
+  int iterations = 0;
+  bool ok = true;
+  std::string reason;  // when not ok
+};
+
+// div(eps grad phi) = 0, phi = 1 on the electrode, 0 behind the skin's layer, periodic. Finite
+// volumes on nodes in air and dielectric: along z the exact series of the media between nodes
+// (layers thinner than a cell included, so that a flat stack is exact), across x and y the
+// harmonic mean of cell averages, bodies at their distance along the line of nodes. Conjugate
+// gradients with one multigrid cycle (semi-coarsened in x and y, damped line relaxation in z). Eq.
+// electrostatics.13. Not ok: no dielectric somewhere, values that are not finite, or the iteration
+// limit. Cost: 80 bytes a node, about 10 iterations.
+PotentialSolution solve_potential(const PotentialProblem& problem, const PotentialOptions& options);
+
+struct FullFieldOptions {
+  PotentialOptions potential;
+  double edge_radius = 0;  // of the electrode's edges [m]; 0: as the grid has them
+};
+
+struct FullFieldSolution : FieldSolution {
+  double residual = 0;
+  int iterations = 0;
+  // Field in the dielectric at an edge of the radius given, where the grid does not resolve it:
+  // flat value times Eq. electrostatics.8 [V/m] at peak voltage; else the peak of the grid.
+  double edge_oxide_field = 0;
+};
+
+// The pull by the 3-D potential: p = eps0/2 E_n^2 on the skin's surface (Eq. electrostatics.14),
+// water bridges at the body's potential, droplets that do not bridge as dielectric caps; options
+// of the problem as in the local rule (water without screening: pull zero in bridges only). A lossy
+// layer: the potential sees its real part, and the imaginary part lowers the pull as in Eq.
+// electrostatics.1. texture as in solve_local_field.
+FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
+                                   const FieldProblem& problem,
+                                   const FullFieldOptions& options = {});
+
+}  // namespace papilla
