@@ -23,6 +23,7 @@ void add_solve_contact(CLI::App& solve, Context& context);
 void add_solve_bridge(CLI::App& solve, Context& context);
 void add_solve_droplets(CLI::App& solve, Context& context);
 void add_solve_drive(CLI::App& solve, Context& context);
+void add_solve_field(CLI::App& solve, Context& context);
 void add_solve_persson(CLI::App& solve, Context& context);
 void add_solve_haze(CLI::App& solve, Context& context);
 
@@ -45,6 +46,7 @@ inline constexpr std::array kPieces{
     add_solve_contact,
     add_solve_bridge,
     add_solve_droplets,
+    add_solve_field,
     add_solve_persson,
     add_solve_haze,
     add_solve_drive,

@@ -10,6 +10,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 #include "physics/electrostatics/electrowetting.h"
+#include "physics/electrostatics/full_field.h"
 
 namespace papilla {
 namespace {
@@ -54,6 +55,8 @@ Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& d
 FieldSolution solve_field(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
                           const FieldProblem& field, PatchResult& out) {
   const Timed timed(out.seconds.field);
+  if (problem.scene->model.field == FieldMethod::Full)
+    return solve_full_field(gap, problem.texture, wetting, field);
   return solve_local_field(gap, problem.texture, wetting, field);
 }
 

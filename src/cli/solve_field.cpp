@@ -1,0 +1,132 @@
+// papilla solve field: the electrostatic pull over a gap heightmap.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "base/units.h"
+#include "cli/commands.h"
+#include "geometry/io/files.h"
+#include "physics/electrostatics/full_field.h"
+
+namespace papilla {
+namespace {
+
+struct FieldCommand {
+  std::string gap, texture, size, voltage, thickness = "500 nm", skin_layer = "0 nm";
+  std::string strength = "1 GV/m", method = "local", out_pressure;
+  double permittivity = 3.9;
+  bool dc = false, json = false;
+};
+
+double not_negative(const std::string& text, const char* unit, const char* option) {
+  const double value = parse_si(text, unit);
+  if (value < 0) throw InputError(fmt::format("{} must not be negative, got \"{}\"", option, text));
+  return value;
+}
+
+Heightmap read_map(const std::string& file, const std::string& size) {
+  const double width = size.empty() ? 0 : not_negative(size, "um", "--size");
+  return read_heightmap(file, width);
+}
+
+int solve(const FieldCommand& c) {
+  const Heightmap gap = read_map(c.gap, c.size);
+  if (*std::min_element(gap.z.begin(), gap.z.end()) < 0)
+    throw InputError(c.gap + ": a gap must not be negative anywhere");
+  Heightmap texture;
+  if (!c.texture.empty()) {
+    texture = read_map(c.texture, c.size);
+    if (texture.grid.nx != gap.grid.nx || texture.grid.ny != gap.grid.ny)
+      throw InputError("--texture and --gap differ in pixels");
+  }
+  FieldProblem p;
+  p.v_peak = not_negative(c.voltage, "V", "--voltage");
+  p.v_rms = c.dc ? p.v_peak : p.v_peak / std::sqrt(2.0);
+  p.dielectric_thickness = not_negative(c.thickness, "um", "--thickness");
+  p.dielectric = p.dielectric_thickness / c.permittivity;
+  p.oxide_strength = not_negative(c.strength, "MV/m", "--strength");
+  p.skin_layer = not_negative(c.skin_layer, "nm", "--skin-layer");
+  const Gap given{gap.grid, gap.z};
+  Wetting dry;
+  dry.grid = gap.grid;
+  const bool full = c.method == "full";
+  if (full)
+    require_memory(80.0 * 64 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
+
+  const auto begin = std::chrono::steady_clock::now();
+  const Heightmap* surface = c.texture.empty() ? nullptr : &texture;
+  FullFieldSolution s;
+  if (full) {
+    s = solve_full_field(given, surface, dry, p);
+  } else {
+    static_cast<FieldSolution&>(s) = solve_local_field(given, surface, dry, p);
+  }
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!c.out_pressure.empty() && s.ok) write_npy(c.out_pressure, {gap.grid, s.traction.value});
+  if (c.json) {
+    nlohmann::ordered_json out{{"schema", 1},
+                               {"converged", s.ok},
+                               {"reason", s.ok ? "converged" : s.reason},
+                               {"method", c.method},
+                               {"mean_pressure", s.mean_pressure},
+                               {"force", s.mean_pressure * gap.grid.area()},
+                               {"peak_air_field", s.peak_air_field},
+                               {"peak_oxide_field", s.peak_oxide_field},
+                               {"over_limit_area", s.over_limit_area},
+                               {"over_limit_share", s.over_limit_share},
+                               {"seconds", seconds}};
+    if (full) {
+      out["residual"] = s.residual;
+      out["iterations"] = s.iterations;
+    }
+    std::cout << out.dump(2) << '\n';
+  } else {
+    std::cout << fmt::format(
+        "{}: {}{}, {:.3g} s\nmean pressure     {:.6g} kPa\nlargest field     {:.4g} MV/m in air, "
+        "{:.4g} MV/m in the dielectric\nair beyond limit  {:.1f} % of the area, {:.1f} % of the "
+        "pull\n",
+        c.method, s.ok ? "converged" : s.reason,
+        full ? fmt::format(" to {:.1g} in {} iterations", s.residual, s.iterations) : "", seconds,
+        1e-3 * s.mean_pressure, 1e-6 * s.peak_air_field, 1e-6 * s.peak_oxide_field,
+        100 * s.over_limit_area, 100 * s.over_limit_share);
+  }
+  return s.ok ? kSuccess : kWorkFailed;
+}
+
+}  // namespace
+
+void add_solve_field(CLI::App& solve_command, Context& context) {
+  CLI::App* command =
+      solve_command.add_subcommand("field", "Electrostatic pull over a gap: local rule or 3-D");
+  auto c = std::make_shared<FieldCommand>();
+  command->add_option("--gap", c->gap, "Gap heightmap (.npy .gsf .exr .tif)")->required();
+  command->add_option("--texture", c->texture,
+                      "Surface below the gap, whose oxide follows its walls; default: flat");
+  command->add_option("--size", c->size, "Lateral size in x, where the file does not say");
+  command->add_option("--voltage", c->voltage, "Peak of a sine: \"200 V\"")->required();
+  command->add_flag("--dc", c->dc, "The voltage is constant");
+  command->add_option("--thickness", c->thickness, "Of the dielectric")->capture_default_str();
+  command->add_option("--permittivity", c->permittivity, "Of the dielectric, relative")
+      ->check(CLI::Range(1.0, 1e5))
+      ->capture_default_str();
+  command->add_option("--strength", c->strength, "Its breakdown field")->capture_default_str();
+  command->add_option("--skin-layer", c->skin_layer, "d/eps of the stratum corneum in series")
+      ->capture_default_str();
+  command->add_option("--method", c->method, "local, or full: the 3-D potential")
+      ->check(CLI::IsMember({"local", "full"}))
+      ->capture_default_str();
+  command->add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
+  command->add_flag("--json", c->json, "One JSON object");
+  command->callback([c, &context] { context.action = [c] { return solve(*c); }; });
+}
+
+}  // namespace papilla
