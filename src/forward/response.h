@@ -11,16 +11,15 @@ namespace papilla {
 
 // One standard error by origin, in the unit of the value. Independent: they add in squares.
 struct ErrorParts {
-  double sampling = 0;    // skins, offsets, droplets
-  double grid = 0;        // discretisation
-  double solver = 0;      // tolerance of the contact solve
-  double humidity = 0;    // quadrature over humidity (zero at a point)
-  double method = 0;      // estimator or field rule in place of the better one
-  double parameters = 0;  // calibration covariance
+  double sampling = 0;  // skins, offsets, droplets
+  double grid = 0;      // discretisation
+  double solver = 0;    // tolerance of the contact solve
+  double humidity = 0;  // quadrature over humidity (zero at a point)
+  double method = 0;    // estimator or field rule in place of the better one
 
   double total() const {
     return std::sqrt(sampling * sampling + grid * grid + solver * solver + humidity * humidity +
-                     method * method + parameters * parameters);
+                     method * method);
   }
   bool operator==(const ErrorParts&) const = default;
 };

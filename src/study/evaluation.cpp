@@ -25,7 +25,7 @@ Json measured(const Measured& m) {
             {"solver", number(m.parts.solver)},
             {"humidity", number(m.parts.humidity)},
             {"method", number(m.parts.method)},
-            {"parameters", number(m.parts.parameters)}}}};
+            {"parameters", nullptr}}}};  // needs a covariance of the finger, which none has yet
 }
 
 Json summary_json(const Response& response) {

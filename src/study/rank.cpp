@@ -148,8 +148,10 @@ class StateRanker {
     }
     order_.resize(candidates_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
+    std::vector<double> mean;
+    for (const auto& v : scores_) mean.push_back(mean_estimate(v).value);
     std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return difference(a, b).value > 0; });
+                     [&](std::size_t a, std::size_t b) { return mean[a] > mean[b]; });
   }
 
   // Score of a minus b over the skins that both have.
