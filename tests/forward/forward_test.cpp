@@ -195,5 +195,20 @@ TEST(Forward, NearlyClosedGapsHoldTheirWater) {
   }
 }
 
+TEST(Forward, WaterUnderASoftParticleSettles) {
+  // A footprint whose integration rules ask for one another in a circle of three.
+  const Design film = read_design(std::string(PAPILLA_DESIGNS_DIR) + "/coatings/hdpe_large_1.toml");
+  Scene scene = scene_of(film);
+  scene.finger.state = FingerState::Natural;
+  Fidelity fidelity = fidelity_of(film);
+  fidelity.first_skin = 23;
+  fidelity.skins = 1;
+  const Response r = evaluate(scene, film.texture, fidelity);
+  for (const ResponsePoint& p : r.points) {
+    EXPECT_TRUE(std::isfinite(p.friction_off.value));
+    EXPECT_GT(p.bridges.value, 0);
+  }
+}
+
 }  // namespace
 }  // namespace papilla

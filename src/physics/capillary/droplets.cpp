@@ -31,6 +31,9 @@ constexpr std::array<std::array<double, 2>, 8> kDirections = {
 constexpr double kLargestTilt = kPi / 4;
 constexpr double kFlatTilt = kPi / 12;
 
+// Changes of the integration rule in one solve for a footprint, after which only finer ones count.
+constexpr int kMostRules = 8;
+
 double into_period(double x, double period) {
   x -= period * std::floor(x / period);
   return x < period ? x : 0;
@@ -281,6 +284,7 @@ class Ensemble {
     GapTable::Rule rule = table_.rule(r), earlier{};
     GapTable::Rim rim;
     bool seen = false, last_pass = false;
+    int rules = 0;
     for (int resampled = 0;; ++resampled) {
       rim = table_.rim(d.x, d.y, r, rule);
       double miss = table_.disc_volume(d.x, d.y, r, rule) - d.volume;
@@ -306,6 +310,11 @@ class Ensemble {
           proper == earlier) {  // each asks for the other: the finer one, whatever the guess
         if (proper.chords + proper.rim_points < rule.chords + rule.rim_points) break;
         last_pass = true;
+      }
+      // Longer circles of rules end at their finest too.
+      if (++rules > kMostRules &&
+          proper.chords + proper.rim_points <= rule.chords + rule.rim_points) {
+        break;
       }
       seen = true;
       earlier = rule;
