@@ -1,8 +1,10 @@
-// papilla solve droplets: sweat in a given gap; states, forces and a picture.
+// papilla solve droplets: sweat in a given gap; states, forces and a picture of
+// the droplets before and after they move.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <iostream>
@@ -13,18 +15,22 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
+#include "study/design.h"
 
 namespace papilla {
 namespace {
 
 struct DropletsOptions {
-  std::string gap_file, size, volume = "1 um3", theta_skin = "80 deg", theta_substrate = "50 deg";
+  std::string gap_file, design, humidity = "75 %", size, volume = "1 um3", theta_skin = "80 deg",
+                                theta_substrate = "50 deg";
   std::string surface_tension = "72.126 mN/m", step = "200 nm", model = "droplets", picture;
   double drops_per_um3 = 100, hysteresis = 0.26;
   std::uint64_t seed = 1, index = 0;
+  int skin = 0;
   bool json = false;
 };
 
@@ -54,61 +60,137 @@ const char* name(WettingStatus status) {
   return "";
 }
 
-// The gap in colours, bridges and film white-rimmed, droplets that do not bridge red-rimmed.
-void draw(const std::string& path, const Gap& gap, const Wetting& wetting) {
+// One panel: the gap in grey (bright: wide) with its scale bar, droplets by state.
+struct Panel {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb = render_field(gap.grid, gap.value, width, height);
-  const double sx = width / gap.grid.lx, sy = height / gap.grid.ly;
-  const auto put = [&](double x, double y, std::uint8_t r, std::uint8_t g, std::uint8_t b) {
-    const int ix = wrap(static_cast<int>(std::floor(x * sx)), width);
-    const int iy = height - 1 - wrap(static_cast<int>(std::floor(y * sy)), height);
-    std::uint8_t* p = &rgb[3 * (static_cast<std::size_t>(iy) * width + ix)];
-    p[0] = r;
-    p[1] = g;
-    p[2] = b;
-  };
-  for (const Droplet& d : wetting.droplets) {
-    const bool bridge = d.state == DropletState::Bridge;
-    const int points = std::max(16, static_cast<int>(8 * d.radius * std::max(sx, sy)));
-    for (int k = 0; k < points; ++k) {
-      const double a = 2 * kPi * k / points;
-      put(d.x + d.radius * std::cos(a), d.y + d.radius * std::sin(a), 255, bridge ? 255 : 60,
-          bridge ? 255 : 60);
-    }
+  std::vector<std::uint8_t> rgb;
+};
+
+using Colour = std::array<std::uint8_t, 3>;
+constexpr Colour kBridge{30, 110, 255}, kFilm{0, 190, 200}, kSubstrate{255, 150, 0},
+    kOnSkin{220, 40, 160};
+
+Panel draw_panel(const Gap& gap, const Wetting& wetting) {
+  Panel out;
+  out.rgb = render_field(gap.grid, gap.value, out.width, out.height);
+  std::vector<bool> bar(static_cast<std::size_t>(out.width) * out.height);
+  for (std::size_t k = 0; k < bar.size(); ++k) {
+    std::uint8_t* p = &out.rgb[3 * k];
+    // The colour scale has neither white nor black: those are the bar.
+    bar[k] = p[0] == p[1] && p[1] == p[2] && (p[0] == 0 || p[0] == 255);
+    if (bar[k]) continue;
+    const auto grey = static_cast<std::uint8_t>((2 * p[0] + 5 * p[1] + p[2]) / 8);
+    p[0] = p[1] = p[2] = grey;
   }
-  if (wetting.status == WettingStatus::Film) {
+  const double sx = out.width / gap.grid.lx, sy = out.height / gap.grid.ly;
+  const auto blend = [&](int ix, int iy, const Colour& c, double share) {
+    const std::size_t k =
+        static_cast<std::size_t>(out.height - 1 - wrap(iy, out.height)) * out.width +
+        wrap(ix, out.width);
+    if (bar[k]) return;
+    for (int i = 0; i < 3; ++i) {
+      std::uint8_t& v = out.rgb[3 * k + i];
+      v = static_cast<std::uint8_t>(std::lround((1 - share) * v + share * c[i]));
+    }
+  };
+  if (wetting.status == WettingStatus::Film || wetting.status == WettingStatus::Flooded) {
+    // What no disc explains; discs are drawn over it.
     const Grid& g = gap.grid;
-    for (int iy = 0; iy < g.ny; ++iy) {
-      for (int ix = 0; ix < g.nx; ++ix) {
-        const auto wet = [&](int x, int y) {
-          return wetting.bridged[g.index(wrap(x, g.nx), wrap(y, g.ny))] != 0;
-        };
-        const bool rim = wet(ix, iy) && !(wet(ix + 1, iy) && wet(ix - 1, iy) && wet(ix, iy + 1) &&
-                                          wet(ix, iy - 1));
-        if (rim) put(g.x(ix), g.y(iy), 255, 255, 255);
+    for (int iy = 0; iy < out.height; ++iy) {
+      for (int ix = 0; ix < out.width; ++ix) {
+        const int px = std::min(ix * g.nx / out.width, g.nx - 1);
+        const int py = std::min(iy * g.ny / out.height, g.ny - 1);
+        if (wetting.bridged[g.index(px, py)]) blend(ix, iy, kFilm, 0.6);
       }
     }
   }
-  write_png_rgb(path, width, height, rgb);
+  for (const Droplet& d : wetting.droplets) {
+    const Colour& c = d.state == DropletState::Bridge        ? kBridge
+                      : d.state == DropletState::OnSubstrate ? kSubstrate
+                                                             : kOnSkin;
+    const double rx = d.radius * sx, ry = d.radius * sy;
+    const double rim = std::max(0.0, 1 - 1.5 / std::max(1.5, std::min(rx, ry)));
+    const int x0 = static_cast<int>(std::floor(d.x * sx)),
+              y0 = static_cast<int>(std::floor(d.y * sy));
+    const int nx = static_cast<int>(std::ceil(rx)), ny = static_cast<int>(std::ceil(ry));
+    for (int iy = -ny; iy <= ny; ++iy) {
+      for (int ix = -nx; ix <= nx; ++ix) {
+        const double q = std::hypot(ix / std::max(rx, 1.0), iy / std::max(ry, 1.0));
+        if (q <= 1) blend(x0 + ix, y0 + iy, c, q >= rim ? 1 : 0.45);
+      }
+    }
+  }
+  return out;
 }
 
-int solve(const DropletsOptions& options) {
+// Initial and final droplets side by side.
+void draw(const std::string& path, const Gap& gap, const Wetting& initial, const Wetting& final) {
+  const Panel left = draw_panel(gap, initial), right = draw_panel(gap, final);
+  constexpr int kBetween = 8;
+  const int width = 2 * left.width + kBetween;
+  std::vector<std::uint8_t> rgb(static_cast<std::size_t>(3) * width * left.height, 255);
+  const auto copy = [&](const Panel& panel, int from) {
+    for (int y = 0; y < panel.height; ++y) {
+      std::copy_n(panel.rgb.begin() + static_cast<std::ptrdiff_t>(3) * y * panel.width,
+                  3 * panel.width,
+                  rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * width + from));
+    }
+  };
+  copy(left, 0);
+  copy(right, left.width + kBetween);
+  write_png_rgb(path, width, left.height, rgb);
+}
+
+// The gap of a design: its dry contact, at its patch pressure. What its scene says of the water
+// takes the place of the options.
+Gap gap_of_design(const DropletsOptions& options, WaterProperties& water, double& volume,
+                  DropletOptions& how) {
+  const Design design = read_design(options.design);
+  Scene scene = scene_of(design);
+  const Finger finger = scene.finger.applied();
+  const double rh = parse_si(options.humidity, "%");
+  if (!(rh >= 0 && rh <= 1)) throw InputError("--humidity is 0 to 100 %");
+  Fidelity fidelity = fidelity_of(design);
+  fidelity.estimator = Estimator::Load;
+  std::fill(scene.finger.water.volume.begin(), scene.finger.water.volume.end(), 0.0);
+  scene.drive.amplitude = 0;
+  const PatchPicture picture = picture_patch(scene, design.texture, fidelity, rh, options.skin);
+  if (picture.fields.off.gap.empty()) {
+    throw InputError(options.design + ": no contact: " + picture.fields.off.reason);
+  }
+  const Grid& grid = picture.texture.grid;
+  volume = finger.water.volume_per_area(rh) * grid.area();
+  water = {finger.water.surface_tension, finger.water.contact_angle, scene.surface.contact_angle,
+           finger.water.hysteresis};
+  how.drops_per_volume = finger.water.drops_per_um3 * 1e18;
+  how.first_step = scene.model.droplet_step;
+  return {grid, picture.fields.off.gap};
+}
+
+Gap gap_of_file(const DropletsOptions& options, WaterProperties& water, double& volume,
+                DropletOptions& how) {
   const double lateral = options.size.empty() ? 0 : parse_si(options.size, "um");
   const Heightmap map = read_heightmap(options.gap_file, lateral);
-  const Gap gap{map.grid, map.z};
-  if (*std::min_element(gap.value.begin(), gap.value.end()) < 0) {
+  if (*std::min_element(map.z.begin(), map.z.end()) < 0) {
     throw InputError(options.gap_file + ": a gap must not be negative (0 in contact)");
   }
-  const double volume = parse_si(options.volume, "um3");
-  const double drops = options.drops_per_um3 * 1e18;
-  WaterProperties water;
+  volume = parse_si(options.volume, "um3");
   water.theta_skin = parse_si(options.theta_skin, "deg");
   water.theta_substrate = parse_si(options.theta_substrate, "deg");
   water.surface_tension = parse_si(options.surface_tension, "mN/m");
   water.hysteresis = options.hysteresis;
-  DropletOptions how;
-  how.drops_per_volume = drops;
+  how.drops_per_volume = options.drops_per_um3 * 1e18;
   how.first_step = parse_si(options.step, "nm");
+  return {map.grid, map.z};
+}
+
+int solve(const DropletsOptions& options) {
+  WaterProperties water;
+  DropletOptions how;
+  double volume = 0;
+  const Gap gap = options.design.empty() ? gap_of_file(options, water, volume, how)
+                                         : gap_of_design(options, water, volume, how);
+  const double drops = how.drops_per_volume;
   if (!(volume >= 0)) throw InputError("--volume must not be negative");
   if (!(drops > 0 && drops * volume <= 1e6)) {
     throw InputError("--drops-per-um3 must be positive and give at most a million droplets");
@@ -127,7 +209,15 @@ int solve(const DropletsOptions& options) {
           : settle_droplets(gap, volume, water, how, options.seed, options.index, &report);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!options.picture.empty()) draw(options.picture, gap, w);
+  if (!options.picture.empty()) {
+    DropletOptions unmoved = how;
+    unmoved.max_moves = 0;
+    draw(options.picture, gap,
+         options.model == "threshold"
+             ? w
+             : settle_droplets(gap, volume, water, unmoved, options.seed, options.index),
+         w);
+  }
 
   if (options.json) {
     nlohmann::ordered_json out;
@@ -180,8 +270,13 @@ int solve(const DropletsOptions& options) {
 void add_solve_droplets(CLI::App& solve_command, Context& context) {
   CLI::App* command = solve_command.add_subcommand("droplets", "Droplets of sweat in a given gap");
   auto options = std::make_shared<DropletsOptions>();
-  command->add_option("--gap", options->gap_file, "Heightmap of the gap: .npy, .gsf, .exr, .tif")
-      ->required();
+  CLI::Option_group* where = command->add_option_group("gap");
+  where->add_option("--gap", options->gap_file, "Heightmap of the gap: .npy, .gsf, .exr, .tif");
+  where->add_option("--design", options->design,
+                    "Design file: gap of its dry contact, water and angles of its finger");
+  where->require_option(1);
+  command->add_option("--humidity", options->humidity, "Of the design")->capture_default_str();
+  command->add_option("--skin", options->skin, "Skin patch of the design")->capture_default_str();
   command->add_option("--size", options->size, "Lateral size in x where the file does not say");
   command->add_option("--volume", options->volume, "Water in the patch")->capture_default_str();
   command->add_option("--theta-skin", options->theta_skin)->capture_default_str();
@@ -197,7 +292,10 @@ void add_solve_droplets(CLI::App& solve_command, Context& context) {
   command->add_option("--model", options->model, "droplets or threshold")
       ->check(CLI::IsMember({"droplets", "threshold"}))
       ->capture_default_str();
-  command->add_option("--out-picture", options->picture, "PNG of the gap and the droplets");
+  command->add_option(
+      "--out", options->picture,
+      "PNG of the initial (left) and final droplets: bridges blue, film cyan, on the "
+      "surface orange, on the skin magenta; gap in grey");
   command->add_flag("--json", options->json, "One JSON object, SI units");
   command->callback(
       [&context, options] { context.action = [options] { return solve(*options); }; });

@@ -55,8 +55,8 @@ TEST(SolveDroplets, ReadsAGapAndDrawsAPicture) {
   write_gsf(folder + "gap.gsf", gap, {});
   int status = -1;
   const auto json = nlohmann::json::parse(output("droplets --gap " + folder +
-                                                     "gap.gsf --volume '0.5 um3' --out-picture " +
-                                                     folder + "droplets.png --json",
+                                                     "gap.gsf --volume '0.5 um3' --out " + folder +
+                                                     "droplets.png --json",
                                                  status));
   EXPECT_EQ(status, 0);
   EXPECT_EQ(json["status"], "discs");
@@ -65,6 +65,21 @@ TEST(SolveDroplets, ReadsAGapAndDrawsAPicture) {
   EXPECT_NEAR(volume, 0.5e-18, 1e-30);
   EXPECT_EQ(read_bytes(folder + "droplets.png").substr(1, 3), "PNG");
   output("droplets --gap " + folder + "gap.gsf --volume '-1 um3'", status);
+  EXPECT_EQ(status, 2);
+}
+
+TEST(SolveDroplets, TakesGapAndWaterFromADesign) {
+  int status = -1;
+  const std::string design = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
+  const auto json = nlohmann::json::parse(
+      output("droplets --design " + design + " --humidity '55 %' --json", status));
+  EXPECT_EQ(status, 0);
+  EXPECT_NEAR(json["volume"].get<double>(), 1.8e-18, 1e-27);
+  EXPECT_EQ(json["initial_droplets"], 180);
+  EXPECT_GT(json["bridges"].get<int>(), 3);
+  output("droplets --design " + design + " --gap x.npy", status);
+  EXPECT_EQ(status, 2);
+  output("droplets --design " + design + " --humidity '130 %'", status);
   EXPECT_EQ(status, 2);
 }
 
