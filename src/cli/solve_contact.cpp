@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -20,11 +21,13 @@ namespace papilla {
 namespace {
 
 struct ContactCommand {
-  std::string height, size, pressure, modulus;
-  std::string layer_modulus, layer_thickness, bulk_modulus;
-  double layer_poisson = 0.5, bulk_poisson = 0.5;
+  std::string height, size, pressure, approach, modulus;
+  std::string layer_modulus, layer_thickness, bulk_modulus, counter_modulus;
+  double layer_poisson = 0.5, bulk_poisson = 0.5, counter_poisson = 0.4;
+  ContactMethod method = ContactMethod::Auto;
   std::string hardness = "0 Pa", out_pressure, out_gap;
   double tolerance = 1e-8;
+  int max_iterations = 1000;
   int threads = 1;
   bool json = false;
 };
@@ -35,7 +38,11 @@ double positive(const std::string& text, const char* unit, const char* option) {
   return value;
 }
 
-LayeredSolid solid_of(const ContactCommand& c) {
+const std::map<std::string, ContactMethod> kMethods{{"auto", ContactMethod::Auto},
+                                                    {"dense", ContactMethod::Dense},
+                                                    {"sparse", ContactMethod::Sparse}};
+
+LayeredSolid skin_of(const ContactCommand& c) {
   if (!c.modulus.empty() == !c.layer_modulus.empty()) {
     throw InputError(
         "give either --modulus (E* of a half-space) or --layer-modulus with --layer-thickness and "
@@ -51,6 +58,15 @@ LayeredSolid solid_of(const ContactCommand& c) {
   return {positive(c.layer_modulus, "MPa", "--layer-modulus"), c.layer_poisson,
           positive(c.layer_thickness, "um", "--layer-thickness"),
           positive(c.bulk_modulus, "MPa", "--bulk-modulus"), c.bulk_poisson};
+}
+
+LayeredSolid solid_of(const ContactCommand& c) {
+  LayeredSolid solid = skin_of(c);
+  if (!c.counter_modulus.empty()) {
+    solid.counter_modulus = positive(c.counter_modulus, "MPa", "--counter-modulus");
+    solid.counter_poisson = c.counter_poisson;
+  }
+  return solid;
 }
 
 const char* status_name(ContactStatus status) {
@@ -71,23 +87,47 @@ const char* status_name(ContactStatus status) {
   return "";
 }
 
+std::string method_name(ContactMethod method) {
+  for (const auto& [name, value] : kMethods) {
+    if (value == method) return name;
+  }
+  return "";
+}
+
 int solve(const ContactCommand& c) {
   const LayeredSolid solid = solid_of(c);
-  const double pressure = parse_si(c.pressure, "kPa");
+  if (c.pressure.empty() == c.approach.empty()) {
+    throw InputError("give either --pressure or --approach");
+  }
+  const double pressure = c.pressure.empty() ? 0 : parse_si(c.pressure, "kPa");
   if (pressure < 0) throw InputError("--pressure must not be negative");
-  const ContactOptions options{.tolerance = c.tolerance, .hardness = parse_si(c.hardness, "MPa")};
+  const double approach = c.approach.empty() ? 0 : positive(c.approach, "nm", "--approach");
+  if (approach > 0 && c.method == ContactMethod::Sparse) {
+    throw InputError("the sparse method needs a load: --pressure");
+  }
+  const ContactOptions options{.tolerance = c.tolerance,
+                               .hardness = parse_si(c.hardness, "MPa"),
+                               .max_iterations = c.max_iterations,
+                               .method = c.method};
+  if (options.hardness < 0) throw InputError("--hardness must not be negative");
   const Heightmap h =
       read_heightmap(c.height, c.size.empty() ? 0 : positive(c.size, "um", "--size"));
   require_memory(150.0 * static_cast<double>(h.grid.size()), "a contact of " + c.height);
   const auto kernel = make_contact_kernel(h.grid, solid);
   const auto begin = std::chrono::steady_clock::now();
-  const ContactSolution s = solve_contact(*kernel, h.z, pressure, {}, options);
+  const ContactSolution s = approach > 0 ? solve_approach(*kernel, h.z, approach, options)
+                                         : solve_contact(*kernel, h.z, pressure, {}, options);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (s.status == ContactStatus::Invalid) throw InputError(s.reason);
-  const ContactArea area = measure_area(*kernel, s);
-  double mean_gap = 0;
-  for (double g : s.gap) mean_gap += g / static_cast<double>(s.gap.size());
+  const ContactArea area = measure_area(*kernel, s, options.hardness);
+  const auto n = static_cast<double>(h.z.size());
+  double mean_gap = 0, load = 0;
+  for (double g : s.gap) mean_gap += g / n;
+  for (double p : s.pressure) load += p / n;
+  // Of the mean planes since first touch.
+  const double approached = s.shift + *std::max_element(h.z.begin(), h.z.end());
+  const std::string method = method_name(s.method);
   const double peak = *std::max_element(s.pressure.begin(), s.pressure.end());
   if (!c.out_pressure.empty()) write_npy(c.out_pressure, {h.grid, s.pressure});
   if (!c.out_gap.empty()) write_npy(c.out_gap, {h.grid, s.gap});
@@ -96,6 +136,7 @@ int solve(const ContactCommand& c) {
     nlohmann::ordered_json out{{"schema", 1},
                                {"converged", s.converged()},
                                {"reason", reason},
+                               {"method", method},
                                {"certificate", s.certificate},
                                {"iterations", s.iterations},
                                {"fft_pairs", s.fft_pairs},
@@ -103,18 +144,22 @@ int solve(const ContactCommand& c) {
                                {"area_fraction_raw", area.raw},
                                {"area_fraction", area.near_edge},
                                {"area_fraction_se", area.se},
-                               {"area_fraction_moments", area.moments},
+                               {"area_fraction_perimeter", area.perimeter},
+                               {"mean_pressure", load},
+                               {"approach", approached},
                                {"mean_gap", mean_gap},
                                {"max_pressure", peak},
                                {"elastic_energy", s.elastic_energy}};
     std::cout << out.dump(2) << '\n';
   } else {
     std::cout << fmt::format(
-        "{}: certificate {:.2g} after {} iterations, {:.1f} transform pairs, {:.3g} s\n"
+        "{}: certificate {:.2g} after {} iterations ({}), {:.1f} transform pairs, {:.3g} s\n"
         "contact area      {:.4f} ±{:.4f} %  ({:.4f} % of pixels)\nmean gap          {:.5g} nm\n"
-        "largest pressure  {:.5g} MPa\nelastic energy    {:.5g} fJ\n",
-        reason, s.certificate, s.iterations, s.fft_pairs, seconds, 100 * area.near_edge,
-        100 * area.se, 100 * area.raw, 1e9 * mean_gap, 1e-6 * peak, 1e15 * s.elastic_energy);
+        "mean pressure     {:.5g} kPa\napproach          {:.5g} nm\nlargest pressure  {:.5g} "
+        "MPa\nelastic energy    {:.5g} fJ\n",
+        reason, s.certificate, s.iterations, method, s.fft_pairs, seconds, 100 * area.near_edge,
+        100 * area.se, 100 * area.raw, 1e9 * mean_gap, 1e-3 * load, 1e9 * approached, 1e-6 * peak,
+        1e15 * s.elastic_energy);
   }
   return s.converged() ? kSuccess : kWorkFailed;
 }
@@ -129,7 +174,9 @@ void add_solve_contact(CLI::App& solve_command, Context& context) {
       ->required();
   command->add_option("--size", c->size,
                       "Lateral size in x, where the file does not say: \"12 um\"");
-  command->add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"")->required();
+  command->add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"");
+  command->add_option("--approach", c->approach,
+                      "Or the rigid approach from first touch: \"120 nm\"");
   command->add_option("--modulus", c->modulus, "E* of a homogeneous half-space: \"53 MPa\"");
   command->add_option("--layer-modulus", c->layer_modulus, "Young's modulus of the layer");
   command->add_option("--layer-poisson", c->layer_poisson, "Its Poisson ratio")
@@ -138,9 +185,17 @@ void add_solve_contact(CLI::App& solve_command, Context& context) {
   command->add_option("--bulk-modulus", c->bulk_modulus, "Young's modulus below");
   command->add_option("--bulk-poisson", c->bulk_poisson, "Poisson ratio below")
       ->check(CLI::Range(0.0, 0.5));
+  command->add_option("--counter-modulus", c->counter_modulus,
+                      "Young's modulus of a compliant counter-body");
+  command->add_option("--counter-poisson", c->counter_poisson, "Its Poisson ratio")
+      ->check(CLI::Range(0.0, 0.5));
   command->add_option("--hardness", c->hardness, "Cap on the pressure; 0: none");
   command->add_option("--tolerance", c->tolerance, "On the certificate (docs/theory/contact.md)")
       ->check(CLI::Range(1e-15, 0.1));
+  command->add_option("--method", c->method, "auto, dense (full grid) or sparse (light contact)")
+      ->transform(CLI::Transformer(kMethods));
+  command->add_option("--max-iterations", c->max_iterations, "Before the solver gives up")
+      ->check(CLI::Range(1, 1000000));
   command
       ->add_option("--threads", c->threads, "Accepted for comparisons: a solve runs on one thread")
       ->check(CLI::Range(1, 1024));

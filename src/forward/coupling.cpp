@@ -89,7 +89,7 @@ class PatchSolver {
       start = {};
       return out;
     }
-    out.area_dry = measure_area(*problem_.kernel, dry).moments;
+    out.area_dry = area(dry);
     const Gap gap{grid, dry.gap};
     describe_gap(dry, out);
 
@@ -128,7 +128,7 @@ class PatchSolver {
       off_state = dry;
       if (out.capillary_off != 0) {
         off_state = contact(capillary_traction(off, gap, rest).value, &dry, out);
-        out.area_off = measure_area(*problem_.kernel, off_state).moments;
+        out.area_off = area(off_state);
       }
       on_state = off_state;
       out.area_on = out.area_off;
@@ -136,10 +136,10 @@ class PatchSolver {
     if (plan_.field) {
       if (scene.model.coupling == Coupling::SelfConsistent) {
         on_state = iterate(dry, gap, off, driven, field, pull, on, out);
-        if (plan_.traction_solves) out.area_on = measure_area(*problem_.kernel, on_state).moments;
+        if (plan_.traction_solves) out.area_on = area(on_state);
       } else if (plan_.traction_solves) {
         on_state = contact(total_traction(on, gap, driven, pull.traction), &off_state, out);
-        out.area_on = measure_area(*problem_.kernel, on_state).moments;
+        out.area_on = area(on_state);
       }
     }
     if (fields) {
@@ -168,6 +168,11 @@ class PatchSolver {
     out.fft_pairs += solution.fft_pairs;
     if (!solution.converged() && out.status.empty()) out.status = "contact: " + solution.reason;
     return solution;
+  }
+
+  double area(const ContactSolution& state) const {
+    return measure_area(*problem_.kernel, state, problem_.scene->finger.skin.hardness * softness_)
+        .near_edge;
   }
 
   std::vector<double> total_traction(const Wetting& wetting, const Gap& gap,

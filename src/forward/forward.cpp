@@ -65,7 +65,7 @@ Measured sampled_mean(const std::vector<PatchResult>& patches, double PatchResul
 }
 
 // Relative errors beyond sampling, as laws with measured constants, not measured on this scene: the
-// area by moments and the modulation fall with the pixel (docs/theory/contact.md), the load law is
+// area and the modulation fall with the pixel (docs/theory/contact.md), the load law is
 // good to 2 % (docs/theory/friction.md), the local rule to 1.4 % under a flat skin
 // (docs/theory/electrostatics.md).
 struct StatedErrors {
@@ -125,7 +125,7 @@ class PointBuilder {
       area_based(point);
     }
     for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
-      // Resolved areas end at the patch; the load law and the moments of merged spots do not.
+      // Resolved areas end at the patch, the load law does not.
       if (area->value > 1 && point.status == "ok") {
         point.status = fmt::format(
             "full contact: the area estimate is {:.3g} times the patch, friction is not valid",

@@ -220,7 +220,7 @@ void areas() {
     const Grid grid{n, n, 12e-6, 12e-6};
     const auto kernel = make_contact_kernel(grid, {200e6, 0.5, 1e-6, 25e6, 0.5});
     const double pair = pair_time(*kernel);
-    std::vector<double> ratio[4];
+    std::vector<double> ratio[3];
     double seconds = 0, pairs = 0, worst = 0;
     constexpr int kSkins = 4;
     for (int k = 0; k < kSkins; ++k) {
@@ -233,11 +233,11 @@ void areas() {
       worst = std::max(worst, s.certificate);
       const ContactArea a = measure_area(*kernel, s);
       if (n == 2048) reference.push_back(a.near_edge);
-      const double values[4] = {a.raw, a.perimeter, a.near_edge, a.moments};
-      for (int e = 0; e < 4; ++e) ratio[e].push_back(values[e] / reference[k] - 1);
+      const double values[3] = {a.raw, a.perimeter, a.near_edge};
+      for (int e = 0; e < 3; ++e) ratio[e].push_back(values[e] / reference[k] - 1);
     }
-    static const char* const kNames[4] = {"raw", "perimeter", "near_edge", "moments"};
-    for (int e = 0; e < 4; ++e) {
+    static const char* const kNames[3] = {"raw", "perimeter", "near_edge"};
+    for (int e = 0; e < 3; ++e) {
       const Estimate error = mean_estimate(ratio[e]);
       fmt::print(
           "light area {} error {:+.4f} sd {:.4f},{},automatic "

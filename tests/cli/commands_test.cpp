@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -175,12 +176,40 @@ TEST(SolveContact, AFlatSurfaceTouchesEverywhereAtTheMeanPressure) {
   EXPECT_EQ(json["area_fraction_raw"], 1);
   EXPECT_NEAR(json["max_pressure"].get<double>(), 15e3, 1e-6);
   EXPECT_EQ(json["mean_gap"], 0);
+  EXPECT_EQ(json["method"], "dense");
   EXPECT_TRUE(std::filesystem::exists(place.path() / "p.npy"));
   EXPECT_TRUE(std::filesystem::exists(place.path() / "g.npy"));
   EXPECT_EQ(
       place.run("solve contact --height flat/heightmap.npy --size '12 um' --pressure '15 kPa'")
           .status,
       2);
+}
+
+TEST(SolveContact, TheApproachOfALoadGivesTheLoad) {
+  const Workplace place;
+  ASSERT_EQ(place.run("export " + kSample + " --pixels 64 --format npy --out holes").status, 0);
+  const std::string solve =
+      "solve contact --height holes/heightmap.npy --size '12 um' --layer-modulus '66 MPa' "
+      "--layer-thickness '1 um' --bulk-modulus '60 MPa' --tolerance 1e-10 --json ";
+  const Outcome loaded = place.run(solve + "--pressure '3 MPa' --method dense");
+  ASSERT_EQ(loaded.status, 0) << loaded.err;
+  const auto by_load = nlohmann::json::parse(loaded.out);
+  for (const char* key : {"fft_pairs", "certificate", "area_fraction", "area_fraction_se",
+                          "area_fraction_perimeter", "iterations", "elastic_energy"}) {
+    EXPECT_TRUE(by_load[key].is_number()) << key;
+  }
+  const Outcome moved =
+      place.run(solve + fmt::format("--approach '{} nm'", 1e9 * by_load["approach"].get<double>()));
+  ASSERT_EQ(moved.status, 0) << moved.err;
+  const auto by_approach = nlohmann::json::parse(moved.out);
+  EXPECT_NEAR(by_approach["mean_pressure"].get<double>(), 3e6, 1e3);
+  EXPECT_EQ(place.run(solve + "--pressure '3 MPa' --approach '3 nm'").status, 2);
+  EXPECT_EQ(place.run(solve).status, 2);
+  EXPECT_EQ(place.run(solve + "--pressure '3 MPa' --method quick").status, 2);
+  // One iteration is not enough: said so, in the answer and in the exit status.
+  const Outcome cut = place.run(solve + "--pressure '3 MPa' --method dense --max-iterations 1");
+  EXPECT_EQ(cut.status, 1);
+  EXPECT_FALSE(nlohmann::json::parse(cut.out)["converged"].get<bool>());
 }
 
 TEST(Program, OutputThatCannotBeWrittenIsAFailure) {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/constants.h"
 #include "physics/contact/contact.h"
 
 namespace papilla {
@@ -18,20 +18,6 @@ double edge_position(double p, double g, double modulus, double pixel) {
   const double x = u > 0 ? u - r2 / (3 * u) : 0;
   return std::clamp(1 - x, 0.0, 1.0);
 }
-
-struct Clusters {
-  std::vector<int> parent;
-  explicit Clusters(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0); }
-  int find(int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) {
-      parent[static_cast<std::size_t>(i)] =
-          parent[static_cast<std::size_t>(parent[static_cast<std::size_t>(i)])];
-      i = parent[static_cast<std::size_t>(i)];
-    }
-    return i;
-  }
-  void join(int a, int b) { parent[static_cast<std::size_t>(find(a))] = find(b); }
-};
 
 // Area of the contact part of the square whose corners are four pixel centres (in order round it);
 // cross[k] is the edge position on side k -> k+1 measured from its contact end. Unit square.
@@ -70,83 +56,81 @@ double cell_area(const bool in[4], const double cross[4]) {
 
 }  // namespace
 
-ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& solution) {
+ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& solution,
+                         double hardness) {
   const Grid& grid = kernel.grid();
   const std::vector<double>& p = solution.pressure;
-  ContactArea area;
-  std::vector<int> contact;
+  // The modulus that a pixel's edge feels: of the layer, or of what a layer thinner than a pixel
+  // lies on.
+  const double q = 0.5 * kPi / std::max(grid.dx(), grid.dy());
+  const double modulus = 2 / (q * compliance(kernel.solid(), q));
+  // At the cap the pressure ends in a step, which may lie anywhere between the pixels.
+  const double cap = hardness > 0 ? (1 - 1e-6) * hardness : kInfinity;
+  const auto crossing = [&](std::size_t a, std::size_t b, double pixel) {
+    if (!(p[a] > 0)) std::swap(a, b);
+    return p[a] >= cap ? 0.5 : edge_position(p[a], solution.gap[b], modulus, pixel);
+  };
+
+  double pixels = 0, edges = 0, elastic_edges = 0;
+  double polygon = 0;  // area within the crossings [pixels]
+  double euler = 0;    // islands less their holes
   for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p[i] > 0) contact.push_back(static_cast<int>(i));
-  }
-  if (contact.empty()) return area;
-  const auto n = static_cast<double>(grid.size());
-  area.raw = static_cast<double>(contact.size()) / n;
-
-  const double modulus = kernel.contact_modulus();
-  Clusters clusters(p.size());
-  long switches = 0;
-  double near_edge = 0;
-  const auto side = [&](std::size_t a, std::size_t b, double pixel) {
-    return p[a] > 0 ? edge_position(p[a], solution.gap[b], modulus, pixel)
-                    : edge_position(p[b], solution.gap[a], modulus, pixel);
-  };
-  const auto add_cell = [&](int ix, int iy) {
-    const int jx = wrap(ix + 1, grid.nx), jy = wrap(iy + 1, grid.ny);
-    const std::size_t corner[4] = {grid.index(ix, iy), grid.index(jx, iy), grid.index(jx, jy),
-                                   grid.index(ix, jy)};
-    bool in[4];
-    double cross[4] = {0, 0, 0, 0};
-    for (int k = 0; k < 4; ++k) in[k] = p[corner[k]] > 0;
-    for (int k = 0; k < 4; ++k) {
-      const int next = (k + 1) % 4;
-      if (in[k] != in[next]) {
-        cross[k] = side(corner[k], corner[next], k % 2 == 0 ? grid.dx() : grid.dy());
+    if (!(p[i] > 0)) continue;
+    ++pixels;
+    const int ix = static_cast<int>(i) % grid.nx, iy = static_cast<int>(i) / grid.nx;
+    std::size_t near[3][3];
+    for (int dy = 0; dy < 3; ++dy) {
+      for (int dx = 0; dx < 3; ++dx) {
+        near[dy][dx] = grid.index(wrap(ix + dx - 1, grid.nx), wrap(iy + dy - 1, grid.ny));
       }
     }
-    near_edge += cell_area(in, cross);
-  };
-  std::vector<char> done(p.size(), 0);
-  for (int i : contact) {
-    const int ix = i % grid.nx, iy = i / grid.nx;
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) {
-        if (dx == 0 && dy == 0) continue;
-        const std::size_t j = grid.index(wrap(ix + dx, grid.nx), wrap(iy + dy, grid.ny));
-        if (p[j] > 0) {
-          clusters.join(i, static_cast<int>(j));
-        } else if (dx == 0 || dy == 0) {
-          ++switches;
+    for (std::size_t j : {near[0][1], near[1][0], near[1][2], near[2][1]}) {
+      if (p[j] > 0) continue;
+      ++edges;
+      if (p[i] < cap) ++elastic_edges;
+    }
+    // The four squares of pixel centres round this one, each at the last of its contact pixels.
+    for (int dy = grid.ny == 1 ? 1 : 0; dy < 2; ++dy) {
+      for (int dx = grid.nx == 1 ? 1 : 0; dx < 2; ++dx) {
+        const std::size_t corner[4] = {near[dy][dx], near[dy][dx + 1], near[dy + 1][dx + 1],
+                                       near[dy + 1][dx]};
+        bool in[4];
+        std::size_t last = 0;
+        for (int k = 0; k < 4; ++k) {
+          in[k] = p[corner[k]] > 0;
+          if (in[k]) last = std::max(last, corner[k]);
         }
-      }
-    }
-    for (int cy = iy - 1; cy <= iy; ++cy) {
-      for (int cx = ix - 1; cx <= ix; ++cx) {
-        const int wx = wrap(cx, grid.nx), wy = wrap(cy, grid.ny);
-        char& seen = done[grid.index(wx, wy)];
-        if (!seen) add_cell(wx, wy);
-        seen = 1;
+        if (last != i) continue;
+        double cross[4] = {0, 0, 0, 0};
+        for (int k = 0; k < 4; ++k) {
+          const int next = (k + 1) % 4;
+          if (in[k] != in[next]) {
+            cross[k] = crossing(corner[k], corner[next], k % 2 == 0 ? grid.dx() : grid.dy());
+          }
+        }
+        polygon += cell_area(in, cross);
+        const int count = in[0] + in[1] + in[2] + in[3];  // Gray 1971, pixels joined at corners
+        if (count == 1) euler += 0.25;
+        if (count == 3) euler -= 0.25;
+        if (count == 2 && in[0] == in[2]) euler -= 0.5;
       }
     }
   }
+  ContactArea area;
+  if (pixels == 0) return area;
+  const auto n = static_cast<double>(grid.size());
+  area.raw = pixels / n;
   // Eq. contact.6 with 0.106, the constant measured on rough contact (0.118 is for straight edges).
-  area.perimeter = std::max(
-      0.0, (static_cast<double>(contact.size()) - 0.106 * static_cast<double>(switches)) / n);
-  area.near_edge = near_edge / n;
-
-  std::vector<double> sum(p.size(), 0), squares(p.size(), 0);
-  for (int i : contact) {
-    const auto root = static_cast<std::size_t>(clusters.find(i));
-    const double q = p[static_cast<std::size_t>(i)];
-    sum[root] += q;
-    squares[root] += q * q;
-  }
-  double moments = 0;
-  for (std::size_t i = 0; i < sum.size(); ++i) {
-    if (squares[i] > 0) moments += 9.0 / 8 * sum[i] * sum[i] / squares[i];
-  }
-  area.moments = std::min(1.0, moments / n);
-  // One pixel of each edge is uncertain by about 5 % after the correction; edges are independent.
-  area.se = 0.05 * std::sqrt(static_cast<double>(switches)) / n + 0.003 * area.near_edge;
+  area.perimeter = std::max(0.0, (pixels - 0.106 * edges) / n);
+  // Eq. contact.7: the crossings' bias of first order, and chords for arcs, which cut off 1/12 of
+  // the angle that an edge turns by.
+  const double near_edge = std::max(0.0, polygon - 0.0187 * elastic_edges + kPi / 6 * euler);
+  area.near_edge = std::min(1.0, near_edge / n);
+  // Eq. contact.8: chord is the mean width of the islands in pixels.
+  const double chord = edges > 0 ? kPi * pixels / edges : kInfinity;
+  area.se = std::hypot(0.07 * std::sqrt(edges) * (1 + 3.5 / chord),
+                       (0.001 + 0.075 / square(chord)) * near_edge) /
+            n;
   return area;
 }
 

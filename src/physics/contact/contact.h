@@ -137,14 +137,16 @@ ContactAdjoint contact_adjoint(const ContactKernel& kernel, const ContactSolutio
 double smoothed_area(const ContactSolution& solution, double length,
                      std::vector<double>* by_gap = nullptr);
 
-// Contact area as fractions of the patch, by four estimators (Eq. contact.5-8).
+// Contact area as fractions of the patch, by three estimators (Eq. contact.5-7).
 struct ContactArea {
   double raw = 0;        // pixels under pressure
-  double perimeter = 0;  // raw minus 0.106 of the perimeter
-  double near_edge = 0;  // sub-pixel edge from the square-root law of the pressure
-  double moments = 0;    // (9/8)(sum p)^2 / sum p^2 a cluster: exact for Hertz
-  double se = 0;         // stated discretisation error of near_edge, a fraction of the patch
+  double perimeter = 0;  // raw minus 0.106 of the perimeter: a check of the next
+  double near_edge = 0;  // sub-pixel edge from the square-root law of the pressure: the area
+  double se = 0;         // standard error of near_edge by the grid, Eq. contact.8
 };
-ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& solution);
+
+// hardness: of the solution; at it the edge of a contact follows no square-root law.
+ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& solution,
+                         double hardness = 0);
 
 }  // namespace papilla
