@@ -104,7 +104,8 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
                               {"variables", variables},
                               {"objectives", score(d.confirmed)}});
   }
-  if (r.has_flat) out["flat"] = score(r.flat);
+  if (r.flat) out["flat"] = score(*r.flat);
+  if (r.flat_before) out["flat_before"] = score(*r.flat_before);
   out["best"] = r.finalists.empty() ? Json(nullptr) : Json(r.best);
   return out;
 }

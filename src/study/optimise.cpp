@@ -528,12 +528,28 @@ class Run {
       result_.finalists.push_back(std::move(f));
       step();
     }
-    if (!chosen.empty() && texture_depth(study_.design.texture) > 0) {
-      result_.flat = confirmed(problem_.unit_of_study(), true);
-      result_.has_flat = result_.flat.ok;
-    }
-    step();
     judge();
+    if (!chosen.empty() && texture_depth(study_.design.texture) > 0) compare_with_flat();
+    step();
+    if (!result_.finalists.empty()) find_sensitivity();
+  }
+
+  // What of the gain is the texture's and what the finish's: the best surface without its texture,
+  // and the study's own surface without texture where the search changed more than the texture.
+  void compare_with_flat() {
+    const auto keep = [&](std::optional<Score>& to, const Point& unit) {
+      Score score = confirmed(unit, true);
+      if (score.ok) to = std::move(score);
+    };
+    const Point own = problem_.unit_of_study();
+    const Point& best = result_.finalists[result_.best].unit;
+    keep(result_.flat, best);
+    bool finish_differs = false;
+    for (std::size_t k = 0; k < own.size(); ++k) {
+      finish_differs = finish_differs ||
+                       (!study_.variables[k].path.starts_with("texture.") && own[k] != best[k]);
+    }
+    if (finish_differs) keep(result_.flat_before, own);
   }
 
   // The confirmed numbers decide the front and the best.
@@ -567,7 +583,6 @@ class Run {
     for (std::size_t i = 1; i < result_.finalists.size(); ++i) {
       if (rank(i) > rank(result_.best)) result_.best = i;
     }
-    if (!result_.finalists.empty()) find_sensitivity();
   }
 
   const Study& study_;

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,9 @@ struct OptimiseResult {
   bool any_feasible = false;
   std::vector<FinalDesign> finalists;  // by first objective, best first
   std::size_t best = 0;                // of the finalists: highest worst modulation
-  Score flat;                          // the same surface without texture, confirmed
-  bool has_flat = false;
-  Stability stability;                           // of the finalists' order, in their order
+  std::optional<Score> flat;           // the best surface without its texture, confirmed
+  std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
+  Stability stability;               // of the finalists' order, in their order
   std::vector<VariableSensitivity> sensitivity;  // of the best design
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
 };

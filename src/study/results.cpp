@@ -163,14 +163,14 @@ class Writer {
                           {"variants", stability.variants.size()},
                           {"stable", stability.stable(index)}};
     }
-    if (f_.result.has_flat)
-      out["flat"] = {{"objectives", score_json(f_.result.flat)},
-                     {"worst_modulation", number(f_.result.flat.worst)}};
+    if (f_.result.flat)
+      out["flat"] = {{"objectives", score_json(*f_.result.flat)},
+                     {"worst_modulation", number(f_.result.flat->worst)}};
     out["tasks"] = Json::array();
     for (std::size_t t = 0; t < d.confirmed.reports.size(); ++t) {
       Json task{{"name", f_.problem.tasks()[t].name},
                 {"response", Json::parse(d.confirmed.reports[t])}};
-      if (f_.result.has_flat) task["flat"] = Json::parse(f_.result.flat.reports[t]);
+      if (f_.result.flat) task["flat"] = Json::parse(f_.result.flat->reports[t]);
       out["tasks"].push_back(std::move(task));
     }
     return out.dump(1) + "\n";
@@ -191,7 +191,6 @@ class Writer {
 
   std::string summary() const {
     const OptimiseResult& r = f_.result;
-    const auto& objectives = f_.problem.objectives();
     std::string out =
         "# " + (f_.study.design.title.empty() ? f_.study.name : f_.study.design.title) + "\n\n";
     if (r.interrupted) {
@@ -219,16 +218,7 @@ class Writer {
         best.folder.empty() ? "not on the front" : best.folder,
         r.stability.stable(r.best) ? " among the designs whose place on the front holds"
                                    : "; its place on the front does not hold, see below");
-    if (r.has_flat && best.confirmed.ok) {
-      out += "\nThe same surface without texture:";
-      for (std::size_t k = 0; k < objectives.size(); ++k) {
-        out += fmt::format(" {} {:.3f} ± {:.3f} (best: {:.3f}){}", objectives[k].name,
-                           r.flat.values[k], r.flat.errors[k], best.confirmed.values[k],
-                           k + 1 < objectives.size() ? "," : "");
-      }
-      out += fmt::format(", worst modulation {:.3f} (best: {:.3f}).\n", r.flat.worst,
-                         best.confirmed.worst);
-    }
+    if (r.flat && best.confirmed.ok) out += gain_text(best);
     out += stability_text();
     out += sensitivity_text();
     out +=
@@ -237,6 +227,35 @@ class Writer {
         "(design.toml, metrics.json, heightmap.exr, heightmap.gsf, mask.tif, preview.png), "
         "sensitivity.json, resolved.toml (every value and where it came from), plan.txt, "
         "journal.\n";
+    return out;
+  }
+
+  // The step from the study's own flat surface to the best design, split into the part of the
+  // finish (and drive) and the part of the texture.
+  std::string gain_text(const FinalDesign& best) const {
+    const OptimiseResult& r = f_.result;
+    const auto& objectives = f_.problem.objectives();
+    std::string out = "\n## What the texture does, and what the finish does\n\n| surface |";
+    std::string rule = "|---|";
+    for (const auto& o : objectives) {
+      out += " " + o.name + " |";
+      rule += "---|";
+    }
+    out += " worst modulation |\n" + rule + "---|\n";
+    const auto row = [&](const char* name, const Score& s) {
+      out += fmt::format("| {} |", name);
+      for (std::size_t k = 0; k < objectives.size(); ++k)
+        out += fmt::format(" {:.3f} ± {:.3f} |", s.values[k], s.errors[k]);
+      out += fmt::format(" {:.3f} |\n", s.worst);
+    };
+    if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
+    row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
+    row("best design", best.confirmed);
+    if (r.flat_before) {
+      out +=
+          "\nFrom the first row to the second is the finish (and drive), from the second to the "
+          "third the texture.\n";
+    }
     return out;
   }
 
