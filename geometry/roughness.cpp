@@ -42,10 +42,6 @@ double mode_phase(std::uint64_t key, int kx, int ky) {
 
 }  // namespace
 
-double effective_cutoff(const Spectrum& spectrum, const Grid& grid) {
-  return std::max(spectrum.cutoff, 2 * std::max(grid.dx(), grid.dy()));
-}
-
 Heightmap random_surface(const Spectrum& s, const Grid& grid, std::uint64_t seed,
                          std::uint64_t index, double offset_x, double offset_y) {
   Heightmap out{grid, std::vector<double>(grid.size(), 0)};

@@ -21,9 +21,6 @@ struct Spectrum {
 Heightmap random_surface(const Spectrum& spectrum, const Grid& grid, std::uint64_t seed,
                          std::uint64_t index, double offset_x = 0, double offset_y = 0);
 
-// Shortest wavelength on that grid [m]: the cut-off, or twice the pixel.
-double effective_cutoff(const Spectrum& spectrum, const Grid& grid);
-
 // ISO 25178-2 height and slope parameters; heights about the mean. Slopes by forward differences.
 struct RoughnessParameters {
   double sa, sq, ssk, sku, sp, sv, sz;  // [m, m, -, -, m, m, m]

@@ -124,23 +124,20 @@ Heightmap stack_heights(const Stack& stack, const Grid& grid) {
   return out;
 }
 
-// Neighbour distance of an array (the same for both lattices) and its unit cell.
+// Neighbour distance of an array (the same for both lattices) and its unit cell; none without
+// relief.
 struct Cell {
   double x, y;
 };
 Cell unit_cell(const Texture& texture) {
+  const auto array = [](double relief, double period, Lattice lattice) {
+    if (relief <= 0) return Cell{0, 0};
+    return Cell{period, lattice == Lattice::Square ? period : std::sqrt(3.0) * period};
+  };
   return std::visit(
-      Overloaded{[](const HoleArray& t) {
-                   return Cell{t.period,
-                               t.lattice == Lattice::Square ? t.period : std::sqrt(3.0) * t.period};
-                 },
-                 [](const PillarArray& t) {
-                   return Cell{t.period,
-                               t.lattice == Lattice::Square ? t.period : std::sqrt(3.0) * t.period};
-                 },
-                 [](const Grating& t) {
-                   return Cell{t.period, t.period};
-                 },
+      Overloaded{[&](const HoleArray& t) { return array(t.depth, t.period, t.lattice); },
+                 [&](const PillarArray& t) { return array(t.height, t.period, t.lattice); },
+                 [&](const Grating& t) { return array(t.depth, t.period, Lattice::Square); },
                  [](const Stack& t) {
                    Cell cell{0, 0};
                    for (const Texture& part : t.parts) {
@@ -153,6 +150,21 @@ Cell unit_cell(const Texture& texture) {
                    return Cell{0, 0};
                  }},
       texture.kind);
+}
+
+// The next even count that FFTs are fast for (factors of 2 to 7, one of 11 or 13) and that halves
+// to such counts again where it is large, so that nested grids exist.
+int even_count(double least) {
+  const int step = least > 64 ? 16 : least > 16 ? 4 : 2;
+  const auto fast = [](int n) {
+    for (int p : {2, 3, 5, 7}) {
+      while (n % p == 0) n /= p;
+    }
+    return n == 1 || n == 11 || n == 13;
+  };
+  int n = std::max(2, step * static_cast<int>(std::ceil(least / step - 1e-9)));
+  while (!fast(n)) n += step;
+  return n;
 }
 
 double free_patch(const Texture& texture, double target) {
@@ -338,6 +350,35 @@ Grid patch_grid(const Texture& texture, int pixels, double target) {
   const int multiple = nx % 16 == 0 ? 16 : 2;
   ny = std::max(multiple, (ny + multiple / 2) / multiple * multiple);
   return {nx, ny, lx, ly};
+}
+
+Grid simulated_patch(const Texture& texture, int pixels) {
+  constexpr int kMostPixels = 1024;
+  const Cell cell = unit_cell(texture);
+  double lx, ly;
+  if (cell.x > 0) {
+    // A patch twice too long counts as much as one of half or twice the area.
+    double least = kInfinity;
+    lx = cell.x;
+    ly = cell.y;
+    const int most = std::max(1, static_cast<int>(std::ceil(2 * kWindow / cell.x)));
+    for (int i = 1; i <= most; ++i) {
+      for (int j = 1; j <= most; ++j) {
+        const double x = i * cell.x, y = j * cell.y;
+        const double unlike =
+            std::abs(std::log(x * y / (kWindow * kWindow))) + 0.5 * std::abs(std::log(x / y));
+        if (unlike < least - 1e-9) {
+          least = unlike;
+          lx = x;
+          ly = y;
+        }
+      }
+    }
+  } else {
+    lx = ly = free_patch(texture, kWindow);
+  }
+  const double pixel = std::max(kWindow / pixels, std::max(lx, ly) / kMostPixels);
+  return {even_count(lx / pixel), even_count(ly / pixel), lx, ly};
 }
 
 Heightmap generate(const Texture& texture, const Grid& grid) {

@@ -103,9 +103,18 @@ const std::vector<std::string>& texture_kinds();   // every such name, in the or
 // What a single key cannot say: (key, message) of every contradiction between keys.
 std::vector<std::pair<std::string, std::string>> problems(const Texture& texture);
 
+inline constexpr double kWindow = 12e-6;  // side of the window of the M3 paper [m]
+
 // Smallest rectangle with a whole number of periods, n = max(2, round(target / period)) along x,
 // sampled with `pixels` along x and nearly square pixels; even counts. Eq. geometry.2
-Grid patch_grid(const Texture& texture, int pixels, double target = 12e-6);
+Grid patch_grid(const Texture& texture, int pixels, double target = kWindow);
+
+// The patch that is simulated: whole periods on both sides, its area as near as can be to that of
+// the window and not much longer than wide, sampled no coarser than window / pixels (to at
+// most 1024 pixels a side), so that designs of different period are compared on like patches at
+// like resolution. Without relief there is no period: every flat texture has the same patch.
+// Eq. geometry.2
+Grid simulated_patch(const Texture& texture, int pixels);
 
 // Heights on a grid whose sides are whole numbers of periods (patch_grid, or tiles of it). Edges
 // are averaged over the pixel: volume and open area are right to second order in the pixel. Throws

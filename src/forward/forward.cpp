@@ -42,9 +42,10 @@ double offset_share(int k, bool second) {
 }
 
 // Skin of a patch: common to every design, because its modes are keyed by integer index.
-Heightmap skin_patch(const Scene& scene, const Grid& grid, const Fidelity& fidelity, int index) {
+Heightmap skin_patch(const Scene& scene, const Plan& plan, const Fidelity& fidelity, int index) {
   const Skin& skin = scene.finger.skin;
-  const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, skin.cutoff};
+  const Grid& grid = plan.grid;
+  const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, plan.effective_cutoff};
   return random_surface(spectrum, grid, fidelity.seed, static_cast<std::uint64_t>(index),
                         offset_share(index, false) * grid.lx, offset_share(index, true) * grid.ly);
 }
@@ -258,7 +259,7 @@ PatchSet solve_patches(const Scene& given, const Texture& texture, const Fidelit
       fidelity.skins,
       [&](int k) {
         const int index = fidelity.first_skin + k;
-        const Heightmap skin = skin_patch(scene, grid, fidelity, index);
+        const Heightmap skin = skin_patch(scene, set.plan, fidelity, index);
         const std::vector<double> height = added(surface, skin);
         // One a patch pressure: the dry contact of the previous humidity.
         std::vector<ContactSolution> start(set.bridges[0].pressures().size());
@@ -317,7 +318,7 @@ PatchPicture picture_patch(const Scene& given, const Texture& texture, const Fid
   const Plan plan = make_plan(scene, texture, fidelity);
   PatchPicture picture;
   picture.texture = generate(texture, plan.grid);
-  picture.skin = skin_patch(scene, plan.grid, fidelity, fidelity.first_skin + index);
+  picture.skin = skin_patch(scene, plan, fidelity, fidelity.first_skin + index);
   const std::vector<double> height = added(picture.texture, picture.skin);
   const auto kernel = kernel_at(scene, plan.grid, relative_humidity);
   ContactSolution start;

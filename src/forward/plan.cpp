@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/units.h"
-#include "geometry/roughness.h"
 
 namespace papilla {
 namespace {
@@ -29,10 +28,10 @@ double Plan::seconds() const {
 
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Plan plan;
-  plan.grid = patch_grid(texture, fidelity.grid);
-  const Skin& skin = scene.finger.skin;
-  const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, skin.cutoff};
-  plan.effective_cutoff = effective_cutoff(spectrum, plan.grid);
+  plan.grid = simulated_patch(texture, fidelity.grid);
+  // The same for every texture, although its patch may have somewhat finer pixels.
+  plan.effective_cutoff = std::max({scene.finger.skin.cutoff, 2 * kWindow / fidelity.grid,
+                                    2 * std::max(plan.grid.dx(), plan.grid.dy())});
 
   double largest_volume = 0;
   for (double rh : scene.environment.relative_humidity) {

@@ -75,6 +75,26 @@ TEST(Forward, AFlatTextureOfAnyKindIsTheFlatSurface) {
   }
 }
 
+// The patch is a whole number of periods; a relief too shallow to matter must not tell which.
+TEST(Forward, AShallowTextureIsTheFlatSurfaceAtAnyPeriod) {
+  const Scene scene = driven_scene();
+  const Response flat = evaluate(scene, Texture{}, small(24));
+  for (double period : {3.2e-6, 5e-6, 7e-6, 8.4e-6, 10e-6}) {
+    const Texture shallow{HoleArray{.period = period, .diameter = 2e-6, .depth = 1e-9}};
+    const Response r = evaluate(scene, shallow, small(24));
+    for (std::size_t i = 0; i < r.points.size(); ++i) {
+      const ResponsePoint &p = r.points[i], &q = flat.points[i];
+      const auto close = [&](const Measured& a, const Measured& b) {
+        EXPECT_NEAR(a.value, b.value, 3 * std::hypot(a.parts.sampling, b.parts.sampling))
+            << 1e6 * period << " um, " << p.relative_humidity;
+        EXPECT_NEAR(a.value, b.value, 0.15 * b.value);
+      };
+      close(p.modulation, q.modulation);
+      close(p.area_fraction_off, q.area_fraction_off);
+    }
+  }
+}
+
 TEST(Forward, TheLoadLawAgreesWithResolvedAreas) {
   // Prototype: within 4-6 % of the modulation at this grid, before the exponent corrects it.
   Fidelity load = small(8);

@@ -42,6 +42,27 @@ TEST(HoleArray, HexagonalPatchHoldsWholePeriods) {
   EXPECT_NEAR(mean(generate(t, grid)), -1e-7 * open_fraction(t), 3e-3 * 1e-7);
 }
 
+TEST(SimulatedPatch, IsAlikeForEveryPeriod) {
+  for (Lattice lattice : {Lattice::Square, Lattice::Hexagonal}) {
+    for (double period = 0.5e-6; period < 14e-6; period *= 1.07) {
+      const Grid g =
+          simulated_patch({HoleArray{.lattice = lattice, .period = period, .depth = 1e-7}}, 128);
+      EXPECT_LT(std::abs(std::log(g.lx * g.ly / square(kWindow))), 0.75) << period;
+      EXPECT_LE(std::max(g.lx / g.ly, g.ly / g.lx), 2.01) << period;
+      EXPECT_LE(std::max(g.dx(), g.dy()), kWindow / 128 * (1 + 1e-9)) << period;
+      EXPECT_GE(std::min(g.dx(), g.dy()), 0.8 * kWindow / 128) << period;
+      EXPECT_NEAR(g.lx / period, std::round(g.lx / period), 1e-9);
+    }
+  }
+  const Grid window{128, 128, kWindow, kWindow};
+  EXPECT_EQ(simulated_patch({HoleArray{.period = 10e-6, .depth = 0}}, 128), window);
+  EXPECT_EQ(simulated_patch({HoleArray{.period = 6e-6}}, 128), window);
+  // A period far beyond the window is simulated whole, at the resolution that can be afforded.
+  const Grid wide = simulated_patch({HoleArray{.period = 80e-6, .diameter = 40e-6}}, 256);
+  EXPECT_EQ(wide.nx, 1024);
+  EXPECT_DOUBLE_EQ(wide.lx, 80e-6);
+}
+
 TEST(HoleArray, SlopedWallsRemoveAFrustum) {
   const double r = 1.5e-6, depth = 600e-9, angle = 70 * kPi / 180;
   Texture t{HoleArray{.depth = depth, .wall_angle = angle}};

@@ -157,7 +157,7 @@ class Ensemble {
     const bool everywhere = area > options_.film_area * gap_.grid.area();
     for (Drop& d : drops_) {
       if (!d.alive) continue;
-      const bool wide = 2 * d.radius > (d.bridge ? options_.film_width : 1) * side;
+      const bool wide = 2 * d.radius > std::min(d.bridge ? options_.film_width : side, side);
       if (wide || (d.bridge && everywhere)) {
         film_seeds.push_back(lowest_pixel(d));
         film_volume += d.volume;

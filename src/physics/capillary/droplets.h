@@ -15,7 +15,7 @@ struct DropletOptions {
   double first_step = 200e-9;        // [m]; the mobility of droplets: a stated model option
   int halvings = 4;                  // the last step is first_step / 2^halvings
   double gap_floor = 0.3e-9;         // smaller gaps count as this [m]: a water molecule's size
-  double film_width = 1.0 / 3;       // a bridge wider than this share of the patch is a film
+  double film_width = 4e-6;          // wider bridges are films [m]: a third of the paper's window
   double film_area = 0.40;           // more wetted area than this: all bridges are
   int max_moves = 1000;              // per droplet
 };
