@@ -33,6 +33,7 @@ struct Wetting {
   double wetted_fraction = 0;         // bridged area / patch area
   double volume = 0;                  // total [m^3]
   double bridge_volume = 0;           // of it in bridges
+  double wicked_volume = 0;           // of it in corners at the feet of walls
   int bridges = 0;
   double retention = 0;  // lateral hysteresis force [N]
 };

@@ -89,29 +89,18 @@ class Ensemble {
     reach_ = std::max(1.3 * favoured, cap_.height);
   }
 
-  void scatter(double volume, std::uint64_t seed, std::uint64_t index) {
-    const int n =
-        static_cast<int>(std::clamp(std::round(options_.drops_per_volume * volume), 1.0, 1e6));
-    RandomStream random(seed, "droplets", index);
-    std::vector<double> share(n);
-    double sum = 0;
-    drops_.resize(n);
-    for (int i = 0; i < n; ++i) {
-      drops_[i].x = random.uniform() * lx_;
-      drops_[i].y = random.uniform() * ly_;
-      share[i] = 1 - random.uniform();  // (0, 1]
-      sum += share[i];
-    }
-    for (int i = 0; i < n; ++i) {
-      drops_[i] = placed(drops_[i].x, drops_[i].y, volume * share[i] / sum, 0, false);
-    }
+  void start(const std::vector<DropletSeed>& droplets) {
+    drops_.reserve(droplets.size());
+    for (const DropletSeed& d : droplets) drops_.push_back(placed(d.x, d.y, d.volume, 0, false));
     build_hash();
-    report_.initial_droplets = n;
+    report_.initial_droplets = static_cast<int>(drops_.size());
     merge_overlaps();
+    if (options_.rims && options_.corner_wicking) wick();
     report_.initial_energy = energy();
   }
 
   void restore(const Wetting& wetting) {
+    wicked_ = wetting.wicked_volume;
     metastable_ = true;  // a bridge that exists stays until it ruptures
     for (const Droplet& d : wetting.droplets) {
       Drop drop;
@@ -167,6 +156,7 @@ class Ensemble {
     Wetting out;
     out.grid = gap_.grid;
     out.volume = total_volume;
+    out.wicked_volume = wicked_;
     out.status = WettingStatus::Discs;
     out.bridged.assign(gap_.grid.size(), 0);
     if (!film_seeds.empty()) add_film(film_seeds, film_volume, out);
@@ -450,6 +440,7 @@ class Ensemble {
   // Puts drop i where `trial` is. If it overlaps others there they become one drop, provided that
   // the energy falls; else nothing happens.
   bool commit(int i, const Drop& trial) {
+    if (options_.rims && options_.rim_pinning && held(drops_[i], trial)) return false;
     members_.assign(1, i);
     collect_overlaps(trial);
     if (members_.size() == 1) {
@@ -463,6 +454,62 @@ class Ensemble {
     if (merged.energy >= before) return false;
     adopt(i, merged);
     return true;
+  }
+
+  static Droplet disc_of(const Drop& d) {
+    Droplet disc;
+    disc.x = d.x;
+    disc.y = d.y;
+    disc.radius = d.radius;
+    return disc;
+  }
+
+  // Eq. capillary.16: whether an edge of the texture that `from` has not reached keeps it from
+  // moving to `to`. A drop on the skin has no line on the texture.
+  bool held(const Drop& from, const Drop& to) const {
+    const RimMap& rims = *options_.rims;
+    if (!rims.valid() || (!from.bridge && cap_state_ == DropletState::OnSkin)) return false;
+    const Grid& g = gap_.grid;
+    bool found = false;
+    for_pixels(g, disc_of(to), [&](std::size_t k) {
+      if (found || !rims.edge(k)) return;
+      const double ex = nearest_image(g.x(static_cast<int>(k % g.nx)) - from.x, lx_);
+      const double ey = nearest_image(g.y(static_cast<int>(k / g.nx)) - from.y, ly_);
+      if (square(ex) + square(ey) <= square(from.radius)) return;
+      found = !passes_edge(water_.theta_skin, water_.theta_substrate, rims.turn(),
+                           std::max(to.edge_gap, options_.gap_floor),
+                           std::max(gap_.value[k], options_.gap_floor));
+    });
+    return found;
+  }
+
+  // Eqs. capillary.17, 18: drops on the texture that meet the foot of a wall give their water to
+  // its corner, up to what that holds.
+  void wick() {
+    const RimMap& rims = *options_.rims;
+    if (!rims.valid() || cap_state_ == DropletState::OnSkin) return;
+    std::vector<double> room;
+    for (const RimMap::Hole& hole : rims.holes()) {
+      room.push_back(rims.capacity(hole, water_.theta_substrate));
+    }
+    for (int i = 0; i < static_cast<int>(drops_.size()); ++i) {
+      const Drop d = drops_[i];
+      const int hole = rims.hole_of(pixel_of(d.x, d.y));
+      if (!d.alive || d.bridge || hole < 0 || room[hole] <= 0) continue;
+      bool touches = false;
+      for_pixels(gap_.grid, disc_of(d), [&](std::size_t k) { touches = touches || rims.edge(k); });
+      if (!touches) continue;
+      const double taken = std::min(d.volume, room[hole]);
+      room[hole] -= taken;
+      wicked_ += taken;
+      unlink(i);
+      if (taken < d.volume) {
+        drops_[i] = placed(d.x, d.y, d.volume - taken, 0, false);
+        link(i);
+      } else {
+        drops_[i].alive = false;
+      }
+    }
   }
 
   // members_ (closed under overlap) as one drop: at the centroid, or, when it must pay, at the best
@@ -631,11 +678,7 @@ class Ensemble {
 
   std::size_t lowest_pixel(const Drop& d) const {
     std::size_t best = pixel_of(d.x, d.y);
-    Droplet disc;
-    disc.x = d.x;
-    disc.y = d.y;
-    disc.radius = d.radius;
-    for_pixels(gap_.grid, disc, [&](std::size_t k) {
+    for_pixels(gap_.grid, disc_of(d), [&](std::size_t k) {
       if (gap_.value[k] < gap_.value[best]) best = k;
     });
     return best;
@@ -649,11 +692,7 @@ class Ensemble {
       if (!d.alive) continue;
       owner[pixel_of(d.x, d.y)] = i;
       if (!d.bridge) continue;
-      Droplet disc;
-      disc.x = d.x;
-      disc.y = d.y;
-      disc.radius = d.radius;
-      for_pixels(gap_.grid, disc, [&](std::size_t k) { owner[k] = i; });
+      for_pixels(gap_.grid, disc_of(d), [&](std::size_t k) { owner[k] = i; });
     }
     Film film = grow_film(gap_, seeds, volume, water_, [&](std::size_t k) {
       const int i = owner[k];
@@ -685,6 +724,7 @@ class Ensemble {
   double lx_, ly_;
   double reach_ = 0;
   std::vector<Drop> drops_;
+  double wicked_ = 0;  // [m^3] in corners
   std::vector<int> members_;
   // Hash: drops up to small_radius_ by the cell of their centre, the others in one list.
   int cells_x_ = 1, cells_y_ = 1;
@@ -706,22 +746,51 @@ std::vector<std::uint8_t> film_pixels(const Wetting& wetting) {
 
 }  // namespace
 
-Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& water,
-                        const DropletOptions& options, std::uint64_t seed, std::uint64_t index,
-                        SettleReport* report) {
+std::vector<DropletSeed> scatter_droplets(const Grid& grid, double volume,
+                                          const DropletOptions& options, std::uint64_t seed,
+                                          std::uint64_t index) {
   PAPILLA_CHECK(volume >= 0 && std::isfinite(volume), "water volume must be finite, not negative");
+  if (volume == 0) return {};
+  const int n =
+      static_cast<int>(std::clamp(std::round(options.drops_per_volume * volume), 1.0, 1e6));
+  RandomStream random(seed, "droplets", index);
+  std::vector<DropletSeed> out(n);
+  double sum = 0;
+  for (DropletSeed& d : out) {
+    d.x = random.uniform() * grid.lx;
+    d.y = random.uniform() * grid.ly;
+    d.volume = 1 - random.uniform();  // (0, 1]
+    sum += d.volume;
+  }
+  for (DropletSeed& d : out) d.volume = volume * d.volume / sum;
+  return out;
+}
+
+Wetting settle_droplets(const Gap& gap, const std::vector<DropletSeed>& droplets,
+                        const WaterProperties& water, const DropletOptions& options,
+                        SettleReport* report) {
   if (report) *report = {};
-  Wetting dry;
-  dry.grid = gap.grid;
-  if (volume == 0) return dry;
-  double space = 0;
+  double volume = 0, space = 0;
+  for (const DropletSeed& d : droplets) volume += d.volume;
+  if (volume == 0) {
+    Wetting dry;
+    dry.grid = gap.grid;
+    return dry;
+  }
   for (double h : gap.value) space += h;
   if (volume >= space * gap.grid.pixel_area()) return fill_threshold(gap, volume, water);
   Ensemble ensemble(gap, water, options);
-  ensemble.scatter(volume, seed, index);
+  ensemble.start(droplets);
   ensemble.settle();
   if (report) *report = ensemble.report();
   return ensemble.result(volume);
+}
+
+Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& water,
+                        const DropletOptions& options, std::uint64_t seed, std::uint64_t index,
+                        SettleReport* report) {
+  return settle_droplets(gap, scatter_droplets(gap.grid, volume, options, seed, index), water,
+                         options, report);
 }
 
 Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& water,

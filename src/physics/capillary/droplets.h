@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <vector>
 
 #include "fields/gap.h"
 #include "fields/wetting.h"
+#include "physics/capillary/rims.h"
 #include "physics/capillary/water.h"
 
 namespace papilla {
@@ -17,7 +20,18 @@ struct DropletOptions {
   double gap_floor = 0.3e-9;         // smaller gaps count as this [m]: a water molecule's size
   double film_width = 4e-6;          // wider bridges are films [m]: a third of the paper's window
   double film_area = 0.40;           // more wetted area than this: all bridges are
-  int max_moves = 1000;              // per droplet
+  int max_moves = 1000;              // per droplet; 0: the initial state
+
+  // Edges of the texture below the gap; null: the surface counts as smooth.
+  std::shared_ptr<const RimMap> rims;
+  bool rim_pinning = false;     // a line does not pass an edge within Gibbs's range
+  bool corner_wicking = false;  // drops at the foot of a wall creep along it
+};
+
+// A droplet before it settles.
+struct DropletSeed {
+  double x = 0, y = 0;  // [m], inside the patch
+  double volume = 0;    // [m^3]
 };
 
 // How the settling went.
@@ -29,12 +43,21 @@ struct SettleReport {
   bool energy_rose = false;
 };
 
-// Settles `volume` [m^3] of water in the patch (Eqs. capillary.4-8). The number of droplets is
-// max(1, round(drops_per_volume * volume)); their places are uniform and their volumes proportional
-// to uniform random numbers (common for every design: stream "droplets" of seed and index).
-// Status: Dry (no water), Discs, Film (a bridge or the wetted area too large for discs: those
-// bridges become a film of one pressure, Eq. capillary.15; it is the part of `bridged` outside all
-// discs), Flooded (more water than gap: no meniscus, no force). Cost: about 5 us a droplet.
+// max(1, round(drops_per_volume * volume)) droplets: places uniform, volumes proportional to
+// uniform random numbers (common for every design: stream "droplets" of seed and index).
+std::vector<DropletSeed> scatter_droplets(const Grid& grid, double volume,
+                                          const DropletOptions& options, std::uint64_t seed,
+                                          std::uint64_t index);
+
+// Settles droplets in the patch (Eqs. capillary.4-8). Status: Dry (no water), Discs, Film (a bridge
+// or the wetted area too large for discs: those bridges become a film of one pressure, Eq.
+// capillary.15; it is the part of `bridged` outside all discs), Flooded (more water than gap: no
+// meniscus, no force). Cost: 10-25 us a droplet.
+Wetting settle_droplets(const Gap& gap, const std::vector<DropletSeed>& droplets,
+                        const WaterProperties& water, const DropletOptions& options,
+                        SettleReport* report = nullptr);
+
+// The same for `volume` [m^3] of water, scattered.
 Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& water,
                         const DropletOptions& options, std::uint64_t seed, std::uint64_t index,
                         SettleReport* report = nullptr);
