@@ -118,8 +118,12 @@ struct BaseFiles {
                        [&](const std::string& root) { return inside(file, canonical(root)); });
   }
 
-  // Resolves the `base` of a table (and of the tables within), nearest first.
+  // Resolves the `base` of a table and of the tables within, nearest first: what a section's own
+  // base says stands above what the file's base says of that section.
   void resolve(Node& table) {
+    for (Node& child : table.children) {
+      if (child.is_table()) resolve(child);
+    }
     if (const Node* base = table.find("base"); base && base->is_text()) {
       const Node value = *base;
       std::erase_if(table.children, [](const Node& child) { return child.key == "base"; });
@@ -127,9 +131,6 @@ struct BaseFiles {
     } else if (base) {
       throw InputError({Problem{base->place.file, base->place.line, base->place.column, "base",
                                 "expected the name of a file, got " + describe(*base)}});
-    }
-    for (Node& child : table.children) {
-      if (child.is_table()) resolve(child);
     }
   }
 

@@ -192,6 +192,27 @@ TEST(Reader, BaseFilesLieBelowAndKeepTheirPlaces) {
   EXPECT_EQ(document.origins().at("finger.skin.rms").line, 5);
 }
 
+TEST(Reader, TheBaseOfASectionStandsAboveThatOfTheFile) {
+  const Folder folder("section_base");
+  folder.write("soft.toml", "schema_version = 1\nname = \"soft\"\nload = \"1 N\"\n");
+  folder.write("hard.toml", "schema_version = 1\nname = \"hard\"\n");
+  folder.write(
+      "common.toml",
+      "schema_version = 1\n[finger]\nbase = \"soft.toml\"\n[drive]\namplitude = \"90 V\"\n");
+  const std::string study =
+      folder.write("study.toml", "schema_version = 1\nbase = \"common.toml\"\n");
+  const auto finger = [&](const std::vector<std::string>& overrides) {
+    Document document = load_document(study, overrides);
+    Whole whole;
+    read_section(document, "", whole);
+    finish(document);
+    EXPECT_EQ(whole.finger.load, 1);
+    return whole.finger.name;
+  };
+  EXPECT_EQ(finger({}), "soft");
+  EXPECT_EQ(finger({"finger.base=\"hard.toml\""}), "hard");
+}
+
 TEST(Reader, BasesOutsideTheRootsAndCyclesAreRefused) {
   const Folder folder("cycle");
   folder.write("secret.toml", "[drive]\n");
