@@ -6,9 +6,7 @@ target_compile_definitions(papilla_options INTERFACE PAPILLA_VERSION="${PROJECT_
                            # Eigen's memory as in Debian's Ceres and pagmo: with wider instructions it
                            # would align, and free, differently from them.
                            EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=16
-                           EIGEN_MAX_STATIC_ALIGN_BYTES=16
-                           PAPILLA_DESIGNS_DIR="${CMAKE_SOURCE_DIR}/designs"
-                           PAPILLA_INSTALLED_DESIGNS_DIR="${CMAKE_INSTALL_PREFIX}/share/papilla/designs")
+                           EIGEN_MAX_STATIC_ALIGN_BYTES=16)
 if(PAPILLA_WARNINGS_AS_ERRORS)
   target_compile_options(papilla_options INTERFACE -Werror)
 endif()
