@@ -213,41 +213,6 @@ void finger_scenes(int n) {
   }
 }
 
-// Area of the light scene by every estimator against the near-edge area at 2048^2, and its cost.
-void areas() {
-  std::vector<double> reference;
-  for (int n : {2048, 1024, 512, 256}) {
-    const Grid grid{n, n, 12e-6, 12e-6};
-    const auto kernel = make_contact_kernel(grid, {200e6, 0.5, 1e-6, 25e6, 0.5});
-    const double pair = pair_time(*kernel);
-    std::vector<double> ratio[3];
-    double seconds = 0, pairs = 0, worst = 0;
-    constexpr int kSkins = 4;
-    for (int k = 0; k < kSkins; ++k) {
-      const Heightmap h =
-          random_surface({330e-9, 12e-6, 0.8, 50e-9}, grid, 3, static_cast<std::uint64_t>(k));
-      const double begin = now();
-      const ContactSolution s = solve_contact(*kernel, h.z, 15e3, {}, {.tolerance = 1e-8});
-      seconds += (now() - begin) / kSkins;
-      pairs += s.fft_pairs / kSkins;
-      worst = std::max(worst, s.certificate);
-      const ContactArea a = measure_area(*kernel, s);
-      if (n == 2048) reference.push_back(a.near_edge);
-      const double values[3] = {a.raw, a.perimeter, a.near_edge};
-      for (int e = 0; e < 3; ++e) ratio[e].push_back(values[e] / reference[k] - 1);
-    }
-    static const char* const kNames[3] = {"raw", "perimeter", "near_edge"};
-    for (int e = 0; e < 3; ++e) {
-      const Estimate error = mean_estimate(ratio[e]);
-      fmt::print(
-          "light area {} error {:+.4f} sd {:.4f},{},automatic "
-          "cold,1e-08,{:.6f},{:.1f},{:.1f},{:.5f},{:.1e}\n",
-          kNames[e], error.value, error.se * std::sqrt(kSkins), n, reference[0], pairs,
-          seconds / pair, seconds, worst);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace papilla
 
@@ -257,5 +222,4 @@ int main(int argc, char** argv) {
   fmt::print("scene,n,method,tolerance,contact,pairs,pair_times,seconds,certificate\n");
   for (int n = 128; n <= largest; n *= 2) papilla::finger_scenes(n);
   for (int n = 256; n <= std::min(largest, 1024); n *= 2) papilla::dense_scenes(n);
-  papilla::areas();
 }

@@ -93,13 +93,14 @@ class DenseSolver {
       // Exact minimum along the step taken, t = 1 being its end. A step that ran into the bounds is
       // kept unless it went too far: its end tells which pixels are free.
       double slope = 0, curvature = 0, longest = kInfinity;
+#pragma omp simd reduction(+ : slope, curvature) reduction(min : longest)
       for (std::size_t k = 0; k < free_.size(); ++k) {
         const int i = free_[k];
-        const double s = step_[i];
+        const double s = step_[i], room = s < 0 ? s - p_[i] : cap_ - p_[i] + s;
         slope += r_[k] * s;
         curvature += (next_[i] + g0_[i] - w_[i]) * s;
-        if (s < 0) longest = std::min(longest, (p_[i] - s) / -s);
-        if (s > 0) longest = std::min(longest, (cap_ - p_[i] + s) / s);
+        const double length = s != 0 ? room / s : kInfinity;
+        longest = length < longest ? length : longest;
       }
       double t = curvature > 0 ? -slope / curvature : 0;
       if (t > 0) alpha = std::clamp(alpha * t, 1e-4, 20.0);
@@ -310,6 +311,7 @@ class DenseSolver {
     double share = 0;
     if (conjugate) {
       double cross = 0, own = 0;
+#pragma omp simd reduction(+ : cross, own)
       for (std::size_t k = 0; k < m; ++k) {
         const int i = free_[k];
         const double y = w_[i] - next_[i];
@@ -320,6 +322,7 @@ class DenseSolver {
     }
     d_.resize(m);
     double sum = 0, ones = 0;
+#pragma omp simd reduction(+ : sum, ones)
     for (std::size_t k = 0; k < m; ++k) {
       d_[k] = z_[k] + share * step_[free_[k]];
       sum += d_[k];
@@ -337,18 +340,21 @@ class DenseSolver {
     const double load = load_ - (held_.empty() ? 0 : cap_ * static_cast<double>(held_.size()));
     double level = 0, below = -kInfinity, above = kInfinity;
     for (int pass = 0; pass < 100; ++pass) {
-      double sum = 0, weight = 0, size = 0;
+      double sum = 0, weight = 0;
+#pragma omp simd reduction(+ : sum, weight)
       for (std::size_t k = 0; k < raw_.size(); ++k) {
-        const double v = raw_[k] - level * ones_[k];
-        size = std::max(size, std::abs(v) / ones_[k]);
-        if (v <= 0) continue;
-        sum += std::min(v, cap_);
-        if (v < cap_) weight += ones_[k];
+        const double v = raw_[k] - level * ones_[k], cut = v < cap_ ? v : cap_;
+        sum += v > 0 ? cut : 0;
+        weight += v > 0 && v < cap_ ? ones_[k] : 0;
       }
       if (std::abs(sum - load) <= 1e-15 * load_) break;
       (sum > load ? below : above) = level;
       double next = weight > 0 ? level + (sum - load) / weight : kInfinity;
       if (!(next > below && next < above)) {
+        double size = 0;
+        for (std::size_t k = 0; k < raw_.size(); ++k) {
+          size = std::max(size, std::abs(raw_[k] - level * ones_[k]) / ones_[k]);
+        }
         next = std::isinf(below)   ? above - 2 * size
                : std::isinf(above) ? below + 2 * size
                                    : 0.5 * (below + above);
@@ -368,15 +374,17 @@ class DenseSolver {
     raw_.resize(m);
     for (std::size_t k = 0; k < m; ++k) raw_[k] = p_[free_[k]] - alpha * d_[k];
     const double level = problem_.approach ? 0 : load_level();
-    bool clipped = false;
-    for (std::size_t k = 0; k < m; ++k) {
+    double clipped = 0;
+#pragma omp simd reduction(+ : clipped)
+    for (std::size_t k = 0; k < m; ++k) {  // every pixel once
       const int i = free_[k];
-      const double v = std::clamp(raw_[k] - level * ones_[k], 0.0, cap_);
-      clipped = clipped || (v == 0 && p_[i] > 0) || (v == cap_ && p_[i] < cap_);
-      step_[i] = v - p_[i];
+      const double raw = raw_[k] - level * ones_[k], old = p_[i];
+      const double above = raw > 0 ? raw : 0, v = above < cap_ ? above : cap_;
+      clipped += (v == 0 && old > 0) || (v == cap_ && old < cap_) ? 1.0 : 0.0;
+      step_[i] = v - old;
       p_[i] = v;
     }
-    return clipped;
+    return clipped > 0;
   }
 
   // State at t of the step.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "physics/contact/active_set.h"
 #include "physics/contact/solvers.h"
 
 namespace papilla {
@@ -17,7 +18,8 @@ class CandidateSolver {
         // One factorisation of this many pixels costs about one transform pair.
         limit_(static_cast<std::size_t>(std::cbrt(100.0 * static_cast<double>(n_)))),
         tolerance_(tolerance),
-        state_(state) {}
+        state_(state),
+        set_(problem.kernel) {}
 
   bool run(const ContactSolution* start, bool demand) {
     if (start ? !choose_near(*start, demand) : !choose_cold(demand)) return false;
@@ -25,13 +27,13 @@ class CandidateSolver {
     state_.w.resize(n_);
     SpectrumArray scratch(problem_.kernel.fft().spectrum_size());
     for (int round = 0; round < 6; ++round) {
-      if (!balance()) return false;
+      if (!set_.balance(problem_.load, 1e-13 * problem_.spread, limit_)) return false;
       for (int i : under_pressure_) state_.p[i] = 0;
       under_pressure_.clear();
-      for (std::size_t k = 0; k < watch_.size(); ++k) {
-        if (!touching_[k]) continue;
-        state_.p[watch_[k]] = pressure_[k];
-        under_pressure_.push_back(watch_[k]);
+      for (std::size_t k = 0; k < set_.size(); ++k) {
+        if (!set_.touches(k)) continue;
+        state_.p[set_.pixel(k)] = set_.pressure(k);
+        under_pressure_.push_back(set_.pixel(k));
       }
       problem_.kernel.displace(state_.p, state_.w, scratch);
       ++state_.pairs;
@@ -118,30 +120,20 @@ class CandidateSolver {
       const int i = low[k].second;
       members.emplace_back(i, pressure.empty() ? 2 * k <= low.size() : pressure[i] > 0);
     }
-    set_watch(members);
+    watch(members);
     return true;
   }
 
-  // Sorted by pixel, for the search in extend().
-  void set_watch(std::vector<std::pair<int, bool>>& members) {
-    std::sort(members.begin(), members.end());
-    watch_.clear();
-    touching_.clear();
-    for (const auto& [i, touches] : members) {
-      if (!watch_.empty() && watch_.back() == i) {
-        touching_.back() = touching_.back() || touches;
-        continue;
-      }
-      watch_.push_back(i);
-      touching_.push_back(touches);
-    }
-    pressure_.assign(watch_.size(), 0);
+  void watch(std::vector<std::pair<int, bool>>& members) {
+    set_.watch(members, [this](int i) { return problem_.g0[i]; });
   }
 
   // Pixels that penetrate and their neighbours join the watch set.
   bool extend(const std::vector<int>& penetrating) {
     std::vector<std::pair<int, bool>> members;
-    for (std::size_t k = 0; k < watch_.size(); ++k) members.emplace_back(watch_[k], touching_[k]);
+    for (std::size_t k = 0; k < set_.size(); ++k) {
+      members.emplace_back(set_.pixel(k), set_.touches(k));
+    }
     for (int i : penetrating) {
       const int ix = i % grid_.nx, iy = i / grid_.nx;
       for (int dy = -1; dy <= 1; ++dy) {
@@ -151,108 +143,13 @@ class CandidateSolver {
         }
       }
     }
-    set_watch(members);
-    return watch_.size() <= 12 * limit_;
-  }
-
-  double influence(int i, int j) const {
-    int dx = i % grid_.nx - j % grid_.nx, dy = i / grid_.nx - j / grid_.nx;
-    if (dx < 0) dx += grid_.nx;
-    if (dy < 0) dy += grid_.ny;
-    return problem_.kernel.influence(dx, dy);
-  }
-
-  // Primal-dual active set on the watch set: pressure and rigid shift from one factorisation and
-  // two right-hand sides; pulling pixels leave, penetrating ones join. False: too large or cycling.
-  bool balance() {
-    for (int pass = 0; pass < 40; ++pass) {
-      set_.clear();
-      for (std::size_t k = 0; k < watch_.size(); ++k) {
-        if (touching_[k]) set_.push_back(k);
-      }
-      const std::size_t m = set_.size();
-      if (m == 0 || m > limit_) return false;
-      matrix_.resize(m * m);
-      a_.resize(m);
-      b_.assign(m, 1.0);
-      for (std::size_t r = 0; r < m; ++r) {
-        a_[r] = -problem_.g0[watch_[set_[r]]];
-        for (std::size_t c = 0; c <= r; ++c) {
-          matrix_[r * m + c] = influence(watch_[set_[r]], watch_[set_[c]]);
-        }
-      }
-      if (!factorise(m)) return false;
-      substitute(m, a_);
-      substitute(m, b_);
-      double sum_a = 0, sum_b = 0;
-      for (std::size_t r = 0; r < m; ++r) {
-        sum_a += a_[r];
-        sum_b += b_[r];
-      }
-      shift_ = (problem_.load - sum_a) / sum_b;
-      bool changed = false;
-      for (std::size_t r = 0; r < m; ++r) {
-        const double p = a_[r] + shift_ * b_[r];
-        pressure_[set_[r]] = p;
-        if (p <= 0) {
-          touching_[set_[r]] = false;
-          changed = true;
-        }
-      }
-      const double slack = 1e-13 * problem_.spread;
-      std::size_t next = 0;
-      for (std::size_t k = 0; k < watch_.size(); ++k) {
-        if (next < m && set_[next] == k) {
-          ++next;
-          continue;
-        }
-        double v = problem_.g0[watch_[k]] - shift_;
-        for (std::size_t c = 0; c < m; ++c) {
-          v += influence(watch_[k], watch_[set_[c]]) * pressure_[set_[c]];
-        }
-        if (v < -slack) {
-          touching_[k] = true;
-          changed = true;
-        }
-      }
-      if (!changed) return true;
-    }
-    return false;
-  }
-
-  // Cholesky in place, rows of the lower triangle.
-  bool factorise(std::size_t m) {
-    for (std::size_t r = 0; r < m; ++r) {
-      double* row = matrix_.data() + r * m;
-      for (std::size_t c = 0; c <= r; ++c) {
-        const double* other = matrix_.data() + c * m;
-        double sum = 0;
-#pragma omp simd reduction(+ : sum)
-        for (std::size_t k = 0; k < c; ++k) sum += row[k] * other[k];
-        if (c < r) {
-          row[c] = (row[c] - sum) / other[c];
-        } else {
-          if (!(row[r] - sum > 0)) return false;
-          row[r] = std::sqrt(row[r] - sum);
-        }
-      }
-    }
-    return true;
-  }
-
-  void substitute(std::size_t m, std::vector<double>& x) const {
-    for (std::size_t r = 0; r < m; ++r) {
-      for (std::size_t c = 0; c < r; ++c) x[r] -= matrix_[r * m + c] * x[c];
-      x[r] /= matrix_[r * m + r];
-    }
-    for (std::size_t r = m; r-- > 0;) {
-      x[r] /= matrix_[r * m + r];
-      for (std::size_t c = 0; c < r; ++c) x[c] -= matrix_[r * m + c] * x[r];
-    }
+    watch(members);
+    return set_.size() <= 12 * limit_;
   }
 
   // Gap function from the displacement, certificate (Eq. contact.4), pixels that penetrate.
   std::vector<int> inspect() {
+    const double shift = set_.shift();
     double low = kInfinity;
     std::vector<int> penetrating;
     constexpr std::size_t kBlock = 64;
@@ -266,14 +163,14 @@ class CandidateSolver {
         lowest = lowest < w ? lowest : w;
       }
       low = std::min(low, lowest);
-      if (lowest >= shift_) continue;
+      if (lowest >= shift) continue;
       for (std::size_t i = begin; i < end; ++i) {
-        if (state_.w[i] < shift_ && state_.p[i] == 0) penetrating.push_back(static_cast<int>(i));
+        if (state_.w[i] < shift && state_.p[i] == 0) penetrating.push_back(static_cast<int>(i));
       }
     }
     double work = 0;
     for (int i : under_pressure_) work += state_.p[i] * state_.w[i];
-    state_.shift = shift_;
+    state_.shift = shift;
     state_.certificate =
         std::max(0.0, work - low * problem_.load) / (problem_.load * problem_.spread);
     return penetrating;
@@ -282,13 +179,10 @@ class CandidateSolver {
   const StandardProblem& problem_;
   const Grid& grid_;
   std::size_t n_, limit_;
-  double tolerance_, shift_ = 0;
+  double tolerance_;
   StandardState& state_;
-  std::vector<int> watch_, under_pressure_;  // pixels
-  std::vector<char> touching_;               // of watch_
-  std::vector<double> pressure_;             // of watch_
-  std::vector<std::size_t> set_;             // touching ones, as positions in watch_
-  std::vector<double> matrix_, a_, b_;
+  ActiveSet set_;
+  std::vector<int> under_pressure_;  // pixels
 };
 
 }  // namespace

@@ -1,0 +1,124 @@
+#include "physics/contact/active_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace papilla {
+
+void ActiveSet::sort(std::vector<std::pair<int, bool>>& members) {
+  std::sort(members.begin(), members.end());
+  pixel_.clear();
+  touching_.clear();
+  for (const auto& [i, touches] : members) {
+    if (!pixel_.empty() && pixel_.back() == i) {
+      touching_.back() = touching_.back() || touches;
+      continue;
+    }
+    pixel_.push_back(i);
+    touching_.push_back(touches);
+  }
+  pressure_.assign(pixel_.size(), 0);
+}
+
+double ActiveSet::influence(int i, int j) const {
+  const Grid& grid = kernel_.grid();
+  int dx = i % grid.nx - j % grid.nx, dy = i / grid.nx - j / grid.nx;
+  if (dx < 0) dx += grid.nx;
+  if (dy < 0) dy += grid.ny;
+  return kernel_.influence(dx, dy);
+}
+
+std::size_t ActiveSet::find(int pixel) const {
+  const auto at = std::lower_bound(pixel_.begin(), pixel_.end(), pixel);
+  return at != pixel_.end() && *at == pixel ? static_cast<std::size_t>(at - pixel_.begin())
+                                            : pixel_.size();
+}
+
+double ActiveSet::gap(int i, double initial_gap) const {
+  double v = initial_gap - shift_;
+  for (std::size_t k : set_) v += influence(i, pixel_[k]) * pressure_[k];
+  return v;
+}
+
+bool ActiveSet::balance(double load, double slack, std::size_t limit) {
+  for (int pass = 0; pass < 40; ++pass) {
+    set_.clear();
+    for (std::size_t k = 0; k < pixel_.size(); ++k) {
+      if (touching_[k]) set_.push_back(k);
+    }
+    const std::size_t m = set_.size();
+    if (m == 0 || m > limit) return false;
+    matrix_.resize(m * m);
+    a_.resize(m);
+    b_.assign(m, 1.0);
+    for (std::size_t r = 0; r < m; ++r) {
+      a_[r] = -gap_[set_[r]];
+      for (std::size_t c = 0; c <= r; ++c) {
+        matrix_[r * m + c] = influence(pixel_[set_[r]], pixel_[set_[c]]);
+      }
+    }
+    if (!factorise(m)) return false;
+    substitute(m, a_);
+    substitute(m, b_);
+    double sum_a = 0, sum_b = 0;
+    for (std::size_t r = 0; r < m; ++r) {
+      sum_a += a_[r];
+      sum_b += b_[r];
+    }
+    shift_ = (load - sum_a) / sum_b;
+    bool changed = false;
+    for (std::size_t r = 0; r < m; ++r) {
+      const double p = a_[r] + shift_ * b_[r];
+      pressure_[set_[r]] = p;
+      if (p <= 0) {
+        pressure_[set_[r]] = 0;
+        touching_[set_[r]] = false;
+        changed = true;
+      }
+    }
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < pixel_.size(); ++k) {
+      if (next < m && set_[next] == k) {
+        ++next;
+      } else if (gap(pixel_[k], gap_[k]) < -slack) {
+        touching_[k] = true;
+        changed = true;
+      }
+    }
+    if (!changed) return true;
+  }
+  return false;
+}
+
+// Cholesky in place, rows of the lower triangle.
+bool ActiveSet::factorise(std::size_t m) {
+  for (std::size_t r = 0; r < m; ++r) {
+    double* row = matrix_.data() + r * m;
+    for (std::size_t c = 0; c <= r; ++c) {
+      const double* other = matrix_.data() + c * m;
+      double sum = 0;
+#pragma omp simd reduction(+ : sum)
+      for (std::size_t k = 0; k < c; ++k) sum += row[k] * other[k];
+      if (c < r) {
+        row[c] = (row[c] - sum) / other[c];
+      } else {
+        if (!(row[r] - sum > 0)) return false;
+        row[r] = std::sqrt(row[r] - sum);
+      }
+    }
+  }
+  return true;
+}
+
+void ActiveSet::substitute(std::size_t m, std::vector<double>& x) const {
+  for (std::size_t r = 0; r < m; ++r) {
+    for (std::size_t c = 0; c < r; ++c) x[r] -= matrix_[r * m + c] * x[c];
+    x[r] /= matrix_[r * m + r];
+  }
+  for (std::size_t r = m; r-- > 0;) {
+    x[r] /= matrix_[r * m + r];
+    for (std::size_t c = 0; c < r; ++c) x[c] -= matrix_[r * m + c] * x[r];
+  }
+}
+
+}  // namespace papilla
