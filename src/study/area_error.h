@@ -18,7 +18,7 @@ struct AreaErrorRow {
   double stated = 0;      // mean of the stated standard error, relative; 0: none is stated
   double ratio_bias = 0;  // of area at 1.3 times the load over area at the load, relative
   double ratio_scatter = 0;
-  double seconds = 0;  // of one cold solve and its area, one thread
+  double seconds = 0;  // of one cold solve and its area, processor time
   double pairs = 0;    // its transform pairs, in units of the grid solved
 };
 

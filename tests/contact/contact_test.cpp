@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/constants.h"
+#include "base/random.h"
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
 
@@ -30,6 +31,77 @@ TEST(Compliance, LayeredKernelMatchesThePropagatorSamples) {
       const LayeredSolid s{c.e1, c.n1, 1, c.e2, c.n2};
       EXPECT_NEAR(compliance(s, qd[i]) * qd[i], c.values[i], 6e-10 * c.values[i]);
     }
+  }
+}
+
+// The same layer as six numbers: displacements (u, w) = the plane-strain solutions e^(-qz), z
+// e^(-qz), e^(qz), z e^(qz) in the layer and the first two below, joined at z = d, under a unit
+// pressure wave.
+double solved_layer(const LayeredSolid& s, double q) {
+  using Real = long double;
+  const Real x = static_cast<Real>(q) * s.layer_thickness;
+  const auto shear = [](Real e, Real n) { return e / (2 * (1 + n)); };
+  // With e the sign of the exponent and lengths in 1/q: w = (a + b z) exp(e z), from equilibrium
+  // u = -e (a + b (z + e (3 - 4 nu))) exp(e z) of a field (u sin, w cos), stresses over 2 G q.
+  struct Column {
+    Real u, w, normal, tangential;
+  };
+  const auto columns = [](Real n, Real e, Real z, bool times_z, Real g) {
+    const Real f = std::exp(e * z), k = 3 - 4 * n;
+    Column c{};
+    const Real u = times_z ? -e * z - k : -e, w = times_z ? z : 1;
+    const Real du = times_z ? -e - e * (e * z + k) : -1, dw = times_z ? 1 + e * z : e;
+    c.u = u * f;
+    c.w = w * f;
+    const Real strain_x = u, strain_z = dw;  // of u sin(x): u cos(x)
+    c.normal = 2 * g * (strain_z + n / (1 - 2 * n) * (strain_x + strain_z)) * f;
+    c.tangential = g * (du - w) * f;
+    return c;
+  };
+  const Real n1 = s.layer_poisson, n2 = s.bulk_poisson;
+  const Real g1 = shear(s.layer_modulus, n1), g2 = shear(s.bulk_modulus, n2);
+  Real m[6][7] = {};
+  int col = 0;
+  for (Real e : {Real(-1), Real(1)}) {
+    for (bool times_z : {false, true}) {
+      const Column top = columns(n1, e, 0, times_z, g1), low = columns(n1, e, x, times_z, g1);
+      const Real rows[6] = {top.normal, top.tangential, low.u, low.w, low.normal, low.tangential};
+      for (int r = 0; r < 6; ++r) m[r][col] = rows[r];
+      ++col;
+    }
+  }
+  for (bool times_z : {false, true}) {
+    const Column c = columns(n2, -1, x, times_z, g2);
+    const Real rows[6] = {0, 0, -c.u, -c.w, -c.normal, -c.tangential};
+    for (int r = 0; r < 6; ++r) m[r][col] = rows[r];
+    ++col;
+  }
+  m[0][6] = -1;  // normal stress under a unit pressure
+  for (int k = 0; k < 6; ++k) {
+    int best = k;
+    for (int r = k + 1; r < 6; ++r) {
+      if (std::abs(m[r][k]) > std::abs(m[best][k])) best = r;
+    }
+    std::swap(m[k], m[best]);
+    for (int r = 0; r < 6; ++r) {
+      if (r == k) continue;
+      const Real f = m[r][k] / m[k][k];
+      for (int c = k; c < 7; ++c) m[r][c] -= f * m[k][c];
+    }
+  }
+  // w at z = 0, in 1/q: the two solutions without z.
+  return static_cast<double>((m[0][6] / m[0][0] + m[2][6] / m[2][2]) / q);
+}
+
+TEST(Compliance, LayeredKernelIsThatOfTheEquationsOfElasticitySolvedDirectly) {
+  RandomStream random(1, "layers", 0);
+  for (int k = 0; k < 300; ++k) {
+    const LayeredSolid s{std::pow(10, 4 * random.uniform() - 2), 0.49 * random.uniform(), 1, 1,
+                         0.49 * random.uniform()};
+    const double q = std::pow(10, 2.7 * random.uniform() - 2);
+    const double exact = solved_layer(s, q);
+    EXPECT_NEAR(compliance(s, q), exact, 1e-10 * exact)
+        << s.layer_modulus << " " << s.layer_poisson << " " << s.bulk_poisson << " " << q;
   }
 }
 
