@@ -26,7 +26,7 @@ struct EvaluateOptions {
   DesignOptions design;
   std::string sweep, out;
   int jobs = 0;
-  bool force = false;
+  bool force = false, appearance = false;
 };
 
 // "drive.amplitude=50..200" or "texture.depth=0 nm..1 um:5": a number of the design and its values.
@@ -85,18 +85,24 @@ void check_design(const Design& design) {
   if (!problems.empty()) throw InputError(problems);
 }
 
+std::string haze_column(const Optics& look) {
+  return look.regime == "refused" ? fmt::format(" {:>8}", "refused")
+                                  : fmt::format(" {:>8.2f}", 100 * look.haze);
+}
+
 int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
-                   const Fidelity& fidelity, bool json) {
+                   const Fidelity& fidelity, bool json, bool look) {
   std::string documents;
   if (!json) {
-    std::cout << fmt::format("{:>16} {:>12} {:>18} {:>14} {:>14}\n", sweep.path, "F_off mN",
-                             "mean modulation", "variation", "worst");
+    std::cout << fmt::format("{:>16} {:>12} {:>18} {:>14} {:>14}{}\n", sweep.path, "F_off mN",
+                             "mean modulation", "variation", "worst", look ? "   haze %" : "");
   }
   for (const double value : sweep.values) {
     Design changed = design;
     set_number(changed, sweep.path, value);
     check_design(changed);
-    const Response response = evaluate(scene_of(changed), changed.texture, fidelity);
+    Response response = evaluate(scene_of(changed), changed.texture, fidelity);
+    if (look) response.appearance = appearance_of(changed);
     if (json) {
       documents +=
           fmt::format("{}{{\"value\": {}, \"response\": {}}}", documents.empty() ? "" : ",\n",
@@ -113,7 +119,7 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
                      column(Summary::Mean, "friction", 1e3), column(Summary::Mean, "modulation", 1),
                      column(Summary::Variation, "modulation", 1),
                      column(Summary::Worst, "modulation", 1))
-              << std::endl;
+              << (look ? haze_column(*response.appearance) : "") << std::endl;
   }
   if (json) {
     std::cout << fmt::format("{{\"schema\": 1, \"sweep\": \"{}\", \"runs\": [\n{}\n]}}\n",
@@ -161,10 +167,11 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   fidelity.threads = options.jobs;
   if (!options.sweep.empty()) {
     return evaluate_sweep(context, parse_sweep(options.sweep, design), design, fidelity,
-                          options.design.json);
+                          options.design.json, options.appearance);
   }
 
-  const Response response = evaluate(scene_of(design), design.texture, fidelity);
+  Response response = evaluate(scene_of(design), design.texture, fidelity);
+  if (options.appearance) response.appearance = appearance_of(design);
   if (!options.out.empty()) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
@@ -193,6 +200,8 @@ void add_evaluate(CLI::App& app, Context& context) {
       ->type_name("PATH=LOW..HIGH[:COUNT]");
   command->add_option("--out", options->out, "Also write the numbers and pictures of the fields")
       ->type_name("DIR");
+  command->add_flag("--appearance", options->appearance,
+                    "Also haze, transmittance, gloss and colour");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--force", options->force,

@@ -19,22 +19,24 @@ namespace {
 struct HazeOptions {
   DesignOptions design;
   std::string height, size;
-  double index = 0, fill = 1;
+  double index = 0, fill = 0;
 };
 
 int solve(const HazeOptions& options) {
   if (options.design.file.empty() == options.height.empty())
     throw InputError("expected a design FILE or --height FILE");
-  OpticalMedia media;
-  media.fill = options.fill;
   Optics o;
   if (options.height.empty()) {
-    const Study study = read_study(options.design.file, options.design.overrides);
-    media.index = options.index > 0 ? options.index : study.design.surface.refractive_index;
-    if (media.fill > media.index) throw InputError("--fill-index: expected 1 to the glass's index");
-    o = appearance(study.design.texture, media);
+    Design design = read_study(options.design.file, options.design.overrides).design;
+    if (options.index > 0) design.surface.refractive_index = options.index;
+    if (options.fill > 0) design.view.fill_index = options.fill;
+    if (design.view.fill_index > design.surface.refractive_index)
+      throw InputError("--fill-index: expected 1 to the glass's index");
+    o = appearance_of(design);
   } else {
+    OpticalMedia media;
     if (options.index > 0) media.index = options.index;
+    if (options.fill > 0) media.fill = options.fill;
     if (media.fill > media.index) throw InputError("--fill-index: expected 1 to the glass's index");
     const double width = options.size.empty() ? 0 : parse_si(options.size, "um");
     o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media);
@@ -90,7 +92,9 @@ void add_solve_haze(CLI::App& solve_command, Context& context) {
   command->add_option("--size", options->size, "Its width where the file does not say");
   command->add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
       ->check(CLI::Range(1.0, 5.0));
-  command->add_option("--fill-index", options->fill, "Index of what fills the texture; 1: air")
+  command
+      ->add_option("--fill-index", options->fill,
+                   "Index of what fills the texture; default: the design's, or 1, air")
       ->check(CLI::Range(1.0, 5.0));
   command->add_flag("--json", options->design.json, "One JSON object, SI units");
   command->callback(

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <mutex>
 
 #include "base/constants.h"
+#include "geometry/roughness.h"
 
 namespace papilla {
 namespace {
@@ -13,50 +16,123 @@ namespace {
 constexpr double kRandomPatch = 100e-6;  // orders 0.3 deg apart
 constexpr int kPeriodPixels = 96, kRandomPixels = 1024;
 constexpr double kTrusted = 2e-6;  // narrower features: compare with a rigorous method
+constexpr double kTrustedSlope = 20 * kPi / 180;
+
+void warn(Optics& o, const std::string& text) {
+  o.warning += (o.warning.empty() ? "" : "; ") + text;
+}
+
+Optics layer(const Texture& texture, const OpticalMedia& media, const View& view) {
+  Disorder disorder{0, view.displacement, view.diameter_scatter};
+  Features features = Features::Holes;
+  if (const auto* holes = std::get_if<HoleArray>(&texture.kind)) {
+    disorder.width = holes->diameter;
+  } else if (const auto* pillars = std::get_if<PillarArray>(&texture.kind)) {
+    disorder.width = pillars->diameter;
+    features = Features::Pillars;
+  } else if (const auto* grooves = std::get_if<Grating>(&texture.kind)) {
+    disorder.width = grooves->width;
+    features = Features::Lines;
+  }
+  return effective_medium(open_fraction(texture), texture_depth(texture), features, media,
+                          disorder);
+}
+
+Optics screen(const Texture& texture, const OpticalMedia& media) {
+  const double period = texture_period(texture);
+  const bool array = quick_appearance(texture);
+  Grid grid = patch_grid(texture, kRandomPixels, kRandomPatch);
+  if (array) {
+    grid = patch_grid(texture, 2 * kPeriodPixels, 2 * period);
+    grid.nx /= 2, grid.lx /= 2;  // one of the two periods
+  }
+  const double edge =
+      std::max(rim_radius(texture) < kInfinity ? rim_radius(texture) : 0.0, 0.1 * grid.dx());
+  const PixelEdges edges =
+      array && edge < 0.1 * period ? PixelEdges::TwoLevels : PixelEdges::Sloped;
+  const Heightmap h = generate(texture, grid);
+  Optics out = phase_screen(h, edges, media);
+  if (array) {
+    const FabricationMargins margins = fabrication_margins(texture);
+    const double feature = std::min(margins.min_hole, margins.min_wall);
+    if (feature < kTrusted) {
+      warn(out, fmt::format("features of {:.2g} um are few wavelengths: scalar theory is rough",
+                            1e6 * feature));
+    } else if (texture_depth(texture) > 0.5 * feature) {
+      warn(out, "deep against its width: a thin screen is rough");
+    }
+  } else if (const double slope = std::atan(roughness_parameters(h).sdq); slope > kTrustedSlope) {
+    warn(out, fmt::format("slopes of {:.0f} deg (root mean square) are too steep for a thin screen",
+                          slope * 180 / kPi));
+  }
+  return out;
+}
+
+Optics computed(const Texture& texture, double index, const View& view) {
+  OpticalMedia media{index, view.fill_index};
+  Optics out;
+  if (texture_depth(texture) <= 0) {
+    const Heightmap flat{{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)};
+    out = phase_screen(flat, PixelEdges::Sloped, media);
+    out.regime = "flat";
+  } else if (const std::string why = optics_refusal(texture, index); !why.empty()) {
+    out.regime = "refused";
+    out.warning = why;
+    return out;
+  } else if (quick_appearance(texture) &&
+             texture_period(texture) < visible_wavelengths().front() / index) {
+    out = layer(texture, media, view);
+  } else {
+    out = screen(texture, media);
+  }
+  if (view.fill_index > 1) {
+    warn(out, "seen with the texture filled; the finger feels it open");
+  }
+  return out;
+}
 
 }  // namespace
 
-Optics appearance(const Texture& texture, const OpticalMedia& media) {
-  const double depth = texture_depth(texture), period = texture_period(texture);
+bool quick_appearance(const Texture& texture) {
+  return std::holds_alternative<Flat>(texture.kind) ||
+         std::holds_alternative<HoleArray>(texture.kind) ||
+         std::holds_alternative<PillarArray>(texture.kind) ||
+         std::holds_alternative<Grating>(texture.kind);
+}
+
+std::string optics_refusal(const Texture& texture, double index) {
+  const double period = texture_period(texture);
   const double blue = visible_wavelengths().front(), red = visible_wavelengths().back();
-  if (depth <= 0) {
-    const Heightmap flat{{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)};
-    Optics out = phase_screen(flat, PixelEdges::Sloped, media);
-    out.regime = "flat";
-    return out;
+  if (!quick_appearance(texture) || texture_depth(texture) <= 0 || period < blue / index ||
+      period >= 2 * red) {
+    return {};
   }
-  const bool lines = std::holds_alternative<Grating>(texture.kind);
-  const bool array = lines || std::holds_alternative<HoleArray>(texture.kind) ||
-                     std::holds_alternative<PillarArray>(texture.kind);
-  const FabricationMargins margins = fabrication_margins(texture);
-  const double feature = std::min(margins.min_hole, margins.min_wall);
-  if (array && period < blue / media.index) {
-    Optics out = effective_medium(open_fraction(texture), depth, lines, media);
-    out.warning = "a perfect array scatters nothing; haze of its disorder is not modelled";
-    return out;
+  return fmt::format(
+      "period {:.3g} nm is neither below {:.0f} nm (effective medium) nor above {:.0f} nm (phase "
+      "screen)",
+      1e9 * period, 1e9 * blue / index, 1e9 * 2 * red);
+}
+
+Optics appearance(const Texture& texture, double index, const View& view) {
+  struct Answer {
+    Texture texture;
+    double index;
+    View view;
+    Optics optics;
+  };
+  static std::mutex mutex;
+  static std::deque<Answer> kept;  // newest first
+  constexpr std::size_t kKept = 32;
+  {
+    const std::lock_guard lock(mutex);
+    for (const Answer& a : kept) {
+      if (a.texture == texture && a.index == index && a.view == view) return a.optics;
+    }
   }
-  if (array && period < 2 * red) {
-    Optics out;
-    out.regime = "refused";
-    out.warning = fmt::format(
-        "period {:.3g} nm is neither below {:.0f} nm (effective medium) nor above {:.0f} nm (phase "
-        "screen)",
-        1e9 * period, 1e9 * blue / media.index, 1e9 * 2 * red);
-    return out;
-  }
-  const Grid grid = array ? patch_grid(texture, 2 * kPeriodPixels, 2 * period)
-                          : patch_grid(texture, kRandomPixels, kRandomPatch);
-  const double edge =
-      std::max(rim_radius(texture) < kInfinity ? rim_radius(texture) : 0.0, 0.1 * grid.dx());
-  Optics out = phase_screen(
-      generate(texture, grid),
-      array && edge < 0.1 * period ? PixelEdges::TwoLevels : PixelEdges::Sloped, media);
-  if (array && feature < kTrusted) {
-    out.warning = fmt::format("features of {:.2g} um are few wavelengths: scalar theory is rough",
-                              1e6 * feature);
-  } else if (array && depth > 0.5 * feature) {
-    out.warning = "deep against its width: a thin screen is rough";
-  }
+  Optics out = computed(texture, index, view);
+  const std::lock_guard lock(mutex);
+  kept.push_front({texture, index, view, out});
+  if (kept.size() > kKept) kept.pop_back();
   return out;
 }
 

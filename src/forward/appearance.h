@@ -3,11 +3,17 @@
 
 #include "geometry/texture.h"
 #include "physics/optics/optics.h"
+#include "scene/view.h"
 
 namespace papilla {
 
+// Why no theory here can say how a texture looks; empty: one can. Free.
+std::string optics_refusal(const Texture& texture, double index);
+// Whether appearance() takes about a millisecond: arrays. Else a second at most.
+bool quick_appearance(const Texture& texture);
+
 // Periods below the shortest wavelength / index: effective medium. Features of two wavelengths and
-// more: phase screen. Between: regime "refused", no numbers. A second at most.
-Optics appearance(const Texture& texture, const OpticalMedia& media);
+// more: phase screen. Between: regime "refused", no numbers. The last answers are kept.
+Optics appearance(const Texture& texture, double index, const View& view);
 
 }  // namespace papilla

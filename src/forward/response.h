@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "forward/plan.h"
+#include "physics/optics/optics.h"
 
 namespace papilla {
 
@@ -78,6 +80,7 @@ struct Response {
   PieceSeconds piece_seconds;
   int contact_solves = 0;
   double fft_pairs = 0;
+  std::optional<Optics> appearance;  // where a metric of the texture's look is asked for
 
   // Empty when every point is sound, else the first trouble.
   std::string trouble() const;

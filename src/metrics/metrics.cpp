@@ -46,6 +46,28 @@ const std::vector<Entry>& entries() {
   return list;
 }
 
+struct AppearanceEntry {
+  MetricInfo info;
+  double Optics::*member;
+};
+
+const std::vector<AppearanceEntry>& appearance_entries() {
+  static const std::vector<AppearanceEntry> list{
+      {{"haze", "", "share of the transmitted light beyond 2.5 deg", Better::Lower, false, true},
+       &Optics::haze},
+      {{"transmittance", "", "undeviated share of the light on the plate", Better::Higher, false,
+        true},
+       &Optics::transmittance},
+      {{"gloss", "", "specular reflection at 60 deg over that of flat glass", Better::Higher, false,
+        true},
+       &Optics::gloss},
+      {{"colour_shift", "", "CIE 1976 u'v' distance of the undeviated light from the source",
+        Better::Lower, false, true},
+       &Optics::colour_shift},
+  };
+  return list;
+}
+
 constexpr std::array<std::pair<const char*, Summary>, 8> kSummaries{
     {{"mean", Summary::Mean},
      {"variation", Summary::Variation},
@@ -72,6 +94,7 @@ const std::vector<MetricInfo>& metric_list() {
     for (const Entry& entry : entries()) infos.push_back(entry.info);
     infos.push_back({"compliance", "m/Pa", "indentation since first touch over patch pressure",
                      Better::Neither, false});
+    for (const AppearanceEntry& entry : appearance_entries()) infos.push_back(entry.info);
     return infos;
   }();
   return list;
@@ -95,6 +118,15 @@ std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& 
 std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
                                       const Response& response) {
   const MetricInfo* info = find_metric(metric);
+  if (info && info->appearance) {
+    if (!response.appearance || response.appearance->regime == "refused") return std::nullopt;
+    // One look at all humidities: no spread.
+    if (summary == Summary::Variation || summary == Summary::Range || summary == Summary::Std)
+      return SummaryValue{};
+    for (const AppearanceEntry& entry : appearance_entries()) {
+      if (entry.info.name == metric) return SummaryValue{(*response.appearance).*entry.member, 0};
+    }
+  }
   if (!info || response.points.empty() || (info->needs_drive && !response.driven))
     return std::nullopt;
   double total = 0, mean = 0;

@@ -16,6 +16,7 @@ struct MetricInfo {
   std::string name, unit, doc;
   Better better = Better::Neither;
   bool needs_drive = false;
+  bool appearance = false;  // how the texture looks: from Response::appearance, at no humidity
 };
 
 // A quantity at each humidity: modulation, friction, friction_on, adhesion, ...

@@ -30,6 +30,8 @@ std::string AccuracySettings::level_name() const {
 
 void fields(FieldVisitor& v, AccuracySettings& s) {
   v.choice({"level", "grid, samples and tolerances by name"}, accuracy_level_names(), s.level);
+  v.integer({"grid", "pixels along the patch, for features finer than eight pixels; 0: by level"},
+            0, 4096, s.grid);
   v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
            s.target);
 }
@@ -41,6 +43,7 @@ void fields(FieldVisitor& v, Design& s) {
   v.text({"title", "a line for reports"}, s.title);
   v.section({"texture", "the shape of the surface"}, s.texture);
   v.section({"surface", "the finish of the surface"}, s.surface);
+  v.section({"view", "how the texture is looked at (optics only)"}, s.view);
   v.section({"finger", "the finger that touches it"}, s.finger);
   v.section({"environment", "the air"}, s.environment);
   v.section({"drive", "the voltage"}, s.drive);
@@ -77,6 +80,10 @@ const std::vector<ConstraintKind>& constraint_kinds() {
       {"aspect_ratio", "", false, "largest depth / smallest width of a hole"},
       {"oxide_breakdown_margin", "", true,
        "breakdown field of the dielectric / largest field in it"},
+      {"haze", "%", false, "share of the transmitted light beyond 2.5 deg"},
+      {"transmittance", "%", true, "undeviated share of the light on the plate"},
+      {"gloss", "%", true, "specular reflection at 60 deg over that of flat glass"},
+      {"colour_shift", "", false, "CIE 1976 u'v' distance of the undeviated light"},
   };
   return kinds;
 }
@@ -146,6 +153,9 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   if (drive.driven() && design.surface.equivalent_thickness() <= 0) {
     problem("surface.dielectric", "a driven surface needs a dielectric layer thicker than 0");
   }
+  if (design.view.fill_index > design.surface.refractive_index) {
+    problem("view.fill_index", "expected at most surface.refractive_index");
+  }
   return out;
 }
 
@@ -153,7 +163,15 @@ Scene scene_of(const Design& design) {
   return {design.surface, design.finger, design.environment, design.drive, design.model};
 }
 
-Fidelity fidelity_of(const Design& design) { return fidelity_level(design.accuracy.level_name()); }
+Fidelity fidelity_of(const Design& design) {
+  Fidelity out = fidelity_level(design.accuracy.level_name());
+  if (design.accuracy.grid > 0) out.grid = design.accuracy.grid;
+  return out;
+}
+
+Optics appearance_of(const Design& design) {
+  return appearance(design.texture, design.surface.refractive_index, design.view);
+}
 
 std::vector<std::string> calibration_mismatch(const Design& design) {
   const Node now = to_table(design.model), fitted = to_table(design.finger.calibrated_for);

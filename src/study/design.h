@@ -7,11 +7,13 @@
 
 #include "config/node.h"
 #include "config/reader.h"
+#include "forward/appearance.h"
 #include "forward/fidelity.h"
 #include "geometry/texture.h"
 #include "scene/environment.h"
 #include "scene/finger.h"
 #include "scene/scene.h"
+#include "scene/view.h"
 
 namespace papilla {
 
@@ -20,6 +22,7 @@ const std::vector<std::string>& accuracy_level_names();
 
 struct AccuracySettings {
   AccuracyLevel level = AccuracyLevel::Design;
+  int grid = 0;       // pixels along the patch; 0: by level
   double target = 0;  // wanted standard error of the modulation, as a share of it; 0: by level
 
   std::string level_name() const;
@@ -32,6 +35,7 @@ struct Design {
   std::string title;
   Texture texture;
   Surface surface;
+  View view;
   Finger finger;
   Environment environment;
   Drive drive;
@@ -45,6 +49,7 @@ void fields(FieldVisitor& v, Design& s);
 // What the forward model takes.
 Scene scene_of(const Design& design);
 Fidelity fidelity_of(const Design& design);
+Optics appearance_of(const Design& design);
 
 // Model options that differ from those the finger was fitted with, one line each. They shift the
 // modulation by tens of percent: running so needs the user's word.

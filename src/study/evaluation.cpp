@@ -106,6 +106,14 @@ std::string response_json(const Response& response, bool with_time) {
            {"points", points},
            {"summary", summary_json(response)},
            {"plan", plan_json(response.plan)}};
+  if (const auto& look = response.appearance) {
+    const bool refused = look->regime == "refused";
+    const auto value = [&](double v) { return refused ? Json(nullptr) : number(v); };
+    out["appearance"] = {
+        {"regime", look->regime},      {"warning", look->warning},
+        {"haze", value(look->haze)},   {"transmittance", value(look->transmittance)},
+        {"gloss", value(look->gloss)}, {"colour_shift", value(look->colour_shift)}};
+  }
   if (with_time) {
     out["seconds"] = response.seconds;
     const PieceSeconds& pieces = response.piece_seconds;
@@ -173,6 +181,16 @@ std::string response_table(const Response& response) {
         100 * area, 100 * share, 1e-6 * oxide);
   } else {
     out += "undriven (0 V): no modulation\n";
+  }
+  if (const auto& look = response.appearance) {
+    if (look->regime == "refused") {
+      out += "appearance: " + look->warning + "\n";
+    } else {
+      out += fmt::format(
+          "haze {:.2f} %  transmittance {:.1f} %  gloss {:.1f} %  colour shift {:.4f}  ({}{}{})\n",
+          100 * look->haze, 100 * look->transmittance, 100 * look->gloss, look->colour_shift,
+          look->regime, look->warning.empty() ? "" : ": ", look->warning);
+    }
   }
   if (const std::string trouble = response.trouble(); !trouble.empty()) {
     out += "note: " + trouble + "\n";

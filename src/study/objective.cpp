@@ -26,13 +26,32 @@ double relative_violation(double value, double limit, bool at_least) {
   return value <= 0 ? 10 : std::clamp(limit / value - 1, -1.0, 10.0);
 }
 
-double margin_of(const std::string& name, const FabricationMargins& m) {
+// What a constraint of shape or look limits.
+double limited_value(const std::string& name, const Design& d) {
+  if (name == "haze") return appearance_of(d).haze;
+  if (name == "transmittance") return appearance_of(d).transmittance;
+  if (name == "gloss") return appearance_of(d).gloss;
+  if (name == "colour_shift") return appearance_of(d).colour_shift;
+  const FabricationMargins m = fabrication_margins(d.texture);
   if (name == "min_hole") return m.min_hole;
   if (name == "min_wall") return m.min_wall;
   return m.aspect_ratio;
 }
 
-bool needs_evaluation(const Constraint& c) { return c.name == "oxide_breakdown_margin"; }
+bool of_appearance(const Constraint& c) {
+  const MetricInfo* info = find_metric(c.name);
+  return info && info->appearance;
+}
+
+// Looks of arrays cost about a millisecond and steer the search itself; of others they are known
+// with the evaluation.
+bool needs_evaluation(const Constraint& c, const Texture& texture) {
+  return c.name == "oxide_breakdown_margin" || (of_appearance(c) && !quick_appearance(texture));
+}
+
+std::string look_refusal(const Design& d) {
+  return optics_refusal(d.texture, d.surface.refractive_index);
+}
 
 double parse_number(const std::string& text, const std::string& whole) {
   double value = 0;
@@ -179,11 +198,13 @@ std::vector<Point> StudyProblem::starts() const {
 std::vector<double> StudyProblem::geometry(const Point& unit) const {
   const Design d = design(unit);
   std::vector<double> out{design_problems(d).empty() ? -1.0 : 1.0};
-  const FabricationMargins margins = fabrication_margins(d.texture);
+  if (out.front() <= 0 && needs_appearance() && !look_refusal(d).empty()) out.front() = 1;
   for (const Constraint& c : study_.constraints) {
-    if (!needs_evaluation(c)) {
-      out.push_back(relative_violation(margin_of(c.name, margins), c.limit, c.at_least));
-    }
+    if (needs_evaluation(c, d.texture)) continue;
+    // A shape that cannot be judged has no numbers to compare.
+    out.push_back(out.front() > 0 && of_appearance(c)
+                      ? 1.0
+                      : relative_violation(limited_value(c.name, d), c.limit, c.at_least));
   }
   return out;
 }
@@ -192,23 +213,25 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
   const Design d = design(unit);
   const std::vector<DesignProblem> wrong = design_problems(d);
   if (!wrong.empty()) return wrong.front().path + ": " + wrong.front().message;
-  const FabricationMargins margins = fabrication_margins(d.texture);
+  if (needs_appearance()) {
+    if (const std::string why = look_refusal(d); !why.empty()) return why;
+  }
   for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c)) continue;
-    const double value = margin_of(c.name, margins);
+    if (needs_evaluation(c, d.texture)) continue;
+    const double value = limited_value(c.name, d);
     if (relative_violation(value, c.limit, c.at_least) <= 0) continue;
     const std::string& u = std::find_if(constraint_kinds().begin(), constraint_kinds().end(),
                                         [&](const ConstraintKind& k) { return k.name == c.name; })
                                ->unit;
-    const double scale = u == "um" ? 1e6 : 1;
+    const double scale = u == "um" ? 1e6 : u == "%" ? 100 : 1;
     return fmt::format("{} {:.3g} {} is {} {:.3g} {}", c.name, value * scale, u,
                        c.at_least ? "below" : "above", c.limit * scale, u);
   }
   return {};
 }
 
-// info of a task: a summary and its error an objective, worst modulation, oxide margin, then the
-// metric of each objective at each humidity.
+// info of a task: a summary and its error an objective, worst modulation, oxide margin, the metric
+// of each objective at each humidity, then haze, transmittance, gloss and colour where asked for.
 Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const Fidelity& fidelity,
                                     bool report) const {
   const StudyTask& task = tasks_.at(index);
@@ -219,8 +242,14 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
     out.reason = wrong.front().path + ": " + wrong.front().message;
     return out;
   }
-  const Response response =
-      evaluate({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture, fidelity);
+  Response response = evaluate(scene_of(d), d.texture, fidelity);
+  if (needs_appearance()) {
+    response.appearance = appearance_of(d);
+    if (response.appearance->regime == "refused") {
+      out.reason = response.appearance->warning;
+      return out;
+    }
+  }
   for (const StudyObjective& o : objectives_) {
     const auto value = summarise(o.expression.summary, o.expression.metric, response);
     if (!value || !std::isfinite(value->value)) {
@@ -241,9 +270,13 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
   for (const StudyObjective& o : objectives_) {
     for (const ResponsePoint& p : response.points) {
       const auto value = metric_at(o.expression.metric, p);
-      out.info.push_back(value ? value->value : 0);
+      const auto same = summarise(Summary::Mean, o.expression.metric, response);
+      out.info.push_back(value ? value->value : same ? same->value : 0);
     }
   }
+  if (const auto& look = response.appearance)
+    for (const double v : {look->haze, look->transmittance, look->gloss, look->colour_shift})
+      out.info.push_back(v);
   out.ok = true;
   if (report) out.reason = response_json(response, false);
   return out;
@@ -272,7 +305,8 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
     double error = 0, total = 0;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       const std::vector<double>& info = tasks[t].info;
-      PAPILLA_CHECK(info.size() == 2 * m + 2 + m * rh.size(), "numbers of a task");
+      PAPILLA_CHECK(info.size() == 2 * m + 2 + m * rh.size() + (needs_appearance() ? 4 : 0),
+                    "numbers of a task");
       error += tasks_[t].weight * info[2 * k + 1];  // tasks share their skins: errors add linearly
       total += tasks_[t].weight;
       if (!points) {
@@ -295,13 +329,25 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
     score.worst = std::min(score.worst, tasks[t].info[2 * m]);
     score.oxide_margin = std::min(score.oxide_margin, tasks[t].info[2 * m + 1]);
   }
+  if (needs_appearance()) {  // the same for every finger; a scenario may look otherwise: the worst
+    for (std::size_t t = 0; t < tasks.size(); ++t) {
+      if (tasks_[t].weight <= 0) continue;
+      const double* v = &tasks[t].info[2 * m + 2 + m * rh.size()];
+      if (!score.appearance || v[0] > score.appearance->haze) {
+        score.appearance.emplace();
+        score.appearance->haze = v[0], score.appearance->transmittance = v[1];
+        score.appearance->gloss = v[2], score.appearance->colour_shift = v[3];
+      }
+    }
+  }
   score.ok = true;
   return score;
 }
 
 std::size_t StudyProblem::constraints() const {
-  return static_cast<std::size_t>(
-      std::count_if(study_.constraints.begin(), study_.constraints.end(), needs_evaluation));
+  return static_cast<std::size_t>(std::count_if(
+      study_.constraints.begin(), study_.constraints.end(),
+      [&](const Constraint& c) { return needs_evaluation(c, study_.design.texture); }));
 }
 
 Outcome StudyProblem::outcome(const Score& score) const {
@@ -314,12 +360,24 @@ Outcome StudyProblem::outcome(const Score& score) const {
   for (std::size_t k = 0; k < objectives_.size(); ++k)
     out.objectives.push_back(objectives_[k].maximise ? -score.values[k] : score.values[k]);
   for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c))
-      out.constraints.push_back(relative_violation(score.oxide_margin, c.limit, c.at_least));
+    if (!needs_evaluation(c, study_.design.texture)) continue;
+    const double value = c.name == "haze"            ? score.appearance->haze
+                         : c.name == "transmittance" ? score.appearance->transmittance
+                         : c.name == "gloss"         ? score.appearance->gloss
+                         : c.name == "colour_shift"  ? score.appearance->colour_shift
+                                                     : score.oxide_margin;
+    out.constraints.push_back(relative_violation(value, c.limit, c.at_least));
   }
   out.info = score.errors;
   out.info.push_back(score.worst);
   return out;
+}
+
+bool StudyProblem::needs_appearance() const {
+  return std::any_of(study_.constraints.begin(), study_.constraints.end(), of_appearance) ||
+         std::any_of(objectives_.begin(), objectives_.end(), [](const StudyObjective& o) {
+           return find_metric(o.expression.metric)->appearance;
+         });
 }
 
 bool StudyProblem::feasible(const Score& score, const Point& unit) const {

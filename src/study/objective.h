@@ -2,6 +2,7 @@
 // tasks, metrics over humidity to objectives and constraints.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ struct Score {
   std::vector<double> values, errors;  // one an objective; one standard error
   double worst = 0;                    // lowest modulation over tasks and humidities; 0: undriven
   double oxide_margin = 0;             // smallest; infinite without a field
+  std::optional<Optics> appearance;    // where the study asks for it
   std::vector<std::string> reports;    // JSON of the response of each task, where asked for
 };
 
@@ -81,6 +83,8 @@ class StudyProblem {
 
   // Everything that decides the result, for the journal's key.
   std::string identity() const;
+
+  bool needs_appearance() const;  // an objective or a constraint is about the look
 
  private:
   const Study& study_;

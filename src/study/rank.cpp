@@ -33,6 +33,11 @@ class Candidate {
     scene_.finger.state = state;
     fidelity_.threads = options.threads;
     fidelity_.skins = options.batch;
+    if (std::any_of(options.criteria.begin(), options.criteria.end(), [](const Criterion& c) {
+          return find_metric(c.expression.metric)->appearance;
+        })) {
+      look_ = appearance_of(design);
+    }
   }
 
   int skins() const { return patches_.skins(); }
@@ -61,14 +66,17 @@ class Candidate {
 
  private:
   std::vector<double> values(int without) const {
-    const Response response = respond(scene_, fidelity_, patches_, without);
+    Response response = respond(scene_, fidelity_, patches_, without);
+    response.appearance = look_;
     std::vector<double> out;
     for (const Criterion& c : options_.criteria) {
       const auto v = summarise(c.expression.summary, c.expression.metric, response);
       if (!v || !std::isfinite(v->value)) {
         throw InputError(fmt::format("{} is not defined for \"{}\"{}", metric_text(c.expression),
                                      design_.title,
-                                     response.driven ? "" : ": it is not driven (0 V)"));
+                                     look_ && look_->regime == "refused" ? ": " + look_->warning
+                                     : response.driven                   ? ""
+                                                       : ": it is not driven (0 V)"));
       }
       out.push_back(v->value);
     }
@@ -79,6 +87,7 @@ class Candidate {
   const RankOptions& options_;
   Scene scene_;
   Fidelity fidelity_;
+  std::optional<Optics> look_;  // where a criterion asks for it
   PatchSet patches_;
   std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
 };

@@ -22,6 +22,7 @@ struct Row {
 const char* about(const std::string& section) {
   if (section == "texture") return "The shape of the surface: `type` chooses the kind.";
   if (section == "surface") return "The finish: wetting, dielectric layers, optics, stiffness.";
+  if (section == "view") return "How the texture is looked at: haze, transmittance, gloss, colour.";
   if (section == "finger") return "The finger; usually `base = \"../fingers/reference.toml\"`.";
   if (section == "environment") return "The humidities at which a design is judged.";
   if (section == "drive") return "The electrical drive; without an amplitude nothing is driven.";
@@ -113,8 +114,8 @@ std::string metrics_reference(ReferenceFormat format) {
 }  // namespace
 
 std::vector<std::string> reference_sections() {
-  return {"texture",  "surface", "finger",  "environment", "drive",  "model",
-          "accuracy", "study",   "metrics", "persson",     "circuit"};
+  return {"texture", "surface",  "view",  "finger",  "environment", "drive",
+          "model",   "accuracy", "study", "metrics", "persson",     "circuit"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {
@@ -123,6 +124,7 @@ std::string reference_section(const std::string& section, ReferenceFormat format
                               : fmt::format("{}: {}\n\n", section, about(section));
   if (section == "texture") return top + texture_reference(format);
   if (section == "surface") return top + render(field_rows(Surface{}, section), format);
+  if (section == "view") return top + render(field_rows(View{}, section), format);
   if (section == "finger") return top + render(field_rows(Finger{}, section), format);
   if (section == "environment") return top + render(field_rows(Environment{}, section), format);
   if (section == "drive") return top + render(field_rows(Drive{}, section), format);

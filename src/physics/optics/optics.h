@@ -40,15 +40,26 @@ struct Optics {
 // pixels a period, where a mean height errs by 1 %).
 enum class PixelEdges { Sloped, TwoLevels };
 
+// What a perfect array lacks: each feature displaced at random, each diameter (or groove width)
+// another.
+struct Disorder {
+  double width = 0;         // mean diameter or groove width [m]; 0: none is asked for
+  double displacement = 0;  // standard deviation of each coordinate [m]
+  double scatter = 0;       // standard deviation / mean of the width
+};
+
 // Thin phase screen of one period (or a patch of 100 um and more for random textures).
 // Eq. optics.1-4. Cost: pixels x wavelengths x orders inside the cone.
 Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& media,
                     const std::vector<double>& wavelengths = visible_wavelengths());
 
 // A layer finer than the wavelength: a share `open` of it is the fill, the rest glass. Eq.
-// optics.5. lines: grooves (mean over both polarisations), else round holes or pillars. Haze is
-// zero: a perfect array; disorder is not modelled.
-Optics effective_medium(double open, double depth, bool lines, const OpticalMedia& media,
+// optics.5. Lines: grooves (mean over both polarisations), else round holes or pillars: a share
+// `open` or 1 - `open`. A perfect array scatters nothing; haze comes from disorder, Eq. optics.7,
+// independent from feature to feature, single scattering.
+enum class Features { Holes, Pillars, Lines };
+Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,
+                        const Disorder& disorder = {},
                         const std::vector<double>& wavelengths = visible_wavelengths());
 
 }  // namespace papilla
