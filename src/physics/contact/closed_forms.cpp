@@ -27,6 +27,21 @@ double Westergaard::pressure(double p, double x) const {
 
 double EggBox::full_pressure() const { return std::sqrt(2.0) * kPi * modulus * amplitude / period; }
 
+namespace {
+
+// Linear between the rows (x, y) of a table, x increasing, x within it.
+template <std::size_t N>
+double between(const double (&table)[N][2], double x) {
+  const auto* right =
+      std::upper_bound(table + 1, table + N - 1, x,
+                       [](double value, const double(&row)[2]) { return value < row[0]; });
+  const auto* left = right - 1;
+  const double t = (x - (*left)[0]) / ((*right)[0] - (*left)[0]);
+  return (*left)[1] + t * ((*right)[1] - (*left)[1]);
+}
+
+}  // namespace
+
 double EggBox::area(double p) const {
   // p/p* and share in contact.
   static constexpr double kTable[][2] = {
@@ -42,11 +57,24 @@ double EggBox::area(double p) const {
     const double excess = kTable[0][1] / hertz(kTable[0][0]) - 1;
     return hertz(share) * (1 + excess * share / kTable[0][0]);
   }
-  const auto* right = std::upper_bound(std::begin(kTable), std::end(kTable), share,
-                                       [](double s, const double(&row)[2]) { return s < row[0]; });
-  const auto* left = right - 1;
-  const double t = (share - (*left)[0]) / ((*right)[0] - (*left)[0]);
-  return (*left)[1] + t * ((*right)[1] - (*left)[1]);
+  return between(kTable, share);
+}
+
+double EggBox::peak_pressure(double p) const {
+  // (p/p*)^(1/3), in which Hertz is a line through 0, and the pressure at the crests over p*.
+  static const double kTable[][2] = {{0, 0},
+                                     {std::cbrt(.005), .335},
+                                     {std::cbrt(.01), .421},
+                                     {std::cbrt(.05), .709},
+                                     {std::cbrt(.1), .884},
+                                     {std::cbrt(.2), 1.096},
+                                     {std::cbrt(.5), 1.479},
+                                     {std::cbrt(.8), 1.798},
+                                     {1, 2}};
+  const double share = p / full_pressure();
+  if (share <= 0) return 0;
+  if (share >= 1) return p + full_pressure();
+  return full_pressure() * between(kTable, std::cbrt(share));
 }
 
 double Hertz::contact_radius(double force) const {

@@ -20,6 +20,7 @@ struct EggBox {
   // Share in contact: table of Johnson, Greenwood and Higginson's problem computed at 512^2 (1e-3),
   // between its first entry and zero the Hertz limit.
   double area(double p) const;
+  double peak_pressure(double p) const;  // at the crests, from the same solutions (0.5 %)
 };
 
 // Paraboloid of radius R under a force. Eq. contact.13
