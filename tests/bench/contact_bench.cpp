@@ -1,7 +1,8 @@
 // Cost of contact solves against their certificate: transform pairs and pair-times (processor time
 // over the time of one transform pair of the same grid), beside a plain restarted Polonsky-Keer
 // solver.
-//     contact_bench [largest grid of the finger, default 512] > results/bench/contact.csv
+//     contact_bench [all|finger|rough|sequence [smallest [largest grid]]] >
+//     results/bench/contact.csv
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -254,9 +255,13 @@ void sequence(int n) {
 
 int main(int argc, char** argv) {
   papilla::keep_freed_memory();
-  const int largest = argc > 1 ? std::atoi(argv[1]) : 512;
+  const std::string part = argc > 1 ? argv[1] : "all";
+  const int smallest = argc > 2 ? std::atoi(argv[2]) : 256;
+  const int largest = argc > 3 ? std::atoi(argv[3]) : 512;
   fmt::print("scene,n,method,tolerance,contact,pairs,pair_times,seconds,certificate\n");
-  for (int n = 128; n <= largest; n *= 2) papilla::finger_scenes(n);
-  for (int n = 256; n <= std::min(largest, 512); n *= 2) papilla::dense_scenes(n);
-  for (int n = 256; n <= std::min(largest, 512); n *= 2) papilla::sequence(n);
+  for (int n = smallest; n <= largest; n *= 2) {
+    if (part == "finger" || part == "all") papilla::finger_scenes(n);
+    if (part == "rough" || part == "all") papilla::dense_scenes(n);
+    if (part == "sequence" || part == "all") papilla::sequence(n);
+  }
 }
