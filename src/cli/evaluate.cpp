@@ -13,7 +13,7 @@
 #include "cli/commands.h"
 #include "config/describe.h"
 #include "config/writer.h"
-#include "forward/forward.h"
+#include "forward/voltage.h"
 #include "geometry/io/files.h"
 #include "metrics/metrics.h"
 #include "study/design.h"
@@ -26,6 +26,7 @@ struct EvaluateOptions {
   DesignOptions design;
   std::string sweep, out;
   int jobs = 0;
+  std::vector<double> voltage_for;  // modulations
   bool force = false, appearance = false;
 };
 
@@ -172,6 +173,8 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
 
   Response response = evaluate(scene_of(design), design.texture, fidelity);
   if (options.appearance) response.appearance = appearance_of(design);
+  if (!options.voltage_for.empty())
+    add_voltages(response, scene_of(design), design.texture, fidelity, options.voltage_for);
   if (!options.out.empty()) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
@@ -198,6 +201,11 @@ void add_evaluate(CLI::App& app, Context& context) {
   add_design_options(*command, options->design);
   command->add_option("--sweep", options->sweep, "Evaluate over a number of the design")
       ->type_name("PATH=LOW..HIGH[:COUNT]");
+  command
+      ->add_option("--voltage-for", options->voltage_for,
+                   "Also the amplitude at which the modulation reaches this value")
+      ->type_name("MODULATION")
+      ->check(CLI::Range(1e-3, 1e6));
   command->add_option("--out", options->out, "Also write the numbers and pictures of the fields")
       ->type_name("DIR");
   command->add_flag("--appearance", options->appearance,

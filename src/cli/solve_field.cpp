@@ -21,7 +21,7 @@ namespace {
 
 struct FieldCommand {
   std::string gap, texture, size, voltage, thickness = "500 nm", skin_layer = "0 nm";
-  std::string strength = "1 GV/m", method = "local", out_pressure;
+  std::string strength = "1 GV/m", edge_radius = "0 nm", method = "local", out_pressure;
   double permittivity = 3.9;
   bool dc = false, json = false;
 };
@@ -52,7 +52,8 @@ int solve(const FieldCommand& c) {
   p.v_rms = c.dc ? p.v_peak : p.v_peak / std::sqrt(2.0);
   p.dielectric_thickness = not_negative(c.thickness, "um", "--thickness");
   p.dielectric = p.dielectric_thickness / c.permittivity;
-  p.oxide_strength = not_negative(c.strength, "MV/m", "--strength");
+  const double strength = not_negative(c.strength, "MV/m", "--strength");
+  p.edge_radius = not_negative(c.edge_radius, "nm", "--edge-radius");
   p.skin_layer = not_negative(c.skin_layer, "nm", "--skin-layer");
   const Gap given{gap.grid, gap.z};
   Wetting dry;
@@ -71,6 +72,7 @@ int solve(const FieldCommand& c) {
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double margin = s.peak_oxide_field > 0 ? strength / s.peak_oxide_field : 0;
   if (!c.out_pressure.empty() && s.ok) write_npy(c.out_pressure, {gap.grid, s.traction.value});
   if (c.json) {
     nlohmann::ordered_json out{{"schema", 1},
@@ -81,6 +83,8 @@ int solve(const FieldCommand& c) {
                                {"force", s.mean_pressure * gap.grid.area()},
                                {"peak_air_field", s.peak_air_field},
                                {"peak_oxide_field", s.peak_oxide_field},
+                               {"oxide_margin", margin > 0 ? nlohmann::ordered_json(margin)
+                                                           : nlohmann::ordered_json(nullptr)},
                                {"over_limit_area", s.over_limit_area},
                                {"over_limit_share", s.over_limit_share},
                                {"seconds", seconds}};
@@ -92,12 +96,14 @@ int solve(const FieldCommand& c) {
   } else {
     std::cout << fmt::format(
         "{}: {}{}, {:.3g} s\nmean pressure     {:.6g} kPa\nlargest field     {:.4g} MV/m in air, "
-        "{:.4g} MV/m in the dielectric\nair beyond limit  {:.1f} % of the area, {:.1f} % of the "
+        "{:.4g} MV/m in the dielectric ({:.3g} of its strength)\nair beyond limit  {:.1f} % of the "
+        "area, {:.1f} % of the "
         "pull\n",
         c.method, s.ok ? "converged" : s.reason,
         full ? fmt::format(" to {:.1g} in {} iterations", s.residual, s.iterations) : "", seconds,
         1e-3 * s.mean_pressure, 1e-6 * s.peak_air_field, 1e-6 * s.peak_oxide_field,
-        100 * s.over_limit_area, 100 * s.over_limit_share);
+        strength > 0 ? s.peak_oxide_field / strength : 0.0, 100 * s.over_limit_area,
+        100 * s.over_limit_share);
   }
   return s.ok ? kSuccess : kWorkFailed;
 }
@@ -119,6 +125,10 @@ void add_solve_field(CLI::App& solve_command, Context& context) {
       ->check(CLI::Range(1.0, 1e5))
       ->capture_default_str();
   command->add_option("--strength", c->strength, "Its breakdown field")->capture_default_str();
+  command
+      ->add_option("--edge-radius", c->edge_radius,
+                   "Of the electrode's edges below walls; 0: not stated")
+      ->capture_default_str();
   command->add_option("--skin-layer", c->skin_layer, "d/eps of the stratum corneum in series")
       ->capture_default_str();
   command->add_option("--method", c->method, "local, or full: the 3-D potential")

@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
+#include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/electrowetting.h"
 #include "physics/electrostatics/full_field.h"
 
@@ -78,78 +79,80 @@ class PatchSolver {
                       ? 1
                       : 1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
 
-  PatchResult run(ContactSolution& start, PatchFields* fields) {
+  RestPatch rest(const ContactSolution& start) const {
     const Scene& scene = *problem_.scene;
     const Grid& grid = plan_.grid;
-    PatchResult out;
+    RestPatch rest;
+    PatchResult& out = rest.result;
     out.load = problem_.pressure * grid.area();
+    rest.water.grid = grid;
 
-    ContactSolution dry = contact({}, start.pressure.empty() ? nullptr : &start, out);
-    if (dry.gap.empty()) {  // no state to go on from: the status says why
-      start = {};
-      return out;
-    }
-    out.area_dry = area(dry);
-    const Gap gap{grid, dry.gap};
-    describe_gap(dry, out);
+    rest.dry = contact({}, start.pressure.empty() ? nullptr : &start, out);
+    if (rest.dry.gap.empty()) return rest;
+    out.area_dry = area(rest.dry);
+    const Gap gap{grid, rest.dry.gap};
+    describe_gap(rest.dry, out);
 
-    const FieldProblem field = field_problem(scene, problem_.relative_humidity);
-    const WaterProperties rest = water_properties(scene, scene.surface.contact_angle);
-    const WaterProperties driven =
-        water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
+    const WaterProperties water = water_properties(scene, scene.surface.contact_angle);
     out.volume = plan_.water
                      ? scene.finger.water.volume_per_area(problem_.relative_humidity) * grid.area()
                      : 0;
-
-    Wetting off, on;
-    off.grid = on.grid = grid;
     if (out.volume > 0) {
-      off = settle_water(problem_, gap, out.volume, rest, fidelity_.seed, out);
-      note_water(off, out);
+      rest.water = settle_water(problem_, gap, out.volume, water, fidelity_.seed, out);
+      note_water(rest.water, out);
     }
-    if (capillary_off_counts(scene)) out.capillary_off = off.capillary_force;
+    if (capillary_off_counts(scene)) out.capillary_off = rest.water.capillary_force;
     out.capillary_on = out.capillary_off;  // until a field changes the angle
 
+    // Eq. coupling.1: capillary tractions off; the same water and the field on.
+    out.area_off = out.area_dry;
+    if (plan_.traction_solves) {
+      if (out.capillary_off != 0) {
+        rest.off = contact(capillary_traction(rest.water, gap, water).value, &rest.dry, out);
+        out.area_off = area(rest.off);
+      } else {
+        rest.off = rest.dry;
+      }
+    }
+    out.area_on = out.area_off;
+    return rest;
+  }
+
+  PatchResult drive(const RestPatch& rest, PatchFields* fields) const {
+    const Scene& scene = *problem_.scene;
+    PatchResult out = rest.result;
+    if (rest.dry.gap.empty()) return out;
+    Wetting on;
+    on.grid = plan_.grid;
     FieldSolution pull;
-    pull.traction = {grid, {}};
+    pull.traction = {plan_.grid, {}};
+    ContactSolution on_state;
     if (plan_.field) {
+      const Gap gap{plan_.grid, rest.dry.gap};
+      const FieldProblem field = field_problem(scene, problem_.relative_humidity);
+      const WaterProperties driven =
+          water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
       if (out.volume > 0) {
-        on = rewet_timed(off, gap, driven, out);
+        on = rewet_timed(rest.water, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
       pull = solve_field(problem_, gap, on, field, out);
       note_field(pull, out);
-    }
-
-    // Eq. coupling.1: capillary tractions off; the same water and the field on.
-    out.area_off = out.area_on = out.area_dry;
-    ContactSolution off_state, on_state;
-    if (plan_.traction_solves) {
-      off_state = dry;
-      if (out.capillary_off != 0) {
-        off_state = contact(capillary_traction(off, gap, rest).value, &dry, out);
-        out.area_off = area(off_state);
-      }
-      on_state = off_state;
-      out.area_on = out.area_off;
-    }
-    if (plan_.field) {
       if (scene.model.coupling == Coupling::SelfConsistent) {
-        on_state = iterate(dry, gap, off, driven, field, pull, on, out);
+        on_state = iterate(rest.dry, gap, rest.water, driven, field, pull, on, out);
         if (plan_.traction_solves) out.area_on = area(on_state);
       } else if (plan_.traction_solves) {
-        on_state = contact(total_traction(on, gap, driven, pull.traction), &off_state, out);
+        on_state = contact(total_traction(on, gap, driven, pull.traction), &rest.off, out);
         out.area_on = area(on_state);
       }
     }
     if (fields) {
-      fields->off = plan_.traction_solves ? off_state : dry;
-      fields->on = plan_.field && !on_state.pressure.empty() ? on_state : fields->off;
-      fields->wetting_off = std::move(off);
+      fields->off = plan_.traction_solves ? rest.off : rest.dry;
+      fields->on = on_state.pressure.empty() ? fields->off : on_state;
+      fields->wetting_off = rest.water;
       fields->wetting_on = std::move(on);
       fields->pull = std::move(pull.traction);
     }
-    start = std::move(dry);
     return out;
   }
 
@@ -194,6 +197,8 @@ class PatchSolver {
     std::vector<double> traction = total_traction(on, dry_gap, driven, pull.traction);
     ContactSolution state = dry;
     double previous = out.pull;
+    const double first = out.pull;
+    double change = 0;
     for (int pass = 0; pass < fidelity_.coupling_passes; ++pass) {
       state = contact(traction, &state, out);
       if (state.gap.empty()) return dry;
@@ -204,7 +209,7 @@ class PatchSolver {
       }
       pull = solve_field(problem_, gap, on, field, out);
       note_field(pull, out);
-      const double change = std::abs(out.pull - previous) / std::max(out.pull, 1e-30);
+      change = (out.pull - previous) / std::max(out.pull, 1e-30);
       const std::vector<double> target = total_traction(on, gap, driven, pull.traction);
       for (std::size_t i = 0; i < traction.size(); ++i) {
         traction[i] = pass == 0 ? target[i] : 0.5 * (traction[i] + target[i]);
@@ -213,10 +218,12 @@ class PatchSolver {
         out.status = "pull-in: no equilibrium short of a closed gap";
         return state;
       }
-      if (change < fidelity_.coupling_tolerance) return state;
+      if (std::abs(change) < fidelity_.coupling_tolerance) return state;
       previous = out.pull;
     }
-    if (out.status.empty()) {
+    if (change > 0 && out.pull > 2 * first) {
+      out.status = "pull-in: the pull grows from pass to pass";
+    } else if (out.status.empty()) {
       out.status = fmt::format("coupling: not settled after {} passes", fidelity_.coupling_passes);
     }
     return state;
@@ -250,6 +257,10 @@ class PatchSolver {
     out.over_limit_share = pull.over_limit_share;
     out.peak_air_field = pull.peak_air_field;
     out.peak_oxide_field = pull.peak_oxide_field;
+    const std::vector<Dielectric>& layers = problem_.scene->surface.dielectric;
+    double thickness = 0;
+    for (const Dielectric& layer : layers) thickness += layer.thickness;
+    out.oxide_margin = dielectric_margin(layers, thickness * pull.peak_oxide_field, kInfinity);
     if (!pull.ok && out.status.empty()) out.status = "field: " + pull.reason;
   }
 
@@ -261,9 +272,23 @@ class PatchSolver {
 
 }  // namespace
 
+RestPatch rest_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                     const ContactSolution& start) {
+  return PatchSolver(problem, plan, fidelity).rest(start);
+}
+
+PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                        const RestPatch& rest, PatchFields* fields) {
+  return PatchSolver(problem, plan, fidelity).drive(rest, fields);
+}
+
 PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         ContactSolution& start, PatchFields* fields) {
-  return PatchSolver(problem, plan, fidelity).run(start, fields);
+  const PatchSolver solver(problem, plan, fidelity);
+  RestPatch rest = solver.rest(start);
+  PatchResult out = solver.drive(rest, fields);
+  start = rest.dry.gap.empty() ? ContactSolution{} : std::move(rest.dry);
+  return out;
 }
 
 FieldProblem field_problem(const Scene& scene, double relative_humidity) {
@@ -272,12 +297,10 @@ FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   p.v_peak = scene.drive.amplitude;
   p.dielectric = scene.surface.equivalent_thickness();
   p.dielectric_thickness = 0;
-  p.oxide_strength = 0;
   for (const Dielectric& layer : scene.surface.dielectric) {
     p.dielectric_thickness += layer.thickness;
-    p.oxide_strength =
-        p.oxide_strength > 0 ? std::min(p.oxide_strength, layer.strength) : layer.strength;
   }
+  p.edge_radius = scene.surface.electrode_edge_radius;
   // Stratum corneum in series: conducts below its corner frequency, h(w) = h / (1 + i wc/w).
   const double h = scene.finger.electrical.equivalent_thickness(relative_humidity);
   const double corner = scene.finger.electrical.corner_frequency;

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "base/constants.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "forward/fidelity.h"
@@ -35,6 +36,7 @@ struct PatchResult {
   double bridges = 0, wetted = 0, bridge_volume = 0, volume = 0;
   double mean_gap = 0, indentation = 0;  // [m]
   double over_limit_area = 0, over_limit_share = 0, peak_oxide_field = 0, peak_air_field = 0;
+  double oxide_margin = kInfinity;  // strength of the dielectric over its peak field
   int contact_solves = 0;
   double fft_pairs = 0;
   PieceSeconds seconds;
@@ -48,8 +50,23 @@ struct PatchFields {
   Traction pull;
 };
 
-// start: in: a dry solution of a nearby state (or an empty one); out: the dry solution of this one.
-// fields: filled when not null.
+// A patch before the drive: what every voltage starts from.
+struct RestPatch {
+  PatchResult result;  // undriven
+  ContactSolution dry;
+  ContactSolution off;  // with capillary tractions; empty when no tractions are solved
+  Wetting water;
+};
+
+// start: a dry solution of a nearby state, or an empty one. A dry solution without a gap has
+// failed; the status says why.
+RestPatch rest_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                     const ContactSolution& start);
+// The patch under the drive of its scene. fields: filled when not null.
+PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                        const RestPatch& rest, PatchFields* fields = nullptr);
+// Both. start: in: a dry solution of a nearby state (or an empty one); out: the dry solution of
+// this one.
 PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         ContactSolution& start, PatchFields* fields = nullptr);
 

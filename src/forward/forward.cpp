@@ -111,6 +111,7 @@ class PointBuilder {
       load_dry.push_back(p.load);
       point.over_limit_area += p.over_limit_area / static_cast<double>(patches.size());
       point.over_limit_share += p.over_limit_share / static_cast<double>(patches.size());
+      point.oxide_margin = std::min(point.oxide_margin, p.oxide_margin);
       point.peak_oxide_field = std::max(point.peak_oxide_field, p.peak_oxide_field);
       point.peak_air_field = std::max(point.peak_air_field, p.peak_air_field);
       if (p.volume > 0) {
@@ -310,6 +311,66 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
 
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   return respond(scene, fidelity, solve_patches(scene, texture, fidelity));
+}
+
+RestPatches::RestPatches(const Scene& scene, const Texture& texture, const Fidelity& fidelity)
+    : scene_(applied(scene)), fidelity_(fidelity) {
+  PAPILLA_CHECK(scene.environment.relative_humidity.size() == 1, "one humidity");
+  if (!scene_.drive.driven()) scene_.drive.amplitude = 1;
+  plan_ = make_plan(scene_, texture, fidelity_);
+  surface_ = generate(texture, plan_.grid);
+  const double humidity = scene_.environment.relative_humidity[0];
+  kernel_ = kernel_at(scene_, plan_.grid, humidity);
+  pressures_ = ScaleBridge(scene_, fidelity_, plan_.grid, humidity).pressures();
+  height_.resize(static_cast<std::size_t>(fidelity_.skins));
+  rest_.resize(height_.size());
+  parallel_for(
+      fidelity_.skins,
+      [&](int k) {
+        const int index = fidelity_.first_skin + k;
+        height_[k] = added(surface_, skin_patch(scene_, plan_.grid, fidelity_, index));
+        for (double pressure : pressures_) {
+          const PatchProblem problem{&scene_,
+                                     &surface_,
+                                     height_[k],
+                                     kernel_.get(),
+                                     humidity,
+                                     pressure,
+                                     static_cast<std::uint64_t>(index)};
+          rest_[k].push_back(rest_patch(problem, plan_, fidelity_, {}));
+        }
+      },
+      fidelity_.threads);
+}
+
+ResponsePoint RestPatches::drive(double amplitude, Estimator estimator) const {
+  Scene scene = scene_;
+  scene.drive.amplitude = amplitude;
+  Fidelity fidelity = fidelity_;
+  fidelity.estimator = estimator;
+  Plan plan = plan_;
+  plan.traction_solves = plan_.traction_solves && estimator == Estimator::Area;
+  const double humidity = scene.environment.relative_humidity[0];
+  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity);
+  std::vector<PatchResult> results(rest_.size());
+  parallel_for(
+      fidelity.skins,
+      [&](int k) {
+        std::vector<PatchResult> patches;
+        for (std::size_t n = 0; n < pressures_.size(); ++n) {
+          const PatchProblem problem{&scene,
+                                     &surface_,
+                                     height_[k],
+                                     kernel_.get(),
+                                     humidity,
+                                     pressures_[n],
+                                     static_cast<std::uint64_t>(fidelity.first_skin + k)};
+          patches.push_back(drive_patch(problem, plan, fidelity, rest_[k][n]));
+        }
+        results[k] = bridge.combine(patches);
+      },
+      fidelity.threads);
+  return PointBuilder(scene, plan, fidelity).build(humidity, 1, bridge, results);
 }
 
 PatchPicture picture_patch(const Scene& given, const Texture& texture, const Fidelity& fidelity,

@@ -1,6 +1,8 @@
 // The forward model: friction of a finger on a texture, off and on, over humidity.
 #pragma once
 
+#include <memory>
+
 #include "forward/coupling.h"
 #include "forward/fidelity.h"
 #include "forward/response.h"
@@ -33,6 +35,28 @@ Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& p
 
 // Both: friction, modulation and their causes at each humidity of the scene.
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+// The patches of one humidity before the drive, to be driven at one voltage after another: contact
+// and water at rest are solved once. Memory: 32 bytes a pixel, skin and patch pressure.
+class RestPatches {
+ public:
+  // scene: of one humidity; its amplitude does not matter.
+  RestPatches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+  // The response at an amplitude [V] > 0. The load estimator costs field and water alone, the area
+  // one a contact solve a patch.
+  ResponsePoint drive(double amplitude, Estimator estimator) const;
+
+ private:
+  Scene scene_;
+  Fidelity fidelity_;
+  Plan plan_;
+  Heightmap surface_;
+  std::shared_ptr<const ContactKernel> kernel_;
+  std::vector<double> pressures_;
+  std::vector<std::vector<double>> height_;   // one a skin
+  std::vector<std::vector<RestPatch>> rest_;  // [skin][pressure]
+};
 
 // One patch with all its fields, for pictures: skin `index` of the fidelity at one humidity.
 struct PatchPicture {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "forward/plan.h"
 #include "physics/optics/optics.h"
 
@@ -42,6 +43,19 @@ struct PatchSamples {
   bool operator==(const PatchSamples&) const = default;
 };
 
+// The amplitude at which the modulation of a humidity reaches a target: `voltage_for`.
+struct VoltageAnswer {
+  double target = 0;      // modulation
+  Measured amplitude;     // [V] peak; 0 when it is not reached
+  double limit = 0;       // [V] largest amplitude allowed: breakdown, source, pull-in
+  double modulation = 0;  // at the amplitude, or the highest reached
+  int evaluations = 0;    // of the driven patches
+  std::string status;     // empty: reached; else what came first
+
+  bool reached() const { return status.empty(); }
+  bool operator==(const VoltageAnswer&) const = default;
+};
+
 struct ResponsePoint {
   double relative_humidity = 0;
   double weight = 1;
@@ -54,15 +68,17 @@ struct ResponsePoint {
   Measured retention_force;                      // [N], whole finger
   Measured bridges;                              // a patch
   Measured wetted_fraction;
-  Measured mean_gap;              // [m]
-  Measured indentation;           // approach since first touch [m]
-  double over_limit_area = 0;     // share of the patch where air is beyond its breakdown field
-  double over_limit_share = 0;    // of the pull from there
-  double peak_oxide_field = 0;    // [V/m]
-  double peak_air_field = 0;      // [V/m]
-  double bridge_water_share = 0;  // share of the water that sits in bridges
-  std::string status = "ok";      // else what went wrong: "flooded: ...", "pull-in: ..."
+  Measured mean_gap;                // [m]
+  Measured indentation;             // approach since first touch [m]
+  double over_limit_area = 0;       // share of the patch where air is beyond its breakdown field
+  double over_limit_share = 0;      // of the pull from there
+  double peak_oxide_field = 0;      // [V/m] mean over the layers
+  double oxide_margin = kInfinity;  // least strength over field of a layer of the dielectric
+  double peak_air_field = 0;        // [V/m]
+  double bridge_water_share = 0;    // share of the water that sits in bridges
+  std::string status = "ok";        // else what went wrong: "flooded: ...", "pull-in: ..."
   PatchSamples samples;
+  std::vector<VoltageAnswer> voltages;  // one a target asked for
 
   bool operator==(const ResponsePoint&) const = default;
 };

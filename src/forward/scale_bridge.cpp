@@ -109,6 +109,7 @@ PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
     out.indentation += part * p.indentation;
     out.over_limit_area += part * p.over_limit_area;
     out.peak_oxide_field = std::max(out.peak_oxide_field, p.peak_oxide_field);
+    out.oxide_margin = std::min(out.oxide_margin, p.oxide_margin);
     out.peak_air_field = std::max(out.peak_air_field, p.peak_air_field);
     out.contact_solves += p.contact_solves;
     out.fft_pairs += p.fft_pairs;

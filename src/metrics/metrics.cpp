@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
@@ -68,6 +69,8 @@ const std::vector<AppearanceEntry>& appearance_entries() {
   return list;
 }
 
+constexpr const char* kVoltageFor = "voltage_for";
+
 constexpr std::array<std::pair<const char*, Summary>, 8> kSummaries{
     {{"mean", Summary::Mean},
      {"variation", Summary::Variation},
@@ -95,20 +98,49 @@ const std::vector<MetricInfo>& metric_list() {
     infos.push_back({"compliance", "m/Pa", "indentation since first touch over patch pressure",
                      Better::Neither, false});
     for (const AppearanceEntry& entry : appearance_entries()) infos.push_back(entry.info);
+    infos.push_back(
+        {kVoltageFor, "V",
+         "voltage_for(modulation = 0.5): amplitude at which the modulation reaches that "
+         "value; whatever the design's own amplitude",
+         Better::Lower, false});
     return infos;
   }();
   return list;
 }
 
+std::optional<double> voltage_target(const std::string& metric) {
+  std::string compact;
+  for (char c : metric) {
+    if (c != ' ') compact += c;
+  }
+  if (!compact.starts_with(kVoltageFor)) return std::nullopt;
+  const std::string head = std::string(kVoltageFor) + "(modulation=";
+  if (compact.starts_with(head) && compact.back() == ')') {
+    const std::string text = compact.substr(head.size(), compact.size() - head.size() - 1);
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && end == text.data() + text.size() && value > 0 && value < 1e6)
+      return value;
+  }
+  throw InputError("\"" + metric + "\": expected voltage_for(modulation = X), X above 0");
+}
+
 const MetricInfo* find_metric(const std::string& name) {
+  const std::string base = name.substr(0, name.find('('));
   for (const MetricInfo& info : metric_list()) {
-    if (info.name == name) return &info;
+    if (info.name == base && (base == name) == (base != kVoltageFor)) return &info;
   }
   return nullptr;
 }
 
 std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point) {
   if (name == "compliance") return compliance(point);
+  if (const auto target = voltage_target(name)) {
+    for (const VoltageAnswer& answer : point.voltages) {
+      if (answer.target == *target && answer.reached()) return answer.amplitude;
+    }
+    return std::nullopt;
+  }
   for (const Entry& entry : entries()) {
     if (entry.info.name == name) return point.*entry.member;
   }
@@ -132,13 +164,13 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
   double total = 0, mean = 0;
   std::vector<double> values, errors, weights;
   for (const ResponsePoint& point : response.points) {
-    const Measured m = *metric_at(metric, point);
-    if (!std::isfinite(m.value)) return std::nullopt;
-    values.push_back(m.value);
-    errors.push_back(m.se());
+    const auto m = metric_at(metric, point);
+    if (!m || !std::isfinite(m->value)) return std::nullopt;
+    values.push_back(m->value);
+    errors.push_back(m->se());
     weights.push_back(point.weight);
     total += point.weight;
-    mean += point.weight * m.value;
+    mean += point.weight * m->value;
   }
   if (total <= 0) return std::nullopt;
   mean /= total;
@@ -189,7 +221,7 @@ MetricExpression parse_metric(const std::string& text) {
   MetricExpression expression;
   std::string name = text;
   const std::size_t open = text.find('(');
-  if (open != std::string::npos) {
+  if (open != std::string::npos && !voltage_target(text)) {
     const std::string word = text.substr(0, open);
     if (text.back() != ')') throw InputError("\"" + text + "\": missing )");
     name = text.substr(open + 1, text.size() - open - 2);
@@ -214,6 +246,8 @@ MetricExpression parse_metric(const std::string& text) {
     throw InputError(fmt::format("\"{}\" is no metric{}; see `papilla describe metrics`", name,
                                  near.empty() ? "" : ", did you mean \"" + near + "\"?"));
   }
+  if (const auto target = voltage_target(name))
+    name = fmt::format("{}(modulation = {})", kVoltageFor, *target);
   expression.metric = name;
   return expression;
 }
@@ -223,6 +257,26 @@ std::string metric_text(const MetricExpression& expression) {
     if (summary == expression.summary) return std::string(label) + "(" + expression.metric + ")";
   }
   return expression.metric;
+}
+
+Better better_direction(const MetricExpression& expression) {
+  const Summary s = expression.summary;
+  if (s == Summary::Variation || s == Summary::Range || s == Summary::Std) return Better::Lower;
+  return find_metric(expression.metric)->better;
+}
+
+std::string why_undefined(const std::string& metric, const Response& response) {
+  const auto target = voltage_target(metric);
+  if (!target)
+    return find_metric(metric)->needs_drive && !response.driven ? "not driven (0 V)" : "";
+  for (const ResponsePoint& point : response.points) {
+    for (const VoltageAnswer& answer : point.voltages) {
+      if (answer.target != *target || answer.reached()) continue;
+      return fmt::format("{:.0f} % RH: {} (modulation {:.3g})", 100 * point.relative_humidity,
+                         answer.status, answer.modulation);
+    }
+  }
+  return "";
 }
 
 }  // namespace papilla

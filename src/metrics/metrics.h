@@ -23,7 +23,12 @@ struct MetricInfo {
 const std::vector<MetricInfo>& metric_list();
 const MetricInfo* find_metric(const std::string& name);
 
-// Value at one point; nothing when undefined there (modulation of an undriven design).
+// Of "voltage_for(modulation = 0.5)" the modulation; nothing for another metric. Throws InputError
+// where the target is no number above 0.
+std::optional<double> voltage_target(const std::string& metric);
+
+// Value at one point; nothing when undefined there (a voltage that was not asked for or that does
+// not reach its modulation).
 std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point);
 
 // How a quantity is summarised over humidity with the points' weights. Eq. metrics.1-5
@@ -47,5 +52,10 @@ struct MetricExpression {
 };
 MetricExpression parse_metric(const std::string& text);  // throws InputError
 std::string metric_text(const MetricExpression& expression);
+// Which direction is better, of the metric or of its spread.
+Better better_direction(const MetricExpression& expression);
+
+// Why a metric of a response has no value, for people; "" when nothing is known.
+std::string why_undefined(const std::string& metric, const Response& response);
 
 }  // namespace papilla

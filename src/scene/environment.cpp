@@ -36,6 +36,11 @@ void fields(FieldVisitor& v, Surface& s) {
             "M3: SiO2 50 deg"},
            s.contact_angle);
   v.list({"dielectric", "layers between the electrode and the finger"}, s.dielectric);
+  v.number({"electrode_edge_radius", "nm", 0, 1e6,
+            "radius of the electrode's convex edges below walls, for the breakdown margin; 0: not "
+            "stated, no edge factor",
+            Source::Choice, "thermal oxide over etched silicon: 50 to 500 nm"},
+           s.electrode_edge_radius);
   v.number({"refractive_index", "", 1, 5, "refractive index (optics only)", Source::Measured,
             "fused silica"},
            s.refractive_index);

@@ -33,6 +33,7 @@ void fields(FieldVisitor& v, Dielectric& s);
 struct Surface {
   double contact_angle = 0.8726646259971648;  // 50 deg
   std::vector<Dielectric> dielectric = {Dielectric{}};
+  double electrode_edge_radius = 0;  // convex edges under walls [m]; 0: none stated
   double refractive_index = 1.46;
   double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid
   double poisson = 0.4;  // theirs

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 
 #include "base/files.h"
 #include "base/text.h"
@@ -383,22 +384,50 @@ class StudyReader {
     if (!risk.empty()) study_.objective.risk = risk.front();
   }
 
+  // A key such as "worst(modulation)", limited on its bad side.
+  std::optional<ConstraintKind> metric_constraint(const Node& child) {
+    if (child.key.find('(') == std::string::npos) return std::nullopt;
+    try {
+      const MetricExpression expression = parse_metric(child.key);
+      const Better better = better_direction(expression);
+      if (better != Better::Neither) {
+        const bool relative =
+            expression.summary == Summary::Variation || expression.summary == Summary::Range;
+        return ConstraintKind{metric_text(expression),
+                              relative ? "" : find_metric(expression.metric)->unit,
+                              better == Better::Higher, ""};
+      }
+      document_.problem(child.key_place, "constraints",
+                        "\"" + child.key + "\" has no better direction to be limited in");
+    } catch (const InputError& error) {
+      document_.problem(child.key_place, "constraints", error.problems().front().message);
+    }
+    return ConstraintKind{child.key, "", true, ""};
+  }
+
   void read_constraints() {
     const Node* section = table("constraints");
     if (!section) return;
     std::vector<std::string> names;
     for (const ConstraintKind& kind : constraint_kinds()) names.push_back(kind.name);
-    only(*section, "constraints", names);
+    std::vector<std::string> keys = names;
     for (const Node& child : section->children) {
-      for (const ConstraintKind& kind : constraint_kinds()) {
-        if (kind.name != child.key) continue;
-        double limit = 0;
-        if (document_.number(child, "constraints." + child.key,
-                             {kind.name.c_str(), kind.unit.c_str(), 0, 1e9, ""}, limit)) {
-          study_.constraints.push_back({kind.name, limit, kind.at_least});
-        }
+      std::optional<ConstraintKind> kind = metric_constraint(child);
+      if (kind) {
+        keys.push_back(child.key);
+      } else if (const auto at = std::find(names.begin(), names.end(), child.key);
+                 at != names.end()) {
+        kind = constraint_kinds()[static_cast<std::size_t>(at - names.begin())];
+      } else {
+        continue;
+      }
+      double limit = 0;
+      if (document_.number(child, "constraints." + child.key,
+                           {kind->name.c_str(), kind->unit.c_str(), 0, 1e9, ""}, limit)) {
+        study_.constraints.push_back({kind->name, limit, kind->at_least});
       }
     }
+    only(*section, "constraints", keys);
   }
 
   void read_population() {

@@ -99,6 +99,16 @@ std::string response_json(const Response& response, bool with_time) {
     point["over_limit_share"] = number(p.over_limit_share);
     point["peak_air_field"] = number(p.peak_air_field);
     point["peak_oxide_field"] = number(p.peak_oxide_field);
+    point["oxide_margin"] = number(p.oxide_margin);
+    for (const VoltageAnswer& v : p.voltages) {
+      point["voltage_for"].push_back(
+          {{"modulation", v.target},
+           {"amplitude", v.reached() ? measured(v.amplitude) : Json(nullptr)},
+           {"highest_modulation", number(v.modulation)},
+           {"limit", number(v.limit)},
+           {"evaluations", v.evaluations},
+           {"status", v.reached() ? "ok" : v.status}});
+    }
     point["status"] = p.status;
     points.push_back(std::move(point));
   }
@@ -190,6 +200,13 @@ std::string response_table(const Response& response) {
           "haze {:.2f} %  transmittance {:.1f} %  gloss {:.1f} %  colour shift {:.4f}  ({}{}{})\n",
           100 * look->haze, 100 * look->transmittance, 100 * look->gloss, look->colour_shift,
           look->regime, look->warning.empty() ? "" : ": ", look->warning);
+    }
+  }
+  for (const ResponsePoint& p : response.points) {
+    for (const VoltageAnswer& v : p.voltages) {
+      out += fmt::format("modulation {:.3g} at {:.0f} % RH: ", v.target, 100 * p.relative_humidity);
+      out += v.reached() ? with_error(v.amplitude, 1, 1) + " V\n"
+                         : fmt::format("{} first (modulation {:.3g})\n", v.status, v.modulation);
     }
   }
   if (const std::string trouble = response.trouble(); !trouble.empty()) {

@@ -13,7 +13,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 #include "config/writer.h"
-#include "forward/forward.h"
+#include "forward/voltage.h"
 #include "study/evaluation.h"
 
 namespace papilla {
@@ -43,10 +43,13 @@ bool of_appearance(const Constraint& c) {
   return info && info->appearance;
 }
 
+bool on_metric(const Constraint& c) { return c.name.find('(') != std::string::npos; }
+
 // Looks of arrays cost about a millisecond and steer the search itself; of others they are known
 // with the evaluation.
 bool needs_evaluation(const Constraint& c, const Texture& texture) {
-  return c.name == "oxide_breakdown_margin" || (of_appearance(c) && !quick_appearance(texture));
+  return c.name == "oxide_breakdown_margin" || on_metric(c) ||
+         (of_appearance(c) && !quick_appearance(texture));
 }
 
 std::string look_refusal(const Design& d) {
@@ -147,9 +150,14 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
   }
   if (std::none_of(tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.weight > 0; }))
     throw InputError("scenarios: at least one weight above 0 is needed");
-  const auto add = [&](const std::string& text, bool maximise) {
+  const auto add = [&](std::vector<StudyObjective>& list, const std::string& text, bool maximise) {
     const MetricExpression expression = parse_metric(text);
-    objectives_.push_back({expression, maximise, metric_text(expression)});
+    list.push_back({expression, maximise, metric_text(expression)});
+    if (const auto modulation = voltage_target(expression.metric)) {
+      if (std::find(voltage_targets_.begin(), voltage_targets_.end(), *modulation) ==
+          voltage_targets_.end())
+        voltage_targets_.push_back(*modulation);
+    }
     const bool driven = std::all_of(tasks_.begin(), tasks_.end(), [&](const StudyTask& t) {
       return with_settings(study.design, t.settings).drive.driven();
     });
@@ -158,11 +166,14 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
                     [](const Variable& v) { return v.path == "drive.amplitude" && v.low > 0; });
     if (find_metric(expression.metric)->needs_drive && !driven && !searched) {
       throw InputError(fmt::format("objective: {} needs a driven design; drive.amplitude is 0 V",
-                                   objectives_.back().name));
+                                   list.back().name));
     }
   };
-  for (const std::string& text : study.objective.maximise) add(text, true);
-  for (const std::string& text : study.objective.minimise) add(text, false);
+  for (const std::string& text : study.objective.maximise) add(objectives_, text, true);
+  for (const std::string& text : study.objective.minimise) add(objectives_, text, false);
+  for (const Constraint& c : study.constraints) {
+    if (on_metric(c)) add(limited_, c.name, c.at_least);
+  }
   if (objectives_.empty() || objectives_.size() > 3) {
     throw InputError(
         fmt::format("objective: one to three objectives are possible, got {}", objectives_.size()));
@@ -231,7 +242,8 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
 }
 
 // info of a task: a summary and its error an objective, worst modulation, oxide margin, the metric
-// of each objective at each humidity, then haze, transmittance, gloss and colour where asked for.
+// of each objective at each humidity, then haze, transmittance, gloss and colour where asked for,
+// then the summary of each constraint on a metric.
 Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const Fidelity& fidelity,
                                     bool report) const {
   const StudyTask& task = tasks_.at(index);
@@ -250,23 +262,37 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
       return out;
     }
   }
-  for (const StudyObjective& o : objectives_) {
-    const auto value = summarise(o.expression.summary, o.expression.metric, response);
-    if (!value || !std::isfinite(value->value)) {
-      out.reason = o.name + " is not defined for " + task.name;
-      return out;
-    }
-    out.info.push_back(value->value);
-    out.info.push_back(value->se);
+  // No equilibrium: no friction to judge.
+  if (const std::string trouble = response.trouble();
+      trouble.find(": pull-in") != std::string::npos) {
+    out.reason = task.name + ", " + trouble;
+    return out;
   }
-  double worst = 0, peak = 0;
+  if (!voltage_targets_.empty())
+    add_voltages(response, scene_of(d), d.texture, fidelity, voltage_targets_);
+  std::vector<double> limited;
+  for (const auto* list : {&objectives_, &limited_}) {
+    for (const StudyObjective& o : *list) {
+      const auto value = summarise(o.expression.summary, o.expression.metric, response);
+      if (!value || !std::isfinite(value->value)) {
+        const std::string why = why_undefined(o.expression.metric, response);
+        out.info.clear();
+        out.reason = o.name + " is not defined for " + task.name + (why.empty() ? "" : ": " + why);
+        return out;
+      }
+      if (list == &limited_) {
+        limited.push_back(value->value);
+      } else {
+        out.info.push_back(value->value);
+        out.info.push_back(value->se);
+      }
+    }
+  }
+  double worst = 0, margin = kInfinity;
   if (const auto w = summarise(Summary::Worst, "modulation", response)) worst = w->value;
-  for (const ResponsePoint& p : response.points) peak = std::max(peak, p.peak_oxide_field);
-  double strength = kInfinity;
-  for (const Dielectric& layer : d.surface.dielectric)
-    strength = std::min(strength, layer.strength);
+  for (const ResponsePoint& p : response.points) margin = std::min(margin, p.oxide_margin);
   out.info.push_back(worst);
-  out.info.push_back(peak > 0 ? strength / peak : kInfinity);
+  out.info.push_back(margin);
   for (const StudyObjective& o : objectives_) {
     for (const ResponsePoint& p : response.points) {
       const auto value = metric_at(o.expression.metric, p);
@@ -277,6 +303,7 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
   if (const auto& look = response.appearance)
     for (const double v : {look->haze, look->transmittance, look->gloss, look->colour_shift})
       out.info.push_back(v);
+  out.info.insert(out.info.end(), limited.begin(), limited.end());
   out.ok = true;
   if (report) out.reason = response_json(response, false);
   return out;
@@ -305,8 +332,9 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
     double error = 0, total = 0;
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       const std::vector<double>& info = tasks[t].info;
-      PAPILLA_CHECK(info.size() == 2 * m + 2 + m * rh.size() + (needs_appearance() ? 4 : 0),
-                    "numbers of a task");
+      PAPILLA_CHECK(
+          info.size() == 2 * m + 2 + m * rh.size() + (needs_appearance() ? 4 : 0) + limited_.size(),
+          "numbers of a task");
       error += tasks_[t].weight * info[2 * k + 1];  // tasks share their skins: errors add linearly
       total += tasks_[t].weight;
       if (!points) {
@@ -324,10 +352,18 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
   }
   score.worst = kInfinity;
   score.oxide_margin = kInfinity;
+  for (const StudyObjective& o : limited_)
+    score.limited.push_back(o.maximise ? kInfinity : -kInfinity);
   for (std::size_t t = 0; t < tasks.size(); ++t) {
     if (tasks_[t].weight <= 0) continue;
     score.worst = std::min(score.worst, tasks[t].info[2 * m]);
     score.oxide_margin = std::min(score.oxide_margin, tasks[t].info[2 * m + 1]);
+    for (std::size_t j = 0; j < limited_.size(); ++j) {
+      const double value =
+          tasks[t].info[2 * m + 2 + m * rh.size() + (needs_appearance() ? 4 : 0) + j];
+      double& bad = score.limited[j];
+      bad = limited_[j].maximise ? std::min(bad, value) : std::max(bad, value);
+    }
   }
   if (needs_appearance()) {  // the same for every finger; a scenario may look otherwise: the worst
     for (std::size_t t = 0; t < tasks.size(); ++t) {
@@ -359,9 +395,11 @@ Outcome StudyProblem::outcome(const Score& score) const {
   }
   for (std::size_t k = 0; k < objectives_.size(); ++k)
     out.objectives.push_back(objectives_[k].maximise ? -score.values[k] : score.values[k]);
+  std::size_t metric = 0;
   for (const Constraint& c : study_.constraints) {
     if (!needs_evaluation(c, study_.design.texture)) continue;
-    const double value = c.name == "haze"            ? score.appearance->haze
+    const double value = on_metric(c)                ? score.limited[metric++]
+                         : c.name == "haze"          ? score.appearance->haze
                          : c.name == "transmittance" ? score.appearance->transmittance
                          : c.name == "gloss"         ? score.appearance->gloss
                          : c.name == "colour_shift"  ? score.appearance->colour_shift
@@ -374,10 +412,12 @@ Outcome StudyProblem::outcome(const Score& score) const {
 }
 
 bool StudyProblem::needs_appearance() const {
+  const auto looks = [](const StudyObjective& o) {
+    return find_metric(o.expression.metric)->appearance;
+  };
   return std::any_of(study_.constraints.begin(), study_.constraints.end(), of_appearance) ||
-         std::any_of(objectives_.begin(), objectives_.end(), [](const StudyObjective& o) {
-           return find_metric(o.expression.metric)->appearance;
-         });
+         std::any_of(objectives_.begin(), objectives_.end(), looks) ||
+         std::any_of(limited_.begin(), limited_.end(), looks);
 }
 
 bool StudyProblem::feasible(const Score& score, const Point& unit) const {

@@ -46,6 +46,7 @@ struct Score {
   double worst = 0;                    // lowest modulation over tasks and humidities; 0: undriven
   double oxide_margin = 0;             // smallest; infinite without a field
   std::optional<Optics> appearance;    // where the study asks for it
+  std::vector<double> limited;         // the bad side over tasks of each constraint on a metric
   std::vector<std::string> reports;    // JSON of the response of each task, where asked for
 };
 
@@ -56,6 +57,7 @@ class StudyProblem {
   const Space& space() const { return space_; }
   const std::vector<StudyTask>& tasks() const { return tasks_; }
   const std::vector<StudyObjective>& objectives() const { return objectives_; }
+  const std::vector<double>& voltage_targets() const { return voltage_targets_; }
 
   Design design(const Point& unit) const;
   std::vector<double> values(const Point& unit) const { return space_.value(unit); }
@@ -91,6 +93,8 @@ class StudyProblem {
   Space space_;
   std::vector<StudyTask> tasks_;
   std::vector<StudyObjective> objectives_;
+  std::vector<StudyObjective> limited_;  // metrics of constraints, in their order
+  std::vector<double> voltage_targets_;  // of voltage_for in either
   Risk risk_;
 };
 

@@ -275,10 +275,10 @@ std::vector<Criterion> parse_criteria(const std::string& text) {
       word.resize(colon);
     }
     c.expression = parse_metric(word);
-    const bool spread = c.expression.summary == Summary::Variation ||
-                        c.expression.summary == Summary::Range ||
-                        c.expression.summary == Summary::Std;
-    const Better better = spread ? Better::Lower : info_of(c).better;
+    if (voltage_target(c.expression.metric))
+      throw InputError(
+          fmt::format("\"{}\": a ranking is by forces at the designs' own drive", word));
+    const Better better = better_direction(c.expression);
     if (direction.empty() && better == Better::Neither) {
       throw InputError(
           fmt::format("{0} has no better direction of its own; say {0}:low or "

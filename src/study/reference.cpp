@@ -93,6 +93,10 @@ std::string study_reference(ReferenceFormat format) {
                     fmt::format("{} ({}{})", kind.doc, kind.at_least ? "at least" : "at most",
                                 kind.unit.empty() ? "" : ", in " + kind.unit)});
   }
+  rows.push_back(
+      {"constraints.\"METRIC\"",
+       "a metric over humidity, limited on its bad side: \"worst(modulation)\" = 0.3 (at "
+       "least), \"worst(voltage_for(modulation = 0.5))\" = \"150 V\" (at most)"});
   return render(rows, format) + heading("search", format) +
          render(field_rows(Search{}, "search"), format);
 }

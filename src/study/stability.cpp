@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "forward/forward.h"
+#include "forward/voltage.h"
 
 namespace papilla {
 namespace {
@@ -66,7 +66,9 @@ Outcome evaluate_variant(const StudyProblem& problem, const Design& design, std:
   const Design d = with_settings(design, task.settings);
   Scene scene{d.surface, task.finger, d.environment, d.drive, d.model};
   variant.change(scene);
-  const Response response = evaluate(scene, d.texture, fidelity);
+  Response response = evaluate(scene, d.texture, fidelity);
+  if (!problem.voltage_targets().empty())
+    add_voltages(response, scene, d.texture, fidelity, problem.voltage_targets());
   Outcome out;
   for (const StudyObjective& o : problem.objectives()) {
     const auto v = summarise(o.expression.summary, o.expression.metric, response);

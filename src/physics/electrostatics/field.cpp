@@ -134,6 +134,9 @@ FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const 
           touched ? std::sqrt(square(series) + quadrature) : std::sqrt(least_air);
       out.peak_oxide_field = p.v_peak * per_thickness / distance;
     }
+    if (!extra.empty() && p.edge_radius > 0) {
+      out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
+    }
   }
   out.mean_pressure = sum / static_cast<double>(n);
   out.over_limit_area = static_cast<double>(over) / static_cast<double>(n);

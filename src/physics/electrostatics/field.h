@@ -14,7 +14,7 @@ struct FieldProblem {
   double v_rms = 0, v_peak = 0;         // [V] across electrode and body
   double dielectric = 0;                // sum of d/eps on the electrode [m]
   double dielectric_thickness = 0;      // sum of d [m]
-  double oxide_strength = 1e9;          // breakdown field of the weakest layer [V/m]
+  double edge_radius = 0;               // of the electrode's edges below walls [m]; 0: none stated
   std::complex<double> skin_layer = 0;  // h_SC = d2/eps2(omega) [m]
   bool breakdown_cap = false;           // gap pressure at most eps0/2 (350 V/um)^2
   bool screening = true;                // the field fades towards a bridge
@@ -28,7 +28,8 @@ struct FieldSolution {
   double over_limit_area = 0;   // share of the patch where the air is beyond its breakdown field
   double over_limit_share = 0;  // share of the pull from there
   double peak_air_field = 0;    // [V/m] at peak voltage
-  double peak_oxide_field = 0;  // [V/m] at peak voltage, flat electrode, mean over the layers
+  double peak_oxide_field = 0;  // [V/m] at peak voltage, mean over the layers, edges of the radius
+                                // stated included (Eq. electrostatics.8)
   bool ok = true;
   std::string reason;  // when not ok
 };

@@ -548,10 +548,10 @@ class PotentialSolver {
           }
         }
         out.flux[i] = flux;
+        inner_fields(ix, iy, out);
         if (c.bridged) continue;
         out.field[i] = flux * std::sqrt(1 + square_slope(ix, iy));
         if (c.skin > c.surface) out.peak_air = std::max(out.peak_air, out.field[i]);
-        inner_fields(ix, iy, out);
       }
     }
   }
@@ -630,7 +630,7 @@ PotentialSolution solve_potential(const PotentialProblem& problem,
 }
 
 FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                   const FieldProblem& p, const FullFieldOptions& options) {
+                                   const FieldProblem& p, const PotentialOptions& options) {
   FullFieldSolution out;
   const Grid& grid = gap.grid;
   const std::size_t n = grid.size();
@@ -643,7 +643,11 @@ FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, con
   potential.surface = surface.z;
   potential.electrode = electrode_below(surface, p.dielectric_thickness).z;
   potential.skin.resize(n);
-  for (std::size_t i = 0; i < n; ++i) potential.skin[i] = surface.z[i] + gap.value[i];
+  bool walls = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    potential.skin[i] = surface.z[i] + gap.value[i];
+    walls = walls || surface.z[i] - potential.electrode[i] > p.dielectric_thickness + 1e-12;
+  }
   if (p.dielectric_thickness > 0) {
     potential.permittivity = p.dielectric_thickness / p.dielectric;
   }
@@ -661,7 +665,7 @@ FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, con
       if (above > 0) potential.water_above[i] *= share;
     }
   }
-  const PotentialSolution s = solve_potential(potential, options.potential);
+  const PotentialSolution s = solve_potential(potential, options);
   out.residual = s.residual;
   out.iterations = s.iterations;
   out.ok = s.ok;
@@ -695,12 +699,10 @@ FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, con
   out.over_limit_share = sum > 0 ? over_sum / sum : 0;
   out.peak_air_field = p.v_peak * s.peak_air;
   out.peak_oxide_field = p.v_peak * s.peak_dielectric;
-  out.edge_oxide_field = out.peak_oxide_field;
-  if (options.edge_radius > 0 && options.edge_radius < 2 * std::min(grid.dx(), grid.dy()) &&
-      p.dielectric_thickness > 0) {
-    out.edge_oxide_field = std::max(out.peak_oxide_field,
-                                    p.v_peak / p.dielectric_thickness *
-                                        corner_factor(p.dielectric_thickness, options.edge_radius));
+  if (p.edge_radius > 0 && p.edge_radius < 2 * std::min(grid.dx(), grid.dy()) && walls) {
+    out.peak_oxide_field =
+        std::max(out.peak_oxide_field, p.v_peak / p.dielectric_thickness *
+                                           corner_factor(p.dielectric_thickness, p.edge_radius));
   }
   return out;
 }

@@ -49,26 +49,20 @@ struct PotentialSolution {
 // limit. Cost: 80 bytes a node, about 10 iterations.
 PotentialSolution solve_potential(const PotentialProblem& problem, const PotentialOptions& options);
 
-struct FullFieldOptions {
-  PotentialOptions potential;
-  double edge_radius = 0;  // of the electrode's edges [m]; 0: as the grid has them
-};
-
 struct FullFieldSolution : FieldSolution {
   double residual = 0;
   int iterations = 0;
-  // Field in the dielectric at an edge of the radius given, where the grid does not resolve it:
-  // flat value times Eq. electrostatics.8 [V/m] at peak voltage; else the peak of the grid.
-  double edge_oxide_field = 0;
 };
 
 // The pull by the 3-D potential: p = eps0/2 E_n^2 on the skin's surface (Eq. electrostatics.14),
 // water bridges at the body's potential, droplets that do not bridge as dielectric caps; options
 // of the problem as in the local rule (water without screening: pull zero in bridges only). A lossy
 // layer: the potential sees its real part, and the imaginary part lowers the pull as in Eq.
-// electrostatics.1. texture as in solve_local_field.
+// electrostatics.1. texture as in solve_local_field. The peak field in
+// the dielectric is that of the grid, with its square edges, or where an edge radius is stated that
+// the grid does not resolve the larger of it and the flat value times Eq. electrostatics.8.
 FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
                                    const FieldProblem& problem,
-                                   const FullFieldOptions& options = {});
+                                   const PotentialOptions& options = {});
 
 }  // namespace papilla

@@ -1,0 +1,26 @@
+// The voltage that a modulation takes, and what comes first where none does.
+#pragma once
+
+#include <span>
+
+#include "forward/forward.h"
+
+namespace papilla {
+
+// Largest amplitude a design may be driven with [V]: its dielectric breaks down, edges of the
+// electrode's stated radius included (Eq. electrostatics.9), or the source ends; 0 without a
+// dielectric.
+double amplitude_limit(const Scene& scene, const Texture& texture);
+
+// Adds to every point of a response of that scene the amplitude at which its modulation reaches
+// each target (> 0). Waveform and frequency are the scene's, its amplitude does not matter. Root of
+// a rising function to 1e-3 of the amplitude, by secants in logarithms within a bracket: first with
+// the load estimator on the gap at rest, then, where the fidelity measures areas, with contact
+// solved under the drive. Not reached: the status names what came first (breakdown, the source,
+// pull-in, a bare electrode, a trouble of the model) and the highest modulation. Cost: contact at
+// rest once more, and 5 to 10 times field and water; areas: 3 to 5 more solves a patch. Eq.
+// metrics.6
+void add_voltages(Response& response, const Scene& scene, const Texture& texture,
+                  const Fidelity& fidelity, std::span<const double> targets);
+
+}  // namespace papilla

@@ -1,0 +1,28 @@
+// Cost and error of the field rules on the published samples: prints results/accuracy/field.csv.
+// Run by hand: ninja -C build field_bench && build/tests/field_bench [PIXELS FINEST_FACTOR
+// [SAMPLE...]]
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "study/field_accuracy.h"
+
+int main(int argc, char** argv) {
+  using namespace papilla;
+  FieldAccuracyOptions options;
+  if (argc > 2) {
+    options.pixels = std::atoi(argv[1]);
+    options.refinements.clear();
+    for (int f = 1; f <= std::atoi(argv[2]); f *= 2) options.refinements.push_back(f);
+  }
+  std::vector<std::string> samples(argv + std::min(argc, 3), argv + argc);
+  if (samples.empty()) samples = {"flat", "a3h350", "a3h600", "a3h900", "a4h350", "a4h600"};
+  std::vector<FieldAccuracyRow> rows;
+  for (const std::string& sample : samples) {
+    for (FieldAccuracyRow& row : field_accuracy(
+             sample, read_design(find_design("m3_samples/" + sample + ".toml")), options)) {
+      rows.push_back(std::move(row));
+    }
+  }
+  fmt::print("{}", field_accuracy_csv(rows));
+}
