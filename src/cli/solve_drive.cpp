@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 struct DriveCommand {
   DesignOptions file;
-  std::string out;
+  std::string out, swipe;
 };
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
@@ -75,6 +75,9 @@ void print_json(const DriveCase& c, const DriveResult& r) {
                  {"distortion", r.distortion},
                  {"friction_lines", lines},
                  {"over_frequency", sweep},
+                 {"onset_off", r.onset_off},
+                 {"onset_on", r.onset_on},
+                 {"onset_static", r.onset_static},
                  {"checks", checks}};
   std::cout << out.dump(2) << '\n';
 }
@@ -104,6 +107,12 @@ void print(const DriveCase& c, const DriveResult& r) {
   if (c.drive.waveform == Waveform::Am) {
     std::cout << fmt::format("distortion   {:.3g} % below half the carrier's frequency\n",
                              100 * r.distortion);
+  }
+  if (c.touch.real_area > 0) {
+    std::cout << fmt::format(
+        "onset        {:.4g} mN without voltage, {:.4g} mN with it; {:.4g} mN from a patch all in "
+        "static contact\n",
+        1e3 * r.onset_off, 1e3 * r.onset_on, 1e3 * r.onset_static);
   }
   for (const DriveCheck& check : r.checks) {
     const double scale = find_unit(check.unit)->to_si;
@@ -138,6 +147,18 @@ void print(const DriveCase& c, const DriveResult& r) {
   }
 }
 
+void print_swipe(const DriveCase& c, const std::string& file) {
+  StictionOptions options;
+  options.stuck_current = options.partial_current = c.drive.current;
+  const Swipe swipe = run_swipe(read_bytes(file), file, options);
+  std::cout << "\nswipe\n         s  state           current mA\n";
+  for (const SwipeStep& step : swipe.steps) {
+    std::cout << fmt::format("{:>10.3f}  {:<14} {:>11.4g}\n", step.time,
+                             slip_state_name(step.state), 1e3 * step.current);
+  }
+  std::cout << fmt::format("driven for {:.3g} s of {:.3g} s\n", swipe.driven, swipe.duration);
+}
+
 int solve(const Context& context, const DriveCommand& command) {
   const DriveCase c = read_drive_case(command.file.file, command.file.overrides);
   const DriveResult r = solve_drive(c);
@@ -157,6 +178,7 @@ int solve(const Context& context, const DriveCommand& command) {
     print_json(c, r);
   } else {
     print(c, r);
+    if (!command.swipe.empty()) print_swipe(c, command.swipe);
   }
   return kSuccess;
 }
@@ -172,6 +194,10 @@ void add_solve_drive(CLI::App& solve_command, Context& context) {
       ->type_name("FILE");
   add_set_option(*command, options->file.overrides);
   command->add_flag("--json", options->file.json, "One JSON object, SI units");
+  command
+      ->add_option("--swipe", options->swipe,
+                   "Forces \"lateral,normal\" [N] at 1 kHz: when stickiness would drive the finger")
+      ->type_name("FORCES.csv");
   command->add_option("--out", options->out, "Also write series.csv, lines.csv and drive.svg")
       ->type_name("DIR");
   command->callback([&context, options] {

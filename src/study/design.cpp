@@ -140,8 +140,10 @@ std::vector<DesignProblem> design_problems(const Design& design) {
     problem("finger.skin.cutoff", "expected a shorter wavelength than roll_off");
   }
   const Drive& drive = design.drive;
-  if (drive.control == DriveControl::Current && drive.current <= 0) {
-    problem("drive.current", "expected a current above 0 mA under current control");
+  if (drive.control == DriveControl::Current) {
+    problem("drive.control",
+            "a texture is judged at a voltage; what a current source makes of it: `papilla solve "
+            "drive` with gap.design");
   }
   if (drive.waveform == Waveform::Am && drive.driven() && drive.modulation_frequency <= 0) {
     problem("drive.modulation_frequency", "expected a frequency above 0 Hz for am");

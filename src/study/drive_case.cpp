@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "config/reader.h"
 #include "forward/forward.h"
@@ -144,6 +147,12 @@ void fields(FieldVisitor& v, DriveTouch& s) {
   v.number({"coefficient", "", 0, 10, "friction = coefficient (load + pull)", Source::Paper,
             "seed 004: about 0.2"},
            s.coefficient);
+  v.number(
+      {"real_area", "mm2", 0, 1e6, "area in true contact, for the onset of sliding; 0: not known"},
+      s.real_area);
+  v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength", Source::Paper,
+            "M3: 9 MPa"},
+           s.shear_strength);
 }
 
 void fields(FieldVisitor& v, Tones& s) {
@@ -264,7 +273,59 @@ DriveResult solve_drive(const DriveCase& c) {
   }
   r.checks.push_back({"gap voltage", "V", r.series.peak_gap_voltage,
                       air_breakdown_voltage(r.network.gap.distance)});
+  if (const DriveTouch& t = c.touch; t.real_area > 0) {
+    const auto onset = [&](double pull, double still) {
+      return onset_friction(t.shear_strength, t.real_area, t.coefficient, t.load, pull, still);
+    };
+    r.onset_off = onset(0, 0);
+    r.onset_on = onset(r.series.mean_force, 0);
+    r.onset_static = onset(r.series.mean_force, 1);
+  }
   return r;
+}
+
+std::string slip_state_name(SlipState state) {
+  switch (state) {
+    case SlipState::Idle:
+      return "idle";
+    case SlipState::Stuck:
+      return "stuck";
+    case SlipState::Partial:
+      return "partial slip";
+    case SlipState::Full:
+      return "full slip";
+  }
+  return "";
+}
+
+Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options) {
+  StictionMachine machine(options);
+  Swipe swipe;
+  std::istringstream lines(csv);
+  std::string line;
+  int number = 0, samples = 0;
+  while (std::getline(lines, line)) {
+    ++number;
+    const std::vector<std::string> cells = split(line, ',');
+    double force[2];
+    bool good = cells.size() == 2;
+    for (std::size_t i = 0; i < 2 && good; ++i) {
+      const char* end = cells[i].data() + cells[i].size();
+      const auto [stop, error] = std::from_chars(cells[i].data(), end, force[i]);
+      good = error == std::errc{} && stop == end && std::isfinite(force[i]);
+    }
+    if (!good) {
+      if (number == 1 || line.empty()) continue;
+      throw InputError({Problem{name, number, 1, "", "expected \"lateral,normal\" in N"}});
+    }
+    const double time = samples++ * options.step;
+    const double current = machine.update(force[0], force[1]);
+    if (current > 0) swipe.driven += options.step;
+    if (swipe.steps.empty() || swipe.steps.back().state != machine.state())
+      swipe.steps.push_back({time, machine.state(), current});
+  }
+  swipe.duration = samples * options.step;
+  return swipe;
 }
 
 std::string drive_series_csv(const DriveResult& r) {

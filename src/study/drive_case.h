@@ -7,6 +7,7 @@
 
 #include "physics/drive/network.h"
 #include "physics/drive/signal.h"
+#include "physics/drive/stiction.h"
 #include "scene/environment.h"
 
 namespace papilla {
@@ -36,6 +37,8 @@ struct DriveTouch {
   double load = 1;           // [N]
   double area = 30e-6;       // electrical contact area [m^2]
   double coefficient = 0.2;  // friction = coefficient (load + pull)
+  double real_area = 0;      // in true contact [m^2]; 0: not known, no onset
+  double shear_strength = 9e6;
 };
 void fields(FieldVisitor& v, DriveTouch& s);
 
@@ -89,6 +92,9 @@ struct DriveResult {
   std::vector<SpectrumLine> lines;      // of the friction, 1e-6 of the largest and above
   std::vector<DriveResponse> response;  // one a frequency of the sweep
   std::vector<DriveCheck> checks;       // body current, source compliance, air in the gap
+  // Onset of sliding [N], Eq. drive.6: undriven, driven, driven with all of the patch in static
+  // contact; 0 without touch.real_area.
+  double onset_off = 0, onset_on = 0, onset_static = 0;
 };
 // Milliseconds with a given gap, seconds with a design's. Throws InputError for frequencies without
 // a common period.
@@ -99,5 +105,20 @@ std::string drive_series_csv(const DriveResult& result);
 std::string drive_lines_csv(const DriveResult& result);
 // Friction over time and its spectrum as a picture.
 std::string drive_svg(const DriveCase& c, const DriveResult& result);
+
+// A swipe through the state machine of rendered stickiness: Eq. drive.10.
+struct SwipeStep {
+  double time = 0;  // [s] of entering the state
+  SlipState state = SlipState::Idle;
+  double current = 0;  // [A] peak, from then on
+};
+struct Swipe {
+  std::vector<SwipeStep> steps;
+  double duration = 0, driven = 0;  // [s]; driven: with current
+};
+// Lines "lateral,normal" [N], one a step of the options, low-passed at 150 Hz; a head is skipped.
+// Throws InputError naming `name` and the line.
+Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options);
+std::string slip_state_name(SlipState state);
 
 }  // namespace papilla

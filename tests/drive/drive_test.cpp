@@ -61,6 +61,25 @@ TEST(Network, MatchesTheImpedanceTable) {
   }
 }
 
+// t40: the published numbers of Shultz et al. and what their own formulas give.
+TEST(Network, PublishedNumbersComeOutOrAreSaidNotTo) {
+  EXPECT_LT(relative(plane_gap(1e-6, 1, kInfinity, 1).force_factor * 1e4, 4.4271e4), 1e-4);
+  const ImpedanceLayer gap{17e6, 250e-12};
+  EXPECT_LT(relative(gap.corner_frequency(), 37.448), 1e-4);
+  EXPECT_LT(relative(std::abs(gap.impedance(25e3)), 25465), 1e-4);
+  EXPECT_LT(relative(4e-3 * std::abs(gap.impedance(25e3)), 101.9), 1e-3);
+  EXPECT_LT(relative(kVacuumPermittivity * 30e-6 / 250e-12, 1.0625e-6), 1e-4);
+  const double alpha = 0.2 * plane_gap(1.1e-6, 1, kInfinity, 30e-6).force_factor;
+  EXPECT_LT(relative(alpha, 2.1953e-5), 1e-4);
+  EXPECT_LT(relative(alpha * square(10e-6 * 17e6) / 2, 317.2e-3), 1e-3);
+  EXPECT_LT(relative(alpha * square(101.86) / 2, 113.9e-3), 1e-3);
+  // 7 N at 700 V on 32.17 mm2 is a gap of 3.157 um, not the printed 1.8 um, which would be 21.5 N.
+  EXPECT_LT(relative(plane_gap(3.1574e-6, 1, kInfinity, 32.17e-6).force_factor * 700 * 700, 7),
+            1e-3);
+  EXPECT_LT(relative(plane_gap(1.8e-6, 1, kInfinity, 32.17e-6).force_factor * 700 * 700, 21.539),
+            1e-3);
+}
+
 TEST(Network, LimitsAreResistiveAndCapacitiveDividers) {
   Network n = table_network(5e6);
   const double rd = 5e6, rg = 17e6, rs = n.skin.resistance;

@@ -126,5 +126,93 @@ TEST(FullField, OnFlatSurfacesThePullIsTheLocalOne) {
   EXPECT_EQ(full.over_limit_area, local.over_limit_area);
 }
 
+// A droplet as an upright cylinder of radius a and height b in a gap of 1 over a dielectric d1, by
+// symmetry a quarter of a periodic cell: pull over its centre and over all, dry pressure 1.
+struct CylinderPull {
+  double centre = 0, excess = 0;
+};
+
+CylinderPull cylinder(bool on_skin, double a, double b, double d1, double side, int pixels) {
+  PotentialProblem p = bodies({pixels, pixels, side, side}, 3.9);
+  std::vector<double> water(p.grid.size(), 0);
+  for (int iy = 0; iy < pixels; ++iy) {
+    for (int ix = 0; ix < pixels; ++ix) {
+      const std::size_t i = p.grid.index(ix, iy);
+      p.electrode[i] = -d1;
+      p.skin[i] = 1;
+      if (std::hypot(p.grid.x(ix) - side / 2, p.grid.y(iy) - side / 2) < a) water[i] = b;
+    }
+  }
+  (on_skin ? p.water_above : p.water_below) = water;
+  const PotentialSolution s = solve_potential(p, {.tolerance = 1e-5});
+  EXPECT_TRUE(s.ok) << s.reason;
+  const double dry = 1 / square(1 + d1 / 3.9);
+  CylinderPull out;
+  out.centre = square(s.field[p.grid.index(pixels / 2, pixels / 2)]) / dry;
+  out.excess = (mean_square_field(s) / dry - 1) * p.grid.area();
+  return out;
+}
+
+TEST(FullField, DropletsThatDoNotBridgeRaiseThePullAsFiniteVolumesSay) {
+  for (const Row& row : read_table("droplet_nonbridging_electro.csv")) {
+    const double a = number(row, "drop_radius_over_g"), b = number(row, "drop_height_over_g");
+    const double d1 = number(row, "d1_over_g"), box = number(row, "R_box_over_g");
+    if (a != 2 || b > 0.6 || d1 > 0.5) continue;
+    const bool on_skin = row.at("where") == "skin";
+    const CylinderPull pull = cylinder(on_skin, a, b, d1, 10, 80);
+    const double centre = number(row, "p_center_over_pinf");
+    EXPECT_NEAR(pull.centre, centre, 5e-3 * centre) << on_skin << b;
+    if (on_skin) continue;  // the pull on the sides of its water is no pressure on the skin
+    const double excess = (number(row, "F_total_over_dry_within_R") - 1) * kPi * square(box);
+    EXPECT_NEAR(pull.excess, excess, 0.03 * excess) << on_skin << b;  // steps of the round edge
+  }
+}
+
+TEST(FullField, ABridgeLeavesTheWholeVoltageToTheDielectric) {
+  PotentialProblem p = bodies({24, 24, 3e-6, 3e-6}, 3.9);
+  p.bridged.assign(p.grid.size(), 0);
+  p.skin_layer = 200e-9;
+  for (int i = 0; i < 24 * 24; ++i) {
+    p.electrode[i] = -500e-9;
+    p.skin[i] = 400e-9;
+    p.bridged[i] = i % 24 < 12;
+  }
+  const PotentialSolution s = solve_potential(p, {});
+  ASSERT_TRUE(s.ok) << s.reason;
+  EXPECT_GE(s.peak_dielectric, (1 - 1e-3) / 500e-9);
+  EXPECT_LT(s.peak_dielectric, 1.5 / 500e-9);
+}
+
+TEST(FullField, TheStatedEdgeRadiusRaisesTheFieldInTheDielectricBehindWalls) {
+  const Grid grid{32, 32, 4e-6, 4e-6};
+  Heightmap hole{grid, std::vector<double>(grid.size(), 0)};
+  for (int iy = 8; iy < 24; ++iy) {
+    for (int ix = 8; ix < 24; ++ix) hole.z[grid.index(ix, iy)] = -600e-9;
+  }
+  Gap gap{grid, std::vector<double>(grid.size())};
+  for (std::size_t i = 0; i < grid.size(); ++i) gap.value[i] = 20e-9 - hole.z[i];
+  FieldProblem p;
+  p.v_rms = 100;
+  p.v_peak = 100 * std::sqrt(2.0);
+  p.dielectric = 500e-9 / 3.9;
+  p.dielectric_thickness = 500e-9;
+  const FullFieldSolution square_edges = solve_full_field(gap, &hole, {}, p);
+  const FieldSolution flat_rule = solve_local_field(gap, &hole, {}, p);
+  // The grid's own edge: above the flat field.
+  EXPECT_GT(square_edges.peak_oxide_field, flat_rule.peak_oxide_field);
+  p.edge_radius = 20e-9;  // a pixel is 125 nm
+  const double k = 25 / std::log(26);
+  const FullFieldSolution rounded = solve_full_field(gap, &hole, {}, p);
+  EXPECT_NEAR(rounded.peak_oxide_field, k * p.v_peak / 500e-9, 1e-6 * rounded.peak_oxide_field);
+  EXPECT_NEAR(solve_local_field(gap, &hole, {}, p).peak_oxide_field, k * flat_rule.peak_oxide_field,
+              1e-6 * rounded.peak_oxide_field);
+  EXPECT_EQ(rounded.mean_pressure, square_edges.mean_pressure);
+  // A radius that the grid resolves is the grid's business; a flat electrode has no edge.
+  p.edge_radius = 400e-9;
+  EXPECT_EQ(solve_full_field(gap, &hole, {}, p).peak_oxide_field, square_edges.peak_oxide_field);
+  p.edge_radius = 20e-9;
+  EXPECT_LT(solve_full_field(gap, nullptr, {}, p).peak_oxide_field, p.v_peak / 500e-9);
+}
+
 }  // namespace
 }  // namespace papilla

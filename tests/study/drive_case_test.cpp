@@ -38,6 +38,36 @@ TEST(DriveFile, ChecksNameWhatIsTooMuch) {
   EXPECT_TRUE(r.checks[2].passes());
 }
 
+TEST(DriveFile, OnsetOfSlidingNeedsTheRealArea) {
+  const DriveResult without = solve_drive(read_drive_case(kFingertip));
+  EXPECT_EQ(without.onset_on, 0);
+  const DriveResult r =
+      solve_drive(read_drive_case(kFingertip, {"touch.real_area=0.02 mm2", "touch.load=0.5 N"}));
+  const double adhesive = 9e6 * 0.02e-6;
+  EXPECT_NEAR(r.onset_off, adhesive + 0.2 * 0.5, 1e-12);
+  EXPECT_NEAR(r.onset_on, adhesive + 0.2 * (0.5 + r.series.mean_force), 1e-12);
+  EXPECT_NEAR(r.onset_static, adhesive, 1e-12);
+}
+
+TEST(DriveFile, ASwipeIsDrivenUntilItSlipsFully) {
+  // Stuck, then the lateral force rises, levels off and falls again.
+  std::string csv = "lateral,normal\n";
+  for (int i = 0; i < 480; ++i) {
+    const double t = i / 400.0;
+    csv += std::to_string(t < 0.1 ? 0.0 : 0.4 * std::sin(kPi * (t - 0.1))) + ",0.5\n";
+  }
+  StictionOptions options;
+  options.stuck_current = options.partial_current = 4e-3;
+  const Swipe swipe = run_swipe(csv, "forces.csv", options);
+  ASSERT_EQ(swipe.steps.size(), 4u);
+  EXPECT_EQ(swipe.steps[0].state, SlipState::Stuck);
+  EXPECT_EQ(swipe.steps[1].state, SlipState::Partial);
+  EXPECT_EQ(swipe.steps[2].state, SlipState::Full);
+  EXPECT_EQ(swipe.steps[2].current, 0);
+  EXPECT_NEAR(swipe.driven, swipe.steps[2].time + swipe.duration - swipe.steps[3].time, 2e-3);
+  EXPECT_THROW(run_swipe("1,2\n1;2\n", "forces.csv", options), InputError);
+}
+
 TEST(DriveFile, TakesTheGapOfADesign) {
   const DriveResult r = solve_drive(read_drive_case(
       kFingertip, {"gap.design=" + kSamples + "a3h350.toml", "gap.skins=1", "drive.control=voltage",
