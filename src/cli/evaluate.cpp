@@ -18,6 +18,7 @@
 #include "metrics/metrics.h"
 #include "study/design.h"
 #include "study/evaluation.h"
+#include "study/field_accuracy.h"
 
 namespace papilla {
 namespace {
@@ -27,7 +28,7 @@ struct EvaluateOptions {
   std::string sweep, out;
   int jobs = 0;
   std::vector<double> voltage_for;  // modulations
-  bool force = false, appearance = false;
+  bool force = false, appearance = false, check_field = false;
 };
 
 // "drive.amplitude=50..200" or "texture.depth=0 nm..1 um:5": a number of the design and its values.
@@ -129,6 +130,19 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
   return kSuccess;
 }
 
+// The field rule against the 3-D potential on the first skin, on the pixels of the accuracy level.
+void print_field_check(const Context& context, const Design& design, const Fidelity& fidelity) {
+  FieldAccuracyOptions options;
+  options.pixels = fidelity.grid;
+  options.skin = fidelity.first_skin;
+  options.refinements = {1};
+  for (const FieldAccuracyRow& row : field_accuracy("", design, options)) {
+    if (row.method != "screened") continue;
+    context.note(fmt::format("pull of the local rule at {:.0f} % RH: {:+.1f} % of the 3-D field's",
+                             100 * row.relative_humidity, 100 * row.error));
+  }
+}
+
 // Gap, pressure, water and pull of the first skin at each humidity, as pictures and arrays.
 void write_pictures(const std::string& folder, const Design& design, const Fidelity& fidelity) {
   for (const double humidity : design.environment.relative_humidity) {
@@ -189,6 +203,7 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
     context.note("wrote " + options.out);
   }
   std::cout << (options.design.json ? response_json(response) + "\n" : response_table(response));
+  if (options.check_field && design.drive.driven()) print_field_check(context, design, fidelity);
   return kSuccess;
 }
 
@@ -206,6 +221,8 @@ void add_evaluate(CLI::App& app, Context& context) {
                    "Also the amplitude at which the modulation reaches this value")
       ->type_name("MODULATION")
       ->check(CLI::Range(1e-3, 1e6));
+  command->add_flag("--check-field", options->check_field,
+                    "Also solve the 3-D field on one skin and say how far the local rule is off");
   command->add_option("--out", options->out, "Also write the numbers and pictures of the fields")
       ->type_name("DIR");
   command->add_flag("--appearance", options->appearance,

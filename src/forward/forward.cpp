@@ -83,6 +83,9 @@ StatedErrors stated_errors(const Plan& plan, const Fidelity& fidelity, const Sce
   return e;
 }
 
+// Of the 3-D potential on the pixels of a patch (docs/theory/electrostatics.md).
+constexpr double kFullFieldError = 0.08;
+
 class PointBuilder {
  public:
   PointBuilder(const Scene& scene, const Plan& plan, const Fidelity& fidelity)
@@ -156,6 +159,11 @@ class PointBuilder {
     point.electrostatic_force.parts.method = errors_.pull * point.electrostatic_force.value;
     point.bridges = sampled_mean(patches, &PatchResult::bridges);
     point.wetted_fraction = sampled_mean(patches, &PatchResult::wetted);
+    if (plan_.field) {
+      point.field_error = scene_.model.field == FieldMethod::Local
+                              ? local_rule_error(point.wetted_fraction.value)
+                              : kFullFieldError;
+    }
     point.mean_gap = sampled_mean(patches, &PatchResult::mean_gap);
     point.indentation = sampled_mean(patches, &PatchResult::indentation);
     return point;
@@ -328,7 +336,7 @@ RestPatches::RestPatches(const Scene& scene, const Texture& texture, const Fidel
       fidelity_.skins,
       [&](int k) {
         const int index = fidelity_.first_skin + k;
-        height_[k] = added(surface_, skin_patch(scene_, plan_.grid, fidelity_, index));
+        height_[k] = added(surface_, skin_patch(scene_, plan_, fidelity_, index));
         for (double pressure : pressures_) {
           const PatchProblem problem{&scene_,
                                      &surface_,

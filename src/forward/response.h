@@ -75,8 +75,11 @@ struct ResponsePoint {
   double peak_oxide_field = 0;      // [V/m] mean over the layers
   double oxide_margin = kInfinity;  // least strength over field of a layer of the dielectric
   double peak_air_field = 0;        // [V/m]
-  double bridge_water_share = 0;    // share of the water that sits in bridges
-  std::string status = "ok";        // else what went wrong: "flooded: ...", "pull-in: ..."
+  // Relative, of the pull by the field rule that was used; no part of the errors above, because the
+  // finger is fitted with that rule. Eq. electrostatics.15
+  double field_error = 0;
+  double bridge_water_share = 0;  // share of the water that sits in bridges
+  std::string status = "ok";      // else what went wrong: "flooded: ...", "pull-in: ..."
   PatchSamples samples;
   std::vector<VoltageAnswer> voltages;  // one a target asked for
 

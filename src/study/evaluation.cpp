@@ -99,6 +99,7 @@ std::string response_json(const Response& response, bool with_time) {
     point["over_limit_share"] = number(p.over_limit_share);
     point["peak_air_field"] = number(p.peak_air_field);
     point["peak_oxide_field"] = number(p.peak_oxide_field);
+    point["field_error"] = number(p.field_error);
     point["oxide_margin"] = number(p.oxide_margin);
     for (const VoltageAnswer& v : p.voltages) {
       point["voltage_for"].push_back(
@@ -179,16 +180,22 @@ std::string response_table(const Response& response) {
       out += fmt::format("  variation (sd/mean) {:.3f} ±{:.3f}", variation->value, variation->se);
     if (range) out += fmt::format("  range/mean {:.3f} ±{:.3f}", range->value, range->se);
     out += '\n';
-    double area = 0, share = 0, oxide = 0;
+    double area = 0, share = 0, oxide = 0, least = 1, most = 0;
     for (const ResponsePoint& p : response.points) {
       area = std::max(area, p.over_limit_area);
       share = std::max(share, p.over_limit_share);
       oxide = std::max(oxide, p.peak_oxide_field);
+      least = std::min(least, p.field_error);
+      most = std::max(most, p.field_error);
     }
     out += fmt::format(
         "air beyond its breakdown field on up to {:.1f} % of the patch, {:.0f} % of the pull; "
         "peak field in the dielectric {:.0f} V/um\n",
         100 * area, 100 * share, 1e-6 * oxide);
+    out += fmt::format(
+        "pull by this field rule within {:.0f} to {:.0f} % of the refined 3-D field; the finger is "
+        "fitted with its rule\n",
+        100 * least, 100 * most);
   } else {
     out += "undriven (0 V): no modulation\n";
   }

@@ -27,6 +27,8 @@ std::vector<double> extra_columns(const Heightmap& texture, double thickness) {
 
 }  // namespace
 
+double local_rule_error(double wetted) { return 0.2 + 0.66 * std::clamp(wetted, 0.0, 0.5); }
+
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting) {
   std::vector<double> column(grid.size(), 0);
   const double dx = grid.dx(), dy = grid.dy();

@@ -44,6 +44,11 @@ struct FieldSolution {
 FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
                                 const FieldProblem& problem);
 
+// How far the local rule with screening is below the 3-D potential on rough skin, relative to the
+// pull: a law over the published samples at 15 to 75 % RH; wetted: share of the patch under
+// bridges. Eq. electrostatics.15
+double local_rule_error(double wetted);
+
 // Height of the water of droplets that do not bridge a pixel [m]: spherical caps on either side.
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting);
 
