@@ -113,6 +113,7 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
     }
     for (const int factor : options.refinements) {
       PotentialOptions potential;
+      potential.levels = options.levels;
       add("full", fine_patch(design, picture, factor), potential.levels,
           [&](const FinePatch& patch) -> FieldSolution {
             return solve_full_field(patch.gap, &patch.texture, patch.wetting, problem, potential);

@@ -23,6 +23,7 @@ struct FieldAccuracyRow {
 struct FieldAccuracyOptions {
   int pixels = 128;                          // of the solved patch
   int skin = 0;                              // index of the skin
+  int levels = 64;                           // heights of the full field
   std::vector<int> refinements = {1, 2, 4};  // of the full field, the last is the reference
 };
 

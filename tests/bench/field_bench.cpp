@@ -1,8 +1,10 @@
 // Cost and error of the field rules on the published samples: prints results/accuracy/field.csv.
-// Run by hand: ninja -C build field_bench && build/tests/field_bench [PIXELS FINEST_FACTOR
+// Run by hand: ninja -C build field_bench && build/tests/field_bench [PIXELS FINEST LEVELS
 // [SAMPLE...]]
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 
 #include "study/field_accuracy.h"
@@ -10,19 +12,20 @@
 int main(int argc, char** argv) {
   using namespace papilla;
   FieldAccuracyOptions options;
-  if (argc > 2) {
+  if (argc > 3) {
     options.pixels = std::atoi(argv[1]);
     options.refinements.clear();
     for (int f = 1; f <= std::atoi(argv[2]); f *= 2) options.refinements.push_back(f);
+    options.levels = std::atoi(argv[3]);
   }
-  std::vector<std::string> samples(argv + std::min(argc, 3), argv + argc);
+  std::vector<std::string> samples(argv + std::min(argc, 4), argv + argc);
   if (samples.empty()) samples = {"flat", "a3h350", "a3h600", "a3h900", "a4h350", "a4h600"};
-  std::vector<FieldAccuracyRow> rows;
+  bool head = true;
   for (const std::string& sample : samples) {
-    for (FieldAccuracyRow& row : field_accuracy(
-             sample, read_design(find_design("m3_samples/" + sample + ".toml")), options)) {
-      rows.push_back(std::move(row));
-    }
+    const std::string csv = field_accuracy_csv(field_accuracy(
+        sample, read_design(find_design("m3_samples/" + sample + ".toml")), options));
+    fmt::print("{}", head ? csv : csv.substr(csv.find('\n') + 1));
+    std::fflush(stdout);
+    head = false;
   }
-  fmt::print("{}", field_accuracy_csv(rows));
 }
