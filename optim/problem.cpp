@@ -4,8 +4,21 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/random.h"
 
 namespace papilla {
+
+Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i) {
+  // Roberts' generalised golden ratio: phi solves x^(d+1) = x + 1; a random shift scrambles.
+  double phi = 2;
+  for (int k = 0; k < 60; ++k) phi = std::pow(1 + phi, 1.0 / (static_cast<double>(dimensions) + 1));
+  Point u(dimensions);
+  for (std::size_t k = 0; k < dimensions; ++k) {
+    const double step = std::pow(1 / phi, static_cast<double>(k + 1));
+    u[k] = std::fmod(hash_uniform(seed, 77, k) + step * static_cast<double>(i + 1), 1.0);
+  }
+  return u;
+}
 
 Point Space::value(const Point& unit) const {
   PAPILLA_CHECK(unit.size() == size(), "one coordinate a variable");
@@ -42,7 +55,10 @@ Point Space::unit(const Point& value) const {
   return out;
 }
 
-Point Space::snapped(const Point& u) const { return unit(value(u)); }
+Point Space::snapped(const Point& u) const {
+  const Point point = unit(value(u));
+  return collapse ? collapse(point) : point;
+}
 
 bool Space::single_point() const {
   return std::all_of(dimensions.begin(), dimensions.end(), [](const Dimension& d) {

@@ -1,6 +1,7 @@
 // An optimisation problem as numbers only: a box, objectives to minimise, constraints <= 0.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -9,15 +10,22 @@ namespace papilla {
 
 using Point = std::vector<double>;
 
+// The i-th point of a scrambled low-discrepancy sequence in the unit cube (generalised golden
+// ratio).
+Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i);
+
 // One variable: an interval, or a list of choices (values in increasing order).
 struct Dimension {
   double low = 0, high = 1;
   std::vector<double> choices;
+  bool ordered = true;  // else the choices are kinds: none lies between two others
 };
 
 // The unit cube is what searchers see; choices split their unit interval into equal cells.
 struct Space {
   std::vector<Dimension> dimensions;
+  // Unit points that are the same thing to their representative; may be empty. Idempotent.
+  std::function<Point(const Point&)> collapse;
 
   std::size_t size() const { return dimensions.size(); }
   Point value(const Point& unit) const;  // unit cube -> values; outside is clamped

@@ -347,16 +347,4 @@ std::unique_ptr<Searcher> make_bayesian(const SearchProblem& problem) {
   return std::make_unique<Bayesian>(problem);
 }
 
-Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i) {
-  // Roberts' generalised golden ratio: phi solves x^(d+1) = x + 1; a random shift scrambles.
-  double phi = 2;
-  for (int k = 0; k < 60; ++k) phi = std::pow(1 + phi, 1.0 / (static_cast<double>(dimensions) + 1));
-  Point u(dimensions);
-  for (std::size_t k = 0; k < dimensions; ++k) {
-    const double step = std::pow(1 / phi, static_cast<double>(k + 1));
-    u[k] = std::fmod(hash_uniform(seed, 77, k) + step * static_cast<double>(i + 1), 1.0);
-  }
-  return u;
-}
-
 }  // namespace papilla

@@ -33,8 +33,4 @@ class Penalty {
   std::vector<double> worst_, best_;
 };
 
-// The i-th point of a scrambled low-discrepancy sequence in the unit cube (generalised golden
-// ratio).
-Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i);
-
 }  // namespace papilla

@@ -97,7 +97,10 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
   for (const FinalDesign& d : r.finalists) {
     Json variables = Json::object();
     const std::vector<double> values = problem.values(d.unit);
-    for (std::size_t i = 0; i < values.size(); ++i) variables[study.variables[i].path] = values[i];
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Variable& v = study.variables[i];
+      variables[v.path] = v.is_kind() ? Json(variable_text(v, values[i])) : Json(values[i]);
+    }
     out["designs"].push_back({{"folder", d.folder},
                               {"on_front", d.on_front},
                               {"feasible", d.feasible},

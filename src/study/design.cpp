@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <list>
 #include <optional>
 
 #include "base/files.h"
@@ -14,6 +15,7 @@
 #include "config/describe.h"
 #include "config/writer.h"
 #include "metrics/metrics.h"
+#include "study/family.h"
 
 namespace papilla {
 namespace {
@@ -192,9 +194,18 @@ std::vector<std::string> calibration_mismatch(const Design& design) {
 Design with_settings(Design design, const std::vector<Setting>& settings) {
   const std::vector<NumberField> known = number_fields(design);
   for (const Setting& setting : settings) {
-    *find_number_field(known, setting.path).value = setting.value;
+    const std::string path = path_in(known, setting.path);
+    if (!path.empty() || !setting.path.starts_with("texture."))
+      *find_number_field(known, path.empty() ? setting.path : path).value = setting.value;
   }
   return design;
+}
+
+std::string variable_text(const Variable& variable, double value, bool plain) {
+  if (variable.is_kind()) return texture_kinds()[static_cast<std::size_t>(value)];
+  const double shown = value / find_unit(variable.unit)->to_si;
+  if (plain) return fmt::format("{:.6g}", shown);
+  return fmt::format("{:.3g}{}", shown, variable.unit.empty() ? "" : " " + variable.unit);
 }
 
 std::vector<std::string> design_roots() {
@@ -244,6 +255,7 @@ class StudyReader {
     }
     numbers_ = number_fields(study_.design);
     read_variables();
+    read_scatter();
     read_objective();
     read_constraints();
     read_population();
@@ -298,8 +310,10 @@ class StudyReader {
     if (!space) return;
     std::vector<std::pair<std::string, const Node*>> members;
     flatten(*space, "", true, members);
+    read_kinds(members);
     for (const auto& [path, node] : members) {
       const std::string where = "design_space." + path;
+      if (path == "texture.type" || path == "texture.levels") continue;
       const NumberField* field = number_field(path, *node, "design_space");
       if (!field) continue;
       Variable variable{path, field->unit, 0, 0, {}};
@@ -329,6 +343,69 @@ class StudyReader {
         continue;
       }
       study_.variables.push_back(std::move(variable));
+    }
+  }
+
+  // The texture's kind and number of parts; then the numbers of every kind may be varied.
+  void read_kinds(const std::vector<std::pair<std::string, const Node*>>& members) {
+    for (const auto& [path, node] : members) {
+      if (path != "texture.type" && path != "texture.levels") continue;
+      const std::string where = "design_space." + path;
+      const Node* choice = node->is_table() ? node->find("choice") : nullptr;
+      const bool kind = path == "texture.type";
+      const int parts = texture_levels(study_.design.texture);
+      const std::string expected =
+          kind ? "expected { choice = [...] } of texture types"
+               : fmt::format("expected {{ choice = [...] }} of numbers of parts, 1 to {}", parts);
+      if (!choice || !choice->is_array() || choice->children.empty()) {
+        document_.problem(node->place, where, expected + ", got " + describe(*node));
+        continue;
+      }
+      Variable variable{path, "", 0, 0, {}};
+      const auto& kinds = texture_kinds();
+      for (const Node& item : choice->children) {
+        const auto found =
+            std::find(kinds.begin(), kinds.end(), item.is_text() ? item.text : std::string());
+        if (kind && found != kinds.end() && item.text != "stack" && item.text != "measured") {
+          variable.choices.push_back(static_cast<double>(found - kinds.begin()));
+          for (const NumberField& field :
+               number_fields(kind_copies_.emplace_back(of_kind(study_.design.texture, item.text)),
+                             "texture")) {
+            if (std::none_of(numbers_.begin(), numbers_.end(),
+                             [&](const NumberField& known) { return known.path == field.path; }))
+              numbers_.push_back(field);
+          }
+        } else if (!kind && item.kind == Node::Kind::Integer && item.integer >= 1 &&
+                   item.integer <= parts) {
+          variable.choices.push_back(static_cast<double>(item.integer));
+        } else {
+          document_.problem(item.place, where, expected + ", got " + describe(item));
+        }
+      }
+      if (variable.choices.empty()) continue;
+      variable.low = *std::min_element(variable.choices.begin(), variable.choices.end());
+      variable.high = *std::max_element(variable.choices.begin(), variable.choices.end());
+      study_.variables.push_back(std::move(variable));
+    }
+  }
+
+  void read_scatter() {
+    const Node* section = table("scatter");
+    if (!section) return;
+    std::vector<std::pair<std::string, const Node*>> members;
+    flatten(*section, "", false, members);
+    for (const auto& [path, node] : members) {
+      const NumberField* field = number_field(path, *node, "scatter");
+      if (!field) continue;
+      const std::string where = "scatter." + path;
+      double tolerance = 0;
+      if (!document_.number(*node, where, {path.c_str(), field->unit, 0, 1e9, ""}, tolerance))
+        continue;
+      if (tolerance > 0) {
+        study_.scatter.push_back({path, tolerance});
+      } else {
+        document_.problem(node->place, where, "expected a tolerance above 0");
+      }
     }
   }
 
@@ -379,9 +456,10 @@ class StudyReader {
   void read_objective() {
     const Node* section = table("objective");
     if (!section) return;
-    only(*section, "objective", {"maximise", "minimise", "risk"});
+    only(*section, "objective", {"maximise", "minimise", "target", "risk"});
     study_.objective.maximise = metrics(*section, "maximise");
     study_.objective.minimise = metrics(*section, "minimise");
+    if (const Node* target = section->find("target")) read_targets(*target);
     const std::vector<std::string> risk = texts(*section, "risk", "objective");
     if (!risk.empty()) study_.objective.risk = risk.front();
   }
@@ -405,6 +483,27 @@ class StudyReader {
       document_.problem(child.key_place, "constraints", error.problems().front().message);
     }
     return ConstraintKind{child.key, "", true, ""};
+  }
+
+  void read_targets(const Node& section) {
+    if (!section.is_table()) {
+      document_.problem(
+          section.place, "objective.target",
+          "expected { METRIC = value }, e.g. { modulation = 0.8 }, got " + describe(section));
+      return;
+    }
+    for (const Node& item : section.children) {
+      const MetricInfo* metric = find_metric(item.key);
+      if (!metric) {
+        document_.problem(item.key_place, "objective.target",
+                          fmt::format("unknown metric \"{}\"", item.key));
+        continue;
+      }
+      double value = 0;
+      if (document_.number(item, "objective.target." + item.key,
+                           {metric->name.c_str(), metric->unit.c_str(), -1e9, 1e9, ""}, value))
+        study_.objective.targets.push_back({metric->name, value});
+    }
   }
 
   void read_constraints() {
@@ -517,9 +616,9 @@ class StudyReader {
 
   void check_whole() {
     if (!study_.variables.empty() && study_.objective.maximise.empty() &&
-        study_.objective.minimise.empty()) {
+        study_.objective.minimise.empty() && study_.objective.targets.empty()) {
       document_.problem_at("objective",
-                           "a study needs `maximise` or `minimise`, e.g. maximise = "
+                           "a study needs `maximise`, `minimise` or `target`, e.g. maximise = "
                            "\"mean(modulation)\"");
     }
   }
@@ -527,6 +626,7 @@ class StudyReader {
   Document& document_;
   Study& study_;
   std::vector<NumberField> numbers_;
+  std::list<Texture> kind_copies_;  // that numbers_ point into
 };
 
 std::string study_name(const std::string& path) {

@@ -61,19 +61,32 @@ struct DesignProblem {
 };
 std::vector<DesignProblem> design_problems(const Design& design);
 
-// One number that the search may change.
+// One number that the search may change; or the texture's kind ("texture.type", by its place in
+// texture_kinds()) or how many parts of a stack there are ("texture.levels").
 struct Variable {
   std::string path;             // into Design: "texture.diameter"
   std::string unit;             // for people
   double low = 0, high = 0;     // SI
   std::vector<double> choices;  // SI; when not empty, one of these
 
+  bool is_kind() const { return path == "texture.type"; }
+  bool is_levels() const { return path == "texture.levels"; }
+
   bool operator==(const Variable&) const = default;
+};
+
+// What a metric should be at every humidity.
+struct Target {
+  std::string metric;
+  double value = 0;  // SI
+
+  bool operator==(const Target&) const = default;
 };
 
 // Metric expressions such as "mean(modulation)"; two objectives make a Pareto front.
 struct Objective {
   std::vector<std::string> maximise, minimise;
+  std::vector<Target> targets;  // the root mean square distance from each is minimised
   std::string risk;  // "mean - 2 std", "cvar 20 %", "worst"; "": mean over the population
 
   bool operator==(const Objective&) const = default;
@@ -110,6 +123,14 @@ struct Scenario {
   bool operator==(const Scenario&) const = default;
 };
 
+// How far fabrication may miss a number of the design: anywhere within +- tolerance.
+struct Scatter {
+  std::string path;
+  double tolerance = 0;  // SI
+
+  bool operator==(const Scatter&) const = default;
+};
+
 struct Search {
   std::string method = "auto";
   int seed = 1;
@@ -130,6 +151,7 @@ struct Study {
   std::vector<Constraint> constraints;
   std::vector<Finger> population;  // empty: the design's finger alone
   std::vector<Scenario> scenarios;
+  std::vector<Scatter> scatter;
   Search search;
 
   std::string file;     // as given
@@ -156,7 +178,11 @@ void write_finger(const std::string& path, const Finger& finger, const std::stri
 // Every value of the study with its origin; reads back to the same study.
 std::string resolved_toml(const Study& study);
 
-// The design with numbers changed by path (SI).
+// The design with numbers changed by path (SI). Numbers of the texture that its kind does not have
+// are left out.
 Design with_settings(Design design, const std::vector<Setting>& settings);
+
+// A variable's value as people write it: "3.2 um", "hole_array"; plain: without the unit.
+std::string variable_text(const Variable& variable, double value, bool plain = false);
 
 }  // namespace papilla

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
+#include <string_view>
 
 #include "base/check.h"
 #include "base/constants.h"
@@ -15,6 +17,7 @@
 #include "config/writer.h"
 #include "forward/voltage.h"
 #include "study/evaluation.h"
+#include "study/family.h"
 
 namespace papilla {
 namespace {
@@ -55,6 +58,17 @@ bool needs_evaluation(const Constraint& c, const Texture& texture) {
 std::string look_refusal(const Design& d) {
   return optics_refusal(d.texture, d.surface.refractive_index);
 }
+
+// Root mean square distance from the target over humidity. Eq. search.11
+double distance(const StudyObjective& o, const Response& response) {
+  double sum = 0, total = 0;
+  for (const ResponsePoint& p : response.points) {
+    sum += p.weight * square(metric_at(o.expression.metric, p)->value - o.target);
+    total += p.weight;
+  }
+  return std::sqrt(sum / total);
+}
+
 
 double parse_number(const std::string& text, const std::string& whole) {
   double value = 0;
@@ -132,12 +146,55 @@ double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<dou
   return sign * mean;
 }
 
+std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, double nominal,
+                                     const std::vector<double>& lower,
+                                     const std::vector<double>& upper) {
+  PAPILLA_CHECK(lower.size() == upper.size(), "both ends of each scatter");
+  if (lower.empty()) return {nominal};
+  // nominal + sum of a u + b u^2, u uniform in [-1, 1].
+  std::vector<double> a, b;
+  double mean = nominal, variance = 0, worst = nominal;
+  for (std::size_t k = 0; k < lower.size(); ++k) {
+    a.push_back(0.5 * (upper[k] - lower[k]));
+    b.push_back(0.5 * (upper[k] + lower[k]) - nominal);
+    mean += b[k] / 3;
+    variance += square(a[k]) / 3 + 4 * square(b[k]) / 45;
+    double least = 0;
+    for (double u : {-1.0, 1.0, b[k] != 0 ? std::clamp(-0.5 * a[k] / b[k], -1.0, 1.0) : 0.0}) {
+      const double change = a[k] * u + b[k] * u * u;
+      least = higher_is_better ? std::min(least, change) : std::max(least, change);
+    }
+    worst += least;
+  }
+  switch (risk.kind) {
+    case Risk::Kind::Mean:
+      return {mean};
+    case Risk::Kind::Worst:
+      return {worst};
+    case Risk::Kind::MeanStd:
+      return {mean - std::sqrt(variance), mean + std::sqrt(variance)};
+    case Risk::Kind::Cvar:
+      break;
+  }
+  constexpr int kSample = 128;
+  std::vector<double> out(kSample, nominal);
+  for (int i = 0; i < kSample; ++i) {
+    const Point u = low_discrepancy(a.size(), 1, static_cast<std::uint64_t>(i));
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const double x = 2 * u[k] - 1;
+      out[static_cast<std::size_t>(i)] += a[k] * x + b[k] * x * x;
+    }
+  }
+  return out;
+}
+
 StudyProblem::StudyProblem(const Study& study) : study_(study) {
   for (const Variable& v : study.variables) {
-    Dimension d{v.low, v.high, v.choices};
+    Dimension d{v.low, v.high, v.choices, !v.is_kind()};
     std::sort(d.choices.begin(), d.choices.end());
     space_.dimensions.push_back(d);
   }
+  space_.collapse = [this](const Point& u) { return collapsed(u); };
   const std::vector<Finger> fingers =
       study.population.empty() ? std::vector<Finger>{study.design.finger} : study.population;
   const std::vector<Scenario> scenarios =
@@ -148,11 +205,28 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
                         scenario.weight, finger, scenario.set});
     }
   }
+  nominal_ = tasks_.size();
+  for (std::size_t t = 0; t < nominal_; ++t) {
+    for (std::size_t k = 0; k < study.scatter.size(); ++k) {
+      for (int sign : {-1, 1}) {
+        StudyTask task = tasks_[t];
+        task.name += fmt::format(", {} {}", study.scatter[k].path, sign < 0 ? "low" : "high");
+        task.scattered = static_cast<int>(k);
+        task.sign = sign;
+        tasks_.push_back(std::move(task));
+      }
+    }
+  }
   if (std::none_of(tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.weight > 0; }))
     throw InputError("scenarios: at least one weight above 0 is needed");
-  const auto add = [&](std::vector<StudyObjective>& list, const std::string& text, bool maximise) {
-    const MetricExpression expression = parse_metric(text);
+  const auto add = [&](std::vector<StudyObjective>& list, const MetricExpression& expression,
+                       bool maximise, const Target* target) {
     list.push_back({expression, maximise, metric_text(expression)});
+    if (target) {
+      list.back().name = fmt::format("distance({}, {:g})", target->metric, target->value);
+      list.back().aimed = true;
+      list.back().target = target->value;
+    }
     if (const auto modulation = voltage_target(expression.metric)) {
       if (std::find(voltage_targets_.begin(), voltage_targets_.end(), *modulation) ==
           voltage_targets_.end())
@@ -169,10 +243,14 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
                                    list.back().name));
     }
   };
-  for (const std::string& text : study.objective.maximise) add(objectives_, text, true);
-  for (const std::string& text : study.objective.minimise) add(objectives_, text, false);
+  for (const std::string& text : study.objective.maximise)
+    add(objectives_, parse_metric(text), true, nullptr);
+  for (const std::string& text : study.objective.minimise)
+    add(objectives_, parse_metric(text), false, nullptr);
+  for (const Target& target : study.objective.targets)
+    add(objectives_, {Summary::Mean, target.metric}, false, &target);
   for (const Constraint& c : study.constraints) {
-    if (on_metric(c)) add(limited_, c.name, c.at_least);
+    if (on_metric(c)) add(limited_, parse_metric(c.name), c.at_least, nullptr);
   }
   if (objectives_.empty() || objectives_.size() > 3) {
     throw InputError(
@@ -181,34 +259,154 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
   risk_ = parse_risk(study.objective.risk);
 }
 
+// The variable has an effect on a design with these numbers: it names one of them, or another
+// kind's word for one that no other variable names.
+bool StudyProblem::acts(const std::vector<NumberField>& known, std::size_t variable) const {
+  const std::string& own = study_.variables[variable].path;
+  const std::string path = path_in(known, own);
+  return !path.empty() &&
+         (path == own || std::none_of(study_.variables.begin(), study_.variables.end(),
+                                      [&](const Variable& v) { return v.path == path; }));
+}
+
 Design StudyProblem::design(const Point& unit) const {
-  std::vector<Setting> settings;
   const std::vector<double> v = space_.value(unit);
-  for (std::size_t i = 0; i < v.size(); ++i) settings.push_back({study_.variables[i].path, v[i]});
-  return with_settings(study_.design, settings);
+  Design out = study_.design;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (study_.variables[i].is_kind())
+      out.texture = of_kind(out.texture, texture_kinds()[static_cast<std::size_t>(v[i])]);
+    if (study_.variables[i].is_levels())
+      out.texture = with_levels(std::move(out.texture), static_cast<int>(v[i]));
+  }
+  const std::vector<NumberField> known = number_fields(out);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Variable& variable = study_.variables[i];
+    if (!variable.is_kind() && !variable.is_levels() && acts(known, i))
+      *find_number_field(known, path_in(known, variable.path)).value = v[i];
+  }
+  return out;
 }
 
 Point StudyProblem::unit_of_study() const {
   Point value;
-  for (const Variable& v : study_.variables) value.push_back(get_number(study_.design, v.path));
+  Design copy = study_.design;
+  const std::vector<NumberField> known = number_fields(copy);
+  for (const Variable& v : study_.variables) {
+    if (v.is_kind()) {
+      value.push_back(static_cast<double>(study_.design.texture.kind.index()));
+    } else if (v.is_levels()) {
+      value.push_back(texture_levels(study_.design.texture));
+    } else {
+      const std::string path = path_in(known, v.path);
+      value.push_back(path.empty() ? 0.5 * (v.low + v.high)
+                                   : *find_number_field(known, path).value);
+    }
+  }
+  return space_.unit(value);
+}
+
+Point StudyProblem::collapsed(const Point& unit) const {
+  const bool textured =
+      std::any_of(study_.variables.begin(), study_.variables.end(),
+                  [](const Variable& v) { return v.path.starts_with("texture."); });
+  if (!textured) return unit;
+  Design d = design(unit);
+  Point value = space_.value(unit);
+  const Point own = space_.value(unit_of_study());
+  const auto offered = [](const Variable& v, double choice) {
+    return std::find(v.choices.begin(), v.choices.end(), choice) != v.choices.end();
+  };
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Variable& v = study_.variables[i];
+    if (v.is_levels()) {  // a last part of no depth is one level less
+      while (const auto* stack = std::get_if<Stack>(&d.texture.kind)) {
+        const int levels = static_cast<int>(stack->parts.size());
+        if (levels < 2 || texture_depth(stack->parts.back()) > 0 || !offered(v, levels - 1)) break;
+        d.texture = with_levels(d.texture, levels - 1);
+        value[i] = levels - 1;
+      }
+    }
+    if (v.is_kind() && texture_depth(d.texture) <= 0) {
+      value[i] = v.low;  // "flat" is the first of all kinds
+      d.texture = of_kind(d.texture, texture_kinds()[static_cast<std::size_t>(v.low)]);
+    }
+  }
+  const auto texture_of = [&](const std::string& path) -> const Texture& {
+    constexpr std::string_view kPart = "texture.parts.";
+    const auto* stack = std::get_if<Stack>(&d.texture.kind);
+    if (!stack || !path.starts_with(kPart)) return d.texture;
+    const auto part = static_cast<std::size_t>(std::atoi(path.c_str() + kPart.size()));
+    return part < stack->parts.size() ? stack->parts[part] : d.texture;
+  };
+  const std::vector<NumberField> known = number_fields(d);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Variable& v = study_.variables[i];
+    if (!v.path.starts_with("texture.") || v.is_kind() || v.is_levels()) continue;
+    const bool depth = v.path.ends_with(".depth") || v.path.ends_with(".height");
+    if (!acts(known, i) || (!depth && texture_depth(texture_of(path_in(known, v.path))) <= 0))
+      value[i] = own[i];
+  }
   return space_.unit(value);
 }
 
 std::vector<Point> StudyProblem::starts() const {
   std::vector<Point> out{unit_of_study()};
-  // The flat surface, where one variable alone makes it.
+  const auto add = [&](const Point& u) {
+    const Point p = space_.snapped(u);
+    if (std::find(out.begin(), out.end(), p) == out.end()) out.push_back(p);
+  };
   for (std::size_t i = 0; i < space_.size(); ++i) {
+    if (study_.variables[i].is_kind()) {  // each kind once
+      for (double kind : study_.variables[i].choices) {
+        Point value = space_.value(out.front());
+        value[i] = kind;
+        add(space_.unit(value));
+      }
+      continue;
+    }
+    // The flat surface, where one variable alone makes it.
     Point flat = out.front();
     flat[i] = 0;
     if (texture_depth(study_.design.texture) > 0 && texture_depth(design(flat).texture) <= 0)
-      out.push_back(flat);
+      add(flat);
   }
   return out;
 }
 
+// Scenario, finger, then the end of the scatter, within the range that the number may have at all.
+Design StudyProblem::task_design(Design d, const StudyTask& task) const {
+  d = with_settings(std::move(d), task.settings);
+  d.finger = task.finger;
+  if (task.scattered < 0) return d;
+  const Scatter& scatter = study_.scatter[static_cast<std::size_t>(task.scattered)];
+  const std::vector<NumberField> known = number_fields(d);
+  const std::string path = path_in(known, scatter.path);
+  if (path.empty()) return d;  // this kind of texture does not have it
+  const NumberField field = find_number_field(known, path);
+  const double unit = find_unit(field.unit)->to_si;
+  *field.value =
+      std::clamp(*field.value + task.sign * scatter.tolerance, field.low * unit, field.high * unit);
+  return d;
+}
+
+// What is wrong with the shape, as designed or within its scatter; empty: nothing.
+std::string StudyProblem::problem_of(const Design& design) const {
+  if (const auto wrong = design_problems(design); !wrong.empty())
+    return wrong.front().path + ": " + wrong.front().message;
+  for (const StudyTask& task : tasks_) {
+    if (task.scattered < 0) continue;
+    const auto wrong = design_problems(task_design(design, task));
+    if (!wrong.empty())
+      return wrong.front().path + ": within the scatter, " + wrong.front().message;
+    if (task.scattered + 1 == static_cast<int>(study_.scatter.size()) && task.sign > 0)
+      break;  // shapes are the same for every finger
+  }
+  return {};
+}
+
 std::vector<double> StudyProblem::geometry(const Point& unit) const {
   const Design d = design(unit);
-  std::vector<double> out{design_problems(d).empty() ? -1.0 : 1.0};
+  std::vector<double> out{problem_of(d).empty() ? -1.0 : 1.0};
   if (out.front() <= 0 && needs_appearance() && !look_refusal(d).empty()) out.front() = 1;
   for (const Constraint& c : study_.constraints) {
     if (needs_evaluation(c, d.texture)) continue;
@@ -222,8 +420,7 @@ std::vector<double> StudyProblem::geometry(const Point& unit) const {
 
 std::string StudyProblem::geometry_reason(const Point& unit) const {
   const Design d = design(unit);
-  const std::vector<DesignProblem> wrong = design_problems(d);
-  if (!wrong.empty()) return wrong.front().path + ": " + wrong.front().message;
+  if (const std::string wrong = problem_of(d); !wrong.empty()) return wrong;
   if (needs_appearance()) {
     if (const std::string why = look_refusal(d); !why.empty()) return why;
   }
@@ -247,8 +444,7 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
 Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const Fidelity& fidelity,
                                     bool report) const {
   const StudyTask& task = tasks_.at(index);
-  Design d = with_settings(base, task.settings);
-  d.finger = task.finger;
+  const Design d = task_design(base, task);
   Outcome out;
   if (const auto wrong = design_problems(d); !wrong.empty()) {
     out.reason = wrong.front().path + ": " + wrong.front().message;
@@ -283,7 +479,7 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
       if (list == &limited_) {
         limited.push_back(value->value);
       } else {
-        out.info.push_back(value->value);
+        out.info.push_back(o.aimed ? distance(o, response) : value->value);
         out.info.push_back(value->se);
       }
     }
@@ -317,7 +513,7 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
       score.reason = tasks_[t].name + ": " + tasks[t].reason;
       return score;
     }
-    score.reports.push_back(tasks[t].reason);
+    if (t < nominal_) score.reports.push_back(tasks[t].reason);
   }
   const std::size_t m = objectives_.size();
   const std::vector<double>& rh = study_.design.environment.relative_humidity;
@@ -325,29 +521,44 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
   if (rh_weights.empty()) rh_weights.assign(rh.size(), 1.0);
   for (std::size_t k = 0; k < m; ++k) {
     const StudyObjective& o = objectives_[k];
-    const bool points = risk_.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean;
+    // A risk runs over humidity too where the objective is a mean over it.
+    const bool points =
+        o.aimed || (risk_.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean);
     Risk risk = risk_;
-    if (o.expression.summary == Summary::Worst) risk.kind = Risk::Kind::Worst;
+    if (!o.aimed && o.expression.summary == Summary::Worst) risk.kind = Risk::Kind::Worst;
     std::vector<double> values, weights;
     double error = 0, total = 0;
-    for (std::size_t t = 0; t < tasks.size(); ++t) {
+    const auto add = [&](std::size_t t, std::size_t entry, double weight) {
+      const auto value = [&](const std::vector<double>& info) {
+        return o.aimed ? square(info[entry] - o.target) : info[entry];
+      };
+      std::vector<double> lower, upper;
+      for (std::size_t s = 0; s < study_.scatter.size(); ++s) {
+        const std::size_t low = nominal_ + 2 * (t * study_.scatter.size() + s);
+        lower.push_back(value(tasks[low].info));
+        upper.push_back(value(tasks[low + 1].info));
+      }
+      const std::vector<double> all =
+          scattered_values(risk, o.maximise, value(tasks[t].info), lower, upper);
+      for (double v : all) {
+        values.push_back(v);
+        weights.push_back(weight / static_cast<double>(all.size()));
+      }
+    };
+    for (std::size_t t = 0; t < nominal_; ++t) {
       const std::vector<double>& info = tasks[t].info;
       PAPILLA_CHECK(
           info.size() == 2 * m + 2 + m * rh.size() + (needs_appearance() ? 4 : 0) + limited_.size(),
           "numbers of a task");
       error += tasks_[t].weight * info[2 * k + 1];  // tasks share their skins: errors add linearly
       total += tasks_[t].weight;
-      if (!points) {
-        values.push_back(info[2 * k]);
-        weights.push_back(tasks_[t].weight);
-        continue;
-      }
-      for (std::size_t i = 0; i < rh.size(); ++i) {
-        values.push_back(info[2 * m + 2 + k * rh.size() + i]);
-        weights.push_back(tasks_[t].weight * rh_weights[i]);
-      }
+      if (!points) add(t, 2 * k, tasks_[t].weight);
+      for (std::size_t i = 0; i < rh.size() && points; ++i)
+        add(t, 2 * m + 2 + k * rh.size() + i, tasks_[t].weight * rh_weights[i]);
     }
-    score.values.push_back(apply_risk(risk, o.maximise, values, weights));
+    const double value = apply_risk(risk, o.maximise, values, weights);
+    // Eq. search.11
+    score.values.push_back(o.aimed ? std::sqrt(std::max(0.0, value)) : value);
     score.errors.push_back(error / total);
   }
   score.worst = kInfinity;
@@ -434,6 +645,7 @@ std::string StudyProblem::identity() const {
     out += '\n';
   }
   for (const StudyObjective& o : objectives_) out += (o.maximise ? "max " : "min ") + o.name + "\n";
+  for (const Scatter& s : study_.scatter) out += fmt::format("{} +- {:a}\n", s.path, s.tolerance);
   out += study_.objective.risk + "\n";
   for (const Constraint& c : study_.constraints) out += fmt::format("{} {:a}\n", c.name, c.limit);
   for (const StudyTask& t : tasks_) {

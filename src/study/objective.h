@@ -6,20 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "config/describe.h"
 #include "forward/fidelity.h"
 #include "metrics/metrics.h"
 #include "optim/problem.h"
 #include "study/design.h"
 
 namespace papilla {
-
-// One finger in one scenario: the unit of work.
-struct StudyTask {
-  std::string name;  // "reference", "moist, worn"
-  double weight = 1;
-  Finger finger;
-  std::vector<Setting> settings;  // of the scenario
-};
 
 // How a set of values becomes one number. Eq. search.4-6
 struct Risk {
@@ -32,10 +25,31 @@ Risk parse_risk(const std::string& text);  // "" is the mean; throws InputError
 double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<double>& values,
                   const std::vector<double>& weights);
 
+// One finger in one scenario, as designed or with one number at an end of its scatter: the unit of
+// work.
+struct StudyTask {
+  std::string name;  // "reference", "moist, worn"
+  double weight = 1;
+  Finger finger;
+  std::vector<Setting> settings;  // of the scenario
+  int scattered = -1;             // which of the study's scatter; -1: as designed
+  int sign = 0;                   // -1, +1: the end
+};
+
+// Eq. search.10: a quantity over independent scatter, uniform within the tolerances, from its
+// nominal value and those with one number at the lower and upper end: values of equal weight that
+// have the exact mean (Risk::Mean), mean and variance (MeanStd), the worst (Worst) or a
+// low-discrepancy sample (Cvar) of the additive quadratic model through them.
+std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, double nominal,
+                                     const std::vector<double>& lower,
+                                     const std::vector<double>& upper);
+
 struct StudyObjective {
   MetricExpression expression;
   bool maximise = true;
-  std::string name;  // "mean(modulation)"
+  std::string name;    // "mean(modulation)"
+  bool aimed = false;  // the root mean square distance from `target`, Eq. search.11
+  double target = 0;   // SI
 };
 
 // A design judged: objectives in the user's sign, over all tasks.
@@ -47,15 +61,18 @@ struct Score {
   double oxide_margin = 0;             // smallest; infinite without a field
   std::optional<Optics> appearance;    // where the study asks for it
   std::vector<double> limited;         // the bad side over tasks of each constraint on a metric
-  std::vector<std::string> reports;    // JSON of the response of each task, where asked for
+  std::vector<std::string> reports;    // JSON of the response of each task as designed, where asked
 };
 
 class StudyProblem {
  public:
   explicit StudyProblem(const Study& study);  // throws InputError for what cannot be judged
+  StudyProblem(const StudyProblem&) = delete;
+  StudyProblem& operator=(const StudyProblem&) = delete;
 
   const Space& space() const { return space_; }
   const std::vector<StudyTask>& tasks() const { return tasks_; }
+  std::size_t nominal_tasks() const { return nominal_; }  // the first ones: as designed
   const std::vector<StudyObjective>& objectives() const { return objectives_; }
   const std::vector<double>& voltage_targets() const { return voltage_targets_; }
 
@@ -91,7 +108,16 @@ class StudyProblem {
  private:
   const Study& study_;
   Space space_;
+  // The representative of all points that are the same design: numbers without effect on this kind
+  // of texture, or at depth 0, take the study's own value.
+  Point collapsed(const Point& unit) const;
+  // The design of a task.
+  Design task_design(Design design, const StudyTask& task) const;
+  std::string problem_of(const Design& design) const;
+  bool acts(const std::vector<NumberField>& known, std::size_t variable) const;
+
   std::vector<StudyTask> tasks_;
+  std::size_t nominal_ = 0;
   std::vector<StudyObjective> objectives_;
   std::vector<StudyObjective> limited_;  // metrics of constraints, in their order
   std::vector<double> voltage_targets_;  // of voltage_for in either

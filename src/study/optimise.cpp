@@ -73,7 +73,7 @@ Evaluate work_function(const StudyProblem& problem, const Study& study, int thre
   return [&problem, &study, threads](const Point& request) {
     const auto task = static_cast<std::size_t>(request[0]);
     const auto stage = static_cast<Stage>(static_cast<int>(request[1]));
-    Fidelity fidelity = stage == kConfirm ? confirm_fidelity(study, problem.tasks().size())
+    Fidelity fidelity = stage == kConfirm ? confirm_fidelity(study, problem.nominal_tasks())
                         : stage == kDraft ? draft_fidelity(study)
                                           : search_fidelity(study);
     fidelity.threads = threads;
@@ -251,7 +251,9 @@ class Run {
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       first[t] = t;
       for (std::size_t s = 0; s < t && first[t] == t; ++s) {
-        if (tasks[s].settings == tasks[t].settings) first[t] = s;
+        if (tasks[s].settings == tasks[t].settings && tasks[s].scattered == tasks[t].scattered &&
+            tasks[s].sign == tasks[t].sign)
+          first[t] = s;
       }
     }
     std::vector<Evaluation> batch;
@@ -288,7 +290,7 @@ class Run {
     const Scene scene{study_.design.surface, study_.design.finger, study_.design.environment,
                       study_.design.drive, study_.design.model};
     const double ratio =
-        make_plan(scene, study_.design.texture, confirm_fidelity(study_, problem_.tasks().size()))
+        make_plan(scene, study_.design.texture, confirm_fidelity(study_, problem_.nominal_tasks()))
             .seconds() /
         make_plan(scene, study_.design.texture, search_fidelity(study_)).seconds();
     return evaluation_seconds() * ratio * static_cast<double>(kFinalists + 1);
@@ -414,7 +416,7 @@ class Run {
       if (!search_.space.dimensions[k].choices.empty()) continue;
       for (int sign : {-1, 1}) {
         const Point u = shifted(k, sign * kSensitivityStep);
-        if (!possible(u, k)) continue;
+        if (!possible(u, k) || search_.space.snapped(u) == centre) continue;
         points.push_back(u);
         moves.emplace_back(k, sign);
       }
@@ -606,7 +608,8 @@ class Run {
 
 int default_evaluations(const Study& study) {
   const int n = static_cast<int>(study.variables.size());
-  const std::size_t objectives = study.objective.maximise.size() + study.objective.minimise.size();
+  const std::size_t objectives = study.objective.maximise.size() + study.objective.minimise.size() +
+                                 study.objective.targets.size();
   const bool surrogate =
       (study.search.method == "auto" && objectives <= 2) || study.search.method == "bayesian";
   return surrogate ? std::clamp(10 * n, 20, 100) : std::clamp(20 * n, 20, 200);
@@ -627,7 +630,7 @@ std::string search_plan(const Study& study) {
   out +=
       "\n\nsearch level:\n" + make_plan(scene, study.design.texture, search_fidelity(study)).text();
   out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
-         make_plan(scene, study.design.texture, confirm_fidelity(study, problem.tasks().size()))
+         make_plan(scene, study.design.texture, confirm_fidelity(study, problem.nominal_tasks()))
              .text();
   return out;
 }

@@ -81,9 +81,19 @@ std::string study_reference(ReferenceFormat format) {
       {"objective.maximise, objective.minimise",
        "a metric over humidity, e.g. \"mean(modulation)\", \"worst(modulation)\", "
        "\"variation(modulation)\"; two in all make a Pareto front"},
+      {"design_space.\"texture.type\" = { choice = [...] }",
+       "which kinds of texture compete; the other variables act where a kind has them: a depth is "
+       "a pillar's height, a diameter a groove's width"},
+      {"design_space.\"texture.levels\" = { choice = [...] }",
+       "how many parts of a stack there are, the first ones"},
+      {"objective.target",
+       "{ METRIC = value }: what a metric should be at every humidity, e.g. { modulation = 0.8 }; "
+       "its root mean square distance is minimised"},
       {"objective.risk",
-       "how fingers and scenarios are put together: \"mean\", \"mean - 2 std\", \"cvar 20 %\", "
-       "\"worst\""},
+       "how fingers, scenarios and scatter are put together: \"mean\", \"mean - 2 std\", "
+       "\"cvar 20 %\", \"worst\""},
+      {"scatter.\"PATH\"",
+       "fabrication misses this number by up to so much either way; two more evaluations each"},
       {"population.fingers", "finger files; load and state of the study's [finger] hold for all"},
       {"scenarios",
        "states that count beside each other: name, weight, set = { \"PATH\" = value }"},

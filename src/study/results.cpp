@@ -27,6 +27,10 @@ constexpr int kExportPixels = 512;  // across one patch
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
+Json variable_json(const Variable& v, double value) {
+  return v.is_kind() ? Json(variable_text(v, value)) : Json(value);
+}
+
 std::string csv_text(std::string text) {
   for (char& c : text) {
     if (c == ',' || c == '"' || c == '\n') c = ';';
@@ -65,7 +69,7 @@ class Writer {
     std::string out;
     const std::vector<double> values = f_.problem.values(unit);
     for (std::size_t i = 0; i < values.size(); ++i)
-      out += fmt::format(",{:.6g}", values[i] / find_unit(f_.study.variables[i].unit)->to_si);
+      out.append(",").append(variable_text(f_.study.variables[i], values[i], true));
     return out;
   }
 
@@ -149,7 +153,7 @@ class Writer {
     Json variables = Json::object();
     const std::vector<double> values = f_.problem.values(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i)
-      variables[f_.study.variables[i].path] = values[i];
+      variables[f_.study.variables[i].path] = variable_json(f_.study.variables[i], values[i]);
     out["variables"] = variables;
     out["objectives"] = score_json(d.confirmed);
     out["objectives_at_search_level"] = score_json(d.searched);
@@ -362,9 +366,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
     out += "| " + (d.folder.empty() ? "(dominated)" : d.folder);
     const std::vector<double> values = problem.values(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::string& unit = study.variables[i].unit;
-      out += fmt::format(" | {:.3g}{}", values[i] / find_unit(unit)->to_si,
-                         unit.empty() ? "" : " " + unit);
+      out.append(" | ").append(variable_text(study.variables[i], values[i]));
     }
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       out += d.confirmed.ok

@@ -16,7 +16,7 @@ struct Variant {
 
 std::vector<Variant> variants(const StudyProblem& problem) {
   std::vector<Variant> out;
-  for (std::size_t t = 0; t < problem.tasks().size(); ++t) {
+  for (std::size_t t = 0; t < problem.nominal_tasks(); ++t) {
     out.push_back({"finger " + problem.tasks()[t].name, t, [](Scene&) {}});
   }
   const Scene first{{}, problem.tasks().front().finger, {}, {}, {}};
