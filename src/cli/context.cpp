@@ -24,4 +24,12 @@ void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+void add_pick_option(CLI::App& command, std::string& rule) {
+  command
+      .add_option("--pick", rule,
+                  "Which design of the front: worst (highest worst modulation; default), knee, an "
+                  "objective (its best), or a number")
+      ->type_name("RULE");
+}
+
 }  // namespace papilla

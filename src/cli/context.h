@@ -34,4 +34,7 @@ void add_design_options(CLI::App& command, DesignOptions& options);
 // --set KEY=VALUE, for every command that reads a design.
 void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
 
+// --pick RULE, for every command that shows one design of a front.
+void add_pick_option(CLI::App& command, std::string& rule);
+
 }  // namespace papilla

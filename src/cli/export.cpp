@@ -2,12 +2,14 @@
 #include "study/export.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "study/pick.h"
 
 namespace papilla {
 namespace {
@@ -15,12 +17,18 @@ namespace {
 struct ExportCommand {
   DesignOptions design;
   std::vector<std::string> formats;
-  std::string size, polarity, out;
+  std::string size, polarity, out, pick;
   int pixels = 1024;
 };
 
 int export_files(const ExportCommand& command) {
-  const Study study = read_study(command.design.file, command.design.overrides);
+  std::string file = command.design.file;
+  if (std::filesystem::is_directory(file)) {
+    file = picked_design_file(file, command.pick);
+  } else if (!command.pick.empty()) {
+    throw InputError("--pick chooses from a folder of results; " + file + " is a file");
+  }
+  const Study study = read_study(file, command.design.overrides);
   ExportOptions options;
   options.formats = command.formats;
   options.pixels = command.pixels;
@@ -44,7 +52,7 @@ int export_files(const ExportCommand& command) {
 void add_export(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand("export", "Heightmap and mask files of a design");
   auto options = std::make_shared<ExportCommand>();
-  command->add_option("file", options->design.file, "Design or study file")
+  command->add_option("file", options->design.file, "Design or study file, or a folder of results")
       ->required()
       ->type_name("FILE");
   add_set_option(*command, options->design.overrides);
@@ -62,6 +70,7 @@ void add_export(CLI::App& app, Context& context) {
       ->check(CLI::IsMember({"white-high", "white-deep"}));
   command->add_option("--out", options->out, "Folder; default results/NAME/export")
       ->type_name("DIR");
+  add_pick_option(*command, options->pick);
   command->callback(
       [&context, options] { context.action = [options] { return export_files(*options); }; });
 }

@@ -20,7 +20,7 @@ namespace papilla {
 namespace {
 
 struct OptimizeOptions {
-  std::string study, out, time, method;
+  std::string study, out, time, method, pick;
   std::vector<std::string> overrides;
   bool resume = false, json = false;
   int jobs = 0, evaluations = 0, seed = -1;
@@ -129,6 +129,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   run.folder = options.out.empty() ? "results/" + study.name : options.out;
   run.resume = options.resume;
   run.stop = &interrupted;
+  run.pick = options.pick;
   ProgressPrinter printer(context);
   run.progress = [&](const Progress& p) { printer.show(p); };
   struct sigaction action {};
@@ -183,6 +184,7 @@ void add_optimize(CLI::App& app, Context& context) {
       ->check(CLI::Range(0, 1 << 30));
   command->add_option("--method", options->method,
                       "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct");
+  add_pick_option(*command, options->pick);
   add_set_option(*command, options->overrides);
   command->add_flag("--json", options->json, "The result as one JSON object on standard output");
   command->callback([&context, options] {

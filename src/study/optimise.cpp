@@ -20,6 +20,7 @@
 #include "optim/pareto.h"
 #include "optim/search.h"
 #include "optim/worker.h"
+#include "study/pick.h"
 #include "study/report.h"
 #include "study/results.h"
 
@@ -143,6 +144,15 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   return p;
 }
 
+// A rule that no front could meet is refused before the search.
+void check_pick_rule(const std::string& rule, const std::vector<StudyObjective>& objectives) {
+  if (rule.find_first_not_of("0123456789") == std::string::npos) return;
+  PickCandidate any;
+  for (const StudyObjective& o : objectives) any.names.push_back(o.name);
+  any.objectives.assign(objectives.size(), 0.0);
+  pick_design(rule, {any});
+}
+
 class Run {
  public:
   Run(const Study& study, const OptimiseOptions& options, const MpiSession& mpi)
@@ -157,6 +167,7 @@ class Run {
         pool_(problem_, study, mpi) {}
 
   OptimiseResult run() {
+    check_pick_rule(options_.pick, problem_.objectives());
     result_.method = method_.name;
     result_.why = method_.why;
     write_bytes(folder_ + "/resolved.toml", resolved_toml(study_));
@@ -164,7 +175,7 @@ class Run {
     search();
     const double searched = seconds();
     if (!result_.interrupted) confirm();
-    ResultFiles files{folder_, study_, problem_, history_, result_};
+    ResultFiles files{folder_, study_, problem_, history_, result_, options_.pick};
     write_results(files);
     if (!result_.interrupted && !result_.finalists.empty() &&
         result_.finalists[result_.best].on_front) {
@@ -370,20 +381,25 @@ class Run {
   // Clock over evaluation time: what the searcher itself takes.
   double overhead() const { return spent_ > 0 ? std::max(1.0, seconds() / spent_) : 1; }
 
-  // Answers of the workers, in order: from the journal while there are records.
+  static Point request_key(const Point& r) {
+    return keyed(Point(r.begin() + 3, r.end()), static_cast<Stage>(static_cast<int>(r[1])),
+                 2 * r[0] + r[2]);
+  }
+  // Answers of the workers, in order: from the journal while there are records. What hangs on the
+  // picked design is evaluated anew, beside the journal, when the earlier run picked another.
   std::vector<Outcome> answers(const std::vector<Point>& requests) {
-    const auto key = [](const Point& r) {
-      return keyed(Point(r.begin() + 3, r.end()), static_cast<Stage>(static_cast<int>(r[1])),
-                   2 * r[0] + r[2]);
-    };
+    if (picked_ && replaying() &&
+        journal_.records()[next_record_].unit != request_key(requests.front()))
+      beside_journal_ = true;
+    if (beside_journal_) return pool_.evaluate(requests);
     std::vector<Outcome> out;
     while (out.size() < requests.size() && replaying())
-      out.push_back(replayed(key(requests[out.size()])));
+      out.push_back(replayed(request_key(requests[out.size()])));
     const std::vector<Point> rest(requests.begin() + static_cast<std::ptrdiff_t>(out.size()),
                                   requests.end());
     const std::vector<Outcome> fresh = pool_.evaluate(rest);
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      record(key(rest[i]), fresh[i]);
+      record(request_key(rest[i]), fresh[i]);
       out.push_back(fresh[i]);
     }
     return out;
@@ -577,14 +593,18 @@ class Run {
       if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
     }
     check_stability();
-    // An unstable design is best only where no other is on the front.
-    const auto rank = [&](std::size_t i) {
-      const FinalDesign& f = result_.finalists[i];
-      return std::tuple(f.on_front, result_.stability.stable(i), f.confirmed.worst);
-    };
-    for (std::size_t i = 1; i < result_.finalists.size(); ++i) {
-      if (rank(i) > rank(result_.best)) result_.best = i;
+    std::vector<PickCandidate> front;  // the first ones; none: the first finalist is best
+    for (const FinalDesign& f : result_.finalists) {
+      if (!f.on_front) continue;
+      PickCandidate c;
+      for (const StudyObjective& o : problem_.objectives()) c.names.push_back(o.name);
+      c.objectives = problem_.outcome(f.confirmed).objectives;
+      c.worst = f.confirmed.worst;
+      c.stable = result_.stability.stable(front.size());
+      front.push_back(std::move(c));
     }
+    if (!front.empty()) result_.best = pick_design(options_.pick, front);
+    picked_ = true;
   }
 
   const Study& study_;
@@ -599,6 +619,7 @@ class Run {
   OptimiseResult result_;
   std::vector<Evaluation> history_;
   std::size_t next_record_ = 0;
+  bool picked_ = false, beside_journal_ = false;
   double spent_ = 0;
   int fresh_ = 0, drafts_ = 0;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -25,6 +25,7 @@ struct OptimiseOptions {
   bool resume = false;
   std::function<void(const Progress&)> progress;  // may be empty
   const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after the running evaluation
+  std::string pick{};  // which design of the front is the best: a rule of pick_design
 };
 
 struct FinalDesign {
@@ -53,7 +54,7 @@ struct OptimiseResult {
   bool interrupted = false;
   bool any_feasible = false;
   std::vector<FinalDesign> finalists;  // by first objective, best first
-  std::size_t best = 0;                // of the finalists: highest worst modulation
+  std::size_t best = 0;                // of the finalists: highest worst modulation, or as picked
   std::optional<Score> flat;           // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
   Stability stability;               // of the finalists' order, in their order

@@ -174,7 +174,7 @@ std::string script_text(std::string text) {
 
 }  // namespace
 
-std::string report_page(const std::string& folder) {
+std::string report_page(const std::string& folder, const std::string& design) {
   const fs::path root(folder);
   for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md",
                            "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
@@ -193,15 +193,15 @@ std::string report_page(const std::string& folder) {
   std::sort(front.begin(), front.end());
   std::string title;
   try {
-    const Json best = Json::parse(read_bytes(root / "best/metrics.json"));
+    const Json best = Json::parse(read_bytes(root / design / "metrics.json"));
     title = best.at("title").get<std::string>();
-    designs["best"] = design_json(root / "best", true);
+    designs["best"] = design_json(root / design, true);
     for (const std::string& name : front) designs[name] = design_json(root / name, false);
   } catch (const Json::exception& e) {
     throw InputError(fmt::format("{}: metrics.json is damaged: {}", folder, e.what()));
   }
   if (title.empty()) title = fs::absolute(root).lexically_normal().filename().string();
-  const Study best = read_study((root / "best/design.toml").string());
+  const Study best = read_study((root / design / "design.toml").string());
   data["title"] = title;
   data["designs"] = std::move(designs);
   data["fields"] = field_json(best.design);

@@ -141,7 +141,8 @@ class Writer {
   Json score_json(const Score& score) const {
     Json out = Json::object();
     for (std::size_t k = 0; k < score.values.size(); ++k) {
-      Json value{{"value", number(score.values[k])}};
+      Json value{{"value", number(score.values[k])},
+                 {"maximise", f_.problem.objectives()[k].maximise}};
       if (k < score.errors.size()) value["se"] = number(score.errors[k]);
       out[f_.problem.objectives()[k].name] = value;
     }
@@ -218,10 +219,13 @@ class Writer {
     out += result_table(f_.study, r);
     const FinalDesign& best = r.finalists[r.best];
     out += fmt::format(
-        "\n`best/` is {}: the highest worst modulation over fingers and humidity{}.\n",
-        best.folder.empty() ? "not on the front" : best.folder,
-        r.stability.stable(r.best) ? " among the designs whose place on the front holds"
-                                   : "; its place on the front does not hold, see below");
+        "\n`best/` is {}: {}{}.\n", best.folder.empty() ? "not on the front" : best.folder,
+        f_.pick.empty() || f_.pick == "worst"
+            ? "the highest worst modulation over fingers and humidity"
+            : "picked by \"" + f_.pick + "\"",
+        !f_.pick.empty() && f_.pick != "worst" && r.stability.stable(r.best) ? ""
+        : r.stability.stable(r.best) ? " among the designs whose place on the front holds"
+                                     : "; its place on the front does not hold, see below");
     if (r.flat && best.confirmed.ok) out += gain_text(best);
     out += stability_text();
     out += sensitivity_text();

@@ -26,7 +26,8 @@ struct ResultFiles {
   const Study& study;
   const StudyProblem& problem;
   const std::vector<Evaluation>& history;
-  OptimiseResult& result;  // hypervolumes are filled in
+  OptimiseResult& result;   // hypervolumes are filled in
+  const std::string& pick;  // rule that chose the best design
 };
 void write_results(const ResultFiles& files);
 

@@ -1,12 +1,18 @@
-// search_bench [analytic | study FILE EVALUATIONS SEEDS]: hypervolume against cost in equivalent
-// full evaluations, for the searches of optim and for a space-filling sweep. CSV on standard
-// output.
+// Hypervolume against cost in equivalent full evaluations, for the searches of optim and for a
+// space-filling sweep; CSV on standard output.
+//   search_bench                                  problems with known fronts, and a stand-in
+//   search_bench study FILE N SEEDS GRID SKINS    a study, drafts at GRID x SKINS
+//   search_bench front FILE N FEW GRID SKINS SEEDS [CSV]
+//                                                 a reference front of N evaluations (written to
+//                                                 CSV), and its share after up to FEW
+//   search_bench levels FILE DESIGNS              what cheap levels cost and know
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <string>
@@ -220,48 +226,203 @@ void analytic() {
         5, hypervolume(points, study.reference));
 }
 
-// The product's study at search level; drafts at 64 x 64 with the first finger.
-void product(const std::string& file, int evaluations, int seeds) {
+// A study at one accuracy: outcomes are kept, processor time is summed.
+class Judge {
+ public:
+  Judge(const StudyProblem& problem, Fidelity fidelity) : problem_(problem), fidelity_(fidelity) {}
+
+  Outcome operator()(const Point& u) {
+    if (const auto it = known_.find(u); it != known_.end()) return it->second;
+    const auto from = std::clock();
+    std::vector<Outcome> tasks;
+    for (std::size_t t = 0; t < problem_.tasks().size(); ++t)
+      tasks.push_back(problem_.evaluate_task(u, t, fidelity_, false));
+    seconds_ += static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
+    ++count_;
+    return known_[u] = guarded(problem_.outcome(problem_.score(tasks)),
+                               problem_.objectives().size(), problem_.constraints());
+  }
+  double seconds_each() const { return count_ ? seconds_ / count_ : 0; }
+  const std::map<Point, Outcome>& known() const { return known_; }
+
+ private:
+  const StudyProblem& problem_;
+  Fidelity fidelity_;
+  std::map<Point, Outcome> known_;
+  double seconds_ = 0;
+  int count_ = 0;
+};
+
+Fidelity level(int grid, int skins, int first_skin = 0) {
+  Fidelity f = fidelity_level("search");
+  f.grid = grid;
+  f.skins = skins;
+  f.first_skin = first_skin;
+  return f;
+}
+
+SearchProblem search_of(const StudyProblem& problem) {
+  SearchProblem p;
+  p.space = problem.space();
+  p.objectives = problem.objectives().size();
+  p.constraints = problem.constraints();
+  p.cheap_constraints = [&problem](const Point& u) { return problem.geometry(u); };
+  p.starts = problem.starts();
+  return p;
+}
+
+// Designs spread over the space that can be made.
+std::vector<Point> spread_designs(const SearchProblem& p, std::size_t count, std::uint64_t seed) {
+  std::vector<Point> out;
+  for (std::uint64_t i = 0; out.size() < count; ++i) {
+    const Point u = p.space.snapped(low_discrepancy(p.space.size(), seed, i));
+    if (p.cheaply_feasible(u)) out.push_back(u);
+  }
+  return out;
+}
+
+// Rank correlation.
+double spearman(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto ranks = [](const std::vector<double>& v) {
+    std::vector<double> out;
+    for (double x : v)
+      out.push_back(
+          static_cast<double>(std::count_if(v.begin(), v.end(), [&](double y) { return y < x; })));
+    return out;
+  };
+  const std::vector<double> ra = ranks(a), rb = ranks(b);
+  const double n = static_cast<double>(a.size()), mean = (n - 1) / 2;
+  double ab = 0, aa = 0, bb = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ab += (ra[i] - mean) * (rb[i] - mean);
+    aa += (ra[i] - mean) * (ra[i] - mean);
+    bb += (rb[i] - mean) * (rb[i] - mean);
+  }
+  return ab / std::sqrt(aa * bb);
+}
+
+// What a cheap level knows of the full one: cost and rank correlation of each objective over
+// designs spread over the space, all of them and the third nearest to the front alone.
+void levels(const std::string& file, std::size_t designs) {
+  Study study = read_study(file);
+  Study alone = study;
+  alone.population.resize(std::min<std::size_t>(1, alone.population.size()));
+  const StudyProblem problem(study), one(alone);
+  const SearchProblem p = search_of(problem);
+  std::vector<Point> points = p.starts;
+  for (const Point& u : spread_designs(p, designs, 1)) points.push_back(u);
+  Judge full(problem, level(128, 12));
+  std::vector<std::vector<double>> truth;
+  for (const Point& u : points) truth.push_back(full(u).objectives);
+  fmt::print("fingers,grid,skins,cost in full evaluations");
+  for (const StudyObjective& o : problem.objectives())
+    fmt::print(",rank correlation of {}", o.name);
+  fmt::print("\n");
+  const auto row = [&](const StudyProblem& fingers, int grid, int skins, int first) {
+    Judge cheap(fingers, level(grid, skins, first));
+    std::vector<std::vector<double>> values;
+    for (const Point& u : points) values.push_back(cheap(u).objectives);
+    fmt::print("{},{},{}{},{:.4f}", fingers.tasks().size(), grid, skins, first > 0 ? " others" : "",
+               cheap.seconds_each() / full.seconds_each());
+    for (std::size_t k = 0; k < p.objectives; ++k) {
+      std::vector<double> a, b;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        if (truth[i].empty() || values[i].empty()) continue;
+        a.push_back(truth[i][k]);
+        b.push_back(values[i][k]);
+      }
+      fmt::print(",{:.3f}", spearman(a, b));
+    }
+    fmt::print("\n");
+    std::fflush(stdout);
+  };
+  row(one, 64, 6, 0);
+  row(problem, 64, 1, 0);
+  row(problem, 64, 2, 0);
+  row(problem, 64, 4, 0);
+  row(problem, 64, 12, 0);
+  row(problem, 128, 3, 0);
+  row(problem, 128, 12, 1000);
+}
+
+// Share of a reference front's hypervolume that searches of few evaluations reach, all at the same
+// level. The reference: a sweep of half the evaluations, then NSGA-II from its front.
+void fronts(const std::string& file, int evaluations, int few, int grid, int skins, int seeds,
+            const std::string& out) {
   const Study study = read_study(file);
   const StudyProblem problem(study);
-  std::map<Point, Outcome> known[2];
-  double spent[2] = {0, 0};
-  const auto evaluate = [&](const Point& u, bool draft) {
-    if (const auto it = known[draft].find(u); it != known[draft].end()) return it->second;
-    Fidelity fidelity = fidelity_level("search");
-    if (draft) {
-      fidelity.grid = 64;
-      fidelity.skins = 6;
-    }
-    const double from = seconds();
-    std::vector<Outcome> tasks;
-    for (std::size_t t = 0; t < problem.tasks().size(); ++t)
-      tasks.push_back(draft && t > 0 ? tasks[0] : problem.evaluate_task(u, t, fidelity, false));
-    spent[draft] += seconds() - from;
-    return known[draft][u] = guarded(problem.outcome(problem.score(tasks)),
-                                     problem.objectives().size(), problem.constraints());
+  SearchProblem p = search_of(problem);
+  Judge judge(problem, level(grid, skins));
+  std::vector<Evaluation> all;
+  const auto evaluate = [&](const Point& u) {
+    all.push_back({u, judge(u)});
+    return all.back().outcome;
   };
+  for (const Point& u : p.starts) evaluate(u);
+  for (const Point& u : spread_designs(p, static_cast<std::size_t>(evaluations / 2), 7))
+    evaluate(u);
   Bench bench;
   bench.name = study.name;
-  bench.problem.space = problem.space();
-  bench.problem.objectives = problem.objectives().size();
-  bench.problem.constraints = problem.constraints();
-  bench.problem.cheap_constraints = [&](const Point& u) { return problem.geometry(u); };
-  bench.problem.starts = problem.starts();
-  bench.full = [&](const Point& u) { return evaluate(u, false); };
-  bench.draft = [&](const Point& u) { return evaluate(u, true); };
-  const Point own = problem.unit_of_study();
-  for (int i = 0; i < 2; ++i) {  // the second: everything warm
-    known[0].clear();
-    known[1].clear();
-    spent[0] = spent[1] = 0;
-    evaluate(own, false);
-    evaluate(own, true);
+  bench.problem = p;
+  for (std::size_t i : pareto_front(all)) bench.problem.starts.push_back(all[i].unit);
+  bench.full = evaluate;
+  bench.reference.assign(p.objectives, 0);
+  run("nsga2", bench, 1, evaluations - evaluations / 2);
+  const std::vector<std::size_t> front = pareto_front(all);
+  std::vector<std::vector<double>> points;
+  for (std::size_t i : front) points.push_back(all[i].outcome.objectives);
+  // A tenth of the front's extent beyond its far ends.
+  for (std::size_t k = 0; k < p.objectives; ++k) {
+    double low = points[0][k], high = low;
+    for (const auto& f : points) {
+      low = std::min(low, f[k]);
+      high = std::max(high, f[k]);
+    }
+    bench.reference[k] = high + 0.1 * (high - low);
   }
-  bench.draft_cost = spent[1] / spent[0];
-  fmt::print(stderr, "full {:.3f} s, draft {:.3f} s\n", spent[0], spent[1]);
+  const double best = hypervolume(points, bench.reference);
+  fmt::print(stderr, "reference: {} evaluations, {} on the front, {:.3f} s each\n", all.size(),
+             front.size(), judge.seconds_each());
+  if (!out.empty()) {
+    std::FILE* file_out = std::fopen(out.c_str(), "w");
+    for (const Variable& v : study.variables)
+      fmt::print(file_out, "{}{},", v.path, v.unit.empty() ? "" : " [" + v.unit + "]");
+    for (std::size_t k = 0; k < p.objectives; ++k)
+      fmt::print(file_out, "{}{}", k ? "," : "", problem.objectives()[k].name);
+    fmt::print(file_out, "\n");
+    for (std::size_t i : front) {
+      const std::vector<double> values = problem.values(all[i].unit);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        fmt::print(file_out, "{},", variable_text(study.variables[k], values[k], true));
+      for (std::size_t k = 0; k < p.objectives; ++k)
+        fmt::print(file_out, "{}{:.5g}", k ? "," : "",
+                   (problem.objectives()[k].maximise ? -1 : 1) * all[i].outcome.objectives[k]);
+      fmt::print(file_out, "\n");
+    }
+    std::fclose(file_out);
+  }
+  bench.problem.starts = p.starts;
+  bench.full = [&](const Point& u) { return judge(u); };
+  table(bench, {"sweep", "nsga2", "bayesian"}, few, seeds, best);
+}
+
+// The product's study at search level; drafts at the level of its searches.
+void product(const std::string& file, int evaluations, int seeds, int grid, int skins) {
+  const Study study = read_study(file);
+  const StudyProblem problem(study);
+  Judge full(problem, level(128, 12)), draft(problem, level(grid, skins));
+  Bench bench;
+  bench.name = study.name;
+  bench.problem = search_of(problem);
+  bench.full = [&](const Point& u) { return full(u); };
+  bench.draft = [&](const Point& u) { return draft(u); };
+  const Point own = problem.unit_of_study();
+  full(own);
+  draft(own);
+  bench.draft_cost = draft.seconds_each() / full.seconds_each();
+  fmt::print(stderr, "a draft costs {:.4f} of a full evaluation\n", bench.draft_cost);
   bench.reference = {-0.3, 0.7};
-  // Shares of the best that anybody finds; printed raw, put in relation by the reader.
+  // Raw hypervolumes, put in relation by the reader.
   table(bench, {"bayesian", "bayesian + drafts 32", "bayesian + drafts 80", "sweep"}, evaluations,
         seeds, 1);
 }
@@ -269,9 +430,19 @@ void product(const std::string& file, int evaluations, int seeds) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::vector<std::string> a(argv + 1, argv + argc);
+  const auto number = [&](std::size_t i) { return std::atoi(a.at(i).c_str()); };
+  const std::string what = a.empty() ? "analytic" : a[0];
+  if (what == "levels") {
+    levels(a.at(1), static_cast<std::size_t>(number(2)));
+    return 0;
+  }
   fmt::print("problem,method,full evaluations,hypervolume median,least,greatest,searcher s\n");
-  if (argc >= 5 && std::string(argv[1]) == "study") {
-    product(argv[2], std::atoi(argv[3]), std::atoi(argv[4]));
+  if (what == "study") {
+    product(a.at(1), number(2), number(3), number(4), number(5));
+  } else if (what == "front") {
+    fronts(a.at(1), number(2), number(3), number(4), number(5), number(6),
+           a.size() > 7 ? a[7] : "");
   } else {
     analytic();
   }

@@ -1,0 +1,279 @@
+// local_bench: searches of one objective on the least squares problems of More and Wild (2009), as
+// sums of squares, with noise, and as sums of absolute values; data profiles as CSV on standard
+// output. local_bench constrained: problem 71 of Hock and Schittkowski.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/random.h"
+#include "optim/search.h"
+
+using namespace papilla;
+
+namespace {
+
+using Residuals = std::function<std::vector<double>(const Point&)>;
+
+struct Problem {
+  std::string name;
+  Point start;
+  double low, high;  // of every variable
+  Residuals residuals;
+};
+
+double sq(double v) { return v * v; }
+
+std::vector<Problem> problems() {
+  std::vector<Problem> out;
+  out.push_back({"rosenbrock", {-1.2, 1}, -3, 4, [](const Point& x) {
+                   return std::vector<double>{10 * (x[1] - sq(x[0])), 1 - x[0]};
+                 }});
+  out.push_back({"freudenstein-roth", {0.5, -2}, -15, 16, [](const Point& x) {
+                   const double y = x[1];
+                   return std::vector<double>{-13 + x[0] + ((5 - y) * y - 2) * y,
+                                              -29 + x[0] + ((1 + y) * y - 14) * y};
+                 }});
+  out.push_back({"jennrich-sampson", {0.3, 0.4}, -0.5, 1, [](const Point& x) {
+                   std::vector<double> f;
+                   for (int i = 1; i <= 10; ++i)
+                     f.push_back(2 + 2 * i - std::exp(i * x[0]) - std::exp(i * x[1]));
+                   return f;
+                 }});
+  out.push_back({"helical valley", {-1, 0, 0}, -4, 5, [](const Point& x) {
+                   const double turn = std::atan2(x[1], x[0]) / (2 * M_PI);
+                   return std::vector<double>{10 * (x[2] - 10 * turn),
+                                              10 * (std::hypot(x[0], x[1]) - 1), x[2]};
+                 }});
+  out.push_back({"bard", {1, 1, 1}, -2, 5, [](const Point& x) {
+                   const double y[] = {0.14, 0.18, 0.22, 0.25, 0.29, 0.32, 0.35, 0.39,
+                                       0.37, 0.58, 0.73, 0.96, 1.34, 2.10, 4.39};
+                   std::vector<double> f;
+                   for (int i = 1; i <= 15; ++i) {
+                     const double v = 16 - i, w = std::min(i, 16 - i);
+                     const double d = v * x[1] + w * x[2];
+                     f.push_back(y[i - 1] - x[0] - i / (std::abs(d) > 1e-6 ? d : 1e-6));
+                   }
+                   return f;
+                 }});
+  out.push_back({"box", {0, 10, 20}, -5, 25, [](const Point& x) {
+                   std::vector<double> f;
+                   for (int i = 1; i <= 10; ++i) {
+                     const double t = 0.1 * i;
+                     f.push_back(std::exp(-t * x[0]) - std::exp(-t * x[1]) -
+                                 x[2] * (std::exp(-t) - std::exp(-10 * t)));
+                   }
+                   return f;
+                 }});
+  out.push_back({"powell singular", {3, -1, 0, 1}, -4, 5, [](const Point& x) {
+                   return std::vector<double>{x[0] + 10 * x[1], std::sqrt(5.0) * (x[2] - x[3]),
+                                              sq(x[1] - 2 * x[2]),
+                                              std::sqrt(10.0) * sq(x[0] - x[3])};
+                 }});
+  out.push_back(
+      {"kowalik-osborne", {0.25, 0.39, 0.415, 0.39}, 0, 1, [](const Point& x) {
+         const double y[] = {0.1957, 0.1947, 0.1735, 0.1600, 0.0844, 0.0627,
+                             0.0456, 0.0342, 0.0323, 0.0235, 0.0246};
+         const double u[] = {4, 2, 1, 0.5, 0.25, 0.167, 0.125, 0.1, 0.0833, 0.0714, 0.0625};
+         std::vector<double> f;
+         for (int i = 0; i < 11; ++i)
+           f.push_back(y[i] - x[0] * (sq(u[i]) + u[i] * x[1]) / (sq(u[i]) + u[i] * x[2] + x[3]));
+         return f;
+       }});
+  out.push_back({"brown-dennis", {25, 5, -5, -1}, -30, 30, [](const Point& x) {
+                   std::vector<double> f;
+                   for (int i = 1; i <= 20; ++i) {
+                     const double t = 0.2 * i;
+                     f.push_back(sq(x[0] + t * x[1] - std::exp(t)) +
+                                 sq(x[2] + std::sin(t) * x[3] - std::cos(t)));
+                   }
+                   return f;
+                 }});
+  out.push_back({"cube", {0.5, 0.5, 0.5, 0.5, 0.5}, -1.5, 2, [](const Point& x) {
+                   std::vector<double> f{x[0] - 1};
+                   for (std::size_t i = 1; i < x.size(); ++i)
+                     f.push_back(10 * (x[i] - std::pow(x[i - 1], 3)));
+                   return f;
+                 }});
+  out.push_back({"watson", Point(6, 0.5), -2, 3, [](const Point& x) {
+                   std::vector<double> f;
+                   for (int i = 1; i <= 29; ++i) {
+                     const double t = i / 29.0;
+                     double slope = 0, value = 0;
+                     for (std::size_t j = 0; j < x.size(); ++j) {
+                       value += x[j] * std::pow(t, static_cast<double>(j));
+                       if (j > 0)
+                         slope += static_cast<double>(j) * x[j] *
+                                  std::pow(t, static_cast<double>(j) - 1);
+                     }
+                     f.push_back(slope - sq(value) - 1);
+                   }
+                   f.push_back(x[0]);
+                   f.push_back(x[1] - sq(x[0]) - 1);
+                   return f;
+                 }});
+  Point spread(6);
+  for (std::size_t j = 0; j < spread.size(); ++j) spread[j] = static_cast<double>(j + 1) / 7;
+  out.push_back({"chebyquad", spread, 0, 1, [](const Point& x) {
+                   std::vector<double> f;
+                   for (std::size_t i = 1; i <= x.size(); ++i) {
+                     double sum = 0;
+                     for (double v : x)
+                       sum += std::cos(static_cast<double>(i) *
+                                       std::acos(std::clamp(2 * v - 1, -1.0, 1.0)));
+                     const double order = static_cast<double>(i);
+                     f.push_back(sum / static_cast<double>(x.size()) +
+                                 (i % 2 == 0 ? 1 / (sq(order) - 1) : 0));
+                   }
+                   return f;
+                 }});
+  out.push_back({"brown almost linear", Point(7, 0.5), -1, 2.5, [](const Point& x) {
+                   double sum = -8, product = 1;
+                   for (double v : x) {
+                     sum += v;
+                     product *= v;
+                   }
+                   std::vector<double> f;
+                   for (std::size_t i = 0; i + 1 < x.size(); ++i) f.push_back(x[i] + sum);
+                   f.push_back(product - 1);
+                   return f;
+                 }});
+  out.push_back({"bdqrtic", Point(8, 1), -2, 3, [](const Point& x) {
+                   std::vector<double> f;
+                   for (std::size_t i = 0; i + 4 < x.size(); ++i) {
+                     f.push_back(-4 * x[i] + 3);
+                     f.push_back(sq(x[i]) + 2 * sq(x[i + 1]) + 3 * sq(x[i + 2]) + 4 * sq(x[i + 3]) +
+                                 5 * sq(x.back()));
+                   }
+                   return f;
+                 }});
+  return out;
+}
+
+enum class Kind { Smooth, Noisy, Absolute };
+const std::vector<std::pair<Kind, std::string>> kKinds{
+    {Kind::Smooth, "smooth"}, {Kind::Noisy, "noise 0.1 %"}, {Kind::Absolute, "nonsmooth"}};
+
+double value(const Problem& p, Kind kind, const Point& x) {
+  double sum = 0;
+  for (double f : p.residuals(x)) sum += kind == Kind::Absolute ? std::abs(f) : f * f;
+  return std::isfinite(sum) ? std::min(sum, 1e30) : 1e30;
+}
+
+// Least true value after each evaluation; the one that the search believes the best is taken.
+std::vector<double> trace(const Problem& p, Kind kind, const std::string& method, int budget) {
+  SearchProblem s;
+  s.space.dimensions.assign(p.start.size(), {p.low, p.high, {}});
+  s.evaluations = budget;
+  s.starts = {s.space.unit(p.start)};
+  const auto searcher = make_searcher(choose_method(method, s), s);
+  std::vector<double> out;
+  double believed = std::numeric_limits<double>::infinity(), truth = believed;
+  RandomStream noise(3, "noise");
+  while (static_cast<int>(out.size()) < budget) {
+    std::vector<Evaluation> batch;
+    for (const Point& u : searcher->ask()) {
+      if (static_cast<int>(out.size()) >= budget) break;
+      const double f = value(p, kind, s.space.value(u));
+      const double seen = kind == Kind::Noisy ? f * (1 + 1e-3 * noise.uniform(-1.0, 1.0)) : f;
+      if (seen < believed) {
+        believed = seen;
+        truth = f;
+      }
+      out.push_back(truth);
+      batch.push_back({u, {true, {}, {seen}, {}, {}}});
+    }
+    if (batch.empty()) break;
+    searcher->tell(batch);
+  }
+  out.resize(static_cast<std::size_t>(budget), truth);
+  return out;
+}
+
+// Share of the problems on which f(x0) - f >= (1 - tau) (f(x0) - least of all methods), after a
+// number of simplex gradients (n + 1 evaluations each).
+void profiles(const std::string& set, std::size_t largest, const std::vector<std::string>& methods,
+              const std::vector<int>& gradients) {
+  std::vector<Problem> chosen;
+  for (const Problem& p : problems()) {
+    if (p.start.size() <= largest) chosen.push_back(p);
+  }
+  for (const auto& [kind, name] : kKinds) {
+    std::vector<std::map<std::string, std::vector<double>>> traces;
+    for (const Problem& p : chosen) {
+      const int n = static_cast<int>(p.start.size());
+      auto& of = traces.emplace_back();
+      for (const std::string& m : methods) of[m] = trace(p, kind, m, gradients.back() * (n + 1));
+    }
+    for (double tau : {1e-1, 1e-3}) {
+      for (int count : gradients) {
+        fmt::print("{},{},{},{:g},{}", set, chosen.size(), name, tau, count);
+        for (const std::string& m : methods) {
+          int solved = 0;
+          for (std::size_t i = 0; i < chosen.size(); ++i) {
+            const double first = value(chosen[i], kind, chosen[i].start);
+            double least = first;
+            for (const auto& [other, t] : traces[i]) least = std::min(least, t.back());
+            const auto at = static_cast<std::size_t>(count) * (chosen[i].start.size() + 1) - 1;
+            solved += first - traces[i][m][at] >= (1 - tau) * (first - least);
+          }
+          fmt::print(",{:.2f}", solved / static_cast<double>(chosen.size()));
+        }
+        fmt::print("\n");
+      }
+    }
+    std::fflush(stdout);
+  }
+}
+
+// min x1 x4 (x1 + x2 + x3) + x3, x1 x2 x3 x4 >= 25, x1^2 + ... + x4^2 = 40, 1 <= x <= 5; the
+// equality gives x4. Least value 17.0140173.
+void constrained() {
+  fmt::print("problem,method,evaluations,least feasible value / 17.0140173\n");
+  for (const auto& [method, budget] :
+       {std::pair("bayesian", 60), std::pair("bobyqa", 1000), std::pair("sbplx", 1000),
+        std::pair("cmaes", 1000), std::pair("direct", 1000)}) {
+    SearchProblem s;
+    s.space.dimensions.assign(3, {1, 5, {}});
+    s.constraints = 2;
+    s.evaluations = budget;
+    s.starts = {s.space.unit({1, 5, 3})};
+    const auto searcher = make_searcher(choose_method(method, s), s);
+    double least = std::numeric_limits<double>::infinity();
+    int count = 0;
+    while (count < budget) {
+      std::vector<Evaluation> batch;
+      for (const Point& u : searcher->ask()) {
+        const Point x = s.space.value(u);
+        const double left = 40 - sq(x[0]) - sq(x[1]) - sq(x[2]);
+        const double last = std::sqrt(std::clamp(left, 1.0, 25.0));
+        const double f = x[0] * last * (x[0] + x[1] + x[2]) + x[2];
+        const double product = 1 - x[0] * x[1] * x[2] * last / 25;
+        const double range = std::max(1 - left, left - 25) / 25;
+        batch.push_back({u, {true, {}, {f}, {product, range}, {}}});
+        if (batch.back().outcome.feasible()) least = std::min(least, f);
+        ++count;
+      }
+      if (batch.empty()) break;
+      searcher->tell(batch);
+    }
+    fmt::print("HS71,{},{},{:.5f}\n", method, count, least / 17.0140173);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string(argv[1]) == "constrained") {
+    constrained();
+    return 0;
+  }
+  fmt::print("set,problems,kind,tau,simplex gradients,bobyqa,sbplx,cmaes,direct,bayesian\n");
+  profiles("up to 8 variables", 8, {"bobyqa", "sbplx", "cmaes", "direct"}, {5, 10, 25, 50, 100});
+  profiles("up to 3 variables", 3, {"bobyqa", "sbplx", "cmaes", "direct", "bayesian"}, {5, 10});
+}
