@@ -39,7 +39,7 @@ struct Outcome {
   std::string reason;               // when not ok: why; when ok: text carried along
   std::vector<double> objectives;   // minimised; finite when ok
   std::vector<double> constraints;  // <= 0 is feasible; finite when ok; kept of a refused point
-  std::vector<double> info;         // carried along, not optimised
+  std::vector<double> info;         // carried along, not optimised; residuals first
 
   double violation() const;  // sum of positive constraints
   bool feasible() const { return ok && violation() <= 0; }

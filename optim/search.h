@@ -15,6 +15,9 @@ namespace papilla {
 struct SearchProblem {
   Space space;
   std::size_t objectives = 1, constraints = 0;
+  // The first numbers of Outcome::info are so many residuals, whose sum of squares grows with the
+  // one objective; 0: it is no sum of squares.
+  std::size_t residuals = 0;
   // Constraints known without an evaluation (<= 0 feasible, in the unit cube); may be empty.
   std::function<std::vector<double>(const Point&)> cheap_constraints;
   std::vector<Point> starts;  // points to try first (the user's design)

@@ -31,6 +31,8 @@ class Bayesian : public Searcher {
     initial_ =
         static_cast<int>(std::clamp<std::size_t>(problem.drafts > 0 ? n + 4 : 3 * n + 4, 6, third));
     drafts_left_ = problem.drafts;
+    kinds_ = std::any_of(problem.space.dimensions.begin(), problem.space.dimensions.end(),
+                         [](const Dimension& d) { return !d.ordered; });
   }
 
   bool asks_drafts() const override { return asking_drafts_; }
@@ -71,6 +73,23 @@ class Bayesian : public Searcher {
            std::none_of(others.begin(), others.end(), same);
   }
 
+  // What the models see: a choice of kinds becomes one coordinate a kind, so that any two kinds are
+  // equally far apart.
+  Point encoded(const Point& u) const {
+    if (!kinds_) return u;
+    Point out;
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      const Dimension& d = problem_.space.dimensions[k];
+      if (d.ordered) {
+        out.push_back(u[k]);
+        continue;
+      }
+      const double count = static_cast<double>(d.choices.size());
+      for (double i = 0; i < count; ++i) out.push_back(std::floor(u[k] * count) == i ? 0.5 : 0.0);
+    }
+    return out;
+  }
+
   // Points of a low-discrepancy set that keep the cheap constraints, added up to `count`.
   void fill(std::vector<Point>& out, std::size_t count, const std::vector<Evaluation>& known) {
     for (int tries = 0; out.size() < count && tries < 4000; ++tries) {
@@ -101,9 +120,9 @@ class Bayesian : public Searcher {
       Evaluation belief{u, {}};
       belief.outcome.ok = true;
       for (const auto& model : objectives_)
-        belief.outcome.objectives.push_back(model.predict(u).mean);
+        belief.outcome.objectives.push_back(model.predict(encoded(u)).mean);
       for (const auto& model : constraints_)
-        belief.outcome.constraints.push_back(model.predict(u).mean);
+        belief.outcome.constraints.push_back(model.predict(encoded(u)).mean);
       believed.push_back(belief);
       out.push_back(u);
     }
@@ -151,7 +170,7 @@ class Bayesian : public Searcher {
     std::vector<const Outcome*> outcomes;
     for (const Evaluation& e : known) {
       if (!e.outcome.ok) continue;
-      points.push_back(e.unit);
+      points.push_back(encoded(e.unit));
       outcomes.push_back(&e.outcome);
     }
     const auto refit = [&](std::vector<DraftedProcess>& models, std::size_t count,
@@ -175,7 +194,7 @@ class Bayesian : public Searcher {
       std::vector<Point> all;
       std::vector<double> failed;
       for (const Evaluation& e : known) {
-        all.push_back(e.unit);
+        all.push_back(encoded(e.unit));
         failed.push_back(e.outcome.ok ? 0 : 1);
       }
       failures_.emplace_back(all, failed);
@@ -187,7 +206,7 @@ class Bayesian : public Searcher {
     if (!draft_objectives_.empty() || drafts_.empty()) return;
     std::vector<Point> points;
     for (const Evaluation& e : drafts_) {
-      if (e.outcome.ok) points.push_back(e.unit);
+      if (e.outcome.ok) points.push_back(encoded(e.unit));
     }
     if (points.size() < 4) return;
     const auto model = [&](std::size_t count, auto value) {
@@ -213,11 +232,11 @@ class Bayesian : public Searcher {
   double feasibility(const Point& u) const {
     double p = 1;
     for (const DraftedProcess& model : constraints_) {
-      const Prediction c = model.predict(u);
+      const Prediction c = model.predict(encoded(u));
       p *= c.sd > 0 ? normal_cdf(-c.mean / c.sd) : (c.mean <= 0 ? 1 : 0);
     }
     for (const GaussianProcess& model : failures_)
-      p *= std::clamp(1 - model.predict(u).mean, 0.0, 1.0);
+      p *= std::clamp(1 - model.predict(encoded(u)).mean, 0.0, 1.0);
     return p;
   }
 
@@ -230,8 +249,8 @@ class Bayesian : public Searcher {
     const double p = feasibility(u);
     if (!any_feasible_) return p;
     if (problem_.objectives == 1)
-      return p * integrated_cdf(front_.front()[0], objectives_[0].predict(u));
-    const Prediction a = objectives_[0].predict(u), b = objectives_[1].predict(u);
+      return p * integrated_cdf(front_.front()[0], objectives_[0].predict(encoded(u)));
+    const Prediction a = objectives_[0].predict(encoded(u)), b = objectives_[1].predict(encoded(u));
     // Eq. search.2: expected hypervolume improvement, strip by strip under the front.
     double sum = 0, lower = 0, height = reference_[1];
     for (std::size_t i = 0; i <= front_.size(); ++i) {
@@ -332,7 +351,7 @@ class Bayesian : public Searcher {
   SearchProblem problem_;
   std::vector<Evaluation> seen_, drafts_;
   int initial_ = 0, drafts_left_ = 0;
-  bool asking_drafts_ = false;
+  bool asking_drafts_ = false, kinds_ = false;
   std::uint64_t drawn_ = 0;
   std::vector<DraftedProcess> objectives_, constraints_;
   std::vector<GaussianProcess> failures_, draft_objectives_, draft_constraints_;

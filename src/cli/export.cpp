@@ -22,13 +22,13 @@ struct ExportCommand {
 };
 
 int export_files(const ExportCommand& command) {
-  std::string file = command.design.file;
-  if (std::filesystem::is_directory(file)) {
-    file = picked_design_file(file, command.pick);
+  std::string source = command.design.file;
+  if (std::filesystem::is_directory(source)) {
+    source = picked_design_file(source, command.pick);
   } else if (!command.pick.empty()) {
-    throw InputError("--pick chooses from a folder of results; " + file + " is a file");
+    throw InputError("--pick chooses from a folder of results; " + source + " is a file");
   }
-  const Study study = read_study(file, command.design.overrides);
+  const Study study = read_study(source, command.design.overrides);
   ExportOptions options;
   options.formats = command.formats;
   options.pixels = command.pixels;

@@ -494,9 +494,9 @@ class StudyReader {
     }
     for (const Node& item : section.children) {
       const MetricInfo* metric = find_metric(item.key);
-      if (!metric) {
+      if (!metric || metric->appearance) {
         document_.problem(item.key_place, "objective.target",
-                          fmt::format("unknown metric \"{}\"", item.key));
+                          fmt::format("no metric over humidity is called \"{}\"", item.key));
         continue;
       }
       double value = 0;

@@ -48,13 +48,6 @@ bool of_appearance(const Constraint& c) {
 
 bool on_metric(const Constraint& c) { return c.name.find('(') != std::string::npos; }
 
-// Looks of arrays cost about a millisecond and steer the search itself; of others they are known
-// with the evaluation.
-bool needs_evaluation(const Constraint& c, const Texture& texture) {
-  return c.name == "oxide_breakdown_margin" || on_metric(c) ||
-         (of_appearance(c) && !quick_appearance(texture));
-}
-
 std::string look_refusal(const Design& d) {
   return optics_refusal(d.texture, d.surface.refractive_index);
 }
@@ -68,7 +61,6 @@ double distance(const StudyObjective& o, const Response& response) {
   }
   return std::sqrt(sum / total);
 }
-
 
 double parse_number(const std::string& text, const std::string& whole) {
   double value = 0;
@@ -194,6 +186,16 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
     std::sort(d.choices.begin(), d.choices.end());
     space_.dimensions.push_back(d);
   }
+  slow_look_ = !quick_appearance(study.design.texture);
+  for (const Variable& v : study.variables) {
+    for (double kind : v.choices) {
+      slow_look_ = slow_look_ ||
+                   (v.is_kind() &&
+                    !quick_appearance(of_kind(study.design.texture,
+                                              texture_kinds()[static_cast<std::size_t>(kind)])));
+    }
+  }
+  own_value_ = space_.value(unit_of_study());
   space_.collapse = [this](const Point& u) { return collapsed(u); };
   const std::vector<Finger> fingers =
       study.population.empty() ? std::vector<Finger>{study.design.finger} : study.population;
@@ -312,7 +314,7 @@ Point StudyProblem::collapsed(const Point& unit) const {
   if (!textured) return unit;
   Design d = design(unit);
   Point value = space_.value(unit);
-  const Point own = space_.value(unit_of_study());
+  const Point& own = own_value_;
   const auto offered = [](const Variable& v, double choice) {
     return std::find(v.choices.begin(), v.choices.end(), choice) != v.choices.end();
   };
@@ -409,7 +411,7 @@ std::vector<double> StudyProblem::geometry(const Point& unit) const {
   std::vector<double> out{problem_of(d).empty() ? -1.0 : 1.0};
   if (out.front() <= 0 && needs_appearance() && !look_refusal(d).empty()) out.front() = 1;
   for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c, d.texture)) continue;
+    if (needs_evaluation(c)) continue;
     // A shape that cannot be judged has no numbers to compare.
     out.push_back(out.front() > 0 && of_appearance(c)
                       ? 1.0
@@ -425,7 +427,7 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
     if (const std::string why = look_refusal(d); !why.empty()) return why;
   }
   for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c, d.texture)) continue;
+    if (needs_evaluation(c)) continue;
     const double value = limited_value(c.name, d);
     if (relative_violation(value, c.limit, c.at_least) <= 0) continue;
     const std::string& u = std::find_if(constraint_kinds().begin(), constraint_kinds().end(),
@@ -556,6 +558,18 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
       for (std::size_t i = 0; i < rh.size() && points; ++i)
         add(t, 2 * m + 2 + k * rh.size() + i, tasks_[t].weight * rh_weights[i]);
     }
+    if (o.aimed && risk.kind == Risk::Kind::Mean) {
+      // Scatter is in the squares alone: each residual keeps the sign of its nominal distance.
+      const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+      std::size_t at = 0;
+      for (std::size_t t = 0; t < nominal_; ++t) {
+        for (std::size_t i = 0; i < rh.size(); ++i, ++at) {
+          const double nominal = tasks[t].info[2 * m + 2 + k * rh.size() + i] - o.target;
+          score.residuals.push_back(
+              std::copysign(std::sqrt(std::max(0.0, values[at]) * weights[at] / sum), nominal));
+        }
+      }
+    }
     const double value = apply_risk(risk, o.maximise, values, weights);
     // Eq. search.11
     score.values.push_back(o.aimed ? std::sqrt(std::max(0.0, value)) : value);
@@ -591,10 +605,22 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
   return score;
 }
 
+// Looks of arrays cost about a millisecond and steer the search itself; of others they are known
+// with the evaluation.
+bool StudyProblem::needs_evaluation(const Constraint& c) const {
+  return c.name == "oxide_breakdown_margin" || on_metric(c) || (of_appearance(c) && slow_look_);
+}
+
 std::size_t StudyProblem::constraints() const {
-  return static_cast<std::size_t>(std::count_if(
-      study_.constraints.begin(), study_.constraints.end(),
-      [&](const Constraint& c) { return needs_evaluation(c, study_.design.texture); }));
+  return static_cast<std::size_t>(
+      std::count_if(study_.constraints.begin(), study_.constraints.end(),
+                    [&](const Constraint& c) { return needs_evaluation(c); }));
+}
+
+std::size_t StudyProblem::residuals() const {
+  const bool squares =
+      objectives_.size() == 1 && objectives_[0].aimed && risk_.kind == Risk::Kind::Mean;
+  return squares ? nominal_ * study_.design.environment.relative_humidity.size() : 0;
 }
 
 Outcome StudyProblem::outcome(const Score& score) const {
@@ -608,7 +634,7 @@ Outcome StudyProblem::outcome(const Score& score) const {
     out.objectives.push_back(objectives_[k].maximise ? -score.values[k] : score.values[k]);
   std::size_t metric = 0;
   for (const Constraint& c : study_.constraints) {
-    if (!needs_evaluation(c, study_.design.texture)) continue;
+    if (!needs_evaluation(c)) continue;
     const double value = on_metric(c)                ? score.limited[metric++]
                          : c.name == "haze"          ? score.appearance->haze
                          : c.name == "transmittance" ? score.appearance->transmittance
@@ -617,7 +643,8 @@ Outcome StudyProblem::outcome(const Score& score) const {
                                                      : score.oxide_margin;
     out.constraints.push_back(relative_violation(value, c.limit, c.at_least));
   }
-  out.info = score.errors;
+  out.info = score.residuals;
+  out.info.insert(out.info.end(), score.errors.begin(), score.errors.end());
   out.info.push_back(score.worst);
   return out;
 }

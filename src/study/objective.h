@@ -57,6 +57,7 @@ struct Score {
   bool ok = false;
   std::string reason;
   std::vector<double> values, errors;  // one an objective; one standard error
+  std::vector<double> residuals;       // of targets: weighted distances, one a task and humidity
   double worst = 0;                    // lowest modulation over tasks and humidities; 0: undriven
   double oxide_margin = 0;             // smallest; infinite without a field
   std::optional<Optics> appearance;    // where the study asks for it
@@ -97,6 +98,7 @@ class StudyProblem {
   Score score(const std::vector<Outcome>& tasks) const;
 
   std::size_t constraints() const;            // that need an evaluation
+  std::size_t residuals() const;              // of an outcome; 0: the objective is no target
   Outcome outcome(const Score& score) const;  // for the searcher: minimised
   bool feasible(const Score& score, const Point& unit) const;
 
@@ -117,7 +119,11 @@ class StudyProblem {
   bool acts(const std::vector<NumberField>& known, std::size_t variable) const;
 
   std::vector<StudyTask> tasks_;
+  bool needs_evaluation(const Constraint& constraint) const;
+
   std::size_t nominal_ = 0;
+  bool slow_look_ = false;  // the appearance of some kind of texture takes as long as an evaluation
+  Point own_value_;         // of the study's own design
   std::vector<StudyObjective> objectives_;
   std::vector<StudyObjective> limited_;  // metrics of constraints, in their order
   std::vector<double> voltage_targets_;  // of voltage_for in either

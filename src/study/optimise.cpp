@@ -135,6 +135,7 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   p.space = problem.space();
   p.objectives = problem.objectives().size();
   p.constraints = problem.constraints();
+  p.residuals = problem.residuals();
   p.cheap_constraints = [&problem](const Point& u) { return problem.geometry(u); };
   p.starts = problem.starts();
   p.evaluations =

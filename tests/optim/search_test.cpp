@@ -186,6 +186,35 @@ TEST(Search, ChoicesAreTaken) {
   }
 }
 
+// Four kinds with minima of their own; the best of all is a kind between two poor ones.
+TEST(Search, KindsAreNotTakenForNeighbours) {
+  SearchProblem p;
+  p.space.dimensions = {{0, 3, {0, 1, 2, 3}, false}, {0, 1, {}}, {0, 1, {}}};
+  p.evaluations = 45;
+  const double least[] = {0.5, 0.4, 0.0, 0.6}, where[] = {0.2, 0.9, 0.35, 0.7};
+  const auto all = run("auto", p, [&](const Point& x) {
+    const auto kind = static_cast<std::size_t>(x[0]);
+    return outcome({least[kind] + std::pow(x[1] - where[kind], 2) + std::pow(x[2] - 0.5, 2)});
+  });
+  EXPECT_LT(best(all), 0.01);
+}
+
+TEST(Search, PointsThatAreOneDesignAreAskedOnce) {
+  SearchProblem p = box(2, 1, 25);
+  // Below a depth of a half the second variable does nothing.
+  p.space.collapse = [](Point u) {
+    if (u[0] < 0.5) u = {0, 0.5};
+    return u;
+  };
+  int flat = 0;
+  const auto all = run("bayesian", p, [&](const Point& x) {
+    flat += x[0] == 0;
+    return outcome({1 - x[0] + x[1]});
+  });
+  EXPECT_EQ(flat, 1);
+  EXPECT_LT(best(all), 0.05);
+}
+
 TEST(Search, TheSameSeedAsksTheSamePoints) {
   for (const char* name : {"bayesian", "nsga2"}) {
     const SearchProblem p = box(3, 2, 30);
