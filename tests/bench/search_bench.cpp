@@ -5,6 +5,7 @@
 //   search_bench front FILE N FEW GRID SKINS SEEDS [CSV]
 //                                                 a reference front of N evaluations (written to
 //                                                 CSV), and its share after up to FEW
+//   search_bench sweep ...                        the same, the reference a sweep alone
 //   search_bench levels FILE DESIGNS              what cheap levels cost and know
 #include <fmt/format.h>
 
@@ -346,9 +347,9 @@ void levels(const std::string& file, std::size_t designs) {
 }
 
 // Share of a reference front's hypervolume that searches of few evaluations reach, all at the same
-// level. The reference: a sweep of half the evaluations, then NSGA-II from its front.
-void fronts(const std::string& file, int evaluations, int few, int grid, int skins, int seeds,
-            const std::string& out) {
+// level. The reference: a sweep; refined: of half the evaluations, then NSGA-II from its front.
+void fronts(bool refined, const std::string& file, int evaluations, int few, int grid, int skins,
+            int seeds, const std::string& out) {
   const Study study = read_study(file);
   const StudyProblem problem(study);
   SearchProblem p = search_of(problem);
@@ -359,7 +360,8 @@ void fronts(const std::string& file, int evaluations, int few, int grid, int ski
     return all.back().outcome;
   };
   for (const Point& u : p.starts) evaluate(u);
-  for (const Point& u : spread_designs(p, static_cast<std::size_t>(evaluations / 2), 7))
+  for (const Point& u :
+       spread_designs(p, static_cast<std::size_t>(refined ? evaluations / 2 : evaluations), 7))
     evaluate(u);
   Bench bench;
   bench.name = study.name;
@@ -367,7 +369,7 @@ void fronts(const std::string& file, int evaluations, int few, int grid, int ski
   for (std::size_t i : pareto_front(all)) bench.problem.starts.push_back(all[i].unit);
   bench.full = evaluate;
   bench.reference.assign(p.objectives, 0);
-  run("nsga2", bench, 1, evaluations - evaluations / 2);
+  if (refined) run("nsga2", bench, 1, evaluations - evaluations / 2);
   const std::vector<std::size_t> front = pareto_front(all);
   std::vector<std::vector<double>> points;
   for (std::size_t i : front) points.push_back(all[i].outcome.objectives);
@@ -440,8 +442,8 @@ int main(int argc, char** argv) {
   fmt::print("problem,method,full evaluations,hypervolume median,least,greatest,searcher s\n");
   if (what == "study") {
     product(a.at(1), number(2), number(3), number(4), number(5));
-  } else if (what == "front") {
-    fronts(a.at(1), number(2), number(3), number(4), number(5), number(6),
+  } else if (what == "front" || what == "sweep") {
+    fronts(what == "front", a.at(1), number(2), number(3), number(4), number(5), number(6),
            a.size() > 7 ? a[7] : "");
   } else {
     analytic();
