@@ -236,8 +236,8 @@ void profiles(const std::string& set, std::size_t largest, const std::vector<std
 void constrained() {
   fmt::print("problem,method,evaluations,least feasible value / 17.0140173\n");
   for (const auto& [method, budget] :
-       {std::pair("bayesian", 60), std::pair("bobyqa", 1000), std::pair("sbplx", 1000),
-        std::pair("cmaes", 1000), std::pair("direct", 1000)}) {
+       {std::pair("bobyqa", 1000), std::pair("sbplx", 1000), std::pair("cmaes", 1000),
+        std::pair("direct", 1000), std::pair("bayesian", 60)}) {
     SearchProblem s;
     s.space.dimensions.assign(3, {1, 5, {}});
     s.constraints = 2;
@@ -263,6 +263,7 @@ void constrained() {
       searcher->tell(batch);
     }
     fmt::print("HS71,{},{},{:.5f}\n", method, count, least / 17.0140173);
+    std::fflush(stdout);
   }
 }
 

@@ -2,9 +2,10 @@
 // space-filling sweep; CSV on standard output.
 //   search_bench                                  problems with known fronts, and a stand-in
 //   search_bench study FILE N SEEDS GRID SKINS    a study, drafts at GRID x SKINS
-//   search_bench front FILE N FEW GRID SKINS SEEDS [CSV]
-//                                                 a reference front of N evaluations (written to
-//                                                 CSV), and its share after up to FEW
+//   search_bench front FILE N FEW GRID SKINS SEEDS SECONDS [CSV]
+//                                                 a reference front of N evaluations or as many as
+//                                                 SECONDS allow (written to CSV), and the share
+//                                                 that searches of up to FEW evaluations reach
 //   search_bench sweep ...                        the same, the reference a sweep alone
 //   search_bench levels FILE DESIGNS              what cheap levels cost and know
 #include <fmt/format.h>
@@ -36,7 +37,8 @@ struct Bench {
   std::function<Outcome(const Point&)> full, draft;  // of the unit cube
   double draft_cost = 0;                             // in full evaluations
   Point reference;
-  double best = 0;  // hypervolume of the true front; 0: not known
+  double best = 0;   // hypervolume of the true front; 0: not known
+  double until = 0;  // nothing is asked after this moment; 0: no limit
 };
 
 struct Trace {
@@ -74,7 +76,7 @@ Trace run(const std::string& method, const Bench& bench, std::uint64_t seed, int
   }
   const std::string name = p.drafts > 0 ? "bayesian" : method;
   const auto searcher = make_searcher(choose_method(name, p), p);
-  while (count < evaluations) {
+  while (count < evaluations && (bench.until <= 0 || seconds() < bench.until)) {
     const double from = seconds();
     const std::vector<Point> asked = searcher->ask();
     trace.searcher_seconds += seconds() - from;
@@ -349,7 +351,8 @@ void levels(const std::string& file, std::size_t designs) {
 // Share of a reference front's hypervolume that searches of few evaluations reach, all at the same
 // level. The reference: a sweep; refined: of half the evaluations, then NSGA-II from its front.
 void fronts(bool refined, const std::string& file, int evaluations, int few, int grid, int skins,
-            int seeds, const std::string& out) {
+            int seeds, double limit, const std::string& out) {
+  const double begin = seconds();
   const Study study = read_study(file);
   const StudyProblem problem(study);
   SearchProblem p = search_of(problem);
@@ -362,8 +365,9 @@ void fronts(bool refined, const std::string& file, int evaluations, int few, int
   for (const Point& u : p.starts) evaluate(u);
   for (const Point& u :
        spread_designs(p, static_cast<std::size_t>(refined ? evaluations / 2 : evaluations), 7))
-    evaluate(u);
+    if (seconds() < begin + (refined ? 0.5 : 1) * limit) evaluate(u);
   Bench bench;
+  bench.until = begin + limit;
   bench.name = study.name;
   bench.problem = p;
   for (std::size_t i : pareto_front(all)) bench.problem.starts.push_back(all[i].unit);
@@ -403,6 +407,7 @@ void fronts(bool refined, const std::string& file, int evaluations, int few, int
     }
     std::fclose(file_out);
   }
+  bench.until = 0;
   bench.problem.starts = p.starts;
   bench.full = [&](const Point& u) { return judge(u); };
   table(bench, {"sweep", "nsga2", "bayesian"}, few, seeds, best);
@@ -444,7 +449,7 @@ int main(int argc, char** argv) {
     product(a.at(1), number(2), number(3), number(4), number(5));
   } else if (what == "front" || what == "sweep") {
     fronts(what == "front", a.at(1), number(2), number(3), number(4), number(5), number(6),
-           a.size() > 7 ? a[7] : "");
+           number(7), a.size() > 8 ? a[8] : "");
   } else {
     analytic();
   }
