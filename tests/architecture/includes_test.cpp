@@ -77,7 +77,8 @@ TEST(Includes, LibrariesOfOthersStayInTheSourcesOfOneFolder) {
   const std::vector<std::pair<std::string, std::string>> libraries{
       {"toml++", "toml\\+\\+/"}, {"OpenImageIO", "OpenImageIO/"},
       {"NLopt", "nlopt"},        {"pagmo", "pagmo/"},
-      {"FFTW", "fftw3"},         {"MPI", "mpi\\.h"},
+      {"Ceres", "ceres/"},       {"FFTW", "fftw3"},
+      {"MPI", "mpi\\.h"},
   };
   for (const auto& [name, pattern] : libraries) {
     const std::regex include("#include [<\"]" + pattern);
