@@ -15,6 +15,7 @@ void add_export(CLI::App& app, Context& context);
 void add_report(CLI::App& app, Context& context);
 void add_solve(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
+void add_calibrate(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 
@@ -37,6 +38,7 @@ inline constexpr std::array kCommands{
     add_export,
     add_report,
     add_solve,
+    add_calibrate,
     add_reproduce,
     add_describe,
     add_completion,

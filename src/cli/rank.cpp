@@ -34,11 +34,11 @@ std::vector<FingerState> parse_states(const std::string& text) {
   return out;
 }
 
-// File stems; with the folder where stems repeat.
+// File stems, of the first region; with the folder where stems repeat.
 std::vector<std::string> short_names(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files)
-    names.push_back(std::filesystem::path(file).stem().string());
+    names.push_back(std::filesystem::path(split(file, '+').front()).stem().string());
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::count(names.begin(), names.end(), names[i]) > 1) names[i] = files[i];
   }
@@ -47,9 +47,15 @@ std::vector<std::string> short_names(const std::vector<std::string>& files) {
 
 int run(const Context& context, const RankCommand& command) {
   if (command.files.size() < 2) throw InputError("name two designs at least");
+  std::vector<Regions> candidates;
   std::vector<Design> designs;
-  for (const std::string& file : command.files)
-    designs.push_back(read_design(file, command.overrides));
+  for (const std::string& file : command.files) {
+    Regions regions;
+    for (const std::string& region : split(file, '+'))
+      regions.push_back(read_design(region, command.overrides));
+    designs.insert(designs.end(), regions.begin(), regions.end());
+    candidates.push_back(std::move(regions));
+  }
   RankOptions options;
   const bool driven =
       std::all_of(designs.begin(), designs.end(), [](const Design& d) { return d.drive.driven(); });
@@ -62,7 +68,7 @@ int run(const Context& context, const RankCommand& command) {
   options.threads = command.jobs;
   options.note = [&](const std::string& text) { context.note(text); };
   const std::vector<std::string> names = short_names(command.files);
-  const Ranking ranking = rank(designs, options);
+  const Ranking ranking = rank(candidates, options);
   if (!command.out.empty()) {
     std::error_code error;
     std::filesystem::create_directories(command.out, error);
@@ -92,7 +98,10 @@ void add_rank(CLI::App& app, Context& context) {
   CLI::App* command = app.add_subcommand(
       "rank", "Designs in order, by paired differences, with the probability of being best");
   auto options = std::make_shared<RankCommand>();
-  command->add_option("designs", options->files, "DESIGN.toml of each candidate")->required();
+  command
+      ->add_option("designs", options->files,
+                   "DESIGN.toml of each candidate; A.toml+B.toml: regions of one")
+      ->required();
   command
       ->add_option(
           "--by", options->by,

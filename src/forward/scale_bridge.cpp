@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/constants.h"
+#include "physics/macro/fingertip.h"
 #include "physics/persson/persson.h"
 
 namespace papilla {
@@ -32,7 +33,23 @@ PowerSpectrum ridge_and_skin(const Finger& finger, double q_patch) {
   return all;
 }
 
+MeanField ridge_field(const Finger& finger, double q_patch, double relative_humidity) {
+  const MacroContact& macro = finger.macro;
+  const double factor = finger.skin.modulus_factor(relative_humidity);
+  return MeanField(ridge_and_skin(finger, q_patch),
+                   {finger.skin.bulk_modulus * factor, finger.skin.bulk_poisson,
+                    macro.corneum_thickness, macro.tissue_modulus, 0.5});
+}
+
 }  // namespace
+
+double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
+                      double relative_humidity) {
+  const double h0 = dielectric + finger.electrical.equivalent_thickness(relative_humidity);
+  constexpr double kPatch = 12e-6;  // where the spectrum of the ridges meets that of the skin
+  const MeanField field = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
+  return 1 / field.gaps(ridge_pressure).inverse(h0) - h0;
+}
 
 ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Grid& grid,
                          double relative_humidity)
@@ -46,12 +63,9 @@ ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Gri
     return;
   }
   carrying_share_ = macro.ridge_share;
-  nominal_ = finger.load / (macro.ridge_share * macro.gross_area(finger.load, relative_humidity));
+  nominal_ = ridge_load(macro, finger.load, relative_humidity).mean_pressure;
   const double q_patch = 2 * kPi / std::sqrt(grid.area());
-  const double factor = finger.skin.modulus_factor(relative_humidity);
-  const MeanField field(ridge_and_skin(finger, q_patch),
-                        {finger.skin.bulk_modulus * factor, finger.skin.bulk_poisson,
-                         macro.corneum_thickness, macro.tissue_modulus, 0.5});
+  const MeanField field = ridge_field(finger, q_patch, relative_humidity);
   if (nominal_ == 0 || field.stress_measure(q_patch) == 0) {  // no load, or a flat ridge
     pressures_ = {nominal_};
     share_off_ = share_on_ = {1};

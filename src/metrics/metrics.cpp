@@ -26,9 +26,8 @@ const std::vector<Entry>& entries() {
        &ResponsePoint::friction_off},
       {{"friction_on", "N", "friction of the finger, drive on", Better::Higher, true},
        &ResponsePoint::friction_on},
-      {{"adhesion", "N", "capillary force on the finger, drive off", Better::Lower, false},
-       &ResponsePoint::capillary_force},
-      {{"capillary_force", "N", "the same as adhesion", Better::Lower, false},
+      {{"capillary_force", "N", "capillary force on the finger, drive off; negative: it pushes off",
+        Better::Lower, false},
        &ResponsePoint::capillary_force},
       {{"electrostatic_force", "N", "pull of the field on the finger", Better::Higher, true},
        &ResponsePoint::electrostatic_force},
@@ -81,6 +80,13 @@ constexpr std::array<std::pair<const char*, Summary>, 8> kSummaries{
      {"first", Summary::First},
      {"last", Summary::Last}}};
 
+// What holds the finger: repulsion by drops on surfaces that repel water is no merit.
+Measured adhesion(const ResponsePoint& point) {
+  Measured a = point.capillary_force;
+  a.value = std::max(a.value, 0.0);
+  return a;
+}
+
 // Indentation over pressure [m/Pa]: how far the finger sinks in.
 Measured compliance(const ResponsePoint& point) {
   Measured c = point.indentation;
@@ -95,6 +101,8 @@ const std::vector<MetricInfo>& metric_list() {
   static const std::vector<MetricInfo> list = [] {
     std::vector<MetricInfo> infos;
     for (const Entry& entry : entries()) infos.push_back(entry.info);
+    infos.push_back({"adhesion", "N", "capillary force on the finger, drive off; never below 0",
+                     Better::Lower, false});
     infos.push_back({"compliance", "m/Pa", "indentation since first touch over patch pressure",
                      Better::Neither, false});
     for (const AppearanceEntry& entry : appearance_entries()) infos.push_back(entry.info);
@@ -134,6 +142,7 @@ const MetricInfo* find_metric(const std::string& name) {
 }
 
 std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point) {
+  if (name == "adhesion") return adhesion(point);
   if (name == "compliance") return compliance(point);
   if (const auto target = voltage_target(name)) {
     for (const VoltageAnswer& answer : point.voltages) {

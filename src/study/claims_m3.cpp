@@ -9,13 +9,13 @@
 #include "base/constants.h"
 #include "base/statistics.h"
 #include "forward/forward.h"
+#include "forward/scale_bridge.h"
 #include "study/design.h"
 #include "study/reproduce.h"
 
 namespace papilla {
 namespace {
 
-constexpr int kSkins = 40, kFreshSkins = 5000;
 constexpr int kHumidities = 4;  // 15, 35, 55, 75 % RH, as in designs/m3_samples
 constexpr int kDry = 0, kDamp = 1, kMoist = 2, kWet = 3;
 
@@ -37,13 +37,7 @@ struct Sample {
   }
 };
 
-Fidelity fidelity_of(const ClaimInputs& in) {
-  Fidelity f = fidelity_level("design");
-  f.skins = kSkins;
-  f.first_skin = kFreshSkins;
-  f.threads = in.threads();
-  return f;
-}
+Fidelity fidelity_of(const ClaimInputs& in) { return in.sampling().fidelity(in.threads()); }
 
 Design read_case(const Case& c) { return read_design(find_design(c.design)); }
 
@@ -65,6 +59,16 @@ Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelit
     out.strength.push_back(macro.shear_strength * macro.load_share *
                            macro.gross_area(scene.finger.load, p.relative_humidity));
     out.preload.push_back(p.patch_pressure * out.response.plan.grid.area());
+  }
+  if (fidelity.estimator == Estimator::Load) {  // Eq. friction.3: areas from loads, a skin
+    for (std::size_t i = 0; i < out.response.points.size(); ++i) {
+      PatchSamples& p = out.response.points[i].samples;
+      for (std::size_t k = 0; k < p.area_off.size(); ++k) {
+        const double beta = fidelity.load_exponent;
+        p.area_off[k] *= std::pow(std::max(0.0, p.load_off[k] / out.preload[i]), beta);
+        p.area_on[k] *= std::pow(std::max(0.0, p.load_on[k] / out.preload[i]), beta);
+      }
+    }
   }
   return out;
 }
@@ -130,20 +134,34 @@ double deviation_over_mean(const Sample& s, int skip) {
   return std::sqrt(sum / kHumidities) / mean;
 }
 
+// An estimate over skins, with what its interval needs.
+struct SkinEstimate : Estimate {
+  int skins = 2;
+
+  double half_width() const { return student_t_quantile(0.975, skins - 1) * se; }  // 95 %
+};
+
 template <class F>
-Estimate jackknife(F&& f) {
+SkinEstimate jackknife(int skins, F&& f) {
   double mean = 0, squares = 0;
-  for (int k = 0; k < kSkins; ++k) {
+  for (int k = 0; k < skins; ++k) {
     const double v = f(k);
-    mean += v / kSkins;
-    squares += v * v / kSkins;
+    mean += v / skins;
+    squares += v * v / skins;
   }
-  return {f(-1), std::sqrt((kSkins - 1) * std::max(0.0, squares - mean * mean))};
+  return {{f(-1), std::sqrt((skins - 1) * std::max(0.0, squares - mean * mean))}, skins};
+}
+template <class F>
+SkinEstimate jackknife(const Sample& s, F&& f) {
+  return jackknife(static_cast<int>(s.at(0).area_off.size()), f);
+}
+template <class F>
+SkinEstimate jackknife(const ClaimInputs& in, F&& f) {
+  return jackknife(in.sampling().skins, f);
 }
 
-double half_width(const Estimate& e) { return student_t_quantile(0.975, kSkins - 1) * e.se; }
-bool positive(const Estimate& e) { return e.value > half_width(e); }
-bool negative(const Estimate& e) { return -e.value > half_width(e); }
+bool positive(const SkinEstimate& e) { return e.value > e.half_width(); }
+bool negative(const SkinEstimate& e) { return -e.value > e.half_width(); }
 bool within(double v, double low, double high) { return v >= low && v <= high; }
 
 // A claim about several numbers holds when all do; the number shown is the first that does not,
@@ -181,8 +199,8 @@ Judgement friction_rise(ClaimInputs& in, double (*friction)(const Sample&, int, 
   std::vector<Part> parts;
   for (const std::string& name : samples()) {
     const Sample& s = m3(in, name);
-    const Estimate e =
-        jackknife([&](int k) { return friction(s, kWet, k) / friction(s, kDry, k); });
+    const SkinEstimate e =
+        jackknife(in, [&](int k) { return friction(s, kWet, k) / friction(s, kDry, k); });
     parts.push_back({name, e, within(e.value, 1.6, 2.4)});
   }
   return all_of(parts);
@@ -199,12 +217,12 @@ Judgement real_area(ClaimInputs& in) {
   const Sample& s = m3(in, "flat");
   const Sample& dry = sample(in, {.design = "m3_samples/flat.toml", .water = false});
   const auto rise = [](const Sample& a) {
-    return jackknife([&](int k) {
+    return jackknife(a, [&](int k) {
       return 100 *
              (mean_without(a.at(kWet).area_off, k) / mean_without(a.at(kDry).area_off, k) - 1);
     });
   };
-  const Estimate patch = rise(s), without = rise(dry);
+  const SkinEstimate patch = rise(s), without = rise(dry);
   const double growth = s.strength[kWet] / s.strength[kDry];
   return agrees_if(
       std::abs(patch.value - 45.5) <= 8, patch.value, patch.se,
@@ -222,7 +240,7 @@ Judgement capillary_area(ClaimInputs& in) {
     Case dry_case = m3_sample(name);
     dry_case.water = false;
     const Sample& dry = sample(in, dry_case);
-    const Estimate e = jackknife([&](int k) {
+    const SkinEstimate e = jackknife(in, [&](int k) {
       return 100 *
              (mean_without(s.at(kWet).area_off, k) / mean_without(dry.at(kWet).area_off, k) - 1);
     });
@@ -233,15 +251,15 @@ Judgement capillary_area(ClaimInputs& in) {
 
 // Difference b - a of a quantity in percent of a, paired over skins.
 template <class F>
-Estimate paired_percent(const Sample& a, const Sample& b, F&& quantity) {
-  return jackknife([&](int k) { return 100 * (quantity(b, k) / quantity(a, k) - 1); });
+SkinEstimate paired_percent(const Sample& a, const Sample& b, F&& quantity) {
+  return jackknife(a, [&](int k) { return 100 * (quantity(b, k) / quantity(a, k) - 1); });
 }
 
 Judgement capillary_by_diameter(ClaimInputs& in) {
   std::vector<Part> parts;
   for (int rh : {kMoist, kWet}) {
     for (const char* depth : {"h350", "h600"}) {
-      const Estimate e =
+      const SkinEstimate e =
           paired_percent(m3(in, std::string("a3") + depth), m3(in, std::string("a4") + depth),
                          [rh](const Sample& s, int k) { return capillary_load(s, rh, k); });
       parts.push_back(
@@ -255,7 +273,7 @@ Judgement capillary_by_depth(ClaimInputs& in) {
   std::vector<Part> parts;
   for (int rh : {kMoist, kWet}) {
     for (const char* deep : {"a3h600", "a3h900"}) {
-      const Estimate e =
+      const SkinEstimate e =
           paired_percent(m3(in, "a3h350"), m3(in, deep),
                          [rh](const Sample& s, int k) { return capillary_load(s, rh, k); });
       parts.push_back({fmt::format("{} against a3h350 at {} % RH, %", deep, 15 + 20 * rh), e,
@@ -270,7 +288,7 @@ Judgement friction_by_diameter(ClaimInputs& in) {
   std::vector<Part> parts;
   for (const char* depth : {"h350", "h600"}) {
     for (int rh = 0; rh < kHumidities; ++rh) {
-      const Estimate e =
+      const SkinEstimate e =
           paired_percent(m3(in, std::string("a3") + depth), m3(in, std::string("a4") + depth),
                          [rh](const Sample& s, int k) { return friction_off(s, rh, k); });
       parts.push_back(
@@ -280,15 +298,15 @@ Judgement friction_by_diameter(ClaimInputs& in) {
   return all_of(parts);
 }
 
-Estimate effect_ratio(const Sample& s, int from, int to) {
-  return jackknife([&](int k) { return effect(s, to, k) / effect(s, from, k) - 1; });
+SkinEstimate effect_ratio(const Sample& s, int from, int to) {
+  return jackknife(s, [&](int k) { return effect(s, to, k) / effect(s, from, k) - 1; });
 }
 
 Judgement effect_rises_and_falls(ClaimInputs& in) {
   std::vector<Part> parts;
   for (const char* name : {"flat", "a4h350", "a3h600"}) {
-    const Estimate up = effect_ratio(m3(in, name), kDry, kDamp);
-    const Estimate down = effect_ratio(m3(in, name), kDamp, kWet);
+    const SkinEstimate up = effect_ratio(m3(in, name), kDry, kDamp);
+    const SkinEstimate down = effect_ratio(m3(in, name), kDamp, kWet);
     parts.push_back({fmt::format("{} 15 to 35 %", name), up, positive(up)});
     parts.push_back({fmt::format("{} 35 to 75 %", name), down, negative(down)});
   }
@@ -299,7 +317,7 @@ Judgement effect_constant(ClaimInputs& in) {
   std::vector<Part> parts;
   for (const char* name : {"a4h600", "a3h900"}) {
     for (int rh : {kDamp, kMoist, kWet}) {
-      const Estimate e = effect_ratio(m3(in, name), kDry, rh);
+      const SkinEstimate e = effect_ratio(m3(in, name), kDry, rh);
       parts.push_back(
           {fmt::format("{} at {} % RH", name, 15 + 20 * rh), e, within(e.value, -0.25, 0.05)});
     }
@@ -319,7 +337,7 @@ template <class F>
 Judgement compare_pairs(ClaimInputs& in, F&& quantity, const std::string& why_not) {
   std::vector<Part> parts;
   for (const auto& [strong, weak] : stronger_pairs()) {
-    const Estimate e = paired_percent(m3(in, weak), m3(in, strong), quantity);
+    const SkinEstimate e = paired_percent(m3(in, weak), m3(in, strong), quantity);
     parts.push_back({fmt::format("{} against {}, %", strong, weak), e, positive(e)});
   }
   return all_of(parts, why_not);
@@ -330,7 +348,7 @@ Judgement hydrophobic_gain(ClaimInputs& in) {
   for (const char* name : {"flat", "a3h350"}) {
     const Sample &a = m3(in, name), &b = m3(in, name, 110);
     for (int rh = kHumidities - 1; rh >= 0; --rh) {
-      const Estimate e =
+      const SkinEstimate e =
           paired_percent(a, b, [rh](const Sample& s, int k) { return modulation(s, rh, k); });
       parts.push_back({fmt::format("{} at {} % RH, %", name, 15 + 20 * rh), e,
                        rh == kWet ? within(e.value, 90, 170) : positive(e)});
@@ -354,8 +372,8 @@ Judgement variation_readings(ClaimInputs& in) {
                            Reading{"flat 50°, a3h350 110°, range/mean", 0, range_over_mean},
                            Reading{"flat 50°, a3h350 110°, sd/mean", 0, deviation_over_mean}}) {
     const Sample &a = m3(in, "flat", r.flat_angle), &b = m3(in, "a3h350", 110);
-    const Estimate flat = jackknife([&](int k) { return 100 * r.measure(a, k); });
-    const Estimate holes = jackknife([&](int k) { return 100 * r.measure(b, k); });
+    const SkinEstimate flat = jackknife(in, [&](int k) { return 100 * r.measure(a, k); });
+    const SkinEstimate holes = jackknife(in, [&](int k) { return 100 * r.measure(b, k); });
     const double miss = std::max(std::abs(flat.value - 27.3), std::abs(holes.value - 6.7));
     any = any || miss <= 5;
     if (miss < best) shown = holes;
@@ -372,7 +390,7 @@ Judgement theoretical_maximum(ClaimInputs& in) {
   Estimate best{-kInfinity, 0};
   int at = 0;
   for (int rh = 0; rh < kHumidities; ++rh) {
-    const Estimate e = jackknife([&](int k) { return modulation(s, rh, k); });
+    const SkinEstimate e = jackknife(in, [&](int k) { return modulation(s, rh, k); });
     if (e.value > best.value) {
       best = e;
       at = rh;
@@ -387,7 +405,7 @@ Judgement hydrophobic_friction(ClaimInputs& in) {
   std::vector<Part> parts;
   for (const char* name : {"flat", "a3h350"}) {
     for (int rh = 0; rh < kHumidities; ++rh) {
-      const Estimate e =
+      const SkinEstimate e =
           paired_percent(m3(in, name), m3(in, name, 110),
                          [rh](const Sample& s, int k) { return friction_off(s, rh, k); });
       parts.push_back({fmt::format("{} at {} % RH, %", name, 15 + 20 * rh), e, negative(e)});
@@ -433,7 +451,7 @@ Judgement pull_falls(ClaimInputs& in) {
   std::vector<Part> parts;
   for (const std::string& name : samples()) {
     const Sample& s = m3(in, name);
-    const Estimate e = jackknife([&](int k) {
+    const SkinEstimate e = jackknife(in, [&](int k) {
       const auto pull = [&](int rh) {
         return mean_without(s.at(rh).load_on, k) - mean_without(s.at(rh).load_off, k);
       };
@@ -452,10 +470,12 @@ Judgement screens(ClaimInputs& in) {
   std::vector<Part> parts;
   const char* names[] = {"smooth over middle", "middle over rough"};
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-    const Estimate mean = jackknife(
-        [&](int k) { return mean_modulation(*order[i], k) - mean_modulation(*order[i + 1], k); });
-    const Estimate range = jackknife(
-        [&](int k) { return range_over_mean(*order[i], k) - range_over_mean(*order[i + 1], k); });
+    const SkinEstimate mean = jackknife(in, [&](int k) {
+      return mean_modulation(*order[i], k) - mean_modulation(*order[i + 1], k);
+    });
+    const SkinEstimate range = jackknife(in, [&](int k) {
+      return range_over_mean(*order[i], k) - range_over_mean(*order[i + 1], k);
+    });
     parts.push_back({fmt::format("mean, {}", names[i]), mean, positive(mean)});
     parts.push_back({fmt::format("range/mean, {}", names[i]), range, positive(range)});
   }
@@ -479,10 +499,10 @@ Judgement fields_in_air_and_oxide(ClaimInputs& in) {
 Judgement aspect_ratio(ClaimInputs& in) {
   const Sample& shallow = sample(in, {.design = "m3_samples/dense_shallow.toml"});
   const Sample& deep = sample(in, {.design = "m3_samples/dense_deep.toml"});
-  const Estimate e =
-      jackknife([&](int k) { return range_over_mean(deep, k) - range_over_mean(shallow, k); });
-  const Estimate a = jackknife([&](int k) { return range_over_mean(shallow, k); });
-  const Estimate b = jackknife([&](int k) { return range_over_mean(deep, k); });
+  const SkinEstimate e =
+      jackknife(in, [&](int k) { return range_over_mean(deep, k) - range_over_mean(shallow, k); });
+  const SkinEstimate a = jackknife(in, [&](int k) { return range_over_mean(shallow, k); });
+  const SkinEstimate b = jackknife(in, [&](int k) { return range_over_mean(deep, k); });
   return agrees_if(negative(e), e.value, e.se, fmt::format("{:.3f} ± {:.3f}", e.value, e.se),
                    fmt::format("range/mean of 2.6 um holes, 3 um apart, 50°: {:.2f} ± {:.2f} at "
                                "depth 350 nm, {:.2f} ± {:.2f} at 1 um",
@@ -493,7 +513,7 @@ Judgement softening_alone(ClaimInputs& in) {
   const Sample& s = sample(in, {.design = "m3_samples/flat.toml", .water = false});
   std::vector<Part> parts;
   for (int rh = 0; rh + 1 < kHumidities; ++rh) {
-    const Estimate e = effect_ratio(s, rh, rh + 1);
+    const SkinEstimate e = effect_ratio(s, rh, rh + 1);
     parts.push_back({fmt::format("{} to {} % RH", 15 + 20 * rh, 35 + 20 * rh), e, positive(e)});
   }
   return all_of(parts);
@@ -534,7 +554,7 @@ Judgement films(ClaimInputs& in, FingerState state, F&& quantity, double sign,
       return sample(
           in, {.design = fmt::format("coatings/hdpe_{}_{}.toml", size, region), .state = state});
     };
-    const Estimate e = paired_percent(film("large"), film("small"), quantity);
+    const SkinEstimate e = paired_percent(film("large"), film("small"), quantity);
     parts.push_back({fmt::format("small against large, region {}, %", region), e,
                      sign > 0 ? positive(e) : negative(e)});
   }
@@ -548,7 +568,7 @@ Judgement films_natural_area(ClaimInputs& in) {
   for (const char* size : {"large", "small"}) {
     for (int region = 1; region <= 3; ++region) {
       const std::string design = fmt::format("coatings/hdpe_{}_{}.toml", size, region);
-      const Estimate e =
+      const SkinEstimate e =
           paired_percent(sample(in, {.design = design}),
                          sample(in, {.design = design, .state = FingerState::Natural}),
                          [](const Sample& s, int k) { return mean_without(s.at(0).area_off, k); });
@@ -570,7 +590,8 @@ Judgement films_compliance(ClaimInputs& in) {
                       1e12 * p.indentation.se() / p.patch_pressure};
     };
     const Estimate large = compliance("large"), small = compliance("small");
-    const Estimate gain{large.value - small.value, std::hypot(large.se, small.se)};
+    const SkinEstimate gain{{large.value - small.value, std::hypot(large.se, small.se)},
+                            in.sampling().skins};
     parts.push_back(
         {fmt::format("large minus small, region {}, um/MPa", region), gain, positive(gain)});
   }
@@ -582,7 +603,92 @@ Claim claim(const char* id, const char* statement, const char* band,
   return {id, "M3 model (Ma et al. 2025)", statement, band, true, std::move(judge)};
 }
 
+// --- What a fit compares ----------------------------------------------------------------------
+
+ClaimTarget target(const char* claim, const char* what, double low, double high, double sd,
+                   std::function<Estimate(ClaimInputs&)> model) {
+  return {claim, what, low, high, sd, std::move(model)};
+}
+
 }  // namespace
+
+std::vector<ClaimTarget> m3_targets() {
+  const auto flat_rise = [](double (*friction)(const Sample&, int, int)) {
+    return [friction](ClaimInputs& in) -> Estimate {
+      const Sample& s = m3(in, "flat");
+      return jackknife(s, [&](int k) { return friction(s, kWet, k) / friction(s, kDry, k); });
+    };
+  };
+  const auto effect_of = [](const char* name, int from, int to) {
+    return [name, from, to](ClaimInputs& in) -> Estimate {
+      return effect_ratio(m3(in, name), from, to);
+    };
+  };
+  return {
+      target("M1", "F_off(75 %) / F_off(15 %), flat", 2, 2, 0.2, flat_rise(friction_off)),
+      target("M2", "F_on(75 %) / F_on(15 %), flat", 2, 2, 0.2, flat_rise(friction_on)),
+      target("M3", "growth of the gross area, %", 58.5, 58.5, 3,
+             [](ClaimInputs& in) -> Estimate {
+               const MacroContact& macro = in.finger().macro;
+               return {100 * (macro.gross_area(0.2, 0.75) / macro.gross_area(0.2, 0.15) - 1), 0};
+             }),
+      target("M4", "growth of the patch's real area, flat, %", 45.5, 45.5, 4,
+             [](ClaimInputs& in) -> Estimate {
+               const Sample& s = m3(in, "flat");
+               return jackknife(s, [&](int k) {
+                 return 100 * (mean_without(s.at(kWet).area_off, k) /
+                                   mean_without(s.at(kDry).area_off, k) -
+                               1);
+               });
+             }),
+      target("M5", "area added by capillaries at 75 %, flat, %", 22.3, 24.1, 4,
+             [](ClaimInputs& in) -> Estimate {
+               const Sample& s = m3(in, "flat");
+               const Sample& dry = sample(in, {.design = "m3_samples/flat.toml", .water = false});
+               return jackknife(s, [&](int k) {
+                 return 100 * (mean_without(s.at(kWet).area_off, k) /
+                                   mean_without(dry.at(kWet).area_off, k) -
+                               1);
+               });
+             }),
+      target("M9", "change of ΔF, 15 to 35 %, flat", 0.02, kInfinity, 0.05,
+             effect_of("flat", kDry, kDamp)),
+      target("M9", "change of ΔF, 35 to 75 %, a4h350", -kInfinity, -0.08, 0.05,
+             effect_of("a4h350", kDamp, kWet)),
+      target("M10", "change of ΔF, 15 to 35 %, a4h600", -0.25, 0.05, 0.1,
+             effect_of("a4h600", kDry, kDamp)),
+      target("M10", "change of ΔF, 15 to 75 %, a4h600", -0.25, 0.05, 0.1,
+             effect_of("a4h600", kDry, kWet)),
+      target("M13", "110° against 50°, flat at 75 %, %", 130, 130, 20,
+             [](ClaimInputs& in) -> Estimate {
+               return paired_percent(m3(in, "flat"), m3(in, "flat", 110),
+                                     [](const Sample& s, int k) { return modulation(s, kWet, k); });
+             }),
+      target("M15", "largest modulation at 110° without water", 1.38, 1.38, 0.1,
+             [](ClaimInputs& in) -> Estimate {
+               const Sample& s =
+                   sample(in, {.design = "m3_samples/flat.toml", .angle = 110, .water = false});
+               const auto largest = [&](int k) {
+                 double most = -kInfinity;
+                 for (int rh = 0; rh < kHumidities; ++rh)
+                   most = std::max(most, modulation(s, rh, k));
+                 return most;
+               };
+               return jackknife(s, largest);
+             }),
+      target("M17", "retention at 75 %, flat, % of F_off", 5, 5, 2,
+             [](ClaimInputs& in) -> Estimate {
+               const ResponsePoint& p = m3(in, "flat").response.points[kWet];
+               return {100 * p.retention_force.value / p.friction_off.value,
+                       100 * p.retention_force.se() / p.friction_off.value};
+             }),
+      target("C_gap", "gap of a sliding finger by its capacitance, um", 1.06, 1.06, 0.1,
+             [](ClaimInputs& in) -> Estimate {
+               constexpr double kOxide = 0.256e-6, kArea = 30e-6, kLoad = 1, kHumidity = 0.45;
+               return {1e6 * capacitive_gap(in.finger(), kLoad / kArea, kOxide, kHumidity), 0};
+             }),
+  };
+}
 
 std::vector<Claim> m3_claims() {
   return {

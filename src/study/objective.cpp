@@ -375,10 +375,10 @@ std::vector<Point> StudyProblem::starts() const {
   return out;
 }
 
-// Scenario, finger, then the end of the scatter, within the range that the number may have at all.
+// Finger, scenario, then the end of the scatter, within the range that the number may have at all.
 Design StudyProblem::task_design(Design d, const StudyTask& task) const {
-  d = with_settings(std::move(d), task.settings);
   d.finger = task.finger;
+  d = with_settings(std::move(d), task.settings);  // a scenario may change the finger too
   if (task.scattered < 0) return d;
   const Scatter& scatter = study_.scatter[static_cast<std::size_t>(task.scattered)];
   const std::vector<NumberField> known = number_fields(d);

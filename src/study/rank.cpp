@@ -22,34 +22,42 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kDraws = 4000;  // of the orders, for p_best: an error of 0.8 points at most
 
-// One design in one finger state, and the skins solved so far.
+// One candidate in one finger state, and the skins solved so far.
 class Candidate {
  public:
-  Candidate(const Design& design, FingerState state, const RankOptions& options)
-      : design_(design),
+  Candidate(const Regions& regions, FingerState state, const RankOptions& options)
+      : regions_(regions),
+        design_(regions.front()),
         options_(options),
-        scene_(scene_of(design)),
-        fidelity_(fidelity_of(design)) {
+        scene_(scene_of(design_)),
+        fidelity_(fidelity_of(design_)) {
     scene_.finger.state = state;
     fidelity_.threads = options.threads;
-    fidelity_.skins = options.batch;
     if (std::any_of(options.criteria.begin(), options.criteria.end(), [](const Criterion& c) {
           return find_metric(c.expression.metric)->appearance;
         })) {
-      look_ = appearance_of(design);
+      look_ = appearance_of(design_);
     }
   }
 
   int skins() const { return patches_.skins(); }
 
-  // More skins: the next of the common sequence.
+  // More skins: the next of the common sequence, shared out over the regions.
   void extend() {
-    fidelity_.first_skin = skins();
-    PatchSet more = solve_patches(scene_, design_.texture, fidelity_);
-    if (skins() == 0) {
-      patches_ = std::move(more);
-    } else {
-      patches_.add(more);
+    const int count = static_cast<int>(regions_.size());
+    for (int r = 0; r < count; ++r) {
+      fidelity_.first_skin = skins();
+      fidelity_.skins = options_.batch * (r + 1) / count - options_.batch * r / count;
+      if (fidelity_.skins == 0) continue;
+      Scene scene = scene_of(regions_[static_cast<std::size_t>(r)]);
+      scene.finger.state = scene_.finger.state;
+      PatchSet more =
+          solve_patches(scene, regions_[static_cast<std::size_t>(r)].texture, fidelity_);
+      if (skins() == 0) {
+        patches_ = std::move(more);
+      } else {
+        patches_.add(more);
+      }
     }
     // Jackknife pseudo-values: a sample a skin of any metric. Eq. ranking.2
     const int n = skins();
@@ -83,7 +91,8 @@ class Candidate {
     return out;
   }
 
-  const Design& design_;
+  const Regions& regions_;
+  const Design& design_;  // the first region: what all share
   const RankOptions& options_;
   Scene scene_;
   Fidelity fidelity_;
@@ -102,9 +111,9 @@ Interval interval(const std::vector<double>& samples) {
 
 class StateRanker {
  public:
-  StateRanker(const std::vector<Design>& designs, FingerState state, const RankOptions& options)
+  StateRanker(const std::vector<Regions>& candidates, FingerState state, const RankOptions& options)
       : options_(options), state_(state) {
-    for (const Design& d : designs) candidates_.emplace_back(d, state, options);
+    for (const Regions& c : candidates) candidates_.emplace_back(c, state, options);
   }
 
   // Everyone gets a batch; then only neighbours in the order whose difference is open.
@@ -115,7 +124,10 @@ class StateRanker {
       std::vector<bool> open(candidates_.size(), false);
       for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
         if (decided(order_[i], order_[i + 1])) continue;
-        open[order_[i]] = open[order_[i + 1]] = true;
+        // The difference is over the skins that both have: the one with more waits.
+        const int a = candidates_[order_[i]].skins(), b = candidates_[order_[i + 1]].skins();
+        if (a <= b) open[order_[i]] = true;
+        if (b <= a) open[order_[i + 1]] = true;
       }
       bool more = false;
       for (std::size_t i = 0; i < candidates_.size(); ++i) {
@@ -209,9 +221,24 @@ class StateRanker {
     return best;
   }
 
+  // Eq. ranking.4: normal error of the paired difference.
+  double probability_ahead(std::size_t a, std::size_t b) const {
+    const std::size_t n = std::min(scores_[a].size(), scores_[b].size());
+    std::vector<double> d(n);
+    for (std::size_t k = 0; k < n; ++k) d[k] = scores_[a][k] - scores_[b][k];
+    const Estimate e = mean_estimate(d);
+    return e.se > 0 ? normal_cdf(e.value / e.se) : e.value > 0 ? 1 : 0.5;
+  }
+
   StateRanking result() const {
     StateRanking out;
     out.state = state_;
+    int most = 0;
+    for (const Candidate& c : candidates_) {
+      out.skins += c.skins();
+      most = std::max(most, c.skins());
+    }
+    out.equal_skins = most * static_cast<int>(candidates_.size());
     const std::vector<double> p = probabilities();
     for (std::size_t place = 0; place < order_.size(); ++place) {
       const std::size_t i = order_[place];
@@ -222,6 +249,7 @@ class StateRanker {
       if (place + 1 < order_.size()) {
         r.ahead_of_next = difference(i, order_[place + 1]);
         r.tied_with_next = !decided(i, order_[place + 1]);
+        r.p_ahead = probability_ahead(i, order_[place + 1]);
       }
       r.rank = static_cast<int>(place) + 1;
       if (place > 0 && out.candidates.back().tied_with_next) r.rank = out.candidates.back().rank;
@@ -295,10 +323,16 @@ std::vector<Criterion> parse_criteria(const std::string& text) {
 }
 
 Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
+  std::vector<Regions> candidates;
+  for (const Design& d : designs) candidates.push_back({d});
+  return rank(candidates, options);
+}
+
+Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Ranking out;
   for (FingerState state : options.states)
-    out.states.push_back(StateRanker(designs, state, options).run(out.skins));
+    out.states.push_back(StateRanker(candidates, state, options).run(out.skins));
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return out;
 }
@@ -316,7 +350,8 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
       const std::string unit = people(c).second;
       out += fmt::format("  {:>24}", c.text() + (unit.empty() ? "" : " " + unit));
     }
-    out += fmt::format("  {:>24}  {:>7}  {:>5}\n", "ahead of the next, %", "p(best)", "skins");
+    out += fmt::format("  {:>24}  {:>8}  {:>7}  {:>5}\n", "ahead of the next, %", "p(ahead)",
+                       "p(best)", "skins");
     for (const RankedCandidate& r : state.candidates) {
       out += fmt::format("{:>3}{}  {:<{}}", r.rank, r.tied_with_next ? "=" : " ", names[r.index],
                          width);
@@ -327,13 +362,16 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
                                        (r.metrics[c].high - r.metrics[c].low) / 2 * scale));
       }
       const bool last = &r == &state.candidates.back();
-      out += fmt::format("  {:>24}  {:>7.3f}  {:>5}\n",
+      out += fmt::format("  {:>24}  {:>8}  {:>7.3f}  {:>5}\n",
                          last ? std::string("-")
                               : fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * r.ahead_of_next.value,
                                             100 * r.ahead_of_next.low, 100 * r.ahead_of_next.high),
-                         r.p_best, r.skins);
+                         last ? std::string("-") : fmt::format("{:.3f}", r.p_ahead), r.p_best,
+                         r.skins);
     }
-    out += '\n';
+    out += fmt::format("{} skins; {} if everyone had as many as the neediest ({:.0f} %)\n\n",
+                       state.skins, state.equal_skins,
+                       100.0 * state.skins / std::max(1, state.equal_skins));
   }
   return out + fmt::format(
                    "± and [ ] are 95 % intervals, differences are paired over common skins; = "
@@ -360,12 +398,15 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
                       {"score", interval_json(r.score)},
                       {"behind_best", interval_json(r.behind_best)},
                       {"ahead_of_next", interval_json(r.ahead_of_next)},
+                      {"p_ahead", r.p_ahead},
                       {"p_best", r.p_best},
                       {"metrics", metrics},
                       {"skins", r.skins}});
     }
     states.push_back({{"state", finger_state_names()[static_cast<std::size_t>(state.state)]},
-                      {"candidates", list}});
+                      {"candidates", list},
+                      {"skins", state.skins},
+                      {"equal_skins", state.equal_skins}});
   }
   Json criteria = Json::array();
   for (const Criterion& c : options.criteria) criteria.push_back(c.text());

@@ -34,6 +34,7 @@ struct RankedCandidate {
   Interval behind_best;           // score difference to the first, <= 0 up to noise; 0 for itself
   Interval ahead_of_next;         // score difference to the next one; 0 for the last
   double p_best = 0;              // probability of the highest score, Eq. ranking.3
+  double p_ahead = 0;             // probability of being ahead of the next one, Eq. ranking.4
   std::vector<Interval> metrics;  // one a criterion, in its unit
   int skins = 0;
 };
@@ -41,6 +42,8 @@ struct RankedCandidate {
 struct StateRanking {
   FingerState state = FingerState::Clean;
   std::vector<RankedCandidate> candidates;  // best first
+  int skins = 0;                            // solved
+  int equal_skins = 0;  // what everyone as often as the neediest candidate would have taken
 };
 
 struct RankOptions {
@@ -58,7 +61,10 @@ struct Ranking {
   double seconds = 0;
 };
 
+// A candidate: a design, or several regions of one that its skins take in turn.
+using Regions = std::vector<Design>;
 // Throws InputError when a criterion is not defined for a design (modulation without a drive).
+Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options);
 Ranking rank(const std::vector<Design>& designs, const RankOptions& options);
 
 std::string ranking_table(const std::vector<std::string>& names, const RankOptions& options,

@@ -82,6 +82,15 @@ Judgement agrees_if(bool agrees, double value, double se, std::string model, std
           std::move(reason)};
 }
 
+Fidelity ClaimSampling::fidelity(int threads) const {
+  Fidelity f = fidelity_level(level);
+  f.skins = skins;
+  f.first_skin = first_skin;
+  if (grid > 0) f.grid = grid;
+  f.threads = threads;
+  return f;
+}
+
 const std::vector<Claim>& claims() {
   static const std::vector<Claim> list = [] {
     std::vector<Claim> all = m3_claims();
@@ -106,8 +115,8 @@ std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
                                  join_names(known)));
   }
   const std::set<std::string> fitted = words(options.finger.fitted_to);
-  ClaimInputs papilla(options.finger, Preset::Papilla, options.threads);
-  ClaimInputs m3(options.finger, Preset::M3, options.threads);
+  ClaimInputs papilla(options.finger, Preset::Papilla, options.threads, options.sampling);
+  ClaimInputs m3(options.finger, Preset::M3, options.threads, options.sampling);
   std::vector<ClaimResult> results;
   for (const Claim& claim : claims()) {
     if (!options.ids.empty() &&
@@ -116,7 +125,7 @@ std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
     }
     const auto begin = std::chrono::steady_clock::now();
     ClaimResult result{&claim, claim.judge(papilla), {}, 0};
-    if (claim.both_presets) result.m3 = claim.judge(m3);
+    if (claim.both_presets && !options.one_preset) result.m3 = claim.judge(m3);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (Judgement* j : {&result.papilla, &result.m3}) {

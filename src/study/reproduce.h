@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "base/statistics.h"
+#include "forward/fidelity.h"
 #include "scene/finger.h"
 
 namespace papilla {
@@ -33,14 +35,27 @@ struct Judgement {
 Judgement agrees_if(bool agrees, double value, double se, std::string model,
                     std::string reason = "");
 
+// Where the skins of the judgement come from: by default 40 that no fit has seen.
+struct ClaimSampling {
+  std::string level = "design";  // of accuracy
+  int skins = 40, first_skin = 5000;
+  int grid = 0;  // pixels along a patch; 0: the level's
+
+  Fidelity fidelity(int threads) const;
+};
+
 // What a claim may use; results that several claims share are made once.
 class ClaimInputs {
  public:
-  ClaimInputs(Finger finger, Preset preset, int threads)
-      : finger_(std::move(finger)), preset_(preset), threads_(threads) {}
+  ClaimInputs(Finger finger, Preset preset, int threads, ClaimSampling sampling = {})
+      : finger_(std::move(finger)),
+        preset_(preset),
+        threads_(threads),
+        sampling_(std::move(sampling)) {}
 
   const Finger& finger() const { return finger_; }
   Preset preset() const { return preset_; }
+  const ClaimSampling& sampling() const { return sampling_; }
   int threads() const { return threads_; }  // 0: all
 
   // The value made by `make` at the first call with this key.
@@ -55,6 +70,7 @@ class ClaimInputs {
   Finger finger_;
   Preset preset_;
   int threads_;
+  ClaimSampling sampling_;
   std::map<std::string, std::any> shared_;
 };
 
@@ -78,10 +94,22 @@ struct ClaimResult {
   double seconds = 0;
 };
 
+// A number of a claim that a fit can use: its residual is the distance from [low, high] over sd.
+// Ratios and trends, because the papers print no curves; sd is the width that the words leave.
+struct ClaimTarget {
+  std::string claim;  // id; "C_gap" is the published capacitance of the gap under a sliding finger
+  std::string what;   // with its unit
+  double low = 0, high = 0, sd = 1;
+  std::function<Estimate(ClaimInputs&)> model;
+};
+std::vector<ClaimTarget> m3_targets();
+
 struct ReproduceOptions {
   std::vector<std::string> ids;  // empty: all
   Finger finger;                 // fitted_to says which claims were fitted
   int threads = 0;
+  ClaimSampling sampling;
+  bool one_preset = false;                       // the finger's own alone, for a fit
   std::function<void(const ClaimResult&)> done;  // after each claim
 };
 // In the order of the list. Throws InputError for an id that is not there.

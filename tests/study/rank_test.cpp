@@ -72,6 +72,45 @@ TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {
   EXPECT_EQ(natural.applied(), natural);  // nothing more to apply
 }
 
+TEST(Rank, EightCandidatesTakeLessThanHalfOfEqualSampling) {
+  // Two are so near each other that they are sampled to the limit; the others are clear early.
+  std::vector<Design> designs;
+  for (const char* name : {"flat", "a4h600", "dense_shallow", "dense_deep", "screen_rough",
+                           "screen_middle", "a3h900", "a3h350"})
+    designs.push_back(sample(name));
+  RankOptions options = by("modulation:high");
+  options.batch = 6;
+  options.max_skins = 48;
+  const StateRanking r = rank(designs, options).states.front();
+  EXPECT_EQ(r.equal_skins, 8 * 48);
+  EXPECT_LT(r.skins, r.equal_skins / 2);
+  for (const RankedCandidate& c : r.candidates) {
+    if (&c != &r.candidates.back() && !c.tied_with_next) {
+      EXPECT_GT(c.p_ahead, 0.97);
+    }
+  }
+}
+
+TEST(Rank, RegionsAreOneCandidate) {
+  Design large = read_design(find_design("coatings/hdpe_large_1.toml"));
+  Design small = read_design(find_design("coatings/hdpe_small_1.toml"));
+  std::vector<Regions> films(2);
+  for (int region = 1; region <= 3; ++region) {
+    for (Design* d : {&large, &small}) {
+      std::get<ParticleFilm>(d->texture.kind).seed = region;
+      d->accuracy.level = AccuracyLevel::Draft;
+      films[d == &large ? 0 : 1].push_back(*d);
+    }
+  }
+  RankOptions options = by("friction:low,adhesion:low");
+  options.batch = 6;
+  const StateRanking r = rank(films, options).states.front();
+  EXPECT_EQ(r.candidates.front().index, 1u);  // the smaller, stiffer particles rub less
+  EXPECT_GT(r.candidates.front().p_ahead, 0.99);
+  for (const RankedCandidate& c : r.candidates)
+    EXPECT_GE(c.metrics[1].low, -1e-12);  // no repulsion
+}
+
 TEST(Rank, RefusesWhatHasNoMeaning) {
   EXPECT_THROW(parse_criteria("frictoin:low"), InputError);
   EXPECT_THROW(parse_criteria("friction:down"), InputError);
