@@ -169,6 +169,7 @@ class PatchSolver {
         *problem_.kernel, problem_.height, problem_.pressure * softness_, traction, options, start);
     ++out.contact_solves;
     out.fft_pairs += solution.fft_pairs;
+    out.certificate = std::max(out.certificate, solution.certificate);
     if (!solution.converged() && out.status.empty()) out.status = "contact: " + solution.reason;
     return solution;
   }

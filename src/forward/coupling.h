@@ -39,6 +39,7 @@ struct PatchResult {
   double oxide_margin = kInfinity;  // strength of the dielectric over its peak field
   int contact_solves = 0;
   double fft_pairs = 0;
+  double certificate = 0;  // the worst of the contact solves
   PieceSeconds seconds;
   std::string status;  // empty: sound
 };

@@ -12,6 +12,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.skins = 12;
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
+    f.control_skins = 0;
   } else if (name == "draft") {
     f.grid = 128;
     f.skins = 16;

@@ -24,9 +24,11 @@ struct Fidelity {
   int coupling_passes = 12;          // self-consistent coupling: largest number of passes
   double coupling_tolerance = 5e-3;  // relative change of the pull between passes
   int bridge_nodes = 3;              // patch-pressure nodes of the Persson closure
-  double load_exponent = 0.90;       // beta of the load-based estimator (Eq. friction.3)
-  std::uint64_t seed = 1;            // of skins, offsets and droplets: common to all designs
-  int threads = 0;                   // 0: all
+  int control_skins = 4;  // run again on a coarser grid and with better methods, for the errors; 0:
+                          // those parts stay unknown
+  double load_exponent = 0.90;  // beta of the load-based estimator (Eq. friction.3)
+  std::uint64_t seed = 1;       // of skins, offsets and droplets: common to all designs
+  int threads = 0;              // 0: all
 
   bool operator==(const Fidelity&) const = default;
 };

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "base/check.h"
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/statistics.h"
@@ -65,23 +66,8 @@ Measured sampled_mean(const std::vector<PatchResult>& patches, double PatchResul
   return {factor * e.value, {.sampling = std::abs(factor) * e.se}};
 }
 
-// Relative errors beyond sampling, as laws with measured constants, not measured on this scene: the
-// area and the modulation fall with the pixel (docs/theory/contact.md), the load law is
-// good to 2 % (docs/theory/friction.md), the local rule to 1.4 % under a flat skin
-// (docs/theory/electrostatics.md).
-struct StatedErrors {
-  double area, modulation_grid, modulation_method, pull, solver;
-};
-StatedErrors stated_errors(const Plan& plan, const Fidelity& fidelity, const Scene& scene) {
-  const double pixel = plan.grid.dx();
-  StatedErrors e{};
-  e.area = std::min(0.5, 0.02 * pixel / 23e-9);
-  e.modulation_grid = std::min(0.2, 0.01 * pixel / 47e-9);
-  e.modulation_method = fidelity.estimator == Estimator::Load && plan.field ? 0.02 : 0;
-  e.pull = scene.model.field == FieldMethod::Local ? 0.014 : 0.005;
-  e.solver = 5 * fidelity.contact_tolerance;  // docs/theory/contact.md
-  return e;
-}
+// Worst relative error of friction from a contact solve with this certificate: Eq. accuracy.1
+constexpr double kSolverError = 5;
 
 // Of the 3-D potential on the pixels of a patch (docs/theory/electrostatics.md).
 constexpr double kFullFieldError = 0.08;
@@ -89,10 +75,7 @@ constexpr double kFullFieldError = 0.08;
 class PointBuilder {
  public:
   PointBuilder(const Scene& scene, const Plan& plan, const Fidelity& fidelity)
-      : scene_(scene),
-        plan_(plan),
-        fidelity_(fidelity),
-        errors_(stated_errors(plan, fidelity, scene)) {}
+      : scene_(scene), plan_(plan), fidelity_(fidelity) {}
 
   ResponsePoint build(double rh, double weight, const ScaleBridge& bridge,
                       const std::vector<PatchResult>& patches) const {
@@ -105,13 +88,13 @@ class PointBuilder {
         bridge.carrying_share() * macro.gross_area(scene_.finger.load, rh);  // [m^2]
     const double patches_per_finger = carrying / plan_.grid.area();
 
-    std::vector<double> load_dry, water_share;
+    double certificate = 0;
     for (const PatchResult& p : patches) {
       point.samples.load_off.push_back(p.load + p.capillary_off);
       point.samples.load_on.push_back(p.load + p.capillary_on + p.pull);
       point.samples.area_off.push_back(p.area_off);
       point.samples.area_on.push_back(p.area_on);
-      load_dry.push_back(p.load);
+      certificate = std::max(certificate, p.certificate);
       point.over_limit_area += p.over_limit_area / static_cast<double>(patches.size());
       point.over_limit_share += p.over_limit_share / static_cast<double>(patches.size());
       point.oxide_margin = std::min(point.oxide_margin, p.oxide_margin);
@@ -150,13 +133,12 @@ class PointBuilder {
                                ? 1 - point.retention_force.value / point.friction_off.value
                                : 1;
       point.modulation.value = dry_ratio * share;
-      add_relative(point.modulation, point.modulation.value);
+      point.modulation.parts.sampling *= std::abs(share);
     } else {
       point.modulation = {};
     }
     point.capillary_force = sampled_mean(patches, &PatchResult::capillary_off, patches_per_finger);
     point.electrostatic_force = sampled_mean(patches, &PatchResult::pull, patches_per_finger);
-    point.electrostatic_force.parts.method = errors_.pull * point.electrostatic_force.value;
     point.bridges = sampled_mean(patches, &PatchResult::bridges);
     point.wetted_fraction = sampled_mean(patches, &PatchResult::wetted);
     if (plan_.field) {
@@ -166,6 +148,12 @@ class PointBuilder {
     }
     point.mean_gap = sampled_mean(patches, &PatchResult::mean_gap);
     point.indentation = sampled_mean(patches, &PatchResult::indentation);
+    for (const auto member : kMeasured) {
+      Measured& m = point.*member;
+      m.parts.solver = kSolverError * certificate * std::abs(m.value);
+    }
+    point.modulation.parts.solver =
+        kSolverError * certificate * (1 + std::abs(point.modulation.value));
     return point;
   }
 
@@ -210,25 +198,21 @@ class PointBuilder {
     Measured f;
     f.value = strength * area.value + retention.value;
     f.parts.sampling = std::hypot(strength * area.parts.sampling, retention.parts.sampling);
-    f.parts.grid = errors_.area * strength * area.value;
-    f.parts.solver = errors_.solver * f.value;
     return f;
-  }
-
-  void add_relative(Measured& modulation, double value) const {
-    const double size = std::abs(value);
-    modulation.parts.grid = errors_.modulation_grid * size;
-    modulation.parts.solver = errors_.solver * (1 + size);
-    modulation.parts.method = std::hypot(errors_.modulation_method, errors_.pull) * size;
   }
 
   const Scene& scene_;
   const Plan& plan_;
   const Fidelity& fidelity_;
-  StatedErrors errors_;
 };
 
 }  // namespace
+
+double ErrorParts::total() const {
+  double sum = sampling * sampling;
+  for (const ErrorOrigin& origin : kErrorOrigins) sum += square((this->*origin.part).value_or(0));
+  return std::sqrt(sum);
+}
 
 std::string Response::trouble() const {
   for (const ResponsePoint& point : points) {
@@ -297,6 +281,8 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
   const Scene scene = applied(given);
   Response response;
   response.plan = set.plan;
+  response.fidelity = fidelity;
+  response.fidelity.skins = set.skins();
   response.driven = set.plan.field;
   response.seconds = set.seconds;
   const PointBuilder builder(scene, response.plan, fidelity);
@@ -313,12 +299,26 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
       response.piece_seconds.water += patch.seconds.water;
       response.piece_seconds.field += patch.seconds.field;
     }
+    for (const MeasuredError& error : set.errors) {
+      for (std::size_t m = 0; m < kMeasured.size(); ++m) {
+        Measured& measured = response.points.back().*kMeasured[m];
+        std::optional<double>& part = measured.parts.*error.origin;
+        part = std::hypot(part.value_or(0), error.size[i][m] * std::abs(measured.value));
+      }
+    }
+  }
+  for (const MeasuredError& error : set.errors) {
+    response.contact_solves += error.contact_solves;
+    response.fft_pairs += error.fft_pairs;
+    response.seconds += error.seconds;
   }
   return response;
 }
 
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
-  return respond(scene, fidelity, solve_patches(scene, texture, fidelity));
+  PatchSet patches = solve_patches(scene, texture, fidelity);
+  patches.errors = measure_errors(scene, texture, fidelity, patches);
+  return respond(scene, fidelity, patches);
 }
 
 RestPatches::RestPatches(const Scene& scene, const Texture& texture, const Fidelity& fidelity)

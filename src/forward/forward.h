@@ -12,11 +12,20 @@
 
 namespace papilla {
 
+// Errors of every quantity at each humidity by one origin, measured on the control skins.
+struct MeasuredError {
+  std::optional<double> ErrorParts::*origin = nullptr;
+  std::vector<std::array<double, kMeasured.size()>> size;  // [humidity][quantity], relative
+  int contact_solves = 0;
+  double fft_pairs = 0, seconds = 0;
+};
+
 // The solved patches of a scene: what a Response is made of. More skins can be added later.
 struct PatchSet {
   Plan plan;
   std::vector<ScaleBridge> bridges;               // one a humidity
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
+  std::vector<MeasuredError> errors;              // of measure_errors
   double seconds = 0;                             // wall time
 
   int skins() const { return results.empty() ? 0 : static_cast<int>(results.front().size()); }
@@ -28,12 +37,18 @@ struct PatchSet {
 // solves.
 PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
+// The grid and method parts of the error, from fidelity.control_skins of the patches run again: on
+// half the pixels (Eq. accuracy.2), and with contact areas solved in place of the load law (Eq.
+// accuracy.3). Nothing with fewer than two control skins.
+std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& texture,
+                                          const Fidelity& fidelity, const PatchSet& patches);
+
 // Friction, modulation and their causes at each humidity. without: leaves out that skin (for the
 // jackknife); -1: none.
 Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches,
                  int without = -1);
 
-// Both: friction, modulation and their causes at each humidity of the scene.
+// All three: friction, modulation and their causes with their errors at each humidity.
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
 // The patches of one humidity before the drive, to be driven at one voltage after another: contact

@@ -1,6 +1,7 @@
 // What the forward model answers: one point a humidity, each number with its error by origin.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -12,20 +13,30 @@
 
 namespace papilla {
 
-// One standard error by origin, in the unit of the value. Independent: they add in squares.
+// One standard error by origin, in the unit of the value; nothing where it was not measured.
+// Independent: they add in squares. docs/theory/accuracy.md
 struct ErrorParts {
-  double sampling = 0;  // skins, offsets, droplets
-  double grid = 0;      // discretisation
-  double solver = 0;    // tolerance of the contact solve
-  double humidity = 0;  // quadrature over humidity (zero at a point)
-  double method = 0;    // estimator or field rule in place of the better one
+  double sampling = 0;                 // skins, offsets, droplets
+  std::optional<double> grid{};        // discretisation
+  std::optional<double> solver{};      // tolerance of the contact solve
+  std::optional<double> humidity{};    // quadrature over humidity (none at a point)
+  std::optional<double> method{};      // load law in place of solved areas
+  std::optional<double> parameters{};  // of the finger, from the covariance of its fit
 
-  double total() const {
-    return std::sqrt(sampling * sampling + grid * grid + solver * solver + humidity * humidity +
-                     method * method);
-  }
+  double total() const;
   bool operator==(const ErrorParts&) const = default;
 };
+struct ErrorOrigin {
+  const char* name;
+  std::optional<double> ErrorParts::*part;
+};
+// Every part but sampling, in the order of reports.
+inline constexpr std::array<ErrorOrigin, 5> kErrorOrigins{
+    {{"grid", &ErrorParts::grid},
+     {"solver", &ErrorParts::solver},
+     {"humidity", &ErrorParts::humidity},
+     {"method", &ErrorParts::method},
+     {"parameters", &ErrorParts::parameters}}};
 
 struct Measured {
   double value = 0;
@@ -86,13 +97,38 @@ struct ResponsePoint {
   bool operator==(const ResponsePoint&) const = default;
 };
 
+// Every quantity of a point that carries errors.
+inline constexpr std::array kMeasured{&ResponsePoint::friction_off,
+                                      &ResponsePoint::friction_on,
+                                      &ResponsePoint::modulation,
+                                      &ResponsePoint::area_fraction_off,
+                                      &ResponsePoint::area_fraction_on,
+                                      &ResponsePoint::capillary_force,
+                                      &ResponsePoint::electrostatic_force,
+                                      &ResponsePoint::retention_force,
+                                      &ResponsePoint::bridges,
+                                      &ResponsePoint::wetted_fraction,
+                                      &ResponsePoint::mean_gap,
+                                      &ResponsePoint::indentation};
+
 // Processor time by piece of physics [s], summed over threads; in no reproducible file.
 struct PieceSeconds {
   double contact = 0, water = 0, field = 0;
 };
 
+// What was asked for by [accuracy] target, and what came of it.
+struct TargetReport {
+  double target = 0;   // relative standard error of the quantity; 0: none was asked for
+  double reached = 0;  // total of the parts that were measured
+  std::string quantity;
+  std::string status;              // "reached", or what stopped it
+  std::vector<std::string> steps;  // what was run and why, one line each
+};
+
 struct Response {
   std::vector<ResponsePoint> points;
+  Fidelity fidelity;  // as run
+  TargetReport accuracy;
   Plan plan;
   bool driven = false;
   double seconds = 0;  // wall time; in no file that must be reproducible

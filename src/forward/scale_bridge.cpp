@@ -127,6 +127,7 @@ PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
     out.peak_air_field = std::max(out.peak_air_field, p.peak_air_field);
     out.contact_solves += p.contact_solves;
     out.fft_pairs += p.fft_pairs;
+    out.certificate = std::max(out.certificate, p.certificate);
     out.seconds.contact += p.seconds.contact;
     out.seconds.water += p.seconds.water;
     out.seconds.field += p.seconds.field;

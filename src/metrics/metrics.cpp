@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -92,6 +93,9 @@ Measured compliance(const ResponsePoint& point) {
   Measured c = point.indentation;
   c.value /= point.patch_pressure;
   c.parts.sampling /= point.patch_pressure;
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    if (auto& part = c.parts.*origin.part) *part /= point.patch_pressure;
+  }
   return c;
 }
 
@@ -156,6 +160,110 @@ std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& 
   return std::nullopt;
 }
 
+namespace {
+
+// Values of one metric over humidity.
+class Series {
+ public:
+  Series(std::vector<double> values, std::vector<double> weights, Better better)
+      : values_(std::move(values)), weights_(std::move(weights)), better_(better) {
+    double total = 0;
+    for (double w : weights_) total += w;
+    for (double& w : weights_) w /= total;
+    for (std::size_t i = 0; i < values_.size(); ++i) mean_ += weights_[i] * values_[i];
+    double variance = 0;
+    for (std::size_t i = 0; i < values_.size(); ++i)
+      variance += weights_[i] * square(values_[i] - mean_);
+    sd_ = std::sqrt(variance);
+    const auto [low, high] = std::minmax_element(values_.begin(), values_.end());
+    low_ = static_cast<std::size_t>(low - values_.begin());
+    high_ = static_cast<std::size_t>(high - values_.begin());
+  }
+
+  bool defined(Summary summary) const {
+    return mean_ != 0 || (summary != Summary::Variation && summary != Summary::Range);
+  }
+
+  double value(Summary summary) const {
+    switch (summary) {
+      case Summary::Mean:
+        return mean_;
+      case Summary::Std:
+        return sd_;
+      case Summary::Variation:
+        return sd_ / std::abs(mean_);
+      case Summary::Range:
+        return (values_[high_] - values_[low_]) / std::abs(mean_);
+      default:
+        return values_[index(summary)];
+    }
+  }
+
+  // Error of the summary from one origin's errors of the values.
+  double error(Summary summary, const std::vector<double>& errors) const {
+    double mean_error = 0, sd_error = 0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      mean_error += weights_[i] * errors[i];
+      // d(sd)/d(value_i) = w_i (value_i - mean) / sd
+      if (sd_ > 0) sd_error += square(weights_[i] * (values_[i] - mean_) / sd_ * errors[i]);
+    }
+    sd_error = std::sqrt(sd_error);
+    switch (summary) {
+      case Summary::Mean:
+        return mean_error;
+      case Summary::Std:
+        return sd_error;
+      case Summary::Variation:
+        return std::hypot(sd_error, sd_ / mean_ * mean_error) / std::abs(mean_);
+      case Summary::Range:
+        return std::hypot(errors[high_], errors[low_]) / std::abs(mean_);
+      default:
+        return errors[index(summary)];
+    }
+  }
+
+ private:
+  std::size_t index(Summary summary) const {
+    const bool low_is_better = better_ == Better::Lower;
+    if (summary == Summary::First) return 0;
+    if (summary == Summary::Last) return values_.size() - 1;
+    return (summary == Summary::Worst) == low_is_better ? high_ : low_;
+  }
+
+  std::vector<double> values_, weights_;
+  Better better_;
+  double mean_ = 0, sd_ = 0;
+  std::size_t low_ = 0, high_ = 0;
+};
+
+// Eq. accuracy.4: every second inner humidity replaced by the line between its neighbours, from the
+// first and from the second on; the larger change of the summary, over 3.
+std::optional<double> humidity_error(Summary summary, const Response& response,
+                                     const std::vector<double>& values,
+                                     const std::vector<double>& weights, Better better) {
+  const bool smooth =
+      summary == Summary::Mean || summary == Summary::Std || summary == Summary::Variation;
+  if (!smooth || values.size() < 3) return std::nullopt;
+  const auto humidity = [&](std::size_t i) { return response.points[i].relative_humidity; };
+  const double full = Series(values, weights, better).value(summary);
+  double change = 0;
+  for (std::size_t first : {1, 2}) {
+    std::vector<double> coarse = values;
+    for (std::size_t i = first; i + 1 < values.size(); i += 2) {
+      const double span = humidity(i + 1) - humidity(i - 1);
+      if (span <= 0) return std::nullopt;  // no order in humidity: nothing to interpolate
+      const double t = (humidity(i) - humidity(i - 1)) / span;
+      coarse[i] = (1 - t) * values[i - 1] + t * values[i + 1];
+    }
+    const Series series(coarse, weights, better);
+    if (!series.defined(summary)) return std::nullopt;
+    change = std::max(change, std::abs(series.value(summary) - full));
+  }
+  return change / 3;
+}
+
+}  // namespace
+
 std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
                                       const Response& response) {
   const MetricInfo* info = find_metric(metric);
@@ -170,60 +278,31 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
   }
   if (!info || response.points.empty() || (info->needs_drive && !response.driven))
     return std::nullopt;
-  double total = 0, mean = 0;
-  std::vector<double> values, errors, weights;
+  double total = 0;
+  std::vector<double> values, sampling, weights;
+  std::array<std::vector<double>, kErrorOrigins.size()> errors;
   for (const ResponsePoint& point : response.points) {
     const auto m = metric_at(metric, point);
     if (!m || !std::isfinite(m->value)) return std::nullopt;
     values.push_back(m->value);
-    errors.push_back(m->se());
     weights.push_back(point.weight);
+    sampling.push_back(m->parts.sampling);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      if (const auto& part = m->parts.*kErrorOrigins[k].part) errors[k].push_back(*part);
+    }
     total += point.weight;
-    mean += point.weight * m->value;
   }
   if (total <= 0) return std::nullopt;
-  mean /= total;
-  double variance = 0, mean_se = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double w = weights[i] / total;
-    variance += w * (values[i] - mean) * (values[i] - mean);
-    mean_se += w * errors[i];  // the points share their skins: errors add linearly
+  const Series series(values, weights, info->better);
+  if (!series.defined(summary)) return std::nullopt;
+  SummaryValue out{series.value(summary), 0, {.sampling = series.error(summary, sampling)}};
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    if (errors[k].size() == values.size())
+      out.parts.*kErrorOrigins[k].part = series.error(summary, errors[k]);
   }
-  const double sd = std::sqrt(variance);
-  const auto low = std::min_element(values.begin(), values.end()) - values.begin();
-  const auto high = std::max_element(values.begin(), values.end()) - values.begin();
-  const auto at = [&](std::ptrdiff_t i) {
-    return SummaryValue{values[static_cast<std::size_t>(i)], errors[static_cast<std::size_t>(i)]};
-  };
-  // d(sd)/d(value_i) = w_i (value_i - mean) / sd
-  double sd_se = 0;
-  for (std::size_t i = 0; i < values.size() && sd > 0; ++i) {
-    sd_se += std::pow(weights[i] / total * (values[i] - mean) / sd * errors[i], 2);
-  }
-  sd_se = std::sqrt(sd_se);
-  switch (summary) {
-    case Summary::Mean:
-      return SummaryValue{mean, mean_se};
-    case Summary::Std:
-      return SummaryValue{sd, sd_se};
-    case Summary::Variation:
-      if (mean == 0) return std::nullopt;
-      return SummaryValue{sd / std::abs(mean),
-                          std::hypot(sd_se, sd / mean * mean_se) / std::abs(mean)};
-    case Summary::Range:
-      if (mean == 0) return std::nullopt;
-      return SummaryValue{(at(high).value - at(low).value) / std::abs(mean),
-                          std::hypot(at(high).se, at(low).se) / std::abs(mean)};
-    case Summary::Worst:
-      return at(info->better == Better::Lower ? high : low);
-    case Summary::Best:
-      return at(info->better == Better::Lower ? low : high);
-    case Summary::First:
-      return at(0);
-    case Summary::Last:
-      return at(static_cast<std::ptrdiff_t>(values.size()) - 1);
-  }
-  return std::nullopt;
+  out.parts.humidity = humidity_error(summary, response, values, weights, info->better);
+  out.se = out.parts.total();
+  return out;
 }
 
 MetricExpression parse_metric(const std::string& text) {

@@ -16,16 +16,21 @@ using Json = nlohmann::ordered_json;
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-Json measured(const Measured& m) {
-  return {{"value", number(m.value)},
-          {"se", number(m.se())},
-          {"parts",
-           {{"sampling", number(m.parts.sampling)},
-            {"grid", number(m.parts.grid)},
-            {"solver", number(m.parts.solver)},
-            {"humidity", number(m.parts.humidity)},
-            {"method", number(m.parts.method)},
-            {"parameters", nullptr}}}};  // needs a covariance of the finger, which none has yet
+// Error by origin; null where it was not measured.
+Json with_parts(double value, double se, const ErrorParts& parts) {
+  Json list{{"sampling", number(parts.sampling)}};
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    const auto& part = parts.*origin.part;
+    list[origin.name] = part ? number(*part) : Json(nullptr);
+  }
+  return {{"value", number(value)}, {"se", number(se)}, {"parts", list}};
+}
+
+Json measured(const Measured& m) { return with_parts(m.value, m.se(), m.parts); }
+
+Json summarised(Summary kind, const char* metric, const Response& response) {
+  const auto value = summarise(kind, metric, response);
+  return value ? with_parts(value->value, value->se, value->parts) : Json(nullptr);
 }
 
 Json summary_json(const Response& response) {
@@ -36,14 +41,10 @@ Json summary_json(const Response& response) {
                                                               {"worst", Summary::Worst},
                                                               {"std", Summary::Std}}};
   for (const auto& [name, kind] : kinds) {
-    const auto value = summarise(kind, "modulation", response);
-    out[name] =
-        value ? Json{{"value", number(value->value)}, {"se", number(value->se)}} : Json(nullptr);
+    out[name] = summarised(kind, "modulation", response);
   }
   for (const char* metric : {"friction", "adhesion", "compliance"}) {
-    const auto value = summarise(Summary::Mean, metric, response);
-    out[std::string("mean_") + metric] =
-        value ? Json{{"value", number(value->value)}, {"se", number(value->se)}} : Json(nullptr);
+    out[std::string("mean_") + metric] = summarised(Summary::Mean, metric, response);
   }
   return out;
 }
@@ -67,6 +68,21 @@ Json plan_json(const Plan& plan) {
       {"seconds", plan.seconds()},
       {"steps", steps},
       {"skipped", skipped}};
+}
+
+// "sampling 3.1 %, grid 0.8 %, ...": of the value; what was not measured at the end.
+std::string budget_text(const SummaryValue& v) {
+  const double size = std::abs(v.value);
+  if (size == 0) return {};
+  std::string out = fmt::format("sampling {:.1f} %", 100 * v.parts.sampling / size), unknown;
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    if (const auto& part = v.parts.*origin.part) {
+      out += fmt::format(", {} {:.2g} %", origin.name, 100 * *part / size);
+    } else {
+      unknown += (unknown.empty() ? "" : ", ") + std::string(origin.name);
+    }
+  }
+  return out + (unknown.empty() ? "" : "; not measured: " + unknown);
 }
 
 std::string with_error(const Measured& m, double scale, int digits) {
@@ -180,6 +196,8 @@ std::string response_table(const Response& response) {
       out += fmt::format("  variation (sd/mean) {:.3f} ±{:.3f}", variation->value, variation->se);
     if (range) out += fmt::format("  range/mean {:.3f} ±{:.3f}", range->value, range->se);
     out += '\n';
+    if (mean) out += "error of the mean modulation: " + budget_text(*mean) + "\n";
+    if (variation) out += "error of the variation: " + budget_text(*variation) + "\n";
     double area = 0, share = 0, oxide = 0, least = 1, most = 0;
     for (const ResponsePoint& p : response.points) {
       area = std::max(area, p.over_limit_area);
@@ -198,6 +216,8 @@ std::string response_table(const Response& response) {
         100 * least, 100 * most);
   } else {
     out += "undriven (0 V): no modulation\n";
+    if (const auto friction = summarise(Summary::Mean, "friction", response))
+      out += "error of the mean friction: " + budget_text(*friction) + "\n";
   }
   if (const auto& look = response.appearance) {
     if (look->regime == "refused") {
