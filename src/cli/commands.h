@@ -16,6 +16,7 @@ void add_report(CLI::App& app, Context& context);
 void add_solve(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
 void add_calibrate(CLI::App& app, Context& context);
+void add_accuracy(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 
@@ -40,6 +41,7 @@ inline constexpr std::array kCommands{
     add_solve,
     add_calibrate,
     add_reproduce,
+    add_accuracy,
     add_describe,
     add_completion,
 };

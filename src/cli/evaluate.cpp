@@ -19,13 +19,14 @@
 #include "study/design.h"
 #include "study/evaluation.h"
 #include "study/field_accuracy.h"
+#include "study/target.h"
 
 namespace papilla {
 namespace {
 
 struct EvaluateOptions {
   DesignOptions design;
-  std::string sweep, out;
+  std::string sweep, out, accuracy;
   int jobs = 0;
   std::vector<double> voltage_for;  // modulations
   bool force = false, appearance = false, check_field = false;
@@ -166,6 +167,15 @@ void write_pictures(const std::string& folder, const Design& design, const Fidel
   }
 }
 
+// "5%" or "5 %": a relative standard error.
+double wanted_accuracy(const std::string& text) {
+  const double target = parse_si(text, "%");
+  if (!(target > 0 && target < 1))
+    throw InputError(
+        fmt::format("--accuracy: expected more than 0 % and less than 100 %, got {}", text));
+  return target;
+}
+
 int evaluate_file(const Context& context, const EvaluateOptions& options) {
   const Study study = read_study(options.design.file, options.design.overrides);
   const Design& design = study.design;
@@ -185,7 +195,12 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
                           options.design.json, options.appearance);
   }
 
-  Response response = evaluate(scene_of(design), design.texture, fidelity);
+  const double target =
+      options.accuracy.empty() ? design.accuracy.target : wanted_accuracy(options.accuracy);
+  Response response = target > 0 ? evaluate_to_target(scene_of(design), design.texture,
+                                                      {.target = target, .threads = options.jobs})
+                                 : evaluate(scene_of(design), design.texture, fidelity);
+  for (const std::string& step : response.accuracy.steps) context.note(step);
   if (options.appearance) response.appearance = appearance_of(design);
   if (!options.voltage_for.empty())
     add_voltages(response, scene_of(design), design.texture, fidelity, options.voltage_for);
@@ -227,6 +242,10 @@ void add_evaluate(CLI::App& app, Context& context) {
       ->type_name("DIR");
   command->add_flag("--appearance", options->appearance,
                     "Also haze, transmittance, gloss and colour");
+  command
+      ->add_option("--accuracy", options->accuracy,
+                   "Wanted standard error of the modulation: grid, samples and estimator follow")
+      ->type_name("SHARE");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--force", options->force,

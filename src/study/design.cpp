@@ -99,10 +99,6 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   for (const auto& [key, message] : problems(design.texture)) {
     out.push_back({"texture." + key, message});
   }
-  if (design.accuracy.target > 0) {
-    problem("accuracy.target", "accuracy by target is not available; choose a level: " +
-                                   join_names(accuracy_level_names()));
-  }
   const Environment& air = design.environment;
   if (air.relative_humidity.empty()) {
     problem("environment.relative_humidity", "expected at least one humidity");

@@ -147,6 +147,19 @@ std::string response_json(const Response& response, bool with_time) {
     out["processor_seconds"] = {
         {"contact", pieces.contact}, {"water", pieces.water}, {"field", pieces.field}};
   }
+  if (const TargetReport& a = response.accuracy; a.target > 0) {
+    out["accuracy"] = {{"target", a.target},
+                       {"reached", number(a.reached)},
+                       {"quantity", a.quantity},
+                       {"status", a.status},
+                       {"steps", a.steps}};
+  }
+  out["fidelity"] = {
+      {"level", response.fidelity.level},
+      {"grid", response.fidelity.grid},
+      {"skins", response.fidelity.skins},
+      {"estimator", response.fidelity.estimator == Estimator::Load ? "load" : "area"},
+      {"contact_tolerance", response.fidelity.contact_tolerance}};
   out["contact_solves"] = response.contact_solves;
   out["fft_pairs"] = number(response.fft_pairs);
   return out.dump(2);
@@ -235,6 +248,13 @@ std::string response_table(const Response& response) {
       out += v.reached() ? with_error(v.amplitude, 1, 1) + " V\n"
                          : fmt::format("{} first (modulation {:.3g})\n", v.status, v.modulation);
     }
+  }
+  if (const TargetReport& a = response.accuracy; a.target > 0) {
+    out +=
+        fmt::format("accuracy {:.2g} % asked for, {:.2g} % of {}: {} ({} pixels, {} skins, {})\n",
+                    100 * a.target, 100 * a.reached, a.quantity, a.status, response.fidelity.grid,
+                    response.fidelity.skins,
+                    response.fidelity.estimator == Estimator::Load ? "load law" : "solved areas");
   }
   if (const std::string trouble = response.trouble(); !trouble.empty()) {
     out += "note: " + trouble + "\n";

@@ -18,6 +18,7 @@
 #include "forward/voltage.h"
 #include "study/evaluation.h"
 #include "study/family.h"
+#include "study/target.h"
 
 namespace papilla {
 namespace {
@@ -452,7 +453,15 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
     out.reason = wrong.front().path + ": " + wrong.front().message;
     return out;
   }
-  Response response = evaluate(scene_of(d), d.texture, fidelity);
+  // Finalists are worth the target of the study; the search is not.
+  const Scene scene = scene_of(d);
+  Response response = report && d.accuracy.target > 0
+                          ? evaluate_to_target(scene, d.texture,
+                                               {.target = d.accuracy.target,
+                                                .first_skin = fidelity.first_skin,
+                                                .seed = fidelity.seed,
+                                                .threads = fidelity.threads})
+                          : evaluate(scene, d.texture, fidelity);
   if (needs_appearance()) {
     response.appearance = appearance_of(d);
     if (response.appearance->regime == "refused") {

@@ -1,0 +1,117 @@
+// papilla accuracy [FILE]: speed against error.
+#include "study/accuracy.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "cli/commands.h"
+
+namespace papilla {
+namespace {
+
+struct AccuracyCommand {
+  std::string file, out, render;
+  std::vector<std::string> overrides;
+  int scenes = 0, jobs = 0, grid = 128, skins = 16, finest = 512;
+  bool no_levels = false;
+};
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError({Problem{folder, 0, 0, "", "no such folder can be made: " + error.message()}});
+  }
+}
+
+int run(const Context& context, const AccuracyCommand& c) {
+  if (!c.render.empty()) {
+    std::cout << accuracy_page(c.render);
+    return kSuccess;
+  }
+  const auto note = [&](const std::string& text) { context.note(text); };
+  if (c.scenes > 0) {
+    const CoverageOptions options{.scenes = c.scenes, .threads = c.jobs, .note = note};
+    const std::vector<CoverageRow> rows = coverage(options);
+    if (!c.out.empty()) {
+      make_folder(c.out);
+      write_bytes(
+          c.out + "/coverage.csv",
+          coverage_csv(rows, fmt::format("# papilla {} accuracy --scenes {}: random scenes; "
+                                         "reference of {} pixels and {} fresh skins\n",
+                                         PAPILLA_VERSION, c.scenes, options.finer_grid,
+                                         options.finer_skins)));
+    }
+    std::cout << fmt::format("{:<34} {:>6} {:>8} {:>11} {:>13} {:>6}\n", "fidelity", "scenes",
+                             "inside", "half-width", "95 % of error", "ratio");
+    for (const CoverageSummary& s : coverage_summary(rows)) {
+      std::cout << fmt::format("{:<34} {:>6} {:>6.0f} % {:>11.4f} {:>13.4f} {:>6.2f}\n", s.fidelity,
+                               s.scenes, 100 * s.inside, s.median_half_width, s.error_quantile,
+                               s.median_half_width / s.error_quantile);
+    }
+    return kSuccess;
+  }
+  const std::string file = c.file.empty() ? find_design("m3_samples/a3h350.toml") : c.file;
+  const Study study = read_study(file, c.overrides);
+  const std::vector<AccuracyRow> rows =
+      accuracy_sweeps(study.design, {c.grid, c.skins, c.finest, !c.no_levels, c.jobs, note});
+  const std::string csv = accuracy_csv(
+      rows,
+      fmt::format("# papilla {} accuracy {}: base {} pixels, {} skins, solved areas, tolerance "
+                  "1e-4\n# seconds are of this machine under other load; pairs and work are "
+                  "exact\n",
+                  PAPILLA_VERSION, study.name, c.grid, c.skins));
+  if (!c.out.empty()) {
+    make_folder(c.out);
+    write_bytes(c.out + "/sweeps.csv", csv);
+    std::string last;
+    for (const AccuracyRow& row : rows) {
+      if (row.sweep != last)
+        write_bytes(c.out + "/" + row.sweep + ".svg", accuracy_svg(rows, row.sweep));
+      last = row.sweep;
+    }
+    context.note("wrote " + c.out);
+  }
+  std::cout << fmt::format("{:<10} {:<26}", "sweep", "setting");
+  for (const std::string& name : accuracy_quantities()) std::cout << fmt::format(" {:>15}", name);
+  std::cout << fmt::format(" {:>9} {:>9} {:>8}\n", "pairs", "work", "seconds");
+  for (const AccuracyRow& row : rows) {
+    std::cout << fmt::format("{:<10} {:<26}", row.sweep, row.setting);
+    for (double e : row.error) std::cout << fmt::format(" {:>+13.2f} %", 100 * e);
+    std::cout << fmt::format(" {:>9.0f} {:>9.1f} {:>8.2f}\n", row.fft_pairs, row.work, row.seconds);
+  }
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& app, Context& context) {
+  CLI::App* command = app.add_subcommand(
+      "accuracy", "Speed against error: every choice of fidelity swept on one design");
+  auto c = std::make_shared<AccuracyCommand>();
+  command->add_option("file", c->file, "Design; default: m3_samples/a3h350.toml")
+      ->type_name("FILE");
+  add_set_option(*command, c->overrides);
+  command->add_option("--out", c->out, "Also write the tables and plots")->type_name("DIR");
+  command->add_option("--grid", c->grid, "Pixels of the base")->check(CLI::Range(16, 4096));
+  command->add_option("--skins", c->skins, "Skins of the base")->check(CLI::Range(2, 100000));
+  command->add_option("--finest", c->finest, "Pixels of the finest grid")
+      ->check(CLI::Range(32, 4096));
+  command->add_flag("--no-levels", c->no_levels, "Leave out the levels (reference takes minutes)");
+  command
+      ->add_option("--scenes", c->scenes,
+                   "Instead: error bars against a finer reference on that many random scenes")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--render", c->render, "Instead: the page of the tables in that folder")
+      ->type_name("DIR");
+  command->add_option("--jobs", c->jobs, "Threads; 0: all processors")->check(CLI::Range(0, 4096));
+  command->callback([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
+}
+
+}  // namespace papilla
