@@ -17,6 +17,7 @@ void add_solve(CLI::App& app, Context& context);
 void add_reproduce(CLI::App& app, Context& context);
 void add_calibrate(CLI::App& app, Context& context);
 void add_accuracy(CLI::App& app, Context& context);
+void add_bench(CLI::App& app, Context& context);
 void add_describe(CLI::App& app, Context& context);
 void add_completion(CLI::App& app, Context& context);
 
@@ -42,6 +43,7 @@ inline constexpr std::array kCommands{
     add_calibrate,
     add_reproduce,
     add_accuracy,
+    add_bench,
     add_describe,
     add_completion,
 };

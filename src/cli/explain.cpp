@@ -4,17 +4,18 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "forward/plan.h"
+#include "forward/skips.h"
 #include "study/design.h"
 #include "study/evaluation.h"
 
 namespace papilla {
 namespace {
 
-int explain(const DesignOptions& options) {
+int explain(const DesignOptions& options, bool measure) {
   const Study study = read_study(options.file, options.overrides);
   const Design& design = study.design;
-  const Plan plan = make_plan(scene_of(design), design.texture, fidelity_of(design));
+  const Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity_of(design))
+                            : make_plan(scene_of(design), design.texture, fidelity_of(design));
   if (options.json) {
     std::cout << plan_document(plan) << '\n';
     return kSuccess;
@@ -33,8 +34,12 @@ void add_explain(CLI::App& app, Context& context) {
       "explain", "The plan: what is modelled or skipped, why, expected cost and error");
   auto options = std::make_shared<DesignOptions>();
   add_design_options(*command, *options);
-  command->callback(
-      [&context, options] { context.action = [options] { return explain(*options); }; });
+  auto measure = std::make_shared<bool>(false);
+  command->add_flag("--measure", *measure,
+                    "Bounds of what is skipped from patches of this scene (seconds)");
+  command->callback([&context, options, measure] {
+    context.action = [options, measure] { return explain(*options, *measure); };
+  });
 }
 
 }  // namespace papilla

@@ -12,6 +12,8 @@ namespace {
 using Row = std::array<double, kMeasured.size()>;
 
 constexpr int kSmallestGrid = 16;
+// Of the difference by a halving of the pixel: orders 1/2 to 2.
+constexpr double kSmallestGain = 1.4142135623730951, kLargestGain = 4;
 
 PatchSet first_skins(const PatchSet& patches, int skins) {
   PatchSet out = patches;
@@ -73,6 +75,21 @@ std::vector<Row> difference(const Run& base, const Run& other) {
   return out;
 }
 
+// From the last halving of the pixel to what is missing to the limit, by the order that the halving
+// before it shows. Eq. accuracy.2
+void extrapolate(std::vector<Row>& last, const std::vector<Row>& before) {
+  for (std::size_t m = 0; m < kMeasured.size(); ++m) {
+    double now = 0, then = 0;
+    for (std::size_t i = 0; i < last.size(); ++i) {
+      now += square(last[i][m]);
+      then += square(before[i][m]);
+    }
+    const double gain = now > 0 ? std::sqrt(then / now) : 1;
+    const double ratio = std::clamp(gain, kSmallestGain, kLargestGain);
+    for (Row& row : last) row[m] /= ratio - 1;
+  }
+}
+
 }  // namespace
 
 std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& texture,
@@ -81,29 +98,41 @@ std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& tex
   const int skins = std::min(fidelity.control_skins, patches.skins());
   if (skins < 2) return errors;
   const Run base{&scene, fidelity, first_skins(patches, skins)};
-  const auto add = [&](std::optional<double> ErrorParts::*origin, Fidelity changed) {
+  const auto run = [&](Fidelity changed) {
     changed.skins = skins;
-    const Run other{&scene, changed, solve_patches(scene, texture, changed)};
-    MeasuredError error{origin, difference(base, other)};
-    error.seconds = other.patches.seconds;
-    for (const auto& results : other.patches.results) {
+    return Run{&scene, changed, solve_patches(scene, texture, changed)};
+  };
+  const auto count = [](const Run& done, MeasuredError& error) {
+    error.seconds += done.patches.seconds;
+    for (const auto& results : done.patches.results) {
       for (const PatchResult& p : results) {
         error.contact_solves += p.contact_solves;
         error.fft_pairs += p.fft_pairs;
       }
     }
-    errors.push_back(std::move(error));
   };
 
   if (fidelity.grid / 2 >= kSmallestGrid) {
-    Fidelity coarse = fidelity;
-    coarse.grid = fidelity.grid / 2;
-    add(&ErrorParts::grid, coarse);
+    Fidelity half = fidelity, quarter = fidelity;
+    half.grid = fidelity.grid / 2;
+    quarter.grid = fidelity.grid / 4;
+    const Run coarse = run(half);
+    MeasuredError error{&ErrorParts::grid, difference(base, coarse)};
+    count(coarse, error);
+    if (quarter.grid >= kSmallestGrid) {
+      const Run coarser = run(quarter);
+      count(coarser, error);
+      extrapolate(error.size, difference(coarse, coarser));
+    }
+    errors.push_back(std::move(error));
   }
   if (fidelity.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
     Fidelity resolved = fidelity;
     resolved.estimator = Estimator::Area;
-    add(&ErrorParts::method, resolved);
+    const Run areas = run(resolved);
+    MeasuredError error{&ErrorParts::method, difference(base, areas)};
+    count(areas, error);
+    errors.push_back(std::move(error));
   }
   return errors;
 }

@@ -36,10 +36,11 @@ enum class Summary { Mean, Variation, Range, Std, Worst, Best, First, Last };
 
 struct SummaryValue {
   double value = 0;
-  double se = 0;     // total of the parts
-  ErrorParts parts;  // from the points' errors: in the mean they add linearly (the points share
-                     // their skins and grid); in the others they add in squares, a bound, as common
-                     // errors cancel there. humidity: of mean, variation and std (Eq. accuracy.4)
+  double se = 0;  // total of the parts
+  ErrorParts parts =
+      {};  // from the points' errors: in the mean they add linearly (the points share
+           // their skins and grid); in the others they add in squares, a bound, as common
+           // errors cancel there. humidity: of mean, variation and std (Eq. accuracy.4)
 };
 // Worst: the smallest for Better::Higher, the largest for Better::Lower. Variation is the weighted
 // population standard deviation / mean; range is (max - min) / mean. Nothing when undefined

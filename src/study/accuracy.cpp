@@ -299,7 +299,7 @@ std::vector<CoverageRow> coverage(const CoverageOptions& options) {
       rows.push_back({i, texture_name(texture),
                       fmt::format("{} pixels {} skins {}", f.grid, f.skins,
                                   estimator == Estimator::Load ? "load law" : "solved areas"),
-                      v->value, 1.96 * parts.total(), truth->value, truth->parts.sampling});
+                      v->value, 1.96 * parts.total(), truth->value, truth->parts.sampling, parts});
     }
     if (options.note) options.note(fmt::format("scene {} of {}", i + 1, options.scenes));
   }
@@ -333,7 +333,9 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows, const std::string
   std::string out = provenance + "sweep,setting,grid,skins,estimator,tolerance";
   for (const Quantity& q : kQuantities) out += fmt::format(",{0},{0}_stated,{0}_error", q.name);
   out += ",seconds,fft_pairs,work,status\n";
-  const auto number = [](double v) { return std::isfinite(v) ? fmt::format("{:.5g}", v) : std::string(); };
+  const auto number = [](double v) {
+    return std::isfinite(v) ? fmt::format("{:.5g}", v) : std::string();
+  };
   for (const AccuracyRow& r : rows) {
     out += fmt::format("{},{},{},{},{},{:g}", r.sweep, r.setting, r.fidelity.grid, r.fidelity.skins,
                        r.fidelity.estimator == Estimator::Load ? "load" : "area",
@@ -350,10 +352,14 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows, const std::string
 
 std::string coverage_csv(const std::vector<CoverageRow>& rows, const std::string& provenance) {
   std::string out =
-      provenance + "scene,texture,fidelity,value,half_width,reference,reference_error,inside\n";
+      provenance +
+      "scene,texture,fidelity,value,half_width,reference,reference_error,sampling,grid,method,"
+      "solver,inside\n";
   for (const CoverageRow& r : rows) {
-    out += fmt::format("{},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{}\n", r.scene, r.texture, r.fidelity,
-                       r.value, r.half_width, r.reference, r.reference_error, r.inside() ? 1 : 0);
+    out += fmt::format("{},{},{},{:.5g},{:.5g},{:.5g},{:.5g},{:.3g},{:.3g},{:.3g},{:.3g},{}\n",
+                       r.scene, r.texture, r.fidelity, r.value, r.half_width, r.reference,
+                       r.reference_error, r.parts.sampling, r.parts.grid.value_or(0),
+                       r.parts.method.value_or(0), r.parts.solver.value_or(0), r.inside() ? 1 : 0);
   }
   return out;
 }
@@ -459,9 +465,14 @@ std::string accuracy_page(const std::string& folder) {
     const auto value = [&](const char* name) {
       return std::strtod(row[scenes.column(name)].c_str(), nullptr);
     };
-    rows.push_back({static_cast<int>(value("scene")), row[scenes.column("texture")],
-                    row[scenes.column("fidelity")], value("value"), value("half_width"),
-                    value("reference"), value("reference_error")});
+    rows.push_back({static_cast<int>(value("scene")),
+                    row[scenes.column("texture")],
+                    row[scenes.column("fidelity")],
+                    value("value"),
+                    value("half_width"),
+                    value("reference"),
+                    value("reference_error"),
+                    {}});
   }
   out += "\n## Error bars on held-out scenes\n\n";
   for (const std::string& line : scenes.comments) out += "- " + line + "\n";

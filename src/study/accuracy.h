@@ -41,6 +41,7 @@ struct CoverageRow {
   std::string texture, fidelity;
   double value = 0, half_width = 0;           // 95 %: 1.96 standard errors
   double reference = 0, reference_error = 0;  // its own standard error from sampling
+  ErrorParts parts = {};                      // of value
 
   bool inside() const;
 };

@@ -1,0 +1,233 @@
+#include "study/bench.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <complex>
+#include <nlohmann/json.hpp>
+
+#include "base/constants.h"
+#include "base/parallel.h"
+#include "forward/forward.h"
+#include "geometry/roughness.h"
+#include "physics/capillary/bridge_table.h"
+#include "physics/capillary/droplets.h"
+#include "physics/contact/contact.h"
+#include "study/design.h"
+
+namespace papilla {
+namespace {
+
+template <class Work>
+double seconds(int repeats, Work&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  for (int k = 0; k < repeats; ++k) work(k);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / repeats;
+}
+
+double peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+class Bench {
+ public:
+  explicit Bench(const BenchOptions& options) : options_(options) {
+    design_ = read_design(find_design("m3_samples/a3h350.toml"));
+  }
+
+  std::vector<BenchRow> run() {
+    note("contact");
+    memory();  // first: the largest patch so far
+    for (int grid : {256, 512}) loaded(grid);
+    light();
+    note("water");
+    water();
+    note("evaluations");
+    evaluations();
+    return std::move(rows_);
+  }
+
+ private:
+  void note(const std::string& text) const {
+    if (options_.note) options_.note(text);
+  }
+
+  std::shared_ptr<const ContactKernel> kernel(const Grid& grid) const {
+    const Skin& s = design_.finger.skin;
+    return make_contact_kernel(grid, {s.layer_modulus, s.layer_poisson, s.layer_thickness,
+                                      s.bulk_modulus, s.bulk_poisson, 0, 0.4});
+  }
+
+  std::vector<double> skin(const Grid& grid, std::uint64_t index) const {
+    const Skin& s = design_.finger.skin;
+    return random_surface({s.rms, s.roll_off, s.hurst, s.cutoff}, grid, 1, index).z;
+  }
+
+  static Grid square_grid(int pixels) { return {pixels, pixels, kWindow, kWindow}; }
+
+  double pair_seconds(const ContactKernel& k) const {
+    std::vector<double> real(k.grid().size(), 1.0);
+    std::vector<std::complex<double>> spectrum(k.symbol().size());
+    return seconds(5, [&](int) {
+      k.fft().forward(real.data(), spectrum.data());
+      for (std::size_t i = 0; i < spectrum.size(); ++i) spectrum[i] *= k.symbol()[i];
+      k.fft().inverse(spectrum.data(), real.data());
+    });
+  }
+
+  // Pressure of the load-carrying patches; means over four skins, in FFT pairs of that grid.
+  void loaded(int pixels) {
+    const auto k = kernel(square_grid(pixels));
+    const double p = design_.finger.patch_pressure(0.15);
+    double cold = 0, warm = 0, time = 0;
+    constexpr int kSkins = 4;
+    for (int i = 0; i < kSkins; ++i) {
+      const std::vector<double> h = skin(k->grid(), static_cast<std::uint64_t>(i));
+      ContactSolution s;
+      time += seconds(1, [&](int) { s = solve_contact(*k, h, p, {}, {.tolerance = 1e-5}); });
+      cold += s.fft_pairs / kSkins;
+      warm += solve_contact(*k, h, 0.85 * p, {}, {.tolerance = 1e-5}, &s).fft_pairs / kSkins;
+    }
+    const bool small = pixels == 256;
+    count(fmt::format("loaded contact, {}², certified 1e-5, cold", pixels), cold, small ? 35 : 40);
+    count(fmt::format("loaded contact, {}², next humidity, warm", pixels), warm, small ? 25 : 35);
+    timed(fmt::format("loaded contact, {}², cold: time over that of its pairs", pixels), "",
+          time / kSkins / (cold * pair_seconds(*k)), 1.5);
+  }
+
+  void light() {
+    const auto k = kernel(square_grid(512));
+    const std::vector<double> h = skin(k->grid(), 0);
+    const ContactSolution s = solve_contact(*k, h, 15e3, {}, {.tolerance = 1e-8});
+    count("light contact (15 kPa), 512², certified 1e-8, cold", s.fft_pairs, 4);
+    count("light contact, 512², warm (13 kPa)",
+          solve_contact(*k, h, 13e3, {}, {.tolerance = 1e-8}, &s).fft_pairs, 2.5);
+  }
+
+  void memory() {
+    const int pixels = options_.large ? 4096 : 1024;
+    const Grid grid = square_grid(pixels);
+    const double before = peak_bytes(), n = static_cast<double>(grid.size());
+    const std::vector<double> h = skin(grid, 0);
+    const auto k = kernel(grid);
+    const ContactSolution s =
+        solve_contact(*k, h, design_.finger.patch_pressure(0.15), {}, {.tolerance = 1e-5});
+    rows_.push_back({fmt::format("memory of a loaded contact, {}²", pixels), "bytes a pixel",
+                     (peak_bytes() - before) / n, 150});
+    const auto per_pixel = [&](int side) {
+      const auto kk = kernel(square_grid(side));
+      const double m = static_cast<double>(kk->grid().size());
+      return pair_seconds(*kk) / (m * std::log2(m));
+    };
+    const double small = per_pixel(256);
+    timed(fmt::format("FFT pair a pixel and log n, {}² over 256²", pixels), "",
+          per_pixel(pixels) / small, 3);
+  }
+
+  void water() {
+    const double t1 = 80 * kPi / 180, t2 = 50 * kPi / 180;
+    const BridgeTable table(t1, t2);
+    double sum = 0;
+    const double bridge = seconds(1000000, [&](int k) {
+      const auto v = table(0.05 + 0.9e-6 * k);
+      sum += v.energy + v.force;
+    });
+    timed("bridge energy and force from the table", "ns", std::isfinite(sum) ? 1e9 * bridge : 0,
+          50);
+    const Grid grid = square_grid(256);
+    std::vector<double> h = skin(grid, 0);
+    const double top = *std::max_element(h.begin(), h.end());
+    Gap gap{grid, h};
+    for (double& g : gap.value) g = top - g;
+    const double member = seconds(5, [&](int k) {
+      settle_droplets(gap, 5e-18, {0.072, t1, t2, 0.26}, {}, 1, static_cast<std::uint64_t>(k));
+    });
+    timed("droplet member, 500 droplets, 256²", "ms", 1e3 * member, 10);
+  }
+
+  void evaluations() {
+    const Scene scene = scene_of(design_);
+    const auto run = [&](Fidelity f, int threads) {
+      f.threads = threads;
+      return solve_patches(scene, design_.texture, f).seconds;
+    };
+    Fidelity search = fidelity_level("search");
+    search.skins = 16;
+    timed("search-level evaluation, 4 humidities x 16 skins, 128²", "s", run(search, 2), 0.15);
+    Fidelity level = fidelity_level("design");
+    level.threads = 2;
+    const PatchSet patches = solve_patches(scene, design_.texture, level);
+    timed("design-level evaluation, 4 humidities x 40 skins, 256²", "s", patches.seconds, 4);
+    const Response r = respond(scene, level, patches);
+    const auto k = kernel(patches.plan.grid);
+    const double floor = 2 * r.contact_solves * pair_seconds(*k) / 2;  // on two threads
+    timed("design level over its floor of two pairs a solve", "", patches.seconds / floor, 4);
+    Fidelity part = level;
+    part.skins = 8;
+    const double one = run(part, 1), two = run(part, 2);
+    rows_.push_back({"two threads against one", "", one / two, 1.8, false});
+  }
+
+  void count(const std::string& what, double pairs, double target) {
+    rows_.push_back({what, "FFT pairs", pairs, target, true, true});
+  }
+  void timed(const std::string& what, const char* unit, double measured, double target) {
+    rows_.push_back({what, unit, measured, target});
+  }
+
+  const BenchOptions& options_;
+  Design design_;
+  std::vector<BenchRow> rows_;
+};
+
+}  // namespace
+
+std::vector<BenchRow> bench(const BenchOptions& options) { return Bench(options).run(); }
+
+std::string bench_csv(const std::vector<BenchRow>& rows, const std::string& provenance) {
+  std::string out = "# " + provenance + "\nwhat,unit,measured,bound,target,exact,met\n";
+  for (const BenchRow& r : rows) {
+    std::string what = r.what;
+    std::replace(what.begin(), what.end(), ',', ';');
+    out +=
+        fmt::format("{},{},{:.4g},{},{:g},{},{}\n", what, r.unit, r.measured,
+                    r.at_most ? "at most" : "at least", r.target, r.exact ? 1 : 0, r.met() ? 1 : 0);
+  }
+  return out;
+}
+
+std::string bench_page(const std::vector<BenchRow>& rows, const std::string& provenance) {
+  std::string out = fmt::format(
+      "# Performance\n\nMade by `papilla bench --page` ({}). Counts are the same on every machine; "
+      "times "
+      "are upper bounds where the machine has other work.\n\n| what | measured | target | met "
+      "|\n|---|---|---|---|\n",
+      provenance);
+  for (const BenchRow& r : rows) {
+    const std::string unit = r.unit.empty() ? "" : " " + r.unit;
+    out += fmt::format("| {} | {:.3g}{} | {} {:g}{} | {} |\n", r.what, r.measured, unit,
+                       r.at_most ? "≤" : "≥", r.target, unit, r.met() ? "yes" : "no");
+  }
+  return out;
+}
+
+std::string bench_json(const std::vector<BenchRow>& rows) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const BenchRow& r : rows) {
+    list.push_back({{"what", r.what},
+                    {"unit", r.unit},
+                    {"measured", r.measured},
+                    {"bound", r.at_most ? "at most" : "at least"},
+                    {"target", r.target},
+                    {"exact", r.exact},
+                    {"met", r.met()}});
+  }
+  return nlohmann::ordered_json{{"schema", 1}, {"rows", list}}.dump(2);
+}
+
+}  // namespace papilla

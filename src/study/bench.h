@@ -1,0 +1,31 @@
+// The performance targets, measured here: the page docs/performance.md.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace papilla {
+
+struct BenchRow {
+  std::string what, unit;
+  double measured = 0, target = 0;
+  bool at_most = true;  // else at least
+  bool exact = false;   // a count, the same on every machine; else a time or what hangs on one
+
+  bool met() const { return at_most ? measured <= target : measured >= target; }
+};
+
+struct BenchOptions {
+  bool large = false;  // contact at 4096 x 4096 too: 2.5 GB
+  std::function<void(const std::string&)> note;
+};
+
+// A minute. Times on a machine with other load are upper bounds, ratios less so.
+std::vector<BenchRow> bench(const BenchOptions& options);
+
+std::string bench_csv(const std::vector<BenchRow>& rows, const std::string& provenance);
+std::string bench_page(const std::vector<BenchRow>& rows, const std::string& provenance);
+std::string bench_json(const std::vector<BenchRow>& rows);
+
+}  // namespace papilla

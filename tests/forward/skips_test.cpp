@@ -1,0 +1,116 @@
+#include "forward/skips.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "base/statistics.h"
+#include "physics/contact/contact.h"
+#include "study/accuracy.h"
+
+namespace papilla {
+namespace {
+
+Fidelity small() {
+  Fidelity f = fidelity_level("design");
+  f.grid = 64;
+  f.skins = 2;
+  f.control_skins = 0;
+  f.threads = 1;
+  return f;
+}
+
+Scene scene_at(int index, Texture& texture) {
+  Scene scene = random_scene(index, texture);
+  scene.environment.relative_humidity.resize(1);
+  return scene;
+}
+
+// Bound over actual in the median; every actual below its bound.
+void expect_bounds(const char* piece, const std::vector<double>& bounds,
+                   const std::vector<double>& actual) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    EXPECT_LE(actual[i], bounds[i] * (1 + 1e-6) + 1e-9) << piece << " " << i;
+    if (actual[i] > 1e-6 && std::isfinite(bounds[i])) ratios.push_back(bounds[i] / actual[i]);
+  }
+  ASSERT_FALSE(ratios.empty()) << piece;
+  const double median = quantile(ratios, 0.5);
+  std::cout << piece << ": " << bounds.size() << " scenes, bound over actual " << median
+            << " in the median of " << ratios.size() << "\n";
+  EXPECT_LT(median, 10) << piece;
+}
+
+TEST(SkipBounds, HoldForTheCouplingInOnePass) {
+  std::vector<double> bounds, actual;
+  for (int i = 0; i < 24; ++i) {
+    Texture texture;
+    Scene scene = scene_at(i, texture);
+    const Response one = evaluate(scene, texture, small());
+    bounds.push_back(skip_bounds(scene, texture, small()).self_consistency);
+    scene.model.coupling = Coupling::SelfConsistent;
+    const Response settled = evaluate(scene, texture, small());
+    if (settled.points[0].status != "ok") {
+      bounds.pop_back();
+      continue;
+    }
+    actual.push_back(
+        std::abs(settled.points[0].friction_on.value / one.points[0].friction_on.value - 1));
+  }
+  expect_bounds("self-consistent coupling", bounds, actual);
+}
+
+TEST(SkipBounds, HoldForRetention) {
+  std::vector<double> bounds, actual;
+  for (int i = 0; i < 12; ++i) {
+    Texture texture;
+    Scene scene = scene_at(i, texture);
+    scene.surface.contact_angle = 0.9;
+    scene.drive.amplitude = 0;
+    const Response with = evaluate(scene, texture, small());
+    scene.model.preset = Preset::M3;
+    const Response without = evaluate(scene, texture, small());
+    actual.push_back(with.points[0].friction_off.value / without.points[0].friction_off.value - 1);
+    bounds.push_back(skip_bounds(scene, texture, small()).retention);
+  }
+  expect_bounds("retention", bounds, actual);
+}
+
+// Contact solved again under the attraction of the piece that has no model of its own.
+TEST(SkipBounds, HoldForVanDerWaalsAndKelvin) {
+  for (const bool waals : {true, false}) {
+    std::vector<double> bounds, actual;
+    for (int i = 0; i < 16; ++i) {
+      Texture texture;
+      Scene scene = scene_at(i, texture);
+      scene.drive.amplitude = 0;
+      scene.finger.water.volume = {0, 0, 0, 0};
+      const double rh = scene.environment.relative_humidity[0];
+      const SkipBounds b = skip_bounds(scene, texture, small(), 1);
+      bounds.push_back(waals ? b.van_der_waals : b.kelvin);
+      const PatchPicture p = picture_patch(scene, texture, small(), rh, 0);
+      const Grid& grid = p.texture.grid;
+      const Skin& s = scene.finger.skin;
+      const double soft = s.modulus_factor(rh);
+      const auto kernel =
+          make_contact_kernel(grid, {s.layer_modulus * soft, s.layer_poisson, s.layer_thickness,
+                                     s.bulk_modulus * soft, s.bulk_poisson, 0, 0.4});
+      std::vector<double> height(grid.size());
+      for (std::size_t k = 0; k < height.size(); ++k) height[k] = p.texture.z[k] + p.skin.z[k];
+      const double load = scene.finger.patch_pressure(rh);
+      const ContactOptions options{.tolerance = 1e-7};
+      const ContactSolution dry = solve_contact(*kernel, height, load, {}, options);
+      const Gap gap{grid, dry.gap};
+      const Traction t = waals ? van_der_waals_traction(gap) : kelvin_traction(gap, scene, rh);
+      const ContactSolution wet = solve_contact(*kernel, height, load, t.value, options, &dry);
+      actual.push_back(std::abs(
+          measure_area(*kernel, wet).near_edge / measure_area(*kernel, dry).near_edge - 1));
+    }
+    expect_bounds(waals ? "van der Waals" : "Kelvin condensation", bounds, actual);
+  }
+}
+
+}  // namespace
+}  // namespace papilla

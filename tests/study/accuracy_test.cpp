@@ -1,0 +1,91 @@
+#include "study/accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "metrics/metrics.h"
+#include "study/target.h"
+
+namespace papilla {
+namespace {
+
+Scene driven() {
+  Scene scene;
+  scene.drive.amplitude = 200;
+  scene.environment.relative_humidity = {0.55};
+  return scene;
+}
+
+TEST(Target, IsReachedAndHoldsAgainstFinerGridsAndFreshSkins) {
+  const Scene scene = driven();
+  const Texture texture{HoleArray{}};
+  const Response r = evaluate_to_target(scene, texture, {.target = 0.1, .threads = 2});
+  EXPECT_EQ(r.accuracy.status, "reached");
+  EXPECT_LE(r.accuracy.reached, 0.1);
+  EXPECT_GE(r.accuracy.steps.size(), 1u);
+  Fidelity fine = fidelity_level("design");
+  fine.skins = 24;
+  fine.first_skin = 500;
+  fine.control_skins = 0;
+  const Response truth = evaluate(scene, texture, fine);
+  const double error = r.points[0].modulation.value / truth.points[0].modulation.value - 1;
+  EXPECT_LT(std::abs(error), 2.5 * 0.1) << error;
+}
+
+TEST(Target, EndsAtItsLimitsWithTheReason) {
+  const Response r = evaluate_to_target(
+      driven(), Texture{}, {.target = 1e-4, .largest_grid = 64, .most_skins = 16, .threads = 2});
+  EXPECT_EQ(r.accuracy.status.rfind("not reached: ", 0), 0u) << r.accuracy.status;
+  EXPECT_GT(r.accuracy.reached, 1e-4);
+  EXPECT_LE(r.fidelity.grid, 64);
+  EXPECT_LE(r.fidelity.skins, 16);
+}
+
+TEST(Target, OfAnUndrivenSurfaceIsOnFriction) {
+  Scene scene = driven();
+  scene.drive.amplitude = 0;
+  const Response r = evaluate_to_target(
+      scene, Texture{}, {.target = 0.3, .largest_grid = 128, .most_skins = 24, .threads = 2});
+  EXPECT_EQ(r.accuracy.quantity, "mean(friction)");
+}
+
+TEST(Errors, AreMeasuredOnControlSkinsAndUnknownWithoutThem) {
+  Fidelity f = fidelity_level("draft");
+  f.grid = 64;
+  f.skins = 4;
+  const Scene scene = driven();
+  const Response with = evaluate(scene, Texture{}, f);
+  const ErrorParts& parts = with.points[0].modulation.parts;
+  ASSERT_TRUE(parts.grid && parts.method && parts.solver);
+  EXPECT_GT(*parts.grid, 0);
+  EXPECT_GT(*parts.method, 0);
+  EXPECT_FALSE(parts.humidity || parts.parameters);
+  f.control_skins = 0;
+  const Response without = evaluate(scene, Texture{}, f);
+  EXPECT_FALSE(without.points[0].modulation.parts.grid);
+  EXPECT_EQ(without.points[0].modulation.value, with.points[0].modulation.value);
+  f.estimator = Estimator::Area;
+  f.control_skins = 4;
+  EXPECT_FALSE(evaluate(scene, Texture{}, f).points[0].modulation.parts.method);
+}
+
+TEST(Errors, OfTheMeanOverHumidityCountItsNodes) {
+  Response r;
+  r.driven = true;
+  for (double rh : {0.1, 0.3, 0.5, 0.7}) {
+    ResponsePoint p;
+    p.relative_humidity = rh;
+    p.modulation.value = 2 + rh;  // a line: two nodes do
+    r.points.push_back(p);
+  }
+  EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.humidity, 0, 1e-12);
+  for (ResponsePoint& p : r.points) p.modulation.value += square(p.relative_humidity);
+  EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.humidity, 0.04 / 4 / 3, 1e-12);
+  r.points.resize(2);
+  EXPECT_FALSE(summarise(Summary::Mean, "modulation", r)->parts.humidity);
+}
+
+}  // namespace
+}  // namespace papilla
