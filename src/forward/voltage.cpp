@@ -132,10 +132,13 @@ class VoltageSearch {
           std::log(high_.modulation / low_.modulation) / std::log(high_.amplitude / low_.amplitude);
     }
     const double scale = v / (std::max(power, 0.25) * answer_.target);
-    const ErrorParts& e = last_.modulation.parts;
-    return {v,
-            {e.sampling * scale, e.grid * scale, std::hypot(e.solver * scale, kTolerance * v),
-             e.humidity * scale, e.method * scale}};
+    ErrorParts e = last_.modulation.parts;
+    e.sampling *= scale;
+    for (const ErrorOrigin& origin : kErrorOrigins) {
+      if (auto& part = e.*origin.part) *part *= scale;
+    }
+    e.solver = std::hypot(e.solver.value_or(0), kTolerance * v);
+    return {v, e};
   }
 
   std::string limit_status() const {
