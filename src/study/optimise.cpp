@@ -43,12 +43,12 @@ Fidelity search_fidelity(const Study& study) {
   return f;
 }
 
-// One finger stands for all: a biased, cheap answer that steers.
+// Every finger, two skins: what a tenth of the cost knows best (results/bench/search_levels.csv).
 Fidelity draft_fidelity(const Study& study) {
   Fidelity f = search_fidelity(study);
   f.level = "steer";
   f.grid = 64;
-  f.skins = 6;
+  f.skins = 2;
   return f;
 }
 
@@ -256,18 +256,9 @@ class Run {
     return out;
   }
 
-  // Drafts: the first finger of each scenario stands for the others.
+  // Cheap outcomes that steer.
   void draft(Searcher& searcher, const std::vector<Point>& units) {
-    const auto& tasks = problem_.tasks();
-    std::vector<std::size_t> first(tasks.size());
-    for (std::size_t t = 0; t < tasks.size(); ++t) {
-      first[t] = t;
-      for (std::size_t s = 0; s < t && first[t] == t; ++s) {
-        if (tasks[s].settings == tasks[t].settings && tasks[s].scattered == tasks[t].scattered &&
-            tasks[s].sign == tasks[t].sign)
-          first[t] = s;
-      }
-    }
+    const std::size_t tasks = problem_.tasks().size();
     std::vector<Evaluation> batch;
     // Few at a time, so that a kill loses little and Ctrl-C is heard.
     while (batch.size() < units.size()) {
@@ -279,18 +270,15 @@ class Run {
       const std::size_t end = std::min(units.size(), begin + 4 * pool_.size());
       std::vector<Point> requests;
       for (std::size_t i = begin; i < end; ++i) {
-        for (std::size_t t = 0; t < tasks.size(); ++t) {
-          if (first[t] == t) requests.push_back(work_request(t, kDraft, false, units[i]));
-        }
+        for (std::size_t t = 0; t < tasks; ++t)
+          requests.push_back(work_request(t, kDraft, false, units[i]));
       }
       const std::vector<Outcome> outcomes = answers(requests);
-      std::size_t next = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        std::vector<Outcome> all(tasks.size());
-        for (std::size_t t = 0; t < tasks.size(); ++t)
-          all[t] = first[t] == t ? outcomes[next++] : all[first[t]];
-        batch.push_back({units[i], guarded(problem_.outcome(problem_.score(all)),
-                                           search_.objectives, search_.constraints)});
+        const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>((i - begin) * tasks);
+        const Score score = problem_.score({first, first + static_cast<std::ptrdiff_t>(tasks)});
+        batch.push_back(
+            {units[i], guarded(problem_.outcome(score), search_.objectives, search_.constraints)});
       }
       drafts_ += static_cast<int>(end - begin);
       report_progress("draft", drafts_, search_.drafts, -1);
