@@ -424,7 +424,7 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
       const double prior = c.has_prior(i) ? c.prior_slope(i) * c.prior_slope(i) : 0;
       f.data_share = data + prior > 0 ? data / (data + prior) : 0;
     }
-    if (f.at_bound || options.profiles) {
+    if (options.profile_iterations > 0 && (f.at_bound || options.profiles)) {
       if (options.note) options.note("profile of " + p.name);
       const double rise = quantile * quantile * out.variance_factor;
       const double first = std::isfinite(se[i]) ? quantile * se[i] : 0.1;

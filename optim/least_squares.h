@@ -36,7 +36,7 @@ struct LeastSquaresOptions {
   ResidualVariance variance = ResidualVariance::Inflated;
   double confidence = 0.95;
   bool profiles = false;  // profile likelihood of every parameter, else only of those at a bound
-  int profile_iterations = 30;  // of each refit
+  int profile_iterations = 30;  // of each refit; 0: no profiles
   int threads = 1;  // that differences may use; the residual function must then be re-entrant
   std::function<void(const std::string&)> note;  // progress for people; may be empty
 };

@@ -15,11 +15,20 @@ bool SearchProblem::cheaply_feasible(const Point& unit) const {
 }
 
 std::vector<std::string> searcher_names() {
-  return {"auto", "bayesian", "nsga2", "cmaes", "bobyqa", "sbplx", "direct"};
+  return {"auto", "bayesian", "nsga2", "cmaes", "bobyqa", "sbplx", "direct", "least_squares"};
 }
 
 SearchMethod choose_method(const std::string& name, const SearchProblem& problem) {
   const std::size_t n = problem.space.size(), m = problem.objectives;
+  const bool smooth = problem.residuals >= n && m == 1 && problem.constraints == 0 &&
+                      std::all_of(problem.space.dimensions.begin(), problem.space.dimensions.end(),
+                                  [](const Dimension& d) { return d.choices.empty(); });
+  if (name == "auto" && smooth)
+    return {"least_squares", "a target at every humidity: Levenberg-Marquardt on the distances"};
+  if (name == "least_squares" && !smooth)
+    throw InputError(
+        "search.method = \"least_squares\" needs one target as the only objective, no choices, no "
+        "constraint that needs an evaluation, and no more variables than targets; use \"auto\"");
   if (name == "auto") {
     if (m <= 2 && problem.evaluations <= 400 && n <= 20) {
       return {"bayesian",
@@ -52,6 +61,7 @@ std::unique_ptr<Searcher> make_searcher(const SearchMethod& method, const Search
   if (method.name == "bayesian" || problem.space.single_point()) return make_bayesian(problem);
   if (method.name == "nsga2") return make_nsga2(problem);
   if (method.name == "cmaes") return make_cmaes(problem);
+  if (method.name == "least_squares") return make_least_squares(problem);
   return make_nlopt(method.name, problem);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <nlopt.hpp>
 #include <optional>
@@ -13,9 +14,11 @@
 #include <pagmo/bfe.hpp>
 #include <pagmo/population.hpp>
 #include <pagmo/problem.hpp>
+#include <span>
 #include <thread>
 
 #include "optim/algorithms/searchers.h"
+#include "optim/least_squares.h"
 
 namespace papilla {
 namespace {
@@ -197,6 +200,51 @@ std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem) {
                              static_cast<unsigned>(problem.seed) + restart);
       population = algorithm.evolve(population);
       if (calls == before) return;  // converged at once: a flat or failing objective
+    }
+  });
+}
+
+std::unique_ptr<Searcher> make_least_squares(const SearchProblem& problem) {
+  return make_blocking([problem](const BlockingObjective& objective) {
+    const std::size_t n = problem.space.size();
+    std::map<Point, Outcome> known;  // differences are taken twice where a step was refused
+    std::vector<Point> starts = problem.starts;
+    if (starts.empty()) starts.emplace_back(n, 0.5);
+    for (std::uint64_t drawn = 0; drawn < 5000; ++drawn) {
+      Point start;
+      if (!starts.empty()) {
+        start = starts.front();
+        starts.erase(starts.begin());
+      } else {
+        start = low_discrepancy(n, problem.seed, drawn);
+        if (!problem.cheaply_feasible(problem.space.snapped(start))) continue;
+      }
+      std::vector<FitParameter> parameters(n);
+      for (std::size_t k = 0; k < n; ++k) {
+        // One beyond the unit cube: steps relative to the parameter are then absolute ones.
+        parameters[k].start = 1 + start[k];
+        parameters[k].low = 1;
+        parameters[k].high = 2;
+        parameters[k].step = 0.02;
+      }
+      LeastSquaresOptions options;
+      options.iterations = 20;
+      options.noise = 1e-3;
+      options.tolerance = 1e-4;
+      options.profile_iterations = 0;
+      least_squares(
+          parameters, static_cast<int>(problem.residuals),
+          [&](std::span<const double> p, std::span<double> r) {
+            Point u(n);
+            for (std::size_t k = 0; k < n; ++k) u[k] = std::clamp(p[k] - 1, 0.0, 1.0);
+            u = problem.space.snapped(u);
+            if (!known.contains(u)) known[u] = objective({u})[0];
+            const Outcome& o = known[u];
+            if (!o.feasible()) return false;
+            std::copy_n(o.info.begin(), r.size(), r.begin());
+            return true;
+          },
+          options);
     }
   });
 }

@@ -15,6 +15,9 @@ std::unique_ptr<Searcher> make_bayesian(const SearchProblem& problem);
 std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem);
 std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem);
 
+// Levenberg-Marquardt on the residuals, from the user's point, then from others while asked on.
+std::unique_ptr<Searcher> make_least_squares(const SearchProblem& problem);
+
 // NLopt: "bobyqa", "sbplx", "direct"; one objective.
 std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProblem& problem);
 

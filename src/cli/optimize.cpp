@@ -183,7 +183,7 @@ void add_optimize(CLI::App& app, Context& context) {
   command->add_option("--seed", options->seed, "Seed of the search and of the skins")
       ->check(CLI::Range(0, 1 << 30));
   command->add_option("--method", options->method,
-                      "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct");
+                      "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct, least_squares");
   add_pick_option(*command, options->pick);
   add_set_option(*command, options->overrides);
   command->add_flag("--json", options->json, "The result as one JSON object on standard output");

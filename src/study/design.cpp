@@ -64,15 +64,14 @@ void fields(FieldVisitor& v, Search& s) {
   v.integer({"seed", "of the search's random numbers"}, 0, 1 << 30, s.seed);
   v.integer({"evaluations", "largest number of evaluated designs; 0: the method's default"}, 0,
             100000000, s.evaluations);
-  v.integer({"drafts", "cheap evaluations that steer the bayesian search"}, 0, 10000,
-            s.drafts);
+  v.integer({"drafts", "cheap evaluations that steer the bayesian search"}, 0, 10000, s.drafts);
   v.number({"time", "min", 0, 1e6, "largest wall-clock time; 0: no limit"}, s.time);
   v.integer({"jobs", "evaluations at a time; 0: one a processor"}, 0, 4096, s.jobs);
 }
 
 const std::vector<std::string>& search_methods() {
-  static const std::vector<std::string> names{"auto",   "bayesian", "nsga2", "cmaes",
-                                              "bobyqa", "sbplx",    "direct"};
+  static const std::vector<std::string> names{"auto",   "bayesian", "nsga2",  "cmaes",
+                                              "bobyqa", "sbplx",    "direct", "least_squares"};
   return names;
 }
 

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/statistics.h"
+#include "study/pick.h"
 
 namespace papilla {
 namespace {
@@ -152,6 +153,41 @@ TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
   const OptimiseResult result = optimise(study, {fresh_folder("point"), false, {}, nullptr});
   EXPECT_EQ(result.evaluations, 1);
   EXPECT_TRUE(result.any_feasible);
+}
+
+TEST(Optimise, ATargetIsMetByLeastSquares) {
+  Study study = small_study();
+  study.objective = {};
+  study.objective.targets = {{"modulation", 0.45}};
+  study.constraints.clear();
+  study.variables = {{"texture.depth", "nm", 0, 1e-6, {}}, {"drive.amplitude", "V", 100, 220, {}}};
+  study.search.evaluations = 12;
+  const OptimiseResult result = optimise(study, {fresh_folder("target"), false, {}, nullptr});
+  EXPECT_EQ(result.method, "least_squares");
+  ASSERT_FALSE(result.finalists.empty());
+  const StudyProblem problem(study);
+  const Score own =
+      problem.score({problem.evaluate_task(study.design, 0, fidelity_level("search"), false)});
+  EXPECT_LT(result.finalists[0].searched.values[0], own.values[0]);
+}
+
+TEST(Optimise, AnotherPickOfTheSameRunNeedsNoNewSearch) {
+  Study study = small_study();
+  const std::string folder = fresh_folder("pick");
+  const OptimiseResult first = optimise(study, {folder, false, {}, nullptr});
+  const std::string journal = bytes(folder + "/journal");
+  OptimiseOptions options{folder, true, {}, nullptr, "mean"};
+  const OptimiseResult second = optimise(study, options);
+  EXPECT_EQ(bytes(folder + "/journal"), journal);
+  ASSERT_TRUE(second.finalists[second.best].on_front);
+  for (const FinalDesign& f : second.finalists) {
+    if (!f.on_front) continue;
+    EXPECT_LE(f.confirmed.values[0], second.finalists[second.best].confirmed.values[0]);
+  }
+  EXPECT_EQ(read_design(picked_design_file(folder, "mean")), second.finalists[second.best].design);
+  EXPECT_EQ(read_design(picked_design_file(folder, "")), second.finalists[second.best].design);
+  options.pick = "best of all";
+  EXPECT_THROW(optimise(study, options), InputError);
 }
 
 }  // namespace
