@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 #include "geometry/roughness.h"
+#include "geometry/texture.h"
 #include "physics/contact/closed_forms.h"
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
@@ -75,6 +76,30 @@ TEST(Area, OfRoughSkinAgreesWithAFinerGridWithinItsStatedError) {
   EXPECT_LT(se[0], 0.03 * area[0]);
   EXPECT_LT(se[1], 0.005 * area[1]);
   EXPECT_NEAR(ratio[0], ratio[1], 0.003 * ratio[1]);
+}
+
+// Contact in a few large pieces, one a particle.
+TEST(Area, OfAParticleFilmAgreesWithAFinerGrid) {
+  const Finger finger;
+  const Skin& skin = finger.skin;
+  const Texture film{ParticleFilm{}};
+  double area[2], se = 0;
+  for (int k = 0; k < 2; ++k) {
+    const Grid grid = patch_grid(film, k == 0 ? 512 : 128);
+    const auto kernel =
+        make_contact_kernel(grid, {skin.layer_modulus, skin.layer_poisson, skin.layer_thickness,
+                                   skin.bulk_modulus, skin.bulk_poisson});
+    Heightmap h = generate(film, grid);
+    const Heightmap rough =
+        random_surface({0.05 * skin.rms, skin.roll_off, skin.hurst, skin.cutoff}, grid, 1, 0);
+    for (std::size_t i = 0; i < h.z.size(); ++i) h.z[i] += rough.z[i];
+    const ContactArea a =
+        measure_area(*kernel, solve_contact(*kernel, h.z, finger.patch_pressure(0.15), {}, {}));
+    area[k] = a.near_edge;
+    se = a.se;
+  }
+  EXPECT_NEAR(area[1], area[0], 0.005 * area[0]);
+  EXPECT_LT(std::abs(area[1] - area[0]), 2 * se);
 }
 
 // Everything flows: the area is the load over the hardness.

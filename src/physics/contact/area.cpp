@@ -130,9 +130,9 @@ ContactArea measure(const ContactKernel& kernel, const std::vector<int>& contact
   area.near_edge = std::min(1.0, near_edge / n);
   // Eq. contact.8: chord is the mean width of the islands in pixels.
   const double chord = edges > 0 ? kPi * pixels / edges : kInfinity;
-  area.se = std::hypot(0.07 * std::sqrt(edges) * (1 + 3.5 / chord),
-                       (0.001 + 0.075 / square(chord)) * near_edge) /
-            n;
+  area.se = std::hypot(0.07 * std::sqrt(edges) * (1 + 3.5 / chord) / n,
+                       (0.001 + 0.075 / square(chord)) * area.near_edge,
+                       0.5 * (area.near_edge - area.perimeter));
   return area;
 }
 
