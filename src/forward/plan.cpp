@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "physics/capillary/droplets.h"
+#include "physics/capillary/threshold.h"
 
 namespace papilla {
 namespace {
@@ -33,9 +35,13 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   plan.effective_cutoff = std::max({scene.finger.skin.cutoff, 2 * kWindow / fidelity.grid,
                                     2 * std::max(plan.grid.dx(), plan.grid.dy())});
 
-  double largest_volume = 0;
+  double largest_volume = 0, droplet_error = 0;
   for (double rh : scene.environment.relative_humidity) {
-    largest_volume = std::max(largest_volume, scene.finger.water.volume_per_area(rh));
+    const double water = scene.finger.water.volume_per_area(rh);
+    largest_volume = std::max(largest_volume, water);
+    // The share of the water in bridges as on the published samples (results/accuracy/water.csv).
+    const double share = std::min(0.75, 0.2 + 0.009 * (water / 1e-9));
+    droplet_error = std::max(droplet_error, droplet_band(water, 0, share).pull);
   }
   plan.water = largest_volume > 0;
   plan.field = scene.drive.driven();
@@ -58,9 +64,11 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
     const bool droplets = scene.model.water == WaterModel::Droplets;
     plan.steps.push_back(
         {"water", droplets ? "droplet ensemble by lowest energy" : "volume threshold",
-         droplets ? "its variation over humidity is what textures change"
-                  : "cheap and smooth; it reverses the sign of the texture's effect on variation",
-         states * (droplets ? 1.5e-3 : 4e-4), droplets ? 0 : 0.5});
+         droplets
+             ? "its variation over humidity is what textures change; error: mobility and number"
+             : "cheap and smooth; it reverses the sign of the texture's effect on variation",
+         states * (droplets ? 1.5e-3 : 4e-4),
+         droplets ? droplet_error : threshold_shortfall(largest_volume)});
   } else {
     plan.skipped.push_back({"water", "no water at any of these humidities", 0});
   }

@@ -77,6 +77,18 @@ TEST(SolveDroplets, TakesGapAndWaterFromADesign) {
   EXPECT_NEAR(json["volume"].get<double>(), 1.8e-18, 1e-27);
   EXPECT_EQ(json["initial_droplets"], 180);
   EXPECT_GT(json["bridges"].get<int>(), 3);
+  const auto ensemble = nlohmann::json::parse(
+      output("droplets --design " + design + " --humidity '75 %' --placements 6 --json", status));
+  EXPECT_EQ(status, 0);
+  const auto& low = ensemble["volumes"][0];
+  const auto& high = ensemble["volumes"][1];
+  EXPECT_NEAR(high["volume"].get<double>(), 2 * low["volume"].get<double>(), 1e-24);
+  EXPECT_GT(high["capillary_force"]["value"], low["capillary_force"]["value"]);
+  EXPECT_GT(low["capillary_force"]["se"].get<double>(), 0);
+  const auto pinned = nlohmann::json::parse(
+      output("droplets --design " + design + " --humidity '55 %' --pin-edges --json", status));
+  EXPECT_EQ(status, 0);
+  EXPECT_NE(pinned["moves"], json["moves"]);
   output("droplets --design " + design + " --gap x.npy", status);
   EXPECT_EQ(status, 2);
   output("droplets --design " + design + " --humidity '130 %'", status);

@@ -817,6 +817,16 @@ Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& wat
   return ensemble.result(wetting.volume, std::move(seeds), film_volume);
 }
 
+DropletBand droplet_band(double water_per_area, double mean_gap, double bridge_share) {
+  if (!(water_per_area > 0)) return {};
+  DropletBand band;
+  // Eq. capillary.19
+  band.pull = 0.7 * square(1 - bridge_share) * -std::expm1(-water_per_area / 7e-9);
+  // Eq. capillary.20
+  band.capillary = mean_gap > 0 ? 1.5 / (1 + water_per_area / (0.01 * mean_gap)) : 0;
+  return band;
+}
+
 Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterProperties&) {
   const Grid& g = gap.grid;
   Traction out{g, std::vector<double>(g.size(), 0.0)};

@@ -1,6 +1,7 @@
 #include "physics/capillary/threshold.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -82,6 +83,11 @@ Wetting fill_threshold(const Gap& gap, double bridge_volume, const WaterProperti
   out.capillary_force = film.force;
   out.retention = film.retention;
   return out;
+}
+
+double threshold_shortfall(double water_per_area) {
+  if (!(water_per_area > 0)) return 0;
+  return std::clamp(0.60 + 0.05 * std::log(water_per_area / 0.5e-9), 0.0, 0.9);
 }
 
 }  // namespace papilla

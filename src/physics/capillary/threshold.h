@@ -16,4 +16,8 @@ namespace papilla {
 // water fills every gap (no meniscus: force 0). Cost: linear in the pixels.
 Wetting fill_threshold(const Gap& gap, double bridge_volume, const WaterProperties& water);
 
+// By what share the modulation with threshold water lies below that with droplets of the same
+// volume, Eq. capillary.21: the mean over the scenes of results/accuracy/water.csv, good to 0.1.
+double threshold_shortfall(double water_per_area);
+
 }  // namespace papilla
