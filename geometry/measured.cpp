@@ -44,6 +44,10 @@ void level_and_mend(Heightmap& h) {
   std::nth_element(sorted.begin(), middle, sorted.end());
   const double limit = 8 * *middle;
   if (limit <= 0) return;
+  // Many of them are features, not outliers: the holes of a flat land.
+  const auto far =
+      std::count_if(h.z.begin(), h.z.end(), [&](double z) { return std::abs(z - median) > limit; });
+  if (static_cast<double>(far) > 0.02 * n) return;
   const Heightmap old = h;
   const auto sound = [&](int ix, int iy) { return std::abs(old(ix, iy) - median) <= limit; };
   for (int iy = 0; iy < g.ny; ++iy) {

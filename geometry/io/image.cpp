@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "geometry/io/files.h"
+#include "geometry/io/layout.h"
 #include "geometry/io/raw.h"
 
 namespace papilla {
@@ -28,6 +29,18 @@ constexpr const char* kFixedDate = "2000:01:01 00:00:00";  // the same bytes on 
 std::string part_name(const std::string& path) {
   const fs::path p(path);
   return (p.parent_path() / (p.stem().string() + ".part" + p.extension().string())).string();
+}
+
+// Onto the disk, then to its name.
+template <typename Fail>
+void settle(const std::string& part, const std::string& path, const Fail& fail) {
+  const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
+  if (fd < 0 || ::fsync(fd) != 0) {
+    if (fd >= 0) ::close(fd);
+    fail("cannot flush to disk");
+  }
+  ::close(fd);
+  if (std::rename(part.c_str(), path.c_str()) != 0) fail("cannot rename");
 }
 
 void write_image(const std::string& path, OIIO::ImageSpec spec, OIIO::TypeDesc type,
@@ -59,13 +72,7 @@ void write_image(const std::string& path, OIIO::ImageSpec spec, OIIO::TypeDesc t
     fail("does not read back: " + in->geterror());
   in->close();
   if (std::memcmp(back.data(), pixels, bytes) != 0) fail("reads back with other values");
-  const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0 || ::fsync(fd) != 0) {
-    if (fd >= 0) ::close(fd);
-    fail("cannot flush to disk");
-  }
-  ::close(fd);
-  if (std::rename(part.c_str(), path.c_str()) != 0) fail("cannot rename");
+  settle(part, path, fail);
 }
 
 double lowest(const Heightmap& h) { return *std::min_element(h.z.begin(), h.z.end()); }
@@ -222,22 +229,133 @@ Heightmap read_image(const std::string& path, double width) {
 
 }  // namespace
 
-void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info) {
-  check_finite(path, h);
-  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
+namespace {
+
+OIIO::ImageSpec exr_spec(const Heightmap& h, int repeat, const FileInfo& info) {
+  OIIO::ImageSpec spec(repeat * h.grid.nx, repeat * h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Y"};
   spec.attribute("compression", "zip");
   // Gwyddion reads these as doubles only; floats are silently ignored.
   for (const auto& [name, value] :
-       {std::pair{"Gwy::XReal", h.grid.lx}, {"Gwy::YReal", h.grid.ly}}) {
+       {std::pair{"Gwy::XReal", repeat * h.grid.lx}, {"Gwy::YReal", repeat * h.grid.ly}}) {
     spec.attribute(name, OIIO::TypeDesc::DOUBLE, &value);
   }
   spec.attribute("Gwy::XYUnit", "m");
   spec.attribute("Gwy::ZUnit", "um");
   spec.attribute("Gwy::Title", info.title);
   if (!info.comment.empty()) spec.attribute("comments", info.comment);
+  return spec;
+}
+
+}  // namespace
+
+void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info) {
+  check_finite(path, h);
   const auto pixels = micrometres(h);
-  write_image(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+  write_image(path, exr_spec(h, 1, info), OIIO::TypeDesc::FLOAT, pixels.data());
+}
+
+void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
+                        const FileInfo& info) {
+  check_finite(path, h);
+  constexpr int kRows = 64;  // whole blocks of 16 rows of the compressor
+  OIIO::ImageSpec spec = exr_spec(h, repeat, info);
+  spec.attribute("DateTime", kFixedDate);
+  spec.attribute("Software", "papilla " PAPILLA_VERSION);
+  const std::string part = part_name(path);
+  const auto fail = [&](const std::string& why) {
+    std::error_code ignored;
+    fs::remove(part, ignored);
+    throw InputError("cannot write " + path + ": " + why);
+  };
+  const std::vector<float> cell = micrometres(h);
+  const auto width = static_cast<std::size_t>(spec.width);
+  std::vector<float> strip(kRows * width), back(strip.size());
+  const auto fill = [&](int from, int to) {
+    for (int y = from; y < to; ++y) {
+      const float* row = &cell[h.grid.index(0, y % h.grid.ny)];
+      for (int r = 0; r < repeat; ++r) {
+        std::copy_n(row, h.grid.nx,
+                    strip.begin() +
+                        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y - from) * width) +
+                        static_cast<std::ptrdiff_t>(r) * h.grid.nx);
+      }
+    }
+  };
+  auto out = OIIO::ImageOutput::create(part);
+  if (!out) fail(OIIO::geterror());
+  if (!out->open(part, spec)) fail(out->geterror());
+  for (int y = 0; y < spec.height; y += kRows) {
+    const int end = std::min(y + kRows, spec.height);
+    fill(y, end);
+    if (!out->write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, strip.data()))
+      fail(out->geterror());
+  }
+  const bool closed = out->close();
+  if (const std::string error = out->geterror(); !closed || !error.empty())
+    fail(error.empty() ? "incomplete" : error);
+  auto in = OIIO::ImageInput::open(part);
+  if (!in) fail("does not open again: " + OIIO::geterror());
+  for (int y = 0; y < spec.height; y += kRows) {
+    const int end = std::min(y + kRows, spec.height);
+    fill(y, end);
+    if (!in->read_scanlines(0, 0, y, end, 0, 0, 1, OIIO::TypeDesc::FLOAT, back.data()))
+      fail("does not read back: " + in->geterror());
+    if (std::memcmp(back.data(), strip.data(),
+                    static_cast<std::size_t>(end - y) * width * sizeof(float)) != 0) {
+      fail("reads back with other values");
+    }
+  }
+  in->close();
+  settle(part, path, fail);
+}
+
+void write_png16(const std::string& path, const Heightmap& h) {
+  check_finite(path, h);
+  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT16);
+  for (const auto& [name, value] : {std::pair{"Gwy::XReal", h.grid.lx},
+                                    {"Gwy::YReal", h.grid.ly},
+                                    {"Gwy::ZMin", lowest(h)},
+                                    {"Gwy::ZMax", highest(h)}}) {
+    spec.attribute(name, fmt::format("{}", value));
+  }
+  spec.attribute("Gwy::XYUnit", "m");
+  spec.attribute("Gwy::ZUnit", "m");
+  const auto pixels = sixteen_bits(h, Polarity::WhiteHigh, false);
+  write_image(path, spec, OIIO::TypeDesc::UINT16, pixels.data());
+}
+
+DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve& curve) {
+  check_finite(path, h);
+  const double high = highest(h);
+  DoseMap out;
+  std::vector<std::uint8_t> grey(h.z.size());
+  const auto& d = curve.depth;
+  for (int iy = 0; iy < h.grid.ny; ++iy) {
+    for (int ix = 0; ix < h.grid.nx; ++ix) {
+      const double depth = high - h(ix, iy);
+      double value = curve.grey.front();
+      if (depth < d.front() - 0.5e-9) {
+        ++out.shallow;
+      } else if (depth > d.back() + 0.5e-9) {
+        ++out.deep;
+        value = curve.grey.back();
+      } else if (depth > d.front()) {
+        const auto i = static_cast<std::size_t>(
+            std::min(std::upper_bound(d.begin(), d.end(), depth), d.end() - 1) - d.begin());
+        const double share = std::min(1.0, (depth - d[i - 1]) / (d[i] - d[i - 1]));
+        value = curve.grey[i - 1] + share * (curve.grey[i] - curve.grey[i - 1]);
+      }
+      grey[h.grid.index(ix, h.grid.ny - 1 - iy)] =
+          static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
+    }
+  }
+  const auto [a, b] = std::minmax_element(grey.begin(), grey.end());
+  out.lowest = *a, out.highest = *b;
+  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT8);
+  set_resolution(spec, h.grid);
+  write_image(path, spec, OIIO::TypeDesc::UINT8, grey.data());
+  return out;
 }
 
 void write_tiff_float(const std::string& path, const Heightmap& h, const FileInfo& info) {

@@ -6,13 +6,16 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/io/mask.h"
 
 namespace papilla {
 namespace {
@@ -83,22 +86,28 @@ std::int32_t nanometres(double metres) {
   return static_cast<std::int32_t>(std::lround(1e9 * metres));
 }
 
-void boundary(GdsStream& gds, Points points) {
+void boundary(GdsStream& gds, Points points, int layer = 1) {
   points.push_back(points.front());
   gds.empty(0x0800);
-  gds.shorts(0x0D02, {1});
+  gds.shorts(0x0D02, {layer});
   gds.shorts(0x0E02, {0});
   gds.points(points);
   gds.empty(0x1100);
 }
 
-Points circle(double x, double y, double diameter) {
-  constexpr int kSides = 128;
+// Sides of a polygon whose middles and corners stay within `error` of the circle.
+int circle_sides(double diameter, double error) {
+  const double share = std::min(0.5, error / (0.5 * diameter));
+  const int sides = static_cast<int>(std::ceil(kPi / std::acos(1 - share)));
+  return std::clamp((sides + 3) / 4 * 4, 8, 1024);
+}
+
+Points circle(double x, double y, double diameter, int sides) {
   // The polygon has the area of the circle.
-  const double step = 2 * kPi / kSides;
+  const double step = 2 * kPi / sides;
   const double radius = 0.5 * diameter * std::sqrt(step / std::sin(step));
   Points points;
-  for (int i = 0; i < kSides; ++i) {
+  for (int i = 0; i < sides; ++i) {
     const double angle = (i + 0.5) * step;
     points.emplace_back(nanometres(x + radius * std::cos(angle)),
                         nanometres(y + radius * std::sin(angle)));
@@ -111,29 +120,45 @@ struct ArrayCell {
   std::vector<Points> polygons;
 };
 
-ArrayCell round_cell(Lattice lattice, double period, double diameter) {
+ArrayCell round_cell(Lattice lattice, double period, double diameter, int sides) {
   if (lattice == Lattice::Square) {
-    return {period, period, {circle(0.5 * period, 0.5 * period, diameter)}};
+    return {period, period, {circle(0.5 * period, 0.5 * period, diameter, sides)}};
   }
-  const double row = std::sqrt(3.0) * period;
-  return {
-      period,
-      row,
-      {circle(0.25 * period, 0.25 * row, diameter), circle(0.75 * period, 0.75 * row, diameter)}};
+  const double row = 1e-9 * std::round(1e9 * std::sqrt(3.0) * period);
+  return {period,
+          row,
+          {circle(0.25 * period, 0.25 * row, diameter, sides),
+           circle(0.75 * period, 0.75 * row, diameter, sides)}};
 }
 
-ArrayCell array_cell(const Texture& texture, double size_y) {
+// A length on the database grid; refused where it is not.
+double on_grid(double period) {
+  const double nm = 1e9 * period, whole = std::round(nm);
+  if (std::abs(nm - whole) > 1e-4) {
+    throw InputError(
+        fmt::format("period {:.8g} nm is not on the 1 nm grid of GDSII; use {:.0f} nm or {:.0f} nm",
+                    nm, std::floor(nm), std::ceil(nm)));
+  }
+  return 1e-9 * whole;
+}
+
+ArrayCell array_cell(const Texture& texture, double size_y, double facet_error, GdsArray& out) {
   if (const auto* t = std::get_if<HoleArray>(&texture.kind)) {
-    return round_cell(t->lattice, t->period, t->diameter);
+    out.drawn = "holes";
+    out.sides = circle_sides(t->diameter, facet_error);
+    return round_cell(t->lattice, on_grid(t->period), t->diameter, out.sides);
   }
   if (const auto* t = std::get_if<PillarArray>(&texture.kind)) {
-    return round_cell(t->lattice, t->period, t->diameter);
+    out.drawn = "pillars";
+    out.sides = circle_sides(t->diameter, facet_error);
+    return round_cell(t->lattice, on_grid(t->period), t->diameter, out.sides);
   }
   if (const auto* t = std::get_if<Grating>(&texture.kind)) {
+    out.drawn = "grooves";
     const std::int32_t left = nanometres(0.5 * (t->period - t->width));
     const std::int32_t right = nanometres(0.5 * (t->period + t->width));
     const std::int32_t top = nanometres(size_y);
-    return {t->period, size_y, {{{left, 0}, {right, 0}, {right, top}, {left, top}}}};
+    return {on_grid(t->period), size_y, {{{left, 0}, {right, 0}, {right, top}, {left, top}}}};
   }
   throw InputError(fmt::format(
       "GDSII holds arrays of holes, pillars or grooves, not \"{}\"; use exr, tiff or stl",
@@ -159,14 +184,19 @@ void triangle(std::string& out, const Vertex& a, const Vertex& b, const Vertex& 
 
 }  // namespace
 
-void write_gds(const std::string& path, const Texture& texture, double size_x, double size_y) {
-  const ArrayCell cell = array_cell(texture, size_y);
+GdsArray write_gds(const std::string& path, const Texture& texture, double size_x, double size_y,
+                   double facet_error) {
+  GdsArray out;
+  const ArrayCell cell = array_cell(texture, size_y, facet_error, out);
   const long columns = std::max(1L, std::lround(size_x / cell.x));
   const long rows = std::max(1L, std::lround(size_y / cell.y));
   if (columns > 32767 || rows > 32767 || size_x > 2.1 || size_y > 2.1) {
     throw InputError(fmt::format("{} x {} cells are more than one GDSII array holds (32767 a side)",
                                  columns, rows));
   }
+  out.columns = columns, out.rows = rows;
+  out.pitch_x = cell.x, out.pitch_y = cell.y;
+  if (cell.polygons.size() == 2) out.pitch_error = std::abs(cell.y - std::sqrt(3.0) * cell.x);
   const std::vector<int> date{2025, 1, 1, 0, 0, 0, 2025, 1, 1, 0, 0, 0};
   GdsStream gds;
   gds.shorts(0x0002, {600});
@@ -189,6 +219,69 @@ void write_gds(const std::string& path, const Texture& texture, double size_x, d
   gds.empty(0x0700);
   gds.empty(0x0400);
   write_bytes(path, gds.bytes());
+  return out;
+}
+
+std::size_t write_gds_mask(const std::string& path, const Heightmap& h, int levels) {
+  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+  const std::vector<int> date{2025, 1, 1, 0, 0, 0, 2025, 1, 1, 0, 0, 0};
+  GdsStream gds;
+  gds.shorts(0x0002, {600});
+  gds.shorts(0x0102, date);
+  gds.text(0x0206, "PAPILLA");
+  gds.reals(0x0305, {1e-3, 1e-9});
+  gds.shorts(0x0502, date);
+  gds.text(0x0606, "TEXTURE");
+  std::size_t count = 0;
+  for (int k = 1; k <= levels && *high > *low; ++k) {
+    const double level = *high - (k - 0.5) / levels * (*high - *low);
+    for (const Polygon& polygon : polygons_below(h, level)) {
+      Points points;
+      for (std::size_t i = 0; i < polygon.x.size(); ++i)
+        points.emplace_back(polygon.x[i], polygon.y[i]);
+      boundary(gds, points, k);
+      if (++count > 2000000)
+        throw InputError(path + ": more than two million polygons; fewer pixels");
+    }
+  }
+  gds.empty(0x0700);
+  gds.empty(0x0400);
+  write_bytes(path, gds.bytes());
+  return count;
+}
+
+DoseCurve read_dose_curve(const std::string& path) {
+  std::istringstream in(read_bytes(path, 1 << 20));
+  DoseCurve out;
+  std::string line;
+  for (int number = 1; std::getline(in, line); ++number) {
+    if (line.empty() || line.front() == '#') continue;
+    double depth = 0, grey = 0;
+    char rest = 0;
+    if (std::sscanf(line.c_str(), "%lf , %lf %c", &depth, &grey, &rest) != 2) {
+      if (number == 1) continue;  // a heading
+      throw InputError(fmt::format("{}:{}: expected depth_nm,grey", path, number));
+    }
+    if (!(grey >= 0 && grey <= 255) || !(depth >= 0 && depth < 1e9))
+      throw InputError(
+          fmt::format("{}:{}: expected a depth from 0 and a grey of 0 to 255", path, number));
+    out.depth.push_back(1e-9 * depth);
+    out.grey.push_back(grey);
+  }
+  if (out.depth.size() < 2) throw InputError(path + ": expected at least two lines depth_nm,grey");
+  if (out.depth.front() > out.depth.back()) {
+    std::reverse(out.depth.begin(), out.depth.end());
+    std::reverse(out.grey.begin(), out.grey.end());
+  }
+  const bool rising = out.grey.back() > out.grey.front();
+  for (std::size_t i = 1; i < out.depth.size(); ++i) {
+    const bool grey_moves = rising ? out.grey[i] > out.grey[i - 1] : out.grey[i] < out.grey[i - 1];
+    if (out.depth[i] <= out.depth[i - 1] || !grey_moves) {
+      throw InputError(fmt::format("{}: depth over grey is not monotone at {:.4g} nm, grey {:.4g}",
+                                   path, 1e9 * out.depth[i], out.grey[i]));
+    }
+  }
+  return out;
 }
 
 void write_stl(const std::string& path, const Heightmap& h, double base) {

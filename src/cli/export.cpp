@@ -1,6 +1,8 @@
 // papilla export DESIGN.toml: heightmap and mask files.
 #include "study/export.h"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +12,7 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "study/pick.h"
+#include "study/verify.h"
 
 namespace papilla {
 namespace {
@@ -17,9 +20,20 @@ namespace {
 struct ExportCommand {
   DesignOptions design;
   std::vector<std::string> formats;
-  std::string size, polarity, out, pick;
-  int pixels = 1024;
+  std::string size, polarity, out, pick, shrink, edge_rounding, facet_error, dose_curve,
+      tolerance = "5 %";
+  int pixels = 1024, repeat = 1, levels = 1;
+  bool verify = false;
 };
+
+// The first of the files that holds heights to be read back.
+std::string heights_file(const Export& result) {
+  for (const char* format : {"exr", "gsf", "tiff32", "tiff"}) {
+    for (const ExportedFile& file : result.files)
+      if (file.format == format) return file.path;
+  }
+  throw InputError("--verify needs a file of heights: exr, gsf, tiff32 or tiff");
+}
 
 int export_files(const ExportCommand& command) {
   std::string source = command.design.file;
@@ -39,12 +53,32 @@ int export_files(const ExportCommand& command) {
   if (!command.polarity.empty()) {
     options.polarity = command.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
   }
+  options.repeat = command.repeat;
+  options.levels = command.levels;
+  options.dose_curve = command.dose_curve;
+  if (!command.shrink.empty()) options.bias.shrink = parse_si(command.shrink, "nm");
+  if (!command.edge_rounding.empty())
+    options.bias.edge_radius = parse_si(command.edge_rounding, "nm");
+  if (!command.facet_error.empty()) options.facet_error = parse_si(command.facet_error, "nm");
+  if (!(options.facet_error > 0)) throw InputError("--facet-error: expected a length above 0");
+  const double tolerance = parse_si(command.tolerance, "%");
   const std::string folder =
       command.out.empty() ? "results/" + study.name + "/export" : command.out;
   const Export result = export_design(study.design, options, folder);
   for (const ExportedFile& file : result.files) std::cout << file.path << '\n';
   std::cout << folder << "/export.json\n";
-  return kSuccess;
+  if (!command.verify) return kSuccess;
+  Study judged = study;  // the file is what the process turns into the design
+  judged.design.texture = compensated(study.design.texture, options.bias);
+  const Verification v = verify_export(judged, heights_file(result), tolerance);
+  std::cout << fmt::format(
+      "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, of the "
+      "design "
+      "{:.4g}: {:.2g} % off\n",
+      1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel, v.merit, v.file,
+      v.design, 100 * v.loss);
+  for (const std::string& fault : v.faults) std::cerr << "not sound: " << fault << '\n';
+  return v.faults.empty() ? kSuccess : kWorkFailed;
 }
 
 }  // namespace
@@ -57,8 +91,10 @@ void add_export(CLI::App& app, Context& context) {
       ->type_name("FILE");
   add_set_option(*command, options->design.overrides);
   command
-      ->add_option("--format", options->formats,
-                   "exr, tiff, mask, gsf, npy, png, gds, stl; default: what the texture allows")
+      ->add_option(
+          "--format", options->formats,
+          "exr, tiff, tiff32, mask, gsf, npy, png, png16, x3p, gds, stl, dose; default: what the "
+          "texture allows")
       ->delimiter(',');
   command->add_option("--size", options->size, "Side, rounded to whole periods, e.g. \"1 mm\"");
   command->add_option("--pixels", options->pixels, "Pixels along x")
@@ -68,6 +104,21 @@ void add_export(CLI::App& app, Context& context) {
       ->add_option("--polarity", options->polarity,
                    "white-high (bright is high) or white-deep; needed for tiff and mask")
       ->check(CLI::IsMember({"white-high", "white-deep"}));
+  command->add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
+      ->check(CLI::Range(1, 4096));
+  command->add_option("--levels", options->levels, "GDSII of a free form: layers, one a level")
+      ->check(CLI::Range(1, 64));
+  command->add_option("--facet-error", options->facet_error, "GDSII: of circles; default 2 nm");
+  command->add_option("--shrink", options->shrink,
+                      "The process moves each wall into the hole by this; undone in the files");
+  command->add_option("--edge-rounding", options->edge_rounding,
+                      "The process rounds rims by this; left out of the files");
+  command->add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
+      ->type_name("FILE");
+  command->add_flag("--verify", options->verify,
+                    "Read the heights back, measure holes and walls, simulate again");
+  command->add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
+      ->capture_default_str();
   command->add_option("--out", options->out, "Folder; default results/NAME/export")
       ->type_name("DIR");
   add_pick_option(*command, options->pick);

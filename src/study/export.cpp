@@ -31,7 +31,9 @@ std::vector<std::string> chosen_formats(const Design& design, const ExportOption
     for (const std::string& format : export_formats()) {
       if (needs_polarity(format) && !options.polarity) continue;
       if (format == "gds" && !is_array(design.texture)) continue;
-      if (format == "stl") continue;  // large; on request
+      if (format == "stl" || format == "x3p" || format == "png16" || format == "tiff32")
+        continue;  // on request
+      if (format == "dose" && options.dose_curve.empty()) continue;
       out.push_back(format);
     }
     return out;
@@ -41,11 +43,8 @@ std::vector<std::string> chosen_formats(const Design& design, const ExportOption
     if (std::find(known.begin(), known.end(), format) == known.end()) {
       throw InputError(fmt::format("unknown format \"{}\"; known: {}", format, join_names(known)));
     }
-    if (format == "gds" && !is_array(design.texture)) {
-      throw InputError(fmt::format(
-          "GDSII holds arrays of holes, pillars or grooves, not \"{}\"; use exr, tiff or stl",
-          texture_name(design.texture)));
-    }
+    if (format == "dose" && options.dose_curve.empty())
+      throw InputError("format \"dose\" needs --dose-curve, a CSV of depth_nm,grey");
     if (needs_polarity(format) && !options.polarity) {
       throw InputError(
           fmt::format("format \"{}\" needs a polarity: white-high (bright is high) or white-deep "
@@ -61,14 +60,42 @@ Json margin(double value) { return std::isfinite(value) ? Json(value) : Json(nul
 }  // namespace
 
 const std::vector<std::string>& export_formats() {
-  static const std::vector<std::string> names{"exr", "tiff", "mask", "gsf",
-                                              "npy", "png",  "gds",  "stl"};
+  static const std::vector<std::string> names{"exr", "tiff",  "tiff32", "mask", "gsf", "npy",
+                                              "png", "png16", "x3p",    "gds",  "stl", "dose"};
   return names;
 }
 
-Export export_design(const Design& design, const ExportOptions& options,
+Texture compensated(const Texture& texture, const ProcessBias& bias) {
+  Texture out = texture;
+  const auto rim = [&](double& radius) { radius = std::max(0.0, radius - bias.edge_radius); };
+  const auto width = [](double w) {
+    if (w <= 0) throw InputError("process bias: nothing is left of the features");
+    return w;
+  };
+  if (auto* holes = std::get_if<HoleArray>(&out.kind)) {
+    holes->diameter = width(holes->diameter + 2 * bias.shrink);
+    rim(holes->edge_radius);
+  } else if (auto* pillars = std::get_if<PillarArray>(&out.kind)) {
+    pillars->diameter = width(pillars->diameter - 2 * bias.shrink);
+    rim(pillars->edge_radius);
+  } else if (auto* grooves = std::get_if<Grating>(&out.kind)) {
+    grooves->width = width(grooves->width + 2 * bias.shrink);
+    rim(grooves->edge_radius);
+  } else if (bias.shrink != 0 || bias.edge_radius != 0) {
+    throw InputError(fmt::format("process bias is for holes, pillars and grooves, not \"{}\"",
+                                 texture_name(texture)));
+  }
+  for (const auto& [key, message] : problems(out))
+    throw InputError("process bias: texture." + key + ": " + message);
+  return out;
+}
+
+Export export_design(const Design& wanted, const ExportOptions& options,
                      const std::string& folder) {
+  Design design = wanted;
+  design.texture = compensated(wanted.texture, options.bias);
   const std::vector<std::string> formats = chosen_formats(design, options);
+  Json gds_json, dose_json;
   const Grid grid = patch_grid(design.texture, options.pixels, options.size);
   constexpr double kLargest = 1 << 28;
   if (static_cast<double>(grid.nx) * grid.ny > kLargest) {
@@ -91,7 +118,26 @@ Export export_design(const Design& design, const ExportOptions& options,
   for (const std::string& format : formats) {
     std::string path = folder + "/heightmap." + format;
     if (format == "exr") {
-      write_exr(path, h, info);
+      if (options.repeat > 1) {
+        write_exr_repeated(path, h, options.repeat, info);
+      } else {
+        write_exr(path, h, info);
+      }
+    } else if (format == "tiff32") {
+      path = folder + "/heightmap_float.tif";
+      write_tiff_float(path, h, info);
+    } else if (format == "png16") {
+      path = folder + "/heightmap.png";
+      write_png16(path, h);
+    } else if (format == "x3p") {
+      write_x3p(path, h);
+    } else if (format == "dose") {
+      path = folder + "/dose.png";
+      const DoseMap dose = write_dose(path, h, read_dose_curve(options.dose_curve));
+      dose_json = {{"lowest_grey", dose.lowest},
+                   {"highest_grey", dose.highest},
+                   {"clipped_shallow", dose.shallow},
+                   {"clipped_deep", dose.deep}};
     } else if (format == "tiff") {
       path = folder + "/heightmap.tif";
       write_tiff16(path, h, *options.polarity, info);
@@ -107,7 +153,16 @@ Export export_design(const Design& design, const ExportOptions& options,
       write_png(path, h);
     } else if (format == "gds") {
       path = folder + "/texture.gds";
-      write_gds(path, design.texture, grid.lx, grid.ly);
+      if (is_array(design.texture)) {
+        const GdsArray a = write_gds(path, design.texture, grid.lx, grid.ly, options.facet_error);
+        gds_json = {
+            {"columns", a.columns},         {"rows", a.rows},   {"pitch", {a.pitch_x, a.pitch_y}},
+            {"pitch_error", a.pitch_error}, {"sides", a.sides}, {"drawn", a.drawn}};
+      } else {
+        gds_json = {{"polygons", write_gds_mask(path, h, options.levels)},
+                    {"levels", options.levels},
+                    {"drawn", "deep"}};
+      }
     } else if (format == "stl") {
       path = folder + "/texture.stl";
       write_stl(path, h);
@@ -136,6 +191,10 @@ Export export_design(const Design& design, const ExportOptions& options,
       {"min_hole", margin(margins.min_hole)},
       {"min_wall", margin(margins.min_wall)},
       {"aspect_ratio", margin(margins.aspect_ratio)},
+      {"process_shrink", options.bias.shrink},
+      {"exr_repeat", options.repeat},
+      {"gds", gds_json},
+      {"dose", dose_json},
       {"files", files},
   };
   write_bytes(folder + "/export.json", json.dump(2) + "\n");

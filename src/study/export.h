@@ -10,14 +10,28 @@
 
 namespace papilla {
 
-// "exr", "tiff" (16-bit heights), "mask" (binary), "gsf", "npy", "png", "gds", "stl".
+// "exr", "tiff" (16-bit heights), "tiff32" (float), "mask" (binary), "gsf", "npy", "png" (preview),
+// "png16", "x3p", "gds", "stl", "dose".
 const std::vector<std::string>& export_formats();
+
+// What the process moves: undone in the files, so that the made texture is the design.
+struct ProcessBias {
+  double shrink = 0;       // each wall moves into the hole by this (oxide growth) [m]
+  double edge_radius = 0;  // the process rounds rims by this: left out of the design's own [m]
+};
+// Throws InputError for textures without holes, pillars or grooves, and where nothing is left.
+Texture compensated(const Texture& texture, const ProcessBias& bias);
 
 struct ExportOptions {
   std::vector<std::string> formats;  // empty: all that the texture and the polarity allow
   double size = 12e-6;               // wanted side [m], rounded to whole periods
   int pixels = 1024;                 // along x
   std::optional<Polarity> polarity;  // needed for tiff and mask
+  int repeat = 1;                    // EXR: times in x and y, streamed
+  int levels = 1;                    // GDSII of textures that are no arrays: masks
+  double facet_error = 2e-9;         // GDSII: of circles [m]
+  ProcessBias bias;
+  std::string dose_curve;  // CSV depth_nm,grey: needed for dose
 };
 
 struct ExportedFile {

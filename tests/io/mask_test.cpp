@@ -1,0 +1,128 @@
+#include "geometry/io/mask.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/random.h"
+#include "geometry/io/layout.h"
+#include "geometry/texture.h"
+#include "study/export.h"
+
+namespace papilla {
+namespace {
+
+std::string temporary(const std::string& name) {
+  return testing::TempDir() + "papilla_mask_" + name;
+}
+
+TEST(PixelMargins, AreThoseOfHolesPillarsAndGrooves) {
+  for (const auto& [period, width] : {std::pair{6e-6, 4.8e-6}, {4e-6, 1e-6}}) {
+    HoleArray holes;
+    holes.period = period, holes.diameter = width, holes.depth = 100e-9, holes.wall_angle = kPi / 2;
+    Grating grooves;
+    grooves.period = period, grooves.width = width, grooves.depth = 100e-9;
+    grooves.wall_angle = kPi / 2;
+    PillarArray pillars;
+    pillars.period = period, pillars.diameter = width, pillars.height = 100e-9;
+    pillars.wall_angle = kPi / 2;
+    for (const Texture& texture : {Texture{holes}, Texture{grooves}, Texture{pillars}}) {
+      const Heightmap h = generate(texture, patch_grid(texture, 192, 2 * period));
+      const PixelMargins found = measure_margins(h);
+      const FabricationMargins want = fabrication_margins(texture);
+      EXPECT_NEAR(found.min_hole, want.min_hole, 1.6 * found.pixel)
+          << texture_name(texture) << width;
+      EXPECT_NEAR(found.min_wall, want.min_wall, 1.6 * found.pixel)
+          << texture_name(texture) << width;
+    }
+  }
+  EXPECT_EQ(measure_margins(generate({}, patch_grid({}, 32))).min_hole, kInfinity);
+}
+
+TEST(PixelMargins, DistancesAreThoseOfEveryPair) {
+  const Grid grid{24, 17, 24e-6, 34e-6};
+  RandomStream random(5, "mask test", 0);
+  std::vector<std::uint8_t> set(grid.size());
+  for (auto& s : set) s = random.uniform() < 0.97;
+  const std::vector<double> d = distance_inside(grid, set);
+  for (int y = 0; y < grid.ny; ++y) {
+    for (int x = 0; x < grid.nx; ++x) {
+      double best = set[grid.index(x, y)] ? kInfinity : 0;
+      for (int v = -grid.ny; v < 2 * grid.ny; ++v) {
+        for (int u = -grid.nx; u < 2 * grid.nx; ++u) {
+          if (!set[grid.index(wrap(u, grid.nx), wrap(v, grid.ny))])
+            best = std::min(best, std::hypot((u - x) * grid.dx(), (v - y) * grid.dy()));
+        }
+      }
+      ASSERT_NEAR(d[grid.index(x, y)], best, 1e-12);
+    }
+  }
+}
+
+TEST(GdsMask, PolygonsCoverTheAreaBelowTheLevel) {
+  HoleArray holes;
+  holes.diameter = 4.5e-6;
+  const Texture texture{holes};
+  const Heightmap h = generate(texture, patch_grid(texture, 256));
+  double area = 0;
+  for (const Polygon& p : polygons_below(h, -0.5 * holes.depth)) {
+    double sum = 0;
+    for (std::size_t i = 0; i < p.x.size(); ++i) {
+      const std::size_t j = (i + 1) % p.x.size();
+      sum += static_cast<double>(p.x[i]) * p.y[j] - static_cast<double>(p.x[j]) * p.y[i];
+    }
+    area += 0.5e-18 * std::abs(sum);
+  }
+  EXPECT_NEAR(area / h.grid.area(), open_fraction(texture), 0.005);
+}
+
+TEST(GdsArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
+  HoleArray holes;
+  holes.period = 6.0004e-6;
+  EXPECT_THROW(write_gds(temporary("a.gds"), Texture{holes}, 1e-4, 1e-4), InputError);
+  holes.period = 6e-6;
+  const GdsArray fine = write_gds(temporary("a.gds"), Texture{holes}, 1e-4, 1e-4, 1e-9);
+  const GdsArray coarse = write_gds(temporary("b.gds"), Texture{holes}, 1e-4, 1e-4, 50e-9);
+  EXPECT_GT(fine.sides, 2 * coarse.sides);
+  for (const auto& [array, error] : {std::pair{fine, 1e-9}, {coarse, 50e-9}})
+    EXPECT_LE(0.5 * holes.diameter * (1 - std::cos(kPi / array.sides)), error);
+  EXPECT_EQ(fine.pitch_error, 0);
+  holes.lattice = Lattice::Hexagonal;
+  const GdsArray hexagons = write_gds(temporary("c.gds"), Texture{holes}, 1e-4, 1e-4);
+  EXPECT_GT(hexagons.pitch_error, 0);
+  EXPECT_LE(hexagons.pitch_error, 0.5e-9);
+}
+
+TEST(Dose, IsTheInverseOfTheCurveAndCountsWhatItClips) {
+  const std::string path = temporary("curve.csv");
+  std::ofstream(path) << "depth_nm,grey\n0,10\n100,60\n300,255\n";
+  const DoseCurve curve = read_dose_curve(path);
+  Heightmap h{{4, 1, 4e-6, 1e-6}, {0, -50e-9, -200e-9, -400e-9}};
+  const DoseMap dose = write_dose(temporary("dose.png"), h, curve);
+  EXPECT_EQ(dose.lowest, 10);
+  EXPECT_EQ(dose.highest, 255);
+  EXPECT_EQ(dose.deep, 1u);
+  EXPECT_EQ(dose.shallow, 0u);
+  std::ofstream(path) << "depth_nm,grey\n0,10\n100,60\n80,255\n";
+  EXPECT_THROW(read_dose_curve(path), InputError);
+  std::ofstream(path) << "0,10\n100,word\n";
+  EXPECT_THROW(read_dose_curve(path), InputError);
+}
+
+TEST(ProcessBias, IsUndoneInTheFile) {
+  HoleArray holes;
+  holes.edge_radius = 100e-9;
+  const Texture out = compensated(Texture{holes}, {50e-9, 80e-9});
+  EXPECT_NEAR(std::get<HoleArray>(out.kind).diameter, holes.diameter + 100e-9, 1e-15);
+  EXPECT_NEAR(std::get<HoleArray>(out.kind).edge_radius, 20e-9, 1e-15);
+  EXPECT_THROW(compensated(Texture{PillarArray{}}, {2e-6, 0}), InputError);
+  EXPECT_THROW(compensated(Texture{HoleArray{}}, {2e-6, 0}), InputError);  // holes would meet
+  EXPECT_THROW(compensated(Texture{RandomRough{}}, {1e-9, 0}), InputError);
+}
+
+}  // namespace
+}  // namespace papilla
