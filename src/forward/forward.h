@@ -38,7 +38,7 @@ struct PatchSet {
 PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
 // The grid and method parts of the error, from fidelity.control_skins of the patches run again: on
-// half and a quarter of the pixels (Eq. accuracy.2), and with contact areas solved in place of the load law (Eq.
+// half the pixels (Eq. accuracy.2), and with contact areas solved in place of the load law (Eq.
 // accuracy.3). Nothing with fewer than two control skins.
 std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& texture,
                                           const Fidelity& fidelity, const PatchSet& patches);

@@ -48,7 +48,7 @@ struct CoverageRow {
 struct CoverageOptions {
   int scenes = 50;
   int grid = 64, skins = 12;               // of the error bars that are tried
-  int finer_grid = 256, finer_skins = 24;  // of the reference
+  int finer_grid = 128, finer_skins = 24;  // of the reference
   int threads = 0;
   std::function<void(const std::string&)> note;
 };

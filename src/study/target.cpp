@@ -58,7 +58,7 @@ class TargetRun {
         status = limit();
         break;
       }
-      response = extended(std::clamp(choice.skins - patches_.skins(), 1, kBatch));
+      response = extended(std::clamp(choice.skins - patches_.skins(), kBatch / 4, kBatch));
     }
     response.accuracy = {options_.target, parts_.total(), quantity_, status, steps_};
     response.seconds = seconds_;

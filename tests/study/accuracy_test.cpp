@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <iostream>
+#include <sstream>
 
 #include "base/constants.h"
+#include "base/files.h"
 #include "metrics/metrics.h"
 #include "study/target.h"
 
@@ -85,6 +88,39 @@ TEST(Errors, OfTheMeanOverHumidityCountItsNodes) {
   EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.humidity, 0.04 / 4 / 3, 1e-12);
   r.points.resize(2);
   EXPECT_FALSE(summarise(Summary::Mean, "modulation", r)->parts.humidity);
+}
+
+TEST(AccuracyPage, IsThatOfTheCommittedTables) {
+  const std::string root = PAPILLA_SOURCE_DIR;
+  EXPECT_EQ(accuracy_page(root + "/results/accuracy"), read_bytes(root + "/docs/accuracy.md"));
+}
+
+// Honest and not huge, as the committed table of 50 scenes has it.
+TEST(AccuracyPage, TheErrorBarsCoverHeldOutScenes) {
+  std::istringstream in(
+      read_bytes(std::string(PAPILLA_SOURCE_DIR) + "/results/accuracy/coverage.csv"));
+  std::vector<CoverageRow> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#' || line.rfind("scene,", 0) == 0) continue;
+    std::istringstream cells(line);
+    std::vector<std::string> c;
+    for (std::string cell; std::getline(cells, cell, ',');) c.push_back(cell);
+    rows.push_back({std::stoi(c[0]),
+                    c[1],
+                    c[2],
+                    std::stod(c[3]),
+                    std::stod(c[4]),
+                    std::stod(c[5]),
+                    std::stod(c[6]),
+                    {}});
+  }
+  for (const CoverageSummary& s : coverage_summary(rows)) {
+    std::cout << s.fidelity << ": " << 100 * s.inside << " % of " << s.scenes
+              << " scenes inside, half-width over the 95 % quantile of the error "
+              << s.median_half_width / s.error_quantile << "\n";
+    EXPECT_EQ(s.scenes, 50);
+    EXPECT_GE(s.inside, 0.9);
+  }
 }
 
 }  // namespace
