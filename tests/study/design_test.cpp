@@ -137,9 +137,10 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
             ":3:11: environment.weights: expected 4 weights, one a humidity, got 2");
   EXPECT_EQ(problems_of(head + "[finger]\nload = \"0 N\"\n"),
             ":3:8: finger.load: expected a force above 0 N");
-  EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\n"),
-            ":3:11: drive.control: a texture is judged at a voltage; what a current source makes of it: "
-            "`papilla solve drive` with gap.design");
+  EXPECT_EQ(
+      problems_of(head + "[drive]\ncontrol = \"current\"\n"),
+      ":3:11: drive.control: a texture is judged at a voltage; what a current source makes of it: "
+      "`papilla solve drive` with gap.design");
   EXPECT_EQ(
       problems_of(head + "[design_space]\n\"surface.contact_agle\" = [\"1 deg\", \"2 deg\"]\n"),
       ":3:1: design_space: `surface.contact_agle` is no number of this design, did you mean "
