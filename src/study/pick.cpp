@@ -72,7 +72,10 @@ std::string picked_design_file(const std::string& results, const std::string& ru
   const fs::path root(results);
   if (rule.empty()) {
     const fs::path best = root / "best/design.toml";
-    if (!fs::exists(best)) throw InputError(results + " has no best/design.toml");
+    if (!fs::exists(best)) {
+      throw InputError(results +
+                       " has no best/design.toml: not the folder of a finished `papilla optimize`");
+    }
     return best.string();
   }
   std::vector<PickCandidate> front;
@@ -96,7 +99,8 @@ std::string picked_design_file(const std::string& results, const std::string& ru
   } catch (const nlohmann::json::exception& e) {
     throw InputError(fmt::format("{}: metrics.json is damaged: {}", results, e.what()));
   }
-  if (front.empty()) throw InputError(results + " has no front/");
+  if (front.empty())
+    throw InputError(results + " has no front/: not the folder of a finished `papilla optimize`");
   return files[pick_design(rule, front)];
 }
 
