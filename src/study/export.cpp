@@ -26,11 +26,12 @@ bool is_array(const Texture& texture) {
 bool needs_polarity(const std::string& format) { return format == "tiff" || format == "mask"; }
 
 std::vector<std::string> chosen_formats(const Design& design, const ExportOptions& options) {
+  const bool flat = texture_depth(design.texture) <= 0;
   if (options.formats.empty()) {
     std::vector<std::string> out;
     for (const std::string& format : export_formats()) {
       if (needs_polarity(format) && !options.polarity) continue;
-      if (format == "gds" && !is_array(design.texture)) continue;
+      if (format == "gds" && (flat || !is_array(design.texture))) continue;
       if (format == "stl" || format == "x3p" || format == "png16" || format == "tiff32")
         continue;  // on request
       if (format == "dose" && options.dose_curve.empty()) continue;
@@ -43,6 +44,8 @@ std::vector<std::string> chosen_formats(const Design& design, const ExportOption
     if (std::find(known.begin(), known.end(), format) == known.end()) {
       throw InputError(fmt::format("unknown format \"{}\"; known: {}", format, join_names(known)));
     }
+    if (format == "gds" && flat)
+      throw InputError("format \"gds\": the surface is flat, there are no outlines to write");
     if (format == "dose" && options.dose_curve.empty())
       throw InputError("format \"dose\" needs --dose-curve, a CSV of depth_nm,grey");
     if (needs_polarity(format) && !options.polarity) {

@@ -149,11 +149,15 @@ TEST(Export, WritesTheFilesThatItNames) {
   }
 }
 
-TEST(Export, MasksNeedAPolarity) {
+TEST(Export, MasksNeedAPolarityAndLayoutsARelief) {
   const Workplace place;
   const Outcome mask = place.run("export " + kSample + " --format mask --out out");
   EXPECT_EQ(mask.status, 2);
   EXPECT_NE(mask.err.find("needs a polarity"), std::string::npos) << mask.err;
+  const Outcome gds = place.run("export " PAPILLA_SOURCE_DIR
+                                "/designs/m3_samples/flat.toml --format gds --out out");
+  EXPECT_EQ(gds.status, 2);
+  EXPECT_NE(gds.err.find("the surface is flat"), std::string::npos) << gds.err;
   EXPECT_EQ(place.entries(), 0);
 }
 
