@@ -79,7 +79,7 @@ def images(folder):
 
 
 def magick(folder):
-    for name in ("heightmap.tif", "heightmap.exr", "heightmap.png"):
+    for name in ("heightmap.tif", "heightmap.png"):  # Debian's reads no EXR
         print(name, output("identify", "-format", "%wx%h %m", f"{folder}/{name}"))
 
 
