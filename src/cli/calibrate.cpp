@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "study/design.h"
+#include "study/report.h"
 
 namespace papilla {
 namespace {
@@ -41,6 +42,7 @@ int run(const Context& context, const CalibrateCommand& command) {
                    std::filesystem::path(command.file).filename().string() + "; see fit.md.");
   write_bytes(out + "/fit.md", markdown);
   write_bytes(out + "/fit.json", json);
+  write_bytes(out + "/report.html", report_page(out));
   context.note("wrote " + out);
   std::cout << (command.json ? json : markdown);
   return result.fit.converged ? kSuccess : kWorkFailed;
@@ -53,7 +55,7 @@ void add_calibrate(CLI::App& app, Context& context) {
       "calibrate", "Fit the finger to measured friction or published numbers, with uncertainties");
   auto options = std::make_shared<CalibrateCommand>();
   command->add_option("file", options->file, "CALIBRATION.toml")->required();
-  command->add_option("--out", options->out, "Folder of finger.toml, fit.md, fit.json")
+  command->add_option("--out", options->out, "Folder of finger.toml, fit.md, fit.json, report.html")
       ->type_name("DIR");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
       ->check(CLI::Range(0, 4096));

@@ -11,6 +11,7 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "study/report.h"
 
 namespace papilla {
 namespace {
@@ -71,7 +72,7 @@ int run(const Context& context, const RankCommand& command) {
   const Ranking ranking = rank(candidates, options);
   if (!command.out.empty()) {
     std::error_code error;
-    std::filesystem::create_directories(command.out, error);
+    std::filesystem::create_directories(command.out + "/designs", error);
     if (error) {
       throw InputError(
           {Problem{command.out, 0, 0, "", "no such folder can be made: " + error.message()}});
@@ -85,6 +86,11 @@ int run(const Context& context, const RankCommand& command) {
                     radar_svg(names, options, state));
       }
     }
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      for (std::size_t k = 0; k < candidates[i].size(); ++k)
+        write_design(command.out + "/" + ranked_design_file(i, k), candidates[i][k]);
+    }
+    write_bytes(command.out + "/report.html", report_page(command.out));
     context.note("wrote " + command.out);
   }
   std::cout << (command.json ? ranking_json(names, options, ranking) + "\n"
@@ -112,7 +118,7 @@ void add_rank(CLI::App& app, Context& context) {
       ->type_name("STATE,...");
   command->add_option("--max-skins", options->max_skins, "Most skins a candidate and state")
       ->check(CLI::Range(12, 100000));
-  command->add_option("--out", options->out, "Also write table, JSON and radar pictures")
+  command->add_option("--out", options->out, "Also write table, JSON, designs and report.html")
       ->type_name("DIR");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
       ->check(CLI::Range(0, 4096));

@@ -2,13 +2,11 @@
 #include "study/report.h"
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
 #include "base/files.h"
 #include "cli/commands.h"
-#include "study/pick.h"
 
 namespace papilla {
 namespace {
@@ -19,9 +17,7 @@ struct ReportOptions {
 
 int report(const ReportOptions& options) {
   const std::string path = options.out.empty() ? options.folder + "/report.html" : options.out;
-  const std::filesystem::path picked = picked_design_file(options.folder, options.pick);
-  write_bytes(path, report_page(options.folder,
-                                picked.parent_path().lexically_relative(options.folder).string()));
+  write_bytes(path, report_page(options.folder, options.pick));
   std::cout << path << '\n';
   return kSuccess;
 }
@@ -32,7 +28,9 @@ void add_report(CLI::App& app, Context& context) {
   CLI::App* command =
       app.add_subcommand("report", "One HTML page of a finished run: charts, pictures, files");
   auto options = std::make_shared<ReportOptions>();
-  command->add_option("folder", options->folder, "Folder that `papilla optimize` wrote")
+  command
+      ->add_option("folder", options->folder,
+                   "Folder that `papilla optimize`, `rank --out` or `calibrate` wrote")
       ->required()
       ->type_name("RESULT_DIR");
   command->add_option("--out", options->out, "Default: RESULT_DIR/report.html")->type_name("FILE");

@@ -781,8 +781,21 @@ std::string calibration_json(const Calibration& c, const CalibrationResult& r) {
        claims = Json::array();
   for (std::size_t i = 0; i < c.parameters.size(); ++i) {
     const ParameterFit& f = r.fit.parameters[i];
+    const FitParameter& given = c.parameters[i].fit;
+    const auto unit = find_unit(c.parameters[i].unit);
+    Json prior;
+    if (given.prior_sd > 0) {
+      prior = {{"value", given.prior}};
+      prior[given.logarithmic ? "factor" : "sd"] =
+          given.logarithmic ? std::exp(given.prior_sd) : given.prior_sd;
+    }
     parameters.push_back({{"path", c.parameters[i].path},
-                          {"start", c.parameters[i].fit.start},
+                          {"unit", c.parameters[i].unit},
+                          {"per_unit", unit ? unit->to_si : 1},
+                          {"lowest", given.low},
+                          {"highest", given.high},
+                          {"prior", prior},
+                          {"start", given.start},
                           {"value", f.value},
                           {"se", f.se},
                           {"low", f.low},
@@ -809,9 +822,12 @@ std::string calibration_json(const Calibration& c, const CalibrationResult& r) {
   for (std::size_t i = 0; i < r.claims_after.size(); ++i) {
     const ClaimResult& b = r.claims_after[i];
     claims.push_back({{"id", b.claim->id},
+                      {"statement", b.claim->statement},
                       {"fitted", is_fitted(c, b.claim->id)},
                       {"held_before", holds(r.claims_before[i])},
                       {"holds", holds(b)},
+                      {"before", r.claims_before[i].papilla.model},
+                      {"after", b.papilla.model},
                       {"model", number(b.papilla.value)},
                       {"se", number(b.papilla.se)}});
   }
@@ -827,6 +843,7 @@ std::string calibration_json(const Calibration& c, const CalibrationResult& r) {
               {"parameters", parameters},
               {"correlation", r.fit.correlation},
               {"directions", directions},
+              {"check_skins", c.check.skins},
               {"residuals", rows},
               {"claims", claims},
               {"gap_by_capacitance", {{"before", r.gap_before}, {"after", r.gap_after}}},

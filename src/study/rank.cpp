@@ -393,6 +393,7 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
       for (std::size_t c = 0; c < r.metrics.size(); ++c)
         metrics[metric_text(options.criteria[c].expression)] = interval_json(r.metrics[c]);
       list.push_back({{"name", names[r.index]},
+                      {"index", r.index},
                       {"rank", r.rank},
                       {"tied_with_next", r.tied_with_next},
                       {"score", interval_json(r.score)},
@@ -408,12 +409,28 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
                       {"skins", state.skins},
                       {"equal_skins", state.equal_skins}});
   }
-  Json criteria = Json::array();
-  for (const Criterion& c : options.criteria) criteria.push_back(c.text());
-  return Json{
-      {"schema", 1},      {"by", criteria},         {"candidates", states.front()["candidates"]},
-      {"states", states}, {"skins", ranking.skins}, {"seconds", ranking.seconds}}
+  Json by = Json::array(), criteria = Json::array();
+  for (const Criterion& c : options.criteria) {
+    const bool relative =
+        c.expression.summary == Summary::Variation || c.expression.summary == Summary::Range;
+    by.push_back(c.text());
+    criteria.push_back({{"metric", metric_text(c.expression)},
+                        {"better", c.high ? "high" : "low"},
+                        {"unit", relative ? "" : info_of(c).unit}});
+  }
+  return Json{{"schema", 1},
+              {"by", by},
+              {"criteria", criteria},
+              {"candidates", states.front()["candidates"]},
+              {"states", states},
+              {"skins", ranking.skins},
+              {"seconds", ranking.seconds}}
       .dump(2);
+}
+
+std::string ranked_design_file(std::size_t candidate, std::size_t region) {
+  return region == 0 ? fmt::format("designs/{:02d}.toml", candidate + 1)
+                     : fmt::format("designs/{:02d}_{}.toml", candidate + 1, region + 1);
 }
 
 std::string radar_svg(const std::vector<std::string>& names, const RankOptions& options,

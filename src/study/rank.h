@@ -71,6 +71,8 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
                           const Ranking& ranking);
 std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
                          const Ranking& ranking);
+// Where `papilla rank --out` leaves a design of a candidate, from 0, in its folder.
+std::string ranked_design_file(std::size_t candidate, std::size_t region);
 // One polygon a candidate over the criteria, for a finger state; larger is better on every axis.
 std::string radar_svg(const std::vector<std::string>& names, const RankOptions& options,
                       const StateRanking& state);

@@ -16,11 +16,15 @@
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "study/design.h"
+#include "study/pick.h"
+#include "study/rank.h"
 
 namespace papilla {
 
 // The files of src/study/report and the two libraries, embedded at build time.
-extern const std::string_view kReportHtml, kReportStyle, kReportScript, kChartScript, kThreeScript;
+extern const std::string_view kPageHtml, kPageStyle, kPageScript, kChartScript, kThreeScript;
+extern const std::string_view kOptimizeHtml, kOptimizeScript, kRankHtml, kRankScript;
+extern const std::string_view kCalibrateHtml, kCalibrateScript;
 
 namespace {
 
@@ -172,19 +176,53 @@ std::string script_text(std::string text) {
   return text;
 }
 
-}  // namespace
+// One kind of page: what it holds beside the common frame.
+struct PageKind {
+  std::string_view body, script, solid;
+};
 
-std::string report_page(const std::string& folder, const std::string& design) {
-  const fs::path root(folder);
+// `data` gets the version and the list of the folder's files, as every page has them.
+std::string page_text(const fs::path& folder, std::string title, const PageKind& kind, Json data) {
+  if (title.empty()) title = fs::absolute(folder).lexically_normal().filename().string();
+  data["schema"] = 1;
+  data["version"] = PAPILLA_VERSION;
+  data["files"] = file_list(folder);
+  std::string page(kPageHtml);
+  const auto put = [&page](const std::string& mark, std::string_view text) {
+    const std::size_t at = page.find(mark);
+    page.replace(at, mark.size(), text);
+  };
+  // Last marks first: what is put in is never searched. The body has the mark of the heading.
+  put("{{script}}", kind.script);
+  put("{{common}}", kPageScript);
+  put("{{data}}", script_text(data.dump()));
+  put("{{three}}", kind.solid);
+  put("{{chart}}", kChartScript);
+  put("{{body}}", kind.body);
+  put("{{heading}}", html_text(title));
+  put("{{style}}", kPageStyle);
+  put("{{title}}", html_text(title));
+  return page;
+}
+
+Json parsed(const fs::path& file) {
+  try {
+    return Json::parse(read_bytes(file));
+  } catch (const Json::exception& e) {
+    throw InputError(fmt::format("{} is damaged: {}", file.string(), e.what()));
+  }
+}
+
+// A finished `papilla optimize`; `design` is the folder of the one the page is about.
+std::string optimize_page(const fs::path& root, const fs::path& design) {
   for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md",
                            "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
     if (!fs::exists(root / name)) {
       throw InputError(fmt::format("{} has no {}: not the folder of a finished `papilla optimize`",
-                                   folder, name));
+                                   root.string(), name));
     }
   }
-  Json data{{"schema", 1}, {"version", PAPILLA_VERSION}};
-  Json designs = Json::object();
+  Json data = Json::object(), designs = Json::object();
   std::vector<std::string> front;
   if (fs::exists(root / "front")) {
     for (const auto& entry : fs::directory_iterator(root / "front"))
@@ -193,38 +231,63 @@ std::string report_page(const std::string& folder, const std::string& design) {
   std::sort(front.begin(), front.end());
   std::string title;
   try {
-    const Json best = Json::parse(read_bytes(root / design / "metrics.json"));
-    title = best.at("title").get<std::string>();
-    designs["best"] = design_json(root / design, true);
+    title = parsed(design / "metrics.json").at("title").get<std::string>();
+    designs["best"] = design_json(design, true);
     for (const std::string& name : front) designs[name] = design_json(root / name, false);
   } catch (const Json::exception& e) {
-    throw InputError(fmt::format("{}: metrics.json is damaged: {}", folder, e.what()));
+    throw InputError(fmt::format("{}: metrics.json is damaged: {}", root.string(), e.what()));
   }
-  if (title.empty()) title = fs::absolute(root).lexically_normal().filename().string();
-  const Study best = read_study((root / design / "design.toml").string());
-  data["title"] = title;
   data["designs"] = std::move(designs);
-  data["fields"] = field_json(best.design);
+  data["fields"] = field_json(read_study((design / "design.toml").string()).design);
   data["pareto"] = read_bytes(root / "pareto.csv");
   data["history"] = read_bytes(root / "history.csv");
   data["plan"] = read_bytes(root / "plan.txt");
   data["summary"] = read_bytes(root / "summary.md");
-  data["files"] = file_list(root);
+  return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data));
+}
 
-  std::string page(kReportHtml);
-  const auto put = [&page](const std::string& mark, std::string_view text) {
-    const std::size_t at = page.find(mark);
-    page.replace(at, mark.size(), text);
-  };
-  // Last marks first: what is put in is never searched.
-  put("{{script}}", kReportScript);
-  put("{{data}}", script_text(data.dump()));
-  put("{{three}}", kThreeScript);
-  put("{{chart}}", kChartScript);
-  put("{{heading}}", html_text(title));
-  put("{{style}}", kReportStyle);
-  put("{{title}}", html_text(title));
-  return page;
+std::string rank_page(const fs::path& root) {
+  Json ranking = parsed(root / "ranking.json"), candidates = Json::array();
+  std::vector<std::string> names;
+  try {
+    names.resize(ranking.at("candidates").size());
+    for (const Json& c : ranking["candidates"])
+      names.at(c.at("index").get<std::size_t>()) = c.at("name").get<std::string>();
+  } catch (const std::exception& e) {
+    throw InputError(fmt::format("{}: ranking.json is damaged: {}", root.string(), e.what()));
+  }
+  ranking.erase("seconds");
+  ranking.erase("candidates");  // the first of the states again
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const fs::path file = root / ranked_design_file(i, 0);
+    const Texture texture = read_design(file.string()).texture;
+    const Heightmap h = generate(texture, patch_grid(texture, kPicturePixels));
+    candidates.push_back(
+        {{"name", names[i]}, {"toml", read_bytes(file)}, {"heights", picture(h.grid, h.z)}});
+  }
+  return page_text(root, "", {kRankHtml, kRankScript, ""},
+                   {{"ranking", std::move(ranking)}, {"candidates", std::move(candidates)}});
+}
+
+std::string calibrate_page(const fs::path& root) {
+  Json fit = parsed(root / "fit.json");
+  if (!fit.contains("check_skins") || !fit.contains("parameters")) {
+    throw InputError(root.string() +
+                     ": fit.json is of another version; run `papilla calibrate` again");
+  }
+  std::string title = fit.value("title", "");
+  return page_text(root, title, {kCalibrateHtml, kCalibrateScript, ""}, {{"fit", std::move(fit)}});
+}
+
+}  // namespace
+
+std::string report_page(const std::string& folder, const std::string& pick) {
+  const fs::path root(folder);
+  const bool ranked = fs::exists(root / "ranking.json"), fitted = fs::exists(root / "fit.json");
+  if (!ranked && !fitted)
+    return optimize_page(root, fs::path(picked_design_file(folder, pick)).parent_path());
+  if (!pick.empty()) throw InputError("--pick is for a folder of `papilla optimize`");
+  return ranked ? rank_page(root) : calibrate_page(root);
 }
 
 }  // namespace papilla

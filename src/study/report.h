@@ -5,10 +5,10 @@
 
 namespace papilla {
 
-// Reads a folder that `papilla optimize` wrote; nothing in the page depends on the clock. The field
-// pictures solve one patch of the best design at each humidity (a second or less each). Throws
-// InputError where the folder is no finished run.
-// `design`: the folder of the design that the page is about, best/ or one of front/.
-std::string report_page(const std::string& folder, const std::string& design = "best");
+// Reads a folder that `papilla optimize`, `papilla rank --out` or `papilla calibrate` wrote;
+// nothing in the page depends on the clock. For `optimize` the field pictures solve one patch of
+// the design at each humidity (a second or less each), and `pick` says which of the front the page
+// is about (empty: best/). Throws InputError where the folder is no finished run.
+std::string report_page(const std::string& folder, const std::string& pick = "");
 
 }  // namespace papilla

@@ -14,7 +14,12 @@ import tempfile
 import time
 import urllib.request
 
-CHARTS = ["section", "humidity", "pareto", "budget", "progress"]
+# The charts that a page must have, by what it calls itself.
+CHARTS = {
+    "Papilla report": ["section", "humidity", "pareto", "budget", "progress"],
+    "Papilla report: ranking": ["score", "best", "criterion0", "criterion1", "together", "ahead"],
+    "Papilla report: fit of a finger": ["widths", "directions", "misses", "held"],
+}
 
 
 class Browser:
@@ -94,14 +99,8 @@ const seen = new Set(); for (let i = 0; i < d.length; i += 4) seen.add(d[i] << 1
 """
 
 
-def inspect(browser, page):
-    browser.metrics(1100, 900)
-    browser.call("POST", "/url", {"url": "file://" + os.path.abspath(page)})
-    check(browser.run("return document.documentElement.dataset.charts") == str(len(CHARTS)), "the page script ended early")
-    browser.picture("wide.png")
-    for name in CHARTS + ["top"]:
-        colours = browser.run(COLOURS.replace("arguments_id", f"'{name}'"))
-        check(colours > 4, f"chart {name} is empty")
+def inspect_optimize(browser):
+    check(browser.run(COLOURS.replace("arguments_id", "'top'")) > 4, "the picture from above is empty")
     if browser.run("return papilla.solid.ready"):
         distinct = browser.run("""
             const s = papilla.solid; s.renderer.render(s.scene, s.camera);
@@ -110,7 +109,6 @@ def inspect(browser, page):
             return new Set(c.getContext('2d').getImageData(0, 0, 64, 64).data).size""")
         check(distinct > 4, "the solid is empty")
     check(browser.run("return document.querySelectorAll('#maps canvas').length") >= 4, "no pictures of the contact")
-    check(browser.run("return document.querySelectorAll('#filelist tr').length") > 5, "no list of files")
 
     # Point at the last design of the front, then select it.
     spot = browser.run("""
@@ -119,19 +117,67 @@ def inspect(browser, page):
         c.canvas.scrollIntoView({block: 'center', behavior: 'instant'});
         const box = c.canvas.getBoundingClientRect();
         return [box.left + p.x, box.top + p.y, c.data.datasets[set].data[meta.length - 1].row.design]""")
-    browser.pointer(spot[0], spot[1], False)
-    tip = "const t = papilla.charts.pareto.tooltip; return t.opacity ? t.body.map(b => b.lines.join()).join() : ''"
-    check(eventually(lambda: spot[2] in browser.run(tip)), f"pointing at {spot[2]} says '{browser.run(tip)}'")
+    point_at(browser, "pareto", spot)
     browser.pointer(spot[0], spot[1], True)
     chosen = "return document.documentElement.dataset.design"
     check(eventually(lambda: browser.run(chosen) == spot[2]), "selecting a design does nothing")
     check(browser.run("return document.getElementById('design').value") == spot[2], "the choice does not follow")
 
+
+def bar(browser, chart):
+    """A place inside the longest bar, and what pointing there has to say."""
+    return browser.run(f"""
+        const c = papilla.charts['{chart}'], bars = c.getDatasetMeta(0).data;
+        const i = bars.reduce((m, b, k) => Math.abs(b.x - b.base) > Math.abs(bars[m].x - bars[m].base) ? k : m, 0);
+        c.canvas.scrollIntoView({{block: 'center', behavior: 'instant'}});
+        const box = c.canvas.getBoundingClientRect();
+        return [box.left + (bars[i].x + bars[i].base) / 2, box.top + bars[i].y, c.data.datasets[0].text[i]]""")
+
+
+def point_at(browser, chart, spot):
+    browser.pointer(spot[0], spot[1], False)
+    tip = f"const t = papilla.charts['{chart}'].tooltip; return t.opacity ? t.body.map(b => b.lines.join()).join() : ''"
+    check(eventually(lambda: spot[2] in browser.run(tip)), f"pointing at {spot[2]} says '{browser.run(tip)}'")
+
+
+def inspect_rank(browser):
+    point_at(browser, "score", bar(browser, "score"))
+    before = browser.run("return document.getElementById('lead').textContent")
+    browser.run("const s = document.getElementById('finger'); s.value = '1'; s.dispatchEvent(new Event('change'))")
+    after = browser.run("return document.getElementById('lead').textContent")
+    check("clean finger" in before and "natural finger" in after, f"the choice of a finger does nothing: {after}")
+    check(browser.run("return document.querySelectorAll('#pictures canvas').length") >= 2, "no pictures of the candidates")
+    check(browser.run("return document.querySelectorAll('#places tbody tr').length") >= 2, "no table of places")
+    check(browser.run("return document.querySelectorAll('#differences tbody tr').length") >= 1, "no table of differences")
+
+
+def inspect_calibrate(browser):
+    point_at(browser, "directions", bar(browser, "directions"))
+    cells = browser.run("""return [...document.querySelectorAll('#matrix tbody td.number')].map(c => c.style.backgroundColor)""")
+    check(len(cells) >= 4 and len(set(cells)) > 1, "the correlations have no colours")
+    for name in ["values", "directiontable", "residualtable", "claimtable"]:
+        check(browser.run(f"return document.querySelectorAll('#{name} tbody tr').length") >= 2, f"table {name} is empty")
+
+
+def inspect(browser, page):
+    browser.metrics(1100, 900)
+    browser.call("POST", "/url", {"url": "file://" + os.path.abspath(page)})
+    kind = browser.run("return document.querySelector('.kicker').textContent")
+    check(browser.run("return document.documentElement.dataset.charts"), "the page script ended early")
+    browser.picture("wide.png")
+    charts = browser.run("return Object.keys(papilla.charts)")
+    check(set(CHARTS[kind]) <= set(charts), f"charts {charts}")
+    for name in charts:
+        colours = browser.run(COLOURS.replace("arguments_id", f"'{name}'"))
+        check(colours > 4, f"chart {name} is empty")
+    check(browser.run("return document.querySelectorAll('#filelist tr').length") > 3, "no list of files")
+    {"Papilla report": inspect_optimize, "Papilla report: ranking": inspect_rank,
+     "Papilla report: fit of a finger": inspect_calibrate}[kind](browser)
+
     browser.metrics(400, 800)
-    wide = browser.run("return document.documentElement.scrollWidth")
-    over = browser.run("""return [...document.querySelectorAll('main *, header *')].filter(
-        e => e.getBoundingClientRect().right > 400 && !e.closest('.scroll, pre')).map(e => e.tagName + '#' + e.id).join()""")
-    check(wide <= 400, f"{wide} px wide at 400 px: {over}")
+    wide = "return document.documentElement.scrollWidth"
+    # Charts take the new width a frame later.
+    check(eventually(lambda: browser.run(wide) <= 400), f"{browser.run(wide)} px wide at 400 px")
     browser.picture("narrow.png")
     paper = base64.b64decode(browser.call("POST", "/print", {}))
     check(paper.startswith(b"%PDF") and len(paper) > 20000, "does not print")

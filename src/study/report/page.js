@@ -1,480 +1,216 @@
-'use strict';
-(function () {
-  const data = JSON.parse(document.getElementById('data').textContent);
-  const $ = (id) => document.getElementById(id);
-  const colours = ['#1f6f9f', '#c2571a', '#3a7d44', '#7a4fa3', '#b8901f', '#8a8f98'];
-  const flatColour = '#8a8f98';
-  const charts = {};
+// What every page has: numbers, tables, maps, charts, the list of files.
+const data = JSON.parse(document.getElementById('data').textContent);
+const $ = (id) => document.getElementById(id);
+const colours = ['#1f6f9f', '#c2571a', '#3a7d44', '#7a4fa3', '#b8901f', '#8a8f98'];
+const flatColour = '#8a8f98';
+const charts = {};
 
-  // ---- numbers and tables ----
-  const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits));
-  const withError = (q) => q ? q.value.toFixed(3) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') : '–';
-  function csv(text) {
-    const rows = text.trim().split('\n').map((line) => line.split(','));
-    const head = rows.shift();
-    return rows.map((row) => Object.fromEntries(head.map((name, i) => [name, row[i]])));
+// ---- numbers and tables ----
+const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits));
+const withError = (q) => q ? q.value.toFixed(3) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') : '–';
+function csv(text) {
+  const rows = text.trim().split('\n').map((line) => line.split(','));
+  const head = rows.shift();
+  return rows.map((row) => Object.fromEntries(head.map((name, i) => [name, row[i]])));
+}
+function cell(row, tag, text, number) {
+  const c = document.createElement(tag);
+  c.textContent = text;
+  if (number) c.className = 'number';
+  row.appendChild(c);
+}
+function table(element, head, rows, numeric = []) {
+  element.textContent = '';
+  if (head) {
+    const row = element.createTHead().insertRow();
+    head.forEach((text, i) => cell(row, 'th', text, numeric.includes(i)));
   }
-  function cell(row, tag, text, number) {
-    const c = document.createElement(tag);
-    c.textContent = text;
-    if (number) c.className = 'number';
-    row.appendChild(c);
-  }
-  function table(element, head, rows, numeric = []) {
-    element.textContent = '';
-    if (head) {
-      const row = element.createTHead().insertRow();
-      head.forEach((text, i) => cell(row, 'th', text, numeric.includes(i)));
-    }
-    const body = element.createTBody();
-    rows.forEach((values) => {
-      const row = body.insertRow();
-      values.forEach((text, i) => cell(row, 'td', text, numeric.includes(i)));
-    });
-    return body;
-  }
-  function options(select, names, change) {
-    names.forEach(([value, text]) => select.add(new Option(text, value)));
-    select.addEventListener('change', () => change(select.value));
-  }
-
-  // ---- pictures of maps: colours, scale bar, range ----
-  // Five anchors of a perceptually even scale, dark to bright.
-  const anchors = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
-  function colour(t) {
-    const x = Math.min(Math.max(t, 0), 1) * 4, i = Math.min(Math.floor(x), 3), f = x - i;
-    return anchors[i].map((a, k) => Math.round(a + f * (anchors[i + 1][k] - a)));
-  }
-  function decode(map) {
-    if (!map.values) {
-      const bytes = atob(map.bytes), span = (map.high - map.low) / 255;
-      map.values = new Float64Array(map.nx * map.ny);
-      for (let i = 0; i < map.values.length; ++i) map.values[i] = map.low + bytes.charCodeAt(i) * span;
-    }
-    return map.values;
-  }
-  function roundLength(limit) {
-    const power = Math.pow(10, Math.floor(Math.log10(limit)));
-    return power * (limit >= 5 * power ? 5 : limit >= 2 * power ? 2 : 1);
-  }
-  const micrometres = (m) => m >= 1e-6 ? round(m * 1e6) + ' µm' : round(m * 1e9) + ' nm';
-  function drawMap(canvas, map, unit, scale, line) {
-    const values = decode(map), side = 480, height = Math.round(side * map.ly / map.lx);
-    canvas.width = side;
-    canvas.height = height + 46;
-    const pixels = document.createElement('canvas');
-    pixels.width = map.nx;
-    pixels.height = map.ny;
-    const image = new ImageData(map.nx, map.ny), span = map.high - map.low;
-    for (let i = 0; i < values.length; ++i) {
-      const rgb = colour(span > 0 ? (values[i] - map.low) / span : 0.5);
-      image.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * i);
-    }
-    pixels.getContext('2d').putImageData(image, 0, 0);
-    const c = canvas.getContext('2d');
-    c.fillStyle = '#fff';
-    c.fillRect(0, 0, canvas.width, canvas.height);
-    c.imageSmoothingEnabled = false;
-    c.drawImage(pixels, 0, 0, side, height);
-    if (line !== undefined) {
-      c.strokeStyle = '#fff';
-      c.setLineDash([8, 6]);
-      c.beginPath();
-      c.moveTo(0, (line + 0.5) / map.ny * height);
-      c.lineTo(side, (line + 0.5) / map.ny * height);
-      c.stroke();
-      c.setLineDash([]);
-    }
-    const bar = roundLength(map.lx / 3), width = bar / map.lx * side;
-    c.fillStyle = '#1d2129';
-    c.fillRect(2, height + 12, width, 5);
-    c.font = '17px sans-serif';
-    c.textBaseline = 'alphabetic';
-    c.fillText(micrometres(bar), 2, height + 38);
-    for (let x = 0; x < 170; ++x) {
-      const rgb = colour(x / 169);
-      c.fillStyle = `rgb(${rgb.join()})`;
-      c.fillRect(side - 172 + x, height + 9, 1, 10);
-    }
-    c.fillStyle = '#1d2129';
-    c.textAlign = 'left';
-    c.fillText(round(map.low * scale), side - 172, height + 38);
-    c.textAlign = 'right';
-    c.fillText(round(map.high * scale) + ' ' + unit, side - 2, height + 38);
-    c.textAlign = 'left';
-    canvas.onmousemove = (event) => {
-      const x = Math.floor(event.offsetX / canvas.clientWidth * map.nx);
-      const y = Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny);
-      canvas.title = x >= 0 && x < map.nx && y >= 0 && y < map.ny
-        ? `${round(values[y * map.nx + x] * scale)} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
-    };
-  }
-
-  // ---- the turnable texture ----
-  const solid = { ready: false };
-  function startSolid() {
-    const box = $('solid');
-    const probe = document.createElement('canvas');
-    if (!(probe.getContext('webgl') || probe.getContext('experimental-webgl'))) {
-      const p = document.createElement('p');
-      p.textContent = 'This browser draws no 3-D graphics; the picture from above shows the same heights.';
-      box.appendChild(p);
-      return;
-    }
-    solid.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    solid.renderer.setClearColor(0xf5f6f8);
-    solid.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    box.appendChild(solid.renderer.domElement);
-    solid.scene = new THREE.Scene();
-    solid.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 20);
-    solid.camera.position.set(0, 1.75, 2.25);
-    solid.camera.lookAt(0, -0.05, 0);
-    solid.scene.add(new THREE.AmbientLight(0xffffff, 0.45));
-    const light = new THREE.DirectionalLight(0xffffff, 0.75);
-    light.position.set(1.2, 2, 0.6);
-    solid.scene.add(light);
-    solid.turn = new THREE.Group();
-    solid.tilt = new THREE.Group();
-    solid.tilt.add(solid.turn);
-    solid.scene.add(solid.tilt);
-    solid.turn.rotation.y = 0.5;
-    let from = null;
-    box.addEventListener('pointerdown', (e) => { from = [e.clientX, e.clientY]; box.setPointerCapture(e.pointerId); });
-    box.addEventListener('pointermove', (e) => {
-      if (!from) return;
-      solid.turn.rotation.y += (e.clientX - from[0]) * 0.01;
-      solid.tilt.rotation.x = Math.min(0.7, Math.max(-0.7, solid.tilt.rotation.x + (e.clientY - from[1]) * 0.006));
-      from = [e.clientX, e.clientY];
-      render();
-    });
-    ['pointerup', 'pointercancel'].forEach((name) => box.addEventListener(name, () => { from = null; }));
-    window.addEventListener('resize', render);
-    solid.ready = true;
-  }
-  function render() {
-    if (!solid.ready) return;
-    const box = $('solid'), w = box.clientWidth, h = box.clientHeight;
-    solid.renderer.setSize(w, h);
-    solid.camera.aspect = w / h;
-    solid.camera.updateProjectionMatrix();
-    solid.renderer.render(solid.scene, solid.camera);
-  }
-  function showSolid(map) {
-    const values = decode(map), span = map.high - map.low;
-    const stretch = span > 0 ? Math.min(Math.max(roundLength(0.12 * map.lx / span), 1), 1000) : 1;
-    $('stretch').textContent = stretch;
-    if (!solid.ready) return;
-    while (solid.turn.children.length) {
-      const old = solid.turn.children[0];
-      solid.turn.remove(old);
-      old.geometry.dispose();
-      old.material.dispose();
-    }
-    const { nx, ny } = map, unit = 1.6 / map.lx, positions = [], tints = [], index = [];
-    for (let y = 0; y < ny; ++y) {
-      for (let x = 0; x < nx; ++x) {
-        const z = values[y * nx + x];
-        positions.push(((x + 0.5) / nx - 0.5) * map.lx * unit, (z - map.high) * stretch * unit, ((y + 0.5) / ny - 0.5) * map.ly * unit);
-        colour(span > 0 ? (z - map.low) / span : 0.5).forEach((v) => tints.push(v / 255));
-        if (x + 1 < nx && y + 1 < ny) {
-          const a = y * nx + x;
-          index.push(a, a + nx, a + 1, a + 1, a + nx, a + nx + 1);
-        }
-      }
-    }
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
-    geometry.setAttribute('color', new THREE.Float32BufferAttribute(tints, 3));
-    geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(index), 1));
-    geometry.computeVertexNormals();
-    solid.turn.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide })));
-    render();
-  }
-
-  // ---- charts ----
-  Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
-  Chart.defaults.font.size = 13;
-  Chart.defaults.color = '#3c434e';
-  Chart.defaults.animation = false;
-  Chart.defaults.maintainAspectRatio = false;
-  const axis = (text, more = {}) => Object.assign({ title: { display: true, text } }, more);
-  function draw(id, config) {
-    if (charts[id]) charts[id].destroy();
-    charts[id] = new Chart($(id), config);
-  }
-  // Error bars of points with ex, ey.
-  const errorBars = {
-    id: 'errorBars',
-    afterDatasetsDraw(chart) {
-      const c = chart.ctx, { x, y } = chart.scales;
-      chart.data.datasets.forEach((set, i) => {
-        if (!set.bars || !chart.isDatasetVisible(i)) return;
-        c.save();
-        c.strokeStyle = set.borderColor;
-        set.data.forEach((p) => {
-          c.beginPath();
-          c.moveTo(x.getPixelForValue(p.x - p.ex), y.getPixelForValue(p.y));
-          c.lineTo(x.getPixelForValue(p.x + p.ex), y.getPixelForValue(p.y));
-          c.moveTo(x.getPixelForValue(p.x), y.getPixelForValue(p.y - p.ey));
-          c.lineTo(x.getPixelForValue(p.x), y.getPixelForValue(p.y + p.ey));
-          c.stroke();
-        });
-        c.restore();
-      });
-    },
-  };
-
-  function curve(name, points, tint, dash) {
-    const at = points.filter((p) => p.modulation).map((p) => ({ x: 100 * p.relative_humidity, y: p.modulation.value, se: p.modulation.se }));
-    const common = { borderColor: tint, backgroundColor: tint, pointRadius: 0, borderWidth: 0, tension: 0 };
-    return [
-      Object.assign({}, common, { label: name, data: at, borderWidth: 2.5, pointRadius: 3.5, borderDash: dash || [] }),
-      Object.assign({}, common, { band: true, label: name + ' +', data: at.map((p) => ({ x: p.x, y: p.y + 2 * p.se })) }),
-      Object.assign({}, common, { band: true, label: name + ' −', data: at.map((p) => ({ x: p.x, y: p.y - 2 * p.se })), fill: '-1', backgroundColor: tint + '2b' }),
-    ];
-  }
-  // Mean over fingers; they share their skins, so errors add linearly.
-  function meanPoints(tasks, key) {
-    const lists = tasks.map((t) => t[key]).filter(Boolean);
-    if (!lists.length) return null;
-    return lists[0].map((p, i) => ({
-      relative_humidity: p.relative_humidity,
-      modulation: lists.every((l) => l[i].modulation) ? {
-        value: lists.reduce((s, l) => s + l[i].modulation.value, 0) / lists.length,
-        se: lists.reduce((s, l) => s + l[i].modulation.se, 0) / lists.length,
-      } : null,
-    }));
-  }
-  function showHumidity() {
-    const tasks = data.designs[state.design].tasks, flats = data.designs.best.tasks;
-    const pick = (list, key) => state.finger === 'mean' ? meanPoints(list, key) : (list[+state.finger] || {})[key];
-    const sets = curve(label(state.design), pick(tasks, 'points') || [], colours[0]);
-    const flat = pick(flats, 'flat');
-    if (flat) sets.push(...curve('flat', flat, flatColour, [6, 4]));
-    draw('humidity', {
-      type: 'line',
-      data: { datasets: sets },
-      options: {
-        parsing: false,
-        interaction: { mode: 'nearest', axis: 'x', intersect: false },
-        scales: { x: axis('relative humidity [%]', { type: 'linear' }), y: axis('modulation ΔF/F_off', { min: 0 }) },
-        plugins: {
-          legend: { labels: { filter: (item, all) => !all.datasets[item.datasetIndex].band } },
-          tooltip: {
-            filter: (item) => !item.dataset.band,
-            callbacks: {
-              title: (items) => items.length ? items[0].parsed.x + ' % RH' : '',
-              label: (item) => `${item.dataset.label}: ${item.raw.y.toFixed(3)} ± ${item.raw.se.toFixed(3)}`,
-            },
-          },
-        },
-      },
-    });
-  }
-
-  const finalists = csv(data.pareto), history = csv(data.history);
-  const heads = data.pareto.split('\n')[0].split(',');
-  const objectives = heads.filter((h) => heads.includes(h + ' se'));
-  const variables = heads.slice(1, heads.indexOf(objectives[0]));
-  const second = objectives[1] || 'worst modulation';
-  const label = (name) => name === 'best' ? 'best' : name.replace('front/', 'design ');
-  const describe = (row) => variables.map((v) => {
-    const unit = / \[(.*)\]$/.exec(v);
-    return `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${round(+row[v])}${unit ? ' ' + unit[1] : ''}`;
+  const body = element.createTBody();
+  rows.forEach((values) => {
+    const row = body.insertRow();
+    values.forEach((text, i) => cell(row, 'td', text, numeric.includes(i)));
   });
-  const state = { design: 'best', finger: 'mean' };
+  return body;
+}
+function options(select, names, change) {
+  names.forEach(([value, text]) => select.add(new Option(text, value)));
+  select.addEventListener('change', () => change(select.value));
+}
 
-  // best/ is a copy of a design of the front: the one with the same variables.
-  const twin = Object.keys(data.designs).find((name) => name !== 'best' && JSON.stringify(data.designs[name].variables) === JSON.stringify(data.designs.best.variables));
-  const shown = () => state.design === 'best' ? twin : state.design;
+// ---- pictures of maps: colours, scale bar, range ----
+// Five anchors of a perceptually even scale, dark to bright.
+const anchors = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+function colour(t) {
+  const x = Math.min(Math.max(t, 0), 1) * 4, i = Math.min(Math.floor(x), 3), f = x - i;
+  return anchors[i].map((a, k) => Math.round(a + f * (anchors[i + 1][k] - a)));
+}
+function decode(map) {
+  if (!map.values) {
+    const bytes = atob(map.bytes), span = (map.high - map.low) / 255;
+    map.values = new Float64Array(map.nx * map.ny);
+    for (let i = 0; i < map.values.length; ++i) map.values[i] = map.low + bytes.charCodeAt(i) * span;
+  }
+  return map.values;
+}
+function roundLength(limit) {
+  const power = Math.pow(10, Math.floor(Math.log10(limit)));
+  return power * (limit >= 5 * power ? 5 : limit >= 2 * power ? 2 : 1);
+}
+const micrometres = (m) => m >= 1e-6 ? round(m * 1e6) + ' µm' : round(m * 1e9) + ' nm';
+function drawMap(canvas, map, unit, scale, line) {
+  const values = decode(map), side = 480, height = Math.round(side * map.ly / map.lx);
+  canvas.width = side;
+  canvas.height = height + 46;
+  const pixels = document.createElement('canvas');
+  pixels.width = map.nx;
+  pixels.height = map.ny;
+  const image = new ImageData(map.nx, map.ny), span = map.high - map.low;
+  for (let i = 0; i < values.length; ++i) {
+    const rgb = colour(span > 0 ? (values[i] - map.low) / span : 0.5);
+    image.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * i);
+  }
+  pixels.getContext('2d').putImageData(image, 0, 0);
+  const c = canvas.getContext('2d');
+  c.fillStyle = '#fff';
+  c.fillRect(0, 0, canvas.width, canvas.height);
+  c.imageSmoothingEnabled = false;
+  c.drawImage(pixels, 0, 0, side, height);
+  if (line !== undefined) {
+    c.strokeStyle = '#fff';
+    c.setLineDash([8, 6]);
+    c.beginPath();
+    c.moveTo(0, (line + 0.5) / map.ny * height);
+    c.lineTo(side, (line + 0.5) / map.ny * height);
+    c.stroke();
+    c.setLineDash([]);
+  }
+  const bar = roundLength(map.lx / 3), width = bar / map.lx * side;
+  c.fillStyle = '#1d2129';
+  c.fillRect(2, height + 12, width, 5);
+  c.font = '17px sans-serif';
+  c.textBaseline = 'alphabetic';
+  c.fillText(micrometres(bar), 2, height + 38);
+  for (let x = 0; x < 170; ++x) {
+    const rgb = colour(x / 169);
+    c.fillStyle = `rgb(${rgb.join()})`;
+    c.fillRect(side - 172 + x, height + 9, 1, 10);
+  }
+  c.fillStyle = '#1d2129';
+  c.textAlign = 'left';
+  c.fillText(round(map.low * scale), side - 172, height + 38);
+  c.textAlign = 'right';
+  c.fillText(round(map.high * scale) + ' ' + unit, side - 2, height + 38);
+  c.textAlign = 'left';
+  canvas.onmousemove = (event) => {
+    const x = Math.floor(event.offsetX / canvas.clientWidth * map.nx);
+    const y = Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny);
+    canvas.title = x >= 0 && x < map.nx && y >= 0 && y < map.ny
+      ? `${round(values[y * map.nx + x] * scale)} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
+  };
+}
 
-  function showPareto() {
-    const point = (row, se) => ({ x: +row[objectives[0]], y: +row[second], ex: se ? +row[objectives[0] + ' se'] || 0 : 0, ey: se ? +row[second + ' se'] || 0 : 0, row });
-    const number = (row) => row[objectives[0]] !== '' && row[second] !== '';
-    const front = finalists.filter((r) => r['on front'] === 'yes' && number(r)).sort((a, b) => a[objectives[0]] - b[objectives[0]]);
-    const dominated = finalists.filter((r) => r['on front'] !== 'yes' && number(r));
-    const chosen = front.filter((r) => r.design === shown());
-    const sets = [
-      { label: 'shown on this page', data: chosen.map((r) => point(r)), pointRadius: 12, pointHoverRadius: 12, borderWidth: 2.5, backgroundColor: 'transparent', borderColor: colours[1] },
-      { label: 'front, confirmed', data: front.map((r) => point(r, true)), bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] },
-      { label: 'confirmed, dominated', data: dominated.map((r) => point(r, true)), bars: true, pointRadius: 5, pointStyle: 'rect', borderColor: colours[3], backgroundColor: colours[3] },
-      { label: 'searched', data: history.filter((r) => r.status === 'ok' && number(r)).map((r) => point(r)), pointRadius: 3, borderColor: '#b9c0ca', backgroundColor: '#b9c0ca' },
-    ];
-    const flat = data.designs.best.flat;
-    if (flat) {
-      const q = (name) => name === 'worst modulation' ? { value: flat.worst_modulation, se: 0 } : flat.objectives[name];
-      sets.push({ label: 'flat', data: [{ x: q(objectives[0]).value, y: q(second).value, ex: q(objectives[0]).se, ey: q(second).se }], bars: true, pointRadius: 7, pointStyle: 'triangle', borderColor: '#565c66', backgroundColor: '#565c66' });
-    }
-    draw('pareto', {
-      type: 'scatter',
-      data: { datasets: sets },
-      plugins: [errorBars],
-      options: {
-        scales: { x: axis(objectives[0]), y: axis(second) },
-        onClick: (event, items, chart) => {
-          const hit = items.map((i) => chart.data.datasets[i.datasetIndex].data[i.index]).find((p) => p.row && data.designs[p.row.design]);
-          // After this event: selecting draws this chart anew.
-          if (hit) setTimeout(() => select(hit.row.design));
-        },
-        plugins: {
-          legend: { labels: { usePointStyle: true, boxHeight: 7 } },
-          tooltip: {
-            filter: (item, i, items) => items.findIndex((o) => o.raw.row === item.raw.row && o.dataset.bars === item.dataset.bars) === i && (item.datasetIndex > 0),
-            callbacks: {
-              label: (item) => {
-                const p = item.raw, name = p.row ? (p.row.design || 'evaluation ' + p.row.evaluation) : 'flat';
-                return [`${name}: ${round(p.x)}${p.ex ? ' ± ' + round(p.ex, 2) : ''}, ${round(p.y)}${p.ey ? ' ± ' + round(p.ey, 2) : ''}`].concat(p.row ? describe(p.row) : []);
-              },
-            },
-          },
-        },
-      },
+// ---- charts ----
+Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
+Chart.defaults.font.size = 13;
+Chart.defaults.color = '#3c434e';
+Chart.defaults.animation = false;
+Chart.defaults.maintainAspectRatio = false;
+const axis = (text, more = {}) => Object.assign({ title: { display: true, text } }, more);
+function draw(id, config) {
+  if (charts[id]) charts[id].destroy();
+  charts[id] = new Chart($(id), config);
+}
+// Error bars of points with ex, ey.
+const errorBars = {
+  id: 'errorBars',
+  afterDatasetsDraw(chart) {
+    const c = chart.ctx, { x, y } = chart.scales;
+    chart.data.datasets.forEach((set, i) => {
+      if (!set.bars || !chart.isDatasetVisible(i)) return;
+      c.save();
+      c.strokeStyle = set.borderColor;
+      set.data.forEach((p) => {
+        c.beginPath();
+        c.moveTo(x.getPixelForValue(p.x - p.ex), y.getPixelForValue(p.y));
+        c.lineTo(x.getPixelForValue(p.x + p.ex), y.getPixelForValue(p.y));
+        c.moveTo(x.getPixelForValue(p.x), y.getPixelForValue(p.y - p.ey));
+        c.lineTo(x.getPixelForValue(p.x), y.getPixelForValue(p.y + p.ey));
+        c.stroke();
+      });
+      c.restore();
     });
-  }
-  function showFinalists() {
-    const columns = ['design'].concat(variables, objectives, ['worst modulation', 'feasible']);
-    const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : `${(+r[c]).toFixed(3)} ± ${(+r[c + ' se']).toFixed(3)}`) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
-    const body = table($('finalists'), columns, finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
-    finalists.forEach((r, i) => {
-      const row = body.rows[i];
-      if (!data.designs[r.design]) return;
-      row.className = 'pick' + (r.design === shown() ? ' chosen' : '');
-      row.onclick = () => select(r.design);
+  },
+};
+// Intervals on bars or dots: the `interval` of a dataset holds [low, high] an item.
+const intervals = {
+  id: 'intervals',
+  afterDatasetsDraw(chart) {
+    const c = chart.ctx, across = chart.options.indexAxis === 'y', scale = chart.scales[across ? 'x' : 'y'];
+    chart.data.datasets.forEach((set, k) => {
+      if (!set.interval || !chart.isDatasetVisible(k)) return;
+      c.save();
+      c.beginPath();
+      c.strokeStyle = '#1d2129';
+      c.lineWidth = 1.5;
+      chart.getDatasetMeta(k).data.forEach((item, i) => {
+        if (!set.interval[i]) return;
+        const [a, b] = set.interval[i].map((v) => Math.min(Math.max(scale.getPixelForValue(v), across ? scale.left : scale.top), across ? scale.right : scale.bottom));
+        const line = (x1, y1, x2, y2) => { c.moveTo(across ? x1 : y1, across ? y1 : x1); c.lineTo(across ? x2 : y2, across ? y2 : x2); };
+        const at = across ? item.y : item.x;
+        line(a, at, b, at);
+        line(a, at - 5, a, at + 5);
+        line(b, at - 5, b, at + 5);
+      });
+      c.stroke();
+      c.restore();
     });
+  },
+};
+// Room for the intervals of all datasets, and for the values `more`, on a value axis.
+function room(sets, more = []) {
+  const all = sets.flatMap((s) => (s.interval || []).filter(Boolean).flat().concat(s.data.map((d) => typeof d === 'number' ? d : d.x))).concat(more).filter(isFinite);
+  const low = Math.min(...all), high = Math.max(...all), gap = 0.04 * (high - low || 1);
+  return { suggestedMin: low < 0 ? low - gap : Math.min(low, 0), suggestedMax: high + gap };
+}
+function canvasIn(box, id, className, note) {
+  const figure = document.createElement('figure'), frame = document.createElement('div'), canvas = document.createElement('canvas');
+  frame.className = className;
+  canvas.id = id;
+  frame.appendChild(canvas);
+  figure.appendChild(frame);
+  if (note) {
+    const caption = document.createElement('figcaption');
+    caption.textContent = note;
+    figure.appendChild(caption);
   }
+  box.appendChild(figure);
+  return canvas;
+}
 
-  function showBudget() {
-    const tasks = data.designs[state.design].tasks, task = tasks[state.finger === 'mean' ? 0 : +state.finger] || tasks[0];
-    const points = task.points.filter((p) => p.modulation);
-    const names = { sampling: 'sampling', grid: 'grid', solver: 'solver', humidity: 'humidity', method: 'method', parameters: 'parameters' };
-    const sets = Object.keys(names).map((part, i) => ({
-      label: names[part], backgroundColor: colours[i],
-      data: points.map((p) => p.modulation.se > 0 ? Math.pow(p.modulation.parts[part], 2) / p.modulation.se : 0),
-      part: points.map((p) => p.modulation.parts[part]),
-    })).filter((set) => set.data.some((v) => v > 0));
-    draw('budget', {
-      type: 'bar',
-      data: { labels: points.map((p) => Math.round(100 * p.relative_humidity) + ' %'), datasets: sets },
-      options: {
-        scales: { x: axis('relative humidity, finger ' + task.name, { stacked: true }), y: axis('standard error of the modulation', { stacked: true }) },
-        plugins: { tooltip: { callbacks: { label: (item) => `${item.dataset.label}: alone ± ${round(item.dataset.part[item.dataIndex], 2)}` } } },
-      },
-    });
-  }
+// ---- texts of design files ----
+// "um" as people write it; keys and values of one section.
+function sectionOf(toml, name) {
+  const text = ('\n' + toml).split(`\n[${name}]`)[1] || '';
+  return text.split(/\n\[/)[0].split('\n').map((l) => /^(\w+) = (.*)$/.exec(l)).filter(Boolean).map((m) => {
+    const value = m[2].replace(/"/g, ''), q = /^(-?[\d.e+-]+) (.*)$/.exec(value);
+    return [m[1].replace(/_/g, ' '), q ? round(+q[1], 4) + ' ' + q[2].replace('um', 'µm').replace('deg', '°') : value.replace(/_/g, ' ')];
+  });
+}
+// The largest of some SI values decides the prefix: { scale, unit }.
+function prefix(unit, values) {
+  const largest = Math.max(...values.map(Math.abs).filter(isFinite), 0);
+  if (unit === 'm/Pa') return { scale: 1e12, unit: 'µm/MPa' };
+  if (!['N', 'm', 'Pa', 'V', 's', 'J', 'm/s'].includes(unit) || !largest) return { scale: 1, unit };
+  const steps = [[1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'], [1e-9, 'n']];
+  const [size, letter] = steps.find(([s]) => largest >= s) || steps[steps.length - 1];
+  return { scale: 1 / size, unit: letter + unit };
+}
 
-  // The tables of summary.md below a heading.
-  function showStability() {
-    const text = data.summary.split('## Does the order hold?')[1];
-    const box = $('stability');
-    if (!text) {
-      box.textContent = 'One finalist: there is no order to check.';
-      return;
-    }
-    const lines = text.split('\n').map((l) => l.trim());
-    const h = document.createElement('h2');
-    h.textContent = 'Does the order hold?';
-    const p = document.createElement('p');
-    p.className = 'note';
-    p.textContent = lines.find((l) => l && !l.startsWith('|'));
-    const scroll = document.createElement('div'), t = document.createElement('table');
-    scroll.className = 'scroll';
-    scroll.appendChild(t);
-    box.append(h, p, scroll);
-    const rows = lines.filter((l) => l.startsWith('|') && !l.startsWith('|-')).map((l) => l.slice(1, -1).split('|').map((c) => c.trim().replace(/\*\*/g, '')));
-    table(t, rows[0], rows.slice(1));
-  }
-
-  function showProgress() {
-    const better = history.map((r) => +r.hypervolume);
-    const sets = [{ label: 'hypervolume of the front (share)', data: better.map((y, i) => ({ x: i + 1, y })), stepped: true, borderColor: colours[0], backgroundColor: colours[0], pointRadius: 0, borderWidth: 2.5, yAxisID: 'y' }];
-    objectives.forEach((name, k) => sets.push({ label: name, data: history.filter((r) => r[name] !== '').map((r) => ({ x: +r.evaluation, y: +r[name] })), showLine: false, borderColor: colours[1 + k], backgroundColor: colours[1 + k], pointRadius: 3.5, yAxisID: 'v' }));
-    draw('progress', {
-      type: 'line',
-      data: { datasets: objectives.length > 1 ? sets : sets.slice(1) },
-      options: {
-        parsing: false,
-        scales: { x: axis('evaluation', { type: 'linear', ticks: { precision: 0 } }), y: axis('hypervolume', { min: 0, display: objectives.length > 1 }), v: axis('objectives at the search level', { position: 'right', grid: { drawOnChartArea: false } }) },
-      },
-    });
-  }
-
-  function showMaps(index) {
-    const box = $('maps');
-    box.textContent = '';
-    data.fields[index].maps.forEach((map) => {
-      const figure = document.createElement('figure'), canvas = document.createElement('canvas'), caption = document.createElement('figcaption');
-      canvas.className = 'map';
-      caption.textContent = map.name + (map.unit ? ' [' + map.unit + ']' : '');
-      figure.append(canvas, caption);
-      box.appendChild(figure);
-      drawMap(canvas, map, map.unit, 1);
-    });
-  }
-
-  function showDesign() {
-    const d = data.designs[state.design], map = d.heights, values = decode(map);
-    showSolid(map);
-    let row = 0, low = Infinity;
-    for (let y = 0; y < map.ny; ++y) {
-      let sum = 0;
-      for (let x = 0; x < map.nx; ++x) sum += values[y * map.nx + x];
-      if (sum < low - 1e-15) [row, low] = [y, sum];
-    }
-    drawMap($('top'), map, 'nm', 1e9, row);
-    const line = [];
-    for (let x = 0; x < map.nx; ++x) line.push({ x: (x + 0.5) * map.lx / map.nx * 1e6, y: values[row * map.nx + x] * 1e9 });
-    draw('section', {
-      type: 'line',
-      data: { datasets: [{ label: 'height', data: line, borderColor: colours[0], backgroundColor: colours[0] + '22', fill: 'start', pointRadius: 0, borderWidth: 2 }] },
-      options: { parsing: false, plugins: { legend: { display: false } }, scales: { x: axis('along the section [µm]', { type: 'linear', max: map.lx * 1e6, min: 0 }), y: axis('height [nm]') } },
-    });
-    const section = d.toml.split('[texture]')[1] || '';
-    const rows = section.split(/\n\[/)[0].split('\n').map((l) => /^(\w+) = (.*)$/.exec(l)).filter(Boolean).map((m) => {
-      const text = m[2].replace(/"/g, ''), q = /^(-?[\d.e+-]+) (.*)$/.exec(text);
-      return [m[1].replace(/_/g, ' '), q ? round(+q[1], 4) + ' ' + q[2].replace('um', 'µm').replace('deg', '°') : text.replace(/_/g, ' ')];
-    });
-    const angle = /contact_angle = "([\d.]+) deg"/.exec(d.toml);
-    if (angle) rows.push(['contact angle of the surface', round(+angle[1], 3) + ' °']);
-    table($('dimensions'), ['Dimension', 'Value'], rows, [1]);
-    const flat = data.designs.best.flat;
-    table($('numbers'), ['Result', label(state.design), 'flat'],
-      Object.keys(d.objectives).map((name) => [name, withError(d.objectives[name]), flat ? withError(flat.objectives[name]) : '–'])
-        .concat([['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–'], ['oxide breakdown margin', round(d.oxide_breakdown_margin), '']])
-        .concat(d.stability ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '']] : []), [1, 2]);
-    $('toml').textContent = d.toml;
-  }
-
-  function select(name) {
-    state.design = name;
-    $('design').value = name;
-    document.documentElement.dataset.design = name;
-    showDesign();
-    showHumidity();
-    showPareto();
-    showFinalists();
-    showBudget();
-  }
-
-  // ---- the page ----
-  const best = data.designs.best, flat = best.flat;
-  $('lead').textContent = 'The best design has ' + Object.keys(best.objectives).map((n) => `${n} ${withError(best.objectives[n])}` + (flat ? ` (flat ${withError(flat.objectives[n])})` : '')).join(', ')
-    + `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity.'
-    + (best.feasible ? '' : ' It does not keep every constraint.');
+// ---- the end of every page ----
+function finish(more = {}) {
   $('version').textContent = data.version;
-  options($('design'), Object.keys(data.designs).map((n) => [n, n === 'best' && twin ? `best (${label(twin)})` : label(n)]), select);
-  options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
-  options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
-  startSolid();
-  select('best');
-  showStability();
-  showProgress();
-  if (data.fields.length) showMaps(0);
-  const plan = best.plan;
-  table($('modelled'), ['Modelled', 'How', 'Why', 'Error'], plan.steps.map((s) => [s.piece, s.method, s.reason, s.error ? round(100 * s.error, 2) + ' %' : '']), [3]);
-  table($('skipped'), ['Not modelled', 'Why', 'At most, of friction'], plan.skipped.map((s) => [s.piece, s.reason, s.bound ? round(100 * s.bound, 2) + ' %' : '']), [2]);
-  $('plantext').textContent = data.plan;
   table($('filelist'), ['File', 'Bytes', 'SHA-256'], data.files.map((f) => [f.name, f.bytes.toLocaleString('en'), f.sha256]), [1]);
-  window.addEventListener('beforeprint', () => { Object.values(charts).forEach((c) => c.resize()); render(); });
-  window.papilla = { charts, select, solid };
+  window.addEventListener('beforeprint', () => { Object.values(charts).forEach((c) => c.resize()); });
+  window.papilla = Object.assign({ charts }, more);
   document.documentElement.dataset.charts = Object.keys(charts).length;
-})();
+}

@@ -1,0 +1,117 @@
+// The page of `papilla rank`.
+const ranking = data.ranking;
+const tints = colours.concat(['#2aa9a9', '#b0467d']);
+// A candidate keeps its colour in every chart and state.
+const tint = (c) => tints[c.index % tints.length];
+const percent = (v) => round(100 * v, 3);
+const place = (list, i) => `${list[i].rank}${list.filter((c) => c.rank === list[i].rank).length > 1 ? '=' : ''}`;
+
+function rowsChart(id, list, set, title, ends = {}) {
+  const canvas = $(id);
+  canvas.parentElement.style.height = 90 + 34 * list.length + 'px';
+  draw(id, {
+    type: 'bar',
+    data: { labels: list.map((c) => c.name), datasets: [Object.assign({ backgroundColor: list.map(tint), maxBarThickness: 18 }, set)] },
+    plugins: [intervals],
+    options: {
+      indexAxis: 'y',
+      scales: { x: axis(title, Object.assign(room([set]), ends)), y: { grid: { display: false } } },
+      plugins: { legend: { display: false }, tooltip: { callbacks: { label: (item) => set.text[item.dataIndex] } } },
+    },
+  });
+}
+
+function showOrder(list) {
+  rowsChart('score', list, { data: list.map((c) => c.score.value), interval: list.map((c) => [c.score.low, c.score.high]), text: list.map((c) => `${round(c.score.value)} [${round(c.score.low)}, ${round(c.score.high)}]`) }, 'score');
+  rowsChart('best', list, { data: list.map((c) => 100 * c.p_best), text: list.map((c) => percent(c.p_best) + ' %') }, 'probability of being best [%]', { min: 0, max: 100 });
+  const scales = ranking.criteria.map((k) => prefix(k.unit, list.map((c) => c.metrics[k.metric].value)));
+  const head = ['place', 'design'].concat(ranking.criteria.map((k, i) => k.metric + ' (' + k.better + ')' + (scales[i].unit ? ' [' + scales[i].unit + ']' : '')), ['ahead of the next [%]', 'p(ahead)', 'p(best)', 'skins']);
+  table($('places'), head, list.map((c, i) => [place(list, i), c.name]
+    .concat(ranking.criteria.map((k, m) => { const q = c.metrics[k.metric], s = scales[m].scale; return `${round(q.value * s, 4)} ± ${round((q.high - q.low) / 2 * s, 2)}`; }))
+    .concat(i + 1 < list.length ? [`${percent(c.ahead_of_next.value)} [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}]` + (c.tied_with_next ? ': tie' : ''), c.p_ahead.toFixed(3)] : ['', ''])
+    .concat([c.p_best.toFixed(3), c.skins])), head.map((h, i) => i).slice(2));
+}
+
+function showCriteria(list) {
+  const box = $('criteria');
+  ranking.criteria.forEach((k, i) => {
+    const id = 'criterion' + i;
+    if (!$(id)) canvasIn(box, id, 'chart rows', k.metric + ': ' + (k.better === 'high' ? 'higher' : 'lower') + ' is better');
+    const p = prefix(k.unit, list.map((c) => c.metrics[k.metric].value)), q = list.map((c) => c.metrics[k.metric]);
+    rowsChart(id, list, {
+      data: q.map((m) => m.value * p.scale), interval: q.map((m) => [m.low * p.scale, m.high * p.scale]),
+      text: q.map((m) => `${round(m.value * p.scale)} ± ${round((m.high - m.low) / 2 * p.scale, 2)} ${p.unit}`),
+    }, k.metric + (p.unit ? ' [' + p.unit + ']' : ''));
+  });
+  if (ranking.criteria.length === 1) {
+    $('togetherfigure').style.display = 'none';
+    return;
+  }
+  if (ranking.criteria.length === 2) {
+    const [a, b] = ranking.criteria, pa = prefix(a.unit, list.map((c) => c.metrics[a.metric].value)), pb = prefix(b.unit, list.map((c) => c.metrics[b.metric].value));
+    const point = (c) => { const x = c.metrics[a.metric], y = c.metrics[b.metric]; return { x: x.value * pa.scale, y: y.value * pb.scale, ex: (x.high - x.low) / 2 * pa.scale, ey: (y.high - y.low) / 2 * pb.scale }; };
+    $('togethernote').textContent = `Both criteria at once, 95 % intervals; ${a.better} and ${b.better} is better.`;
+    draw('together', {
+      type: 'scatter',
+      data: { datasets: list.map((c) => ({ label: c.name, data: [point(c)], bars: true, pointRadius: 6, pointHoverRadius: 8, borderColor: tint(c), backgroundColor: tint(c) })) },
+      plugins: [errorBars],
+      options: {
+        scales: { x: axis(a.metric + (pa.unit ? ' [' + pa.unit + ']' : '')), y: axis(b.metric + (pb.unit ? ' [' + pb.unit + ']' : '')) },
+        plugins: { legend: { labels: { usePointStyle: true, boxHeight: 7 } }, tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${round(item.raw.x)} ± ${round(item.raw.ex, 2)}, ${round(item.raw.y)} ± ${round(item.raw.ey, 2)}` } } },
+      },
+    });
+    return;
+  }
+  $('togethernote').textContent = 'On each axis the best candidate reaches the rim, the others their ratio to it: larger is better everywhere.';
+  const share = (c, k) => {
+    const all = list.map((o) => Math.abs(o.metrics[k.metric].value)), v = Math.abs(c.metrics[k.metric].value);
+    return k.better === 'high' ? v / (Math.max(...all) || 1) : v > 0 ? Math.min(...all) / v : 1;
+  };
+  draw('together', {
+    type: 'radar',
+    data: { labels: ranking.criteria.map((k) => k.metric), datasets: list.map((c) => ({ label: c.name, data: ranking.criteria.map((k) => share(c, k)), borderColor: tint(c), backgroundColor: tint(c) + '1c', borderWidth: 2, pointRadius: 3 })) },
+    options: { scales: { r: { min: 0, max: 1, ticks: { backdropColor: 'transparent' } } }, plugins: { tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${percent(item.raw)} % of the best` } } } },
+  });
+}
+
+function showSure(state) {
+  const list = state.candidates.slice(0, -1);
+  rowsChart('ahead', list.map((c, i) => Object.assign({}, c, { name: `${c.name} over ${state.candidates[i + 1].name}` })), {
+    data: list.map((c) => 100 * c.ahead_of_next.value), interval: list.map((c) => [100 * c.ahead_of_next.low, 100 * c.ahead_of_next.high]),
+    text: list.map((c) => `${percent(c.ahead_of_next.value)} % [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}], p(ahead) ${c.p_ahead.toFixed(3)}` + (c.tied_with_next ? ': tie' : '')),
+  }, 'lead over the next [% of the score]');
+  $('skins').textContent = `${state.skins} skins were solved; ${state.equal_skins} if every candidate had as many as the neediest. Skins go where the order is open.`;
+}
+
+function showCompared() {
+  const box = $('pictures'), designs = data.candidates;
+  designs.forEach((d, i) => {
+    const figure = document.createElement('figure'), canvas = document.createElement('canvas'), caption = document.createElement('figcaption');
+    canvas.className = 'map';
+    caption.textContent = d.name + ': height';
+    figure.append(canvas, caption);
+    box.appendChild(figure);
+    drawMap(canvas, d.heights, 'nm', 1e9);
+  });
+  const values = designs.map((d) => new Map(['texture', 'surface', 'environment', 'drive', 'finger'].flatMap((s) => sectionOf(d.toml, s).map(([k, v]) => [s + ': ' + k, v]))));
+  const keys = [...new Set(values.flatMap((m) => [...m.keys()]))];
+  const differ = keys.filter((k) => new Set(values.map((m) => m.get(k))).size > 1);
+  table($('differences'), ['differs'].concat(designs.map((d) => d.name)), differ.map((k) => [k].concat(values.map((m) => m.get(k) || '–'))));
+  $('common').textContent = `${keys.length - differ.length} more values of texture, surface, finger, environment and drive are the same in all; the folder designs/ holds them.`;
+}
+
+function select(index) {
+  const state = ranking.states[+index], list = state.candidates, first = list.filter((c) => c.rank === 1), names = first.map((c) => c.name);
+  document.documentElement.dataset.state = state.state;
+  $('lead').textContent = names.length > 1
+    ? `On the ${state.state} finger ${names.slice(0, -1).join(', ')} and ${names[names.length - 1]} are tied for the first place; ${names[0]} is best with a probability of ${percent(first[0].p_best)} %.`
+    : `On the ${state.state} finger ${names[0]} is best, with a probability of ${percent(first[0].p_best)} %; it leads ${list[1].name} by ${percent(first[0].ahead_of_next.value)} % [${percent(first[0].ahead_of_next.low)}, ${percent(first[0].ahead_of_next.high)}] of the score.`;
+  showOrder(list);
+  showCriteria(list);
+  showSure(state);
+}
+
+options($('finger'), ranking.states.map((s, i) => [i, s.state]), select);
+select(0);
+showCompared();
+finish({ select });
