@@ -26,7 +26,7 @@ double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double pair_time(const ContactKernel& kernel) {
   RealArray p(kernel.grid().size(), 1.0), u(kernel.grid().size());
-  SpectrumArray scratch(kernel.fft().spectrum_size());
+  SpectrumArray scratch(kernel.scratch_size());
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 5; ++k) {
     const double start = now();
@@ -52,7 +52,7 @@ Cost polonsky_keer(const ContactKernel& kernel, const std::vector<double>& heigh
   for (double h : height) spread += square(h - average) / count;
   spread = std::sqrt(spread);
   RealArray p(n, mean), w(n), d(n, 0.0), u(n);
-  SpectrumArray scratch(kernel.fft().spectrum_size());
+  SpectrumArray scratch(kernel.scratch_size());
   Cost cost;
   cost.pair = pair_time(kernel);
   const double begin = now();

@@ -70,7 +70,7 @@ void grids(int largest) {
       const Heightmap h = random_surface(spectrum_of(finger.skin), grid, 1, 0);
       {
         RealArray p(grid.size(), 1.0), u(grid.size());
-        SpectrumArray scratch(kernel.fft().spectrum_size());
+        SpectrumArray scratch(kernel.scratch_size());
         for (int k = 0; k < 3; ++k) {
           const double start = now();
           kernel.displace(p, u, scratch);

@@ -19,7 +19,7 @@ ContactAdjoint contact_adjoint(const ContactKernel& kernel, const ContactSolutio
   }
   // Gaps: h raises the skin towards the other surface; where pressed, the gap stays closed.
   RealArray field(n, 0.0), image(n);
-  SpectrumArray scratch(kernel.fft().spectrum_size());
+  SpectrumArray scratch(kernel.scratch_size());
   double total = 0;
   if (!by_gap.empty()) {
     for (std::size_t i = 0; i < n; ++i) {

@@ -218,7 +218,7 @@ RefinedContact refine_contact(const ContactKernel& kernel, std::span<const doubl
   if (!traction.empty()) {
     const RealArray t(traction.begin(), traction.end());
     RealArray u(grid.size());
-    SpectrumArray scratch(kernel.fft().spectrum_size());
+    SpectrumArray scratch(kernel.scratch_size());
     kernel.displace(t, u, scratch);
     pulled.assign(u.begin(), u.end());
   }

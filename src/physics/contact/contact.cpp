@@ -96,7 +96,7 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   // Eq. contact.3: tractions deform the surface and add to the load.
   RealArray g0(n);
   if (!traction.empty()) {
-    SpectrumArray scratch(kernel.fft().spectrum_size());
+    SpectrumArray scratch(kernel.scratch_size());
     RealArray t(traction.begin(), traction.end());
     kernel.displace(t, g0, scratch);
     out.fft_pairs += 1;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/convolution.h"
 #include "base/fft.h"
 #include "geometry/grid.h"
 
@@ -52,16 +53,19 @@ class ContactKernel {
   const ContactKernel* coarse() const { return coarse_.get(); }  // half the pixels, or null
   double contact_modulus() const;                                // E* of the two surfaces [Pa]
 
-  // u = S p: one forward and one inverse transform. scratch: spectrum-sized.
+  // u = S p: one forward and one inverse transform. scratch: of scratch_size().
   void displace(const RealArray& p, RealArray& u, SpectrumArray& scratch) const;
   // In place, the pressure of zero mean that displaces the whole plane by u (its mean apart).
   void press(RealArray& u, SpectrumArray& scratch) const;
+  std::size_t scratch_size() const;
 
  private:
   Grid grid_;
   LayeredSolid solid_;
   std::shared_ptr<const Fft2d> fft_;
-  std::vector<double> symbol_;
+  std::shared_ptr<const Convolution> convolution_;  // null where the grid does not suit it
+  std::vector<double> symbol_, inverse_symbol_;     // the latter 1/(C(q) n)
+  RealArray arranged_, inverse_arranged_;           // for the convolution
   std::vector<float> stencil_;
   RealArray influence_;
   std::shared_ptr<const ContactKernel> coarse_;

@@ -43,7 +43,7 @@ class DenseSolver {
         w_(state.w),
         next_(grid_.size()),
         step_(grid_.size(), 0.0),
-        scratch_(kernel_.fft().spectrum_size()),
+        scratch_(kernel_.scratch_size()),
         width_(grid_.nx + 2 * kReach + ContactKernel::kStencilWidth),
         residual_(static_cast<std::size_t>(width_) * (grid_.ny + 2 * kReach), 0.0F),
         inside_(residual_.size(), 0.0F) {

@@ -59,7 +59,7 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
     : grid_(grid), solid_(solid), fft_(Fft2d::shared(grid.nx, grid.ny)) {
   const auto n = static_cast<double>(grid.size());
   symbol_.assign(fft_->spectrum_size(), 0);
-  SpectrumArray stiffness(fft_->spectrum_size());
+  inverse_symbol_.assign(fft_->spectrum_size(), 0);
   for (int ky = 0; ky < grid.ny; ++ky) {
     const double qy = 2 * kPi * signed_mode(ky, grid.ny) / grid.ly;
     for (int kx = 0; kx < fft_->half(); ++kx) {
@@ -68,10 +68,16 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
       const double c = compliance(solid, std::hypot(qx, qy));
       const std::size_t i = static_cast<std::size_t>(ky) * fft_->half() + kx;
       symbol_[i] = c / n;
-      stiffness[i] = 1 / (c * n);
+      inverse_symbol_[i] = 1 / (c * n);
     }
   }
+  if (Convolution::suits(grid.nx, grid.ny)) {
+    convolution_ = Convolution::shared(grid.nx, grid.ny);
+    arranged_ = convolution_->arrange(symbol_);
+    inverse_arranged_ = convolution_->arrange(inverse_symbol_);
+  }
   RealArray table(grid.size());
+  SpectrumArray stiffness(inverse_symbol_.begin(), inverse_symbol_.end());
   fft_->inverse(stiffness.data(), table.data());
   stencil_.assign((2 * kReach + 1) * kStencilWidth, 0);
   const auto first = [](int count) {
@@ -86,7 +92,7 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
   }
   table.assign(grid.size(), 0.0);
   table[0] = 1;
-  SpectrumArray scratch(fft_->spectrum_size());
+  SpectrumArray scratch(scratch_size());
   influence_.resize(grid.size());
   displace(table, influence_, scratch);
   if (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::min(grid.nx, grid.ny) >= 64) {
@@ -94,17 +100,27 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
   }
 }
 
+std::size_t ContactKernel::scratch_size() const {
+  return convolution_ ? convolution_->scratch_size() : fft_->spectrum_size();
+}
+
 void ContactKernel::displace(const RealArray& p, RealArray& u, SpectrumArray& scratch) const {
+  if (convolution_) {
+    convolution_->apply(p.data(), arranged_, scratch.data(), u.data());
+    return;
+  }
   fft_->forward(p.data(), scratch.data());
-  for (std::size_t i = 0; i < scratch.size(); ++i) scratch[i] *= symbol_[i];
+  for (std::size_t i = 0; i < symbol_.size(); ++i) scratch[i] *= symbol_[i];
   fft_->inverse(scratch.data(), u.data());
 }
 
 void ContactKernel::press(RealArray& u, SpectrumArray& scratch) const {
+  if (convolution_) {
+    convolution_->apply(u.data(), inverse_arranged_, scratch.data(), u.data());
+    return;
+  }
   fft_->forward(u.data(), scratch.data());
-  const double n = static_cast<double>(grid_.size());
-  scratch[0] = 0;
-  for (std::size_t i = 1; i < scratch.size(); ++i) scratch[i] /= symbol_[i] * n * n;
+  for (std::size_t i = 0; i < symbol_.size(); ++i) scratch[i] *= inverse_symbol_[i];
   fft_->inverse(scratch.data(), u.data());
 }
 

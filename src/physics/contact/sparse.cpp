@@ -25,7 +25,7 @@ class CandidateSolver {
     if (start ? !choose_near(*start, demand) : !choose_cold(demand)) return false;
     state_.p.assign(n_, 0.0);
     state_.w.resize(n_);
-    SpectrumArray scratch(problem_.kernel.fft().spectrum_size());
+    SpectrumArray scratch(problem_.kernel.scratch_size());
     for (int round = 0; round < 6; ++round) {
       if (!set_.balance(problem_.load, 1e-13 * problem_.spread, limit_)) return false;
       for (int i : under_pressure_) state_.p[i] = 0;

@@ -1,0 +1,349 @@
+#include "base/convolution.h"
+
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <utility>
+
+#include "base/check.h"
+#include "base/constants.h"
+
+namespace papilla {
+namespace {
+
+constexpr int kLanes = 8;
+using Vector = double __attribute__((vector_size(kLanes * sizeof(double))));
+// Eight complex numbers; an array of them is a transform of eight lanes side by side.
+struct Complex {
+  Vector re, im;
+};
+
+Complex operator+(const Complex& a, const Complex& b) { return {a.re + b.re, a.im + b.im}; }
+Complex operator-(const Complex& a, const Complex& b) { return {a.re - b.re, a.im - b.im}; }
+Complex times(const Complex& a, const double* w) {
+  return {a.re * w[0] - a.im * w[1], a.re * w[1] + a.im * w[0]};
+}
+Complex times_conjugate(const Complex& a, const double* w) {
+  return {a.re * w[0] + a.im * w[1], a.im * w[0] - a.re * w[1]};
+}
+Complex times_i(const Complex& a) { return {-a.im, a.re}; }
+
+// Four numbers as the sums of a transform of four, and back; unscaled.
+void split(Complex (&a)[4]) {
+  const Complex s0 = a[0] + a[2], d0 = a[0] - a[2], s1 = a[1] + a[3], d1 = times_i(a[1] - a[3]);
+  a[0] = s0 + s1;
+  a[1] = d0 - d1;
+  a[2] = s0 - s1;
+  a[3] = d0 + d1;
+}
+void join(Complex (&a)[4]) {
+  const Complex s0 = a[0] + a[2], d0 = a[0] - a[2], s1 = a[1] + a[3], d1 = times_i(a[1] - a[3]);
+  a[0] = s0 + s1;
+  a[1] = d0 + d1;
+  a[2] = s0 - s1;
+  a[3] = d0 - d1;
+}
+
+// Decimation in frequency: stages of four, each on blocks of a quarter of the length before. The
+// first reads what load gives; the last (of four, or of two where the power of two is odd) has no
+// twiddles and is finish_forward(), or part of what is done to the spectrum.
+template <class Load>
+void forward(const Load& load, Complex* z, int n, const double* twiddle) {
+  for (int length = n; length > 4; length /= 4) {
+    const int quarter = length / 4;
+    for (int block = 0; block < n; block += length) {
+      const double* w = twiddle;
+      for (int j = block; j < block + quarter; ++j, w += 6) {
+        Complex a[4];
+        for (int k = 0; k < 4; ++k) a[k] = length == n ? load(j + k * quarter) : z[j + k * quarter];
+        split(a);
+        z[j] = a[0];
+        for (int k = 1; k < 4; ++k) z[j + k * quarter] = times(a[k], w + 2 * k - 2);
+      }
+    }
+    twiddle += 6 * quarter;
+  }
+}
+
+bool ends_in_two(int n) {
+  while (n > 4) n /= 4;
+  return n == 2;
+}
+
+void halves(Complex* p) {
+  const Complex a = p[0], b = p[1];
+  p[0] = a + b;
+  p[1] = a - b;
+}
+
+void finish_forward(Complex* z, int n) {
+  if (ends_in_two(n)) {
+    for (Complex* p = z; p < z + n; p += 2) halves(p);
+    return;
+  }
+  for (Complex* p = z; p < z + n; p += 4) {
+    Complex a[4] = {p[0], p[1], p[2], p[3]};
+    split(a);
+    for (int k = 0; k < 4; ++k) p[k] = a[k];
+  }
+}
+
+// The steps of the forward transform undone in the opposite order; the last hands its results to
+// store.
+void start_inverse(Complex* z, int n) {
+  if (ends_in_two(n)) {
+    for (Complex* p = z; p < z + n; p += 2) halves(p);
+    return;
+  }
+  for (Complex* p = z; p < z + n; p += 4) {
+    Complex a[4] = {p[0], p[1], p[2], p[3]};
+    join(a);
+    for (int k = 0; k < 4; ++k) p[k] = a[k];
+  }
+}
+
+template <class Store>
+void inverse(Complex* z, int n, const double* twiddle_end, const Store& store) {
+  const double* twiddle = twiddle_end;
+  for (int length = ends_in_two(n) ? 8 : 16; length <= n; length *= 4) {
+    const int quarter = length / 4;
+    twiddle -= 6 * quarter;
+    for (int block = 0; block < n; block += length) {
+      const double* w = twiddle;
+      for (int j = block; j < block + quarter; ++j, w += 6) {
+        Complex a[4];
+        a[0] = z[j];
+        for (int k = 1; k < 4; ++k) a[k] = times_conjugate(z[j + k * quarter], w + 2 * k - 2);
+        join(a);
+        for (int k = 0; k < 4; ++k) {
+          if (length == n) {
+            store(j + k * quarter, a[k]);
+          } else {
+            z[j + k * quarter] = a[k];
+          }
+        }
+      }
+    }
+  }
+}
+
+// End of the forward transform, multiplication by real factors, begin of the inverse one.
+void scale_spectrum(Complex* z, int n, const Vector* factor) {
+  if (ends_in_two(n)) {
+    for (int i = 0; i < n; i += 2) {
+      halves(z + i);
+      for (int k = i; k < i + 2; ++k) z[k] = {z[k].re * factor[k], z[k].im * factor[k]};
+      halves(z + i);
+    }
+    return;
+  }
+  for (int i = 0; i < n; i += 4) {
+    Complex a[4] = {z[i], z[i + 1], z[i + 2], z[i + 3]};
+    split(a);
+    for (int k = 0; k < 4; ++k) a[k] = {a[k].re * factor[i + k], a[k].im * factor[i + k]};
+    join(a);
+    for (int k = 0; k < 4; ++k) z[i + k] = a[k];
+  }
+}
+
+// Eight vectors at rows of the given stride as the columns of eight others.
+void transpose(const Vector (&a)[kLanes], Vector (&t)[kLanes]) {
+  Vector b[kLanes], c[kLanes];
+  for (int i = 0; i < kLanes; i += 2) {
+    b[i] = __builtin_shufflevector(a[i], a[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    b[i + 1] = __builtin_shufflevector(a[i], a[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  for (int i = 0; i < kLanes; i += 4) {
+    for (int j = 0; j < 2; ++j) {
+      c[i + j] = __builtin_shufflevector(b[i + j], b[i + j + 2], 0, 1, 8, 9, 4, 5, 12, 13);
+      c[i + j + 2] = __builtin_shufflevector(b[i + j], b[i + j + 2], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+  }
+  for (int j = 0; j < 4; ++j) {
+    t[j] = __builtin_shufflevector(c[j], c[j + 4], 0, 1, 2, 3, 8, 9, 10, 11);
+    t[j + 4] = __builtin_shufflevector(c[j], c[j + 4], 4, 5, 6, 7, 12, 13, 14, 15);
+  }
+}
+
+}  // namespace
+
+Convolution::Butterflies::Butterflies(int length) : n(length), slot(length) {
+  for (int l = n; l > 4; l /= 4) {
+    for (int j = 0; j < l / 4; ++j) {
+      for (int power = 1; power <= 3; ++power) {
+        twiddle.push_back(std::cos(2 * kPi * j * power / l));
+        twiddle.push_back(-std::sin(2 * kPi * j * power / l));
+      }
+    }
+  }
+  for (int s = 0; s < n; ++s) {
+    int frequency = 0, step = 1, at = s;
+    for (int l = n; l > 1; l /= l >= 4 ? 4 : 2) {
+      const int parts = l >= 4 ? 4 : 2, part = l / parts;
+      frequency += step * (at / part);
+      at %= part;
+      step *= parts;
+    }
+    slot[frequency] = s;
+  }
+}
+
+bool Convolution::suits(int nx, int ny) {
+  const auto good = [](int n) { return n >= 32 && (n & (n - 1)) == 0; };
+  return good(nx) && good(ny);
+}
+
+Convolution::Convolution(int nx, int ny) : nx_(nx), ny_(ny), along_x_(nx), along_y_(ny) {
+  PAPILLA_CHECK(suits(nx, ny), "powers of two");
+}
+
+std::shared_ptr<const Convolution> Convolution::shared(int nx, int ny) {
+  static std::mutex mutex;
+  static std::map<std::pair<int, int>, std::shared_ptr<const Convolution>> made;
+  std::lock_guard lock(mutex);
+  auto& one = made[{nx, ny}];
+  if (!one) one = std::make_shared<const Convolution>(nx, ny);
+  return one;
+}
+
+// Blocks of eight ky from 0 to ny/2 - 1, in each the slots of kx, at each the eight values, halved
+// (see apply). The first lane holds ky = 0 and ny/2 at once, as real and imaginary part in x: the
+// mean of their values there, half their difference after all blocks.
+RealArray Convolution::arrange(std::span<const double> symbol) const {
+  const int half = nx_ / 2 + 1, blocks = ny_ / 2 / kLanes;
+  const auto value = [&](int kx, int ky) {
+    return symbol[static_cast<std::size_t>(ky) * half + (kx < half ? kx : nx_ - kx)];
+  };
+  RealArray out(static_cast<std::size_t>(nx_) * (ny_ / 2 + 1));
+  for (int kx = 0; kx < nx_; ++kx) {
+    const int slot = along_x_.slot[kx];
+    for (int block = 0; block < blocks; ++block) {
+      for (int lane = 0; lane < kLanes; ++lane) {
+        out[(static_cast<std::size_t>(block) * nx_ + slot) * kLanes + lane] =
+            0.5 * value(kx, block * kLanes + lane);
+      }
+    }
+    const double low = value(kx, 0), high = value(kx, ny_ / 2);
+    out[static_cast<std::size_t>(slot) * kLanes] = 0.5 * (low + high);
+    out[static_cast<std::size_t>(nx_) * (ny_ / 2) + slot] = 0.5 * (low - high);
+  }
+  return out;
+}
+
+void Convolution::apply(const double* in, const RealArray& symbol, std::complex<double>* scratch,
+                        double* out) const {
+  const int blocks = ny_ / 2 / kLanes, strips = nx_ / (2 * kLanes);
+  auto* spectrum = reinterpret_cast<Complex*>(scratch);  // [block of ky][x], lanes: ky
+  Complex* strip = spectrum + static_cast<std::size_t>(blocks) * nx_;  // [y], lanes: x
+  const double* y_twiddle = along_y_.twiddle.data();
+  const int* slot = along_y_.slot.data();
+  const std::size_t row = static_cast<std::size_t>(nx_) / kLanes;
+
+  // Along y: sixteen columns as the real and imaginary parts of eight, told apart by the symmetry
+  // of a real column's transform, without the half in it.
+  for (int s = 0; s < strips; ++s) {
+    const auto* column = reinterpret_cast<const Vector*>(in) + 2 * s;
+    forward(
+        [&](int y) {
+          const Vector* at = column + static_cast<std::size_t>(y) * row;
+          return Complex{at[0], at[1]};
+        },
+        strip, ny_, y_twiddle);
+    finish_forward(strip, ny_);
+    for (int block = 0; block < blocks; ++block) {
+      Vector a_re[kLanes], a_im[kLanes], b_re[kLanes], b_im[kLanes], t[kLanes];
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const int ky = block * kLanes + lane;
+        if (ky == 0) {
+          const Complex low = strip[0], high = strip[slot[ny_ / 2]];
+          a_re[0] = low.re;
+          a_im[0] = high.re;
+          b_re[0] = low.im;
+          b_im[0] = high.im;
+          continue;
+        }
+        const Complex z = strip[slot[ky]], y = strip[slot[ny_ - ky]];
+        a_re[lane] = z.re + y.re;
+        a_im[lane] = z.im - y.im;
+        b_re[lane] = z.im + y.im;
+        b_im[lane] = y.re - z.re;
+      }
+      Complex* to = spectrum + static_cast<std::size_t>(block) * nx_ + 2 * kLanes * s;
+      transpose(a_re, t);
+      for (int x = 0; x < kLanes; ++x) to[x].re = t[x];
+      transpose(a_im, t);
+      for (int x = 0; x < kLanes; ++x) to[x].im = t[x];
+      transpose(b_re, t);
+      for (int x = 0; x < kLanes; ++x) to[kLanes + x].re = t[x];
+      transpose(b_im, t);
+      for (int x = 0; x < kLanes; ++x) to[kLanes + x].im = t[x];
+    }
+  }
+
+  // Along x, the symbol, and back.
+  const std::size_t twiddles = along_x_.twiddle.size();
+  for (int block = 0; block < blocks; ++block) {
+    Complex* z = spectrum + static_cast<std::size_t>(block) * nx_;
+    forward([&](int x) { return z[x]; }, z, nx_, along_x_.twiddle.data());
+    const auto* factor =
+        reinterpret_cast<const Vector*>(symbol.data()) + static_cast<std::size_t>(block) * nx_;
+    if (block > 0) {
+      scale_spectrum(z, nx_, factor);
+    } else {  // the first lane's two rows apart: a share of the conjugate at -kx
+      finish_forward(z, nx_);
+      const double* difference = symbol.data() + static_cast<std::size_t>(nx_) * (ny_ / 2);
+      for (int kx = 0; kx <= nx_ / 2; ++kx) {
+        const int i = along_x_.slot[kx], j = along_x_.slot[(nx_ - kx) % nx_];
+        const double i_re = z[i].re[0], i_im = z[i].im[0], j_re = z[j].re[0], j_im = z[j].im[0];
+        const double d = difference[i], mean = factor[i][0];  // equal at i and j
+        z[i].re = z[i].re * factor[i];
+        z[i].im = z[i].im * factor[i];
+        z[i].re[0] = mean * i_re + d * j_re;
+        z[i].im[0] = mean * i_im - d * j_im;
+        if (i == j) continue;
+        z[j].re = z[j].re * factor[j];
+        z[j].im = z[j].im * factor[j];
+        z[j].re[0] = mean * j_re + d * i_re;
+        z[j].im[0] = mean * j_im - d * i_im;
+      }
+      start_inverse(z, nx_);
+    }
+    inverse(z, nx_, along_x_.twiddle.data() + twiddles,
+            [&](int x, const Complex& value) { z[x] = value; });
+  }
+
+  // Back along y.
+  for (int s = 0; s < strips; ++s) {
+    for (int block = 0; block < blocks; ++block) {
+      Vector a_re[kLanes], a_im[kLanes], b_re[kLanes], b_im[kLanes], t[kLanes];
+      const Complex* from = spectrum + static_cast<std::size_t>(block) * nx_ + 2 * kLanes * s;
+      for (int x = 0; x < kLanes; ++x) t[x] = from[x].re;
+      transpose(t, a_re);
+      for (int x = 0; x < kLanes; ++x) t[x] = from[x].im;
+      transpose(t, a_im);
+      for (int x = 0; x < kLanes; ++x) t[x] = from[kLanes + x].re;
+      transpose(t, b_re);
+      for (int x = 0; x < kLanes; ++x) t[x] = from[kLanes + x].im;
+      transpose(t, b_im);
+      for (int lane = 0; lane < kLanes; ++lane) {
+        const int ky = block * kLanes + lane;
+        if (ky == 0) {
+          strip[0] = {a_re[0], b_re[0]};
+          strip[slot[ny_ / 2]] = {a_im[0], b_im[0]};
+          continue;
+        }
+        strip[slot[ky]] = {a_re[lane] - b_im[lane], a_im[lane] + b_re[lane]};
+        strip[slot[ny_ - ky]] = {a_re[lane] + b_im[lane], b_re[lane] - a_im[lane]};
+      }
+    }
+    start_inverse(strip, ny_);
+    auto* column = reinterpret_cast<Vector*>(out) + 2 * s;
+    inverse(strip, ny_, y_twiddle + along_y_.twiddle.size(), [&](int y, const Complex& value) {
+      Vector* at = column + static_cast<std::size_t>(y) * row;
+      at[0] = value.re;
+      at[1] = value.im;
+    });
+  }
+}
+
+}  // namespace papilla
