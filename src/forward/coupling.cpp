@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 #include "base/constants.h"
 #include "physics/capillary/droplets.h"
@@ -44,6 +45,11 @@ Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
   DropletOptions options;
   options.drops_per_volume = scene.finger.water.drops_per_um3 * 1e18;
   options.first_step = scene.model.droplet_step;
+  if (scene.model.rim_pinning || scene.model.corner_wicking) {
+    options.rims = std::make_shared<RimMap>(*problem.texture);
+    options.rim_pinning = scene.model.rim_pinning;
+    options.corner_wicking = scene.model.corner_wicking;
+  }
   return settle_droplets(gap, volume, properties, options, seed, problem.droplet_index);
 }
 
@@ -94,9 +100,9 @@ class PatchSolver {
     describe_gap(rest.dry, out);
 
     const WaterProperties water = water_properties(scene, scene.surface.contact_angle);
-    out.volume = plan_.water
-                     ? scene.finger.water.volume_per_area(problem_.relative_humidity) * grid.area()
-                     : 0;
+    out.volume = plan_.water ? problem_.water_factor * grid.area() *
+                                   scene.finger.water.volume_per_area(problem_.relative_humidity)
+                             : 0;
     if (out.volume > 0) {
       rest.water = settle_water(problem_, gap, out.volume, water, fidelity_.seed, out);
       note_water(rest.water, out);

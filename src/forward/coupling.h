@@ -26,6 +26,7 @@ struct PatchProblem {
   double relative_humidity = 0;
   double pressure = 0;  // mean preload on the patch [Pa]
   std::uint64_t droplet_index = 0;
+  double water_factor = 1;  // on the volume of water
 };
 
 // Forces are on the patch [N], areas are fractions of it.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "base/check.h"
 #include "base/constants.h"
@@ -14,6 +16,8 @@
 #include "base/statistics.h"
 #include "forward/scale_bridge.h"
 #include "geometry/roughness.h"
+#include "physics/capillary/droplets.h"
+#include "physics/capillary/threshold.h"
 
 namespace papilla {
 namespace {
@@ -71,6 +75,60 @@ constexpr double kSolverError = 5;
 
 // Of the 3-D potential on the pixels of a patch (docs/theory/electrostatics.md).
 constexpr double kFullFieldError = 0.08;
+
+// Volumes and placements of the water on one skin: low and high (or the mean) by droplet seeds.
+struct WaterMember {
+  double factor;
+  std::uint64_t index;
+};
+std::vector<WaterMember> water_members(const Scene& scene, const Plan& plan,
+                                       const Fidelity& fidelity, int skin) {
+  const auto index = static_cast<std::uint64_t>(skin);
+  if (!plan.water) return {{1, index}};
+  const double spread = scene.finger.water.volume_spread;
+  const int seeds = scene.model.water == WaterModel::Droplets ? fidelity.droplet_seeds : 1;
+  std::vector<WaterMember> out;
+  for (int s = 0; s < seeds; ++s) {
+    const std::uint64_t member = index + (static_cast<std::uint64_t>(s) << 32);
+    if (spread > 0) {
+      out.push_back({1 - spread, member});
+      out.push_back({1 + spread, member});
+    } else {
+      out.push_back({1, member});
+    }
+  }
+  return out;
+}
+
+// Of the members on one skin: means, highest peaks, summed costs, the first trouble.
+PatchResult mean_of(const std::vector<PatchResult>& members) {
+  PatchResult out = members.front();
+  if (members.size() == 1) return out;
+  for (double PatchResult::*value :
+       {&PatchResult::capillary_off, &PatchResult::capillary_on, &PatchResult::pull,
+        &PatchResult::retention, &PatchResult::area_off, &PatchResult::area_on,
+        &PatchResult::bridges, &PatchResult::wetted, &PatchResult::bridge_volume,
+        &PatchResult::volume, &PatchResult::over_limit_area, &PatchResult::over_limit_share}) {
+    out.*value = 0;
+    for (const PatchResult& m : members) {
+      out.*value += m.*value / static_cast<double>(members.size());
+    }
+  }
+  for (std::size_t k = 1; k < members.size(); ++k) {
+    const PatchResult& m = members[k];
+    out.peak_oxide_field = std::max(out.peak_oxide_field, m.peak_oxide_field);
+    out.peak_air_field = std::max(out.peak_air_field, m.peak_air_field);
+    out.oxide_margin = std::min(out.oxide_margin, m.oxide_margin);
+    out.certificate = std::max(out.certificate, m.certificate);
+    out.contact_solves += m.contact_solves;
+    out.fft_pairs += m.fft_pairs;
+    out.seconds.contact += m.seconds.contact;
+    out.seconds.water += m.seconds.water;
+    out.seconds.field += m.seconds.field;
+    if (out.status.empty()) out.status = m.status;
+  }
+  return out;
+}
 
 class PointBuilder {
  public:
@@ -154,10 +212,54 @@ class PointBuilder {
     }
     point.modulation.parts.solver =
         kSolverError * certificate * (1 + std::abs(point.modulation.value));
+    state_band(point, patches);
     return point;
   }
 
  private:
+  // Eqs. capillary.19, 20: what mobility and number of the droplets leave open.
+  void state_band(ResponsePoint& point, const std::vector<PatchResult>& patches) const {
+    if (!plan_.water) return;
+    double volume = 0, preload = 0, capillary = 0, pull = 0;
+    for (const PatchResult& p : patches) {
+      volume += p.volume / static_cast<double>(patches.size());
+      preload += p.load;
+      capillary += p.capillary_off;
+      pull += p.pull;
+    }
+    if (scene_.model.water == WaterModel::Threshold) {
+      // Eq. capillary.21, of what droplets would give.
+      const double short_of = threshold_shortfall(volume / plan_.grid.area());
+      point.modulation.parts.water = short_of / (1 - short_of) * std::abs(point.modulation.value);
+      return;
+    }
+    const DropletBand band =
+        droplet_band(volume / plan_.grid.area(), point.mean_gap.value, point.bridge_water_share);
+    const double beta = fidelity_.load_exponent;
+    // Of a load that water or drive lift off there is nothing to be wrong by.
+    const auto share = [&](double change, double load) {
+      return load > 0 ? beta * std::abs(change) / load : 0;
+    };
+    const double off = share(band.capillary * capillary, preload + capillary);
+    const double on =
+        share(band.capillary * capillary - band.pull * pull, preload + capillary + pull);
+    const std::array<std::pair<Measured ResponsePoint::*, double>, 10> all{
+        {{&ResponsePoint::capillary_force, band.capillary},
+         {&ResponsePoint::retention_force, band.capillary},
+         {&ResponsePoint::bridges, band.capillary},
+         {&ResponsePoint::wetted_fraction, band.capillary},
+         {&ResponsePoint::electrostatic_force, band.pull},
+         {&ResponsePoint::modulation, band.pull},
+         {&ResponsePoint::friction_off, off},
+         {&ResponsePoint::area_fraction_off, off},
+         {&ResponsePoint::friction_on, on},
+         {&ResponsePoint::area_fraction_on, on}}};
+    for (const auto& [member, relative] : all) {
+      Measured& m = point.*member;
+      m.parts.water = relative * std::abs(m.value);
+    }
+  }
+
   // Eq. friction.3: F ~ L^beta on the dry contact area.
   void load_based(ResponsePoint& point, const std::vector<PatchResult>& patches) const {
     const double beta = fidelity_.load_exponent;
@@ -210,7 +312,9 @@ class PointBuilder {
 
 double ErrorParts::total() const {
   double sum = sampling * sampling;
-  for (const ErrorOrigin& origin : kErrorOrigins) sum += square((this->*origin.part).value_or(0));
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    if (origin.in_total) sum += square((this->*origin.part).value_or(0));
+  }
   return std::sqrt(sum);
 }
 
@@ -256,18 +360,18 @@ PatchSet solve_patches(const Scene& given, const Texture& texture, const Fidelit
         const std::vector<double> height = added(surface, skin);
         // One a patch pressure: the dry contact of the previous humidity.
         std::vector<ContactSolution> start(set.bridges[0].pressures().size());
-        std::vector<PatchResult> patches;
+        const std::vector<WaterMember> members = water_members(scene, set.plan, fidelity, index);
+        std::vector<PatchResult> patches, one;
         for (std::size_t i = 0; i < humidities.size(); ++i) {
           patches.clear();
           for (double pressure : set.bridges[i].pressures()) {
-            const PatchProblem problem{&scene,
-                                       &surface,
-                                       height,
-                                       kernels[i].get(),
-                                       humidities[i],
-                                       pressure,
-                                       static_cast<std::uint64_t>(index)};
-            patches.push_back(solve_patch(problem, set.plan, fidelity, start[patches.size()]));
+            one.clear();
+            for (const WaterMember& member : members) {
+              const PatchProblem problem{&scene,        &surface, height,       kernels[i].get(),
+                                         humidities[i], pressure, member.index, member.factor};
+              one.push_back(solve_patch(problem, set.plan, fidelity, start[patches.size()]));
+            }
+            patches.push_back(mean_of(one));
           }
           set.results[i][static_cast<std::size_t>(k)] = set.bridges[i].combine(patches);
         }
@@ -337,15 +441,15 @@ RestPatches::RestPatches(const Scene& scene, const Texture& texture, const Fidel
       [&](int k) {
         const int index = fidelity_.first_skin + k;
         height_[k] = added(surface_, skin_patch(scene_, plan_, fidelity_, index));
+        const std::vector<WaterMember> members = water_members(scene_, plan_, fidelity_, index);
         for (double pressure : pressures_) {
-          const PatchProblem problem{&scene_,
-                                     &surface_,
-                                     height_[k],
-                                     kernel_.get(),
-                                     humidity,
-                                     pressure,
-                                     static_cast<std::uint64_t>(index)};
-          rest_[k].push_back(rest_patch(problem, plan_, fidelity_, {}));
+          ContactSolution start;  // the dry contact is that of the first member
+          for (const WaterMember& member : members) {
+            const PatchProblem problem{&scene_,  &surface_, height_[k],   kernel_.get(),
+                                       humidity, pressure,  member.index, member.factor};
+            rest_[k].push_back(rest_patch(problem, plan_, fidelity_, start));
+            if (members.size() > 1) start = rest_[k].back().dry;
+          }
         }
       },
       fidelity_.threads);
@@ -364,16 +468,18 @@ ResponsePoint RestPatches::drive(double amplitude, Estimator estimator) const {
   parallel_for(
       fidelity.skins,
       [&](int k) {
-        std::vector<PatchResult> patches;
-        for (std::size_t n = 0; n < pressures_.size(); ++n) {
-          const PatchProblem problem{&scene,
-                                     &surface_,
-                                     height_[k],
-                                     kernel_.get(),
-                                     humidity,
-                                     pressures_[n],
-                                     static_cast<std::uint64_t>(fidelity.first_skin + k)};
-          patches.push_back(drive_patch(problem, plan, fidelity, rest_[k][n]));
+        const std::vector<WaterMember> members =
+            water_members(scene, plan, fidelity, fidelity.first_skin + k);
+        std::vector<PatchResult> patches, one;
+        std::size_t at = 0;
+        for (double pressure : pressures_) {
+          one.clear();
+          for (const WaterMember& member : members) {
+            const PatchProblem problem{&scene,   &surface_, height_[k],   kernel_.get(),
+                                       humidity, pressure,  member.index, member.factor};
+            one.push_back(drive_patch(problem, plan, fidelity, rest_[k][at++]));
+          }
+          patches.push_back(mean_of(one));
         }
         results[k] = bridge.combine(patches);
       },

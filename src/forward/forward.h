@@ -70,7 +70,7 @@ class RestPatches {
   std::shared_ptr<const ContactKernel> kernel_;
   std::vector<double> pressures_;
   std::vector<std::vector<double>> height_;   // one a skin
-  std::vector<std::vector<RestPatch>> rest_;  // [skin][pressure]
+  std::vector<std::vector<RestPatch>> rest_;  // [skin][pressure x water member]
 };
 
 // One patch with all its fields, for pictures: skin `index` of the fidelity at one humidity.

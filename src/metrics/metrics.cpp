@@ -273,7 +273,8 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
     if (summary == Summary::Variation || summary == Summary::Range || summary == Summary::Std)
       return SummaryValue{};
     for (const AppearanceEntry& entry : appearance_entries()) {
-      if (entry.info.name == metric) return SummaryValue{(*response.appearance).*entry.member, 0};
+      if (entry.info.name == metric)
+        return SummaryValue{(*response.appearance).*entry.member, 0, {}};
     }
   }
   if (!info || response.points.empty() || (info->needs_drive && !response.driven))

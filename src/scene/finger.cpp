@@ -139,6 +139,10 @@ void fields(FieldVisitor& v, SkinWater& s) {
   v.number(
       {"drops_per_um3", "", 1, 1e5, "initial droplets per um3 of water", Source::Paper, "M3: 100"},
       s.drops_per_um3);
+  v.number({"volume_spread", "%", 0, 100,
+            "both a low and a high volume, that far from the mean; 0: the mean alone",
+            Source::Choice, "M3: 5 to 10 um3 at 75 % RH is 33 %"},
+           s.volume_spread);
 }
 
 double Saturation::angle(double rest) const {
@@ -177,6 +181,9 @@ void fields(FieldVisitor& v, ModelOptions& s) {
            s.droplet_step);
   v.flag({"droplet_enhancement", "droplets that do not bridge raise the pull"},
          s.droplet_enhancement);
+  v.flag({"rim_pinning", "contact lines do not pass the edges of holes (Gibbs)"}, s.rim_pinning);
+  v.flag({"corner_wicking", "droplets at the foot of a wall creep along it (Concus and Finn)"},
+         s.corner_wicking);
 }
 
 double Finger::patch_pressure(double relative_humidity) const {

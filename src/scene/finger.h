@@ -72,6 +72,7 @@ struct SkinWater {
   double surface_tension = 0.072126;
   double hysteresis = 0.26;    // cos(theta_r) - cos(theta_a) of the weaker surface
   double drops_per_um3 = 100;  // initial droplets per um^3 of water
+  double volume_spread = 0;    // low and high volume, as a share beside the mean; 0: the mean alone
 
   // Water volume per area [m]: log-linear between nodes, end slopes outside. Eq. scene.4
   double volume_per_area(double relative_humidity) const;
@@ -108,6 +109,8 @@ struct ModelOptions {
   bool breakdown_cap = false;       // gap pressure <= eps0/2 (350 V/um)^2
   double droplet_step = 200e-9;     // first step of a moving droplet [m]: mobility
   bool droplet_enhancement = true;  // droplets that do not bridge raise the pull
+  bool rim_pinning = false;         // contact lines do not pass the edges of holes
+  bool corner_wicking = false;      // droplets at the foot of a wall creep along it
 
   bool operator==(const ModelOptions&) const = default;
 };

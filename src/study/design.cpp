@@ -37,6 +37,8 @@ void fields(FieldVisitor& v, AccuracySettings& s) {
             0, 4096, s.grid);
   v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
            s.target);
+  v.integer({"droplet_seeds", "placements of the droplets on each skin, averaged (M3: 6)"}, 1, 64,
+            s.droplet_seeds);
 }
 
 void fields(FieldVisitor& v, Design& s) {
@@ -166,6 +168,7 @@ Scene scene_of(const Design& design) {
 Fidelity fidelity_of(const Design& design) {
   Fidelity out = fidelity_level(design.accuracy.level_name());
   if (design.accuracy.grid > 0) out.grid = design.accuracy.grid;
+  out.droplet_seeds = design.accuracy.droplet_seeds;
   return out;
 }
 

@@ -141,6 +141,79 @@ TEST(Forward, VoltagePastPullInEndsInAStatus) {
   EXPECT_NE(r.points[0].status, "ok");
 }
 
+TEST(Forward, TheDropletBandHoldsWhatMobilityAndNumberMove) {
+  // A factor 4 either way on the same skins; the law is good to a factor 2.
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.35, 0.55};
+  const Texture flat;
+  const Response base = evaluate(scene, flat, small(8));
+  Scene held = scene, mobile = scene, few = scene, many = scene;
+  held.model.droplet_step = 50e-9;
+  mobile.model.droplet_step = 800e-9;
+  few.finger.water.drops_per_um3 = 25;
+  many.finger.water.drops_per_um3 = 400;
+  const Response a = evaluate(held, flat, small(8)), b = evaluate(mobile, flat, small(8)),
+                 c = evaluate(few, flat, small(8)), d = evaluate(many, flat, small(8));
+  for (std::size_t i = 0; i < base.points.size(); ++i) {
+    for (auto member : {&ResponsePoint::modulation, &ResponsePoint::capillary_force}) {
+      const auto value = [&](const Response& r) { return (r.points[i].*member).value; };
+      const double half = 0.5 * std::hypot(value(a) - value(b), value(c) - value(d));
+      const Measured& m = base.points[i].*member;
+      ASSERT_TRUE(m.parts.water.has_value());
+      EXPECT_LT(*m.parts.water, 2 * half) << i;
+      EXPECT_GT(*m.parts.water, 0.5 * half) << i;
+      EXPECT_LT(m.se(), std::abs(m.value));  // the band is no standard error
+    }
+  }
+  scene.model.water = WaterModel::Threshold;
+  const Response threshold = evaluate(scene, flat, small(8));
+  for (std::size_t i = 0; i < base.points.size(); ++i) {
+    const Measured& m = threshold.points[i].modulation;
+    EXPECT_NEAR(m.value, base.points[i].modulation.value, 1.5 * m.parts.water.value());
+  }
+}
+
+TEST(Forward, LowAndHighVolumesAndDropletSeedsAreAveraged) {
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.75};
+  Fidelity fidelity = small(2);
+  const Texture holes{HoleArray{}};
+  const auto volume = [&](double factor) {
+    Scene s = scene;
+    for (double& v : s.finger.water.volume) v *= factor;
+    return evaluate(s, holes, fidelity).points[0];
+  };
+  const ResponsePoint low = volume(2.0 / 3), high = volume(4.0 / 3);
+  scene.finger.water.volume_spread = 1.0 / 3;
+  const ResponsePoint both = evaluate(scene, holes, fidelity).points[0];
+  const double mean = 0.5 * (low.capillary_force.value + high.capillary_force.value);
+  EXPECT_NEAR(both.capillary_force.value, mean, 0.01 * mean);
+  fidelity.droplet_seeds = 6;
+  fidelity.threads = 1;
+  const ResponsePoint six = evaluate(scene, holes, fidelity).points[0];
+  fidelity.threads = 2;
+  EXPECT_EQ(evaluate(scene, holes, fidelity).points[0], six);
+  EXPECT_NE(six.capillary_force.value, both.capillary_force.value);
+  EXPECT_NEAR(six.capillary_force.value, mean, 0.25 * mean);
+}
+
+TEST(Forward, EdgesOfHolesPinAndWickWhereAskedFor) {
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.55, 0.75};
+  const Texture holes{HoleArray{}};
+  const Response smooth = evaluate(scene, holes, small(2));
+  scene.model.rim_pinning = true;
+  const Response pinned = evaluate(scene, holes, small(2));
+  EXPECT_NE(pinned.points[1].bridges.value, smooth.points[1].bridges.value);
+  scene.model.rim_pinning = false;
+  scene.model.corner_wicking = true;  // 50 deg: above the 45 deg of the walls
+  EXPECT_EQ(evaluate(scene, holes, small(2)).points, smooth.points);
+  scene.surface.contact_angle = 0.6;
+  const Response wicked = evaluate(scene, holes, small(2));
+  scene.model.corner_wicking = false;
+  EXPECT_NE(wicked.points[1], evaluate(scene, holes, small(2)).points[1]);
+}
+
 TEST(Plan, SaysWhatIsSkippedAndWhy) {
   Scene scene;
   scene.finger.water.volume = {0, 0, 0, 0};
