@@ -60,6 +60,56 @@ TEST(Sparse, LightContactIsSolvedToRoundingInFewPairs) {
   }
 }
 
+// Sum of p v less the least that the load could do, from the pressure and the tractions alone.
+double certificate(const ContactKernel& kernel, const std::vector<double>& height,
+                   const std::vector<double>& traction, const ContactSolution& s) {
+  RealArray u(s.pressure.begin(), s.pressure.end());
+  for (std::size_t i = 0; i < traction.size(); ++i) u[i] -= traction[i];
+  SpectrumArray scratch(kernel.scratch_size());
+  kernel.displace(u, u, scratch);
+  double work = 0, load = 0, low = kInfinity, squares = 0;
+  const double level = mean(height);
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    const double v = u[i] - height[i];
+    work += s.pressure[i] * v;
+    load += s.pressure[i];
+    low = std::min(low, v);
+    squares += square(height[i] - level);
+    // The gap returned is that of the pressure returned.
+    EXPECT_NEAR(s.gap[i], s.pressure[i] > 0 ? 0 : std::max(0.0, v - s.shift), 3e-10);
+  }
+  return (work - low * load) / (load * std::sqrt(squares / static_cast<double>(u.size())));
+}
+
+TEST(Sparse, StatesUnderTractionsTakeOnePairOfTheirOwnGridAndAreCertified) {
+  const Light light;
+  const Heightmap skin = light.skin(0);
+  const ContactOptions options{.tolerance = 1e-8};
+  const ContactSolution dry = solve_contact(*light.kernel, skin.z, 15e3, {}, options);
+  ContactSolution previous = dry;
+  double pairs = 0;
+  for (int k = 1; k <= 6; ++k) {
+    std::vector<double> traction(light.grid.size());
+    for (std::size_t i = 0; i < traction.size(); ++i) {
+      traction[i] = (dry.gap[i] < 20e-9 * k ? 4.6e6 / k : 0) + 4e-9 / square(dry.gap[i] + 128e-9);
+    }
+    const ContactSolution s =
+        solve_contact(*light.kernel, skin.z, 15e3, traction, options, &previous);
+    EXPECT_EQ(s.method, ContactMethod::Sparse);
+    EXPECT_TRUE(s.converged()) << s.reason;
+    EXPECT_LE(certificate(*light.kernel, skin.z, traction, s), s.certificate + 1e-12);
+    const ContactSolution dense =
+        solve_contact(*light.kernel, skin.z, 15e3, traction,
+                      {.tolerance = 1e-11, .method = ContactMethod::Dense}, &previous);
+    EXPECT_NEAR(certificate(*light.kernel, skin.z, traction, dense), dense.certificate, 1e-13);
+    EXPECT_LT(difference(s.pressure, dense.pressure), 1e-4);
+    EXPECT_NEAR(s.elastic_energy, dense.elastic_energy, 1e-6 * dense.elastic_energy);
+    pairs += s.fft_pairs;
+    previous = s;
+  }
+  EXPECT_LE(pairs, 10);
+}
+
 TEST(Sparse, FallsBackToTheDenseSolverWhereMuchTouches) {
   const Grid grid{64, 64, 6e-6, 6e-6};
   const auto kernel = make_contact_kernel(grid, {1e6, 0.5, 0, 1e6, 0.5});

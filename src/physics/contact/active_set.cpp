@@ -18,14 +18,18 @@ void ActiveSet::sort(std::vector<std::pair<int, bool>>& members) {
     touching_.push_back(touches);
   }
   pressure_.assign(pixel_.size(), 0);
+  x_.clear();
+  y_.clear();
+  for (int i : pixel_) {
+    x_.push_back(i % kernel_.grid().nx);
+    y_.push_back(i / kernel_.grid().nx);
+  }
 }
 
-double ActiveSet::influence(int i, int j) const {
-  const Grid& grid = kernel_.grid();
-  int dx = i % grid.nx - j % grid.nx, dy = i / grid.nx - j / grid.nx;
-  if (dx < 0) dx += grid.nx;
-  if (dy < 0) dy += grid.ny;
-  return kernel_.influence(dx, dy);
+double ActiveSet::influence(int x, int y, std::size_t k) const {
+  const int dx = x - x_[k], dy = y - y_[k];
+  return kernel_.influence(dx < 0 ? dx + kernel_.grid().nx : dx,
+                           dy < 0 ? dy + kernel_.grid().ny : dy);
 }
 
 std::size_t ActiveSet::find(int pixel) const {
@@ -35,8 +39,9 @@ std::size_t ActiveSet::find(int pixel) const {
 }
 
 double ActiveSet::gap(int i, double initial_gap) const {
+  const int x = i % kernel_.grid().nx, y = i / kernel_.grid().nx;
   double v = initial_gap - shift_;
-  for (std::size_t k : set_) v += influence(i, pixel_[k]) * pressure_[k];
+  for (std::size_t k : set_) v += influence(x, y, k) * pressure_[k];
   return v;
 }
 
@@ -54,7 +59,7 @@ bool ActiveSet::balance(double load, double slack, std::size_t limit) {
     for (std::size_t r = 0; r < m; ++r) {
       a_[r] = -gap_[set_[r]];
       for (std::size_t c = 0; c <= r; ++c) {
-        matrix_[r * m + c] = influence(pixel_[set_[r]], pixel_[set_[c]]);
+        matrix_[r * m + c] = influence(x_[set_[r]], y_[set_[r]], set_[c]);
       }
     }
     if (!factorise(m)) return false;

@@ -34,18 +34,19 @@ class ActiveSet {
   double pressure(std::size_t k) const { return pressure_[k]; }
   double shift() const { return shift_; }
   const std::vector<std::size_t>& touching() const { return set_; }
+  double gap_at(std::size_t k) const { return gap(pixel_[k], gap_[k]); }
   // Gap of any pixel with that initial gap [m].
   double gap(int i, double initial_gap) const;
 
  private:
   void sort(std::vector<std::pair<int, bool>>& members);
-  double influence(int i, int j) const;
+  double influence(int x, int y, std::size_t k) const;  // at (x, y) from the pixel at position k
   bool factorise(std::size_t m);
   void substitute(std::size_t m, std::vector<double>& x) const;
 
   const ContactKernel& kernel_;
   double shift_ = 0;
-  std::vector<int> pixel_;
+  std::vector<int> pixel_, x_, y_;
   std::vector<char> touching_;
   std::vector<double> gap_, pressure_;
   std::vector<std::size_t> set_;  // touching ones, as positions

@@ -36,23 +36,30 @@ void fail(std::size_t n, ContactSolution& out) {
   out.status = ContactStatus::Invalid;
 }
 
-void finish(const StandardProblem& problem, const StandardState& state,
-            const ContactOptions& options, ContactSolution& out) {
-  out.pressure.assign(state.p.begin(), state.p.end());
-  out.gap.resize(state.w.size());
+void finish(const StandardProblem& problem, StandardState state, const ContactOptions& options,
+            ContactSolution& out) {
+  out.pressure = std::move(state.p);
+  out.gap.resize(state.u.size());
   out.certificate = state.certificate;
   out.iterations = state.iterations;
   out.fft_pairs += state.pairs;
   out.shift = state.shift;
-  double energy = 0;
   const double shift = out.shift;
+  const double *p = out.pressure.data(), *h = problem.height.data(), *u = state.u.data();
+  double* gap = out.gap.data();
+  double energy = 0;
 #pragma omp simd reduction(+ : energy)
   for (std::size_t i = 0; i < out.gap.size(); ++i) {
-    const double p = state.p[i], v = state.w[i], above = v - shift;
-    out.gap[i] = p > 0 || above < 0 ? 0 : above;
-    energy += 0.5 * p * (v - problem.g0[i]);
+    const double above = u[i] - h[i] - shift;
+    gap[i] = p[i] > 0 || above < 0 ? 0 : above;
+    energy += p[i] * u[i];
   }
-  out.elastic_energy = energy * problem.kernel.grid().pixel_area();
+  if (!problem.traction.empty()) {
+    const double* t = problem.traction.data();
+#pragma omp simd reduction(+ : energy)
+    for (std::size_t i = 0; i < out.gap.size(); ++i) energy -= t[i] * u[i];
+  }
+  out.elastic_energy = 0.5 * energy * problem.kernel.grid().pixel_area();
   if (state.certified) {
     out.status = ContactStatus::Converged;
     return;
@@ -75,6 +82,18 @@ void hang(std::span<const double> g0, double level, const std::string& reason,
 
 }  // namespace
 
+double StandardProblem::pulled(RealArray& u, SpectrumArray& scratch) const {
+  u.resize(height.size());
+  if (traction.empty()) {
+    std::fill(u.begin(), u.end(), 0.0);
+    return 0;
+  }
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = -traction[i];
+  scratch.resize(kernel.scratch_size());
+  kernel.displace(u, u, scratch);
+  return 1;
+}
+
 ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,
                               double mean_pressure, std::span<const double> traction,
                               const ContactOptions& options, const ContactSolution* start) {
@@ -83,7 +102,8 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   ContactSolution out;
   const double square_height = height.size() == n ? variance(height) : 0;
   double mean_traction = 0;
-  for (double t : traction) mean_traction += t;
+#pragma omp simd reduction(+ : mean_traction)
+  for (std::size_t i = 0; i < traction.size(); ++i) mean_traction += traction[i];
   mean_traction /= static_cast<double>(n);
   if (height.size() != n || (!traction.empty() && traction.size() != n) ||
       !std::isfinite(square_height) || !std::isfinite(mean_traction) ||
@@ -93,19 +113,16 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
     return out;
   }
 
-  // Eq. contact.3: tractions deform the surface and add to the load.
-  RealArray g0(n);
-  if (!traction.empty()) {
-    SpectrumArray scratch(kernel.scratch_size());
-    RealArray t(traction.begin(), traction.end());
-    kernel.displace(t, g0, scratch);
-    out.fft_pairs += 1;
-    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i] - g0[i];
-  } else {
-    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i];
-  }
+  // Height spread that normalises the certificate; a flat surface is measured by what a pixel
+  // yields.
   const double mean = mean_pressure + mean_traction;
+  const double spread = std::max(std::sqrt(square_height), 1e-6 * mean * kernel.self_compliance());
+  StandardProblem problem{kernel, height, traction, spread, mean * static_cast<double>(n)};
   if (mean <= 0) {
+    RealArray g0;
+    SpectrumArray scratch;
+    out.fft_pairs += problem.pulled(g0, scratch);
+    for (std::size_t i = 0; i < n; ++i) g0[i] -= height[i];
     hang(g0, *std::min_element(g0.begin(), g0.end()),
          mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch", out);
     return out;
@@ -117,10 +134,6 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
     out.pressure.assign(n, options.hardness);
     return out;
   }
-  // Height spread that normalises the certificate; a flat surface is measured by what a pixel
-  // yields.
-  const double spread = std::max(std::sqrt(square_height), 1e-6 * mean * kernel.self_compliance());
-  StandardProblem problem{kernel, g0, spread, mean * static_cast<double>(n)};
   if (options.hardness > 0) problem.cap = options.hardness;
 
   if (!usable(start, n)) start = nullptr;
@@ -131,11 +144,13 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   if (options.method != ContactMethod::Dense && options.hardness <= 0) {
     if (solve_sparse(problem, options.tolerance, start, demand, state)) {
       out.method = ContactMethod::Sparse;
-      finish(problem, state, options, out);
+      finish(problem, std::move(state), options, out);
       return out;
     }
     out.fft_pairs += state.pairs;
-    if (state.pairs > 0) first = state.p;
+    if (std::any_of(state.p.begin(), state.p.end(), [](double p) { return p > 0; })) {
+      first = state.p;
+    }
   }
   out.method = ContactMethod::Dense;
   finish(problem, solve_dense(problem, options.tolerance, options.max_iterations, first), options,
@@ -154,14 +169,16 @@ ContactSolution solve_approach(const ContactKernel& kernel, std::span<const doub
     out.reason = "heights or approach are not finite numbers on the kernel's grid";
     return out;
   }
-  RealArray g0(n);
-  double mean = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    g0[i] = -height[i];
-    mean += g0[i] / static_cast<double>(n);
+  StandardProblem problem{kernel, height, {}, std::sqrt(square_height)};
+  double mean = 0, highest = height[0];
+  for (double h : height) {
+    mean -= h / static_cast<double>(n);
+    highest = std::max(highest, h);
   }
-  const double level = *std::min_element(g0.begin(), g0.end()) + approach;
+  const double level = approach - highest;
   if (approach <= 0) {
+    RealArray g0(n);
+    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i];
     hang(g0, level, "the surfaces do not touch yet", out);
     return out;
   }
@@ -171,7 +188,6 @@ ContactSolution solve_approach(const ContactKernel& kernel, std::span<const doub
                              approach + mean - level);
     return out;
   }
-  StandardProblem problem{kernel, g0, std::sqrt(square_height)};
   if (options.hardness > 0) problem.cap = options.hardness;
   problem.approach = true;
   problem.level = level;

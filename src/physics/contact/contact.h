@@ -50,6 +50,9 @@ class ContactKernel {
   // Displacement at (dx, dy) pixels, 0 <= dx < nx, from a pixel under unit pressure [m/Pa].
   double influence(int dx, int dy) const { return influence_[grid_.index(dx, dy)]; }
   double self_compliance() const { return influence_[0]; }
+  // The strongest influence on any pixel more than near(nx), near(ny) pixels away.
+  double influence_beyond() const { return influence_beyond_; }
+  static int near(int count) { return count > 16 ? 8 : (count - 1) / 2; }
   const ContactKernel* coarse() const { return coarse_.get(); }  // half the pixels, or null
   double contact_modulus() const;                                // E* of the two surfaces [Pa]
 
@@ -68,6 +71,7 @@ class ContactKernel {
   RealArray arranged_, inverse_arranged_;           // for the convolution
   std::vector<float> stencil_;
   RealArray influence_;
+  double influence_beyond_ = 0;
   std::shared_ptr<const ContactKernel> coarse_;
 };
 
@@ -96,7 +100,7 @@ struct ContactSolution {
   double certificate = 0;        // normalised bound on the energy error, Eq. contact.4
   int iterations = 0;
   double fft_pairs = 0;       // forward + inverse transforms, in units of the finest grid
-  double elastic_energy = 0;  // [J]
+  double elastic_energy = 0;  // [J] of the solid under pressure and tractions
   ContactMethod method = ContactMethod::Auto;  // that solved it
 
   bool converged() const {
@@ -106,7 +110,7 @@ struct ContactSolution {
 
 // height: rigid counter-body plus skin topography [m], grid.size() values, high touches first.
 // mean_pressure: external load over the patch area [Pa]. traction: attractive pressure [Pa] a
-// pixel, or empty. start: a nearby solution. Cost: 2-4 transform pairs (sparse), 5-25 (dense).
+// pixel, or empty. start: a nearby solution. Cost: 1-3 transform pairs (sparse), 5-25 (dense).
 // Status NoLoad: nothing presses (the patch hangs free or lifts off); Invalid: NaN input, or a mean
 // load beyond the hardness.
 ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,

@@ -33,37 +33,35 @@ class DenseSolver {
       : problem_(problem),
         kernel_(problem.kernel),
         grid_(kernel_.grid()),
-        g0_(problem.g0),
         cap_(problem.cap),
         load_(problem.load),
         tolerance_(tolerance),
         max_iterations_(max_iterations),
         state_(state),
         p_(state.p),
-        w_(state.w),
-        next_(grid_.size()),
+        w_(state.u),
+        change_(grid_.size()),
         step_(grid_.size(), 0.0),
         scratch_(kernel_.scratch_size()),
         width_(grid_.nx + 2 * kReach + ContactKernel::kStencilWidth),
         residual_(static_cast<std::size_t>(width_) * (grid_.ny + 2 * kReach), 0.0F),
-        inside_(residual_.size(), 0.0F) {
-    w_.resize(grid_.size());
-  }
+        inside_(residual_.size(), 0.0F) {}
 
-  // From the pressure of the state, with any mean. The gap function is at every moment a transform
-  // of the pressure itself (between two of them where a step was shortened), so that the
-  // certificate is that of the pressure returned.
-  void solve() {
+  // From the pressure of the state, with any mean. without: the gap function without pressure, or
+  // empty. Every step's transform is added to the gap function, which so stays that of the pressure
+  // to rounding, and the certificate is that of the pressure returned.
+  void solve(RealArray without) {
+    start(std::move(without));
     state_.certified = iterate();
     state_.exhausted = state_.iterations >= max_iterations_;
     state_.shift = shift_;
+    for (std::size_t i = 0; i < w_.size(); ++i) w_[i] += problem_.height[i];
   }
 
  private:
   static constexpr int kReach = ContactKernel::kReach;
 
   bool iterate() {
-    start();
     double alpha = 0.4;  // expected step along the preconditioned direction
     double best = kInfinity;
     int since_best = 0;
@@ -88,7 +86,7 @@ class DenseSolver {
       }
       direct(conjugate);
       const bool clipped = move(alpha);
-      kernel_.displace(p_, next_, scratch_);
+      kernel_.displace(step_, change_, scratch_);
       ++state_.pairs;
       // Exact minimum along the step taken, t = 1 being its end. A step that ran into the bounds is
       // kept unless it went too far: its end tells which pixels are free.
@@ -98,7 +96,7 @@ class DenseSolver {
         const int i = free_[k];
         const double s = step_[i], room = s < 0 ? s - p_[i] : cap_ - p_[i] + s;
         slope += r_[k] * s;
-        curvature += (next_[i] + g0_[i] - w_[i]) * s;
+        curvature += change_[i] * s;
         const double length = s != 0 ? room / s : kInfinity;
         longest = length < longest ? length : longest;
       }
@@ -122,10 +120,19 @@ class DenseSolver {
     }
   }
 
-  void start() {
+  void start(RealArray without) {
     if (!problem_.approach) scale_to_load();
-    kernel_.displace(p_, next_, scratch_);
     ++state_.pairs;
+    if (without.empty()) {
+      w_.assign(problem_.height.size(), 0.0);
+      for (std::size_t i = 0; i < w_.size(); ++i) w_[i] = -problem_.height[i];
+      change_.assign(p_.begin(), p_.end());
+      for (std::size_t i = 0; i < problem_.traction.size(); ++i) change_[i] -= problem_.traction[i];
+    } else {
+      w_ = std::move(without);
+      change_.assign(p_.begin(), p_.end());
+    }
+    kernel_.displace(change_, change_, scratch_);
     old_.clear();
     for (std::size_t i = 0; i < p_.size(); ++i) {
       if (p_[i] > 0) old_.push_back(static_cast<int>(i));
@@ -164,14 +171,12 @@ class DenseSolver {
     }
   }
 
-  // Gap function and lists of the new p_, at t from the old gap function w_ to that of the
-  // transform in next_, where the old one is kept. old_ holds every pixel under pressure; then
-  // free_: pixels between the bounds and those at a bound whose gap has the wrong sign; held_:
-  // others at the cap.
+  // Gap function and lists of the new p_, at t of the step whose transform is in change_. old_
+  // holds every pixel under pressure; then free_: pixels between the bounds and those at a bound
+  // whose gap has the wrong sign; held_: others at the cap.
   void arrive(double t) {
-    const auto blend = [&](std::size_t i) {
-      return t == 1 ? next_[i] + g0_[i] : w_[i] + t * (next_[i] + g0_[i] - w_[i]);
-    };
+    taken_ = t;
+    const auto blend = [&](std::size_t i) { return w_[i] + t * change_[i]; };
     double sum = 0, total = 0;
     std::size_t count = 0;
     for (int i : old_) {
@@ -208,25 +213,27 @@ class DenseSolver {
       }
     }
     constexpr std::size_t kBlock = 64;
+    int joining[kBlock];
     low_ = kInfinity;
     for (std::size_t begin = 0; begin < p_.size(); begin += kBlock) {
       const std::size_t end = std::min(begin + kBlock, p_.size());
-      double low = kInfinity, joining = 0;
-#pragma omp simd reduction(min : low) reduction(+ : joining)
+      double low = kInfinity;
+#pragma omp simd reduction(min : low)
       for (std::size_t i = begin; i < end; ++i) {
-        const double fresh = next_[i] + g0_[i];
-        const double w = t == 1 ? fresh : w_[i] + t * (fresh - w_[i]);
-        next_[i] = w;
+        const double w = w_[i] + t * change_[i];
+        w_[i] = w;
         low = low < w ? low : w;
-        joining += w < shift_ && p_[i] == 0 ? 1.0 : 0.0;
       }
+      if (low >= shift_) continue;
       low_ = std::min(low_, low);
-      if (joining == 0) continue;
+      std::size_t found = 0;
       for (std::size_t i = begin; i < end; ++i) {
-        if (p_[i] == 0 && next_[i] < shift_) free_.push_back(static_cast<int>(i));
+        joining[found] = static_cast<int>(i);
+        found += w_[i] < shift_ && p_[i] == 0;
       }
+      free_.insert(free_.end(), joining, joining + found);
     }
-    w_.swap(next_);
+    if (!(low_ < shift_)) low_ = *std::min_element(w_.begin(), w_.end());
     r_.resize(free_.size());
     for (std::size_t k = 0; k < free_.size(); ++k) r_[k] = w_[free_[k]] - shift_;
   }
@@ -305,7 +312,7 @@ class DenseSolver {
   }
 
   // d_ = z plus the share of the last step that makes it conjugate to it (Polak-Ribiere+), without
-  // load. step_ and next_ hold the last step and the gap function before it.
+  // load. taken_ change_ is what step_, the last step, changed the gap function by.
   void direct(bool conjugate) {
     const std::size_t m = free_.size();
     double share = 0;
@@ -314,7 +321,7 @@ class DenseSolver {
 #pragma omp simd reduction(+ : cross, own)
       for (std::size_t k = 0; k < m; ++k) {
         const int i = free_[k];
-        const double y = w_[i] - next_[i];
+        const double y = taken_ * change_[i];
         cross += z_[k] * y;
         own += step_[i] * y;
       }
@@ -425,38 +432,39 @@ class DenseSolver {
   const StandardProblem& problem_;
   const ContactKernel& kernel_;
   const Grid& grid_;
-  std::span<const double> g0_;
   double cap_, load_, tolerance_;
   int max_iterations_;
   StandardState& state_;
-  RealArray &p_, &w_;  // of the state
-  RealArray next_, step_, field_;
+  std::vector<double>& p_;  // of the state
+  RealArray& w_;            // gap function; of the state, where it ends as the displacement
+  RealArray change_, step_, field_;
   SpectrumArray scratch_;
   int width_;                             // of the padded images below
   std::vector<float> residual_, inside_;  // of the free pixels; zero between uses
   std::vector<int> free_, held_, old_;    // old_: the free set of the last step, held ones included
   std::vector<double> r_, z_, ones_, d_, raw_, next_low_;
-  double shift_ = 0, low_ = 0;
+  double shift_ = 0, low_ = 0, taken_ = 0;
 };
 
 // Start from the grid of half the pixels, its gaps the 2x2 minimum, solved as far as the start is
-// worth. pairs: in units of the finer grid.
-RealArray nested_start(const StandardProblem& fine_problem, double tolerance, double& pairs) {
+// worth. g0: the finer grid's gap function without pressure. pairs: in units of the finer grid.
+std::vector<double> nested_start(const StandardProblem& fine_problem, const RealArray& g0,
+                                 double tolerance, double& pairs) {
   const ContactKernel& kernel = fine_problem.kernel;
   const ContactKernel& coarse = *kernel.coarse();
-  const std::span<const double> g0 = fine_problem.g0;
   const Grid &fine_grid = kernel.grid(), &grid = coarse.grid();
-  std::vector<double> gap(grid.size());
+  std::vector<double> height(grid.size());
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       const std::size_t i = fine_grid.index(2 * ix, 2 * iy);
       const auto row = static_cast<std::size_t>(fine_grid.nx);
-      gap[grid.index(ix, iy)] =
-          std::min(std::min(g0[i], g0[i + 1]), std::min(g0[i + row], g0[i + row + 1]));
+      height[grid.index(ix, iy)] =
+          -std::min(std::min(g0[i], g0[i + 1]), std::min(g0[i + row], g0[i + row + 1]));
     }
   }
   StandardProblem problem{coarse,
-                          gap,
+                          height,
+                          {},
                           fine_problem.spread,
                           fine_problem.load / 4,
                           fine_problem.cap,
@@ -466,7 +474,7 @@ RealArray nested_start(const StandardProblem& fine_problem, double tolerance, do
   pairs += 0.25 * state.pairs;
   // The load of a coarse pixel goes to its children as if they were springs of a pixel's own
   // compliance at their heights.
-  RealArray fine(fine_grid.size(), 0.0);
+  std::vector<double> fine(fine_grid.size(), 0.0);
   const double yield = kernel.self_compliance();
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
@@ -493,15 +501,21 @@ RealArray nested_start(const StandardProblem& fine_problem, double tolerance, do
 StandardState solve_dense(const StandardProblem& problem, double tolerance, int max_iterations,
                           std::span<const double> start) {
   StandardState state;
-  const std::size_t n = problem.g0.size();
+  RealArray without;
   if (!start.empty()) {
     state.p.assign(start.begin(), start.end());
-  } else if (problem.kernel.coarse()) {
-    state.p = nested_start(problem, tolerance, state.pairs);
   } else {
-    state.p.assign(n, problem.load / static_cast<double>(n));
+    SpectrumArray scratch;
+    state.pairs += problem.pulled(without, scratch);
+    for (std::size_t i = 0; i < without.size(); ++i) without[i] -= problem.height[i];
+    if (problem.kernel.coarse()) {
+      state.p = nested_start(problem, without, tolerance, state.pairs);
+    } else {
+      const auto n = static_cast<double>(problem.height.size());
+      state.p.assign(problem.height.size(), problem.load / n);
+    }
   }
-  DenseSolver(problem, tolerance, max_iterations, state).solve();
+  DenseSolver(problem, tolerance, max_iterations, state).solve(std::move(without));
   return state;
 }
 

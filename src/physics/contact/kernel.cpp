@@ -95,6 +95,14 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
   SpectrumArray scratch(scratch_size());
   influence_.resize(grid.size());
   displace(table, influence_, scratch);
+  for (int dy = 0; dy < grid.ny; ++dy) {
+    for (int dx = 0; dx < grid.nx; ++dx) {
+      if (std::min(dx, grid.nx - dx) <= near(grid.nx) &&
+          std::min(dy, grid.ny - dy) <= near(grid.ny))
+        continue;
+      influence_beyond_ = std::max(influence_beyond_, std::abs(influence(dx, dy)));
+    }
+  }
   if (grid.nx % 2 == 0 && grid.ny % 2 == 0 && std::min(grid.nx, grid.ny) >= 64) {
     coarse_ = make_contact_kernel({grid.nx / 2, grid.ny / 2, grid.lx, grid.ly}, solid);
   }

@@ -9,20 +9,26 @@
 
 namespace papilla {
 
-// Minimise 1/2 pSp + p.g0 over 0 <= p <= cap: with the sum of p given (load control), or with the
-// rigid level given (approach control: minimise 1/2 pSp + p.(g0 - level)).
+// Minimise 1/2 pSp + p.g0 over 0 <= p <= cap, g0 = -height - S traction (Eq. contact.3): with the
+// sum of p given (load control), or with the rigid level given (approach control: minimise
+// 1/2 pSp + p.(g0 - level)).
 struct StandardProblem {
   const ContactKernel& kernel;
-  std::span<const double> g0;  // [m]
-  double spread = 1;           // height that normalises the certificate [m]
-  double load = 0;             // sum of p [Pa]
+  std::span<const double> height;    // [m]
+  std::span<const double> traction;  // attractive [Pa], or empty
+  double spread = 1;                 // height that normalises the certificate [m]
+  double load = 0;                   // sum of p [Pa]
   double cap = kInfinity;
   bool approach = false;
   double level = 0;  // [m], approach control
+
+  // Displacement by the tractions alone, -S traction. Returns the transform pairs it took.
+  double pulled(RealArray& u, SpectrumArray& scratch) const;
 };
 
 struct StandardState {
-  RealArray p, w;  // pressure [Pa]; gap function S p + g0 [m]
+  std::vector<double> p;  // pressure [Pa]
+  RealArray u;            // displacement S(p - traction) [m]
   double shift = 0, certificate = 0;
   double pairs = 0;  // in units of the problem's grid
   int iterations = 0;
@@ -33,9 +39,9 @@ struct StandardState {
 StandardState solve_dense(const StandardProblem& problem, double tolerance, int max_iterations,
                           std::span<const double> start);
 
-// Candidate set with an exact active set; certified by a full transform pair. False: too much
-// contact for it (state is then a start for the dense solver, its pairs count). start: a nearby
-// solution or null. demand: tried whatever amount of contact is expected.
+// Candidate set with an exact active set; certified over all pixels. False: too much contact for it
+// (state.p is then a start for the dense solver where pairs were spent, and they count). start: a
+// nearby solution or null. demand: tried whatever amount of contact is expected.
 bool solve_sparse(const StandardProblem& problem, double tolerance, const ContactSolution* start,
                   bool demand, StandardState& state);
 

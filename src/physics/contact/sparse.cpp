@@ -4,10 +4,15 @@
 
 #include "base/constants.h"
 #include "physics/contact/active_set.h"
+#include "physics/contact/cubic.h"
 #include "physics/contact/solvers.h"
 
 namespace papilla {
 namespace {
+
+// Share of the height spread up to which the field of a small change of pressure is left out far
+// away.
+constexpr double kBlur = 3e-4;
 
 class CandidateSolver {
  public:
@@ -22,28 +27,55 @@ class CandidateSolver {
         set_(problem.kernel) {}
 
   bool run(const ContactSolution* start, bool demand) {
-    if (start ? !choose_near(*start, demand) : !choose_cold(demand)) return false;
-    state_.p.assign(n_, 0.0);
-    state_.w.resize(n_);
-    SpectrumArray scratch(problem_.kernel.scratch_size());
-    for (int round = 0; round < 6; ++round) {
-      if (!set_.balance(problem_.load, 1e-13 * problem_.spread, limit_)) return false;
-      for (int i : under_pressure_) state_.p[i] = 0;
-      under_pressure_.clear();
+    if (start && !choose_near(*start, demand)) return false;
+    if (start) {
+      state_.p.assign(n_, 0.0);
+      if (!predict(*start)) return false;
+      displace();
+    } else {
+      state_.pairs += problem_.pulled(state_.u, scratch_);
+      if (!choose_cold(demand)) return false;
+      state_.p.assign(n_, 0.0);
+    }
+    for (int transforms = 0; state_.iterations < 12; ++state_.iterations) {
+      // What the pressures' own influence leaves of the gap function at the pixels watched.
+      const auto initial_gap = [this](int i) { return gap_function(i) - pressed(i); };
+      set_.watch(members_, initial_gap);
+      if (!balance()) return false;
+      double moved = 0;
+      change_.clear();
       for (std::size_t k = 0; k < set_.size(); ++k) {
-        if (!set_.touches(k)) continue;
-        state_.p[set_.pixel(k)] = set_.pressure(k);
-        under_pressure_.push_back(set_.pixel(k));
+        const double d = set_.pressure(k) - state_.p[set_.pixel(k)];
+        if (d != 0) change_.emplace_back(set_.pixel(k), d);
+        moved += std::abs(d);
       }
-      problem_.kernel.displace(state_.p, state_.w, scratch);
-      ++state_.pairs;
-      ++state_.iterations;
-      const std::vector<int> penetrating = inspect();
-      if (state_.certificate <= tolerance_) {
-        state_.certified = true;
-        return true;
+      const double blur = problem_.kernel.influence_beyond() * moved;
+      if (blur > kBlur * problem_.spread) {
+        if (++transforms > 6) return false;
+        take_pressures();
+        displace();
+        continue;
       }
-      if (penetrating.empty() || penetrating.size() > limit_ || !extend(penetrating)) return false;
+      // The change is added nearby, and exactly at the pixels watched: so every gap is known to
+      // within the blur.
+      displace_nearby(1);
+      before_.resize(set_.size());
+      for (std::size_t k = 0; k < set_.size(); ++k) {
+        double& u = state_.u[set_.pixel(k)];
+        before_[k] = u;
+        u = set_.gap_at(k) + set_.shift() + problem_.height[set_.pixel(k)];
+      }
+      const std::vector<int> open = inspect(blur);
+      if (open.empty()) {
+        take_pressures();
+        state_.certified = state_.certificate <= tolerance_;
+        return state_.certified;
+      }
+      if (open.size() > limit_) return false;
+      for (std::size_t k = 0; k < set_.size(); ++k) state_.u[set_.pixel(k)] = before_[k];
+      displace_nearby(-1);
+      extend(open);
+      if (members_.size() > 12 * limit_) return false;
     }
     return false;
   }
@@ -52,11 +84,13 @@ class CandidateSolver {
   // First watch set: the lowest gaps, four times the contact that Persson's and Bush's theories
   // expect, 2 p / (E* rms slope).
   bool choose_cold(bool demand) {
+    std::vector<double> g0(n_);
+    for (std::size_t i = 0; i < n_; ++i) g0[i] = gap_function(i);
     double slopes = 0;
     const int last = grid_.nx - 1;
     for (int iy = 0; iy < grid_.ny; ++iy) {
-      const double* row = problem_.g0.data() + grid_.index(0, iy);
-      const double* next = problem_.g0.data() + grid_.index(0, iy + 1 < grid_.ny ? iy + 1 : 0);
+      const double* row = g0.data() + grid_.index(0, iy);
+      const double* next = g0.data() + grid_.index(0, iy + 1 < grid_.ny ? iy + 1 : 0);
       double along = 0, across = 0;
 #pragma omp simd reduction(+ : along, across)
       for (int ix = 0; ix < last; ++ix) {
@@ -67,7 +101,7 @@ class CandidateSolver {
     }
     const double slope = std::sqrt(slopes / static_cast<double>(n_));
     const double expected = 2 * problem_.load / (problem_.kernel.contact_modulus() * slope);
-    return choose(problem_.g0, 4 * expected, demand, {});
+    return choose(g0, 4 * expected, demand, {});
   }
 
   bool choose_near(const ContactSolution& start, bool demand) {
@@ -115,65 +149,156 @@ class CandidateSolver {
       low.resize(count);
     }
     std::sort(low.begin(), low.end());
-    std::vector<std::pair<int, bool>> members;
     for (std::size_t k = 0; k < low.size(); ++k) {
       const int i = low[k].second;
-      members.emplace_back(i, pressure.empty() ? 2 * k <= low.size() : pressure[i] > 0);
+      members_.emplace_back(i, pressure.empty() ? 2 * k <= low.size() : pressure[i] > 0);
     }
-    watch(members);
     return true;
   }
 
-  void watch(std::vector<std::pair<int, bool>>& members) {
-    set_.watch(members, [this](int i) { return problem_.g0[i]; });
+  // Pressures of the pixels watched by what half the pixels say of the tractions: with their
+  // transform, the exact pressures are a small change away.
+  bool predict(const ContactSolution& start) {
+    const ContactKernel* coarse = problem_.kernel.coarse();
+    const std::span<const double> traction = problem_.traction, height = problem_.height;
+    if (traction.empty() || !coarse) {
+      if (!traction.empty()) {
+        for (const auto& [i, touches] : members_) take(i, start.pressure[i]);
+        return true;
+      }
+      set_.watch(members_, [&](int i) { return -height[i]; });
+    } else {
+      const Grid& half = coarse->grid();
+      RealArray pulled(half.size());
+      for (int iy = 0; iy < half.ny; ++iy) {
+        const double* row = traction.data() + grid_.index(0, 2 * iy);
+        const double* next = row + grid_.nx;
+        double* to = pulled.data() + half.index(0, iy);
+        for (int ix = 0; ix < half.nx; ++ix) {
+          to[ix] = 0.25 * (row[2 * ix] + row[2 * ix + 1] + next[2 * ix] + next[2 * ix + 1]);
+        }
+      }
+      SpectrumArray scratch(coarse->scratch_size());
+      coarse->displace(pulled, pulled, scratch);
+      state_.pairs += 0.25;
+      set_.watch(members_, [&](int i) {
+        return -height[i] - interpolate(pulled, half, cubic(i % grid_.nx, 2, half.nx),
+                                        cubic(i / grid_.nx, 2, half.ny));
+      });
+    }
+    if (!balance()) return false;
+    take_pressures();
+    return true;
   }
 
-  // Pixels that penetrate and their neighbours join the watch set.
-  bool extend(const std::vector<int>& penetrating) {
-    std::vector<std::pair<int, bool>> members;
+  // Solves the pixels watched; they stay so, touching as found.
+  bool balance() {
+    if (!set_.balance(problem_.load, 1e-13 * problem_.spread, limit_)) return false;
+    members_.clear();
     for (std::size_t k = 0; k < set_.size(); ++k) {
-      members.emplace_back(set_.pixel(k), set_.touches(k));
+      members_.emplace_back(set_.pixel(k), set_.touches(k));
     }
+    return true;
+  }
+
+  double gap_function(std::size_t i) const { return state_.u[i] - problem_.height[i]; }
+
+  // The displacement by the pressures taken and the tractions.
+  void displace() {
+    state_.u.resize(n_);
+    const std::span<const double> t = problem_.traction;
+    if (t.empty()) {
+      std::fill(state_.u.begin(), state_.u.end(), 0.0);
+    } else {
+      for (std::size_t i = 0; i < n_; ++i) state_.u[i] = -t[i];
+    }
+    for (int i : under_pressure_) state_.u[i] += state_.p[i];
+    scratch_.resize(problem_.kernel.scratch_size());
+    problem_.kernel.displace(state_.u, state_.u, scratch_);
+    ++state_.pairs;
+  }
+
+  void take(int i, double p) {
+    state_.p[i] = p;
+    if (p > 0) under_pressure_.push_back(i);
+  }
+  void take_pressures() {
+    for (int i : under_pressure_) state_.p[i] = 0;
+    under_pressure_.clear();
+    for (std::size_t k = 0; k < set_.size(); ++k) take(set_.pixel(k), set_.pressure(k));
+  }
+
+  // Displacement of pixel i by the pressures taken.
+  double pressed(int i) const {
+    const int x = i % grid_.nx, y = i / grid_.nx;
+    double u = 0;
+    for (int j : under_pressure_) {
+      u += problem_.kernel.influence(wrap(x - j % grid_.nx, grid_.nx),
+                                     wrap(y - j / grid_.nx, grid_.ny)) *
+           state_.p[j];
+    }
+    return u;
+  }
+
+  // The pixels that penetrate, and their neighbours, are watched too.
+  void extend(const std::vector<int>& penetrating) {
     for (int i : penetrating) {
       const int ix = i % grid_.nx, iy = i / grid_.nx;
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
           const std::size_t j = grid_.index(wrap(ix + dx, grid_.nx), wrap(iy + dy, grid_.ny));
-          members.emplace_back(static_cast<int>(j), dx == 0 && dy == 0);
+          members_.emplace_back(static_cast<int>(j), dx == 0 && dy == 0);
         }
       }
     }
-    watch(members);
-    return set_.size() <= 12 * limit_;
   }
 
-  // Gap function from the displacement, certificate (Eq. contact.4), pixels that penetrate.
-  std::vector<int> inspect() {
-    const double shift = set_.shift();
+  // The change of pressure in the gap function, times sign, within near() pixels.
+  void displace_nearby(double sign) {
+    const int reach_x = ContactKernel::near(grid_.nx), reach_y = ContactKernel::near(grid_.ny);
+    for (const auto& [i, d] : change_) {
+      const int ix = i % grid_.nx, iy = i / grid_.nx;
+      for (int dy = -reach_y; dy <= reach_y; ++dy) {
+        const int row = wrap(dy, grid_.ny);
+        const std::size_t to = grid_.index(0, wrap(iy + dy, grid_.ny));
+        for (int dx = -reach_x; dx <= reach_x; ++dx) {
+          state_.u[to + wrap(ix + dx, grid_.nx)] +=
+              sign * d * problem_.kernel.influence(wrap(dx, grid_.nx), row);
+        }
+      }
+    }
+  }
+
+  // Certificate (Eq. contact.4) of the set's pressures in a gap function known to within blur [m],
+  // the pixels watched exactly; those not watched that may penetrate.
+  std::vector<int> inspect(double blur) {
+    const double shift = set_.shift(), bound = shift + blur;
+    const double *u = state_.u.data(), *h = problem_.height.data();
     double low = kInfinity;
-    std::vector<int> penetrating;
+    std::vector<int> open;
     constexpr std::size_t kBlock = 64;
     for (std::size_t begin = 0; begin < n_; begin += kBlock) {
       const std::size_t end = std::min(begin + kBlock, n_);
       double lowest = kInfinity;
 #pragma omp simd reduction(min : lowest)
       for (std::size_t i = begin; i < end; ++i) {
-        const double w = state_.w[i] + problem_.g0[i];
-        state_.w[i] = w;
+        const double w = u[i] - h[i];
         lowest = lowest < w ? lowest : w;
       }
       low = std::min(low, lowest);
-      if (lowest >= shift) continue;
+      if (lowest >= bound) continue;
       for (std::size_t i = begin; i < end; ++i) {
-        if (state_.w[i] < shift && state_.p[i] == 0) penetrating.push_back(static_cast<int>(i));
+        if (u[i] - h[i] < bound && set_.find(static_cast<int>(i)) == set_.size()) {
+          open.push_back(static_cast<int>(i));
+        }
       }
     }
     double work = 0;
-    for (int i : under_pressure_) work += state_.p[i] * state_.w[i];
+    for (std::size_t k : set_.touching()) work += set_.pressure(k) * gap_function(set_.pixel(k));
     state_.shift = shift;
     state_.certificate =
         std::max(0.0, work - low * problem_.load) / (problem_.load * problem_.spread);
-    return penetrating;
+    return open;
   }
 
   const StandardProblem& problem_;
@@ -182,7 +307,11 @@ class CandidateSolver {
   double tolerance_;
   StandardState& state_;
   ActiveSet set_;
-  std::vector<int> under_pressure_;  // pixels
+  std::vector<std::pair<int, bool>> members_;   // watched, and whether they touch
+  std::vector<int> under_pressure_;             // pixels of the pressures taken
+  std::vector<std::pair<int, double>> change_;  // pressures found less those taken
+  std::vector<double> before_;
+  SpectrumArray scratch_;
 };
 
 }  // namespace
