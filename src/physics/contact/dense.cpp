@@ -79,7 +79,7 @@ class DenseSolver {
 
       if (plain) {
         descend();
-      } else if (4 * free_.size() > grid_.size()) {
+      } else if (8 * free_.size() > grid_.size()) {
         precondition_all();
       } else {
         precondition();
@@ -91,14 +91,18 @@ class DenseSolver {
       // Exact minimum along the step taken, t = 1 being its end. A step that ran into the bounds is
       // kept unless it went too far: its end tells which pixels are free.
       double slope = 0, curvature = 0, longest = kInfinity;
+      const int* at = free_.data();
+      const double *p = p_.data(), *step = step_.data(), *change = change_.data(), *r = r_.data();
+      const double cap = cap_;
 #pragma omp simd reduction(+ : slope, curvature) reduction(min : longest)
       for (std::size_t k = 0; k < free_.size(); ++k) {
-        const int i = free_[k];
-        const double s = step_[i], room = s < 0 ? s - p_[i] : cap_ - p_[i] + s;
-        slope += r_[k] * s;
-        curvature += change_[i] * s;
-        const double length = s != 0 ? room / s : kInfinity;
-        longest = length < longest ? length : longest;
+        const double s = step[at[k]], pressure = p[at[k]];
+        slope += r[k] * s;
+        curvature += change[at[k]] * s;
+        const double room = s < 0 ? s - pressure : cap - pressure + s;
+        const double length = room / (s != 0 ? s : 1e-300);
+        const double found = s != 0 ? length : kInfinity;
+        longest = found < longest ? found : longest;
       }
       double t = curvature > 0 ? -slope / curvature : 0;
       if (t > 0) alpha = std::clamp(alpha * t, 1e-4, 20.0);
@@ -175,22 +179,22 @@ class DenseSolver {
   // holds every pixel under pressure; then free_: pixels between the bounds and those at a bound
   // whose gap has the wrong sign; held_: others at the cap.
   void arrive(double t) {
-    taken_ = t;
     const auto blend = [&](std::size_t i) { return w_[i] + t * change_[i]; };
     double sum = 0, total = 0;
-    std::size_t count = 0;
-    for (int i : old_) {
-      total += p_[i];
-      if (p_[i] > 0 && p_[i] < cap_) {
-        sum += blend(i);
-        ++count;
-      }
+    double count = 0;
+#pragma omp simd reduction(+ : sum, total, count)
+    for (std::size_t k = 0; k < old_.size(); ++k) {
+      const double p = p_[old_[k]];
+      const bool inside = p > 0 && p < cap_;
+      total += p;
+      sum += inside ? blend(old_[k]) : 0;
+      count += inside ? 1 : 0;
     }
     if (problem_.approach) {
       shift_ = problem_.level;
       load_ = total;
     } else if (count > 0) {
-      shift_ = sum / static_cast<double>(count);
+      shift_ = sum / count;
     } else {  // all at the cap: between the highest of them and the lowest of the others
       double lowest = kInfinity, highest = -kInfinity;
       for (std::size_t i = 0; i < p_.size(); ++i) {
@@ -202,16 +206,18 @@ class DenseSolver {
       }
       shift_ = std::isfinite(lowest) ? 0.5 * (lowest + highest) : highest;
     }
-    free_.clear();
     held_.clear();
-    for (int i : old_) {
-      if (p_[i] <= 0) continue;
-      if (p_[i] < cap_ || blend(i) > shift_) {
-        free_.push_back(i);
-      } else {
+    free_.resize(old_.size());
+    std::size_t pressed = 0;
+    for (int i : old_) {  // every one is written, those that stay are counted
+      free_[pressed] = i;
+      if (p_[i] == cap_ && blend(i) <= shift_) {
         held_.push_back(i);
+      } else {
+        pressed += p_[i] > 0;
       }
     }
+    free_.resize(pressed);
     constexpr std::size_t kBlock = 64;
     int joining[kBlock];
     low_ = kInfinity;
@@ -226,6 +232,10 @@ class DenseSolver {
       }
       if (low >= shift_) continue;
       low_ = std::min(low_, low);
+      double any = 0;
+#pragma omp simd reduction(+ : any)
+      for (std::size_t i = begin; i < end; ++i) any += w_[i] < shift_ && p_[i] == 0 ? 1.0 : 0.0;
+      if (any == 0) continue;
       std::size_t found = 0;
       for (std::size_t i = begin; i < end; ++i) {
         joining[found] = static_cast<int>(i);
@@ -235,6 +245,7 @@ class DenseSolver {
     }
     if (!(low_ < shift_)) low_ = *std::min_element(w_.begin(), w_.end());
     r_.resize(free_.size());
+#pragma omp simd
     for (std::size_t k = 0; k < free_.size(); ++k) r_[k] = w_[free_[k]] - shift_;
   }
 
@@ -258,6 +269,7 @@ class DenseSolver {
     ++state_.pairs;
     z_.resize(free_.size());
     double mean = 0;
+#pragma omp simd reduction(+ : mean)
     for (std::size_t k = 0; k < free_.size(); ++k) {
       z_[k] = field_[free_[k]];
       mean += z_[k];
@@ -312,31 +324,37 @@ class DenseSolver {
   }
 
   // d_ = z plus the share of the last step that makes it conjugate to it (Polak-Ribiere+), without
-  // load. taken_ change_ is what step_, the last step, changed the gap function by.
+  // load. change_ is what the last step changed the gap function by, before it was shortened to
+  // step_.
   void direct(bool conjugate) {
     const std::size_t m = free_.size();
+    d_.resize(m);
+    const int* at = free_.data();
+    const double *step = step_.data(), *change = change_.data(), *z = z_.data(),
+                 *one = ones_.data();
+    double* d = d_.data();
     double share = 0;
     if (conjugate) {
       double cross = 0, own = 0;
 #pragma omp simd reduction(+ : cross, own)
       for (std::size_t k = 0; k < m; ++k) {
-        const int i = free_[k];
-        const double y = taken_ * change_[i];
-        cross += z_[k] * y;
-        own += step_[i] * y;
+        const double y = change[at[k]];
+        cross += z[k] * y;
+        own += step[at[k]] * y;
       }
       if (own > 0) share = std::min(0.0, -cross / own);
     }
-    d_.resize(m);
     double sum = 0, ones = 0;
 #pragma omp simd reduction(+ : sum, ones)
     for (std::size_t k = 0; k < m; ++k) {
-      d_[k] = z_[k] + share * step_[free_[k]];
-      sum += d_[k];
-      ones += ones_[k];
+      d[k] = z[k] + share * step[at[k]];
+      sum += d[k];
+      ones += one[k];
     }
     if (ones > 0 && !problem_.approach) {
-      for (std::size_t k = 0; k < m; ++k) d_[k] -= sum / ones * ones_[k];
+      const double level = sum / ones;
+#pragma omp simd
+      for (std::size_t k = 0; k < m; ++k) d[k] -= level * one[k];
     }
     for (int i : old_) step_[i] = 0;
   }
@@ -354,7 +372,7 @@ class DenseSolver {
         sum += v > 0 ? cut : 0;
         weight += v > 0 && v < cap_ ? ones_[k] : 0;
       }
-      if (std::abs(sum - load) <= 1e-15 * load_) break;
+      if (std::abs(sum - load) <= 1e-13 * load_) break;
       (sum > load ? below : above) = level;
       double next = weight > 0 ? level + (sum - load) / weight : kInfinity;
       if (!(next > below && next < above)) {
@@ -379,17 +397,24 @@ class DenseSolver {
   bool move(double alpha) {
     const std::size_t m = free_.size();
     raw_.resize(m);
-    for (std::size_t k = 0; k < m; ++k) raw_[k] = p_[free_[k]] - alpha * d_[k];
+    const int* at = free_.data();
+    const double *d = d_.data(), *one = ones_.data();
+    double *raw = raw_.data(), *p = p_.data(), *step = step_.data();
+    const double cap = cap_;
+#pragma omp simd
+    for (std::size_t k = 0; k < m; ++k) raw[k] = p[at[k]] - alpha * d[k];
     const double level = problem_.approach ? 0 : load_level();
     double clipped = 0;
 #pragma omp simd reduction(+ : clipped)
-    for (std::size_t k = 0; k < m; ++k) {  // every pixel once
-      const int i = free_[k];
-      const double raw = raw_[k] - level * ones_[k], old = p_[i];
-      const double above = raw > 0 ? raw : 0, v = above < cap_ ? above : cap_;
-      clipped += (v == 0 && old > 0) || (v == cap_ && old < cap_) ? 1.0 : 0.0;
-      step_[i] = v - old;
-      p_[i] = v;
+    for (std::size_t k = 0; k < m; ++k) {
+      const double moved = raw[k] - level * one[k], old = p[at[k]];
+      const double above = moved > 0 ? moved : 0, v = above < cap ? above : cap;
+      clipped += (v == 0 && old > 0) || (v == cap && old < cap) ? 1.0 : 0.0;
+      raw[k] = v;
+    }
+    for (std::size_t k = 0; k < m; ++k) {
+      step[at[k]] = raw[k] - p[at[k]];
+      p[at[k]] = raw[k];
     }
     return clipped > 0;
   }
@@ -411,7 +436,8 @@ class DenseSolver {
   double certify() {
     if (load_ <= 0) return low_ < shift_ ? kInfinity : 0;  // given approach, nothing touches yet
     double work = 0;
-    for (int i : old_) work += p_[i] * w_[i];
+#pragma omp simd reduction(+ : work)
+    for (std::size_t k = 0; k < old_.size(); ++k) work += p_[old_[k]] * w_[old_[k]];
     double least = low_ * load_;
     if (std::isfinite(cap_)) {  // the cheapest pressure fills the lowest pixels to the cap
       next_low_.assign(w_.begin(), w_.end());
@@ -443,7 +469,7 @@ class DenseSolver {
   std::vector<float> residual_, inside_;  // of the free pixels; zero between uses
   std::vector<int> free_, held_, old_;    // old_: the free set of the last step, held ones included
   std::vector<double> r_, z_, ones_, d_, raw_, next_low_;
-  double shift_ = 0, low_ = 0, taken_ = 0;
+  double shift_ = 0, low_ = 0;
 };
 
 // Start from the grid of half the pixels, its gaps the 2x2 minimum, solved as far as the start is
