@@ -97,17 +97,18 @@ Panel draw_panel(const Gap& gap, const Wetting& wetting) {
     }
   };
   if (wetting.status == WettingStatus::Film || wetting.status == WettingStatus::Flooded) {
-    // What no disc explains; discs are drawn over it.
     const Grid& g = gap.grid;
     for (int iy = 0; iy < out.height; ++iy) {
       for (int ix = 0; ix < out.width; ++ix) {
         const int px = std::min(ix * g.nx / out.width, g.nx - 1);
         const int py = std::min(iy * g.ny / out.height, g.ny - 1);
-        if (wetting.bridged[g.index(px, py)]) blend(ix, iy, kFilm, 0.6);
+        const std::size_t k = g.index(px, py);
+        if (wetting.film.empty() ? wetting.bridged[k] : wetting.film[k]) blend(ix, iy, kFilm, 0.6);
       }
     }
   }
   for (const Droplet& d : wetting.droplets) {
+    if (d.film > 0) continue;
     const Colour& c = d.state == DropletState::Bridge        ? kBridge
                       : d.state == DropletState::OnSubstrate ? kSubstrate
                                                              : kOnSkin;
@@ -302,6 +303,7 @@ int solve(const DropletsOptions& options) {
                       {"height", d.height},
                       {"edge_gap", d.edge_gap},
                       {"force", d.force},
+                      {"film", d.film},
                       {"energy", d.energy}});
     }
     std::cout << out.dump(2) << '\n';

@@ -20,6 +20,8 @@ struct Droplet {
   double edge_gap = 0;  // bridge: mean gap on the rim [m]
   double force = 0;     // bridge: normal force dE/dh [N], positive = attracts
   double energy = 0;    // [J]
+  double film = 0;  // share of film in a wide bridge, 1: all film; the film's force is no part of
+                    // its own
 };
 
 enum class WettingStatus : std::uint8_t { Dry, Discs, Flooded, Film };
@@ -29,6 +31,7 @@ struct Wetting {
   std::vector<Droplet> droplets;
   WettingStatus status = WettingStatus::Dry;
   std::vector<std::uint8_t> bridged;  // per pixel: 1 inside a bridge (or the film); empty: dry
+  std::vector<std::uint8_t> film;     // per pixel: 1 in the film; empty: none
   double capillary_force = 0;         // total normal force on the patch [N], positive = attracts
   double wetted_fraction = 0;         // bridged area / patch area
   double volume = 0;                  // total [m^3]

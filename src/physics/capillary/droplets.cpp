@@ -31,6 +31,9 @@ constexpr std::array<std::array<double, 2>, 8> kDirections = {
 constexpr double kLargestTilt = kPi / 4;
 constexpr double kFlatTilt = kPi / 12;
 
+// From disc to film between these times the limit (Eq. capillary.22).
+constexpr double kFilmFrom = 0.8, kFilmTo = 1.25;
+
 // Changes of the integration rule in one solve for a footprint, after which only finer ones count.
 constexpr int kMostRules = 8;
 
@@ -50,6 +53,7 @@ struct Drop {
   double radius = 0;  // footprint; a cap: its widest, which is what overlaps
   double edge_gap = 0, edge_slope = 0;
   double energy = 0;
+  double film = 0;  // share, once settled
   bool bridge = false;
   bool alive = true;
 };
@@ -113,6 +117,7 @@ class Ensemble {
         drop.radius = d.radius;
         drop.energy = d.energy;
       }
+      drop.film = d.film;
       drops_.push_back(drop);
     }
     metastable_ = false;
@@ -135,23 +140,19 @@ class Ensemble {
   }
 
   // What there is now, as discs; wide bridges (or all, above the wetted area's limit) as film.
-  // film_seeds and film_volume: film that was there before.
-  Wetting result(double total_volume, std::vector<std::size_t> film_seeds = {},
-                 double film_volume = 0) {
+  Wetting result(double total_volume) {
     const double side = std::min(lx_, ly_);
     double area = 0;
     for (const Drop& d : drops_) {
       if (d.alive && d.bridge) area += kPi * square(d.radius);
     }
-    const bool everywhere = area > options_.film_area * gap_.grid.area();
+    const double all = film_share(area / gap_.grid.area(), options_.film_area, 1);
+    bool film = false;
     for (Drop& d : drops_) {
       if (!d.alive) continue;
-      const bool wide = 2 * d.radius > std::min(d.bridge ? options_.film_width : side, side);
-      if (wide || (d.bridge && everywhere)) {
-        film_seeds.push_back(lowest_pixel(d));
-        film_volume += d.volume;
-        d.alive = false;
-      }
+      d.film = d.bridge ? std::max(all, film_share(2 * d.radius, options_.film_width, side))
+                        : static_cast<double>(2 * d.radius > side);
+      film = film || d.film > 0;
     }
     Wetting out;
     out.grid = gap_.grid;
@@ -159,18 +160,17 @@ class Ensemble {
     out.wicked_volume = wicked_;
     out.status = WettingStatus::Discs;
     out.bridged.assign(gap_.grid.size(), 0);
-    if (!film_seeds.empty()) add_film(film_seeds, film_volume, out);
+    if (film) add_film(out);
     double wet = out.wetted_fraction * gap_.grid.area();
     for (const Drop& d : drops_) {
       if (!d.alive) continue;
       out.droplets.push_back(reported(d));
-      if (!d.bridge) continue;
+      if (!d.bridge || d.film > 0) continue;
       const Droplet& bridge = out.droplets.back();
       ++out.bridges;
       out.capillary_force += bridge.force;
       out.bridge_volume += d.volume;
-      // Eq. capillary.14
-      out.retention += kPi / 4 * water_.surface_tension * 2 * d.radius * water_.hysteresis;
+      out.retention += disc_retention(d);
       wet += kPi * square(d.radius);
       for_pixels(gap_.grid, bridge, [&](std::size_t k) { out.bridged[k] = 1; });
     }
@@ -198,6 +198,19 @@ class Ensemble {
   }
 
  private:
+  // Eq. capillary.22: how much of a bridge is film, by its width or the wetted area.
+  static double film_share(double size, double limit, double most) {
+    const double from = kFilmFrom * std::min(limit, most);
+    const double to = std::min(kFilmTo * std::min(limit, most), most);
+    const double t = std::clamp((size - from) / (to - from), 0.0, 1.0);
+    return square(t) * (3 - 2 * t);
+  }
+
+  // Eq. capillary.14
+  double disc_retention(const Drop& d) const {
+    return kPi / 4 * water_.surface_tension * 2 * d.radius * water_.hysteresis;
+  }
+
   double meniscus_at(const GapTable::Rim& rim, double& tilt) const {
     tilt = std::clamp(std::atan(rim.slope), -kLargestTilt, kLargestTilt);
     const double x = tilt / kLargestTilt;
@@ -564,7 +577,7 @@ class Ensemble {
 
   void merge_overlaps() {
     for (int i = 0; i < static_cast<int>(drops_.size()); ++i) {
-      while (drops_[i].alive) {
+      while (drops_[i].alive && drops_[i].film < 1) {
         members_.assign(1, i);
         collect_overlaps(drops_[i]);
         if (members_.size() == 1) break;
@@ -614,7 +627,9 @@ class Ensemble {
     cell_y_ = ly_ / cells_y_;
     head_.assign(static_cast<std::size_t>(cells_x_) * cells_y_, -1);
     next_.assign(drops_.size(), -1);
-    for (int i = 0; i < static_cast<int>(drops_.size()); ++i) link(i);
+    for (int i = 0; i < static_cast<int>(drops_.size()); ++i) {
+      if (drops_[i].film < 1) link(i);  // film is no disc that others meet
+    }
   }
 
   int cell_of(const Drop& d) const {
@@ -654,16 +669,17 @@ class Ensemble {
     out.y = d.y;
     out.volume = d.volume;
     out.energy = d.energy;
+    out.film = d.film;
     if (d.bridge) {
       const double area = kPi * square(d.radius);
       out.state = DropletState::Bridge;
       out.radius = d.radius;
       out.height = d.volume / area;
       out.edge_gap = d.edge_gap;
-      out.force = bridge_force(d);
+      out.force = d.film < 1 ? (1 - d.film) * bridge_force(d) : 0;
     } else {
       const double size = std::cbrt(d.volume);
-      out.state = cap_state_;
+      out.state = d.film > 0 ? DropletState::Bridge : cap_state_;
       out.radius = cap_.footprint * size;
       out.height = cap_.height * size;
     }
@@ -676,37 +692,81 @@ class Ensemble {
                    std::min(static_cast<int>(y / g.dy()), g.ny - 1));
   }
 
-  std::size_t lowest_pixel(const Drop& d) const {
+  // Where the region of a source starts: its lowest level inside the disc.
+  std::size_t seed_of(const FilmSource& source, const Drop& d) const {
+    const Grid& g = gap_.grid;
     std::size_t best = pixel_of(d.x, d.y);
-    for_pixels(gap_.grid, disc_of(d), [&](std::size_t k) {
-      if (gap_.value[k] < gap_.value[best]) best = k;
+    const auto level = [&](std::size_t k) {
+      const double ex = nearest_image(g.x(static_cast<int>(k % g.nx)) - d.x, lx_);
+      const double ey = nearest_image(g.y(static_cast<int>(k / g.nx)) - d.y, ly_);
+      return film_level(source, square(ex) + square(ey), gap_.value[k]);
+    };
+    double lowest = level(best);
+    for_pixels(g, disc_of(d), [&](std::size_t k) {
+      const double here = level(k);
+      if (here < lowest) {
+        lowest = here;
+        best = k;
+      }
     });
     return best;
   }
 
   // The film takes in every bridge whose disc and every cap whose centre it reaches.
-  void add_film(const std::vector<std::size_t>& seeds, double volume, Wetting& out) {
-    std::vector<int> owner(gap_.grid.size(), -1);
+  void add_film(Wetting& out) {
+    std::vector<FilmSource> sources;
+    std::vector<std::size_t> seeds;
+    std::vector<int> owner(gap_.grid.size(), -1), of_source;
     for (int i = 0; i < static_cast<int>(drops_.size()); ++i) {
       const Drop& d = drops_[i];
       if (!d.alive) continue;
+      if (d.film > 0) {
+        sources.push_back({d.x, d.y, d.radius, d.edge_gap, d.volume, d.film});
+        seeds.push_back(seed_of(sources.back(), d));
+        of_source.push_back(i);
+        continue;
+      }
       owner[pixel_of(d.x, d.y)] = i;
       if (!d.bridge) continue;
       for_pixels(gap_.grid, disc_of(d), [&](std::size_t k) { owner[k] = i; });
     }
-    Film film = grow_film(gap_, seeds, volume, water_, [&](std::size_t k) {
-      const int i = owner[k];
-      if (i < 0 || !drops_[i].alive) return 0.0;
-      drops_[i].alive = false;
-      return drops_[i].volume;
-    });
-    out.status = film.full ? WettingStatus::Flooded : WettingStatus::Film;
-    out.bridges = film.regions;
-    out.bridge_volume = film.volume;
-    out.capillary_force = film.force;
-    out.retention = film.retention;
-    out.wetted_fraction = film.area / gap_.grid.area();
-    out.bridged = std::move(film.wet);
+    struct Joined {
+      int drop, source;
+    };
+    std::vector<Joined> joined;
+    const FilmRegions films =
+        grow_films(gap_, sources, seeds, water_, [&](std::size_t k, int source) {
+          const int i = owner[k];
+          if (i < 0 || drops_[i].film > 0) return 0.0;
+          drops_[i].film = 1;
+          joined.push_back({i, source});
+          return drops_[i].volume;
+        });
+    out.status = WettingStatus::Film;
+    double area = 0;
+    for (const FilmRegion& region : films.regions) {
+      if (region.full) out.status = WettingStatus::Flooded;
+      ++out.bridges;
+      out.bridge_volume += region.volume;
+      out.capillary_force += region.share * region.force;
+      out.retention += region.share * region.retention;
+      area += region.share * region.area;
+    }
+    const auto add_disc = [&](const Drop& d, double share) {
+      if (!d.bridge || share <= 0) return;
+      out.capillary_force += share * bridge_force(d);
+      out.retention += share * disc_retention(d);
+      area += share * kPi * square(d.radius);
+    };
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      add_disc(drops_[of_source[s]], 1 - sources[s].share);
+    }
+    for (const Joined& j : joined) {
+      add_disc(drops_[j.drop], 1 - films.regions[films.of_source[j.source]].share);
+    }
+    out.wetted_fraction = area / gap_.grid.area();
+    for (std::size_t k = 0; k < owner.size(); ++k) out.bridged[k] = films.source[k] > 0;
+    out.film = out.bridged;
   }
 
   const Gap& gap_;
@@ -732,17 +792,6 @@ class Ensemble {
   std::vector<int> head_, next_, large_;
   SettleReport report_;
 };
-
-// Where the film is: what is bridged but lies in no disc.
-std::vector<std::uint8_t> film_pixels(const Wetting& wetting) {
-  std::vector<std::uint8_t> film = wetting.bridged;
-  for (const Droplet& d : wetting.droplets) {
-    if (d.state == DropletState::Bridge) {
-      Ensemble::for_pixels(wetting.grid, d, [&](std::size_t k) { film[k] = 0; });
-    }
-  }
-  return film;
-}
 
 }  // namespace
 
@@ -796,25 +845,11 @@ Wetting settle_droplets(const Gap& gap, double volume, const WaterProperties& wa
 Wetting rewet(const Wetting& wetting, const Gap& gap, const WaterProperties& water,
               const DropletOptions& options) {
   if (wetting.status == WettingStatus::Dry) return wetting;
-  if (wetting.status == WettingStatus::Flooded) return fill_threshold(gap, wetting.volume, water);
+  // Flooded, or threshold water.
+  if (wetting.droplets.empty()) return fill_threshold(gap, wetting.volume, water);
   Ensemble ensemble(gap, water, options);
   ensemble.restore(wetting);
-  if (wetting.status == WettingStatus::Discs) return ensemble.result(wetting.volume);
-  // The film starts again from the lowest place of each of its regions.
-  const std::vector<std::uint8_t> film = film_pixels(wetting);
-  std::vector<int> label;
-  const int regions = label_regions(gap.grid, film, label);
-  std::vector<std::size_t> seeds(regions, gap.grid.size());
-  for (std::size_t k = 0; k < label.size(); ++k) {
-    if (label[k] == 0) continue;
-    std::size_t& seed = seeds[label[k] - 1];
-    if (seed == gap.grid.size() || gap.value[k] < gap.value[seed]) seed = k;
-  }
-  double film_volume = wetting.bridge_volume;
-  for (const Droplet& d : wetting.droplets) {
-    if (d.state == DropletState::Bridge) film_volume -= d.volume;
-  }
-  return ensemble.result(wetting.volume, std::move(seeds), film_volume);
+  return ensemble.result(wetting.volume);
 }
 
 DropletBand droplet_band(double water_per_area, double mean_gap, double bridge_share) {
@@ -832,7 +867,7 @@ Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterP
   Traction out{g, std::vector<double>(g.size(), 0.0)};
   double rest = wetting.capillary_force;  // of the film
   for (const Droplet& d : wetting.droplets) {
-    if (d.state != DropletState::Bridge) continue;
+    if (d.state != DropletState::Bridge || d.film > 0) continue;
     rest -= d.force;
     std::size_t count = 0;
     Ensemble::for_pixels(g, d, [&](std::size_t) { ++count; });
@@ -845,14 +880,11 @@ Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterP
       out.value[g.index(ix, iy)] += d.force / g.pixel_area();
     }
   }
-  if (wetting.status == WettingStatus::Film) {
-    const std::vector<std::uint8_t> film = film_pixels(wetting);
-    double count = 0;
-    for (std::uint8_t wet : film) count += wet;
-    if (count > 0) {
-      const double pressure = rest / (count * g.pixel_area());
-      for (std::size_t k = 0; k < g.size(); ++k) out.value[k] += film[k] ? pressure : 0.0;
-    }
+  double count = 0;
+  for (std::uint8_t wet : wetting.film) count += wet;
+  if (count > 0) {
+    const double pressure = rest / (count * g.pixel_area());
+    for (std::size_t k = 0; k < g.size(); ++k) out.value[k] += wetting.film[k] ? pressure : 0.0;
   }
   return out;
 }

@@ -18,9 +18,11 @@ struct DropletOptions {
   double first_step = 200e-9;        // [m]; the mobility of droplets: a stated model option
   int halvings = 4;                  // the last step is first_step / 2^halvings
   double gap_floor = 0.3e-9;         // smaller gaps count as this [m]: a water molecule's size
-  double film_width = 4e-6;          // wider bridges are films [m]: a third of the paper's window
-  double film_area = 0.40;           // more wetted area than this: all bridges are
-  int max_moves = 1000;              // per droplet; 0: the initial state
+  // From disc to film around this width [m], a third of the paper's window, and all bridges around
+  // this wetted area: between 0.8 and 1.25 times the limit (Eq. capillary.22).
+  double film_width = 4e-6;
+  double film_area = 0.40;
+  int max_moves = 1000;  // per droplet; 0: the initial state
 
   // Edges of the texture below the gap; null: the surface counts as smooth.
   std::shared_ptr<const RimMap> rims;
@@ -50,8 +52,8 @@ std::vector<DropletSeed> scatter_droplets(const Grid& grid, double volume,
                                           std::uint64_t index);
 
 // Settles droplets in the patch (Eqs. capillary.4-8). Status: Dry (no water), Discs, Film (a bridge
-// or the wetted area too large for discs: those bridges become a film of one pressure, Eq.
-// capillary.15; it is the part of `bridged` outside all discs), Flooded (more water than gap: no
+// or the wetted area too large for discs: those bridges go over into a film of one pressure, Eqs.
+// capillary.15, 22; `film` marks it), Flooded (more water than gap: no
 // meniscus, no force). Cost: 10-25 us a droplet.
 Wetting settle_droplets(const Gap& gap, const std::vector<DropletSeed>& droplets,
                         const WaterProperties& water, const DropletOptions& options,

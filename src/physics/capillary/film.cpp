@@ -11,36 +11,39 @@
 namespace papilla {
 namespace {
 
-// Length of the edge of the wet region: the contour gap = level by marching squares on the cells
-// between pixel centres; dry pixels count as above the level.
-double edge_length(const Gap& gap, const std::vector<std::uint8_t>& wet_pixels, double level) {
-  const Grid& g = gap.grid;
-  const auto above = [&](int ix, int iy) {
-    const std::size_t k = g.index(ix, iy);
-    const double excess = gap.value[k] - level;
-    return wet_pixels[k] ? std::min(excess, -1e-9 * level) : std::max(excess, 1e-9 * level);
-  };
-  const double dx = g.dx(), dy = g.dy();
-  double length = 0;
+// Length of the zero line of a field in the cell between four pixel centres (marching squares):
+// corners a to d in order around it, wet ones negative.
+double cell_length(double a, double b, double c, double d, double dx, double dy) {
+  const int wet = (a < 0) + (b < 0) + (c < 0) + (d < 0);
+  if (wet == 0 || wet == 4) return 0;
+  // Crossing points around the cell in order; two (or, at a saddle, four).
+  double px[4], py[4], length = 0;
+  int n = 0;
+  const auto cut = [](double p, double q) { return p / (p - q); };
+  if ((a < 0) != (b < 0)) px[n] = cut(a, b) * dx, py[n++] = 0;
+  if ((b < 0) != (c < 0)) px[n] = dx, py[n++] = cut(b, c) * dy;
+  if ((c < 0) != (d < 0)) px[n] = (1 - cut(c, d)) * dx, py[n++] = dy;
+  if ((d < 0) != (a < 0)) px[n] = 0, py[n++] = (1 - cut(d, a)) * dy;
+  for (int k = 0; k + 1 < n; k += 2) length += std::hypot(px[k + 1] - px[k], py[k + 1] - py[k]);
+  return length;
+}
+
+// Above the level, whatever rounding says, if and only if dry.
+double excess(bool wet, double height, double level) {
+  const double above = height - level;
+  return wet ? std::min(above, -1e-9 * level) : std::max(above, 1e-9 * level);
+}
+
+// Visits the pixels at the corners of every cell, in order around it.
+template <class Visit>
+void for_cells(const Grid& g, Visit&& visit) {
   for (int iy = 0; iy < g.ny; ++iy) {
     const int jy = iy + 1 == g.ny ? 0 : iy + 1;
     for (int ix = 0; ix < g.nx; ++ix) {
       const int jx = ix + 1 == g.nx ? 0 : ix + 1;
-      const double a = above(ix, iy), b = above(jx, iy), c = above(jx, jy), d = above(ix, jy);
-      const int wet = (a < 0) + (b < 0) + (c < 0) + (d < 0);
-      if (wet == 0 || wet == 4) continue;
-      // Crossing points around the cell in order; two (or, at a saddle, four).
-      double px[4], py[4];
-      int n = 0;
-      const auto cut = [](double p, double q) { return p / (p - q); };
-      if ((a < 0) != (b < 0)) px[n] = cut(a, b) * dx, py[n++] = 0;
-      if ((b < 0) != (c < 0)) px[n] = dx, py[n++] = cut(b, c) * dy;
-      if ((c < 0) != (d < 0)) px[n] = (1 - cut(c, d)) * dx, py[n++] = dy;
-      if ((d < 0) != (a < 0)) px[n] = 0, py[n++] = (1 - cut(d, a)) * dy;
-      for (int k = 0; k + 1 < n; k += 2) length += std::hypot(px[k + 1] - px[k], py[k + 1] - py[k]);
+      visit(std::array{g.index(ix, iy), g.index(jx, iy), g.index(jx, jy), g.index(ix, jy)});
     }
   }
-  return length;
 }
 
 std::array<std::size_t, 4> neighbours(const Grid& g, std::size_t at) {
@@ -74,56 +77,209 @@ int label_regions(const Grid& grid, const std::vector<std::uint8_t>& mask,
   return regions;
 }
 
-void measure_film(const Gap& gap, const WaterProperties& water, Film& film) {
-  const double perimeter = edge_length(gap, film.wet, film.height);
+namespace {
+
+// Eq. capillary.9
+double film_force(const WaterProperties& water, double area, double height, double perimeter) {
   const double c = wetting_gain(water.theta_skin, water.theta_substrate);
   const double f = meniscus_factor(water.theta_skin, water.theta_substrate);
-  film.force = water.surface_tension * (c * film.area / film.height + f * perimeter);
-  // A closed line of length P spans the width P / pi.
-  film.retention = kPi / 4 * water.surface_tension * (perimeter / kPi) * water.hysteresis;
+  return water.surface_tension * (c * area / height + f * perimeter);
+}
+
+// A closed line of length P spans the width P / pi.
+double film_retention(const WaterProperties& water, double perimeter) {
+  return kPi / 4 * water.surface_tension * (perimeter / kPi) * water.hysteresis;
+}
+
+class Growth {
+ public:
+  Growth(const Gap& gap, const std::vector<FilmSource>& sources,
+         const std::vector<std::size_t>& seeds,
+         const std::function<double(std::size_t, int)>& joins)
+      : gap_(gap), sources_(sources), seeds_(seeds), joins_(joins), queued_(gap.grid.size(), 0) {
+    const std::size_t n = sources.size();
+    bodies_.resize(n);
+    out_.of_source.resize(n);
+    out_.source.assign(gap.grid.size(), 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      bodies_[i].members.assign(1, static_cast<int>(i));
+      bodies_[i].region.volume = sources[i].volume;
+      out_.of_source[i] = static_cast<int>(i);
+    }
+  }
+
+  FilmRegions run(const WaterProperties& water) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (!bodies_[i].members.empty()) {
+        while (!grow(static_cast<int>(i))) {
+        }
+      }
+    }
+    measure(water);
+    return std::move(out_);
+  }
+
+ private:
+  // Connected water while it grows; empty once it is part of another.
+  struct Body {
+    std::vector<int> members;  // sources
+    std::vector<std::size_t> pixels;
+    FilmRegion region;
+  };
+
+  double level_at(int source, std::size_t pixel) const {
+    const FilmSource& s = sources_[source];
+    const double h = gap_.value[pixel];
+    if (s.share >= 1) return h;
+    const Grid& g = gap_.grid;
+    const auto nearest = [](double d, double period) {
+      return d - period * std::round(d / period);
+    };
+    const double ex = nearest(g.x(static_cast<int>(pixel % g.nx)) - s.x, g.lx);
+    const double ey = nearest(g.y(static_cast<int>(pixel / g.nx)) - s.y, g.ly);
+    return film_level(s, square(ex) + square(ey), h);
+  }
+
+  void release(Body& body) {
+    for (std::size_t k : body.pixels) out_.source[k] = 0;
+    body.pixels.clear();
+  }
+
+  // False: it met another body, which is now part of it, and has to grow anew.
+  bool grow(int index) {
+    Body& body = bodies_[index];
+    FilmRegion& region = body.region;
+    release(body);
+    region.height = 0;
+    const double pixel_area = gap_.grid.pixel_area();
+    ++stamp_;
+    struct Entry {
+      double level;
+      std::size_t pixel;
+      int source;
+      bool operator>(const Entry& other) const {
+        return level != other.level ? level > other.level : pixel > other.pixel;
+      }
+    };
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> edge;
+    const auto reach = [&](std::size_t pixel, int source) {
+      if (queued_[pixel] == stamp_) return;
+      queued_[pixel] = stamp_;
+      edge.push({level_at(source, pixel), pixel, source});
+    };
+    for (int m : body.members) reach(seeds_[m], m);
+    double placed = 0, pixels = 0;
+    while (!edge.empty()) {
+      const auto [level, at, source] = edge.top();
+      edge.pop();
+      if (out_.source[at] != 0) {
+        unite(index, out_.of_source[out_.source[at] - 1]);
+        return false;
+      }
+      out_.source[at] = source + 1;
+      body.pixels.push_back(at);
+      region.height = std::max(region.height, level);
+      region.volume += joins_(at, source);
+      const double room = gap_.value[at] * pixel_area;
+      if (placed + room >= region.volume) {
+        pixels += room > 0 ? (region.volume - placed) / room : 1;
+        region.area = pixels * pixel_area;
+        return true;
+      }
+      placed += room;
+      pixels += 1;
+      for (std::size_t k : neighbours(gap_.grid, at)) reach(k, source);
+    }
+    region.full = true;
+    region.area = gap_.grid.area();
+    return true;
+  }
+
+  void unite(int index, int other) {
+    Body& taken = bodies_[other];
+    Body& body = bodies_[index];
+    release(taken);
+    for (int m : taken.members) out_.of_source[m] = index;
+    body.members.insert(body.members.end(), taken.members.begin(), taken.members.end());
+    body.region.volume += taken.region.volume;
+    taken = {};
+  }
+
+  void measure(const WaterProperties& water) {
+    std::vector<double> perimeter(bodies_.size(), 0.0);
+    const double dx = gap_.grid.dx(), dy = gap_.grid.dy();
+    for_cells(gap_.grid, [&](const std::array<std::size_t, 4>& corner) {
+      std::array<int, 4> body;
+      int known = -1;
+      for (int c = 0; c < 4; ++c) {
+        const int s = out_.source[corner[c]];
+        body[c] = s > 0 ? out_.of_source[s - 1] : -1;
+      }
+      for (int c = 0; c < 4; ++c) {
+        if (body[c] < 0 || body[c] == known) continue;
+        known = body[c];
+        const int source = out_.source[corner[c]] - 1;
+        const double level = bodies_[known].region.height;
+        std::array<double, 4> above;
+        for (int k = 0; k < 4; ++k) {
+          const bool wet = body[k] == known;
+          const int s = wet ? out_.source[corner[k]] - 1 : source;
+          above[k] = excess(wet, level_at(s, corner[k]), level);
+        }
+        perimeter[known] += cell_length(above[0], above[1], above[2], above[3], dx, dy);
+      }
+    });
+    std::vector<int> place(bodies_.size(), -1);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      if (bodies_[i].members.empty()) continue;
+      FilmRegion region = bodies_[i].region;
+      double volume = 0;
+      for (int m : bodies_[i].members) {
+        region.share += sources_[m].share * sources_[m].volume;
+        volume += sources_[m].volume;
+      }
+      region.share = std::min(1.0, region.share / volume);
+      if (!region.full) {
+        region.force = film_force(water, region.area, region.height, perimeter[i]);
+        region.retention = film_retention(water, perimeter[i]);
+      }
+      place[i] = static_cast<int>(out_.regions.size());
+      out_.regions.push_back(region);
+    }
+    for (int& r : out_.of_source) r = place[r];
+  }
+
+  const Gap& gap_;
+  const std::vector<FilmSource>& sources_;
+  const std::vector<std::size_t>& seeds_;
+  const std::function<double(std::size_t, int)>& joins_;
+  std::vector<Body> bodies_;
+  FilmRegions out_;
+  std::vector<std::uint32_t> queued_;
+  std::uint32_t stamp_ = 0;
+};
+
+}  // namespace
+
+void measure_film(const Gap& gap, const WaterProperties& water, Film& film) {
+  double perimeter = 0;
+  for_cells(gap.grid, [&](const std::array<std::size_t, 4>& corner) {
+    std::array<double, 4> above;
+    for (int k = 0; k < 4; ++k) {
+      above[k] = excess(film.wet[corner[k]], gap.value[corner[k]], film.height);
+    }
+    perimeter += cell_length(above[0], above[1], above[2], above[3], gap.grid.dx(), gap.grid.dy());
+  });
+  film.force = film_force(water, film.area, film.height, perimeter);
+  film.retention = film_retention(water, perimeter);
   std::vector<int> label;
   film.regions = label_regions(gap.grid, film.wet, label);
 }
 
-Film grow_film(const Gap& gap, const std::vector<std::size_t>& seeds, double volume,
-               const WaterProperties& water, const std::function<double(std::size_t)>& joins) {
-  const Grid& g = gap.grid;
-  const double pixel = g.pixel_area();
-  Film film;
-  film.wet.assign(g.size(), 0);
-  film.volume = volume;
-  std::vector<std::uint8_t> queued(g.size(), 0);
-  using Entry = std::pair<double, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> edge;
-  for (std::size_t s : seeds) {
-    if (!queued[s]) edge.emplace(gap.value[s], s);
-    queued[s] = 1;
-  }
-  double placed = 0, pixels = 0;
-  while (!edge.empty()) {
-    const auto [h, at] = edge.top();
-    edge.pop();
-    film.wet[at] = 1;
-    film.height = std::max(film.height, h);
-    film.volume += joins(at);
-    const double room = h * pixel;
-    if (placed + room >= film.volume) {
-      pixels += room > 0 ? (film.volume - placed) / room : 1;
-      film.area = pixels * pixel;
-      measure_film(gap, water, film);
-      return film;
-    }
-    placed += room;
-    pixels += 1;
-    for (std::size_t k : neighbours(g, at)) {
-      if (!queued[k]) edge.emplace(gap.value[k], k);
-      queued[k] = 1;
-    }
-  }
-  film.full = true;  // no meniscus, no force
-  film.area = g.area();
-  film.regions = 1;
-  return film;
+FilmRegions grow_films(const Gap& gap, const std::vector<FilmSource>& sources,
+                       const std::vector<std::size_t>& seeds, const WaterProperties& water,
+                       const std::function<double(std::size_t, int)>& joins) {
+  return Growth(gap, sources, seeds, joins).run(water);
 }
 
 }  // namespace papilla

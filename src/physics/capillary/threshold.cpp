@@ -77,6 +77,7 @@ Wetting fill_threshold(const Gap& gap, double bridge_volume, const WaterProperti
   for (std::size_t i = 0; i < g.size(); ++i) film.wet[i] = gap.value[i] <= level.height ? 1 : 0;
   measure_film(gap, water, film);
   out.status = WettingStatus::Film;
+  out.film = film.wet;
   out.bridged = std::move(film.wet);
   out.bridges = film.regions;
   out.wetted_fraction = film.area / g.area();
