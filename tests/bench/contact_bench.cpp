@@ -1,6 +1,7 @@
-// Cost of contact solves against their certificate: transform pairs and pair-times (processor time
-// over the time of one transform pair of the same grid), beside a plain restarted Polonsky-Keer
-// solver.
+// Cost of contact solves against their certificate: transform pairs, pair-times (processor time
+// over that of one transform pair of the same grid by FFTW, measured beside) and seconds, beside a
+// plain restarted Polonsky-Keer solver: on FFTW, as others build it, and on the kernel's own
+// convolution.
 //     contact_bench [all|finger|rough|sequence [smallest [largest grid]]] >
 //     results/bench/contact.csv
 #include <fmt/format.h>
@@ -24,13 +25,22 @@ namespace {
 // Of this process alone: other work on the machine does not count.
 double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
+// u = S p by FFTW.
+void displace_by_fftw(const ContactKernel& kernel, const RealArray& p, RealArray& u,
+                      SpectrumArray& scratch) {
+  kernel.fft().forward(p.data(), scratch.data());
+  const std::vector<double>& symbol = kernel.symbol();
+  for (std::size_t i = 0; i < symbol.size(); ++i) scratch[i] *= symbol[i];
+  kernel.fft().inverse(scratch.data(), u.data());
+}
+
 double pair_time(const ContactKernel& kernel) {
   RealArray p(kernel.grid().size(), 1.0), u(kernel.grid().size());
-  SpectrumArray scratch(kernel.scratch_size());
+  SpectrumArray scratch(kernel.fft().spectrum_size());
   double best = std::numeric_limits<double>::infinity();
   for (int k = 0; k < 5; ++k) {
     const double start = now();
-    kernel.displace(p, u, scratch);
+    displace_by_fftw(kernel, p, u, scratch);
     best = std::min(best, now() - start);
   }
   return best;
@@ -44,7 +54,7 @@ struct Cost {
 // Polonsky and Keer 1999: Fletcher-Reeves directions, restarted when pixels join; two pairs an
 // iteration. Stops on the same certificate.
 Cost polonsky_keer(const ContactKernel& kernel, const std::vector<double>& height, double mean,
-                   double tolerance) {
+                   double tolerance, bool own_convolution) {
   const std::size_t n = height.size();
   const double count = static_cast<double>(n), load = mean * count;
   double average = 0, spread = 0;
@@ -52,14 +62,21 @@ Cost polonsky_keer(const ContactKernel& kernel, const std::vector<double>& heigh
   for (double h : height) spread += square(h - average) / count;
   spread = std::sqrt(spread);
   RealArray p(n, mean), w(n), d(n, 0.0), u(n);
-  SpectrumArray scratch(kernel.scratch_size());
+  SpectrumArray scratch(std::max(kernel.scratch_size(), kernel.fft().spectrum_size()));
+  const auto displace = [&](const RealArray& pressure, RealArray& to) {
+    if (own_convolution) {
+      kernel.displace(pressure, to, scratch);
+    } else {
+      displace_by_fftw(kernel, pressure, to, scratch);
+    }
+  };
   Cost cost;
   cost.pair = pair_time(kernel);
   const double begin = now();
   double old_g = 1;
   bool restart = true;
   for (int k = 0; k < 3000; ++k) {
-    kernel.displace(p, w, scratch);
+    displace(p, w);
     ++cost.pairs;
     double low = std::numeric_limits<double>::infinity(), work = 0, shift = 0, inside = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -82,7 +99,7 @@ Cost polonsky_keer(const ContactKernel& kernel, const std::vector<double>& heigh
     const double beta = restart ? 0 : g / old_g;
     old_g = g;
     for (std::size_t i = 0; i < n; ++i) d[i] = p[i] > 0 ? w[i] - shift + beta * d[i] : 0;
-    kernel.displace(d, u, scratch);
+    displace(d, u);
     ++cost.pairs;
     double mean_u = 0, rd = 0, du = 0;
     for (std::size_t i = 0; i < n; ++i) {
@@ -154,7 +171,8 @@ void dense_scenes(int n) {
   const auto kernel = make_contact_kernel(grid, {1, 0, 0, 1, 0});
   for (double load : {0.01, 0.05, 0.2}) {
     const std::string name = fmt::format("rough p/E*={}", load);
-    row(name, n, "polonsky-keer", 1e-8, polonsky_keer(*kernel, surface.z, load, 1e-8));
+    row(name, n, "polonsky-keer fftw", 1e-8, polonsky_keer(*kernel, surface.z, load, 1e-8, false));
+    row(name, n, "polonsky-keer fused", 1e-8, polonsky_keer(*kernel, surface.z, load, 1e-8, true));
     for (double t : {1e-4, 1e-8}) {
       row(name, n, "papilla cold", t,
           solve(*kernel, surface.z, load, {}, {.tolerance = t, .method = ContactMethod::Dense},
@@ -186,7 +204,8 @@ void finger_scenes(int n) {
   for (double t : {1e-4, 1e-5, 1e-6, 1e-8}) {
     if (n > 512 && t != 1e-5) continue;
     ContactSolution base;
-    row("loaded", n, "polonsky-keer", t, polonsky_keer(*kernel, height.z, mean, t));
+    row("loaded", n, "polonsky-keer fftw", t, polonsky_keer(*kernel, height.z, mean, t, false));
+    row("loaded", n, "polonsky-keer fused", t, polonsky_keer(*kernel, height.z, mean, t, true));
     row("loaded", n, "papilla cold", t,
         solve(*kernel, height.z, mean, {}, {.tolerance = t, .method = ContactMethod::Dense},
               nullptr, &base));

@@ -182,12 +182,16 @@ class DenseSolver {
     const auto blend = [&](std::size_t i) { return w_[i] + t * change_[i]; };
     double sum = 0, total = 0;
     double count = 0;
+    const int* old = old_.data();
+    double* gap = w_.data();
+    const double *change = change_.data(), *p = p_.data();
+    const double cap = cap_;
 #pragma omp simd reduction(+ : sum, total, count)
     for (std::size_t k = 0; k < old_.size(); ++k) {
-      const double p = p_[old_[k]];
-      const bool inside = p > 0 && p < cap_;
-      total += p;
-      sum += inside ? blend(old_[k]) : 0;
+      const double pressure = p[old[k]], w = gap[old[k]] + t * change[old[k]];
+      const bool inside = pressure > 0 && pressure < cap;
+      total += pressure;
+      sum += inside ? w : 0;
       count += inside ? 1 : 0;
     }
     if (problem_.approach) {
@@ -220,33 +224,35 @@ class DenseSolver {
     free_.resize(pressed);
     constexpr std::size_t kBlock = 64;
     int joining[kBlock];
+    const double shift = shift_;
     low_ = kInfinity;
     for (std::size_t begin = 0; begin < p_.size(); begin += kBlock) {
       const std::size_t end = std::min(begin + kBlock, p_.size());
       double low = kInfinity;
 #pragma omp simd reduction(min : low)
       for (std::size_t i = begin; i < end; ++i) {
-        const double w = w_[i] + t * change_[i];
-        w_[i] = w;
-        low = low < w ? low : w;
+        gap[i] += t * change[i];
+        low = low < gap[i] ? low : gap[i];
       }
-      if (low >= shift_) continue;
+      if (low >= shift) continue;
       low_ = std::min(low_, low);
       double any = 0;
 #pragma omp simd reduction(+ : any)
-      for (std::size_t i = begin; i < end; ++i) any += w_[i] < shift_ && p_[i] == 0 ? 1.0 : 0.0;
+      for (std::size_t i = begin; i < end; ++i) any += gap[i] < shift && p[i] == 0 ? 1.0 : 0.0;
       if (any == 0) continue;
       std::size_t found = 0;
       for (std::size_t i = begin; i < end; ++i) {
         joining[found] = static_cast<int>(i);
-        found += w_[i] < shift_ && p_[i] == 0;
+        found += gap[i] < shift && p[i] == 0;
       }
       free_.insert(free_.end(), joining, joining + found);
     }
     if (!(low_ < shift_)) low_ = *std::min_element(w_.begin(), w_.end());
     r_.resize(free_.size());
+    const int* at = free_.data();
+    double* r = r_.data();
 #pragma omp simd
-    for (std::size_t k = 0; k < free_.size(); ++k) r_[k] = w_[free_[k]] - shift_;
+    for (std::size_t k = 0; k < free_.size(); ++k) r[k] = gap[at[k]] - shift;
   }
 
   // z = the residual over a pixel's own compliance.
@@ -268,14 +274,17 @@ class DenseSolver {
     kernel_.press(field_, scratch_);
     ++state_.pairs;
     z_.resize(free_.size());
+    const int* at = free_.data();
+    const double* field = field_.data();
+    double* z = z_.data();
     double mean = 0;
 #pragma omp simd reduction(+ : mean)
     for (std::size_t k = 0; k < free_.size(); ++k) {
-      z_[k] = field_[free_[k]];
-      mean += z_[k];
+      z[k] = field[at[k]];
+      mean += z[k];
     }
     mean = problem_.approach ? 0 : mean / static_cast<double>(free_.size());
-    for (double& z : z_) z -= mean;
+    for (double& value : z_) value -= mean;
     ones_.assign(free_.size(), 1 / kernel_.self_compliance());
   }
 
@@ -363,14 +372,15 @@ class DenseSolver {
   // falling, piecewise linear function, kept between bounds.
   double load_level() const {
     const double load = load_ - (held_.empty() ? 0 : cap_ * static_cast<double>(held_.size()));
+    const double *raw = raw_.data(), *one = ones_.data(), cap = cap_;
     double level = 0, below = -kInfinity, above = kInfinity;
     for (int pass = 0; pass < 100; ++pass) {
       double sum = 0, weight = 0;
 #pragma omp simd reduction(+ : sum, weight)
       for (std::size_t k = 0; k < raw_.size(); ++k) {
-        const double v = raw_[k] - level * ones_[k], cut = v < cap_ ? v : cap_;
+        const double v = raw[k] - level * one[k], cut = v < cap ? v : cap;
         sum += v > 0 ? cut : 0;
-        weight += v > 0 && v < cap_ ? ones_[k] : 0;
+        weight += v > 0 && v < cap ? one[k] : 0;
       }
       if (std::abs(sum - load) <= 1e-13 * load_) break;
       (sum > load ? below : above) = level;
@@ -436,8 +446,10 @@ class DenseSolver {
   double certify() {
     if (load_ <= 0) return low_ < shift_ ? kInfinity : 0;  // given approach, nothing touches yet
     double work = 0;
+    const int* at = old_.data();
+    const double *p = p_.data(), *w = w_.data();
 #pragma omp simd reduction(+ : work)
-    for (std::size_t k = 0; k < old_.size(); ++k) work += p_[old_[k]] * w_[old_[k]];
+    for (std::size_t k = 0; k < old_.size(); ++k) work += p[at[k]] * w[at[k]];
     double least = low_ * load_;
     if (std::isfinite(cap_)) {  // the cheapest pressure fills the lowest pixels to the cap
       next_low_.assign(w_.begin(), w_.end());
