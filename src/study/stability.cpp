@@ -69,6 +69,7 @@ Outcome evaluate_variant(const StudyProblem& problem, const Design& design, std:
   Response response = evaluate(scene, d.texture, fidelity);
   if (!problem.voltage_targets().empty())
     add_voltages(response, scene, d.texture, fidelity, problem.voltage_targets());
+  if (problem.needs_appearance()) response.appearance = appearance_of(d);
   Outcome out;
   for (const StudyObjective& o : problem.objectives()) {
     const auto v = summarise(o.expression.summary, o.expression.metric, response);
