@@ -115,22 +115,6 @@ Points circle(double x, double y, double diameter, int sides) {
   return points;
 }
 
-struct ArrayCell {
-  double x = 0, y = 0;  // pitch [m]
-  std::vector<Points> polygons;
-};
-
-ArrayCell round_cell(Lattice lattice, double period, double diameter, int sides) {
-  if (lattice == Lattice::Square) {
-    return {period, period, {circle(0.5 * period, 0.5 * period, diameter, sides)}};
-  }
-  const double row = 1e-9 * std::round(1e9 * std::sqrt(3.0) * period);
-  return {period,
-          row,
-          {circle(0.25 * period, 0.25 * row, diameter, sides),
-           circle(0.75 * period, 0.75 * row, diameter, sides)}};
-}
-
 // A length on the database grid; refused where it is not.
 double on_grid(double period) {
   const double nm = 1e9 * period, whole = std::round(nm);
@@ -142,27 +126,97 @@ double on_grid(double period) {
   return 1e-9 * whole;
 }
 
+// What is repeated: polygons of a cell around its origin, placed at `places` along a block that the
+// array repeats. A square array has one place; hexagons have a row pitch of sqrt(3) periods, on no
+// grid, so a block holds as many rows as come back to the grid.
+struct ArrayCell {
+  std::int32_t x = 0;             // pitch [nm]
+  std::vector<double> rows{0};    // heights of the rows in a block [nm]
+  std::vector<double> shifts{0};  // of each row along x [nm]
+  double y = 0;                   // exact height of one repeat of rows [nm]
+  int repeats = 1;                // repeats in a block
+  Points polygon;
+};
+
+// The block of m repeats that ends nearest to the grid: over `count` repeats its rounding adds up
+// to half a nanometre at most (m grows to about the root of 2 count).
+int block_of(double pitch, long count) {
+  for (int m = 1; m < 4096; ++m) {
+    const double miss = std::abs(m * pitch - std::round(m * pitch));
+    if (m >= count || miss * static_cast<double>(count) / m <= 0.5) return m;
+  }
+  return 4096;
+}
+
+ArrayCell round_cell(Lattice lattice, double period, double diameter, int sides, double size_y) {
+  const double p = on_grid(period);
+  ArrayCell cell;
+  cell.x = nanometres(p);
+  cell.y = 1e9 * p;
+  cell.polygon = circle(0, 0, diameter, sides);
+  cell.rows = {0.5 * cell.y};
+  cell.shifts = {0.5 * cell.x};
+  if (lattice == Lattice::Square) return cell;
+  cell.y = std::sqrt(3.0) * 1e9 * p;
+  cell.repeats = block_of(cell.y, std::max(1L, std::lround(1e9 * size_y / cell.y)));
+  cell.rows.clear();
+  cell.shifts.clear();
+  for (int k = 0; k < 2 * cell.repeats; ++k) {
+    cell.rows.push_back((0.25 + 0.5 * k) * cell.y);
+    cell.shifts.push_back((k % 2 == 0 ? 0.25 : 0.75) * cell.x);
+  }
+  return cell;
+}
+
 ArrayCell array_cell(const Texture& texture, double size_y, double facet_error, GdsArray& out) {
   if (const auto* t = std::get_if<HoleArray>(&texture.kind)) {
     out.drawn = "holes";
     out.sides = circle_sides(t->diameter, facet_error);
-    return round_cell(t->lattice, on_grid(t->period), t->diameter, out.sides);
+    return round_cell(t->lattice, t->period, t->diameter, out.sides, size_y);
   }
   if (const auto* t = std::get_if<PillarArray>(&texture.kind)) {
     out.drawn = "pillars";
     out.sides = circle_sides(t->diameter, facet_error);
-    return round_cell(t->lattice, on_grid(t->period), t->diameter, out.sides);
+    return round_cell(t->lattice, t->period, t->diameter, out.sides, size_y);
   }
   if (const auto* t = std::get_if<Grating>(&texture.kind)) {
     out.drawn = "grooves";
     const std::int32_t left = nanometres(0.5 * (t->period - t->width));
     const std::int32_t right = nanometres(0.5 * (t->period + t->width));
     const std::int32_t top = nanometres(size_y);
-    return {on_grid(t->period), size_y, {{{left, 0}, {right, 0}, {right, top}, {left, top}}}};
+    ArrayCell cell;
+    cell.x = nanometres(on_grid(t->period));
+    cell.y = top;
+    cell.polygon = {{left, 0}, {right, 0}, {right, top}, {left, top}};
+    return cell;
   }
   throw InputError(fmt::format(
       "GDSII holds arrays of holes, pillars or grooves, not \"{}\"; use exr, tiff or stl",
       texture_name(texture)));
+}
+
+// References to CELL, one a row of a block, in a structure of their own.
+void block_structure(GdsStream& gds, const std::string& name, const ArrayCell& cell,
+                     const std::vector<int>& date, std::size_t rows) {
+  gds.shorts(0x0502, date);
+  gds.text(0x0606, name);
+  for (std::size_t i = 0; i < rows; ++i) {
+    gds.empty(0x0A00);
+    gds.text(0x1206, "CELL");
+    gds.points({{static_cast<std::int32_t>(std::lround(cell.shifts[i])),
+                 static_cast<std::int32_t>(std::lround(cell.rows[i]))}});
+    gds.empty(0x1100);
+  }
+  gds.empty(0x0700);
+}
+
+void array_reference(GdsStream& gds, const std::string& name, long columns, long rows,
+                     std::int32_t y, std::int32_t width, std::int32_t height) {
+  gds.empty(0x0B00);
+  gds.text(0x1206, name);
+  gds.shorts(0x1302, {static_cast<int>(columns), static_cast<int>(rows)});
+  gds.points({{0, y}, {width, y}, {0, y + height}});
+  gds.empty(0x1100);
 }
 
 // --- STL ---
@@ -188,15 +242,17 @@ GdsArray write_gds(const std::string& path, const Texture& texture, double size_
                    double facet_error) {
   GdsArray out;
   const ArrayCell cell = array_cell(texture, size_y, facet_error, out);
-  const long columns = std::max(1L, std::lround(size_x / cell.x));
-  const long rows = std::max(1L, std::lround(size_y / cell.y));
-  if (columns > 32767 || rows > 32767 || size_x > 2.1 || size_y > 2.1) {
+  out.columns = std::max(1L, std::lround(1e9 * size_x / cell.x));
+  out.rows = std::max(1L, std::lround(1e9 * size_y / cell.y));
+  if (out.columns > 32767 || out.rows > 32767 || size_x > 2.1 || size_y > 2.1) {
     throw InputError(fmt::format("{} x {} cells are more than one GDSII array holds (32767 a side)",
-                                 columns, rows));
+                                 out.columns, out.rows));
   }
-  out.columns = columns, out.rows = rows;
-  out.pitch_x = cell.x, out.pitch_y = cell.y;
-  if (cell.polygons.size() == 2) out.pitch_error = std::abs(cell.y - std::sqrt(3.0) * cell.x);
+  const auto block = static_cast<std::int32_t>(std::lround(cell.repeats * cell.y));
+  const long blocks = out.rows / cell.repeats, left = out.rows % cell.repeats;
+  out.pitch_x = 1e-9 * cell.x;
+  out.pitch_y = 1e-9 * block / cell.repeats;
+  out.drift = 1e-9 * std::abs(block - cell.repeats * cell.y) * static_cast<double>(blocks);
   const std::vector<int> date{2025, 1, 1, 0, 0, 0, 2025, 1, 1, 0, 0, 0};
   GdsStream gds;
   gds.shorts(0x0002, {600});
@@ -205,17 +261,29 @@ GdsArray write_gds(const std::string& path, const Texture& texture, double size_
   gds.reals(0x0305, {1e-3, 1e-9});  // one database unit is 1e-3 um, 1e-9 m
   gds.shorts(0x0502, date);
   gds.text(0x0606, "CELL");
-  for (const Points& polygon : cell.polygons) boundary(gds, polygon);
+  // One row a block: its place goes into the polygon, and the array repeats the cell itself.
+  const bool single = cell.rows.size() == 1;
+  Points polygon = cell.polygon;
+  if (single) {
+    for (auto& [x, y] : polygon) {
+      x += static_cast<std::int32_t>(std::lround(cell.shifts[0]));
+      y += static_cast<std::int32_t>(std::lround(cell.rows[0]));
+    }
+  }
+  boundary(gds, polygon);
   gds.empty(0x0700);
+  const std::size_t rows_left =
+      cell.rows.size() / static_cast<std::size_t>(cell.repeats) * static_cast<std::size_t>(left);
+  if (!single) {
+    block_structure(gds, "BLOCK", cell, date, cell.rows.size());
+    if (rows_left > 0) block_structure(gds, "REST", cell, date, rows_left);
+  }
   gds.shorts(0x0502, date);
   gds.text(0x0606, "TEXTURE");
-  gds.empty(0x0B00);
-  gds.text(0x1206, "CELL");
-  gds.shorts(0x1302, {static_cast<int>(columns), static_cast<int>(rows)});
-  gds.points({{0, 0},
-              {nanometres(static_cast<double>(columns) * cell.x), 0},
-              {0, nanometres(static_cast<double>(rows) * cell.y)}});
-  gds.empty(0x1100);
+  const auto width = static_cast<std::int32_t>(out.columns * cell.x);
+  const auto height = static_cast<std::int32_t>(blocks * block);
+  array_reference(gds, single ? "CELL" : "BLOCK", out.columns, blocks, 0, width, height);
+  if (rows_left > 0) array_reference(gds, "REST", out.columns, 1, height, width, block);
   gds.empty(0x0700);
   gds.empty(0x0400);
   write_bytes(path, gds.bytes());

@@ -14,17 +14,18 @@ namespace papilla {
 // What an array became in the file.
 struct GdsArray {
   long columns = 0, rows = 0;
-  double pitch_x = 0, pitch_y = 0;  // [m], whole nanometres
-  double pitch_error = 0;           // largest rounding of a pitch [m]; 0 but for hexagons
-  int sides = 0;                    // of a circle
-  std::string drawn;                // "holes", "pillars", "grooves": what the polygons are
+  double pitch_x = 0, pitch_y = 0;  // [m]; y of hexagons: of two rows, mean over a block
+  double drift = 0;   // of the last rows from their exact place [m]; 0 but for hexagons
+  int sides = 0;      // of a circle
+  std::string drawn;  // "holes", "pillars", "grooves": what the polygons are
 };
 
 // GDSII of an array (holes, pillars, grooves): one polygon cell and one array reference over
 // size_x x size_y [m], layer 1, database unit 1 nm, fixed date. Circles are polygons with the area
-// of the circle, at most facet_error [m] off it, rounded to the database unit. Throws InputError
-// for a texture that is no array, a period that is not whole nanometres (of hexagons the row pitch
-// is irrational and rounded), or an array of more than 32767 cells a side.
+// of the circle, at most facet_error [m] off it, rounded to the database unit. The row pitch of
+// hexagons is on no grid: a block of rows, each rounded alone, is repeated, so that over the whole
+// array no hole is more than 1 nm off its place along y. Throws InputError for a texture that is no
+// array, a period that is not whole nanometres, or an array of more than 32767 cells a side.
 GdsArray write_gds(const std::string& path, const Texture& texture, double size_x, double size_y,
                    double facet_error = 2e-9);
 

@@ -158,9 +158,8 @@ Export export_design(const Design& wanted, const ExportOptions& options,
       path = folder + "/texture.gds";
       if (is_array(design.texture)) {
         const GdsArray a = write_gds(path, design.texture, grid.lx, grid.ly, options.facet_error);
-        gds_json = {
-            {"columns", a.columns},         {"rows", a.rows},   {"pitch", {a.pitch_x, a.pitch_y}},
-            {"pitch_error", a.pitch_error}, {"sides", a.sides}, {"drawn", a.drawn}};
+        gds_json = {{"columns", a.columns}, {"rows", a.rows},   {"pitch", {a.pitch_x, a.pitch_y}},
+                    {"drift", a.drift},     {"sides", a.sides}, {"drawn", a.drawn}};
       } else {
         gds_json = {{"polygons", write_gds_mask(path, h, options.levels)},
                     {"levels", options.levels},
