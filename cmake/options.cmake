@@ -10,7 +10,11 @@ target_compile_definitions(papilla_options INTERFACE PAPILLA_VERSION="${PROJECT_
 if(PAPILLA_WARNINGS_AS_ERRORS)
   target_compile_options(papilla_options INTERFACE -Werror)
 endif()
-if(PAPILLA_SANITIZE)
+if(PAPILLA_FUZZERS)
+  target_compile_options(papilla_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                         -fno-sanitize-recover=undefined)
+  target_link_options(papilla_options INTERFACE -fsanitize=address,undefined)
+elseif(PAPILLA_SANITIZE)
   target_compile_options(papilla_options INTERFACE -fsanitize=address,undefined
                          -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(papilla_options INTERFACE -fsanitize=address,undefined)

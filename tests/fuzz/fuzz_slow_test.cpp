@@ -1,24 +1,27 @@
-// Readers of files against changed inputs: whatever the bytes, they return or throw InputError.
-// Deterministic. PAPILLA_FUZZ_INPUTS sets the number of inputs a target (default 10,000 for what is
-// read from memory, 2,000 from disk, 100 for images).
+// Readers of files against changed inputs: whatever the bytes, they return or throw InputError, in
+// time, and without a number that is none. Deterministic. PAPILLA_FUZZ_INPUTS: inputs in all
+// (default 20,000); scripts/fuzz runs many.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <functional>
+#include <utility>
+#include <vector>
 
-#include "base/error.h"
-#include "base/files.h"
 #include "base/random.h"
-#include "config/node.h"
-#include "geometry/io/files.h"
-#include "geometry/texture.h"
-#include "optim/journal.h"
-#include "study/design.h"
+#include "tests/fuzz/study_targets.h"
 
 namespace papilla {
 namespace {
+
+constexpr unsigned kHangSeconds = 20;
 
 class Folder {
  public:
@@ -30,7 +33,7 @@ class Folder {
   ~Folder() { std::filesystem::remove_all(folder_); }
   Folder(const Folder&) = delete;
   Folder& operator=(const Folder&) = delete;
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path() const { return folder_.string(); }
 
  private:
   std::filesystem::path folder_;
@@ -81,89 +84,75 @@ std::string mutated(std::string bytes, RandomStream& random) {
   return bytes;
 }
 
-std::size_t inputs(std::size_t otherwise) {
+double inputs() {
   const char* wanted = std::getenv("PAPILLA_FUZZ_INPUTS");
-  return wanted ? std::strtoull(wanted, nullptr, 10) : otherwise;
+  return wanted ? std::strtod(wanted, nullptr) : 20000;
 }
 
-// Runs `target` on every seed and on `count` changed ones.
-void fuzz(const char* name, const std::vector<std::string>& seeds, std::size_t count,
-          const std::function<void(const std::string&)>& target) {
-  for (const std::string& seed : seeds) ASSERT_NO_THROW(target(seed)) << name;
-  std::size_t accepted = 0;
+// What a crash or a hang says before the program ends: the target and the input to run again.
+char g_running[128];
+extern "C" void on_death(int signal) {
+  char text[192];
+  const int length =
+      std::snprintf(text, sizeof text, "%s: %s\n", g_running, signal == SIGALRM ? "HANG" : "CRASH");
+  [[maybe_unused]] const auto written = ::write(2, text, static_cast<std::size_t>(length));
+  ::_exit(1);
+}
+
+// Runs the target on its seeds and on `count` changed ones, and prints a row of the table.
+void fuzz(const FuzzTarget& target, std::size_t count) {
+  for (const std::string& seed : target.seeds) ASSERT_NO_THROW(target.read(seed)) << target.name;
+  std::size_t accepted = 0, refused = 0, wrong = 0;
+  double slowest = 0;
+  const auto begin = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < count; ++i) {
-    RandomStream random(1, name, i);
-    const std::string bytes = mutated(seeds[i % seeds.size()], random);
+    std::snprintf(g_running, sizeof g_running, "%s input %zu", target.name.c_str(), i);
+    RandomStream random(1, target.name, i);
+    const std::string bytes = mutated(target.seeds[i % target.seeds.size()], random);
+    const auto start = std::chrono::steady_clock::now();
+    ::alarm(kHangSeconds);
     try {
-      target(bytes);
+      target.read(bytes);
       ++accepted;
     } catch (const InputError& e) {
-      ASSERT_FALSE(e.problems().empty()) << name << " input " << i;
+      ++refused;
+      EXPECT_FALSE(e.problems().empty()) << g_running;
+    } catch (const NotFinite& e) {
+      ++wrong;
+      ADD_FAILURE() << g_running << ": " << e.what;
     } catch (const std::exception& e) {
-      FAIL() << name << " input " << i << ": " << e.what();
+      ++wrong;
+      ADD_FAILURE() << g_running << ": " << e.what();
     }
+    ::alarm(0);
+    slowest = std::max(
+        slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
-  std::cout << name << ": " << count << " inputs, " << accepted << " accepted\n";
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::printf("%-10s %9zu %9zu %9zu %8d %6d %6zu %10.3f %9.1f\n", target.name.c_str(), count,
+              accepted, refused, 0, 0, wrong, slowest, seconds);
+  std::fflush(stdout);
 }
 
-std::string design_text(const std::string& name) {
-  return read_bytes(std::string(PAPILLA_SOURCE_DIR "/designs/") + name);
-}
-
-TEST(Fuzz, Toml) {
-  fuzz("toml",
-       {design_text("electroadhesive_glass/study.toml"), design_text("fingers/reference.toml")},
-       inputs(10000), [](const std::string& bytes) { parse_toml(bytes, "fuzz.toml"); });
-}
-
-TEST(Fuzz, Studies) {
+TEST(Fuzz, ReadersReturnOrRefuse) {
   const Folder place;
-  const std::string path = place.path("study.toml");
-  fuzz("study",
-       {read_bytes(PAPILLA_TEST_DATA "/study/tiny.toml"),
-        design_text("electroadhesive_glass/study.toml")},
-       inputs(2000), [&](const std::string& bytes) {
-         std::ofstream(path, std::ios::binary) << bytes;
-         read_study(path);
-       });
-}
-
-TEST(Fuzz, Heightmaps) {
-  const Folder place;
-  const Texture texture{HoleArray{}};
-  const Heightmap h = generate(texture, patch_grid(texture, 16));
-  const auto path = [&](const std::string& name) { return place.path(name); };
-  write_npy(path("good.npy"), h);
-  write_gsf(path("good.gsf"), h, {});
-  write_exr(path("good.exr"), h, {});
-  write_tiff16(path("good.tif"), h, Polarity::WhiteHigh, {});
-  for (const char* ending : {"npy", "gsf", "exr", "tif"}) {
-    const std::string bad = path(std::string("bad.") + ending);
-    fuzz(ending, {read_bytes(path(std::string("good.") + ending))},
-         inputs(ending[0] == 'e' || ending[0] == 't' ? 100 : 2000), [&](const std::string& bytes) {
-           std::ofstream(bad, std::ios::binary) << bytes;
-           const Heightmap back = read_heightmap(bad, 12e-6);
-           ASSERT_EQ(back.z.size(), back.grid.size());
-           ASSERT_TRUE(std::isfinite(back.grid.area()) && back.grid.area() > 0);
-           for (double z : back.z) ASSERT_TRUE(std::isfinite(z));
-         });
+  for (const int signal : {SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    ::signal(signal, on_death);
+  // A crash or a hang ends the program: the zeros of a row that is printed are counts.
+  std::printf("%-10s %9s %9s %9s %8s %6s %6s %10s %9s\n", "target", "inputs", "accepted", "refused",
+              "crashes", "hangs", "wrong", "slowest s", "seconds");
+  double total = 0;
+  std::vector<FuzzTarget> targets = file_targets(place.path());
+  for (FuzzTarget& t : study_targets(place.path())) targets.push_back(std::move(t));
+  for (const FuzzTarget& target : targets) {
+    const double count = std::ceil(target.share * inputs());
+    fuzz(target, static_cast<std::size_t>(count));
+    total += count;
   }
-}
-
-TEST(Fuzz, JournalLines) {
-  Evaluation e{{1.0 / 7, 0.1}, {true, "", {1.0 / 3, 2}, {-0.5}, {7}}};
-  std::string good = journal_line(e);
-  e.outcome = {false, "crashed", {}, {}, {}};
-  std::string failed = journal_line(e);
-  good.pop_back();
-  failed.pop_back();
-  fuzz("journal", {good, failed}, inputs(10000), [&](const std::string& bytes) {
-    Evaluation back;
-    // The checksum: no changed record is taken for a sound one.
-    if (parse_journal_line(bytes, back)) {
-      ASSERT_EQ(journal_line(back), bytes + "\n");
-    }
-  });
+  std::printf("%-10s %9.0f\n", "all", total);
+  for (const int signal : {SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+    ::signal(signal, SIG_DFL);
 }
 
 }  // namespace

@@ -1,0 +1,44 @@
+// Entry point of libFuzzer for one target; compiled once for each (cmake -DPAPILLA_FUZZERS=ON).
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#ifdef PAPILLA_FUZZ_STUDY
+#include "tests/fuzz/study_targets.h"
+#else
+#include "tests/fuzz/targets.h"
+#endif
+
+namespace {
+
+const papilla::FuzzTarget& target() {
+  static const papilla::FuzzTarget chosen = [] {
+    std::string folder =
+        std::filesystem::temp_directory_path() / ("papilla-fuzzer-" + std::string(6, 'X'));
+    if (mkdtemp(folder.data()) == nullptr) std::abort();
+#ifdef PAPILLA_FUZZ_STUDY
+    std::vector<papilla::FuzzTarget> targets = papilla::study_targets(folder);
+#else
+    std::vector<papilla::FuzzTarget> targets = papilla::file_targets(folder);
+#endif
+    for (papilla::FuzzTarget& t : targets) {
+      if (t.name == PAPILLA_FUZZ_TARGET) return t;
+    }
+    std::abort();
+  }();
+  return chosen;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    target().read(std::string(reinterpret_cast<const char*>(data), size));
+  } catch (const papilla::InputError&) {  // anything else ends the run
+  }
+  return 0;
+}

@@ -1,0 +1,58 @@
+// The readers that stand on more than config and geometry: journals, studies, tables of friction.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/describe.h"
+#include "optim/journal.h"
+#include "study/calibrate.h"
+#include "study/design.h"
+#include "tests/fuzz/targets.h"
+
+namespace papilla {
+
+inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
+  std::vector<FuzzTarget> out;
+  out.push_back(
+      {"study",
+       0.03,
+       {read_bytes(PAPILLA_TEST_DATA "/study/tiny.toml"),
+        design_text("electroadhesive_glass/study.toml"), design_text("two_level_glass/study.toml")},
+       from_file(folder + "/study.toml", [](const std::string& path) {
+         Study study = read_study(path);
+         for (const NumberField& n : number_fields(study.design))
+           require_finite(*n.value, n.path.c_str());
+       })});
+
+  Evaluation e{{1.0 / 7, 0.1}, {true, "", {1.0 / 3, 2}, {-0.5}, {7}}};
+  std::string good = journal_line(e);
+  e.outcome = {false, "crashed", {}, {}, {}};
+  std::string failed = journal_line(e);
+  good.pop_back();
+  failed.pop_back();
+  out.push_back({"journal", 0.3, {good, failed}, [](const std::string& bytes) {
+                   Evaluation back;
+                   // The checksum: no changed record is taken for a sound one.
+                   if (parse_journal_line(bytes, back) && journal_line(back) != bytes + "\n")
+                     throw NotFinite{"a changed record is taken for a sound one"};
+                 }});
+
+  out.push_back({"friction",
+                 0.05,
+                 {"design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_"
+                  "on_N,F_on_sd_"
+                  "N\nm3_samples/flat.toml,15 %,200,5000,0.2,0.06,0.004,0.09,0.005\n"
+                  "m3_samples/flat.toml,0.75,200,5000,0.2,0.13,0.01,,\n"},
+                 from_file(folder + "/friction.csv", [](const std::string& path) {
+                   for (const FrictionDatum& d : read_friction(path)) {
+                     for (double v : {d.relative_humidity, d.amplitude, d.frequency, d.load, d.off,
+                                      d.off_sd, d.on, d.on_sd})
+                       require_finite(v, "a cell of the table");
+                   }
+                 })});
+
+  return out;
+}
+
+}  // namespace papilla
