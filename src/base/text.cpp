@@ -56,4 +56,66 @@ std::string join_names(const std::vector<std::string>& names, std::string_view s
   return out;
 }
 
+std::size_t text_width(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
+
+std::string aligned_table(const std::vector<std::vector<std::string>>& rows, std::size_t left) {
+  std::vector<std::size_t> width;
+  for (const auto& row : rows) {
+    width.resize(std::max(width.size(), row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], text_width(row[i]));
+  }
+  std::string out;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string pad(width[i] - text_width(row[i]), ' ');
+      line += (i > 0 ? "  " : "") + (i < left ? row[i] + pad : pad + row[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    out += line + '\n';
+  }
+  return out;
+}
+
+std::string aligned_markdown(const std::string& text) {
+  std::string out;
+  std::vector<std::vector<std::string>> table;
+  const auto flush = [&] {
+    std::vector<std::size_t> width;
+    for (const auto& row : table) {
+      width.resize(std::max(width.size(), row.size()), 3);
+      for (std::size_t i = 0; i < row.size(); ++i)
+        width[i] = std::max(width[i], text_width(row[i]));
+    }
+    for (const auto& row : table) {
+      for (std::size_t i = 0; i < row.size(); ++i) {
+        const bool rule = row[i] == "---";
+        out += "| " + row[i] + std::string(width[i] - text_width(row[i]), rule ? '-' : ' ') + " ";
+      }
+      out += "|\n";
+    }
+    table.clear();
+  };
+  for (std::size_t begin = 0; begin < text.size();) {
+    std::size_t end = text.find('\n', begin);
+    const bool closed = end != std::string::npos;
+    if (!closed) end = text.size();
+    const std::string_view line(text.data() + begin, end - begin);
+    if (line.size() > 1 && line.front() == '|' && line.back() == '|') {
+      table.push_back(split(line.substr(1, line.size() - 2), '|'));
+    } else {
+      flush();
+      out += line;
+      if (closed) out += '\n';
+    }
+    begin = end + 1;
+  }
+  flush();
+  return out;
+}
+
 }  // namespace papilla

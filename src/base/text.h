@@ -13,4 +13,12 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 std::vector<std::string> split(std::string_view text, char separator);
 std::string join_names(const std::vector<std::string>& names, std::string_view separator = ", ");
 
+// Columns on a terminal, of UTF-8 text.
+std::size_t text_width(std::string_view text);
+// Lines of a table, columns two blanks apart and as wide as their widest cell; the first `left`
+// columns begin at the left, the others end at the right.
+std::string aligned_table(const std::vector<std::vector<std::string>>& rows, std::size_t left);
+// A Markdown text with the columns of its tables aligned.
+std::string aligned_markdown(const std::string& text);
+
 }  // namespace papilla

@@ -19,7 +19,7 @@ struct AccuracyCommand {
   std::string file, out, render;
   std::vector<std::string> overrides;
   int scenes = 0, jobs = 0, grid = 128, skins = 16, finest = 512;
-  bool no_levels = false;
+  bool no_levels = false, json = false;
 };
 
 void make_folder(const std::string& folder) {
@@ -47,6 +47,10 @@ int run(const Context& context, const AccuracyCommand& c) {
                                          "reference of {} pixels and {} fresh skins\n",
                                          PAPILLA_VERSION, c.scenes, options.finer_grid,
                                          options.finer_skins)));
+    }
+    if (c.json) {
+      std::cout << coverage_json(rows) << '\n';
+      return kSuccess;
     }
     std::cout << fmt::format("{:<34} {:>6} {:>8} {:>11} {:>13} {:>6}\n", "fidelity", "scenes",
                              "inside", "half-width", "95 % of error", "ratio");
@@ -78,6 +82,10 @@ int run(const Context& context, const AccuracyCommand& c) {
     }
     context.note("wrote " + c.out);
   }
+  if (c.json) {
+    std::cout << accuracy_json(rows) << '\n';
+    return kSuccess;
+  }
   std::cout << fmt::format("{:<10} {:<26}", "sweep", "setting");
   for (const std::string& name : accuracy_quantities()) std::cout << fmt::format(" {:>15}", name);
   std::cout << fmt::format(" {:>9} {:>9} {:>8}\n", "pairs", "work", "seconds");
@@ -108,6 +116,7 @@ void add_accuracy(CLI::App& app, Context& context) {
       ->add_option("--scenes", c->scenes,
                    "Instead: error bars against a finer reference on that many random scenes")
       ->check(CLI::Range(1, 100000));
+  command->add_flag("--json", c->json, "One JSON object on standard output");
   command->add_option("--render", c->render, "Instead: the page of the tables in that folder")
       ->type_name("DIR");
   command->add_option("--jobs", c->jobs, "Threads; 0: all processors")->check(CLI::Range(0, 4096));

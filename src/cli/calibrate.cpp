@@ -44,7 +44,10 @@ int run(const Context& context, const CalibrateCommand& command) {
   write_bytes(out + "/fit.json", json);
   write_bytes(out + "/report.html", report_page(out));
   context.note("wrote " + out);
-  std::cout << (command.json ? json : markdown);
+  if (command.json)
+    std::cout << json;
+  else
+    context.print(markdown);
   return result.fit.converged ? kSuccess : kWorkFailed;
 }
 

@@ -1,9 +1,49 @@
 #include "cli/context.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
+#include <string_view>
+
+#include "base/text.h"
 
 namespace papilla {
+namespace {
+
+// The first line of each block is its heading.
+std::string painted(const std::string& text) {
+  constexpr std::string_view kBars[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  std::string out;
+  bool heading = true;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    std::string line = text.substr(begin, end - begin);
+    const bool bold = heading && !line.empty();
+    heading = line.empty();
+    std::size_t first = std::string::npos, last = 0;
+    for (const std::string_view bar : kBars) {
+      const std::size_t at = line.find(bar);
+      if (at == std::string::npos) continue;
+      first = std::min(first, at);
+      last = std::max(last, line.rfind(bar) + bar.size());
+    }
+    if (first != std::string::npos) {
+      line.insert(last, "\033[0m");
+      line.insert(first, "\033[36m");
+    }
+    out += bold ? "\033[1m" + line + "\033[0m" : line;
+    if (end < text.size()) out += '\n';
+    begin = end + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+void Context::print(const std::string& text) const {
+  const std::string aligned = aligned_markdown(text);
+  std::cout << (color_results ? painted(aligned) : aligned) << std::flush;
+}
 
 void Context::note(const std::string& text) const {
   if (!quiet) std::cerr << text << std::endl;

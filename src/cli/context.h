@@ -17,10 +17,14 @@ enum ExitStatus { kSuccess = 0, kWorkFailed = 1, kWrongInput = 2 };
 struct Context {
   bool quiet = false;
   bool color = false;           // standard error is a terminal and NO_COLOR is not set
+  bool color_results = false;   // the same of standard output
   std::function<int()> action;  // set by the chosen subcommand: does the work, returns ExitStatus
 
   // A line of progress on standard error, unless --quiet.
   void note(const std::string& text) const;
+  // A result for people on standard output: tables of Markdown aligned, headings and bars coloured
+  // where that is wanted.
+  void print(const std::string& text) const;
 };
 
 // What a command that reads one design takes.

@@ -13,7 +13,7 @@ namespace {
 
 struct DescribeOptions {
   std::string section, out;
-  bool markdown = false;
+  bool markdown = false, json = false;
 };
 
 int describe(const DescribeOptions& options) {
@@ -24,6 +24,12 @@ int describe(const DescribeOptions& options) {
       write_bytes(options.out + "/" + section + ".md",
                   reference_section(section, ReferenceFormat::Markdown));
     }
+    return kSuccess;
+  }
+  if (options.json) {
+    std::cout << reference_json(options.section.empty() ? reference_sections()
+                                                        : std::vector{options.section})
+              << '\n';
     return kSuccess;
   }
   if (!options.section.empty()) {
@@ -45,6 +51,7 @@ void add_describe(CLI::App& app, Context& context) {
   command->add_option("section", options->section,
                       "texture, surface, finger, ...; all when left out");
   command->add_flag("--markdown", options->markdown, "Markdown tables");
+  command->add_flag("--json", options->json, "One JSON object on standard output");
   command->add_option("--out", options->out, "Write one Markdown page a section into this folder")
       ->type_name("DIR");
   command->callback(

@@ -214,10 +214,15 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
     write_bytes(options.out + "/resolved.toml", resolved_toml(study));
     write_bytes(options.out + "/response.json", response_json(response, false) + "\n");
     write_bytes(options.out + "/response.txt", response_table(response));
+    write_bytes(options.out + "/humidity.svg",
+                response_svg(response, design.title.empty() ? study.name : design.title));
     write_pictures(options.out, design, fidelity);
     context.note("wrote " + options.out);
   }
-  std::cout << (options.design.json ? response_json(response) + "\n" : response_table(response));
+  if (options.design.json)
+    std::cout << response_json(response) << '\n';
+  else
+    context.print(response_table(response));
   if (options.check_field && design.drive.driven()) print_field_check(context, design, fidelity);
   return kSuccess;
 }

@@ -11,7 +11,7 @@
 namespace papilla {
 namespace {
 
-int explain(const DesignOptions& options, bool measure) {
+int explain(const Context& context, const DesignOptions& options, bool measure) {
   const Study study = read_study(options.file, options.overrides);
   const Design& design = study.design;
   const Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity_of(design))
@@ -20,10 +20,9 @@ int explain(const DesignOptions& options, bool measure) {
     std::cout << plan_document(plan) << '\n';
     return kSuccess;
   }
-  std::cout << (design.title.empty() ? study.name : design.title) << '\n' << plan.text();
-  for (const std::string& line : calibration_mismatch(design)) {
-    std::cout << "warning: " << line << '\n';
-  }
+  std::string text = (design.title.empty() ? study.name : design.title) + '\n' + plan.text();
+  for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
+  context.print(text);
   return kSuccess;
 }
 
@@ -38,7 +37,7 @@ void add_explain(CLI::App& app, Context& context) {
   command->add_flag("--measure", *measure,
                     "Bounds of what is skipped from patches of this scene (seconds)");
   command->callback([&context, options, measure] {
-    context.action = [options, measure] { return explain(*options, *measure); };
+    context.action = [&context, options, measure] { return explain(context, *options, *measure); };
   });
 }
 

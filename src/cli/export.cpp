@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "study/pick.h"
@@ -33,6 +37,25 @@ std::string heights_file(const Export& result) {
       if (file.format == format) return file.path;
   }
   throw InputError("--verify needs a file of heights: exr, gsf, tiff32 or tiff");
+}
+
+// export.json of the folder, and the judgement where there is one.
+void print_json(const std::string& folder, const std::optional<Verification>& v) {
+  using Json = nlohmann::ordered_json;
+  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
+  Json out = Json::parse(read_bytes(folder + "/export.json"));
+  out["folder"] = folder;
+  if (v) {
+    out["verification"] = {{"min_hole", number(v->pixels.min_hole)},
+                           {"min_wall", number(v->pixels.min_wall)},
+                           {"pixel", v->pixels.pixel},
+                           {"merit", v->merit},
+                           {"design", number(v->design)},
+                           {"file", number(v->file)},
+                           {"loss", number(v->loss)},
+                           {"faults", v->faults}};
+  }
+  std::cout << out.dump(2) << '\n';
 }
 
 int export_files(const ExportCommand& command) {
@@ -65,20 +88,28 @@ int export_files(const ExportCommand& command) {
   const std::string folder =
       command.out.empty() ? "results/" + study.name + "/export" : command.out;
   const Export result = export_design(study.design, options, folder);
-  for (const ExportedFile& file : result.files) std::cout << file.path << '\n';
-  std::cout << folder << "/export.json\n";
-  if (!command.verify) return kSuccess;
-  Study judged = study;  // the file is what the process turns into the design
-  judged.design.texture = compensated(study.design.texture, options.bias);
-  const Verification v = verify_export(judged, heights_file(result), tolerance);
-  std::cout << fmt::format(
-      "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, of the "
-      "design "
-      "{:.4g}: {:.2g} % off\n",
-      1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel, v.merit, v.file,
-      v.design, 100 * v.loss);
-  for (const std::string& fault : v.faults) std::cerr << "not sound: " << fault << '\n';
-  return v.faults.empty() ? kSuccess : kWorkFailed;
+  std::optional<Verification> v;
+  if (command.verify) {
+    Study judged = study;  // the file is what the process turns into the design
+    judged.design.texture = compensated(study.design.texture, options.bias);
+    v = verify_export(judged, heights_file(result), tolerance);
+  }
+  if (command.design.json) {
+    print_json(folder, v);
+  } else {
+    for (const ExportedFile& file : result.files) std::cout << file.path << '\n';
+    std::cout << folder << "/export.json\n";
+    if (v) {
+      std::cout << fmt::format(
+          "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, of the "
+          "design {:.4g}: {:.2g} % off\n",
+          1e6 * v->pixels.min_hole, 1e6 * v->pixels.min_wall, 1e6 * v->pixels.pixel, v->merit,
+          v->file, v->design, 100 * v->loss);
+    }
+  }
+  if (!v) return kSuccess;
+  for (const std::string& fault : v->faults) std::cerr << "not sound: " << fault << '\n';
+  return v->faults.empty() ? kSuccess : kWorkFailed;
 }
 
 }  // namespace
@@ -90,6 +121,7 @@ void add_export(CLI::App& app, Context& context) {
       ->required()
       ->type_name("FILE");
   add_set_option(*command, options->design.overrides);
+  command->add_flag("--json", options->design.json, "One JSON object on standard output");
   command
       ->add_option(
           "--format", options->formats,

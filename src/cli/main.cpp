@@ -46,7 +46,10 @@ bool knows_command(const CLI::App& app, int argc, char** argv, const Context& co
 
 int run(int argc, char** argv) {
   Context context;
-  context.color = isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+  const char* plain = std::getenv("NO_COLOR");  // no-color.org: set and not empty
+  const bool colors = plain == nullptr || *plain == '\0';
+  context.color = colors && isatty(STDERR_FILENO) != 0;
+  context.color_results = colors && isatty(STDOUT_FILENO) != 0;
 
   CLI::App app{"Papilla: inverse design of surface textures for touch", "papilla"};
   app.set_version_flag("--version", "papilla " PAPILLA_VERSION);

@@ -144,7 +144,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   if (options.json) {
     std::cout << result_json(result, StudyProblem(study), run.folder, study).dump(2) << '\n';
   } else if (!result.interrupted) {
-    std::cout << result_table(study, result);
+    context.print(result_table(study, result));
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -93,8 +93,10 @@ int run(const Context& context, const RankCommand& command) {
     write_bytes(command.out + "/report.html", report_page(command.out));
     context.note("wrote " + command.out);
   }
-  std::cout << (command.json ? ranking_json(names, options, ranking) + "\n"
-                             : ranking_table(names, options, ranking));
+  if (command.json)
+    std::cout << ranking_json(names, options, ranking) << '\n';
+  else
+    context.print(ranking_table(names, options, ranking));
   return kSuccess;
 }
 

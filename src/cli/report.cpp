@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "base/files.h"
 #include "cli/commands.h"
@@ -12,13 +13,25 @@ namespace papilla {
 namespace {
 
 struct ReportOptions {
-  std::string folder, out, pick;
+  std::string folder, out, pick, svg;
+  bool json = false;
 };
 
 int report(const ReportOptions& options) {
-  const std::string path = options.out.empty() ? options.folder + "/report.html" : options.out;
-  write_bytes(path, report_page(options.folder, options.pick));
-  std::cout << path << '\n';
+  const bool picture = !options.svg.empty();
+  const std::string path = picture               ? options.svg
+                           : options.out.empty() ? options.folder + "/report.html"
+                                                 : options.out;
+  const std::string text =
+      picture ? front_svg(options.folder) : report_page(options.folder, options.pick);
+  write_bytes(path, text);
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"schema", 1}, {"file", path}, {"bytes", text.size()}}.dump(
+                     2)
+              << '\n';
+  } else {
+    std::cout << path << '\n';
+  }
   return kSuccess;
 }
 
@@ -34,6 +47,9 @@ void add_report(CLI::App& app, Context& context) {
       ->required()
       ->type_name("RESULT_DIR");
   command->add_option("--out", options->out, "Default: RESULT_DIR/report.html")->type_name("FILE");
+  command->add_option("--svg", options->svg, "The picture of the front alone, to this file")
+      ->type_name("FILE");
+  command->add_flag("--json", options->json, "One JSON object on standard output");
   add_pick_option(*command, options->pick);
   command->callback(
       [&context, options] { context.action = [options] { return report(*options); }; });

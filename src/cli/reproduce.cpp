@@ -42,7 +42,10 @@ int run(const Context& context, const ReproduceCommand& command) {
     write_bytes(command.out + "/claims.md", claims_markdown(results, options.finger.name));
     context.note("wrote " + command.out);
   }
-  std::cout << (command.json ? claims_json(results) + "\n" : claims_text(results));
+  if (command.json)
+    std::cout << claims_json(results) << '\n';
+  else
+    context.print(claims_text(results));
   return kSuccess;
 }
 

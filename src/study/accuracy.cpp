@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/constants.h"
@@ -222,6 +223,9 @@ const char* sweep_text(const std::string& sweep) {
   return "";
 }
 
+using Json = nlohmann::ordered_json;
+Json json_number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
 }  // namespace
 
 const std::vector<std::string>& accuracy_quantities() {
@@ -362,6 +366,38 @@ std::string coverage_csv(const std::vector<CoverageRow>& rows, const std::string
                        r.parts.method.value_or(0), r.parts.solver.value_or(0), r.inside() ? 1 : 0);
   }
   return out;
+}
+
+std::string accuracy_json(const std::vector<AccuracyRow>& rows) {
+  Json list = Json::array();
+  for (const AccuracyRow& r : rows) {
+    Json quantities = Json::object();
+    for (std::size_t q = 0; q < kQuantities.size(); ++q) {
+      quantities[kQuantities[q].name] = {{"value", json_number(r.value[q])},
+                                         {"se", json_number(r.stated[q])},
+                                         {"relative_error", json_number(r.error[q])}};
+    }
+    list.push_back({{"sweep", r.sweep},
+                    {"setting", r.setting},
+                    {"quantities", quantities},
+                    {"seconds", r.seconds},
+                    {"fft_pairs", r.fft_pairs},
+                    {"work", r.work},
+                    {"status", r.status}});
+  }
+  return Json{{"schema", 1}, {"sweeps", list}}.dump(2);
+}
+
+std::string coverage_json(const std::vector<CoverageRow>& rows) {
+  Json list = Json::array();
+  for (const CoverageSummary& s : coverage_summary(rows)) {
+    list.push_back({{"fidelity", s.fidelity},
+                    {"scenes", s.scenes},
+                    {"inside", json_number(s.inside)},
+                    {"median_half_width", json_number(s.median_half_width)},
+                    {"error_quantile", json_number(s.error_quantile)}});
+  }
+  return Json{{"schema", 1}, {"coverage", list}}.dump(2);
 }
 
 std::string accuracy_svg(const std::vector<AccuracyRow>& all, const std::string& sweep) {

@@ -67,6 +67,9 @@ std::vector<CoverageSummary> coverage_summary(const std::vector<CoverageRow>& ro
 
 std::string accuracy_csv(const std::vector<AccuracyRow>& rows, const std::string& provenance);
 std::string coverage_csv(const std::vector<CoverageRow>& rows, const std::string& provenance);
+// {"schema": 1, "sweeps": [...]} and {"schema": 1, "coverage": [...]}; null never NaN.
+std::string accuracy_json(const std::vector<AccuracyRow>& rows);
+std::string coverage_json(const std::vector<CoverageRow>& rows);
 // Error of one sweep against work, log-log, a line a quantity.
 std::string accuracy_svg(const std::vector<AccuracyRow>& rows, const std::string& sweep);
 // The page of the tables sweeps.csv and coverage.csv in a folder. Throws InputError.

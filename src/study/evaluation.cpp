@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "metrics/metrics.h"
+#include "study/svg_plot.h"
 
 namespace papilla {
 namespace {
@@ -167,6 +168,32 @@ std::string response_json(const Response& response, bool with_time) {
 
 std::string plan_document(const Plan& plan) {
   return Json{{"schema", 1}, {"plan", plan_json(plan)}}.dump(2);
+}
+
+std::string response_svg(const Response& response, const std::string& title) {
+  const auto curve = [&](const char* name, const char* colour, double scale, auto member) {
+    SvgSeries s{.name = name, .colour = colour, .x = {}, .y = {}, .ex = {}, .ey = {}};
+    s.line = s.band = true;
+    for (const ResponsePoint& p : response.points) {
+      s.x.push_back(100 * p.relative_humidity);
+      s.y.push_back(scale * (p.*member).value);
+      s.ey.push_back(2 * scale * (p.*member).se());
+    }
+    return s;
+  };
+  SvgPlot force{.title = title,
+                .x = "relative humidity [%]",
+                .y = "friction [mN]",
+                .series = {curve("drive off", "#1f6f9f", 1e3, &ResponsePoint::friction_off)},
+                .from_zero = true};
+  if (!response.driven) return svg_picture({force});
+  force.series.push_back(curve("drive on", "#c2571a", 1e3, &ResponsePoint::friction_on));
+  return svg_picture({force,
+                      {.title = "",
+                       .x = "relative humidity [%]",
+                       .y = "modulation (F_on - F_off)/F_off",
+                       .series = {curve("", "#3a7d44", 1, &ResponsePoint::modulation)},
+                       .from_zero = true}});
 }
 
 std::string modulation_sparkline(const Response& response) {

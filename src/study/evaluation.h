@@ -15,6 +15,9 @@ std::string response_table(const Response& response);
 // with_time = false leaves the clock out, for files that must be reproducible.
 std::string response_json(const Response& response, bool with_time = true);
 
+// Friction (drive off and on) and modulation over humidity with bands of two standard errors.
+std::string response_svg(const Response& response, const std::string& title);
+
 // {"schema": 1, "plan": {...}} of the same form.
 std::string plan_document(const Plan& plan);
 

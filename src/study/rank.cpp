@@ -339,36 +339,34 @@ Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options)
 
 std::string ranking_table(const std::vector<std::string>& names, const RankOptions& options,
                           const Ranking& ranking) {
-  std::size_t width = 9;
-  for (const std::string& name : names) width = std::max(width, name.size());
   std::string out;
   for (const StateRanking& state : ranking.states) {
-    out += fmt::format("finger {}\n{:>4}  {:<{}}",
-                       finger_state_names()[static_cast<std::size_t>(state.state)], "rank",
-                       "design", width);
+    out += "finger " + finger_state_names()[static_cast<std::size_t>(state.state)] + "\n";
+    std::vector<std::vector<std::string>> rows{{"rank", "design"}};
     for (const Criterion& c : options.criteria) {
       const std::string unit = people(c).second;
-      out += fmt::format("  {:>24}", c.text() + (unit.empty() ? "" : " " + unit));
+      rows[0].push_back(c.text() + (unit.empty() ? "" : " " + unit));
     }
-    out += fmt::format("  {:>24}  {:>8}  {:>7}  {:>5}\n", "ahead of the next, %", "p(ahead)",
-                       "p(best)", "skins");
+    for (const char* name : {"ahead of the next, %", "p(ahead)", "p(best)", "skins"})
+      rows[0].push_back(name);
     for (const RankedCandidate& r : state.candidates) {
-      out += fmt::format("{:>3}{}  {:<{}}", r.rank, r.tied_with_next ? "=" : " ", names[r.index],
-                         width);
+      std::vector<std::string> row{fmt::format("{:>3}{}", r.rank, r.tied_with_next ? "=" : " "),
+                                   names[r.index]};
       for (std::size_t c = 0; c < r.metrics.size(); ++c) {
         const double scale = people(options.criteria[c]).first;
-        out += fmt::format("  {:>24}",
-                           fmt::format("{:.4g} ± {:.2g}", r.metrics[c].value * scale,
-                                       (r.metrics[c].high - r.metrics[c].low) / 2 * scale));
+        row.push_back(fmt::format("{:.4g} ± {:.2g}", r.metrics[c].value * scale,
+                                  (r.metrics[c].high - r.metrics[c].low) / 2 * scale));
       }
       const bool last = &r == &state.candidates.back();
-      out += fmt::format("  {:>24}  {:>8}  {:>7.3f}  {:>5}\n",
-                         last ? std::string("-")
-                              : fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * r.ahead_of_next.value,
-                                            100 * r.ahead_of_next.low, 100 * r.ahead_of_next.high),
-                         last ? std::string("-") : fmt::format("{:.3f}", r.p_ahead), r.p_best,
-                         r.skins);
+      row.push_back(last ? std::string("-")
+                         : fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * r.ahead_of_next.value,
+                                       100 * r.ahead_of_next.low, 100 * r.ahead_of_next.high));
+      row.push_back(last ? std::string("-") : fmt::format("{:.3f}", r.p_ahead));
+      row.push_back(fmt::format("{:.3f}", r.p_best));
+      row.push_back(fmt::format("{}", r.skins));
+      rows.push_back(std::move(row));
     }
+    out += aligned_table(rows, 2);
     out += fmt::format("{} skins; {} if everyone had as many as the neediest ({:.0f} %)\n\n",
                        state.skins, state.equal_skins,
                        100.0 * state.skins / std::max(1, state.equal_skins));

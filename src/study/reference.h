@@ -16,4 +16,7 @@ enum class ReferenceFormat { Text, Markdown };
 // Throws InputError, with a "did you mean", for an unknown section.
 std::string reference_section(const std::string& section, ReferenceFormat format);
 
+// {"schema": 1, "sections": [{"section", "about", "tables": [{"name", "keys": [...]}]}]}
+std::string reference_json(const std::vector<std::string>& sections);
+
 }  // namespace papilla

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -13,11 +14,13 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "study/design.h"
 #include "study/pick.h"
 #include "study/rank.h"
+#include "study/svg_plot.h"
 
 namespace papilla {
 
@@ -176,6 +179,45 @@ std::string script_text(std::string text) {
   return text;
 }
 
+// A CSV table of one line a row without quoted cells, as `papilla optimize` writes.
+struct Columns {
+  std::vector<std::string> names;
+  std::vector<std::vector<std::string>> rows;
+
+  bool has(const std::string& name) const {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  }
+  std::vector<std::string> texts(const std::string& name) const {
+    const auto column =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    std::vector<std::string> out;
+    for (const auto& row : rows) out.push_back(column < row.size() ? row[column] : "");
+    return out;
+  }
+  // NaN where a cell is no number.
+  std::vector<double> numbers(const std::string& name) const {
+    std::vector<double> out;
+    for (const std::string& cell : texts(name)) {
+      char* end = nullptr;
+      const double v = std::strtod(cell.c_str(), &end);
+      out.push_back(end == cell.c_str() ? std::numeric_limits<double>::quiet_NaN() : v);
+    }
+    return out;
+  }
+};
+
+Columns read_columns(const fs::path& file) {
+  Columns out;
+  for (const std::string& line : split(read_bytes(file), '\n')) {
+    if (line.empty() || line.front() == '#') continue;
+    if (out.names.empty())
+      out.names = split(line, ',');
+    else
+      out.rows.push_back(split(line, ','));
+  }
+  return out;
+}
+
 // One kind of page: what it holds beside the common frame.
 struct PageKind {
   std::string_view body, script, solid;
@@ -288,6 +330,56 @@ std::string report_page(const std::string& folder, const std::string& pick) {
     return optimize_page(root, fs::path(picked_design_file(folder, pick)).parent_path());
   if (!pick.empty()) throw InputError("--pick is for a folder of `papilla optimize`");
   return ranked ? rank_page(root) : calibrate_page(root);
+}
+
+std::string front_svg(const std::string& folder) {
+  const fs::path root(folder);
+  const Columns front = read_columns(root / "pareto.csv");
+  std::vector<std::string> objectives;
+  for (const std::string& name : front.names) {
+    if (front.has(name + " se")) objectives.push_back(name);
+  }
+  if (objectives.size() < 2)
+    throw InputError(folder + "/pareto.csv: a picture of a front needs two objectives");
+  const bool searched = fs::exists(root / "history.csv");
+  const Columns history = searched ? read_columns(root / "history.csv") : Columns{};
+  std::vector<SvgPlot> plots;
+  for (std::size_t k = 1; k < objectives.size(); ++k) {
+    const std::string &x = objectives[k], &y = objectives[0];
+    SvgPlot plot{.title = y + " against " + x, .x = x, .y = y, .series = {}};
+    if (searched && history.has(x) && history.has(y)) {
+      plot.series.push_back({.name = "searched",
+                             .colour = "#b9c0ca",
+                             .x = history.numbers(x),
+                             .y = history.numbers(y),
+                             .ex = {},
+                             .ey = {},
+                             .radius = 2.5});
+    }
+    for (const bool on_front : {false, true}) {
+      SvgSeries s{.name = on_front ? "front, confirmed" : "confirmed, dominated",
+                  .colour = on_front ? "#1f6f9f" : "#7a4fa3",
+                  .x = {},
+                  .y = {},
+                  .ex = {},
+                  .ey = {},
+                  .radius = 4.5};
+      const auto take = [&](const std::string& name, std::vector<double>& to) {
+        const std::vector<double> all = front.numbers(name);
+        const std::vector<std::string> flags = front.texts("on front");
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          if ((flags[i] == "yes") == on_front) to.push_back(all[i]);
+        }
+      };
+      take(x, s.x);
+      take(y, s.y);
+      take(x + " se", s.ex);
+      take(y + " se", s.ey);
+      if (!s.x.empty()) plot.series.push_back(std::move(s));
+    }
+    plots.push_back(std::move(plot));
+  }
+  return svg_picture(plots);
 }
 
 }  // namespace papilla
