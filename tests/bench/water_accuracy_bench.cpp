@@ -149,7 +149,7 @@ void study_options(const std::vector<Patches>& all) {
       const double c = wetting_gain(q.off.theta_skin, q.off.theta_substrate);
       const double f = meniscus_factor(q.off.theta_skin, q.off.theta_substrate);
       for (const Droplet& d : w.droplets) {
-        if (d.state != DropletState::Bridge) continue;
+        if (d.state != DropletState::Bridge || d.film > 0) continue;
         w.capillary_force += q.off.surface_tension * kPi * d.radius *
                                  (c * d.radius / std::max(d.edge_gap, 1e-9) + f) -
                              d.force;

@@ -86,7 +86,7 @@ TEST(WaterExtremes, TheStateSwitchesAtTheExactGapForRepellingWallsToo) {
 }
 
 TEST(WaterExtremes, OneDropletRunsToTheNarrowestPlaceInReach) {
-  // Attractive: to the bottom of a bowl, within its last step; repulsive: away from it.
+  // To the bottom of a bowl, within its last step.
   const Gap gap = bowl_gap(100e-9, 60e-6);
   const double v = 0.2e-18, last = DropletOptions{}.first_step / 16;
   const auto distance = [&](const WaterProperties& water, std::uint64_t member) {
@@ -103,6 +103,53 @@ TEST(WaterExtremes, OneDropletRunsToTheNarrowestPlaceInReach) {
     EXPECT_LT(d, 2 * last) << member;
   }
   EXPECT_GE(arrived, 3);
+}
+
+TEST(WaterExtremes, OneDropletBetweenRepellingWallsLeavesTheNarrowPlace) {
+  // It starts squeezed at the bottom of a bowl and ends where the walls no longer press on it.
+  const Gap gap = bowl_gap(100e-9, 60e-6);
+  WaterProperties water;
+  water.theta_skin = water.theta_substrate = 110 * kDegree;
+  const double v = 0.05e-18, size = std::cbrt(v);
+  const DropletSeed bottom{kPatch / 2 + 0.3e-6, kPatch / 2, v};
+  DropletOptions held = one_drop();
+  held.max_moves = 0;
+  const Wetting before = settle_droplets(gap, {bottom}, water, held);
+  ASSERT_EQ(before.bridges, 1);
+  EXPECT_LT(before.capillary_force, 0);
+  const Wetting after = settle_droplets(gap, {bottom}, water, one_drop());
+  ASSERT_EQ(after.droplets.size(), 1u);
+  const Droplet& d = after.droplets[0];
+  EXPECT_LT(d.energy, before.droplets[0].energy);
+  const double r2 = square(d.x - kPatch / 2) + square(d.y - kPatch / 2);
+  const double there = (100e-9 + r2 / 120e-6) / size;
+  const BridgeLimits limits = bridge_limits(110 * kDegree, 110 * kDegree);
+  EXPECT_EQ(d.state, DropletState::Bridge);
+  EXPECT_NEAR(there, limits.zero_force, 0.03 * limits.zero_force);
+  EXPECT_LT(std::abs(after.capillary_force), 0.01 * std::abs(before.capillary_force));
+}
+
+TEST(WaterExtremes, ACoatingOf110DegreesHasTheExactBridgeAndAttractsMoreUnderTheField) {
+  // Skin of 80 deg: the sum is 190 deg. Drops sit on the skin; a bridge is the exact one, and pulls
+  // more once electrowetting has lowered the angle.
+  WaterProperties coating, driven;
+  coating.theta_substrate = 110 * kDegree;
+  driven.theta_substrate = 80 * kDegree;
+  const double v = 0.01e-18, size = std::cbrt(v);
+  EXPECT_LT(wetting_gain(coating.theta_skin, coating.theta_substrate), 0);
+  EXPECT_EQ(settle_droplets(flat_gap(2 * size), v, coating, one_drop(), 1, 0).droplets[0].state,
+            DropletState::OnSkin);
+  for (double h : {0.1, 0.3, 0.6, 0.9}) {
+    const Wetting off = settle_droplets(flat_gap(h * size), v, coating, one_drop(), 1, 0);
+    ASSERT_EQ(off.bridges, 1) << h;
+    const Bridge exact = solve_bridge(v, h * size, coating.theta_skin, coating.theta_substrate,
+                                      coating.surface_tension);
+    const double scale = std::abs(exact.force) + coating.surface_tension * size;
+    EXPECT_NEAR(off.capillary_force, exact.force, 1e-3 * scale) << h;
+    const Wetting on = rewet(off, flat_gap(h * size), driven);
+    EXPECT_EQ(on.bridges, 1) << h;
+    EXPECT_GT(on.capillary_force, off.capillary_force) << h;
+  }
 }
 
 TEST(WaterExtremes, NoWaterIsDryInEveryModel) {

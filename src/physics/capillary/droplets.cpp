@@ -615,10 +615,11 @@ class Ensemble {
   }
 
   void build_hash() {
-    // Cells hold about one drop, and are wide enough for most drops to count as small.
+    // Cells hold about one drop, and are wide enough for all but a few drops of the end to count as
+    // small: the others are one list that every search goes through.
     double typical = 0;
     for (const Drop& d : drops_) typical += d.radius / static_cast<double>(drops_.size());
-    small_radius_ = 2 * typical;
+    small_radius_ = 6 * typical;
     const double cell =
         std::max(std::sqrt(lx_ * ly_ / static_cast<double>(drops_.size() + 1)), small_radius_);
     cells_x_ = std::max(1, static_cast<int>(lx_ / cell));
