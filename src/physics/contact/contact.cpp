@@ -39,25 +39,25 @@ void fail(std::size_t n, ContactSolution& out) {
 void finish(const StandardProblem& problem, StandardState state, const ContactOptions& options,
             ContactSolution& out) {
   out.pressure = std::move(state.p);
-  out.gap.resize(state.u.size());
+  out.gap.resize(state.rise.size());
   out.certificate = state.certificate;
   out.iterations = state.iterations;
   out.fft_pairs += state.pairs;
   out.shift = state.shift;
   const double shift = out.shift;
-  const double *p = out.pressure.data(), *h = problem.height.data(), *u = state.u.data();
+  const double *p = out.pressure.data(), *h = problem.height.data(), *rise = state.rise.data();
   double* gap = out.gap.data();
   double energy = 0;
 #pragma omp simd reduction(+ : energy)
   for (std::size_t i = 0; i < out.gap.size(); ++i) {
-    const double above = u[i] - h[i] - shift;
+    const double above = -h[i] - rise[i] - shift;
     gap[i] = p[i] > 0 || above < 0 ? 0 : above;
-    energy += p[i] * u[i];
+    energy -= p[i] * rise[i];
   }
   if (!problem.traction.empty()) {
     const double* t = problem.traction.data();
 #pragma omp simd reduction(+ : energy)
-    for (std::size_t i = 0; i < out.gap.size(); ++i) energy -= t[i] * u[i];
+    for (std::size_t i = 0; i < out.gap.size(); ++i) energy += t[i] * rise[i];
   }
   out.elastic_energy = 0.5 * energy * problem.kernel.grid().pixel_area();
   if (state.certified) {
@@ -82,15 +82,14 @@ void hang(std::span<const double> g0, double level, const std::string& reason,
 
 }  // namespace
 
-double StandardProblem::pulled(RealArray& u, SpectrumArray& scratch) const {
-  u.resize(height.size());
+double StandardProblem::rise_unpressed(RealArray& rise, SpectrumArray& scratch) const {
   if (traction.empty()) {
-    std::fill(u.begin(), u.end(), 0.0);
+    rise.assign(height.size(), 0.0);
     return 0;
   }
-  for (std::size_t i = 0; i < u.size(); ++i) u[i] = -traction[i];
+  rise.assign(traction.begin(), traction.end());
   scratch.resize(kernel.scratch_size());
-  kernel.displace(u, u, scratch);
+  kernel.displace(rise, rise, scratch);
   return 1;
 }
 
@@ -121,8 +120,8 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   if (mean <= 0) {
     RealArray g0;
     SpectrumArray scratch;
-    out.fft_pairs += problem.pulled(g0, scratch);
-    for (std::size_t i = 0; i < n; ++i) g0[i] -= height[i];
+    out.fft_pairs += problem.rise_unpressed(g0, scratch);
+    for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i] - g0[i];
     hang(g0, *std::min_element(g0.begin(), g0.end()),
          mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch", out);
     return out;

@@ -39,7 +39,7 @@ class DenseSolver {
         max_iterations_(max_iterations),
         state_(state),
         p_(state.p),
-        w_(state.u),
+        w_(state.rise),
         change_(grid_.size()),
         step_(grid_.size(), 0.0),
         scratch_(kernel_.scratch_size()),
@@ -55,7 +55,7 @@ class DenseSolver {
     state_.certified = iterate();
     state_.exhausted = state_.iterations >= max_iterations_;
     state_.shift = shift_;
-    for (std::size_t i = 0; i < w_.size(); ++i) w_[i] += problem_.height[i];
+    for (std::size_t i = 0; i < w_.size(); ++i) w_[i] = -problem_.height[i] - w_[i];
   }
 
  private:
@@ -474,7 +474,7 @@ class DenseSolver {
   int max_iterations_;
   StandardState& state_;
   std::vector<double>& p_;  // of the state
-  RealArray& w_;            // gap function; of the state, where it ends as the displacement
+  RealArray& w_;            // gap function; of the state, where it ends as the rise
   RealArray change_, step_, field_;
   SpectrumArray scratch_;
   int width_;                             // of the padded images below
@@ -544,8 +544,8 @@ StandardState solve_dense(const StandardProblem& problem, double tolerance, int 
     state.p.assign(start.begin(), start.end());
   } else {
     SpectrumArray scratch;
-    state.pairs += problem.pulled(without, scratch);
-    for (std::size_t i = 0; i < without.size(); ++i) without[i] -= problem.height[i];
+    state.pairs += problem.rise_unpressed(without, scratch);
+    for (std::size_t i = 0; i < without.size(); ++i) without[i] = -problem.height[i] - without[i];
     if (problem.kernel.coarse()) {
       state.p = nested_start(problem, without, tolerance, state.pairs);
     } else {

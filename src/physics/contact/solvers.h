@@ -22,13 +22,13 @@ struct StandardProblem {
   bool approach = false;
   double level = 0;  // [m], approach control
 
-  // Displacement by the tractions alone, -S traction. Returns the transform pairs it took.
-  double pulled(RealArray& u, SpectrumArray& scratch) const;
+  // The surface's rise by the tractions alone, S traction. Returns the transform pairs it took.
+  double rise_unpressed(RealArray& rise, SpectrumArray& scratch) const;
 };
 
 struct StandardState {
   std::vector<double> p;  // pressure [Pa]
-  RealArray u;            // displacement S(p - traction) [m]
+  RealArray rise;         // S(traction - p) [m]: the gap function is -height - rise
   double shift = 0, certificate = 0;
   double pairs = 0;  // in units of the problem's grid
   int iterations = 0;

@@ -33,7 +33,7 @@ class CandidateSolver {
       if (!predict(*start)) return false;
       displace();
     } else {
-      state_.pairs += problem_.pulled(state_.u, scratch_);
+      state_.pairs += problem_.rise_unpressed(state_.rise, scratch_);
       if (!choose_cold(demand)) return false;
       state_.p.assign(n_, 0.0);
     }
@@ -61,9 +61,9 @@ class CandidateSolver {
       displace_nearby(1);
       before_.resize(set_.size());
       for (std::size_t k = 0; k < set_.size(); ++k) {
-        double& u = state_.u[set_.pixel(k)];
-        before_[k] = u;
-        u = set_.gap_at(k) + set_.shift() + problem_.height[set_.pixel(k)];
+        double& rise = state_.rise[set_.pixel(k)];
+        before_[k] = rise;
+        rise = -problem_.height[set_.pixel(k)] - (set_.gap_at(k) + set_.shift());
       }
       const std::vector<int> open = inspect(blur);
       if (open.empty()) {
@@ -72,7 +72,7 @@ class CandidateSolver {
         return state_.certified;
       }
       if (open.size() > limit_) return false;
-      for (std::size_t k = 0; k < set_.size(); ++k) state_.u[set_.pixel(k)] = before_[k];
+      for (std::size_t k = 0; k < set_.size(); ++k) state_.rise[set_.pixel(k)] = before_[k];
       displace_nearby(-1);
       extend(open);
       if (members_.size() > 12 * limit_) return false;
@@ -201,20 +201,19 @@ class CandidateSolver {
     return true;
   }
 
-  double gap_function(std::size_t i) const { return state_.u[i] - problem_.height[i]; }
+  double gap_function(std::size_t i) const { return -problem_.height[i] - state_.rise[i]; }
 
-  // The displacement by the pressures taken and the tractions.
+  // The rise by the tractions and the pressures taken.
   void displace() {
-    state_.u.resize(n_);
     const std::span<const double> t = problem_.traction;
     if (t.empty()) {
-      std::fill(state_.u.begin(), state_.u.end(), 0.0);
+      state_.rise.assign(n_, 0.0);
     } else {
-      for (std::size_t i = 0; i < n_; ++i) state_.u[i] = -t[i];
+      state_.rise.assign(t.begin(), t.end());
     }
-    for (int i : under_pressure_) state_.u[i] += state_.p[i];
+    for (int i : under_pressure_) state_.rise[i] -= state_.p[i];
     scratch_.resize(problem_.kernel.scratch_size());
-    problem_.kernel.displace(state_.u, state_.u, scratch_);
+    problem_.kernel.displace(state_.rise, state_.rise, scratch_);
     ++state_.pairs;
   }
 
@@ -262,7 +261,7 @@ class CandidateSolver {
         const int row = wrap(dy, grid_.ny);
         const std::size_t to = grid_.index(0, wrap(iy + dy, grid_.ny));
         for (int dx = -reach_x; dx <= reach_x; ++dx) {
-          state_.u[to + wrap(ix + dx, grid_.nx)] +=
+          state_.rise[to + wrap(ix + dx, grid_.nx)] -=
               sign * d * problem_.kernel.influence(wrap(dx, grid_.nx), row);
         }
       }
@@ -273,7 +272,7 @@ class CandidateSolver {
   // the pixels watched exactly; those not watched that may penetrate.
   std::vector<int> inspect(double blur) {
     const double shift = set_.shift(), bound = shift + blur;
-    const double *u = state_.u.data(), *h = problem_.height.data();
+    const double *rise = state_.rise.data(), *h = problem_.height.data();
     double low = kInfinity;
     std::vector<int> open;
     constexpr std::size_t kBlock = 64;
@@ -282,13 +281,13 @@ class CandidateSolver {
       double lowest = kInfinity;
 #pragma omp simd reduction(min : lowest)
       for (std::size_t i = begin; i < end; ++i) {
-        const double w = u[i] - h[i];
+        const double w = -h[i] - rise[i];
         lowest = lowest < w ? lowest : w;
       }
       low = std::min(low, lowest);
       if (lowest >= bound) continue;
       for (std::size_t i = begin; i < end; ++i) {
-        if (u[i] - h[i] < bound && set_.find(static_cast<int>(i)) == set_.size()) {
+        if (-h[i] - rise[i] < bound && set_.find(static_cast<int>(i)) == set_.size()) {
           open.push_back(static_cast<int>(i));
         }
       }
