@@ -1,7 +1,7 @@
 // Heightmap files: written whole or not at all, read back and compared. Every writer puts the file
 // beside its final name first, checks every error that the library can tell, reads it back,
-// compares, flushes to disk, and renames: an interrupted run leaves the old file. Errors:
-// InputError.
+// compares (of an EXR above 2^24 pixels a quarter, and its end), flushes to disk, and renames: an
+// interrupted run leaves the old file. Errors: InputError.
 //
 // Formats. EXR: one float channel Y in um, lowest plane 0, high is bright, Gwy:: size keys as
 // doubles, ZIP, fixed date. TIFF: 16-bit or float, uncompressed, untiled, pixels per cm, JSON in
@@ -40,7 +40,8 @@ void write_png(const std::string& path, const Heightmap& h);
 
 // Reads .npy (float64 or float32, C order, metres), .gsf, .exr (channel Y, um with Gwy keys), .tif
 // (float: um; 16-bit: needs our JSON). width: lateral size in x [m] where the file does not say; 0:
-// the file must say. Refuses more than 2^28 pixels, NaN, and broken files.
+// the file must say. Refuses more than 2^28 pixels, sides out of 1 pm to 1 km, NaN, and broken
+// files.
 Heightmap read_heightmap(const std::string& path, double width = 0);
 
 // RGB rows, top first, 3 bytes a pixel.

@@ -4,10 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 // OpenImageIO brings its own copy of fmt's macros; ours come first.
@@ -149,10 +152,55 @@ void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarit
   write_image(path, spec, OIIO::TypeDesc::UINT16, pixels.data());
 }
 
+// OpenEXR makes room for what a header claims before it reads it: no attribute may be longer than
+// the file. Throws InputError; what else is wrong with the file is for the library to say.
+void check_exr_header(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code error;
+  const auto bytes = static_cast<std::int64_t>(fs::file_size(path, error));
+  std::array<unsigned char, 8> start{};
+  file.read(reinterpret_cast<char*>(start.data()), start.size());
+  const auto fail = [&](const std::string& why) {
+    throw InputError("cannot read " + path + ": " + why);
+  };
+  if (!file || error || start[0] != 0x76 || start[1] != 0x2f || start[2] != 0x31 ||
+      start[3] != 0x01)
+    fail("no OpenEXR file");
+  if (start[5] & 0x18) fail("an OpenEXR file of several or deep parts");
+  const auto word = [&] {
+    std::array<unsigned char, 4> b{};
+    file.read(reinterpret_cast<char*>(b.data()), b.size());
+    return static_cast<std::int32_t>(b[0] | b[1] << 8 | b[2] << 16 |
+                                     static_cast<unsigned>(b[3]) << 24);
+  };
+  const auto text = [&] {
+    std::string out;
+    for (int c; out.size() < 256 && (c = file.get()) > 0;) out += static_cast<char>(c);
+    return out;
+  };
+  for (std::string name = text(); file && !name.empty(); name = text()) {
+    const std::string type = text();
+    const std::int32_t length = word();
+    const std::int64_t at = file.tellg();
+    if (!file || length < 0 || length > bytes - at) fail("the header is cut off");
+    if (name == "dataWindow" && type == "box2i" && length == 16) {
+      std::array<double, 4> box{};
+      for (double& v : box) v = word();
+      check_size(path, box[2] - box[0] + 1, box[3] - box[1] + 1);
+    }
+    file.seekg(at + length);
+  }
+  if (!file) fail("the header is cut off");
+}
+
 Heightmap read_image(const std::string& path, double width) {
-  auto in = OIIO::ImageInput::open(path);
+  // The reader of the ending alone: others would be tried on a broken file.
+  const bool exr = fs::path(path).extension() == ".exr";
+  if (exr) check_exr_header(path);
+  const auto in = OIIO::ImageInput::create(exr ? "openexr" : "tiff");
+  OIIO::ImageSpec spec;
   if (!in) throw InputError("cannot read " + path + ": " + OIIO::geterror());
-  const OIIO::ImageSpec spec = in->spec();
+  if (!in->open(path, spec)) throw InputError("cannot read " + path + ": " + in->geterror());
   check_size(path, spec.width, spec.height);
   if (spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 64) {
     throw InputError("cannot read " + path + ": not a plane image of at most 64 channels");
@@ -250,15 +298,12 @@ OIIO::ImageSpec exr_spec(const Heightmap& h, int repeat, const FileInfo& info) {
 }  // namespace
 
 void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info) {
-  check_finite(path, h);
-  const auto pixels = micrometres(h);
-  write_image(path, exr_spec(h, 1, info), OIIO::TypeDesc::FLOAT, pixels.data());
+  write_exr_repeated(path, h, 1, info);
 }
 
 void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
                         const FileInfo& info) {
   check_finite(path, h);
-  constexpr int kRows = 64;  // whole blocks of 16 rows of the compressor
   OIIO::ImageSpec spec = exr_spec(h, repeat, info);
   spec.attribute("DateTime", kFixedDate);
   spec.attribute("Software", "papilla " PAPILLA_VERSION);
@@ -268,25 +313,26 @@ void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
     fs::remove(part, ignored);
     throw InputError("cannot write " + path + ": " + why);
   };
-  const std::vector<float> cell = micrometres(h);
+  const double low = lowest(h);
   const auto width = static_cast<std::size_t>(spec.width);
-  std::vector<float> strip(kRows * width), back(strip.size());
+  // Whole blocks of 16 rows of the compressor, enough for its threads, 64 MB at most.
+  const int rows = std::clamp(static_cast<int>((16u << 20) / width) / 16 * 16, 16, 256);
+  std::vector<float> strip(static_cast<std::size_t>(rows) * width), back(strip.size());
   const auto fill = [&](int from, int to) {
     for (int y = from; y < to; ++y) {
-      const float* row = &cell[h.grid.index(0, y % h.grid.ny)];
-      for (int r = 0; r < repeat; ++r) {
-        std::copy_n(row, h.grid.nx,
-                    strip.begin() +
-                        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y - from) * width) +
-                        static_cast<std::ptrdiff_t>(r) * h.grid.nx);
-      }
+      // Top row first, micrometres above the lowest plane.
+      const double* row = &h.z[h.grid.index(0, h.grid.ny - 1 - y % h.grid.ny)];
+      float* out = &strip[static_cast<std::size_t>(y - from) * width];
+      for (int ix = 0; ix < h.grid.nx; ++ix) out[ix] = static_cast<float>(1e6 * (row[ix] - low));
+      for (int r = 1; r < repeat; ++r)
+        std::copy_n(out, h.grid.nx, out + static_cast<std::ptrdiff_t>(r) * h.grid.nx);
     }
   };
   auto out = OIIO::ImageOutput::create(part);
   if (!out) fail(OIIO::geterror());
   if (!out->open(part, spec)) fail(out->geterror());
-  for (int y = 0; y < spec.height; y += kRows) {
-    const int end = std::min(y + kRows, spec.height);
+  for (int y = 0; y < spec.height; y += rows) {
+    const int end = std::min(y + rows, spec.height);
     fill(y, end);
     if (!out->write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, strip.data()))
       fail(out->geterror());
@@ -296,8 +342,12 @@ void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
     fail(error.empty() ? "incomplete" : error);
   auto in = OIIO::ImageInput::open(part);
   if (!in) fail("does not open again: " + OIIO::geterror());
-  for (int y = 0; y < spec.height; y += kRows) {
-    const int end = std::min(y + kRows, spec.height);
+  // Of more than 2^24 pixels every fourth strip and the last one: decoding costs as much as
+  // encoding.
+  const int step = static_cast<double>(spec.width) * spec.height > (1 << 24) ? 4 : 1;
+  for (int y = 0; y < spec.height; y += rows) {
+    if (y / rows % step != 0 && y + rows < spec.height) continue;
+    const int end = std::min(y + rows, spec.height);
     fill(y, end);
     if (!in->read_scanlines(0, 0, y, end, 0, 0, 1, OIIO::TypeDesc::FLOAT, back.data()))
       fail("does not read back: " + in->geterror());
@@ -401,6 +451,11 @@ Heightmap read_heightmap(const std::string& path, double width) {
   if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
     throw InputError("cannot read " + path +
                      ": the file does not say its lateral size; give the width");
+  }
+  if (std::min(h.grid.lx, h.grid.ly) < 1e-12 || std::max(h.grid.lx, h.grid.ly) > 1e3) {
+    throw InputError(
+        fmt::format("cannot read {}: a lateral size of {:.3g} x {:.3g} m; expected 1 pm to 1 km",
+                    path, h.grid.lx, h.grid.ly));
   }
   for (double z : h.z) {
     if (!std::isfinite(z))

@@ -40,8 +40,8 @@ void write_x3p(const std::string& path, const Heightmap& h);
 // 16-bit grey PNG, bright is high, with the size and height keys that Gwyddion reads.
 void write_png16(const std::string& path, const Heightmap& h);
 
-// EXR of the map repeated repeat x repeat times, written and read back in strips of 64 rows: memory
-// is the map and a strip, whatever the area.
+// EXR of the map repeated repeat x repeat times, written and read back in strips of at most 256
+// rows: memory is the map and a strip, whatever the area.
 void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
                         const FileInfo& info);
 

@@ -102,7 +102,7 @@ extern "C" void on_death(int signal) {
 // Runs the target on its seeds and on `count` changed ones, and prints a row of the table.
 void fuzz(const FuzzTarget& target, std::size_t count) {
   for (const std::string& seed : target.seeds) ASSERT_NO_THROW(target.read(seed)) << target.name;
-  std::size_t accepted = 0, refused = 0, wrong = 0;
+  std::size_t returned = 0, refused = 0, wrong = 0;
   double slowest = 0;
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < count; ++i) {
@@ -113,7 +113,7 @@ void fuzz(const FuzzTarget& target, std::size_t count) {
     ::alarm(kHangSeconds);
     try {
       target.read(bytes);
-      ++accepted;
+      ++returned;
     } catch (const InputError& e) {
       ++refused;
       EXPECT_FALSE(e.problems().empty()) << g_running;
@@ -131,7 +131,7 @@ void fuzz(const FuzzTarget& target, std::size_t count) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::printf("%-10s %9zu %9zu %9zu %8d %6d %6zu %10.3f %9.1f\n", target.name.c_str(), count,
-              accepted, refused, 0, 0, wrong, slowest, seconds);
+              returned, refused, 0, 0, wrong, slowest, seconds);
   std::fflush(stdout);
 }
 
@@ -140,7 +140,7 @@ TEST(Fuzz, ReadersReturnOrRefuse) {
   for (const int signal : {SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     ::signal(signal, on_death);
   // A crash or a hang ends the program: the zeros of a row that is printed are counts.
-  std::printf("%-10s %9s %9s %9s %8s %6s %6s %10s %9s\n", "target", "inputs", "accepted", "refused",
+  std::printf("%-10s %9s %9s %9s %8s %6s %6s %10s %9s\n", "target", "inputs", "returned", "refused",
               "crashes", "hangs", "wrong", "slowest s", "seconds");
   double total = 0;
   std::vector<FuzzTarget> targets = file_targets(place.path());

@@ -35,6 +35,16 @@ const papilla::FuzzTarget& target() {
 
 }  // namespace
 
+// The sound inputs of the target go into the folder PAPILLA_FUZZ_SEEDS, which is the corpus.
+extern "C" int LLVMFuzzerInitialize(int*, char***) {
+  if (const char* folder = std::getenv("PAPILLA_FUZZ_SEEDS")) {
+    int number = 0;
+    for (const std::string& seed : target().seeds)
+      papilla::write_bytes(std::string(folder) + "/seed" + std::to_string(number++), seed);
+  }
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     target().read(std::string(reinterpret_cast<const char*>(data), size));

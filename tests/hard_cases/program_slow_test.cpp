@@ -113,6 +113,26 @@ TEST(HostileFile, TruncatedAndChangedImagesAreReadOrRefused) {
   }
 }
 
+TEST(HostileFile, AHeaderThatClaimsGigabytesIsRefusedBeforeTheyAreMade) {
+  const Workplace place;
+  const std::string path = (place.path() / "map.exr").string();
+  const Texture texture{HoleArray{}};
+  write_exr(path, generate(texture, patch_grid(texture, 32)), {});
+  const std::string good = file_text(path);
+  const std::string attribute("Gwy::XYUnit\0string\0", 19);
+  const std::size_t at = good.find(attribute);
+  ASSERT_NE(at, std::string::npos);
+  for (const char* length : {"\xff\xff\xff\x7f", "\x00\x00\x00\x40", "\xff\xff\xff\xff"}) {
+    std::string bad = good;
+    bad.replace(at + attribute.size(), 4, std::string(length, 4));
+    place.write("map.exr", bad);
+    expect_refused(place.shell("ulimit -v 900000; timeout 20 '" PAPILLA_PROGRAM
+                               "' solve contact --height map.exr --size '12 um' --pressure '15 "
+                               "kPa' --modulus '53 MPa'"),
+                   "the header is cut off");
+  }
+}
+
 TEST(HostilePath, ABaseOutsideTheFoldersIsRefused) {
   const Workplace place;
   place.write("secret.toml", kHead);
