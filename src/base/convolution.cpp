@@ -11,9 +11,16 @@
 namespace papilla {
 namespace {
 
+// As many numbers as a vector register holds: compilers split longer vectors through memory.
+#if defined(__AVX512F__)
 constexpr int kLanes = 8;
+#elif defined(__AVX__)
+constexpr int kLanes = 4;
+#else
+constexpr int kLanes = 2;
+#endif
 using Vector = double __attribute__((vector_size(kLanes * sizeof(double))));
-// Eight complex numbers; an array of them is a transform of eight lanes side by side.
+// A complex number a lane; an array of them is a transform of kLanes lanes side by side.
 struct Complex {
   Vector re, im;
 };
@@ -146,8 +153,9 @@ void scale_spectrum(Complex* z, int n, const Vector* factor) {
   }
 }
 
-// Eight vectors at rows of the given stride as the columns of eight others.
+// Vectors as the columns of as many others.
 void transpose(const Vector (&a)[kLanes], Vector (&t)[kLanes]) {
+#if defined(__AVX512F__)
   Vector b[kLanes], c[kLanes];
   for (int i = 0; i < kLanes; i += 2) {
     b[i] = __builtin_shufflevector(a[i], a[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
@@ -163,6 +171,20 @@ void transpose(const Vector (&a)[kLanes], Vector (&t)[kLanes]) {
     t[j] = __builtin_shufflevector(c[j], c[j + 4], 0, 1, 2, 3, 8, 9, 10, 11);
     t[j + 4] = __builtin_shufflevector(c[j], c[j + 4], 4, 5, 6, 7, 12, 13, 14, 15);
   }
+#elif defined(__AVX__)
+  Vector b[kLanes];
+  for (int i = 0; i < kLanes; i += 2) {
+    b[i] = __builtin_shufflevector(a[i], a[i + 1], 0, 4, 2, 6);
+    b[i + 1] = __builtin_shufflevector(a[i], a[i + 1], 1, 5, 3, 7);
+  }
+  for (int j = 0; j < 2; ++j) {
+    t[j] = __builtin_shufflevector(b[j], b[j + 2], 0, 1, 4, 5);
+    t[j + 2] = __builtin_shufflevector(b[j], b[j + 2], 2, 3, 6, 7);
+  }
+#else
+  t[0] = __builtin_shufflevector(a[0], a[1], 0, 2);
+  t[1] = __builtin_shufflevector(a[0], a[1], 1, 3);
+#endif
 }
 
 }  // namespace
@@ -206,7 +228,7 @@ std::shared_ptr<const Convolution> Convolution::shared(int nx, int ny) {
   return one;
 }
 
-// Blocks of eight ky from 0 to ny/2 - 1, in each the slots of kx, at each the eight values, halved
+// Blocks of kLanes ky from 0 to ny/2 - 1, in each the slots of kx, at each kLanes values, halved
 // (see apply). The first lane holds ky = 0 and ny/2 at once, as real and imaginary part in x: the
 // mean of their values there, half their difference after all blocks.
 RealArray Convolution::arrange(std::span<const double> symbol) const {
@@ -239,7 +261,7 @@ void Convolution::apply(const double* in, const RealArray& symbol, std::complex<
   const int* slot = along_y_.slot.data();
   const std::size_t row = static_cast<std::size_t>(nx_) / kLanes;
 
-  // Along y: sixteen columns as the real and imaginary parts of eight, told apart by the symmetry
+  // Along y: 2 kLanes columns as the real and imaginary parts of kLanes, told apart by the symmetry
   // of a real column's transform, without the half in it.
   for (int s = 0; s < strips; ++s) {
     const auto* column = reinterpret_cast<const Vector*>(in) + 2 * s;

@@ -1,5 +1,5 @@
 // Periodic convolution of a real field with a real, even kernel, much cheaper than its transforms
-// apart: eight columns or rows at a time side by side in vector registers, spectra left in the
+// apart: as many columns or rows side by side as a register holds numbers, spectra left in the
 // order in which the butterflies make them.
 #pragma once
 
