@@ -13,11 +13,8 @@ namespace {
 // One row of the stencil in vector registers.
 using Row = float __attribute__((vector_size(ContactKernel::kStencilWidth * sizeof(float))));
 
-Row load_row(const float* from) {
-  Row row;
-  std::memcpy(&row, from, sizeof row);
-  return row;
-}
+// By reference: without AVX-512 a returned vector of this width has no fixed calling convention.
+void load_row(const float* from, Row& row) { std::memcpy(&row, from, sizeof row); }
 
 float total(const Row& row) {
   float part[8], sum = 0;
@@ -302,9 +299,12 @@ class DenseSolver {
       Row value{}, one{};
       for (int dy = 0; dy <= 2 * kReach; ++dy) {
         const std::size_t at = static_cast<std::size_t>(iy + dy) * width_ + ix;
-        const Row t = load_row(kernel_.stencil(dy));
-        value += t * load_row(residual_.data() + at);
-        one += t * load_row(inside_.data() + at);
+        Row t, residual, inside;
+        load_row(kernel_.stencil(dy), t);
+        load_row(residual_.data() + at, residual);
+        load_row(inside_.data() + at, inside);
+        value += t * residual;
+        one += t * inside;
       }
       const float z = total(value), o = total(one);
       z_[k] = z;
