@@ -103,7 +103,8 @@ Panel draw_panel(const Gap& gap, const Wetting& wetting) {
         const int px = std::min(ix * g.nx / out.width, g.nx - 1);
         const int py = std::min(iy * g.ny / out.height, g.ny - 1);
         const std::size_t k = g.index(px, py);
-        if (wetting.film.empty() ? wetting.bridged[k] : wetting.film[k]) blend(ix, iy, kFilm, 0.6);
+        if (wetting.film.empty() ? wetting.bridged[k] : wetting.film[k] != FilmPixel::None)
+          blend(ix, iy, kFilm, 0.6);
       }
     }
   }

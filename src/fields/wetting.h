@@ -26,12 +26,15 @@ struct Droplet {
 
 enum class WettingStatus : std::uint8_t { Dry, Discs, Flooded, Film };
 
+// Of a pixel: no film, water on its way from disc to film, film.
+enum class FilmPixel : std::uint8_t { None, OnItsWay, Film };
+
 struct Wetting {
   Grid grid;
   std::vector<Droplet> droplets;
   WettingStatus status = WettingStatus::Dry;
   std::vector<std::uint8_t> bridged;  // per pixel: 1 inside a bridge (or the film); empty: dry
-  std::vector<std::uint8_t> film;     // per pixel: 1 in the film; empty: none
+  std::vector<FilmPixel> film;        // per pixel; empty: none
   double capillary_force = 0;         // total normal force on the patch [N], positive = attracts
   double wetted_fraction = 0;         // bridged area / patch area
   double volume = 0;                  // total [m^3]

@@ -50,7 +50,14 @@ Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
     options.rim_pinning = scene.model.rim_pinning;
     options.corner_wicking = scene.model.corner_wicking;
   }
-  return settle_droplets(gap, volume, properties, options, seed, problem.droplet_index);
+  SettleReport report;
+  Wetting wetting =
+      settle_droplets(gap, volume, properties, options, seed, problem.droplet_index, &report);
+  if (!report.converged && out.status.empty()) {
+    out.status =
+        fmt::format("water: droplets not at rest after {} moves of one", options.max_moves);
+  }
+  return wetting;
 }
 
 Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& driven,

@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 #include "physics/capillary/droplets.h"
+#include "physics/electrostatics/field.h"
 
 namespace papilla {
 namespace {
@@ -139,6 +140,33 @@ TEST(Film, ForceIsContinuousWhereTheWettedAreaHandsOver) {
   std::sort(steps.begin(), steps.end());
   EXPECT_LT(steps.back(), 0.03);
   for (double gain : gains) EXPECT_GT(gain, 1.03);
+}
+
+TEST(Film, ThePullOfTheFieldIsContinuousToo) {
+  FieldProblem field;
+  field.v_rms = 100;
+  field.dielectric = 0.2e-6;
+  std::vector<double> steps;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const Gap gap = rough_gap(150e-9, seed);
+    // Two bridges, one of them wide.
+    std::vector<DropletSeed> drops = lattice(gap, 1, 0);
+    const double x = drops[0].x, y = drops[0].y;
+    drops.push_back({std::fmod(x + kPatch / 2, kPatch), std::fmod(y + kPatch / 2, kPatch), 1e-18});
+    double last = 0, share = 0;
+    for (double v = 1.5e-18; v < 20e-18 && share < 1; v *= 1.02) {
+      drops[0].volume = v;
+      const Wetting w = settle_droplets(gap, drops, {}, at_rest());
+      const double pull = solve_local_field(gap, nullptr, w, field).mean_pressure;
+      share = film_share(w);
+      if (last > 0) steps.push_back(std::abs(pull / last - 1));
+      last = pull;
+    }
+    EXPECT_EQ(share, 1);
+  }
+  std::sort(steps.begin(), steps.end());
+  EXPECT_LT(steps[steps.size() * 95 / 100], 0.03);
+  EXPECT_LT(steps.back(), 0.15);
 }
 
 TEST(Film, NoWaterIsLostOnTheWayAndRewettingKeepsIt) {

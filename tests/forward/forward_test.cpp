@@ -173,6 +173,14 @@ TEST(Forward, TheDropletBandHoldsWhatMobilityAndNumberMove) {
   }
 }
 
+TEST(Forward, DropletsThatDoNotComeToRestAreAStatus) {
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.75};
+  EXPECT_EQ(evaluate(scene, Texture{}, small(2)).points[0].status, "ok");
+  scene.model.droplet_step = 0.2e-9;  // too short for its way in the moves it is allowed
+  EXPECT_EQ(evaluate(scene, Texture{}, small(2)).points[0].status.substr(0, 6), "water:");
+}
+
 TEST(Forward, LowAndHighVolumesAndDropletSeedsAreAveraged) {
   Scene scene = driven_scene();
   scene.environment.relative_humidity = {0.75};

@@ -766,8 +766,13 @@ class Ensemble {
       add_disc(drops_[j.drop], 1 - films.regions[films.of_source[j.source]].share);
     }
     out.wetted_fraction = area / gap_.grid.area();
-    for (std::size_t k = 0; k < owner.size(); ++k) out.bridged[k] = films.source[k] > 0;
-    out.film = out.bridged;
+    out.film.assign(owner.size(), FilmPixel::None);
+    for (std::size_t k = 0; k < owner.size(); ++k) {
+      if (films.source[k] == 0) continue;
+      const FilmRegion& region = films.regions[films.of_source[films.source[k] - 1]];
+      out.bridged[k] = 1;
+      out.film[k] = region.share < 1 ? FilmPixel::OnItsWay : FilmPixel::Film;
+    }
   }
 
   const Gap& gap_;
@@ -882,10 +887,12 @@ Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterP
     }
   }
   double count = 0;
-  for (std::uint8_t wet : wetting.film) count += wet;
+  for (FilmPixel pixel : wetting.film) count += pixel != FilmPixel::None;
   if (count > 0) {
     const double pressure = rest / (count * g.pixel_area());
-    for (std::size_t k = 0; k < g.size(); ++k) out.value[k] += wetting.film[k] ? pressure : 0.0;
+    for (std::size_t k = 0; k < g.size(); ++k) {
+      out.value[k] += wetting.film[k] != FilmPixel::None ? pressure : 0.0;
+    }
   }
   return out;
 }

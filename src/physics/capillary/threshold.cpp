@@ -77,8 +77,11 @@ Wetting fill_threshold(const Gap& gap, double bridge_volume, const WaterProperti
   for (std::size_t i = 0; i < g.size(); ++i) film.wet[i] = gap.value[i] <= level.height ? 1 : 0;
   measure_film(gap, water, film);
   out.status = WettingStatus::Film;
-  out.film = film.wet;
   out.bridged = std::move(film.wet);
+  out.film.resize(out.bridged.size());
+  for (std::size_t i = 0; i < out.film.size(); ++i) {
+    out.film[i] = out.bridged[i] ? FilmPixel::Film : FilmPixel::None;
+  }
   out.bridges = film.regions;
   out.wetted_fraction = film.area / g.area();
   out.capillary_force = film.force;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "base/constants.h"
@@ -68,7 +69,8 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
       const double r2 = x * x + y * y;
       if (r2 >= reach * reach) continue;
       const double distance = (std::sqrt(r2) - bridge.radius) / width;
-      row[column] *= distance <= 0 ? 0 : profile(std::min(distance, 0.999 * kReach));
+      const double fade = distance <= 0 ? 0 : profile(std::min(distance, 0.999 * kReach));
+      row[column] *= bridge.film > 0 ? std::pow(fade, 1 - bridge.film) : fade;
     }
   }
 }
@@ -114,14 +116,13 @@ class LineDistance {
   std::vector<int> site_;
 };
 
-std::vector<double> squared_distance_to_water(const Wetting& wetting) {
-  const Grid& g = wetting.grid;
+std::vector<double> squared_distance_to(const Grid& g, const std::vector<std::uint8_t>& wet) {
   std::vector<double> along(g.size()), out(g.size());  // `along` is transposed
   std::vector<double> line(std::max(g.nx, g.ny)), result(line.size());
   LineDistance rows(g.nx), columns(g.ny);
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) {
-      line[ix] = wetting.bridged[g.index(ix, iy)] ? 0 : std::numeric_limits<double>::infinity();
+      line[ix] = wet[g.index(ix, iy)] ? 0 : std::numeric_limits<double>::infinity();
     }
     rows.run(line.data(), g.dx(), result.data());
     for (int ix = 0; ix < g.nx; ++ix) {
@@ -135,16 +136,36 @@ std::vector<double> squared_distance_to_water(const Wetting& wetting) {
   return out;
 }
 
-void screen_film(const Gap& gap, const Wetting& wetting, double thickness,
-                 std::vector<double>& factor) {
+// share: how much of a film it is; the factor to that power.
+void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double share,
+                 double thickness, std::vector<double>& factor) {
   const TanhSquare& profile = tanh_square();
-  const std::vector<double> distance2 = squared_distance_to_water(wetting);
+  const std::vector<double> distance2 = squared_distance_to(gap.grid, wet);
   for (std::size_t i = 0; i < factor.size(); ++i) {
     const double g = std::max(gap.value[i], 1e-9);
     // The fit never exceeds 0.64 gaps + 0.42 thicknesses: spares the power far from water.
     if (distance2[i] >= square(kReach * (0.64 * g + 0.42 * thickness))) continue;
     const double x = std::sqrt(distance2[i]) / screening_length(g, thickness);
-    if (x < kReach) factor[i] *= profile(x);
+    if (x < kReach) factor[i] *= share < 1 ? std::pow(profile(x), share) : profile(x);
+  }
+}
+
+// Water that is on its way from disc to film fades as both, by its share (Eq. capillary.22).
+void screen_films(const Gap& gap, const Wetting& wetting, double thickness,
+                  std::vector<double>& factor) {
+  if (wetting.film.empty()) return screen_film(gap, wetting.bridged, 1, thickness, factor);
+  double share = 0;
+  for (const Droplet& drop : wetting.droplets) {
+    if (drop.film < 1) share = std::max(share, drop.film);
+  }
+  for (const FilmPixel kind : {FilmPixel::OnItsWay, FilmPixel::Film}) {
+    std::vector<std::uint8_t> wet(wetting.film.size());
+    bool any = false;
+    for (std::size_t i = 0; i < wet.size(); ++i) {
+      wet[i] = wetting.film[i] == kind;
+      any = any || wet[i];
+    }
+    if (any) screen_film(gap, wet, kind == FilmPixel::Film ? 1 : share, thickness, factor);
   }
 }
 
@@ -168,13 +189,12 @@ std::vector<double> screening_factor(const Gap& gap, const Wetting& wetting,
   if (!wet && wetting.bridged.empty()) return {};
   std::vector<double> factor(gap.grid.size(), 1.0);
   if (wet && fade) {
-    if (wetting.status == WettingStatus::Film) {
-      if (!wetting.bridged.empty()) screen_film(gap, wetting, dielectric_thickness, factor);
-    } else {
-      for (const Droplet& drop : wetting.droplets) {
-        if (drop.state == DropletState::Bridge) {
-          screen_disc(gap.grid, drop, dielectric_thickness, factor);
-        }
+    if (wetting.status == WettingStatus::Film && !wetting.bridged.empty()) {
+      screen_films(gap, wetting, dielectric_thickness, factor);
+    }
+    for (const Droplet& drop : wetting.droplets) {
+      if (drop.state == DropletState::Bridge && drop.film < 1) {
+        screen_disc(gap.grid, drop, dielectric_thickness, factor);
       }
     }
   }
