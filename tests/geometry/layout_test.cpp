@@ -63,36 +63,65 @@ double polygon_area(const GdsRecord& xy) {  // nm^2
 
 std::string temporary(const char* name) { return testing::TempDir() + "papilla_" + name; }
 
+// A structure: its own polygons and what it places, how often.
+struct Structure {
+  double area = 0;  // nm^2
+  std::vector<std::pair<std::string, long>> places;
+};
+
+double drawn_area(const std::map<std::string, Structure>& all, const std::string& name) {
+  const Structure& s = all.at(name);
+  double sum = s.area;
+  for (const auto& [placed, count] : s.places)
+    sum += static_cast<double>(count) * drawn_area(all, placed);
+  return sum;
+}
+
 TEST(Gds, TheArrayHasTheOpenAreaOfTheTexture) {
   for (const Lattice lattice : {Lattice::Square, Lattice::Hexagonal}) {
     HoleArray holes;
     holes.lattice = lattice;
     const Texture texture{holes};
     const std::string path = temporary("array.gds");
-    write_gds(path, texture, 600e-6, 600e-6);
-    double area = 0;
-    int columns = 0, rows = 0;
-    std::int32_t width = 0, height = 0;
-    bool array = false;
+    const GdsArray array = write_gds(path, texture, 600e-6, 600e-6);
+    std::map<std::string, Structure> structures;
+    std::string name;
+    int element = 0;
     for (const GdsRecord& record : records(path)) {
-      if (record.type == 0x0305) {
-        EXPECT_DOUBLE_EQ(record.real(0), 1e-3);  // database units in um
-        EXPECT_DOUBLE_EQ(record.real(8), 1e-9);
-      }
-      if (record.type == 0x1302) {
-        array = true;
-        columns = record.i16(0);
-        rows = record.i16(2);
-      }
-      if (record.type == 0x1003 && !array) area += polygon_area(record);
-      if (record.type == 0x1003 && array) {
-        width = record.i32(8);
-        height = record.i32(20);
+      const auto text = [&] { return std::string(record.data.c_str()); };
+      switch (record.type) {
+        case 0x0305:
+          EXPECT_DOUBLE_EQ(record.real(0), 1e-3);  // database units in um
+          EXPECT_DOUBLE_EQ(record.real(8), 1e-9);
+          break;
+        case 0x0606:
+          name = text();
+          break;
+        case 0x0800:
+        case 0x0A00:
+        case 0x0B00:
+          element = record.type;
+          break;
+        case 0x1206:
+          structures[name].places.emplace_back(text(), 1);
+          break;
+        case 0x1302:
+          EXPECT_EQ(record.i16(0), 100);
+          structures[name].places.back().second = static_cast<long>(record.i16(0)) * record.i16(2);
+          break;
+        case 0x1003:
+          if (element == 0x0800) structures[name].area += polygon_area(record);
+          if (element == 0x0B00) {
+            EXPECT_EQ(record.i32(8), 600000);
+          }
+          break;
+        default:
+          break;
       }
     }
-    EXPECT_EQ(columns, 100);
-    EXPECT_EQ(width, 600000);
-    const double open = area * columns * rows / (static_cast<double>(width) * height);
+    const double height = 1e9 * array.pitch_y * static_cast<double>(array.rows);
+    EXPECT_NEAR(height, 600000, 1e9 * array.pitch_y);
+    const double open = drawn_area(structures, name) / (600000 * height);
     // Rounding to 1 nm: at most half a database unit along the rim.
     EXPECT_NEAR(open, open_fraction(texture), 4 * 0.5e-9 / holes.diameter * open);
   }
