@@ -88,6 +88,9 @@ Fidelity ClaimSampling::fidelity(int threads) const {
   f.first_skin = first_skin;
   if (grid > 0) f.grid = grid;
   f.threads = threads;
+  // Claims and fits look at small differences on common skins, and at their derivatives: the
+  // solver's own noise has to stay far below them.
+  f.contact_tolerance = std::min(f.contact_tolerance, 1e-5);
   return f;
 }
 
