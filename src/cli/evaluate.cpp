@@ -138,9 +138,11 @@ void print_field_check(const Context& context, const Design& design, const Fidel
   options.skin = fidelity.first_skin;
   options.refinements = {1};
   for (const FieldAccuracyRow& row : field_accuracy("", design, options)) {
-    if (row.method != "screened") continue;
-    context.note(fmt::format("pull of the local rule at {:.0f} % RH: {:+.1f} % of the 3-D field's",
-                             100 * row.relative_humidity, 100 * row.error));
+    if (row.method == "spread" || row.method == "screened") {
+      context.note(fmt::format(
+          "pull at {:.0f} % RH {}: {:+.1f} % of the 3-D field's", 100 * row.relative_humidity,
+          row.method == "spread" ? "with spreading flux" : "by local columns", 100 * row.error));
+    }
   }
 }
 
@@ -241,8 +243,9 @@ void add_evaluate(CLI::App& app, Context& context) {
                    "Also the amplitude at which the modulation reaches this value")
       ->type_name("MODULATION")
       ->check(CLI::Range(1e-3, 1e6));
-  command->add_flag("--check-field", options->check_field,
-                    "Also solve the 3-D field on one skin and say how far the local rule is off");
+  command->add_flag(
+      "--check-field", options->check_field,
+      "Also solve the 3-D field on one skin and say how far the cheaper rules are off");
   command->add_option("--out", options->out, "Also write the numbers and pictures of the fields")
       ->type_name("DIR");
   command->add_flag("--appearance", options->appearance,

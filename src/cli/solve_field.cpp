@@ -58,18 +58,15 @@ int solve(const FieldCommand& c) {
   const Gap given{gap.grid, gap.z};
   Wetting dry;
   dry.grid = gap.grid;
-  const bool full = c.method == "full";
-  if (full)
+  const bool local = c.method == "local";
+  if (c.method == "full")
     require_memory(80.0 * 64 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
 
   const auto begin = std::chrono::steady_clock::now();
   const Heightmap* surface = c.texture.empty() ? nullptr : &texture;
-  FullFieldSolution s;
-  if (full) {
-    s = solve_full_field(given, surface, dry, p);
-  } else {
-    static_cast<FieldSolution&>(s) = solve_local_field(given, surface, dry, p);
-  }
+  const FieldSolution s = local                  ? solve_local_field(given, surface, dry, p)
+                          : c.method == "spread" ? solve_spread_field(given, surface, dry, p)
+                                                 : solve_full_field(given, surface, dry, p);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const double margin = s.peak_oxide_field > 0 ? strength / s.peak_oxide_field : 0;
@@ -88,7 +85,7 @@ int solve(const FieldCommand& c) {
                                {"over_limit_area", s.over_limit_area},
                                {"over_limit_share", s.over_limit_share},
                                {"seconds", seconds}};
-    if (full) {
+    if (!local) {
       out["residual"] = s.residual;
       out["iterations"] = s.iterations;
     }
@@ -100,7 +97,7 @@ int solve(const FieldCommand& c) {
         "area, {:.1f} % of the "
         "pull\n",
         c.method, s.ok ? "converged" : s.reason,
-        full ? fmt::format(" to {:.1g} in {} iterations", s.residual, s.iterations) : "", seconds,
+        local ? "" : fmt::format(" to {:.1g} in {} iterations", s.residual, s.iterations), seconds,
         1e-3 * s.mean_pressure, 1e-6 * s.peak_air_field, 1e-6 * s.peak_oxide_field,
         strength > 0 ? s.peak_oxide_field / strength : 0.0, 100 * s.over_limit_area,
         100 * s.over_limit_share);
@@ -111,8 +108,8 @@ int solve(const FieldCommand& c) {
 }  // namespace
 
 void add_solve_field(CLI::App& solve_command, Context& context) {
-  CLI::App* command =
-      solve_command.add_subcommand("field", "Electrostatic pull over a gap: local rule or 3-D");
+  CLI::App* command = solve_command.add_subcommand(
+      "field", "Electrostatic pull over a gap: by columns, with spreading flux, or 3-D");
   auto c = std::make_shared<FieldCommand>();
   command->add_option("--gap", c->gap, "Gap heightmap (.npy .gsf .exr .tif)")->required();
   command->add_option("--texture", c->texture,
@@ -131,8 +128,10 @@ void add_solve_field(CLI::App& solve_command, Context& context) {
       ->capture_default_str();
   command->add_option("--skin-layer", c->skin_layer, "d/eps of the stratum corneum in series")
       ->capture_default_str();
-  command->add_option("--method", c->method, "local, or full: the 3-D potential")
-      ->check(CLI::IsMember({"local", "full"}))
+  command
+      ->add_option("--method", c->method,
+                   "local; spread: flux spreads in the dielectric; full: 3-D")
+      ->check(CLI::IsMember({"local", "spread", "full"}))
       ->capture_default_str();
   command->add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
   command->add_flag("--json", c->json, "One JSON object");

@@ -66,12 +66,10 @@ Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& d
   return rewet(off, gap, driven);
 }
 
-FieldSolution solve_field(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
-                          const FieldProblem& field, PatchResult& out) {
+FieldSolution solve_field_timed(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
+                                const FieldProblem& field, PatchResult& out) {
   const Timed timed(out.seconds.field);
-  if (problem.scene->model.field == FieldMethod::Full)
-    return solve_full_field(gap, problem.texture, wetting, field);
-  return solve_local_field(gap, problem.texture, wetting, field);
+  return solve_field(*problem.scene, gap, problem.texture, wetting, field);
 }
 
 // Preset m3: hydrophobic surfaces carry no capillary force when off.
@@ -149,7 +147,7 @@ class PatchSolver {
         on = rewet_timed(rest.water, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field(problem_, gap, on, field, out);
+      pull = solve_field_timed(problem_, gap, on, field, out);
       note_field(pull, out);
       if (scene.model.coupling == Coupling::SelfConsistent) {
         on_state = iterate(rest.dry, gap, rest.water, driven, field, pull, on, out);
@@ -221,7 +219,7 @@ class PatchSolver {
         on = rewet_timed(off, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field(problem_, gap, on, field, out);
+      pull = solve_field_timed(problem_, gap, on, field, out);
       note_field(pull, out);
       change = (out.pull - previous) / std::max(out.pull, 1e-30);
       const std::vector<double> target = total_traction(on, gap, driven, pull.traction);
@@ -303,6 +301,19 @@ PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fid
   PatchResult out = solver.drive(rest, fields);
   start = rest.dry.gap.empty() ? ContactSolution{} : std::move(rest.dry);
   return out;
+}
+
+FieldSolution solve_field(const Scene& scene, const Gap& gap, const Heightmap* texture,
+                          const Wetting& wetting, const FieldProblem& problem) {
+  switch (scene.model.field) {
+    case FieldMethod::Full:
+      return solve_full_field(gap, texture, wetting, problem);
+    case FieldMethod::Spread:
+      return solve_spread_field(gap, texture, wetting, problem);
+    case FieldMethod::Local:
+      break;
+  }
+  return solve_local_field(gap, texture, wetting, problem);
 }
 
 FieldProblem field_problem(const Scene& scene, double relative_humidity) {

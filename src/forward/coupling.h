@@ -75,6 +75,10 @@ PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fid
 // The electrical problem of the scene at a humidity.
 FieldProblem field_problem(const Scene& scene, double relative_humidity);
 
+// The pull by the scene's field rule.
+FieldSolution solve_field(const Scene& scene, const Gap& gap, const Heightmap* texture,
+                          const Wetting& wetting, const FieldProblem& problem);
+
 // Contact angle of the surface under the scene's drive (electrowetting) [rad].
 double driven_contact_angle(const Scene& scene, double relative_humidity);
 

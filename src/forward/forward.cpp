@@ -200,9 +200,18 @@ class PointBuilder {
     point.bridges = sampled_mean(patches, &PatchResult::bridges);
     point.wetted_fraction = sampled_mean(patches, &PatchResult::wetted);
     if (plan_.field) {
-      point.field_error = scene_.model.field == FieldMethod::Local
-                              ? local_rule_error(point.wetted_fraction.value)
-                              : kFullFieldError;
+      const double wetted = point.wetted_fraction.value;
+      switch (scene_.model.field) {
+        case FieldMethod::Local:
+          point.field_error = local_rule_error(wetted);
+          break;
+        case FieldMethod::Spread:
+          point.field_error = spread_rule_error(wetted);
+          break;
+        case FieldMethod::Full:
+          point.field_error = kFullFieldError;
+          break;
+      }
     }
     point.mean_gap = sampled_mean(patches, &PatchResult::mean_gap);
     point.indentation = sampled_mean(patches, &PatchResult::indentation);

@@ -73,13 +73,25 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
     plan.skipped.push_back({"water", "no water at any of these humidities", 0});
   }
   if (plan.field) {
-    const bool full = scene.model.field == FieldMethod::Full;
-    plan.steps.push_back(
-        {"field", full ? "3-D potential" : "local rule with screening around bridges",
-         full ? "asked for; pull stated to 8 % on these pixels"
-              : "pull 20 % (dry) to 35 % (wet) below the 3-D field; the finger is fitted with it",
-         states * (full ? 2.0 * static_cast<double>(plan.grid.size()) / 65536 : 1e-3),
-         full ? 0.08 : 0.2});
+    const double pixels = static_cast<double>(plan.grid.size());
+    switch (scene.model.field) {
+      case FieldMethod::Local:
+        plan.steps.push_back(
+            {"field", "local rule with screening around bridges",
+             "pull 20 % (dry) to 35 % (wet) below the 3-D field; the finger is fitted with it",
+             states * 1e-3, 0.2});
+        break;
+      case FieldMethod::Spread:
+        plan.steps.push_back({"field", "columns, the flux spreading in the dielectric",
+                              "asked for; pull 3 % (wet) to 9 % (dry) above the 3-D field",
+                              states * 12 * pair, 0.09});
+        break;
+      case FieldMethod::Full:
+        plan.steps.push_back({"field", "3-D potential",
+                              "asked for; pull stated to 8 % on these pixels",
+                              states * 2.0 * pixels / 65536, 0.08});
+        break;
+    }
     plan.steps.push_back(
         {"electrowetting", "saturated law, averaged over the cycle",
          plan.water ? "bridges conduct; the angle saturates" : "no bridges: no effect", 0, 0});

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "physics/electrostatics/field.h"
+#include "forward/coupling.h"
 
 namespace papilla {
 namespace {
@@ -77,7 +77,7 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
       kelvin += kelvin_traction(off, scene, rh).mean();
       if (!scene.drive.driven()) continue;
       pull += p.fields.pull.mean();
-      next += solve_local_field(on, &p.texture, p.fields.wetting_on, field_problem(scene, rh))
+      next += solve_field(scene, on, &p.texture, p.fields.wetting_on, field_problem(scene, rh))
                   .mean_pressure;
     }
     if (load_off <= 0) continue;

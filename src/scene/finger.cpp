@@ -174,7 +174,9 @@ void fields(FieldVisitor& v, ModelOptions& s) {
            {"uniform", "persson"}, s.closure);
   v.choice({"coupling", "one_pass as published, or iterated to a fixed point"},
            {"one_pass", "self_consistent"}, s.coupling);
-  v.choice({"field", "local rule, or the 3-D potential solver"}, {"local", "full"}, s.field);
+  v.choice(
+      {"field", "column by column, with flux spreading in the dielectric, or the 3-D potential"},
+      {"local", "spread", "full"}, s.field);
   v.flag({"breakdown_cap", "cap the gap pressure at the breakdown field of air"}, s.breakdown_cap);
   v.number({"droplet_step", "nm", 1, 1e5, "first step of a moving droplet: its mobility",
             Source::Choice, "set E"},

@@ -97,7 +97,7 @@ enum class Preset { Papilla, M3 };
 enum class WaterModel { Droplets, Threshold };
 enum class Closure { Uniform, Persson };
 enum class Coupling { OnePass, SelfConsistent };
-enum class FieldMethod { Local, Full };
+enum class FieldMethod { Local, Spread, Full };
 
 // Options that move results at first order: fixed before calibration, recorded in the finger file.
 struct ModelOptions {

@@ -250,10 +250,9 @@ std::string response_table(const Response& response) {
         "air beyond its breakdown field on up to {:.1f} % of the patch, {:.0f} % of the pull; "
         "peak field in the dielectric {:.0f} V/um\n",
         100 * area, 100 * share, 1e-6 * oxide);
-    out += fmt::format(
-        "pull by this field rule within {:.0f} to {:.0f} % of the refined 3-D field; the finger is "
-        "fitted with its rule\n",
-        100 * least, 100 * most);
+    out +=
+        fmt::format("pull by this field rule within {:.0f} to {:.0f} % of the refined 3-D field\n",
+                    100 * least, 100 * most);
   } else {
     out += "undriven (0 V): no modulation\n";
     if (const auto friction = summarise(Summary::Mean, "friction", response))

@@ -111,11 +111,14 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
         return solve_local_field(patch.gap, &patch.texture, patch.wetting, p);
       });
     }
+    add("spread", solved, 0, [&](const FinePatch& patch) {
+      return solve_spread_field(patch.gap, &patch.texture, patch.wetting, problem);
+    });
     for (const int factor : options.refinements) {
       PotentialOptions potential;
       potential.levels = options.levels;
       add("full", fine_patch(design, picture, factor), potential.levels,
-          [&](const FinePatch& patch) -> FieldSolution {
+          [&](const FinePatch& patch) {
             return solve_full_field(patch.gap, &patch.texture, patch.wetting, problem, potential);
           });
     }

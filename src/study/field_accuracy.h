@@ -11,7 +11,7 @@ namespace papilla {
 // One method on one patch at one humidity. A patch is solved at `pixels`, its skin is then refined
 // as a smooth surface (Catmull-Rom), its texture generated anew: the same bodies on finer grids.
 struct FieldAccuracyRow {
-  std::string sample, method;  // "local", "screened" (local with screening), "full"
+  std::string sample, method;  // "local", "screened" (local with screening), "spread", "full"
   double relative_humidity = 0;
   int pixels = 0, levels = 0;  // of the method's grid; levels of the 3-D potential
   double pull = 0;             // [Pa] mean over the patch

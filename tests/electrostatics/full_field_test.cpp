@@ -120,7 +120,7 @@ TEST(FullField, OnFlatSurfacesThePullIsTheLocalOne) {
   p.dielectric_thickness = 500e-9;
   p.skin_layer = {30e-9, 60e-9};
   const FieldSolution local = solve_local_field(gap, nullptr, {}, p);
-  const FullFieldSolution full = solve_full_field(gap, nullptr, {}, p);
+  const FieldSolution full = solve_full_field(gap, nullptr, {}, p);
   ASSERT_TRUE(full.ok) << full.reason;
   EXPECT_NEAR(full.mean_pressure, local.mean_pressure, 1e-5 * local.mean_pressure);
   EXPECT_EQ(full.over_limit_area, local.over_limit_area);
@@ -198,13 +198,13 @@ TEST(FullField, TheStatedEdgeRadiusRaisesTheFieldInTheDielectricBehindWalls) {
   p.v_peak = 100 * std::sqrt(2.0);
   p.dielectric = 500e-9 / 3.9;
   p.dielectric_thickness = 500e-9;
-  const FullFieldSolution square_edges = solve_full_field(gap, &hole, {}, p);
+  const FieldSolution square_edges = solve_full_field(gap, &hole, {}, p);
   const FieldSolution flat_rule = solve_local_field(gap, &hole, {}, p);
   // The grid's own edge: above the flat field.
   EXPECT_GT(square_edges.peak_oxide_field, flat_rule.peak_oxide_field);
   p.edge_radius = 20e-9;  // a pixel is 125 nm
   const double k = 25 / std::log(26);
-  const FullFieldSolution rounded = solve_full_field(gap, &hole, {}, p);
+  const FieldSolution rounded = solve_full_field(gap, &hole, {}, p);
   EXPECT_NEAR(rounded.peak_oxide_field, k * p.v_peak / 500e-9, 1e-6 * rounded.peak_oxide_field);
   EXPECT_NEAR(solve_local_field(gap, &hole, {}, p).peak_oxide_field, k * flat_rule.peak_oxide_field,
               1e-6 * rounded.peak_oxide_field);

@@ -110,7 +110,8 @@ TEST(Forward, TheLoadLawAgreesWithResolvedAreas) {
 }
 
 TEST(Forward, TheStartingFingerGivesThePrototypesMagnitudes) {
-  // Set E, flat, 50 deg, fresh skins: modulation .73/.78/.61/.38; F_off rises 2.33x.
+  // Set E, flat, 50 deg, fresh skins: modulation .73/.78/.61/.38; F_off
+  // rises 2.33x.
   Fidelity f = fidelity_level("search");
   f.skins = 16;
   const Response r = evaluate(driven_scene(), Texture{}, f);

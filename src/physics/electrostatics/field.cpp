@@ -6,6 +6,7 @@
 #include "base/constants.h"
 #include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/electrode.h"
+#include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
 
 namespace papilla {
@@ -26,6 +27,8 @@ std::vector<double> extra_columns(const Heightmap& texture, double thickness) {
 }
 
 }  // namespace
+
+double spread_rule_error(double wetted) { return 0.09 - 0.26 * std::clamp(wetted, 0.0, 0.23); }
 
 double local_rule_error(double wetted) { return 0.2 + 0.66 * std::clamp(wetted, 0.0, 0.5); }
 
@@ -58,8 +61,25 @@ std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting) {
   return column;
 }
 
-FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                const FieldProblem& p) {
+AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProblem& p) {
+  AirColumns out{gap.value, {}};
+  if ((!p.droplet_enhancement && !p.zero_under_droplets) || wetting.droplets.empty()) return out;
+  out.water = droplet_columns(gap.grid, wetting);
+  for (std::size_t i = 0; i < out.air.size(); ++i) {
+    if (out.water[i] <= 0) continue;
+    if (p.zero_under_droplets) {
+      out.air[i] = kNoPull;
+      continue;
+    }
+    // Eq. electrostatics.4: good to about 10 % up to b = 0.6 g, held at 0.9 g beyond.
+    out.water[i] = std::min(out.water[i], 0.9 * out.air[i]);
+    out.air[i] -= out.water[i];
+  }
+  return out;
+}
+
+FieldSolution pull(const Gap& gap, const Heightmap* texture, const FieldProblem& p,
+                   const AirColumns& columns, const FluxFactors& factors) {
   FieldSolution out;
   const Grid& grid = gap.grid;
   const std::size_t n = grid.size();
@@ -70,43 +90,33 @@ FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const 
     out.reason = "no dielectric anywhere: contact would short the drive";
     return out;
   }
-  const std::vector<double> factor =
-      screening_factor(gap, wetting, p.dielectric_thickness, p.screening);
-  std::vector<double> water;
-  if ((p.droplet_enhancement || p.zero_under_droplets) && !wetting.droplets.empty()) {
-    water = droplet_columns(grid, wetting);
-  }
   const std::vector<double> extra =
       texture ? extra_columns(*texture, p.dielectric_thickness) : std::vector<double>{};
   const double per_thickness =
       p.dielectric_thickness > 0 ? p.dielectric / p.dielectric_thickness : 0;
-
   const double scale = 0.5 * kVacuumPermittivity * square(p.v_rms);
   const double cap = p.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
   const double series = p.dielectric + p.skin_layer.real();
   const double quadrature = square(p.skin_layer.imag());
-  double sum = 0, over_sum = 0, least_air = HUGE_VAL;
+  double sum = 0, over_sum = 0, least_air = HUGE_VAL, least_touched = HUGE_VAL;
   std::size_t over = 0;
-  bool bridged = false, touched = false;
+  bool bridged = false;
   for (std::size_t i = 0; i < n; ++i) {
-    const double open = factor.empty() ? 1 : factor[i];
+    const double open = factors.open.empty() ? 1 : factors.open[i];
     if (open <= 0) {
       bridged = true;
       continue;
     }
-    double g = gap.value[i], rest = series;
-    if (!water.empty() && water[i] > 0) {
-      if (p.zero_under_droplets) continue;
-      // Eq. electrostatics.4: good to about 10 % up to b = 0.6 g, held at 0.9 g beyond.
-      const double b = std::min(water[i], 0.9 * g);
-      g -= b;
-      rest += b / kWaterPermittivity;
-    }
-    const double distance2 = square(g + rest) + quadrature;
+    const double g = columns.air[i];
+    if (g < 0) continue;
+    const double gain = factors.gain.empty() ? 1 : factors.gain[i];
+    const double rest =
+        columns.water.empty() ? series : series + columns.water[i] / kWaterPermittivity;
+    const double distance2 = (square(g + rest) + quadrature) / gain;
     double pressure = scale / distance2;
     if (!extra.empty() && extra[i] > 0) {
-      pressure =
-          0.5 * (pressure + scale / (square(g + rest + extra[i] * per_thickness) + quadrature));
+      const double behind = square(g + rest + extra[i] * per_thickness) + quadrature;
+      pressure = 0.5 * (pressure + scale * gain / behind);
     }
     pressure = std::min(pressure, cap) * open;
     out.traction.value[i] = pressure;
@@ -118,7 +128,7 @@ FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const 
         over_sum += pressure;
       }
     } else {
-      touched = true;
+      least_touched = std::min(least_touched, distance2);
     }
   }
   if (!std::isfinite(sum)) {
@@ -129,13 +139,11 @@ FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const 
   if (least_air < HUGE_VAL) out.peak_air_field = p.v_peak / std::sqrt(least_air);
   if (p.dielectric_thickness > 0) {
     // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-    if (bridged) {
-      out.peak_oxide_field = p.v_peak / p.dielectric_thickness;
-    } else {
-      const double distance =
-          touched ? std::sqrt(square(series) + quadrature) : std::sqrt(least_air);
-      out.peak_oxide_field = p.v_peak * per_thickness / distance;
-    }
+    const double share = bridged ? 1
+                         : factors.most_voltage > 0
+                             ? factors.most_voltage
+                             : p.dielectric / std::sqrt(std::min(least_air, least_touched));
+    out.peak_oxide_field = p.v_peak * share / p.dielectric_thickness;
     if (!extra.empty() && p.edge_radius > 0) {
       out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
     }
@@ -144,6 +152,13 @@ FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const 
   out.over_limit_area = static_cast<double>(over) / static_cast<double>(n);
   out.over_limit_share = sum > 0 ? over_sum / sum : 0;
   return out;
+}
+
+FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
+                                const FieldProblem& p) {
+  const std::vector<double> open =
+      screening_factor(gap, wetting, p.dielectric_thickness, p.screening);
+  return pull(gap, texture, p, columns_above(gap, wetting, p), {.open = open, .gain = {}});
 }
 
 }  // namespace papilla

@@ -629,9 +629,9 @@ PotentialSolution solve_potential(const PotentialProblem& problem,
   return PotentialSolver(problem, options).run();
 }
 
-FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                   const FieldProblem& p, const PotentialOptions& options) {
-  FullFieldSolution out;
+FieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
+                               const FieldProblem& p, const PotentialOptions& options) {
+  FieldSolution out;
   const Grid& grid = gap.grid;
   const std::size_t n = grid.size();
   out.traction = {grid, std::vector<double>(n, 0)};

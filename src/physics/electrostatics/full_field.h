@@ -49,11 +49,6 @@ struct PotentialSolution {
 // limit. Cost: 80 bytes a node, about 10 iterations.
 PotentialSolution solve_potential(const PotentialProblem& problem, const PotentialOptions& options);
 
-struct FullFieldSolution : FieldSolution {
-  double residual = 0;
-  int iterations = 0;
-};
-
 // The pull by the 3-D potential: p = eps0/2 E_n^2 on the skin's surface (Eq. electrostatics.14),
 // water bridges at the body's potential, droplets that do not bridge as dielectric caps; options
 // of the problem as in the local rule (water without screening: pull zero in bridges only). A lossy
@@ -61,8 +56,7 @@ struct FullFieldSolution : FieldSolution {
 // electrostatics.1. texture as in solve_local_field. The peak field in
 // the dielectric is that of the grid, with its square edges, or where an edge radius is stated that
 // the grid does not resolve the larger of it and the flat value times Eq. electrostatics.8.
-FullFieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                   const FieldProblem& problem,
-                                   const PotentialOptions& options = {});
+FieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
+                               const FieldProblem& problem, const PotentialOptions& options = {});
 
 }  // namespace papilla

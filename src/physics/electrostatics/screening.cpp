@@ -206,4 +206,17 @@ std::vector<double> screening_factor(const Gap& gap, const Wetting& wetting,
   return factor;
 }
 
+std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting, bool fade) {
+  if (wetting.bridged.empty()) return {};
+  if (!fade) return screening_factor(gap, wetting, 0, false);
+  const TanhSquare& profile = tanh_square();
+  const std::vector<double> distance2 = squared_distance_to(gap.grid, wetting.bridged);
+  std::vector<double> factor(distance2.size(), 1.0);
+  for (std::size_t i = 0; i < factor.size(); ++i) {
+    const double width = 2 / kPi * std::max(gap.value[i], 1e-9);
+    if (distance2[i] < square(kReach * width)) factor[i] = profile(std::sqrt(distance2[i]) / width);
+  }
+  return factor;
+}
+
 }  // namespace papilla

@@ -26,4 +26,9 @@ double screening_reach(double gap, double dielectric_thickness, double bridge_ra
 std::vector<double> screening_factor(const Gap& gap, const Wetting& wetting,
                                      double dielectric_thickness, bool fade);
 
+// The same from the air alone, for a rule that knows the dielectric's share: tanh^2(pi x/2g), x the
+// distance to the nearest wet pixel, g the pixel's own gap. Empty when nothing is wet. Cost:
+// O(pixels). Eq. electrostatics.16
+std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting, bool fade);
+
 }  // namespace papilla

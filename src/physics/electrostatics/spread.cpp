@@ -1,0 +1,166 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/constants.h"
+#include "base/convolution.h"
+#include "base/fft.h"
+#include "physics/electrostatics/pull.h"
+#include "physics/electrostatics/screening.h"
+
+namespace papilla {
+namespace {
+
+constexpr int kMaxIterations = 60;
+constexpr double kLeastDistance = 1e-10;  // [m] of a bare electrode in contact
+
+// Multiplication by a symbol in Fourier space: vector registers where the grid suits them.
+class Filter {
+ public:
+  explicit Filter(const Grid& grid)
+      : fft_(Fft2d::shared(grid.nx, grid.ny)),
+        fast_(Convolution::suits(grid.nx, grid.ny) ? Convolution::shared(grid.nx, grid.ny)
+                                                   : nullptr),
+        scratch_(fast_ ? fast_->scratch_size() : fft_->spectrum_size()) {}
+
+  // From the values on the half spectrum of Fft2d, the transforms' scale included.
+  RealArray symbol(const RealArray& half) const { return fast_ ? fast_->arrange(half) : half; }
+
+  void apply(const RealArray& in, const RealArray& symbol, RealArray& out) {
+    if (fast_) return fast_->apply(in.data(), symbol, scratch_.data(), out.data());
+    fft_->forward(in.data(), scratch_.data());
+    for (std::size_t o = 0; o < symbol.size(); ++o) scratch_[o] *= symbol[o];
+    fft_->inverse(scratch_.data(), out.data());
+  }
+
+ private:
+  std::shared_ptr<const Fft2d> fft_;
+  std::shared_ptr<const Convolution> fast_;
+  SpectrumArray scratch_;
+};
+
+// phi for one volt on the electrode: K phi + c phi = eps/d, zero on wet pixels. Conjugate gradients
+// preconditioned by 1/(K + mean c). Eq. electrostatics.16
+class SurfacePotential {
+ public:
+  SurfacePotential(const Grid& grid, const std::vector<double>& conductance,
+                   const std::vector<std::uint8_t>& wet, double thickness, double permittivity)
+      : filter_(grid), c_(conductance), wet_(wet), drive_(permittivity / thickness) {
+    const double mean = std::accumulate(c_.begin(), c_.end(), 0.0) / static_cast<double>(c_.size());
+    const double scale = 1 / static_cast<double>(grid.size());  // of the unnormalised transforms
+    const int half = grid.nx / 2 + 1;
+    RealArray kernel(static_cast<std::size_t>(half) * grid.ny), inverse(kernel.size());
+    for (int iy = 0; iy < grid.ny; ++iy) {
+      const double qy = 2 * kPi * signed_mode(iy, grid.ny) / grid.ly;
+      for (int ix = 0; ix < half; ++ix) {
+        const double q = std::hypot(2 * kPi * ix / grid.lx, qy);
+        const double k = q > 0 ? permittivity * q / std::tanh(q * thickness) : drive_;
+        const std::size_t o = static_cast<std::size_t>(iy) * half + ix;
+        kernel[o] = k * scale;
+        inverse[o] = scale / (k + mean);
+      }
+    }
+    kernel_ = filter_.symbol(kernel);
+    inverse_ = filter_.symbol(inverse);
+  }
+
+  // Leaves residual (relative, energy norm), iterations and status in `out`.
+  RealArray solve(double tolerance, FieldSolution& out) {
+    const std::size_t n = c_.size();
+    RealArray phi(n), r(n), z(n), s(n, 0.0), q(n);
+    for (std::size_t i = 0; i < n; ++i) phi[i] = drive_ / (drive_ + c_[i]);
+    keep_dry(phi);
+    apply(phi, q);
+    for (std::size_t i = 0; i < n; ++i) r[i] = drive_ - q[i];
+    keep_dry(r);
+    double old = 0;
+    for (out.iterations = 0;; ++out.iterations) {
+      filter_.apply(r, inverse_, z);
+      keep_dry(z);
+      const double rz = dot(r, z);
+      const double energy = drive_ * std::accumulate(phi.begin(), phi.end(), 0.0);
+      out.residual = energy > 0 ? std::sqrt(std::max(rz, 0.0) / energy) : 0;
+      if (!std::isfinite(rz) || !std::isfinite(energy) || out.iterations == kMaxIterations) {
+        out.ok = false;
+        out.reason =
+            fmt::format("the surface potential has not converged: residual {:.1e}", out.residual);
+      }
+      if (!out.ok || out.residual <= tolerance) return phi;
+      const double beta = out.iterations > 0 ? rz / old : 0;
+      for (std::size_t i = 0; i < n; ++i) s[i] = z[i] + beta * s[i];
+      apply(s, q);
+      const double alpha = rz / dot(s, q);
+      for (std::size_t i = 0; i < n; ++i) {
+        phi[i] += alpha * s[i];
+        r[i] -= alpha * q[i];
+      }
+      old = rz;
+    }
+  }
+
+ private:
+  static double dot(const RealArray& a, const RealArray& b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+  }
+  void keep_dry(RealArray& v) const {
+    for (std::size_t i = 0; i < wet_.size(); ++i) {
+      if (wet_[i]) v[i] = 0;
+    }
+  }
+  void apply(const RealArray& in, RealArray& out) {
+    filter_.apply(in, kernel_, out);
+    for (std::size_t i = 0; i < c_.size(); ++i) out[i] += c_[i] * in[i];
+    keep_dry(out);
+  }
+
+  Filter filter_;
+  const std::vector<double>& c_;  // [1/m]
+  const std::vector<std::uint8_t>& wet_;
+  double drive_;
+  RealArray kernel_, inverse_;
+};
+
+}  // namespace
+
+FieldSolution solve_spread_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
+                                 const FieldProblem& p, double tolerance) {
+  if (p.dielectric_thickness <= 0 || (p.v_rms == 0 && p.v_peak == 0))
+    return solve_local_field(gap, texture, wetting, p);
+  const AirColumns columns = columns_above(gap, wetting, p);
+  const std::size_t n = gap.grid.size();
+  std::vector<double> conductance(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double water = columns.water.empty() ? 0 : columns.water[i];
+    const double air = columns.air[i] < 0 ? gap.value[i] : columns.air[i];
+    conductance[i] =
+        1 / std::max(air + water / kWaterPermittivity + p.skin_layer.real(), kLeastDistance);
+  }
+  FieldSolution status;
+  const double permittivity = p.dielectric_thickness / p.dielectric;
+  SurfacePotential potential(gap.grid, conductance, wetting.bridged, p.dielectric_thickness,
+                             permittivity);
+  const RealArray phi = potential.solve(tolerance, status);
+  std::vector<double> gain(n);
+  double least = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    // The flux over that of the column alone.
+    gain[i] = square(phi[i] * (1 + p.dielectric * conductance[i]));
+    least = std::min(least, phi[i]);
+  }
+  const double flux = (1 - least) / p.dielectric;  // through the dielectric where it carries most
+  const double voltage = (1 - least) / std::hypot(1, flux * p.skin_layer.imag());
+  const std::vector<double> open = air_screening_factor(gap, wetting, p.screening);
+  FieldSolution out =
+      pull(gap, texture, p, columns, {.open = open, .gain = gain, .most_voltage = voltage});
+  out.residual = status.residual;
+  out.iterations = status.iterations;
+  if (out.ok && !status.ok) {
+    out.ok = false;
+    out.reason = status.reason;
+  }
+  return out;
+}
+
+}  // namespace papilla
