@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -80,8 +81,14 @@ skins = 4
   const CalibrationResult r = calibrate(calibration, options);
   EXPECT_TRUE(r.fit.converged) << r.fit.message;
   EXPECT_GT(r.chi2_before, 100);
-  // A tenth of the data's standard deviation in the rms. Smooth it is not: on one skin at 75 % RH a
-  // droplet settles elsewhere at the fitted values, which alone leaves 0.09.
+  // Not smooth at 75 % RH: one of the two samples there stays 0.2 standard deviations off, off and
+  // on, so that humidity has the looser bound: a tenth of the data's error in the rms.
+  double below = 0;
+  for (const FitRow& row : r.rows) {
+    if (row.what.find("75 %") == std::string::npos)
+      below += std::pow((row.after - row.low) / row.sd, 2);
+  }
+  EXPECT_LT(below, 0.05);
   EXPECT_LT(r.fit.chi2, 0.01 * 16);
   const std::vector<double> planted{0.009, 7.5e6, 2.3};
   for (std::size_t i = 0; i < planted.size(); ++i) {
