@@ -159,19 +159,6 @@ Json file_list(const fs::path& folder) {
   return out;
 }
 
-std::string html_text(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 // No text of a design can end the script element that holds the numbers.
 std::string script_text(std::string text) {
   for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;)
@@ -241,9 +228,9 @@ std::string page_text(const fs::path& folder, std::string title, const PageKind&
   put("{{three}}", kind.solid);
   put("{{chart}}", kChartScript);
   put("{{body}}", kind.body);
-  put("{{heading}}", html_text(title));
+  put("{{heading}}", markup_text(title));
   put("{{style}}", kPageStyle);
-  put("{{title}}", html_text(title));
+  put("{{title}}", markup_text(title));
   return page;
 }
 

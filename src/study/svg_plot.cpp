@@ -12,19 +12,6 @@ namespace {
 
 constexpr double kWidth = 460, kHeight = 380, kLeft = 64, kRight = 444, kTop = 76, kBottom = 330;
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 double at(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? values[i] : 0;
 }
@@ -72,7 +59,7 @@ std::string draw_plot(const SvgPlot& plot, double shift) {
   const auto py = [&](double v) { return kBottom - (kBottom - kTop) * ay.share(v); };
   std::string out =
       fmt::format("<text x=\"{:.0f}\" y=\"22\" font-size=\"14\" font-weight=\"bold\">{}</text>\n",
-                  shift + 12, escaped(plot.title));
+                  shift + 12, markup_text(plot.title));
   for (int i = 0; i <= ax.ticks(); ++i) {
     const double v = ax.low + i * ax.step;
     out += fmt::format(
@@ -89,11 +76,11 @@ std::string draw_plot(const SvgPlot& plot, double shift) {
         std::abs(v) < 1e-9 * ay.step ? 0 : v);
   }
   out += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n",
-                     shift + (kLeft + kRight) / 2, kBottom + 38, escaped(plot.x));
+                     shift + (kLeft + kRight) / 2, kBottom + 38, markup_text(plot.x));
   out += fmt::format(
       "<text x=\"{0:.0f}\" y=\"{1:.0f}\" text-anchor=\"middle\" transform=\"rotate(-90 {0:.0f} "
       "{1:.0f})\">{2}</text>\n",
-      shift + 16, (kTop + kBottom) / 2, escaped(plot.y));
+      shift + 16, (kTop + kBottom) / 2, markup_text(plot.y));
   double legend = kLeft;
   for (const SvgSeries& s : plot.series) {
     std::string line, upper, lower, marks;
@@ -126,13 +113,26 @@ std::string draw_plot(const SvgPlot& plot, double shift) {
     out += fmt::format(
         "<circle cx=\"{:.0f}\" cy=\"50\" r=\"4\" fill=\"{}\"/><text x=\"{:.0f}\" y=\"54\">{}"
         "</text>\n",
-        shift + legend, s.colour, shift + legend + 9, escaped(s.name));
+        shift + legend, s.colour, shift + legend + 9, markup_text(s.name));
     legend += 26 + 6.6 * static_cast<double>(s.name.size());
   }
   return out;
 }
 
 }  // namespace
+
+std::string markup_text(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
 
 std::string svg_picture(const std::vector<SvgPlot>& plots) {
   const double width = kWidth * static_cast<double>(plots.size());

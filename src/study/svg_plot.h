@@ -22,6 +22,9 @@ struct SvgPlot {
   bool from_zero = false;  // the y axis begins at 0
 };
 
+// Text as it stands inside an element of SVG or HTML.
+std::string markup_text(const std::string& text);
+
 // The plots side by side, 460 x 380 each. Values that are not finite are left out.
 std::string svg_picture(const std::vector<SvgPlot>& plots);
 
