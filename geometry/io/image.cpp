@@ -342,9 +342,9 @@ void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
     fail(error.empty() ? "incomplete" : error);
   auto in = OIIO::ImageInput::open(part);
   if (!in) fail("does not open again: " + OIIO::geterror());
-  // Of more than 2^24 pixels every fourth strip and the last one: decoding costs as much as
+  // Of more than 2^24 pixels every eighth strip and the last one: decoding costs as much as
   // encoding.
-  const int step = static_cast<double>(spec.width) * spec.height > (1 << 24) ? 4 : 1;
+  const int step = static_cast<double>(spec.width) * spec.height > (1 << 24) ? 8 : 1;
   for (int y = 0; y < spec.height; y += rows) {
     if (y / rows % step != 0 && y + rows < spec.height) continue;
     const int end = std::min(y + rows, spec.height);

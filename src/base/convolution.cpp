@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <type_traits>
 #include <utility>
 
 #include "base/check.h"
@@ -35,15 +36,62 @@ Complex times_conjugate(const Complex& a, const double* w) {
 }
 Complex times_i(const Complex& a) { return {-a.im, a.re}; }
 
-// Four numbers as the sums of a transform of four, and back; unscaled.
-void split(Complex (&a)[4]) {
+// P numbers as the sums of a transform of length P, and back; unscaled. For odd P by the sums and
+// differences of the numbers at k and P - k.
+template <int P>
+struct Roots {
+  double cosine[P], sine[P];  // of 2 pi k/P
+  Roots() {
+    for (int k = 0; k < P; ++k) {
+      cosine[k] = std::cos(2 * kPi * k / P);
+      sine[k] = std::sin(2 * kPi * k / P);
+    }
+  }
+};
+template <int P>
+const Roots<P> kRoots;
+template <int P, int kSign>
+void odd_transform(Complex (&a)[P]) {
+  constexpr int kPairs = P / 2;
+  Complex sum[kPairs], difference[kPairs];
+  const Complex first = a[0];
+  for (int k = 0; k < kPairs; ++k) {
+    sum[k] = a[k + 1] + a[P - 1 - k];
+    difference[k] = times_i(a[k + 1] - a[P - 1 - k]);
+    a[0] = a[0] + sum[k];
+  }
+  for (int m = 1; m <= kPairs; ++m) {
+    Complex even = first, odd{};
+    for (int k = 0; k < kPairs; ++k) {
+      const double c = kRoots<P>.cosine[m * (k + 1) % P],
+                   s = kSign * kRoots<P>.sine[m * (k + 1) % P];
+      even.re += c * sum[k].re;
+      even.im += c * sum[k].im;
+      odd.re += s * difference[k].re;
+      odd.im += s * difference[k].im;
+    }
+    a[m] = even + odd;
+    a[P - m] = even - odd;
+  }
+}
+template <int P>
+void split(Complex (&a)[P]) {
+  odd_transform<P, -1>(a);
+}
+template <int P>
+void join(Complex (&a)[P]) {
+  odd_transform<P, 1>(a);
+}
+template <>
+void split<4>(Complex (&a)[4]) {
   const Complex s0 = a[0] + a[2], d0 = a[0] - a[2], s1 = a[1] + a[3], d1 = times_i(a[1] - a[3]);
   a[0] = s0 + s1;
   a[1] = d0 - d1;
   a[2] = s0 - s1;
   a[3] = d0 + d1;
 }
-void join(Complex (&a)[4]) {
+template <>
+void join<4>(Complex (&a)[4]) {
   const Complex s0 = a[0] + a[2], d0 = a[0] - a[2], s1 = a[1] + a[3], d1 = times_i(a[1] - a[3]);
   a[0] = s0 + s1;
   a[1] = d0 + d1;
@@ -51,30 +99,73 @@ void join(Complex (&a)[4]) {
   a[3] = d0 - d1;
 }
 
-// Decimation in frequency: stages of four, each on blocks of a quarter of the length before. The
-// first reads what load gives; the last (of four, or of two where the power of two is odd) has no
-// twiddles and is finish_forward(), or part of what is done to the spectrum.
-template <class Load>
-void forward(const Load& load, Complex* z, int n, const double* twiddle) {
-  for (int length = n; length > 4; length /= 4) {
-    const int quarter = length / 4;
-    for (int block = 0; block < n; block += length) {
-      const double* w = twiddle;
-      for (int j = block; j < block + quarter; ++j, w += 6) {
-        Complex a[4];
-        for (int k = 0; k < 4; ++k) a[k] = length == n ? load(j + k * quarter) : z[j + k * quarter];
-        split(a);
-        z[j] = a[0];
-        for (int k = 1; k < 4; ++k) z[j + k * quarter] = times(a[k], w + 2 * k - 2);
-      }
+// Decimation in frequency: a stage of P works on blocks of `length` and leaves P blocks of a P-th
+// of it, turned by the powers of its root of one. In place, from what load gives.
+template <int P, class Load>
+void forward_stage(const Load& load, Complex* z, int n, int length, const double* twiddle) {
+  const int part = length / P;
+  for (int block = 0; block < n; block += length) {
+    const double* w = twiddle;
+    for (int j = block; j < block + part; ++j, w += 2 * (P - 1)) {
+      Complex a[P];
+      for (int k = 0; k < P; ++k) a[k] = load(j + k * part);
+      split(a);
+      z[j] = a[0];
+      for (int k = 1; k < P; ++k) z[j + k * part] = times(a[k], w + 2 * k - 2);
     }
-    twiddle += 6 * quarter;
+  }
+}
+// The same undone; the results go to store.
+template <int P, class Store>
+void inverse_stage(Complex* z, int n, int length, const double* twiddle, const Store& store) {
+  const int part = length / P;
+  for (int block = 0; block < n; block += length) {
+    const double* w = twiddle;
+    for (int j = block; j < block + part; ++j, w += 2 * (P - 1)) {
+      Complex a[P];
+      a[0] = z[j];
+      for (int k = 1; k < P; ++k) a[k] = times_conjugate(z[j + k * part], w + 2 * k - 2);
+      join(a);
+      for (int k = 0; k < P; ++k) store(j + k * part, a[k]);
+    }
   }
 }
 
-bool ends_in_two(int n) {
-  while (n > 4) n /= 4;
-  return n == 2;
+template <class Stage>
+void with_radix(int radix, const Stage& stage) {
+  switch (radix) {
+    case 3:
+      return stage(std::integral_constant<int, 3>());
+    case 5:
+      return stage(std::integral_constant<int, 5>());
+    case 7:
+      return stage(std::integral_constant<int, 7>());
+    case 11:
+      return stage(std::integral_constant<int, 11>());
+    case 13:
+      return stage(std::integral_constant<int, 13>());
+    default:
+      return stage(std::integral_constant<int, 4>());
+  }
+}
+
+// All stages but the last, which has no twiddles and is finish_forward(), or part of what is done
+// to the spectrum. The first stage reads what load gives.
+template <class Load>
+void forward(const Load& load, Complex* z, int n, const std::vector<int>& radices,
+             const double* twiddle) {
+  int length = n;
+  for (std::size_t i = 0; i + 1 < radices.size(); ++i) {
+    with_radix(radices[i], [&](auto radix) {
+      if (i == 0) {
+        forward_stage<radix>(load, z, n, length, twiddle);
+      } else {
+        forward_stage<radix>([&](int at) { return z[at]; }, z, n, length, twiddle);
+      }
+      length /= radix;
+      twiddle += 2 * (radix - 1) * length;
+    });
+  }
 }
 
 void halves(Complex* p) {
@@ -83,8 +174,8 @@ void halves(Complex* p) {
   p[1] = a - b;
 }
 
-void finish_forward(Complex* z, int n) {
-  if (ends_in_two(n)) {
+void finish_forward(Complex* z, int n, int last) {
+  if (last == 2) {
     for (Complex* p = z; p < z + n; p += 2) halves(p);
     return;
   }
@@ -97,8 +188,8 @@ void finish_forward(Complex* z, int n) {
 
 // The steps of the forward transform undone in the opposite order; the last hands its results to
 // store.
-void start_inverse(Complex* z, int n) {
-  if (ends_in_two(n)) {
+void start_inverse(Complex* z, int n, int last) {
+  if (last == 2) {
     for (Complex* p = z; p < z + n; p += 2) halves(p);
     return;
   }
@@ -110,33 +201,27 @@ void start_inverse(Complex* z, int n) {
 }
 
 template <class Store>
-void inverse(Complex* z, int n, const double* twiddle_end, const Store& store) {
+void inverse(Complex* z, int n, const std::vector<int>& radices, const double* twiddle_end,
+             const Store& store) {
   const double* twiddle = twiddle_end;
-  for (int length = ends_in_two(n) ? 8 : 16; length <= n; length *= 4) {
-    const int quarter = length / 4;
-    twiddle -= 6 * quarter;
-    for (int block = 0; block < n; block += length) {
-      const double* w = twiddle;
-      for (int j = block; j < block + quarter; ++j, w += 6) {
-        Complex a[4];
-        a[0] = z[j];
-        for (int k = 1; k < 4; ++k) a[k] = times_conjugate(z[j + k * quarter], w + 2 * k - 2);
-        join(a);
-        for (int k = 0; k < 4; ++k) {
-          if (length == n) {
-            store(j + k * quarter, a[k]);
-          } else {
-            z[j + k * quarter] = a[k];
-          }
-        }
+  int length = radices.back();
+  for (std::size_t i = radices.size() - 1; i-- > 0;) {
+    with_radix(radices[i], [&](auto radix) {
+      twiddle -= 2 * (radix - 1) * length;
+      length *= radix;
+      if (i == 0) {
+        inverse_stage<radix>(z, n, length, twiddle, store);
+      } else {
+        inverse_stage<radix>(z, n, length, twiddle,
+                             [&](int at, const Complex& value) { z[at] = value; });
       }
-    }
+    });
   }
 }
 
 // End of the forward transform, multiplication by real factors, begin of the inverse one.
-void scale_spectrum(Complex* z, int n, const Vector* factor) {
-  if (ends_in_two(n)) {
+void scale_spectrum(Complex* z, int n, int last, const Vector* factor) {
+  if (last == 2) {
     for (int i = 0; i < n; i += 2) {
       halves(z + i);
       for (int k = i; k < i + 2; ++k) z[k] = {z[k].re * factor[k], z[k].im * factor[k]};
@@ -190,33 +275,46 @@ void transpose(const Vector (&a)[kLanes], Vector (&t)[kLanes]) {
 }  // namespace
 
 Convolution::Butterflies::Butterflies(int length) : n(length), slot(length) {
-  for (int l = n; l > 4; l /= 4) {
-    for (int j = 0; j < l / 4; ++j) {
-      for (int power = 1; power <= 3; ++power) {
+  int rest = n;
+  for (int p : {3, 5, 7, 11, 13}) {
+    for (; rest % p == 0; rest /= p) radices.push_back(p);
+  }
+  for (; rest % 4 == 0; rest /= 4) radices.push_back(4);
+  if (rest == 2) radices.push_back(2);
+  int l = n;
+  for (std::size_t i = 0; i + 1 < radices.size(); l /= radices[i++]) {
+    for (int j = 0; j < l / radices[i]; ++j) {
+      for (int power = 1; power < radices[i]; ++power) {
         twiddle.push_back(std::cos(2 * kPi * j * power / l));
         twiddle.push_back(-std::sin(2 * kPi * j * power / l));
       }
     }
   }
   for (int s = 0; s < n; ++s) {
-    int frequency = 0, step = 1, at = s;
-    for (int l = n; l > 1; l /= l >= 4 ? 4 : 2) {
-      const int parts = l >= 4 ? 4 : 2, part = l / parts;
+    int frequency = 0, step = 1, at = s, part = n;
+    for (int radix : radices) {
+      part /= radix;
       frequency += step * (at / part);
       at %= part;
-      step *= parts;
+      step *= radix;
     }
     slot[frequency] = s;
   }
 }
 
 bool Convolution::suits(int nx, int ny) {
-  const auto good = [](int n) { return n >= 32 && (n & (n - 1)) == 0; };
+  const auto good = [](int n) {
+    if (n < 32 || n % 16 != 0) return false;
+    for (int p : {2, 3, 5, 7, 11, 13}) {
+      while (n % p == 0) n /= p;
+    }
+    return n == 1;
+  };
   return good(nx) && good(ny);
 }
 
 Convolution::Convolution(int nx, int ny) : nx_(nx), ny_(ny), along_x_(nx), along_y_(ny) {
-  PAPILLA_CHECK(suits(nx, ny), "powers of two");
+  PAPILLA_CHECK(suits(nx, ny), "multiples of 16 with small factors");
 }
 
 std::shared_ptr<const Convolution> Convolution::shared(int nx, int ny) {
@@ -257,7 +355,6 @@ void Convolution::apply(const double* in, const RealArray& symbol, std::complex<
   const int blocks = ny_ / 2 / kLanes, strips = nx_ / (2 * kLanes);
   auto* spectrum = reinterpret_cast<Complex*>(scratch);  // [block of ky][x], lanes: ky
   Complex* strip = spectrum + static_cast<std::size_t>(blocks) * nx_;  // [y], lanes: x
-  const double* y_twiddle = along_y_.twiddle.data();
   const int* slot = along_y_.slot.data();
   const std::size_t row = static_cast<std::size_t>(nx_) / kLanes;
 
@@ -270,8 +367,8 @@ void Convolution::apply(const double* in, const RealArray& symbol, std::complex<
           const Vector* at = column + static_cast<std::size_t>(y) * row;
           return Complex{at[0], at[1]};
         },
-        strip, ny_, y_twiddle);
-    finish_forward(strip, ny_);
+        strip, ny_, along_y_.radices, along_y_.twiddle.data());
+    finish_forward(strip, ny_, along_y_.radices.back());
     for (int block = 0; block < blocks; ++block) {
       Vector a_re[kLanes], a_im[kLanes], b_re[kLanes], b_im[kLanes], t[kLanes];
       for (int lane = 0; lane < kLanes; ++lane) {
@@ -306,13 +403,13 @@ void Convolution::apply(const double* in, const RealArray& symbol, std::complex<
   const std::size_t twiddles = along_x_.twiddle.size();
   for (int block = 0; block < blocks; ++block) {
     Complex* z = spectrum + static_cast<std::size_t>(block) * nx_;
-    forward([&](int x) { return z[x]; }, z, nx_, along_x_.twiddle.data());
+    forward([&](int x) { return z[x]; }, z, nx_, along_x_.radices, along_x_.twiddle.data());
     const auto* factor =
         reinterpret_cast<const Vector*>(symbol.data()) + static_cast<std::size_t>(block) * nx_;
     if (block > 0) {
-      scale_spectrum(z, nx_, factor);
+      scale_spectrum(z, nx_, along_x_.radices.back(), factor);
     } else {  // the first lane's two rows apart: a share of the conjugate at -kx
-      finish_forward(z, nx_);
+      finish_forward(z, nx_, along_x_.radices.back());
       const double* difference = symbol.data() + static_cast<std::size_t>(nx_) * (ny_ / 2);
       for (int kx = 0; kx <= nx_ / 2; ++kx) {
         const int i = along_x_.slot[kx], j = along_x_.slot[(nx_ - kx) % nx_];
@@ -328,9 +425,9 @@ void Convolution::apply(const double* in, const RealArray& symbol, std::complex<
         z[j].re[0] = mean * j_re + d * i_re;
         z[j].im[0] = mean * j_im - d * i_im;
       }
-      start_inverse(z, nx_);
+      start_inverse(z, nx_, along_x_.radices.back());
     }
-    inverse(z, nx_, along_x_.twiddle.data() + twiddles,
+    inverse(z, nx_, along_x_.radices, along_x_.twiddle.data() + twiddles,
             [&](int x, const Complex& value) { z[x] = value; });
   }
 
@@ -358,13 +455,14 @@ void Convolution::apply(const double* in, const RealArray& symbol, std::complex<
         strip[slot[ny_ - ky]] = {a_re[lane] + b_im[lane], b_re[lane] - a_im[lane]};
       }
     }
-    start_inverse(strip, ny_);
+    start_inverse(strip, ny_, along_y_.radices.back());
     auto* column = reinterpret_cast<Vector*>(out) + 2 * s;
-    inverse(strip, ny_, y_twiddle + along_y_.twiddle.size(), [&](int y, const Complex& value) {
-      Vector* at = column + static_cast<std::size_t>(y) * row;
-      at[0] = value.re;
-      at[1] = value.im;
-    });
+    inverse(strip, ny_, along_y_.radices, along_y_.twiddle.data() + along_y_.twiddle.size(),
+            [&](int y, const Complex& value) {
+              Vector* at = column + static_cast<std::size_t>(y) * row;
+              at[0] = value.re;
+              at[1] = value.im;
+            });
   }
 }
 

@@ -14,7 +14,8 @@ namespace papilla {
 
 class Convolution {
  public:
-  // Sizes that it is made for: powers of two from 32 on. Others go through Fft2d.
+  // Sizes that it is made for: multiples of 16 from 32 on without prime factors above 13. Others go
+  // through Fft2d.
   static bool suits(int nx, int ny);
   Convolution(int nx, int ny);
   static std::shared_ptr<const Convolution> shared(int nx, int ny);  // by size, thread safe
@@ -32,11 +33,12 @@ class Convolution {
   }
 
  private:
-  // Complex transform of a power of two: frequency k of the result is at slot[k].
+  // Complex transform in stages: frequency k of the result is at slot[k].
   struct Butterflies {
     explicit Butterflies(int n);
     int n;
-    std::vector<double> twiddle;  // w^j, w^2j, w^3j of each stage
+    std::vector<int> radices;     // of the stages: odd primes, then fours, a two where one is left
+    std::vector<double> twiddle;  // w^j, w^2j, ... of each stage but the last
     std::vector<int> slot;
   };
 

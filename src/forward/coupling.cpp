@@ -67,9 +67,9 @@ Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& d
 }
 
 FieldSolution solve_field_timed(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
-                                const FieldProblem& field, PatchResult& out) {
+                                const FieldProblem& field, double tolerance, PatchResult& out) {
   const Timed timed(out.seconds.field);
-  return solve_field(*problem.scene, gap, problem.texture, wetting, field);
+  return solve_field(*problem.scene, gap, problem.texture, wetting, field, tolerance);
 }
 
 // Preset m3: hydrophobic surfaces carry no capillary force when off.
@@ -147,7 +147,7 @@ class PatchSolver {
         on = rewet_timed(rest.water, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field_timed(problem_, gap, on, field, out);
+      pull = solve_field_timed(problem_, gap, on, field, fidelity_.contact_tolerance, out);
       note_field(pull, out);
       if (scene.model.coupling == Coupling::SelfConsistent) {
         on_state = iterate(rest.dry, gap, rest.water, driven, field, pull, on, out);
@@ -219,7 +219,7 @@ class PatchSolver {
         on = rewet_timed(off, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field_timed(problem_, gap, on, field, out);
+      pull = solve_field_timed(problem_, gap, on, field, fidelity_.contact_tolerance, out);
       note_field(pull, out);
       change = (out.pull - previous) / std::max(out.pull, 1e-30);
       const std::vector<double> target = total_traction(on, gap, driven, pull.traction);
@@ -304,12 +304,12 @@ PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fid
 }
 
 FieldSolution solve_field(const Scene& scene, const Gap& gap, const Heightmap* texture,
-                          const Wetting& wetting, const FieldProblem& problem) {
-  switch (scene.model.field) {
+                          const Wetting& wetting, const FieldProblem& problem, double tolerance) {
+  switch (field_method(scene.model)) {
     case FieldMethod::Full:
       return solve_full_field(gap, texture, wetting, problem);
     case FieldMethod::Spread:
-      return solve_spread_field(gap, texture, wetting, problem);
+      return solve_spread_field(gap, texture, wetting, problem, tolerance);
     case FieldMethod::Local:
       break;
   }

@@ -75,9 +75,9 @@ PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fid
 // The electrical problem of the scene at a humidity.
 FieldProblem field_problem(const Scene& scene, double relative_humidity);
 
-// The pull by the scene's field rule.
+// The pull by the scene's field rule; tolerance: of the potential that spreads in the dielectric.
 FieldSolution solve_field(const Scene& scene, const Gap& gap, const Heightmap* texture,
-                          const Wetting& wetting, const FieldProblem& problem);
+                          const Wetting& wetting, const FieldProblem& problem, double tolerance);
 
 // Contact angle of the surface under the scene's drive (electrowetting) [rad].
 double driven_contact_angle(const Scene& scene, double relative_humidity);

@@ -27,7 +27,7 @@ struct Fidelity {
   int control_skins = 4;  // run again on a coarser grid and with better methods, for the errors; 0:
                           // those parts stay unknown
   int droplet_seeds = 1;  // placements of the droplets on each skin, averaged
-  double load_exponent = 0.90;  // beta of the load-based estimator (Eq. friction.3)
+  double load_exponent = 0.84;  // beta of the load-based estimator (Eq. friction.3)
   std::uint64_t seed = 1;       // of skins, offsets and droplets: common to all designs
   int threads = 0;              // 0: all
 

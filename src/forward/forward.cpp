@@ -201,7 +201,7 @@ class PointBuilder {
     point.wetted_fraction = sampled_mean(patches, &PatchResult::wetted);
     if (plan_.field) {
       const double wetted = point.wetted_fraction.value;
-      switch (scene_.model.field) {
+      switch (field_method(scene_.model)) {
         case FieldMethod::Local:
           point.field_error = local_rule_error(wetted);
           break;

@@ -28,6 +28,11 @@ double Plan::seconds() const {
   return sum;
 }
 
+FieldMethod field_method(const ModelOptions& model) {
+  const bool paper = model.preset == Preset::M3 && model.field == FieldMethod::Spread;
+  return paper ? FieldMethod::Local : model.field;
+}
+
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Plan plan;
   plan.grid = simulated_patch(texture, fidelity.grid);
@@ -74,17 +79,16 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   }
   if (plan.field) {
     const double pixels = static_cast<double>(plan.grid.size());
-    switch (scene.model.field) {
+    switch (field_method(scene.model)) {
       case FieldMethod::Local:
-        plan.steps.push_back(
-            {"field", "local rule with screening around bridges",
-             "pull 20 % (dry) to 35 % (wet) below the 3-D field; the finger is fitted with it",
-             states * 1e-3, 0.2});
+        plan.steps.push_back({"field", "columns, one by one",
+                              "pull 20 % (dry) to 35 % (wet) below the 3-D field", states * 1e-3,
+                              0.2});
         break;
       case FieldMethod::Spread:
         plan.steps.push_back({"field", "columns, the flux spreading in the dielectric",
-                              "asked for; pull 3 % (wet) to 9 % (dry) above the 3-D field",
-                              states * 12 * pair, 0.09});
+                              "pull 3 % (wet) to 9 % (dry) above the 3-D field", states * 12 * pair,
+                              0.09});
         break;
       case FieldMethod::Full:
         plan.steps.push_back({"field", "3-D potential",
@@ -108,8 +112,10 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
                           "areas from resolved contact, not from the load law",
                           states * (plan.field ? 2 : 1) * 45 * pair, 0});
   } else if (plan.water || plan.field) {
-    plan.skipped.push_back(
-        {"contact with tractions", "the load law F ~ L^0.9 ranks designs (Eq. friction.3)", 0.02});
+    plan.skipped.push_back({"contact with tractions",
+                            fmt::format("the load law F ~ L^{:g} ranks designs (Eq. friction.3)",
+                                        fidelity.load_exponent),
+                            0.02});
   }
   if (scene.model.coupling == Coupling::SelfConsistent && plan.field) {
     plan.steps.push_back({"coupling", "self-consistent",

@@ -43,6 +43,9 @@ struct Plan {
   bool operator==(const Plan&) const = default;
 };
 
+// The rule in use: columns where the preset is the paper's, whose rules are made for them.
+FieldMethod field_method(const ModelOptions& model);
+
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
 }  // namespace papilla

@@ -77,7 +77,8 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
       kelvin += kelvin_traction(off, scene, rh).mean();
       if (!scene.drive.driven()) continue;
       pull += p.fields.pull.mean();
-      next += solve_field(scene, on, &p.texture, p.fields.wetting_on, field_problem(scene, rh))
+      next += solve_field(scene, on, &p.texture, p.fields.wetting_on, field_problem(scene, rh),
+                          fidelity.contact_tolerance)
                   .mean_pressure;
     }
     if (load_off <= 0) continue;

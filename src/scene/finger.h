@@ -105,7 +105,7 @@ struct ModelOptions {
   WaterModel water = WaterModel::Droplets;
   Closure closure = Closure::Uniform;
   Coupling coupling = Coupling::OnePass;
-  FieldMethod field = FieldMethod::Local;
+  FieldMethod field = FieldMethod::Spread;
   bool breakdown_cap = false;       // gap pressure <= eps0/2 (350 V/um)^2
   double droplet_step = 200e-9;     // first step of a moving droplet [m]: mobility
   bool droplet_enhancement = true;  // droplets that do not bridge raise the pull

@@ -94,6 +94,7 @@ class Sweeper {
       if (scene.model != scene_.model) add("model", name, scene, f);
     };
     with("water = threshold", [](ModelOptions& m) { m.water = WaterModel::Threshold; });
+    with("field = local", [](ModelOptions& m) { m.field = FieldMethod::Local; });
     with("field = spread", [](ModelOptions& m) { m.field = FieldMethod::Spread; });
     with("field = full", [](ModelOptions& m) { m.field = FieldMethod::Full; });
     with("coupling = self_consistent",

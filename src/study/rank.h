@@ -49,7 +49,7 @@ struct StateRanking {
 struct RankOptions {
   std::vector<Criterion> criteria;
   std::vector<FingerState> states;
-  int batch = 12;      // skins a step
+  int batch = 6;       // skins a step
   int max_skins = 96;  // a candidate and state
   int threads = 0;
   std::function<void(const std::string&)> note;  // progress for people; may be empty

@@ -9,8 +9,16 @@
 namespace papilla {
 namespace {
 
-TEST(Convolution, EqualsItsTransformsToRoundingForEvenAndOddPowersOfTwo) {
-  for (const auto& [nx, ny] : {std::pair{32, 32}, {64, 32}, {32, 128}, {256, 64}, {128, 128}}) {
+TEST(Convolution, EqualsItsTransformsToRounding) {
+  for (const auto& [nx, ny] : {std::pair{32, 32},
+                               {64, 32},
+                               {32, 128},
+                               {256, 64},
+                               {128, 128},
+                               {96, 112},
+                               {80, 144},
+                               {176, 208},
+                               {240, 336}}) {
     ASSERT_TRUE(Convolution::suits(nx, ny));
     const Fft2d fft(nx, ny);
     const Convolution convolution(nx, ny);
@@ -39,8 +47,9 @@ TEST(Convolution, EqualsItsTransformsToRoundingForEvenAndOddPowersOfTwo) {
     convolution.apply(in.data(), arranged, scratch.data(), in.data());  // in place
     EXPECT_EQ(in, out);
   }
-  EXPECT_FALSE(Convolution::suits(48, 64));
+  EXPECT_FALSE(Convolution::suits(72, 64));
   EXPECT_FALSE(Convolution::suits(16, 64));
+  EXPECT_FALSE(Convolution::suits(64, 17 * 16));
 }
 
 }  // namespace

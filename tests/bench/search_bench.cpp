@@ -7,6 +7,9 @@
 //                                                 SECONDS allow (written to CSV), and the share
 //                                                 that searches of up to FEW evaluations reach
 //   search_bench sweep ...                        the same, the reference a sweep alone
+//   search_bench share FILE CSV FRONT... [-- MOST] the hypervolume of each FRONT over that of the
+//                                                 reference front CSV, all designs judged again at
+//                                                 design level on fresh skins, at most MOST a front
 //   search_bench levels FILE DESIGNS              what cheap levels cost and know
 #include <fmt/format.h>
 
@@ -15,13 +18,17 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
+#include <fstream>
 #include <functional>
 #include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "base/units.h"
 #include "optim/algorithms/searchers.h"
 #include "optim/pareto.h"
 #include "optim/search.h"
@@ -348,6 +355,17 @@ void levels(const std::string& file, std::size_t designs) {
   row(problem, 128, 12, 1000);
 }
 
+// A tenth of the front's extent beyond its far ends.
+Point beyond(const std::vector<std::vector<double>>& front) {
+  Point out;
+  for (std::size_t k = 0; k < front.at(0).size(); ++k) {
+    const auto less = [k](const auto& a, const auto& b) { return a[k] < b[k]; };
+    const auto [low, high] = std::minmax_element(front.begin(), front.end(), less);
+    out.push_back((*high)[k] + 0.1 * ((*high)[k] - (*low)[k]));
+  }
+  return out;
+}
+
 // Share of a reference front's hypervolume that searches of few evaluations reach, all at the same
 // level. The reference: a sweep; refined: of half the evaluations, then NSGA-II from its front.
 void fronts(bool refined, const std::string& file, int evaluations, int few, int grid, int skins,
@@ -372,20 +390,15 @@ void fronts(bool refined, const std::string& file, int evaluations, int few, int
   bench.problem = p;
   for (std::size_t i : pareto_front(all)) bench.problem.starts.push_back(all[i].unit);
   bench.full = evaluate;
-  bench.reference.assign(p.objectives, 0);
+  bench.reference.assign(p.objectives, 0);  // for the traces of this run, not read
   if (refined) run("nsga2", bench, 1, evaluations - evaluations / 2);
-  const std::vector<std::size_t> front = pareto_front(all);
+  std::vector<std::size_t> front = pareto_front(all);
+  std::sort(front.begin(), front.end(), [&](std::size_t i, std::size_t j) {
+    return all[i].outcome.objectives[0] < all[j].outcome.objectives[0];
+  });
   std::vector<std::vector<double>> points;
   for (std::size_t i : front) points.push_back(all[i].outcome.objectives);
-  // A tenth of the front's extent beyond its far ends.
-  for (std::size_t k = 0; k < p.objectives; ++k) {
-    double low = points[0][k], high = low;
-    for (const auto& f : points) {
-      low = std::min(low, f[k]);
-      high = std::max(high, f[k]);
-    }
-    bench.reference[k] = high + 0.1 * (high - low);
-  }
+  bench.reference = beyond(points);
   const double best = hypervolume(points, bench.reference);
   fmt::print(stderr, "reference: {} evaluations, {} on the front, {:.3f} s each\n", all.size(),
              front.size(), judge.seconds_each());
@@ -411,6 +424,66 @@ void fronts(bool refined, const std::string& file, int evaluations, int few, int
   bench.problem.starts = p.starts;
   bench.full = [&](const Point& u) { return judge(u); };
   table(bench, {"sweep", "nsga2", "bayesian"}, few, seeds, best);
+}
+
+// The designs of a front's CSV: a column a variable, named as the header of fronts() names it.
+std::vector<Point> read_front(const std::string& path, const StudyProblem& problem,
+                              const std::vector<Variable>& variables) {
+  const auto cells = [](const std::string& line) {
+    std::vector<std::string> out;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
+    return out;
+  };
+  std::ifstream in(path);
+  std::string line;
+  std::getline(in, line);
+  const std::vector<std::string> header = cells(line);
+  std::vector<Point> out;
+  while (std::getline(in, line)) {
+    const std::vector<std::string> row = cells(line);
+    Point value;
+    for (const Variable& v : variables) {
+      const std::string name = v.unit.empty() ? v.path : v.path + " [" + v.unit + "]";
+      const auto at = std::find(header.begin(), header.end(), name);
+      if (at == header.end()) throw InputError(path + ": no column `" + name + "`");
+      value.push_back(
+          parse_si(row.at(static_cast<std::size_t>(at - header.begin())) + " " + v.unit, v.unit));
+    }
+    out.push_back(problem.space().snapped(problem.space().unit(value)));
+  }
+  return out;
+}
+
+// Hypervolumes of fronts at design level on skins that no search has seen, over the first one's.
+void shares(const std::string& file, const std::vector<std::string>& fronts, std::size_t most) {
+  const Study study = read_study(file);
+  const StudyProblem problem(study);
+  Fidelity fresh = fidelity_level("design");
+  fresh.first_skin = 100000;
+  fresh.control_skins = 0;
+  Judge judge(problem, fresh);
+  Point reference;
+  double best = 0;
+  for (const std::string& path : fronts) {
+    std::vector<Point> designs = read_front(path, problem, study.variables);
+    const std::size_t all = designs.size();
+    if (all > most) {  // evenly along the front, both ends with it
+      std::vector<Point> kept;
+      for (std::size_t i = 0; i < most; ++i) kept.push_back(designs[i * (all - 1) / (most - 1)]);
+      designs = kept;
+    }
+    std::vector<Evaluation> judged;
+    for (const Point& u : designs) judged.push_back({u, judge(u)});
+    std::vector<std::vector<double>> points;
+    for (std::size_t i : pareto_front(judged)) points.push_back(judged[i].outcome.objectives);
+    if (reference.empty()) reference = beyond(points);
+    const double volume = hypervolume(points, reference);
+    if (best == 0) best = volume;
+    fmt::print("{},{},{},{},{:.4g},{:.4f}\n", path, all, designs.size(), points.size(), volume,
+               volume / best);
+    std::fflush(stdout);
+  }
 }
 
 // The product's study at search level; drafts at the level of its searches.
@@ -441,6 +514,17 @@ int main(int argc, char** argv) {
   const std::string what = a.empty() ? "analytic" : a[0];
   if (what == "levels") {
     levels(a.at(1), static_cast<std::size_t>(number(2)));
+    return 0;
+  }
+  if (what == "share") {
+    std::vector<std::string> fronts(a.begin() + 2, a.end());
+    std::size_t most = 1000;
+    if (fronts.size() > 2 && fronts[fronts.size() - 2] == "--") {
+      most = static_cast<std::size_t>(number(a.size() - 1));
+      fronts.resize(fronts.size() - 2);
+    }
+    fmt::print("front,designs,judged,on the front,hypervolume,share of the first\n");
+    shares(a.at(1), fronts, most);
     return 0;
   }
   fmt::print("problem,method,full evaluations,hypervolume median,least,greatest,searcher s\n");

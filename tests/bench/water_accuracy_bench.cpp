@@ -70,7 +70,7 @@ struct Answer {
 Answer answer(const Patches& p, std::size_t k, const Wetting& off) {
   const Wetting on = rewet(off, p.gaps[k], p.on);
   const double pull =
-      solve_local_field(p.gaps[k], &p.texture, on, p.field).mean_pressure * p.gaps[k].grid.area();
+      solve_spread_field(p.gaps[k], &p.texture, on, p.field).mean_pressure * p.gaps[k].grid.area();
   return {off.capillary_force / p.load, pull / p.load,
           (p.load + on.capillary_force + pull) / (p.load + off.capillary_force) - 1,
           off.volume > 0 ? off.bridge_volume / off.volume : 0};

@@ -81,15 +81,9 @@ skins = 4
   const CalibrationResult r = calibrate(calibration, options);
   EXPECT_TRUE(r.fit.converged) << r.fit.message;
   EXPECT_GT(r.chi2_before, 100);
-  // Not smooth at 75 % RH: one of the two samples there stays 0.2 standard deviations off, off and
-  // on, so that humidity has the looser bound: a tenth of the data's error in the rms.
-  double below = 0;
-  for (const FitRow& row : r.rows) {
-    if (row.what.find("75 %") == std::string::npos)
-      below += std::pow((row.after - row.low) / row.sd, 2);
-  }
-  EXPECT_LT(below, 0.05);
-  EXPECT_LT(r.fit.chi2, 0.01 * 16);
+  // Not zero: a droplet that changes its state moves a friction of these four skins by up to half a
+  // per cent, a step that no derivative sees. A hundredth of what the stated errors would leave.
+  EXPECT_LT(r.fit.chi2, 0.01 * 13);
   const std::vector<double> planted{0.009, 7.5e6, 2.3};
   for (std::size_t i = 0; i < planted.size(); ++i) {
     const ParameterFit& p = r.fit.parameters[i];

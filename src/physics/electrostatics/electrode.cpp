@@ -37,11 +37,12 @@ Heightmap electrode_below(const Heightmap& surface, double thickness) {
         const double rest = square(radius) - square(j * g.dy());
         const int width = std::min(static_cast<int>(std::sqrt(rest) / g.dx()), nx);
         double* row = electrode.z.data() + g.index(0, wrap(iy + j, g.ny));
-        int column = wrap(ix - width, g.nx);
-        for (int i = -width; i <= width; ++i, ++column) {
-          if (column == g.nx) column = 0;
-          row[column] = std::min(row[column], level);
-        }
+        const auto lower = [&](int from, int to) {
+          for (int i = from; i < to; ++i) row[i] = std::min(row[i], level);
+        };
+        const int first = wrap(ix - width, g.nx), end = first + 2 * width + 1;
+        lower(first, std::min(end, g.nx));
+        lower(0, end - g.nx);
       }
     }
   }

@@ -12,7 +12,12 @@
 namespace papilla {
 namespace {
 
-constexpr double kReach = 4;  // tanh^2(4) = 0.9987
+constexpr double kReach = 4;        // tanh^2(4) = 0.9987
+constexpr double kLeastGap = 1e-9;  // [m]
+
+double widest(const Gap& gap) {
+  return std::max(*std::max_element(gap.value.begin(), gap.value.end()), kLeastGap);
+}
 
 // tanh^2 on [0, kReach] by linear interpolation, within 1e-5.
 class TanhSquare {
@@ -48,7 +53,7 @@ double profile_width(double radius, double reach) {
 void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
                  std::vector<double>& factor) {
   const TanhSquare& profile = tanh_square();
-  const double edge_gap = std::max(bridge.edge_gap, 1e-9);
+  const double edge_gap = std::max(bridge.edge_gap, kLeastGap);
   const double width =
       profile_width(bridge.radius, screening_reach(edge_gap, thickness, bridge.radius));
   const double reach = bridge.radius + kReach * width;
@@ -75,63 +80,42 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
   }
 }
 
-// Squared distance to the nearest zero of a periodic line of n samples a step apart, given squared
-// distances across the line: lower envelope of parabolas over three laps.
-class LineDistance {
- public:
-  explicit LineDistance(int n) : n_(n), start_(3 * n + 1), site_(3 * n) {}
-
-  void run(const double* across, double step, double* out) {
-    int top = -1;
-    for (int q = 0; q < 3 * n_; ++q) {
-      const double f = across[q % n_] / square(step);
-      if (!std::isfinite(f)) continue;
-      double from = -std::numeric_limits<double>::infinity();
-      while (top >= 0) {
-        const int v = site_[top];
-        const double g = across[v % n_] / square(step);
-        from = 0.5 * ((f - g) / (q - v) + q + v);
-        if (from > start_[top]) break;
-        --top;
-      }
-      ++top;
-      site_[top] = q;
-      start_[top] = top == 0 ? -std::numeric_limits<double>::infinity() : from;
-    }
-    if (top < 0) {
-      std::fill(out, out + n_, std::numeric_limits<double>::infinity());
-      return;
-    }
-    int k = 0;
-    for (int i = 0; i < n_; ++i) {
-      const int q = i + n_;
-      while (k < top && start_[k + 1] < q) ++k;
-      out[i] = across[site_[k] % n_] + square((q - site_[k]) * step);
+// Squared distance to the nearest wet pixel of a periodic row; infinite without one.
+void row_distance(const std::uint8_t* wet, int n, double step, double* out) {
+  double since = std::numeric_limits<double>::infinity();
+  for (int lap = 0; lap < 2; ++lap) {
+    for (int i = 0; i < n; ++i) out[i] = since = wet[i] ? 0 : since + step;
+  }
+  since = std::numeric_limits<double>::infinity();
+  for (int lap = 0; lap < 2; ++lap) {
+    for (int i = n; i-- > 0;) {
+      since = wet[i] ? 0 : since + step;
+      out[i] = std::min(out[i], since);
     }
   }
+  for (int i = 0; i < n; ++i) out[i] = square(out[i]);
+}
 
- private:
-  int n_;
-  std::vector<double> start_;
-  std::vector<int> site_;
-};
-
-std::vector<double> squared_distance_to(const Grid& g, const std::vector<std::uint8_t>& wet) {
-  std::vector<double> along(g.size()), out(g.size());  // `along` is transposed
-  std::vector<double> line(std::max(g.nx, g.ny)), result(line.size());
-  LineDistance rows(g.nx), columns(g.ny);
+// Squared distance of each pixel to the nearest wet one, where that is below `most`; more
+// elsewhere.
+std::vector<double> squared_distance_to(const Grid& g, const std::vector<std::uint8_t>& wet,
+                                        double most) {
+  std::vector<double> along(g.size());
   for (int iy = 0; iy < g.ny; ++iy) {
-    for (int ix = 0; ix < g.nx; ++ix) {
-      line[ix] = wet[g.index(ix, iy)] ? 0 : std::numeric_limits<double>::infinity();
-    }
-    rows.run(line.data(), g.dx(), result.data());
-    for (int ix = 0; ix < g.nx; ++ix) {
-      along[static_cast<std::size_t>(ix) * g.ny + static_cast<std::size_t>(iy)] = result[ix];
-    }
+    row_distance(wet.data() + g.index(0, iy), g.nx, g.dx(), along.data() + g.index(0, iy));
   }
-  for (int ix = 0; ix < g.nx; ++ix) {
-    columns.run(along.data() + static_cast<std::size_t>(ix) * g.ny, g.dy(), result.data());
-    for (int iy = 0; iy < g.ny; ++iy) out[g.index(ix, iy)] = result[iy];
+  std::vector<double> out = along;
+  const int reach = static_cast<int>(std::min(most / g.dy(), 0.5 * g.ny));
+  for (int iy = 0; iy < g.ny; ++iy) {
+    double* row = out.data() + g.index(0, iy);
+    for (int j = 1; j <= reach; ++j) {
+      const double* above = along.data() + g.index(0, wrap(iy + j, g.ny));
+      const double* below = along.data() + g.index(0, wrap(iy - j, g.ny));
+      const double across = square(j * g.dy());
+      for (int ix = 0; ix < g.nx; ++ix) {
+        row[ix] = std::min(row[ix], std::min(above[ix], below[ix]) + across);
+      }
+    }
   }
   return out;
 }
@@ -140,11 +124,12 @@ std::vector<double> squared_distance_to(const Grid& g, const std::vector<std::ui
 void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double share,
                  double thickness, std::vector<double>& factor) {
   const TanhSquare& profile = tanh_square();
-  const std::vector<double> distance2 = squared_distance_to(gap.grid, wet);
+  // The fit never exceeds 0.64 gaps + 0.42 thicknesses.
+  const auto farthest = [&](double g) { return kReach * (0.64 * g + 0.42 * thickness); };
+  const std::vector<double> distance2 = squared_distance_to(gap.grid, wet, farthest(widest(gap)));
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    const double g = std::max(gap.value[i], 1e-9);
-    // The fit never exceeds 0.64 gaps + 0.42 thicknesses: spares the power far from water.
-    if (distance2[i] >= square(kReach * (0.64 * g + 0.42 * thickness))) continue;
+    const double g = std::max(gap.value[i], kLeastGap);
+    if (distance2[i] >= square(farthest(g))) continue;  // spares the power
     const double x = std::sqrt(distance2[i]) / screening_length(g, thickness);
     if (x < kReach) factor[i] *= share < 1 ? std::pow(profile(x), share) : profile(x);
   }
@@ -210,10 +195,12 @@ std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting,
   if (wetting.bridged.empty()) return {};
   if (!fade) return screening_factor(gap, wetting, 0, false);
   const TanhSquare& profile = tanh_square();
-  const std::vector<double> distance2 = squared_distance_to(gap.grid, wetting.bridged);
+  const auto width_at = [](double g) { return 2 / kPi * g; };
+  const std::vector<double> distance2 =
+      squared_distance_to(gap.grid, wetting.bridged, kReach * width_at(widest(gap)));
   std::vector<double> factor(distance2.size(), 1.0);
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    const double width = 2 / kPi * std::max(gap.value[i], 1e-9);
+    const double width = width_at(std::max(gap.value[i], kLeastGap));
     if (distance2[i] < square(kReach * width)) factor[i] = profile(std::sqrt(distance2[i]) / width);
   }
   return factor;

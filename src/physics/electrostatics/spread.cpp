@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -47,19 +48,27 @@ class SurfacePotential {
  public:
   SurfacePotential(const Grid& grid, const std::vector<double>& conductance,
                    const std::vector<std::uint8_t>& wet, double thickness, double permittivity)
-      : filter_(grid), c_(conductance), wet_(wet), drive_(permittivity / thickness) {
+      : filter_(grid),
+        c_(conductance),
+        dry_(conductance.size(), 1),
+        drive_(permittivity / thickness) {
+    for (std::size_t i = 0; i < wet.size(); ++i) {
+      if (wet[i]) dry_[i] = 0;
+    }
     const double mean = std::accumulate(c_.begin(), c_.end(), 0.0) / static_cast<double>(c_.size());
     const double scale = 1 / static_cast<double>(grid.size());  // of the unnormalised transforms
     const int half = grid.nx / 2 + 1;
     RealArray kernel(static_cast<std::size_t>(half) * grid.ny), inverse(kernel.size());
-    for (int iy = 0; iy < grid.ny; ++iy) {
-      const double qy = 2 * kPi * signed_mode(iy, grid.ny) / grid.ly;
+    for (int iy = 0; iy <= grid.ny / 2; ++iy) {
+      const double qy = 2 * kPi * iy / grid.ly;
       for (int ix = 0; ix < half; ++ix) {
-        const double q = std::hypot(2 * kPi * ix / grid.lx, qy);
+        const double q = std::sqrt(square(2 * kPi * ix / grid.lx) + square(qy));
         const double k = q > 0 ? permittivity * q / std::tanh(q * thickness) : drive_;
-        const std::size_t o = static_cast<std::size_t>(iy) * half + ix;
-        kernel[o] = k * scale;
-        inverse[o] = scale / (k + mean);
+        for (int mirrored : {iy, (grid.ny - iy) % grid.ny}) {
+          const std::size_t o = static_cast<std::size_t>(mirrored) * half + ix;
+          kernel[o] = k * scale;
+          inverse[o] = scale / (k + mean);
+        }
       }
     }
     kernel_ = filter_.symbol(kernel);
@@ -70,17 +79,14 @@ class SurfacePotential {
   RealArray solve(double tolerance, FieldSolution& out) {
     const std::size_t n = c_.size();
     RealArray phi(n), r(n), z(n), s(n, 0.0), q(n);
-    for (std::size_t i = 0; i < n; ++i) phi[i] = drive_ / (drive_ + c_[i]);
-    keep_dry(phi);
+    for (std::size_t i = 0; i < n; ++i) phi[i] = dry_[i] * drive_ / (drive_ + c_[i]);
     apply(phi, q);
-    for (std::size_t i = 0; i < n; ++i) r[i] = drive_ - q[i];
-    keep_dry(r);
+    for (std::size_t i = 0; i < n; ++i) r[i] = dry_[i] * drive_ - q[i];
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
       filter_.apply(r, inverse_, z);
-      keep_dry(z);
-      const double rz = dot(r, z);
-      const double energy = drive_ * std::accumulate(phi.begin(), phi.end(), 0.0);
+      const double rz = sum(n, [&](std::size_t i) { return r[i] * (z[i] *= dry_[i]); });
+      const double energy = drive_ * sum(n, [&](std::size_t i) { return phi[i]; });
       out.residual = energy > 0 ? std::sqrt(std::max(rz, 0.0) / energy) : 0;
       if (!std::isfinite(rz) || !std::isfinite(energy) || out.iterations == kMaxIterations) {
         out.ok = false;
@@ -90,8 +96,7 @@ class SurfacePotential {
       if (!out.ok || out.residual <= tolerance) return phi;
       const double beta = out.iterations > 0 ? rz / old : 0;
       for (std::size_t i = 0; i < n; ++i) s[i] = z[i] + beta * s[i];
-      apply(s, q);
-      const double alpha = rz / dot(s, q);
+      const double alpha = rz / apply(s, q);
       for (std::size_t i = 0; i < n; ++i) {
         phi[i] += alpha * s[i];
         r[i] -= alpha * q[i];
@@ -101,23 +106,29 @@ class SurfacePotential {
   }
 
  private:
-  static double dot(const RealArray& a, const RealArray& b) {
-    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
-  }
-  void keep_dry(RealArray& v) const {
-    for (std::size_t i = 0; i < wet_.size(); ++i) {
-      if (wet_[i]) v[i] = 0;
+  // In eight partial sums, the same on every machine: one would wait for itself at each term.
+  template <class Term>
+  static double sum(std::size_t n, const Term& term) {
+    std::array<double, 8> part{};
+    std::size_t i = 0;
+    for (; i + part.size() <= n; i += part.size()) {
+      for (std::size_t k = 0; k < part.size(); ++k) part[k] += term(i + k);
     }
+    for (; i < n; ++i) part[0] += term(i);
+    return std::accumulate(part.begin(), part.end(), 0.0);
   }
-  void apply(const RealArray& in, RealArray& out) {
+  // out = (K + c) in on dry pixels; in . out.
+  double apply(const RealArray& in, RealArray& out) {
     filter_.apply(in, kernel_, out);
-    for (std::size_t i = 0; i < c_.size(); ++i) out[i] += c_[i] * in[i];
-    keep_dry(out);
+    return sum(c_.size(), [&](std::size_t i) {
+      out[i] = dry_[i] * (out[i] + c_[i] * in[i]);
+      return in[i] * out[i];
+    });
   }
 
   Filter filter_;
   const std::vector<double>& c_;  // [1/m]
-  const std::vector<std::uint8_t>& wet_;
+  RealArray dry_;                 // 0 under bridges, 1 elsewhere
   double drive_;
   RealArray kernel_, inverse_;
 };
