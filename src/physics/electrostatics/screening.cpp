@@ -80,45 +80,53 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
   }
 }
 
-// Squared distance to the nearest wet pixel of a periodic row; infinite without one.
-void row_distance(const std::uint8_t* wet, int n, double step, double* out) {
-  double since = std::numeric_limits<double>::infinity();
+// Squared distances in steps of a row, single precision: a fading factor asks for no more.
+// To the nearest wet pixel of a periodic row; infinite without one.
+void row_distance(const std::uint8_t* wet, int n, float step, float* out) {
+  float since = std::numeric_limits<float>::infinity();
   for (int lap = 0; lap < 2; ++lap) {
     for (int i = 0; i < n; ++i) out[i] = since = wet[i] ? 0 : since + step;
   }
-  since = std::numeric_limits<double>::infinity();
+  since = std::numeric_limits<float>::infinity();
   for (int lap = 0; lap < 2; ++lap) {
     for (int i = n; i-- > 0;) {
       since = wet[i] ? 0 : since + step;
       out[i] = std::min(out[i], since);
     }
   }
-  for (int i = 0; i < n; ++i) out[i] = square(out[i]);
+  for (int i = 0; i < n; ++i) out[i] *= out[i];
 }
 
-// Squared distance of each pixel to the nearest wet one, where that is below `most`; more
-// elsewhere.
-std::vector<double> squared_distance_to(const Grid& g, const std::vector<std::uint8_t>& wet,
-                                        double most) {
-  std::vector<double> along(g.size());
-  for (int iy = 0; iy < g.ny; ++iy) {
-    row_distance(wet.data() + g.index(0, iy), g.nx, g.dx(), along.data() + g.index(0, iy));
-  }
-  std::vector<double> out = along;
-  const int reach = static_cast<int>(std::min(most / g.dy(), 0.5 * g.ny));
-  for (int iy = 0; iy < g.ny; ++iy) {
-    double* row = out.data() + g.index(0, iy);
-    for (int j = 1; j <= reach; ++j) {
-      const double* above = along.data() + g.index(0, wrap(iy + j, g.ny));
-      const double* below = along.data() + g.index(0, wrap(iy - j, g.ny));
-      const double across = square(j * g.dy());
-      for (int ix = 0; ix < g.nx; ++ix) {
-        row[ix] = std::min(row[ix], std::min(above[ix], below[ix]) + across);
+// Of each pixel to the nearest wet one, where that is nearer than `most` [m]; more elsewhere.
+class WaterDistance {
+ public:
+  WaterDistance(const Grid& g, const std::vector<std::uint8_t>& wet, double most)
+      : step_(g.dy()), squared_(g.size()) {
+    std::vector<float> along(g.size());
+    for (int iy = 0; iy < g.ny; ++iy) {
+      row_distance(wet.data() + g.index(0, iy), g.nx, static_cast<float>(g.dx() / g.dy()),
+                   along.data() + g.index(0, iy));
+    }
+    squared_ = along;
+    const int reach = static_cast<int>(std::min(most / g.dy(), 0.5 * g.ny));
+    for (int iy = 0; iy < g.ny; ++iy) {
+      float* row = squared_.data() + g.index(0, iy);
+      for (int j = 1; j <= reach; ++j) {
+        const float* above = along.data() + g.index(0, wrap(iy + j, g.ny));
+        const float* below = along.data() + g.index(0, wrap(iy - j, g.ny));
+        const auto across = static_cast<float>(j * j);
+        for (int ix = 0; ix < g.nx; ++ix) {
+          row[ix] = std::min(row[ix], std::min(above[ix], below[ix]) + across);
+        }
       }
     }
   }
-  return out;
-}
+  double operator()(std::size_t i) const { return step_ * std::sqrt(squared_[i]); }  // [m]
+
+ private:
+  double step_;
+  std::vector<float> squared_;
+};
 
 // share: how much of a film it is; the factor to that power.
 void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double share,
@@ -126,11 +134,11 @@ void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double sh
   const TanhSquare& profile = tanh_square();
   // The fit never exceeds 0.64 gaps + 0.42 thicknesses.
   const auto farthest = [&](double g) { return kReach * (0.64 * g + 0.42 * thickness); };
-  const std::vector<double> distance2 = squared_distance_to(gap.grid, wet, farthest(widest(gap)));
+  const WaterDistance distance(gap.grid, wet, farthest(widest(gap)));
   for (std::size_t i = 0; i < factor.size(); ++i) {
     const double g = std::max(gap.value[i], kLeastGap);
-    if (distance2[i] >= square(farthest(g))) continue;  // spares the power
-    const double x = std::sqrt(distance2[i]) / screening_length(g, thickness);
+    if (distance(i) >= farthest(g)) continue;  // spares the power
+    const double x = distance(i) / screening_length(g, thickness);
     if (x < kReach) factor[i] *= share < 1 ? std::pow(profile(x), share) : profile(x);
   }
 }
@@ -196,12 +204,12 @@ std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting,
   if (!fade) return screening_factor(gap, wetting, 0, false);
   const TanhSquare& profile = tanh_square();
   const auto width_at = [](double g) { return 2 / kPi * g; };
-  const std::vector<double> distance2 =
-      squared_distance_to(gap.grid, wetting.bridged, kReach * width_at(widest(gap)));
-  std::vector<double> factor(distance2.size(), 1.0);
+  const WaterDistance distance(gap.grid, wetting.bridged, kReach * width_at(widest(gap)));
+  std::vector<double> factor(gap.grid.size(), 1.0);
   for (std::size_t i = 0; i < factor.size(); ++i) {
     const double width = width_at(std::max(gap.value[i], kLeastGap));
-    if (distance2[i] < square(kReach * width)) factor[i] = profile(std::sqrt(distance2[i]) / width);
+    const double x = distance(i) / width;
+    if (x < kReach) factor[i] = profile(x);
   }
   return factor;
 }
