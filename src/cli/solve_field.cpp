@@ -21,7 +21,7 @@ namespace {
 
 struct FieldCommand {
   std::string gap, texture, size, voltage, thickness = "500 nm", skin_layer = "0 nm";
-  std::string strength = "1 GV/m", edge_radius = "0 nm", method = "local", out_pressure;
+  std::string strength = "1 GV/m", edge_radius = "0 nm", method = "spread", out_pressure;
   double permittivity = 3.9;
   bool dc = false, json = false;
 };
@@ -130,8 +130,8 @@ void add_solve_field(CLI::App& solve_command, Context& context) {
       ->capture_default_str();
   command
       ->add_option("--method", c->method,
-                   "local; spread: flux spreads in the dielectric; full: 3-D")
-      ->check(CLI::IsMember({"local", "spread", "full"}))
+                   "spread: flux spreads in the dielectric; local: columns; full: 3-D")
+      ->check(CLI::IsMember({"spread", "local", "full"}))
       ->capture_default_str();
   command->add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
   command->add_flag("--json", c->json, "One JSON object");
