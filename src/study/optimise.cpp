@@ -37,17 +37,27 @@ constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
 enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3, kSensitivity = 4 };
 
-Fidelity search_fidelity(const Study& study) {
+// Of one design on its own: one finger, one choice of the model, a small step.
+Fidelity check_fidelity(const Study& study) {
   Fidelity f = fidelity_level("search");
   f.seed = static_cast<std::uint64_t>(study.search.seed);
   return f;
 }
 
-// Every finger, two skins: what a tenth of the cost knows best (results/bench/search_levels.csv).
-Fidelity draft_fidelity(const Study& study) {
-  Fidelity f = search_fidelity(study);
+// The cheapest that ranks designs as well as other skins at the level above do: sixteen skins in
+// all, four a finger at least (results/bench/search_levels.csv). More designs for the same time
+// find more than surer numbers do (docs/theory/search.md).
+Fidelity search_fidelity(const Study& study) {
+  Fidelity f = check_fidelity(study);
   f.level = "steer";
   f.grid = 64;
+  f.skins = std::max(4, 16 / std::max(1, static_cast<int>(study.population.size())));
+  return f;
+}
+
+// Every finger, two skins: what half of that cost knows best.
+Fidelity draft_fidelity(const Study& study) {
+  Fidelity f = search_fidelity(study);
   f.skins = 2;
   return f;
 }
@@ -74,9 +84,10 @@ Evaluate work_function(const StudyProblem& problem, const Study& study, int thre
   return [&problem, &study, threads](const Point& request) {
     const auto task = static_cast<std::size_t>(request[0]);
     const auto stage = static_cast<Stage>(static_cast<int>(request[1]));
-    Fidelity fidelity = stage == kConfirm ? confirm_fidelity(study, problem.nominal_tasks())
-                        : stage == kDraft ? draft_fidelity(study)
-                                          : search_fidelity(study);
+    Fidelity fidelity = stage == kConfirm  ? confirm_fidelity(study, problem.nominal_tasks())
+                        : stage == kDraft  ? draft_fidelity(study)
+                        : stage == kSearch ? search_fidelity(study)
+                                           : check_fidelity(study);
     fidelity.threads = threads;
     Design design = problem.design(Point(request.begin() + 3, request.end()));
     if (request[2] > 0) design.texture = Texture{};
@@ -622,7 +633,7 @@ int default_evaluations(const Study& study) {
                                  study.objective.targets.size();
   const bool surrogate =
       (study.search.method == "auto" && objectives <= 2) || study.search.method == "bayesian";
-  return surrogate ? std::clamp(10 * n, 20, 100) : std::clamp(20 * n, 20, 200);
+  return surrogate ? std::clamp(25 * n, 20, 100) : std::clamp(50 * n, 50, 400);
 }
 
 std::string search_plan(const Study& study) {

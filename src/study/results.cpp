@@ -291,7 +291,8 @@ class Writer {
     std::string out =
         "\n## What the best design is sensitive to\n\nEach continuous variable alone, by 5 % of "
         "its "
-        "range (search level, common random numbers). Share: of the objective's variance if every "
+        "range (128 pixels, 12 skins, common random numbers). Share: of the objective's variance "
+        "if every "
         "variable scattered so. Tolerance: the drift that costs no objective more than 5 % of its "
         "value.\n\n| variable | step";
     for (const StudyObjective& o : objectives) out += " | " + o.name + ", share";
@@ -324,7 +325,7 @@ class Writer {
     if (s.variants.empty() || f_.result.finalists.size() < 2) return {};
     std::string out =
         "\n## Does the order hold?\n\nEach finalist on each finger alone, then on the first finger "
-        "with one choice of the model changed (search level, common random numbers; " +
+        "with one choice of the model changed (128 pixels, 12 skins, common random numbers; " +
         objectives.front().name + (objectives.size() > 1 ? ", " + objectives[1].name : "") +
         "; * on the front of these designs):\n\n|";
     for (const FinalDesign& d : f_.result.finalists)

@@ -200,7 +200,8 @@ std::vector<double> screening_factor(const Gap& gap, const Wetting& wetting,
 }
 
 std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting, bool fade) {
-  if (wetting.bridged.empty()) return {};
+  const auto wet = [](std::uint8_t pixel) { return pixel != 0; };
+  if (std::none_of(wetting.bridged.begin(), wetting.bridged.end(), wet)) return {};
   if (!fade) return screening_factor(gap, wetting, 0, false);
   const TanhSquare& profile = tanh_square();
   const auto width_at = [](double g) { return 2 / kPi * g; };
