@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +17,7 @@
 
 // OpenImageIO brings its own copy of fmt's macros; ours come first.
 #include <OpenImageIO/imageio.h>
+#include <OpenImageIO/parallel.h>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -123,8 +125,14 @@ std::string description(const Heightmap& h, const FileInfo& info, const char* po
 }
 
 void check_finite(const std::string& path, const Heightmap& h) {
-  bool finite = true;  // without a way out, so that the loop runs in vector registers
-  for (double z : h.z) finite &= std::isfinite(z);
+  std::atomic<bool> finite = true;
+  OIIO::parallel_for_chunked(0, static_cast<std::int64_t>(h.z.size()), 1 << 18,
+                             [&](std::int64_t from, std::int64_t to) {
+                               bool all = true;  // no way out: the loop runs in vector registers
+                               for (std::int64_t i = from; i < to; ++i)
+                                 all &= std::isfinite(h.z[static_cast<std::size_t>(i)]);
+                               if (!all) finite = false;
+                             });
   if (!finite) throw InputError("cannot write " + path + ": a height is not a finite number");
 }
 
@@ -325,14 +333,14 @@ void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
   const int rows = std::clamp(static_cast<int>((16u << 20) / width) / 16 * 16, 16, 256);
   std::vector<float> strip(static_cast<std::size_t>(rows) * width), back(strip.size());
   const auto fill = [&](int from, int to) {
-    for (int y = from; y < to; ++y) {
+    OIIO::parallel_for(from, to, [&](int y) {
       // Top row first, micrometres above the lowest plane.
       const double* row = &h.z[h.grid.index(0, h.grid.ny - 1 - y % h.grid.ny)];
       float* out = &strip[static_cast<std::size_t>(y - from) * width];
       for (int ix = 0; ix < h.grid.nx; ++ix) out[ix] = static_cast<float>(1e6 * (row[ix] - low));
       for (int r = 1; r < repeat; ++r)
         std::copy_n(out, h.grid.nx, out + static_cast<std::ptrdiff_t>(r) * h.grid.nx);
-    }
+    });
   };
   auto out = OIIO::ImageOutput::create(part);
   if (!out) fail(OIIO::geterror());
