@@ -262,7 +262,7 @@ TEST(Describe, FindsNumbersByPath) {
   EXPECT_EQ(whole.environment.relative_humidity[1], 0.4);
   set_number(whole, "finger.skin.rms", 1e-7);
   EXPECT_EQ(whole.finger.skin.rms, 1e-7);
-  EXPECT_EQ(find_number(whole, "finger.skin.rms").unit, "nm");
+  EXPECT_STREQ(find_number(whole, "finger.skin.rms").unit, "nm");
   try {
     set_number(whole, "finger.skin.rsm", 1);
     FAIL();
