@@ -318,6 +318,9 @@ TEST(Droplets, CapsAreSpheres) {
 }
 
 TEST(LocalField, TakesWellBelowAMillisecondAtAHundredAndTwentyEightSquared) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "sanitizers take several times as long";
+#endif
   const Gap gap = uniform_gap(3e-7, 128, 12e-6);
   Wetting w = bridge_at_centre(gap, 4e-7);
   for (int i = 1; i < 20; ++i) {
