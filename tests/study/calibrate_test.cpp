@@ -81,8 +81,8 @@ skins = 4
   const CalibrationResult r = calibrate(calibration, options);
   EXPECT_TRUE(r.fit.converged) << r.fit.message;
   EXPECT_GT(r.chi2_before, 100);
-  // Not zero: a droplet that changes its state moves a friction of these four skins by up to half a
-  // per cent, a step that no derivative sees. A hundredth of what the stated errors would leave.
+  // Not zero, for a reason not found: the frictions of these four skins end up to half a per cent
+  // off. A hundredth of the degrees of freedom.
   EXPECT_LT(r.fit.chi2, 0.01 * 13);
   const std::vector<double> planted{0.009, 7.5e6, 2.3};
   for (std::size_t i = 0; i < planted.size(); ++i) {
