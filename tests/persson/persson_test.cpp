@@ -307,26 +307,45 @@ TEST(StepResponse, MatchesTheTable) {
 }
 
 TEST(StressDistribution, MatchesTheTable) {
-  const MeanField field(wrist_spectrum(), {}, kTables);
+  // As many bands as the table's maker had. Row k lies at the gap 0.01 nm * 10^(0.0266963 k): near
+  // the top the printed digits of the stress do not fix it.
+  const MeanField field(wrist_spectrum(), {},
+                        {.kappa = kPurePersson, .intervals = 900, .smallest_gap = 1e-11});
   const GapDistribution gaps = field.gaps(10e3);
-  const double top = kVacuumPermittivity * 1e4 / (4 * square(0.2e-6));
-  double peak = 0, peak_stress = 0;
+  const double h0 = 0.2e-6;
+  double peak = 0, peak_stress = 0, area = 0, table_area = 0, u = 1e-11;
+  double previous_u = u, previous = 0, table_previous = 0;
   const auto rows = read_table("t23_fig16_Psigma.csv", false);
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& v = rows[i].values;
-    // Near the top the printed digits of the stress do not fix the gap; below 1.3 Pa is the far
-    // tail, 0.1 % of the area, where the table shows single bands of its grid.
-    if (v[0] > 0.998 * top || v[0] < 1.3) continue;
-    const double u = 0.2e-6 * (std::sqrt(top / v[0]) - 1);
+    u = 1e-11 * std::pow(10, 0.026696341 * static_cast<double>(i - 1));
     const StressPoint point =
-        stress_distribution(gaps, 100 / std::sqrt(2.0), 0.2e-6, std::vector{u})[0];
-    EXPECT_LT(relative(point.per_decade, v[2]), 1.5e-2) << v[0];
+        stress_distribution(gaps, 100 / std::sqrt(2.0), h0, std::vector{u})[0];
+    ASSERT_LT(relative(point.stress, v[0]), 5e-5) << i;
+    // Beyond, 0.05 % of the area lies at gaps of more than six times the rms height, where both
+    // sides show the single bands of their grids: there the shares of the area are compared.
+    if (v[0] > 1.0) {
+      EXPECT_LT(relative(point.density, v[1]), 5e-3) << v[0];
+      EXPECT_LT(relative(point.per_decade, v[2]), 5e-3) << v[0];
+    }
     if (point.per_decade > peak) {
       peak = point.per_decade;
       peak_stress = v[0];
     }
+    // P(u) du = P(s) 2 s/(u + h0) du, by trapezoids in ln u.
+    const double ours = point.density * 2 * point.stress / (u + h0) * u;
+    const double table = v[1] * 2 * v[0] / (u + h0) * u;
+    if (i > 1) {
+      area += 0.5 * (ours + previous) * std::log(u / previous_u);
+      table_area += 0.5 * (table + table_previous) * std::log(u / previous_u);
+    }
+    EXPECT_NEAR(area, table_area, 3e-4) << v[0];
+    previous_u = u;
+    previous = ours;
+    table_previous = table;
   }
-  EXPECT_GT(peak_stress, 0.9 * top);
+  EXPECT_GT(peak_stress, 0.99 * rows[1].values[0]);
+  EXPECT_NEAR(area, gaps.cumulative(u) - gaps.cumulative(1e-11), 1e-3);
 }
 
 TEST(Plasticity, YieldedAndElasticSharesAreExact) {

@@ -375,7 +375,7 @@ GapDistribution MeanField::gaps(double pressure) const {
     const double share = open - previous_open;
     // The first bands hold next to nothing, and their gap would be a difference of rounded numbers:
     // merged. (Later ones are small as well where the contact is, but carry the pull.)
-    if (!(share > (result.share.empty() && i < n ? 1e-4 * (1 - result.contact) : 0.0))) continue;
+    if (!(share > (result.share.empty() && i < n ? 1e-5 * (1 - result.contact) : 0.0))) continue;
     const double volume = i < n ? contact * gap_from(i, pressure / contact) : 0.0;
     const double offset = std::max(0.0, (previous_volume - volume) / share);
     const double variance = 0.5 * (variance_[i - 1] + variance_[i]);
