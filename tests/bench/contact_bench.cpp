@@ -238,34 +238,41 @@ void sequence(int n) {
   const double load = 15e3;
   for (ContactMethod method : {ContactMethod::Dense, ContactMethod::Auto}) {
     const ContactOptions options{.tolerance = 1e-8, .method = method};
-    Cost total;
-    total.pair = pair_time(*kernel);
-    const double begin = now();
-    const auto count = [&](ContactSolution s) {
-      total.pairs += s.fft_pairs;
-      total.certificate = std::max(total.certificate, s.certificate);
-      return s;
-    };
-    const ContactSolution dry = count(solve_contact(*kernel, skin.z, load, {}, options));
-    ContactSolution off = dry;
-    double tractions = 0;  // seconds, not of the solver
-    for (int k = 1; k <= 12; ++k) {
-      const double made = now();
-      const double reach = 10e-9 * k, suction = 2 * 0.072 * std::cos(50 * kPi / 180) / reach;
-      std::vector<double> wet(grid.size(), 0.0), driven(grid.size());
-      for (std::size_t i = 0; i < grid.size(); ++i) {
-        if (dry.gap[i] < reach) wet[i] = suction;
-        driven[i] = wet[i] + 0.5 * 8.854e-12 * square(30 / (dry.gap[i] + 128e-9));
+    Cost best;
+    best.seconds = best.pair = std::numeric_limits<double>::infinity();
+    for (int repeat = 0; repeat < 4; ++repeat) {
+      best.pair = std::min(best.pair, pair_time(*kernel));
+      Cost total;
+      const double begin = now();
+      const auto count = [&](ContactSolution s) {
+        total.pairs += s.fft_pairs;
+        total.certificate = std::max(total.certificate, s.certificate);
+        return s;
+      };
+      const ContactSolution dry = count(solve_contact(*kernel, skin.z, load, {}, options));
+      ContactSolution off = dry;
+      double tractions = 0;  // seconds, not of the solver
+      for (int k = 1; k <= 12; ++k) {
+        const double made = now();
+        const double reach = 10e-9 * k, suction = 2 * 0.072 * std::cos(50 * kPi / 180) / reach;
+        std::vector<double> wet(grid.size(), 0.0), driven(grid.size());
+        for (std::size_t i = 0; i < grid.size(); ++i) {
+          if (dry.gap[i] < reach) wet[i] = suction;
+          driven[i] = wet[i] + 0.5 * 8.854e-12 * square(30 / (dry.gap[i] + 128e-9));
+        }
+        tractions += now() - made;
+        off = count(solve_contact(*kernel, skin.z, load, wet, options, &off));
+        count(solve_contact(*kernel, skin.z, load, driven, options, &off));
       }
-      tractions += now() - made;
-      off = count(solve_contact(*kernel, skin.z, load, wet, options, &off));
+      total.seconds = now() - begin - tractions;
       total.area = measure_area(*kernel, off).raw;
-      count(solve_contact(*kernel, skin.z, load, driven, options, &off));
+      total.seconds = std::min(total.seconds, best.seconds);
+      total.pair = best.pair;
+      best = total;
     }
-    total.seconds = now() - begin - tractions;
-    total.pair = std::min(total.pair, pair_time(*kernel));
+    best.pair = std::min(best.pair, pair_time(*kernel));
     row("light preload + 12 waters off and on", n,
-        method == ContactMethod::Dense ? "dense warm" : "automatic warm", 1e-8, total);
+        method == ContactMethod::Dense ? "dense warm" : "automatic warm", 1e-8, best);
   }
 }
 

@@ -39,27 +39,12 @@ void fail(std::size_t n, ContactSolution& out) {
 void finish(const StandardProblem& problem, StandardState state, const ContactOptions& options,
             ContactSolution& out) {
   out.pressure = std::move(state.p);
-  out.gap.resize(state.rise.size());
+  out.gap = std::move(state.gap);
   out.certificate = state.certificate;
   out.iterations = state.iterations;
   out.fft_pairs += state.pairs;
   out.shift = state.shift;
-  const double shift = out.shift;
-  const double *p = out.pressure.data(), *h = problem.height.data(), *rise = state.rise.data();
-  double* gap = out.gap.data();
-  double energy = 0;
-#pragma omp simd reduction(+ : energy)
-  for (std::size_t i = 0; i < out.gap.size(); ++i) {
-    const double above = -h[i] - rise[i] - shift;
-    gap[i] = p[i] > 0 || above < 0 ? 0 : above;
-    energy -= p[i] * rise[i];
-  }
-  if (!problem.traction.empty()) {
-    const double* t = problem.traction.data();
-#pragma omp simd reduction(+ : energy)
-    for (std::size_t i = 0; i < out.gap.size(); ++i) energy += t[i] * rise[i];
-  }
-  out.elastic_energy = 0.5 * energy * problem.kernel.grid().pixel_area();
+  out.elastic_energy = 0.5 * state.work * problem.kernel.grid().pixel_area();
   if (state.certified) {
     out.status = ContactStatus::Converged;
     return;

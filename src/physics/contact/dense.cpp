@@ -36,7 +36,6 @@ class DenseSolver {
         max_iterations_(max_iterations),
         state_(state),
         p_(state.p),
-        w_(state.rise),
         change_(grid_.size()),
         step_(grid_.size(), 0.0),
         scratch_(kernel_.scratch_size()),
@@ -52,7 +51,7 @@ class DenseSolver {
     state_.certified = iterate();
     state_.exhausted = state_.iterations >= max_iterations_;
     state_.shift = shift_;
-    for (std::size_t i = 0; i < w_.size(); ++i) w_[i] = -problem_.height[i] - w_[i];
+    close_gaps();
   }
 
  private:
@@ -467,6 +466,32 @@ class DenseSolver {
     return std::max(0.0, work - least) / (load_ * problem_.spread);
   }
 
+  // Gaps and work of the state, in one pass over the fields.
+  void close_gaps() {
+    constexpr std::size_t kBlock = 512;
+    double block[kBlock];
+    const double *p = p_.data(), *w = w_.data(), *h = problem_.height.data(),
+                 *t = problem_.traction.data();
+    const double shift = shift_;
+    double work = 0;
+    state_.gap.reserve(p_.size());
+    for (std::size_t begin = 0; begin < p_.size(); begin += kBlock) {
+      const std::size_t count = std::min(kBlock, p_.size() - begin);
+#pragma omp simd reduction(+ : work)
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t i = begin + k;
+        block[k] = p[i] > 0 || w[i] < shift ? 0 : w[i] - shift;
+        work += p[i] * (h[i] + w[i]);
+      }
+      if (t) {
+#pragma omp simd reduction(+ : work)
+        for (std::size_t i = begin; i < begin + count; ++i) work -= t[i] * (h[i] + w[i]);
+      }
+      state_.gap.insert(state_.gap.end(), block, block + count);
+    }
+    state_.work = work;
+  }
+
   const StandardProblem& problem_;
   const ContactKernel& kernel_;
   const Grid& grid_;
@@ -474,7 +499,7 @@ class DenseSolver {
   int max_iterations_;
   StandardState& state_;
   std::vector<double>& p_;  // of the state
-  RealArray& w_;            // gap function; of the state, where it ends as the rise
+  RealArray w_;             // gap function
   RealArray change_, step_, field_;
   SpectrumArray scratch_;
   int width_;                             // of the padded images below

@@ -33,7 +33,7 @@ class CandidateSolver {
       if (!predict(*start)) return false;
       displace();
     } else {
-      state_.pairs += problem_.rise_unpressed(state_.rise, scratch_);
+      state_.pairs += problem_.rise_unpressed(rise_, scratch_);
       if (!choose_cold(demand)) return false;
       state_.p.assign(n_, 0.0);
     }
@@ -61,7 +61,7 @@ class CandidateSolver {
       displace_nearby(1);
       before_.resize(set_.size());
       for (std::size_t k = 0; k < set_.size(); ++k) {
-        double& rise = state_.rise[set_.pixel(k)];
+        double& rise = rise_[set_.pixel(k)];
         before_[k] = rise;
         rise = -problem_.height[set_.pixel(k)] - (set_.gap_at(k) + set_.shift());
       }
@@ -72,7 +72,7 @@ class CandidateSolver {
         return state_.certified;
       }
       if (open.size() > limit_) return false;
-      for (std::size_t k = 0; k < set_.size(); ++k) state_.rise[set_.pixel(k)] = before_[k];
+      for (std::size_t k = 0; k < set_.size(); ++k) rise_[set_.pixel(k)] = before_[k];
       displace_nearby(-1);
       extend(open);
       if (members_.size() > 12 * limit_) return false;
@@ -170,16 +170,19 @@ class CandidateSolver {
     } else {
       const Grid& half = coarse->grid();
       RealArray pulled(half.size());
+      rise_.reserve(n_);
       for (int iy = 0; iy < half.ny; ++iy) {
         const double* row = traction.data() + grid_.index(0, 2 * iy);
         const double* next = row + grid_.nx;
+        rise_.insert(rise_.end(), row, next + grid_.nx);  // for the full transform that follows
         double* to = pulled.data() + half.index(0, iy);
         for (int ix = 0; ix < half.nx; ++ix) {
           to[ix] = 0.25 * (row[2 * ix] + row[2 * ix + 1] + next[2 * ix] + next[2 * ix + 1]);
         }
       }
-      SpectrumArray scratch(coarse->scratch_size());
-      coarse->displace(pulled, pulled, scratch);
+      copied_ = true;
+      scratch_.resize(problem_.kernel.scratch_size());  // of both
+      coarse->displace(pulled, pulled, scratch_);
       state_.pairs += 0.25;
       set_.watch(members_, [&](int i) {
         return -height[i] - interpolate(pulled, half, cubic(i % grid_.nx, 2, half.nx),
@@ -201,19 +204,20 @@ class CandidateSolver {
     return true;
   }
 
-  double gap_function(std::size_t i) const { return -problem_.height[i] - state_.rise[i]; }
+  double gap_function(std::size_t i) const { return -problem_.height[i] - rise_[i]; }
 
   // The rise by the tractions and the pressures taken.
   void displace() {
     const std::span<const double> t = problem_.traction;
     if (t.empty()) {
-      state_.rise.assign(n_, 0.0);
-    } else {
-      state_.rise.assign(t.begin(), t.end());
+      rise_.assign(n_, 0.0);
+    } else if (!copied_) {
+      rise_.assign(t.begin(), t.end());
     }
-    for (int i : under_pressure_) state_.rise[i] -= state_.p[i];
+    copied_ = false;
+    for (int i : under_pressure_) rise_[i] -= state_.p[i];
     scratch_.resize(problem_.kernel.scratch_size());
-    problem_.kernel.displace(state_.rise, state_.rise, scratch_);
+    problem_.kernel.displace(rise_, rise_, scratch_);
     ++state_.pairs;
   }
 
@@ -261,7 +265,7 @@ class CandidateSolver {
         const int row = wrap(dy, grid_.ny);
         const std::size_t to = grid_.index(0, wrap(iy + dy, grid_.ny));
         for (int dx = -reach_x; dx <= reach_x; ++dx) {
-          state_.rise[to + wrap(ix + dx, grid_.nx)] -=
+          rise_[to + wrap(ix + dx, grid_.nx)] -=
               sign * d * problem_.kernel.influence(wrap(dx, grid_.nx), row);
         }
       }
@@ -269,34 +273,50 @@ class CandidateSolver {
   }
 
   // Certificate (Eq. contact.4) of the set's pressures in a gap function known to within blur [m],
-  // the pixels watched exactly; those not watched that may penetrate.
+  // the pixels watched exactly; those not watched that may penetrate. The gaps and the work of the
+  // state in the same pass: it is the only one over all pixels that follows the transform.
   std::vector<int> inspect(double blur) {
     const double shift = set_.shift(), bound = shift + blur;
-    const double *rise = state_.rise.data(), *h = problem_.height.data();
-    double low = kInfinity;
+    const double *rise = rise_.data(), *h = problem_.height.data(), *t = problem_.traction.data();
+    double low = kInfinity, pulled = 0;
     std::vector<int> open;
     constexpr std::size_t kBlock = 64;
+    double block[kBlock];
+    state_.gap.clear();
+    state_.gap.reserve(n_);
     for (std::size_t begin = 0; begin < n_; begin += kBlock) {
-      const std::size_t end = std::min(begin + kBlock, n_);
+      const std::size_t count = std::min(kBlock, n_ - begin);
       double lowest = kInfinity;
 #pragma omp simd reduction(min : lowest)
-      for (std::size_t i = begin; i < end; ++i) {
-        const double w = -h[i] - rise[i];
+      for (std::size_t k = 0; k < count; ++k) {
+        const double w = -h[begin + k] - rise[begin + k];
         lowest = lowest < w ? lowest : w;
+        block[k] = w > shift ? w - shift : 0;
+      }
+      state_.gap.insert(state_.gap.end(), block, block + count);
+      if (t) {
+#pragma omp simd reduction(+ : pulled)
+        for (std::size_t i = begin; i < begin + count; ++i) pulled += t[i] * rise[i];
       }
       low = std::min(low, lowest);
       if (lowest >= bound) continue;
-      for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t i = begin; i < begin + count; ++i) {
         if (-h[i] - rise[i] < bound && set_.find(static_cast<int>(i)) == set_.size()) {
           open.push_back(static_cast<int>(i));
         }
       }
     }
-    double work = 0;
-    for (std::size_t k : set_.touching()) work += set_.pressure(k) * gap_function(set_.pixel(k));
+    double pressed = 0, risen = 0;
+    for (std::size_t k : set_.touching()) {
+      const int i = set_.pixel(k);
+      pressed += set_.pressure(k) * gap_function(i);
+      risen += set_.pressure(k) * rise_[i];
+      state_.gap[i] = 0;
+    }
+    state_.work = pulled - risen;
     state_.shift = shift;
     state_.certificate =
-        std::max(0.0, work - low * problem_.load) / (problem_.load * problem_.spread);
+        std::max(0.0, pressed - low * problem_.load) / (problem_.load * problem_.spread);
     return open;
   }
 
@@ -305,6 +325,8 @@ class CandidateSolver {
   std::size_t n_, limit_;
   double tolerance_;
   StandardState& state_;
+  RealArray rise_;       // by the tractions less the pressures taken; before, the tractions
+  bool copied_ = false;  // it holds the tractions
   ActiveSet set_;
   std::vector<std::pair<int, bool>> members_;   // watched, and whether they touch
   std::vector<int> under_pressure_;             // pixels of the pressures taken
