@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -81,22 +82,43 @@ void write_image(const std::string& path, OIIO::ImageSpec spec, OIIO::TypeDesc t
   settle(part, path, fail);
 }
 
-double lowest(const Heightmap& h) {
-  return std::reduce(h.z.begin(), h.z.end(), h.z.front(),
-                     [](double a, double b) { return b < a ? b : a; });
-}
-double highest(const Heightmap& h) {
-  return std::reduce(h.z.begin(), h.z.end(), h.z.front(),
-                     [](double a, double b) { return b > a ? b : a; });
+struct HeightRange {
+  double low, high;  // m
+};
+
+// In one pass of all processors; throws InputError for a height that is no number.
+HeightRange checked_range(const std::string& path, const Heightmap& h) {
+  constexpr std::int64_t kChunk = 1 << 14;  // stays in the cache
+  const auto size = static_cast<std::int64_t>(h.z.size());
+  std::vector<HeightRange> parts(static_cast<std::size_t>((size + kChunk - 1) / kChunk));
+  std::atomic<bool> finite = true;
+  OIIO::parallel_for(std::int64_t{0}, static_cast<std::int64_t>(parts.size()), [&](std::int64_t p) {
+    const double* z = h.z.data() + p * kChunk;
+    const double* end = h.z.data() + std::min(size, (p + 1) * kChunk);
+    bool all = true;  // no way out of the loop: it runs in vector registers
+    for (const double* i = z; i < end; ++i) all &= std::isfinite(*i);
+    if (!all) finite = false;
+    parts[static_cast<std::size_t>(p)] = {
+        std::reduce(z, end, *z, [](double a, double b) { return b < a ? b : a; }),
+        std::reduce(z, end, *z, [](double a, double b) { return b > a ? b : a; })};
+  });
+  if (!finite) throw InputError("cannot write " + path + ": a height is not a finite number");
+  HeightRange out = parts.front();
+  for (const HeightRange& part : parts)
+    out = {std::min(out.low, part.low), std::max(out.high, part.high)};
+  return out;
 }
 
+// A height above the lowest plane. The lowest plane is exactly zero: rounding of double precision
+// would give each of its pixels its own tiny number, and a file three times as large.
+float micrometres(double height) { return height < 1e-15 ? 0 : static_cast<float>(1e6 * height); }
+
 // Micrometres above the lowest plane, top row first.
-std::vector<float> micrometres(const Heightmap& h) {
-  const double low = lowest(h);
+std::vector<float> micrometres(const Heightmap& h, double low) {
   std::vector<float> out(h.z.size());
   for (int iy = 0; iy < h.grid.ny; ++iy) {
     for (int ix = 0; ix < h.grid.nx; ++ix) {
-      out[h.grid.index(ix, h.grid.ny - 1 - iy)] = static_cast<float>(1e6 * (h(ix, iy) - low));
+      out[h.grid.index(ix, h.grid.ny - 1 - iy)] = micrometres(h(ix, iy) - low);
     }
   }
   return out;
@@ -124,20 +146,9 @@ std::string description(const Heightmap& h, const FileInfo& info, const char* po
   return json.dump();
 }
 
-void check_finite(const std::string& path, const Heightmap& h) {
-  std::atomic<bool> finite = true;
-  OIIO::parallel_for_chunked(0, static_cast<std::int64_t>(h.z.size()), 1 << 18,
-                             [&](std::int64_t from, std::int64_t to) {
-                               bool all = true;  // no way out: the loop runs in vector registers
-                               for (std::int64_t i = from; i < to; ++i)
-                                 all &= std::isfinite(h.z[static_cast<std::size_t>(i)]);
-                               if (!all) finite = false;
-                             });
-  if (!finite) throw InputError("cannot write " + path + ": a height is not a finite number");
-}
-
-std::vector<std::uint16_t> sixteen_bits(const Heightmap& h, Polarity polarity, bool binary) {
-  const double low = lowest(h), span = highest(h) - low;
+std::vector<std::uint16_t> sixteen_bits(const Heightmap& h, HeightRange range, Polarity polarity,
+                                        bool binary) {
+  const double low = range.low, span = range.high - low;
   std::vector<std::uint16_t> out(h.z.size());
   for (int iy = 0; iy < h.grid.ny; ++iy) {
     for (int ix = 0; ix < h.grid.nx; ++ix) {
@@ -153,16 +164,16 @@ std::vector<std::uint16_t> sixteen_bits(const Heightmap& h, Polarity polarity, b
 
 void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarity, bool binary,
                    const FileInfo& info) {
-  check_finite(path, h);
+  const HeightRange range = checked_range(path, h);
   OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT16);
   spec.attribute("compression", "none");
   set_resolution(spec, h.grid);
-  const double low = lowest(h), high = highest(h);
+  const auto [low, high] = range;
   const bool white_high = polarity == Polarity::WhiteHigh;
   spec.attribute("ImageDescription",
                  description(h, info, white_high ? "white-is-high" : "white-is-deep",
                              white_high ? low : high, white_high ? high : low));
-  const auto pixels = sixteen_bits(h, polarity, binary);
+  const auto pixels = sixteen_bits(h, range, polarity, binary);
   write_image(path, spec, OIIO::TypeDesc::UINT16, pixels.data());
 }
 
@@ -293,6 +304,29 @@ Heightmap read_image(const std::string& path, double width) {
 
 namespace {
 
+// Large images are written and checked by strips of rows.
+constexpr int kStripRows = 64;
+// An image of more pixels is read back by every 16th strip, spread over its height, and the last
+// one; smaller ones are read back whole.
+constexpr double kReadBackWhole = 1 << 24;
+constexpr std::size_t kReadBackStep = 16;
+
+// use(begin, strip) for every strip in turn, the next one being filled by fill(begin, strip) at the
+// same time: the compressor's threads do not wait for it.
+template <typename Fill, typename Use>
+void stream(const std::vector<int>& begins, const Fill& fill, const Use& use) {
+  std::array<std::vector<float>, 2> strips;
+  if (!begins.empty()) fill(begins[0], strips[0]);
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    std::future<void> next;
+    if (i + 1 < begins.size()) {
+      next = std::async(std::launch::async, [&, i] { fill(begins[i + 1], strips[(i + 1) % 2]); });
+    }
+    use(begins[i], strips[i % 2]);
+    if (next.valid()) next.get();
+  }
+}
+
 OIIO::ImageSpec exr_spec(const Heightmap& h, int repeat, const FileInfo& info) {
   OIIO::ImageSpec spec(repeat * h.grid.nx, repeat * h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Y"};
@@ -317,7 +351,7 @@ void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info
 
 void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
                         const FileInfo& info) {
-  check_finite(path, h);
+  const double low = checked_range(path, h).low;
   OIIO::ImageSpec spec = exr_spec(h, repeat, info);
   spec.attribute("DateTime", kFixedDate);
   spec.attribute("Software", "papilla " PAPILLA_VERSION);
@@ -327,71 +361,72 @@ void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
     fs::remove(part, ignored);
     throw InputError("cannot write " + path + ": " + why);
   };
-  const double low = lowest(h);
   const auto width = static_cast<std::size_t>(spec.width);
   // Whole blocks of 16 rows of the compressor, enough for its threads, 64 MB at most.
-  const int rows = std::clamp(static_cast<int>((16u << 20) / width) / 16 * 16, 16, 256);
-  std::vector<float> strip(static_cast<std::size_t>(rows) * width), back(strip.size());
-  const auto fill = [&](int from, int to) {
-    OIIO::parallel_for(from, to, [&](int y) {
-      // Top row first, micrometres above the lowest plane.
-      const double* row = &h.z[h.grid.index(0, h.grid.ny - 1 - y % h.grid.ny)];
-      float* out = &strip[static_cast<std::size_t>(y - from) * width];
-      for (int ix = 0; ix < h.grid.nx; ++ix) out[ix] = static_cast<float>(1e6 * (row[ix] - low));
+  const int rows = std::clamp(static_cast<int>((16u << 20) / width) / 16 * 16, 16, kStripRows);
+  const auto strip_end = [&](int y) { return std::min(y + rows, spec.height); };
+  const auto fill = [&](int begin, std::vector<float>& strip) {
+    strip.resize(static_cast<std::size_t>(rows) * width);
+    for (int y = begin; y < strip_end(begin); ++y) {
+      const double* row = &h.z[h.grid.index(0, h.grid.ny - 1 - y % h.grid.ny)];  // top row first
+      float* out = &strip[static_cast<std::size_t>(y - begin) * width];
+      for (int ix = 0; ix < h.grid.nx; ++ix) out[ix] = micrometres(row[ix] - low);
       for (int r = 1; r < repeat; ++r)
         std::copy_n(out, h.grid.nx, out + static_cast<std::ptrdiff_t>(r) * h.grid.nx);
-    });
+    }
   };
+  std::vector<int> strips;
+  for (int y = 0; y < spec.height; y += rows) strips.push_back(y);
   auto out = OIIO::ImageOutput::create(part);
   if (!out) fail(OIIO::geterror());
   if (!out->open(part, spec)) fail(out->geterror());
-  for (int y = 0; y < spec.height; y += rows) {
-    const int end = std::min(y + rows, spec.height);
-    fill(y, end);
-    if (!out->write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, strip.data()))
+  stream(strips, fill, [&](int y, const std::vector<float>& strip) {
+    if (!out->write_scanlines(y, strip_end(y), 0, OIIO::TypeDesc::FLOAT, strip.data()))
       fail(out->geterror());
-  }
+  });
   const bool closed = out->close();
   if (const std::string error = out->geterror(); !closed || !error.empty())
     fail(error.empty() ? "incomplete" : error);
+
   auto in = OIIO::ImageInput::open(part);
   if (!in) fail("does not open again: " + OIIO::geterror());
-  // Of more than 2^24 pixels every eighth strip and the last one: decoding costs as much as
-  // encoding.
-  const int step = static_cast<double>(spec.width) * spec.height > (1 << 24) ? 8 : 1;
-  for (int y = 0; y < spec.height; y += rows) {
-    if (y / rows % step != 0 && y + rows < spec.height) continue;
-    const int end = std::min(y + rows, spec.height);
-    fill(y, end);
-    if (!in->read_scanlines(0, 0, y, end, 0, 0, 1, OIIO::TypeDesc::FLOAT, back.data()))
+  if (static_cast<double>(spec.width) * spec.height > kReadBackWhole) {
+    std::vector<int> some;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      if (i % kReadBackStep == 0 || i + 1 == strips.size()) some.push_back(strips[i]);
+    }
+    strips = some;
+  }
+  std::vector<float> back(static_cast<std::size_t>(rows) * width);
+  stream(strips, fill, [&](int y, const std::vector<float>& strip) {
+    if (!in->read_scanlines(0, 0, y, strip_end(y), 0, 0, 1, OIIO::TypeDesc::FLOAT, back.data()))
       fail("does not read back: " + in->geterror());
     if (std::memcmp(back.data(), strip.data(),
-                    static_cast<std::size_t>(end - y) * width * sizeof(float)) != 0) {
+                    static_cast<std::size_t>(strip_end(y) - y) * width * sizeof(float)) != 0) {
       fail("reads back with other values");
     }
-  }
+  });
   in->close();
   settle(part, path, fail);
 }
 
 void write_png16(const std::string& path, const Heightmap& h) {
-  check_finite(path, h);
+  const HeightRange range = checked_range(path, h);
   OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT16);
   for (const auto& [name, value] : {std::pair{"Gwy::XReal", h.grid.lx},
                                     {"Gwy::YReal", h.grid.ly},
-                                    {"Gwy::ZMin", lowest(h)},
-                                    {"Gwy::ZMax", highest(h)}}) {
+                                    {"Gwy::ZMin", range.low},
+                                    {"Gwy::ZMax", range.high}}) {
     spec.attribute(name, fmt::format("{}", value));
   }
   spec.attribute("Gwy::XYUnit", "m");
   spec.attribute("Gwy::ZUnit", "m");
-  const auto pixels = sixteen_bits(h, Polarity::WhiteHigh, false);
+  const auto pixels = sixteen_bits(h, range, Polarity::WhiteHigh, false);
   write_image(path, spec, OIIO::TypeDesc::UINT16, pixels.data());
 }
 
 DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve& curve) {
-  check_finite(path, h);
-  const double high = highest(h);
+  const double high = checked_range(path, h).high;
   DoseMap out;
   std::vector<std::uint8_t> grey(h.z.size());
   const auto& d = curve.depth;
@@ -423,12 +458,12 @@ DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve&
 }
 
 void write_tiff_float(const std::string& path, const Heightmap& h, const FileInfo& info) {
-  check_finite(path, h);
+  const double low = checked_range(path, h).low;
   OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
   spec.attribute("compression", "none");
   set_resolution(spec, h.grid);
   spec.attribute("ImageDescription", description(h, info, "white-is-high", 0, 1e-6));
-  const auto pixels = micrometres(h);
+  const auto pixels = micrometres(h, low);
   write_image(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 

@@ -1,14 +1,17 @@
 #include "geometry/io/files.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 
 #include "base/error.h"
+#include "geometry/io/layout.h"
 #include "geometry/texture.h"
 
 namespace papilla {
@@ -76,6 +79,37 @@ TEST_F(Files, TheSameHeightmapGivesTheSameBytes) {
     };
     EXPECT_EQ(write(), write()) << name;
   }
+}
+
+TEST_F(Files, AnExrHasTheSameBytesForAnyNumberOfThreads) {
+  HoleArray array;
+  array.wall_angle = 1.2;
+  const Texture t{array};
+  const Heightmap h = generate(t, patch_grid(t, 420));
+  for (const int threads : {1, 5}) {
+    OIIO::attribute("threads", threads);
+    OIIO::attribute("exr_threads", threads);
+    write_exr_repeated(path(std::to_string(threads) + ".exr"), h, 10, {});  // read back in part
+  }
+  OIIO::attribute("threads", 0);
+  OIIO::attribute("exr_threads", 0);
+  EXPECT_TRUE(read_bytes(path("1.exr")) == read_bytes(path("5.exr")));
+  // Every copy is the tile, and the lowest plane is zero without the rounding of its heights.
+  const Heightmap all = read_heightmap(path("5.exr"));
+  ASSERT_EQ(all.grid.nx, 4200);
+  const double low = *std::min_element(h.z.begin(), h.z.end());
+  int floor = 0;
+  for (int iy = 0; iy < 420; ++iy) {
+    for (int ix = 0; ix < 420; ++ix) {
+      const double expected = h(ix, iy) - low;
+      ASSERT_NEAR(all(ix + 420 * (iy % 10), iy + 420 * (ix % 10)), expected, 1e-13);
+      if (expected < 1e-15) {
+        ASSERT_EQ(all(ix, iy), 0);
+        ++floor;
+      }
+    }
+  }
+  EXPECT_GT(floor, 10000);
 }
 
 TEST_F(Files, MaskPolarityIsWhatWasAskedFor) {
