@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "base/constants.h"
 #include "physics/contact/solvers.h"
@@ -56,6 +57,7 @@ class DenseSolver {
 
  private:
   static constexpr int kReach = ContactKernel::kReach;
+  static constexpr double kBarred = 1e300;  // stands for a pixel held at a bound
 
   bool iterate() {
     double alpha = 0.4;  // expected step along the preconditioned direction
@@ -75,37 +77,26 @@ class DenseSolver {
 
       if (plain) {
         descend();
+      } else if (wide_) {
+        kernel_.press(field_, scratch_);
+        ++state_.pairs;
       } else if (8 * free_.size() > grid_.size()) {
         precondition_all();
       } else {
         precondition();
       }
-      direct(conjugate);
-      const bool clipped = move(alpha);
+      const bool clipped = wide_ ? move_wide(alpha, conjugate) : move(alpha, conjugate);
       kernel_.displace(step_, change_, scratch_);
       ++state_.pairs;
       // Exact minimum along the step taken, t = 1 being its end. A step that ran into the bounds is
       // kept unless it went too far: its end tells which pixels are free.
-      double slope = 0, curvature = 0, longest = kInfinity;
-      const int* at = free_.data();
-      const double *p = p_.data(), *step = step_.data(), *change = change_.data(), *r = r_.data();
-      const double cap = cap_;
-#pragma omp simd reduction(+ : slope, curvature) reduction(min : longest)
-      for (std::size_t k = 0; k < free_.size(); ++k) {
-        const double s = step[at[k]], pressure = p[at[k]];
-        slope += r[k] * s;
-        curvature += change[at[k]] * s;
-        const double room = s < 0 ? s - pressure : cap - pressure + s;
-        const double length = room / (s != 0 ? s : 1e-300);
-        const double found = s != 0 ? length : kInfinity;
-        longest = found < longest ? found : longest;
-      }
+      const auto [slope, curvature] = wide_ ? slopes_wide() : slopes();
       double t = curvature > 0 ? -slope / curvature : 0;
       if (t > 0) alpha = std::clamp(alpha * t, 1e-4, 20.0);
       if (clipped) {
         t = t > 0.85 ? 1 : std::max(t, 0.0);
       } else {
-        t = std::clamp(t, 0.0, longest);
+        t = t > 1 ? std::min(t, room()) : std::max(t, 0.0);
       }
       conjugate = t > 0;
       // Cut at many bounds a preconditioned direction may climb; the gradient never does.
@@ -138,6 +129,7 @@ class DenseSolver {
       if (p_[i] > 0) old_.push_back(static_cast<int>(i));
     }
     arrive(1);
+    if (3 * free_.size() > grid_.size()) widen();
   }
 
   // p scaled to the load over the whole grid; below a cap what overflows goes to the others.
@@ -173,48 +165,36 @@ class DenseSolver {
 
   // Gap function and lists of the new p_, at t of the step whose transform is in change_. old_
   // holds every pixel under pressure; then free_: pixels between the bounds and those at a bound
-  // whose gap has the wrong sign; held_: others at the cap.
+  // whose gap has the wrong sign; held_: others at the cap; left_: others that the step moved.
   void arrive(double t) {
-    const auto blend = [&](std::size_t i) { return w_[i] + t * change_[i]; };
-    double sum = 0, total = 0;
-    double count = 0;
+    double sum = 0, count = 0, work = 0;
     const int* old = old_.data();
     double* gap = w_.data();
     const double *change = change_.data(), *p = p_.data();
     const double cap = cap_;
-#pragma omp simd reduction(+ : sum, total, count)
+#pragma omp simd reduction(+ : sum, count, work)
     for (std::size_t k = 0; k < old_.size(); ++k) {
       const double pressure = p[old[k]], w = gap[old[k]] + t * change[old[k]];
       const bool inside = pressure > 0 && pressure < cap;
-      total += pressure;
+      work += pressure * w;
       sum += inside ? w : 0;
       count += inside ? 1 : 0;
     }
-    if (problem_.approach) {
-      shift_ = problem_.level;
-      load_ = total;
-    } else if (count > 0) {
-      shift_ = sum / count;
-    } else {  // all at the cap: between the highest of them and the lowest of the others
-      double lowest = kInfinity, highest = -kInfinity;
-      for (std::size_t i = 0; i < p_.size(); ++i) {
-        if (p_[i] == 0) {
-          lowest = std::min(lowest, blend(i));
-        } else {
-          highest = std::max(highest, blend(i));
-        }
-      }
-      shift_ = std::isfinite(lowest) ? 0.5 * (lowest + highest) : highest;
-    }
+    work_ = work;
+    set_shift(sum, count, t);
     held_.clear();
+    left_.clear();
     free_.resize(old_.size());
     std::size_t pressed = 0;
     for (int i : old_) {  // every one is written, those that stay are counted
       free_[pressed] = i;
-      if (p_[i] == cap_ && blend(i) <= shift_) {
+      if (p_[i] == cap_ && w_[i] + t * change_[i] <= shift_) {
         held_.push_back(i);
+        left_.push_back(i);
+      } else if (p_[i] > 0) {
+        ++pressed;
       } else {
-        pressed += p_[i] > 0;
+        left_.push_back(i);
       }
     }
     free_.resize(pressed);
@@ -251,9 +231,35 @@ class DenseSolver {
     for (std::size_t k = 0; k < free_.size(); ++k) r[k] = gap[at[k]] - shift;
   }
 
+  // Rigid shift at t of the step: the mean gap function of the pixels between the bounds, sum /
+  // count. Given approach, the load.
+  void set_shift(double sum, double count, double t) {
+    if (problem_.approach) {
+      shift_ = problem_.level;
+      load_ = std::accumulate(p_.begin(), p_.end(), 0.0);
+    } else if (count > 0) {
+      shift_ = sum / count;
+    } else {  // all at the cap: between the highest of them and the lowest of the others
+      double lowest = kInfinity, highest = -kInfinity;
+      for (std::size_t i = 0; i < p_.size(); ++i) {
+        const double w = w_[i] + t * change_[i];
+        if (p_[i] == 0) {
+          lowest = std::min(lowest, w);
+        } else {
+          highest = std::max(highest, w);
+        }
+      }
+      shift_ = std::isfinite(lowest) ? 0.5 * (lowest + highest) : highest;
+    }
+  }
+
   // z = the residual over a pixel's own compliance.
   void descend() {
     const double stiffness = 1 / kernel_.self_compliance();
+    if (wide_) {
+      for (double& r : field_) r *= stiffness;
+      return;
+    }
     double sum = 0;
     for (double r : r_) sum += stiffness * r;
     const double mean = problem_.approach ? 0 : sum / static_cast<double>(r_.size());
@@ -331,16 +337,19 @@ class DenseSolver {
     }
   }
 
-  // d_ = z plus the share of the last step that makes it conjugate to it (Polak-Ribiere+), without
-  // load. change_ is what the last step changed the gap function by, before it was shortened to
-  // step_.
-  void direct(bool conjugate) {
+  // p_ along -alpha d, d = z plus the share of the last step that makes it conjugate to it
+  // (Polak-Ribiere+), without load; cut at the bounds. The load is restored by a shift of the rigid
+  // level, that is along the preconditioned constant, so that a short step always descends. step_ =
+  // what p_ changed by, change_ what that changes the gap function by, both before the step is
+  // shortened. True if a pixel under pressure met a bound. No step where the free pixels cannot
+  // carry the load.
+  bool move(double alpha, bool conjugate) {
     const std::size_t m = free_.size();
-    d_.resize(m);
+    raw_.resize(m);
     const int* at = free_.data();
-    const double *step = step_.data(), *change = change_.data(), *z = z_.data(),
-                 *one = ones_.data();
-    double* d = d_.data();
+    const double *change = change_.data(), *z = z_.data(), *one = ones_.data();
+    double *raw = raw_.data(), *p = p_.data(), *step = step_.data();
+    const double cap = cap_;
     double share = 0;
     if (conjugate) {
       double cross = 0, own = 0;
@@ -355,39 +364,62 @@ class DenseSolver {
     double sum = 0, ones = 0;
 #pragma omp simd reduction(+ : sum, ones)
     for (std::size_t k = 0; k < m; ++k) {
-      d[k] = z[k] + share * step[at[k]];
-      sum += d[k];
+      sum += z[k] + share * step[at[k]];
       ones += one[k];
     }
-    if (ones > 0 && !problem_.approach) {
-      const double level = sum / ones;
+    const double tilt = ones > 0 && !problem_.approach ? sum / ones : 0;
 #pragma omp simd
-      for (std::size_t k = 0; k < m; ++k) d[k] -= level * one[k];
+    for (std::size_t k = 0; k < m; ++k) {
+      raw[k] = p[at[k]] - alpha * (z[k] + share * step[at[k]] - tilt * one[k]);
     }
-    for (int i : old_) step_[i] = 0;
+    for (int i : left_) step_[i] = 0;
+    const double level =
+        problem_.approach
+            ? 0
+            : load_level(raw_, ones_,
+                         load_ - (held_.empty() ? 0 : cap_ * static_cast<double>(held_.size())));
+    double clipped = 0;
+#pragma omp simd reduction(+ : clipped)
+    for (std::size_t k = 0; k < m; ++k) {
+      const double moved = raw[k] - level * one[k], old = p[at[k]];
+      const double above = moved > 0 ? moved : 0, v = above < cap ? above : cap;
+      clipped += (v == 0 && old > 0) || (v == cap && old < cap) ? 1.0 : 0.0;
+      step[at[k]] = v - old;
+      p[at[k]] = v;
+    }
+    return clipped > 0;
   }
 
-  // level at which raw_ - level ones_, cut at the bounds, carries the load: Newton's method on a
-  // falling, piecewise linear function, kept between bounds.
-  double load_level() const {
-    const double load = load_ - (held_.empty() ? 0 : cap_ * static_cast<double>(held_.size()));
-    const double *raw = raw_.data(), *one = ones_.data(), cap = cap_;
+  // level at which raw - level ones (empty: 1), cut at the bounds, carries the load: Newton's
+  // method on a falling, piecewise linear function, kept between bounds.
+  double load_level(std::span<const double> raw, std::span<const double> ones, double load) const {
+    const double *value = raw.data(), *one = ones.data(), cap = cap_;
     double level = 0, below = -kInfinity, above = kInfinity;
     for (int pass = 0; pass < 100; ++pass) {
       double sum = 0, weight = 0;
+      if (one) {
 #pragma omp simd reduction(+ : sum, weight)
-      for (std::size_t k = 0; k < raw_.size(); ++k) {
-        const double v = raw[k] - level * one[k], cut = v < cap ? v : cap;
-        sum += v > 0 ? cut : 0;
-        weight += v > 0 && v < cap ? one[k] : 0;
+        for (std::size_t k = 0; k < raw.size(); ++k) {
+          const double v = value[k] - level * one[k], cut = v < cap ? v : cap;
+          sum += v > 0 ? cut : 0;
+          weight += v > 0 && v < cap ? one[k] : 0;
+        }
+      } else {
+#pragma omp simd reduction(+ : sum, weight)
+        for (std::size_t k = 0; k < raw.size(); ++k) {
+          const double v = value[k] - level, cut = v < cap ? v : cap;
+          sum += v > 0 ? cut : 0;
+          weight += v > 0 && v < cap ? 1.0 : 0.0;
+        }
       }
       if (std::abs(sum - load) <= 1e-13 * load_) break;
       (sum > load ? below : above) = level;
       double next = weight > 0 ? level + (sum - load) / weight : kInfinity;
       if (!(next > below && next < above)) {
         double size = 0;
-        for (std::size_t k = 0; k < raw_.size(); ++k) {
-          size = std::max(size, std::abs(raw_[k] - level * ones_[k]) / ones_[k]);
+        for (std::size_t k = 0; k < raw.size(); ++k) {
+          const double unit = one ? one[k] : 1, v = std::abs(value[k] - level * unit) / unit;
+          if (std::abs(value[k]) != kBarred) size = std::max(size, v);
         }
         next = std::isinf(below)   ? above - 2 * size
                : std::isinf(above) ? below + 2 * size
@@ -399,56 +431,186 @@ class DenseSolver {
     return level;
   }
 
-  // p_ along -alpha d_, cut at the bounds; the load is restored by a shift of the rigid level, that
-  // is along the preconditioned constant, so that a short step always descends. step_ = what p_
-  // changed by. True if a pixel under pressure met a bound. No step where the free pixels cannot
-  // carry the load.
-  bool move(double alpha) {
-    const std::size_t m = free_.size();
-    raw_.resize(m);
+  // Slope of the energy along the step from its start, and its curvature.
+  std::pair<double, double> slopes() const {
+    double slope = 0, curvature = 0;
     const int* at = free_.data();
-    const double *d = d_.data(), *one = ones_.data();
-    double *raw = raw_.data(), *p = p_.data(), *step = step_.data();
+    const double *step = step_.data(), *change = change_.data(), *r = r_.data();
+#pragma omp simd reduction(+ : slope, curvature)
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      slope += r[k] * step[at[k]];
+      curvature += change[at[k]] * step[at[k]];
+    }
+    return {slope, curvature};
+  }
+
+  // How many times the step taken fits between the bounds.
+  double room() const {
+    const double *p = p_.data(), *step = step_.data();
     const double cap = cap_;
-#pragma omp simd
-    for (std::size_t k = 0; k < m; ++k) raw[k] = p[at[k]] - alpha * d[k];
-    const double level = problem_.approach ? 0 : load_level();
-    double clipped = 0;
-#pragma omp simd reduction(+ : clipped)
-    for (std::size_t k = 0; k < m; ++k) {
-      const double moved = raw[k] - level * one[k], old = p[at[k]];
-      const double above = moved > 0 ? moved : 0, v = above < cap ? above : cap;
-      clipped += (v == 0 && old > 0) || (v == cap && old < cap) ? 1.0 : 0.0;
-      raw[k] = v;
+    const auto times = [=](std::size_t i) {
+      const double s = step[i], open = s < 0 ? s - p[i] : cap - p[i] + s;
+      const double length = open / (s != 0 ? s : 1e-300);
+      return s != 0 ? length : kInfinity;
+    };
+    double longest = kInfinity;
+    if (!wide_) {
+      for (int i : free_) longest = std::min(longest, times(i));
+      return longest;
     }
-    for (std::size_t k = 0; k < m; ++k) {
-      step[at[k]] = raw[k] - p[at[k]];
-      p[at[k]] = raw[k];
+#pragma omp simd reduction(min : longest)
+    for (std::size_t i = 0; i < p_.size(); ++i) {
+      const double found = times(i);
+      longest = found < longest ? found : longest;
     }
-    return clipped > 0;
+    return longest;
   }
 
   // State at t of the step.
   void advance(double t) {
-    if (t != 1) {
-      for (int i : free_) {
-        p_[i] = std::clamp(p_[i] - (1 - t) * step_[i], 0.0, cap_);
-        step_[i] *= t;
-      }
+    if (wide_) {
+      arrive_wide(t);
+      if (4 * free_count_ < grid_.size()) narrow();
+      return;
     }
-    old_ = free_;
+    if (t != 1) {
+      for (int i : free_) p_[i] = std::clamp(p_[i] - (1 - t) * step_[i], 0.0, cap_);
+    }
+    old_.swap(free_);
     old_.insert(old_.end(), held_.begin(), held_.end());
     arrive(t);
+    if (3 * free_.size() > grid_.size()) widen();
+  }
+
+  // The same steps where much of the surface is in contact: whole fields instead of lists, as few
+  // passes over them as their sums allow. is_free_ marks the free pixels, field_ is their residual,
+  // then the direction.
+  void widen() {
+    wide_ = true;
+    field_.assign(grid_.size(), 0);
+    is_free_.assign(grid_.size(), 0);
+    for (std::size_t k = 0; k < free_.size(); ++k) {
+      is_free_[free_[k]] = 1;
+      field_[free_[k]] = r_[k];
+    }
+    free_count_ = free_.size();
+    for (int i : left_) step_[i] = 0;
+  }
+
+  void narrow() {
+    wide_ = false;
+    free_.clear();
+    held_.clear();
+    left_.clear();
+    r_.clear();
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      const int pixel = static_cast<int>(i);
+      if (is_free_[i]) {
+        free_.push_back(pixel);
+        r_.push_back(field_[i]);
+      } else {
+        if (p_[i] > 0) held_.push_back(pixel);
+        if (step_[i] != 0) left_.push_back(pixel);
+      }
+    }
+  }
+
+  bool move_wide(double alpha, bool conjugate) {
+    const std::size_t n = grid_.size();
+    const char* is_free = is_free_.data();
+    const double *change = change_.data(), cap = cap_;
+    double *z = field_.data(), *p = p_.data(), *step = step_.data();
+    double sum = 0, cross = 0, own = 0, changes = 0, steps = 0;
+    if (conjugate) {
+#pragma omp simd reduction(+ : sum, cross, own, changes, steps)
+      for (std::size_t i = 0; i < n; ++i) {
+        const double in = is_free[i] ? 1.0 : 0.0, value = in * z[i], y = in * change[i];
+        sum += value;
+        cross += value * y;
+        own += step[i] * y;
+        changes += y;
+        steps += in * step[i];
+      }
+    } else {
+#pragma omp simd reduction(+ : sum)
+      for (std::size_t i = 0; i < n; ++i) sum += is_free[i] ? z[i] : 0;
+    }
+    const auto m = static_cast<double>(free_count_);
+    const double mean = problem_.approach ? 0 : sum / m;
+    const double share = own > 0 ? std::min(0.0, -(cross - mean * changes) / own) : 0;
+    const double tilt = problem_.approach ? 0 : mean + share * steps / m;
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+      const double along = p[i] - alpha * (z[i] + share * step[i] - tilt);
+      z[i] = is_free[i] ? along : p[i] > 0 ? kBarred : -kBarred;
+    }
+    const double level = problem_.approach ? 0 : load_level(field_, {}, load_);
+    double clipped = 0;
+#pragma omp simd reduction(+ : clipped)
+    for (std::size_t i = 0; i < n; ++i) {
+      const double moved = z[i] - level, old = p[i];
+      const double above = moved > 0 ? moved : 0, v = above < cap ? above : cap;
+      clipped += (v == 0 && old > 0) || (v == cap && old < cap) ? 1.0 : 0.0;
+      step[i] = v - old;
+      p[i] = v;
+    }
+    return clipped > 0;
+  }
+
+  std::pair<double, double> slopes_wide() const {
+    double slope = 0, curvature = 0;
+    const double *step = step_.data(), *change = change_.data(), *w = w_.data();
+    const double shift = shift_;
+#pragma omp simd reduction(+ : slope, curvature)
+    for (std::size_t i = 0; i < w_.size(); ++i) {
+      slope += (w[i] - shift) * step[i];
+      curvature += change[i] * step[i];
+    }
+    return {slope, curvature};
+  }
+
+  void arrive_wide(double t) {
+    const std::size_t n = grid_.size();
+    const double *change = change_.data(), *step = step_.data(), cap = cap_;
+    double *p = p_.data(), *w = w_.data(), *residual = field_.data();
+    char* is_free = is_free_.data();
+    double sum = 0, count = 0;
+    if (t != 1) {
+#pragma omp simd
+      for (std::size_t i = 0; i < n; ++i) {
+        const double v = p[i] - (1 - t) * step[i], above = v > 0 ? v : 0;
+        p[i] = above < cap ? above : cap;
+      }
+    }
+#pragma omp simd reduction(+ : sum, count)
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool inside = p[i] > 0 && p[i] < cap;
+      sum += inside ? w[i] + t * change[i] : 0;
+      count += inside ? 1.0 : 0.0;
+    }
+    set_shift(sum, count, t);
+    const double shift = shift_;
+    double low = kInfinity, work = 0, free_count = 0;
+#pragma omp simd reduction(min : low) reduction(+ : work, free_count)
+    for (std::size_t i = 0; i < n; ++i) {
+      const double gap = w[i] + t * change[i];
+      const bool free = p[i] > 0 ? p[i] < cap || gap > shift : gap < shift;
+      w[i] = gap;
+      low = low < gap ? low : gap;
+      work += p[i] * gap;
+      is_free[i] = free;
+      residual[i] = free ? gap - shift : 0;
+      free_count += free ? 1.0 : 0.0;
+    }
+    low_ = low;
+    work_ = work;
+    free_count_ = static_cast<std::size_t>(free_count);
   }
 
   // Frank-Wolfe gap over load and height spread. Eq. contact.4
   double certify() {
     if (load_ <= 0) return low_ < shift_ ? kInfinity : 0;  // given approach, nothing touches yet
-    double work = 0;
-    const int* at = old_.data();
-    const double *p = p_.data(), *w = w_.data();
-#pragma omp simd reduction(+ : work)
-    for (std::size_t k = 0; k < old_.size(); ++k) work += p[at[k]] * w[at[k]];
+    double work = work_;
     double least = low_ * load_;
     if (std::isfinite(cap_)) {  // the cheapest pressure fills the lowest pixels to the cap
       next_low_.assign(w_.begin(), w_.end());
@@ -504,9 +666,13 @@ class DenseSolver {
   SpectrumArray scratch_;
   int width_;                             // of the padded images below
   std::vector<float> residual_, inside_;  // of the free pixels; zero between uses
-  std::vector<int> free_, held_, old_;    // old_: the free set of the last step, held ones included
-  std::vector<double> r_, z_, ones_, d_, raw_, next_low_;
-  double shift_ = 0, low_ = 0;
+  // old_: the free set of the last step, held ones included; left_: of it, no longer free.
+  std::vector<int> free_, held_, old_, left_;
+  std::vector<double> r_, z_, ones_, raw_, next_low_;
+  bool wide_ = false;
+  std::vector<char> is_free_;  // where wide
+  std::size_t free_count_ = 0;
+  double shift_ = 0, low_ = 0, work_ = 0;  // work_: sum of pressure times gap function
 };
 
 // Start from the grid of half the pixels, its gaps the 2x2 minimum, solved as far as the start is
