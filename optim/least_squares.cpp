@@ -17,6 +17,8 @@ namespace papilla {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
+// Trust regions of the first step: nearly a Gauss-Newton step, and a short one.
+constexpr double kFirstRegion = 1e4, kShortRegion = 1e-3;
 
 // Parameters as the solver sees them: x = p or ln p, in units of `scale`.
 class Coordinates {
@@ -175,7 +177,8 @@ class Solver {
   const Coordinates& coordinates() const { return coordinates_; }
   int& evaluations() { return evaluations_; }
 
-  Solution solve(std::vector<double> x, const std::vector<std::size_t>& free, int iterations) {
+  Solution solve(std::vector<double> x, const std::vector<std::size_t>& free, int iterations,
+                 double region = kFirstRegion) {
     Solution out;
     std::vector<double> values;
     for (std::size_t i : free) values.push_back(x[i]);
@@ -195,6 +198,7 @@ class Solver {
       ceres::Solver::Options o;
       o.linear_solver_type = ceres::DENSE_QR;
       o.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+      o.initial_trust_region_radius = region;
       o.max_num_iterations = iterations;
       o.function_tolerance = options_.tolerance;
       o.parameter_tolerance = options_.tolerance;
@@ -319,22 +323,50 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
   const std::size_t n = parameters.size();
   std::vector<double> start(n);
   for (std::size_t i = 0; i < n; ++i) start[i] = c.to(i, parameters[i].start);
-  const std::vector<bool> none(n, false);
-  Solution best = solver.solve(start, all_but(n, none), options.iterations);
-
+  const std::vector<std::size_t> all = all_but(n, std::vector<bool>(n, false));
   int priors = 0;
-  std::vector<bool> at_bound(n, false);
-  for (std::size_t i = 0; i < n; ++i) {
-    priors += c.has_prior(i);
-    const double near = 1e-6 * std::max(1.0, std::abs(best.x[i]));
-    at_bound[i] = best.x[i] - c.to(i, parameters[i].low) < near ||
-                  c.to(i, parameters[i].high) - best.x[i] < near;
+  for (std::size_t i : all) priors += c.has_prior(i);
+
+  struct Attempt {
+    Solution solution;
+    std::vector<bool> at_bound;
+    Eigen::MatrixXd jacobian;
+    bool has_jacobian = false;
+    double sum() const { return solution.chi2 + solution.prior_chi2; }
+  };
+  const auto attempt = [&](double region) {
+    Attempt out{solver.solve(start, all, options.iterations, region), std::vector<bool>(n), {}};
+    Solution& s = out.solution;
+    for (std::size_t i : all) {
+      const double near = 1e-6 * std::max(1.0, std::abs(s.x[i]));
+      out.at_bound[i] =
+          s.x[i] - c.to(i, parameters[i].low) < near || c.to(i, parameters[i].high) - s.x[i] < near;
+    }
+    // Steps along bounds stop early: the others are fitted again with these held.
+    if (std::find(out.at_bound.begin(), out.at_bound.end(), true) != out.at_bound.end()) {
+      const Solution again = solver.solve(s.x, all_but(n, out.at_bound), options.iterations);
+      if (again.chi2 + again.prior_chi2 <= out.sum()) s = again;
+    }
+    out.has_jacobian = solver.jacobian(s.x, all, out.jacobian);
+    return out;
+  };
+  Attempt found = attempt(kFirstRegion);
+  // The first step may leap to where the residuals no longer depend on a parameter, and no step
+  // leads back from there: such a fit is tried again by short steps.
+  const auto leapt = [&] {
+    for (std::size_t i : all) {
+      if (found.has_jacobian && !c.has_prior(i) && !found.at_bound[i] &&
+          found.jacobian.col(static_cast<Eigen::Index>(i)).squaredNorm() <
+              1e-12 * found.solution.chi2)
+        return true;
+    }
+    return false;
+  };
+  if (leapt()) {
+    Attempt other = attempt(kShortRegion);
+    if (other.sum() < found.sum()) found = std::move(other);
   }
-  // Steps along bounds stop early: the others are fitted again with these held.
-  if (std::find(at_bound.begin(), at_bound.end(), true) != at_bound.end()) {
-    const Solution again = solver.solve(best.x, all_but(n, at_bound), options.iterations);
-    if (again.chi2 + again.prior_chi2 <= best.chi2 + best.prior_chi2) best = again;
-  }
+  const auto& [best, at_bound, jacobian, has_jacobian] = found;
 
   LeastSquaresFit out;
   out.converged = best.converged;
@@ -360,9 +392,8 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
   // that are inside their bounds. Eq. calibration.2
   out.covariance.assign(n * n, 0);
   out.correlation.assign(n * n, 0);
-  Eigen::MatrixXd jacobian;
   std::vector<double> se(n, kInf);
-  if (solver.jacobian(best.x, all_but(n, none), jacobian)) {
+  if (has_jacobian) {
     const std::vector<std::size_t> inside = all_but(n, at_bound);
     const auto m = static_cast<Eigen::Index>(inside.size());
     Eigen::MatrixXd stacked = Eigen::MatrixXd::Zero(residuals + m, m);
