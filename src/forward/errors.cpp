@@ -139,6 +139,12 @@ std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& tex
     const Run areas = run(resolved);
     MeasuredError error{&ErrorParts::method, difference(base, areas)};
     count(areas, error);
+    for (const auto& results : areas.patches.results) {
+      std::string& status = error.pull_in.emplace_back();
+      for (const PatchResult& p : results) {
+        if (status.empty() && p.status.starts_with("pull-in")) status = p.status;
+      }
+    }
     errors.push_back(std::move(error));
   }
   return errors;

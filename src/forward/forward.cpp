@@ -413,6 +413,10 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
       response.piece_seconds.field += patch.seconds.field;
     }
     for (const MeasuredError& error : set.errors) {
+      if (!error.pull_in.empty() && !error.pull_in[i].empty() &&
+          response.points.back().status == "ok") {
+        response.points.back().status = error.pull_in[i];
+      }
       for (std::size_t m = 0; m < kMeasured.size(); ++m) {
         Measured& measured = response.points.back().*kMeasured[m];
         std::optional<double>& part = measured.parts.*error.origin;

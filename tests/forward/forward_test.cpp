@@ -142,6 +142,24 @@ TEST(Forward, VoltagePastPullInEndsInAStatus) {
   EXPECT_NE(r.points[0].status, "ok");
 }
 
+TEST(Forward, OnePassSaysWhereItsNextPassWouldDoubleThePull) {
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.55};
+  Fidelity f = small(2);
+  f.estimator = Estimator::Area;
+  EXPECT_EQ(evaluate(scene, Texture{}, f).points[0].status, "ok");
+  scene.drive.amplitude = 600;
+  const Response r = evaluate(scene, Texture{}, f);
+  EXPECT_TRUE(r.points[0].status.starts_with("pull-in")) << r.points[0].status;
+  // The fixed point has indeed twice that pull or none exists.
+  scene.model.coupling = Coupling::SelfConsistent;
+  f.coupling_passes = 40;
+  const ResponsePoint settled = evaluate(scene, Texture{}, f).points[0];
+  EXPECT_TRUE(settled.status != "ok" ||
+              settled.electrostatic_force.value > 2 * r.points[0].electrostatic_force.value)
+      << settled.status << " " << settled.electrostatic_force.value;
+}
+
 TEST(Forward, TheDropletBandHoldsWhatMobilityAndNumberMove) {
   // A factor 4 either way on the same skins; the law is good to a factor 2.
   Scene scene = driven_scene();
