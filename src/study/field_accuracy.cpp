@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 
 #include "base/check.h"
+#include "base/constants.h"
 #include "forward/forward.h"
 #include "physics/electrostatics/full_field.h"
 
@@ -96,12 +97,18 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
     const FieldProblem problem = field_problem(scene, humidity);
     const std::size_t first = rows.size();
     const auto add = [&](const char* method, const FinePatch& patch, int levels, auto&& solve) {
-      const auto begin = std::chrono::steady_clock::now();
-      const FieldSolution s = solve(patch);
-      rows.push_back(
-          {sample, method, humidity, patch.gap.grid.nx, levels, s.mean_pressure, 0,
-           std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
-           s.ok ? "" : s.reason});
+      // Processor time; the least of up to five runs: other work on the machine only adds.
+      FieldSolution result;
+      double least = kInfinity, total = 0;
+      for (int run = 0; run < 5 && total < 0.2; ++run) {
+        const std::clock_t begin = std::clock();
+        result = solve(patch);
+        const double spent = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        least = std::min(least, spent);
+        total += spent;
+      }
+      rows.push_back({sample, method, humidity, patch.gap.grid.nx, levels, result.mean_pressure, 0,
+                      least, result.ok ? "" : result.reason});
     };
     const FinePatch solved = fine_patch(design, picture, 1);
     for (const bool screening : {false, true}) {

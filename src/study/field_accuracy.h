@@ -16,8 +16,8 @@ struct FieldAccuracyRow {
   int pixels = 0, levels = 0;  // of the method's grid; levels of the 3-D potential
   double pull = 0;             // [Pa] mean over the patch
   double error = 0;            // pull / that of the finest full field, less 1
-  double seconds = 0;
-  std::string status;  // empty: sound
+  double seconds = 0;          // of the processor
+  std::string status;          // empty: sound
 };
 
 struct FieldAccuracyOptions {
