@@ -1,7 +1,7 @@
 // Heightmap files: written whole or not at all, read back and compared. Every writer puts the file
 // beside its final name first, checks every error that the library can tell, reads it back,
-// compares (of an EXR above 2^24 pixels an eighth, and its end), flushes to disk, and renames: an
-// interrupted run leaves the old file. Errors: InputError.
+// compares (of an EXR or PNG above 2^24 pixels a sixteenth, spread over its height, and its end),
+// flushes to disk, and renames: an interrupted run leaves the old file. Errors: InputError.
 //
 // Formats. EXR: one float channel Y in um, lowest plane 0, high is bright, Gwy:: size keys as
 // doubles, ZIP, fixed date. TIFF: 16-bit or float, uncompressed, untiled, pixels per cm, JSON in

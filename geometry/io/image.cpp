@@ -50,36 +50,94 @@ void settle(const std::string& part, const std::string& path, const Fail& fail) 
   if (std::rename(part.c_str(), path.c_str()) != 0) fail("cannot rename");
 }
 
-void write_image(const std::string& path, OIIO::ImageSpec spec, OIIO::TypeDesc type,
-                 const void* pixels) {
+// Large images are written and checked by strips of rows.
+constexpr int kStripRows = 64;
+// A compressed image of more pixels is read back by every 16th strip, spread over its height, and
+// the last one; others are read back whole.
+constexpr double kReadBackWhole = 1 << 24;
+constexpr std::size_t kReadBackStep = 16;
+
+// use(begin, strip) for every strip in turn, the next one being filled by fill(begin, strip) at the
+// same time: the compressor's threads do not wait for it.
+template <typename T, typename Fill, typename Use>
+void stream(const std::vector<int>& begins, const Fill& fill, const Use& use) {
+  std::array<std::vector<T>, 2> strips;
+  if (!begins.empty()) fill(begins[0], strips[0]);
+  for (std::size_t i = 0; i < begins.size(); ++i) {
+    std::future<void> next;
+    if (i + 1 < begins.size()) {
+      next = std::async(std::launch::async, [&, i] { fill(begins[i + 1], strips[(i + 1) % 2]); });
+    }
+    use(begins[i], strips[i % 2]);
+    if (next.valid()) next.get();
+  }
+}
+
+// Writes an image of T that is never held whole: fill_row(y, out) gives row y, from the top. Read
+// back and compared before the old file goes.
+template <typename T, typename FillRow>
+void write_rows(const std::string& path, OIIO::ImageSpec spec, const FillRow& fill_row) {
   const std::string part = part_name(path);
   spec.attribute("DateTime", kFixedDate);
   spec.attribute("Software", "papilla " PAPILLA_VERSION);
-  spec.attribute("tiff:write_exif", 0);  // libtiff 4.5 fails on the empty Exif directory
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
+    const bool full = fs::space(fs::path(path).parent_path(), ignored).available < 1 << 16;
     fs::remove(part, ignored);
-    throw InputError("cannot write " + path + ": " + why);
+    throw InputError("cannot write " + path + ": " + why + (full ? " (the disk is full)" : ""));
   };
+  const auto type = OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value);
+  const std::size_t width = static_cast<std::size_t>(spec.width) * spec.nchannels;
+  // Whole blocks of 16 rows of the compressor, enough for its threads, 64 MB at most.
+  const int rows = std::clamp(static_cast<int>((16u << 20) / width) / 16 * 16, 16, kStripRows);
+  const auto strip_end = [&](int y) { return std::min(y + rows, spec.height); };
+  const auto fill = [&](int begin, std::vector<T>& strip) {
+    strip.resize(static_cast<std::size_t>(rows) * width);
+    for (int y = begin; y < strip_end(begin); ++y)
+      fill_row(y, &strip[static_cast<std::size_t>(y - begin) * width]);
+  };
+  std::vector<int> strips;
+  for (int y = 0; y < spec.height; y += rows) strips.push_back(y);
   auto out = OIIO::ImageOutput::create(part);
   if (!out) fail(OIIO::geterror());
   if (!out->open(part, spec)) fail(out->geterror());
-  const bool written = out->write_image(type, pixels);
+  stream<T>(strips, fill, [&](int y, const std::vector<T>& strip) {
+    if (!out->write_scanlines(y, strip_end(y), 0, type, strip.data())) fail(out->geterror());
+  });
   const bool closed = out->close();
-  const std::string error = out->geterror();  // close() alone may say true for a truncated file
-  if (!written || !closed || !error.empty()) fail(error.empty() ? "incomplete" : error);
+  // close() alone may say true for a truncated file.
+  if (const std::string error = out->geterror(); !closed || !error.empty())
+    fail(error.empty() ? "incomplete" : error);
 
-  // Read back and compare before the old file goes.
   auto in = OIIO::ImageInput::open(part);
   if (!in) fail("does not open again: " + OIIO::geterror());
-  const std::size_t bytes =
-      static_cast<std::size_t>(spec.width) * spec.height * spec.nchannels * type.size();
-  std::vector<char> back(bytes);
-  if (!in->read_image(0, 0, 0, spec.nchannels, type, back.data()))
-    fail("does not read back: " + in->geterror());
+  if (static_cast<double>(spec.width) * spec.height > kReadBackWhole &&
+      spec.get_string_attribute("compression") != "none") {
+    std::vector<int> some;
+    for (std::size_t i = 0; i < strips.size(); ++i) {
+      if (i % kReadBackStep == 0 || i + 1 == strips.size()) some.push_back(strips[i]);
+    }
+    strips = some;
+  }
+  std::vector<T> back(static_cast<std::size_t>(rows) * width);
+  stream<T>(strips, fill, [&](int y, const std::vector<T>& strip) {
+    if (!in->read_scanlines(0, 0, y, strip_end(y), 0, 0, spec.nchannels, type, back.data()))
+      fail("does not read back: " + in->geterror());
+    if (std::memcmp(back.data(), strip.data(),
+                    static_cast<std::size_t>(strip_end(y) - y) * width * sizeof(T)) != 0) {
+      fail("reads back with other values");
+    }
+  });
   in->close();
-  if (std::memcmp(back.data(), pixels, bytes) != 0) fail("reads back with other values");
   settle(part, path, fail);
+}
+
+void write_bytes_image(const std::string& path, const OIIO::ImageSpec& spec,
+                       const std::vector<std::uint8_t>& bytes) {
+  const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(spec.width) * spec.nchannels;
+  write_rows<std::uint8_t>(path, spec, [&](int y, std::uint8_t* out) {
+    std::copy_n(bytes.begin() + y * width, width, out);
+  });
 }
 
 struct HeightRange {
@@ -113,15 +171,10 @@ HeightRange checked_range(const std::string& path, const Heightmap& h) {
 // would give each of its pixels its own tiny number, and a file three times as large.
 float micrometres(double height) { return height < 1e-15 ? 0 : static_cast<float>(1e6 * height); }
 
-// Micrometres above the lowest plane, top row first.
-std::vector<float> micrometres(const Heightmap& h, double low) {
-  std::vector<float> out(h.z.size());
-  for (int iy = 0; iy < h.grid.ny; ++iy) {
-    for (int ix = 0; ix < h.grid.nx; ++ix) {
-      out[h.grid.index(ix, h.grid.ny - 1 - iy)] = micrometres(h(ix, iy) - low);
-    }
-  }
-  return out;
+// Row y from the top, in micrometres above the lowest plane.
+void micrometre_row(const Heightmap& h, double low, int y, float* out) {
+  const double* row = &h.z[h.grid.index(0, h.grid.ny - 1 - y)];
+  for (int ix = 0; ix < h.grid.nx; ++ix) out[ix] = micrometres(row[ix] - low);
 }
 
 void set_resolution(OIIO::ImageSpec& spec, const Grid& grid) {
@@ -129,6 +182,7 @@ void set_resolution(OIIO::ImageSpec& spec, const Grid& grid) {
   spec.attribute("XResolution", x);
   spec.attribute("YResolution", y);
   spec.attribute("ResolutionUnit", "cm");
+  spec.attribute("tiff:write_exif", 0);       // libtiff 4.5 fails on the empty Exif directory
   spec.attribute("PixelAspectRatio", y / x);  // without it unequal pixels are silently made equal
 }
 
@@ -146,20 +200,17 @@ std::string description(const Heightmap& h, const FileInfo& info, const char* po
   return json.dump();
 }
 
-std::vector<std::uint16_t> sixteen_bits(const Heightmap& h, HeightRange range, Polarity polarity,
-                                        bool binary) {
+void write_sixteen_bits(const std::string& path, const OIIO::ImageSpec& spec, const Heightmap& h,
+                        HeightRange range, Polarity polarity, bool binary) {
   const double low = range.low, span = range.high - low;
-  std::vector<std::uint16_t> out(h.z.size());
-  for (int iy = 0; iy < h.grid.ny; ++iy) {
+  write_rows<std::uint16_t>(path, spec, [&](int y, std::uint16_t* out) {
     for (int ix = 0; ix < h.grid.nx; ++ix) {
-      double share = span > 0 ? (h(ix, iy) - low) / span : 1;
+      double share = span > 0 ? (h(ix, h.grid.ny - 1 - y) - low) / span : 1;
       if (binary) share = share >= 0.5 ? 1 : 0;
       if (polarity == Polarity::WhiteDeep) share = 1 - share;
-      out[h.grid.index(ix, h.grid.ny - 1 - iy)] =
-          static_cast<std::uint16_t>(std::lround(65535 * share));
+      out[ix] = static_cast<std::uint16_t>(std::lround(65535 * share));
     }
-  }
-  return out;
+  });
 }
 
 void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarity, bool binary,
@@ -173,8 +224,7 @@ void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarit
   spec.attribute("ImageDescription",
                  description(h, info, white_high ? "white-is-high" : "white-is-deep",
                              white_high ? low : high, white_high ? high : low));
-  const auto pixels = sixteen_bits(h, range, polarity, binary);
-  write_image(path, spec, OIIO::TypeDesc::UINT16, pixels.data());
+  write_sixteen_bits(path, spec, h, range, polarity, binary);
 }
 
 // OpenEXR makes room for what a header claims before it reads it: no attribute may be longer than
@@ -304,29 +354,6 @@ Heightmap read_image(const std::string& path, double width) {
 
 namespace {
 
-// Large images are written and checked by strips of rows.
-constexpr int kStripRows = 64;
-// An image of more pixels is read back by every 16th strip, spread over its height, and the last
-// one; smaller ones are read back whole.
-constexpr double kReadBackWhole = 1 << 24;
-constexpr std::size_t kReadBackStep = 16;
-
-// use(begin, strip) for every strip in turn, the next one being filled by fill(begin, strip) at the
-// same time: the compressor's threads do not wait for it.
-template <typename Fill, typename Use>
-void stream(const std::vector<int>& begins, const Fill& fill, const Use& use) {
-  std::array<std::vector<float>, 2> strips;
-  if (!begins.empty()) fill(begins[0], strips[0]);
-  for (std::size_t i = 0; i < begins.size(); ++i) {
-    std::future<void> next;
-    if (i + 1 < begins.size()) {
-      next = std::async(std::launch::async, [&, i] { fill(begins[i + 1], strips[(i + 1) % 2]); });
-    }
-    use(begins[i], strips[i % 2]);
-    if (next.valid()) next.get();
-  }
-}
-
 OIIO::ImageSpec exr_spec(const Heightmap& h, int repeat, const FileInfo& info) {
   OIIO::ImageSpec spec(repeat * h.grid.nx, repeat * h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"Y"};
@@ -352,62 +379,11 @@ void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info
 void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
                         const FileInfo& info) {
   const double low = checked_range(path, h).low;
-  OIIO::ImageSpec spec = exr_spec(h, repeat, info);
-  spec.attribute("DateTime", kFixedDate);
-  spec.attribute("Software", "papilla " PAPILLA_VERSION);
-  const std::string part = part_name(path);
-  const auto fail = [&](const std::string& why) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    throw InputError("cannot write " + path + ": " + why);
-  };
-  const auto width = static_cast<std::size_t>(spec.width);
-  // Whole blocks of 16 rows of the compressor, enough for its threads, 64 MB at most.
-  const int rows = std::clamp(static_cast<int>((16u << 20) / width) / 16 * 16, 16, kStripRows);
-  const auto strip_end = [&](int y) { return std::min(y + rows, spec.height); };
-  const auto fill = [&](int begin, std::vector<float>& strip) {
-    strip.resize(static_cast<std::size_t>(rows) * width);
-    for (int y = begin; y < strip_end(begin); ++y) {
-      const double* row = &h.z[h.grid.index(0, h.grid.ny - 1 - y % h.grid.ny)];  // top row first
-      float* out = &strip[static_cast<std::size_t>(y - begin) * width];
-      for (int ix = 0; ix < h.grid.nx; ++ix) out[ix] = micrometres(row[ix] - low);
-      for (int r = 1; r < repeat; ++r)
-        std::copy_n(out, h.grid.nx, out + static_cast<std::ptrdiff_t>(r) * h.grid.nx);
-    }
-  };
-  std::vector<int> strips;
-  for (int y = 0; y < spec.height; y += rows) strips.push_back(y);
-  auto out = OIIO::ImageOutput::create(part);
-  if (!out) fail(OIIO::geterror());
-  if (!out->open(part, spec)) fail(out->geterror());
-  stream(strips, fill, [&](int y, const std::vector<float>& strip) {
-    if (!out->write_scanlines(y, strip_end(y), 0, OIIO::TypeDesc::FLOAT, strip.data()))
-      fail(out->geterror());
+  write_rows<float>(path, exr_spec(h, repeat, info), [&](int y, float* out) {
+    micrometre_row(h, low, y % h.grid.ny, out);
+    for (int r = 1; r < repeat; ++r)
+      std::copy_n(out, h.grid.nx, out + static_cast<std::ptrdiff_t>(r) * h.grid.nx);
   });
-  const bool closed = out->close();
-  if (const std::string error = out->geterror(); !closed || !error.empty())
-    fail(error.empty() ? "incomplete" : error);
-
-  auto in = OIIO::ImageInput::open(part);
-  if (!in) fail("does not open again: " + OIIO::geterror());
-  if (static_cast<double>(spec.width) * spec.height > kReadBackWhole) {
-    std::vector<int> some;
-    for (std::size_t i = 0; i < strips.size(); ++i) {
-      if (i % kReadBackStep == 0 || i + 1 == strips.size()) some.push_back(strips[i]);
-    }
-    strips = some;
-  }
-  std::vector<float> back(static_cast<std::size_t>(rows) * width);
-  stream(strips, fill, [&](int y, const std::vector<float>& strip) {
-    if (!in->read_scanlines(0, 0, y, strip_end(y), 0, 0, 1, OIIO::TypeDesc::FLOAT, back.data()))
-      fail("does not read back: " + in->geterror());
-    if (std::memcmp(back.data(), strip.data(),
-                    static_cast<std::size_t>(strip_end(y) - y) * width * sizeof(float)) != 0) {
-      fail("reads back with other values");
-    }
-  });
-  in->close();
-  settle(part, path, fail);
 }
 
 void write_png16(const std::string& path, const Heightmap& h) {
@@ -421,8 +397,7 @@ void write_png16(const std::string& path, const Heightmap& h) {
   }
   spec.attribute("Gwy::XYUnit", "m");
   spec.attribute("Gwy::ZUnit", "m");
-  const auto pixels = sixteen_bits(h, range, Polarity::WhiteHigh, false);
-  write_image(path, spec, OIIO::TypeDesc::UINT16, pixels.data());
+  write_sixteen_bits(path, spec, h, range, Polarity::WhiteHigh, false);
 }
 
 DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve& curve) {
@@ -453,7 +428,7 @@ DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve&
   out.lowest = *a, out.highest = *b;
   OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT8);
   set_resolution(spec, h.grid);
-  write_image(path, spec, OIIO::TypeDesc::UINT8, grey.data());
+  write_bytes_image(path, spec, grey);
   return out;
 }
 
@@ -463,8 +438,7 @@ void write_tiff_float(const std::string& path, const Heightmap& h, const FileInf
   spec.attribute("compression", "none");
   set_resolution(spec, h.grid);
   spec.attribute("ImageDescription", description(h, info, "white-is-high", 0, 1e-6));
-  const auto pixels = micrometres(h, low);
-  write_image(path, spec, OIIO::TypeDesc::FLOAT, pixels.data());
+  write_rows<float>(path, spec, [&](int y, float* out) { micrometre_row(h, low, y, out); });
 }
 
 void write_tiff16(const std::string& path, const Heightmap& h, Polarity polarity,
@@ -480,7 +454,7 @@ void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polar
 void write_png_rgb(const std::string& path, int width, int height,
                    const std::vector<std::uint8_t>& rgb) {
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-  write_image(path, spec, OIIO::TypeDesc::UINT8, rgb.data());
+  write_bytes_image(path, spec, rgb);
 }
 
 Heightmap read_heightmap(const std::string& path, double width) {

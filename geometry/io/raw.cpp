@@ -8,8 +8,10 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <vector>
 
 #include "base/error.h"
+#include "base/file_writer.h"
 #include "base/memory.h"
 #include "base/units.h"
 #include "geometry/io/files.h"
@@ -47,24 +49,20 @@ void check_size(const std::string& path, double nx, double ny) {
 }
 
 void write_gsf(const std::string& path, const Heightmap& h, const FileInfo& info) {
-  std::string out = "Gwyddion Simple Field 1.0\n";
-  out += fmt::format(
+  std::string header = "Gwyddion Simple Field 1.0\n";
+  header += fmt::format(
       "XRes = {}\nYRes = {}\nXReal = {}\nYReal = {}\nXYUnits = m\nZUnits = m\nTitle = {}\n",
       h.grid.nx, h.grid.ny, h.grid.lx, h.grid.ly, info.title);
-  out.append(4 - out.size() % 4, '\0');
-  std::vector<float> values(h.z.size());
-  // Top row first: y grows upward here.
-  for (int iy = 0; iy < h.grid.ny; ++iy) {
+  header.append(4 - header.size() % 4, '\0');
+  FileWriter out(path);
+  out.append(header);
+  std::vector<float> row(static_cast<std::size_t>(h.grid.nx));
+  for (int iy = h.grid.ny - 1; iy >= 0; --iy) {  // top row first: y grows upward here
     for (int ix = 0; ix < h.grid.nx; ++ix)
-      values[h.grid.index(ix, h.grid.ny - 1 - iy)] = static_cast<float>(h(ix, iy));
+      row[static_cast<std::size_t>(ix)] = static_cast<float>(h(ix, iy));
+    out.append(row.data(), row.size() * sizeof(float));
   }
-  out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
-  write_bytes(path, out);
-  const Heightmap back = read_gsf(path);
-  for (std::size_t i = 0; i < h.z.size(); ++i) {
-    if (static_cast<float>(h.z[i]) != static_cast<float>(back.z[i]))
-      throw InputError(path + ": the file does not read back as written");
-  }
+  out.commit();
 }
 
 Heightmap read_gsf(const std::string& path) {
@@ -121,12 +119,13 @@ void write_npy(const std::string& path, const Heightmap& h) {
   const std::size_t total = (10 + header.size() + 1 + 63) / 64 * 64;
   header.append(total - 10 - header.size() - 1, ' ');
   header += '\n';
-  std::string out("\x93NUMPY\x01\x00", 8);
   const auto length = static_cast<std::uint16_t>(header.size());
-  out.append(reinterpret_cast<const char*>(&length), 2);
-  out += header;
-  out.append(reinterpret_cast<const char*>(h.z.data()), h.z.size() * sizeof(double));
-  write_bytes(path, out);
+  FileWriter out(path);
+  out.append("\x93NUMPY\x01\x00", 8);
+  out.append(&length, sizeof length);
+  out.append(header);
+  out.append(h.z.data(), h.z.size() * sizeof(double));
+  out.commit();
 }
 
 Heightmap read_npy(const std::string& path, double width) {

@@ -9,41 +9,75 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "base/file_writer.h"
 
 namespace papilla {
 
+namespace {
+
+// FNV-1a: it does not matter where the pieces are cut.
+std::uint64_t check_sum(std::uint64_t sum, const char* bytes, std::size_t size) {
+  for (std::size_t i = 0; i < size; ++i)
+    sum = (sum ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
+  return sum;
+}
+
+}  // namespace
+
+FileWriter::FileWriter(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
+  fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (fd_ < 0) fail("open");
+}
+
+FileWriter::~FileWriter() {
+  if (fd_ < 0) return;
+  ::close(fd_);
+  ::unlink(part_.c_str());
+}
+
+void FileWriter::fail(const char* what) const {
+  throw InputError(fmt::format("cannot write {}: {} ({})", path_, std::strerror(errno), what));
+}
+
+void FileWriter::append(const void* bytes, std::size_t size) {
+  const char* at = static_cast<const char*>(bytes);
+  sum_ = check_sum(sum_, at, size);
+  size_ += size;
+  while (size > 0) {
+    const ssize_t n = ::write(fd_, at, size);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("write");
+    at += n;
+    size -= static_cast<std::size_t>(n);
+  }
+}
+
+void FileWriter::commit() {
+  std::vector<char> block(1 << 20);
+  std::uint64_t size = 0, sum = 0;
+  while (size < size_) {
+    const ssize_t n = ::pread(fd_, block.data(), block.size(), static_cast<off_t>(size));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail("read back");
+    if (n == 0) break;
+    sum = check_sum(sum, block.data(), static_cast<std::size_t>(n));
+    size += static_cast<std::size_t>(n);
+  }
+  if (size != size_ || sum != sum_)
+    throw InputError("cannot write " + path_ + ": reads back with other bytes");
+  if (::fsync(fd_) != 0) fail("flush");
+  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("rename");
+  ::close(std::exchange(fd_, -1));
+}
+
 void write_bytes(const std::string& path, const std::string& bytes) {
-  const std::string part = path + ".part";
-  const int fd = ::open(part.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  const auto fail = [&](const char* what) {
-    const int code = errno;
-    if (fd >= 0) ::close(fd);
-    ::unlink(part.c_str());
-    throw InputError(fmt::format("cannot write {}: {} ({})", path, std::strerror(code), what));
-  };
-  if (fd < 0) fail("open");
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t n = ::write(fd, bytes.data() + done, bytes.size() - done);
-    if (n < 0) {
-      if (errno == EINTR) continue;
-      fail("write");
-    }
-    done += static_cast<std::size_t>(n);
-  }
-  if (::fsync(fd) != 0) fail("flush");
-  if (::close(fd) != 0) {
-    const int code = errno;
-    ::unlink(part.c_str());
-    throw InputError(fmt::format("cannot write {}: {} (close)", path, std::strerror(code)));
-  }
-  if (std::rename(part.c_str(), path.c_str()) != 0) {
-    const int code = errno;
-    ::unlink(part.c_str());
-    throw InputError(fmt::format("cannot write {}: {} (rename)", path, std::strerror(code)));
-  }
+  FileWriter out(path);
+  out.append(bytes);
+  out.commit();
 }
 
 std::string read_bytes(const std::string& path, std::size_t limit) {

@@ -135,6 +135,25 @@ TEST(Export, ALargeAreaIsStreamed) {
             std::string::npos);
 }
 
+TEST(Export, NoFormatHoldsALargeMapTwice) {
+  const Workplace place;
+  if (missing(place, "python3")) GTEST_SKIP() << "needs python3";
+  place.write("peak.py",
+              "import resource, subprocess, sys\n"
+              "subprocess.run(sys.argv[1:], check=True, stdout=subprocess.DEVNULL)\n"
+              "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024)\n");
+  const auto peak = [&](const std::string& format, int pixels) {  // MB
+    const Outcome run = place.shell("python3 peak.py '" PAPILLA_PROGRAM "' export " +
+                                    std::string(kDesign) + "--polarity white-high --out p" +
+                                    " --format " + format + " --pixels " + std::to_string(pixels));
+    EXPECT_EQ(run.status, 0) << run.err;
+    return std::atof(run.out.c_str());
+  };
+  const double map = 3072.0 * 3072 * sizeof(double) / 1048576;
+  for (const std::string format : {"exr", "tiff", "tiff32", "gsf", "npy", "png16", "x3p"})
+    EXPECT_LT(peak(format, 3072) - peak(format, 64), 1.4 * map) << format;
+}
+
 TEST(Export, AFullDiskAndAMissingFolderLeaveTheOldFile) {
   const Workplace place;
   const std::string design = std::string("export ") + kDesign;
