@@ -19,6 +19,7 @@
 #include "study/design.h"
 #include "study/evaluation.h"
 #include "study/field_accuracy.h"
+#include "study/parameters.h"
 #include "study/target.h"
 
 namespace papilla {
@@ -29,7 +30,7 @@ struct EvaluateOptions {
   std::string sweep, out, accuracy;
   int jobs = 0;
   std::vector<double> voltage_for;  // modulations
-  bool force = false, appearance = false, check_field = false;
+  bool force = false, appearance = false, check_field = false, parameters = false;
 };
 
 // "drive.amplitude=50..200" or "texture.depth=0 nm..1 um:5": a number of the design and its values.
@@ -94,7 +95,7 @@ std::string haze_column(const Optics& look) {
 }
 
 int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
-                   const Fidelity& fidelity, bool json, bool look) {
+                   const Fidelity& fidelity, bool json, bool look, bool parameters) {
   std::string documents;
   if (!json) {
     std::cout << fmt::format("{:>16} {:>12} {:>18} {:>14} {:>14}{}\n", sweep.path, "F_off mN",
@@ -105,6 +106,7 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
     set_number(changed, sweep.path, value);
     check_design(changed);
     Response response = evaluate(scene_of(changed), changed.texture, fidelity);
+    if (parameters) add_parameter_errors(response, scene_of(changed), changed.texture, fidelity);
     if (look) response.appearance = appearance_of(changed);
     if (json) {
       documents +=
@@ -192,9 +194,10 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   }
   Fidelity fidelity = fidelity_of(design);
   fidelity.threads = options.jobs;
+  const bool parameters = options.parameters || design.accuracy.parameters;
   if (!options.sweep.empty()) {
     return evaluate_sweep(context, parse_sweep(options.sweep, design), design, fidelity,
-                          options.design.json, options.appearance);
+                          options.design.json, options.appearance, parameters);
   }
 
   const double target =
@@ -203,6 +206,8 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
                                                       {.target = target, .threads = options.jobs})
                                  : evaluate(scene_of(design), design.texture, fidelity);
   for (const std::string& step : response.accuracy.steps) context.note(step);
+  if (parameters)
+    add_parameter_errors(response, scene_of(design), design.texture, response.fidelity);
   if (options.appearance) response.appearance = appearance_of(design);
   if (!options.voltage_for.empty())
     add_voltages(response, scene_of(design), design.texture, fidelity, options.voltage_for);
@@ -254,6 +259,8 @@ void add_evaluate(CLI::App& app, Context& context) {
       ->add_option("--accuracy", options->accuracy,
                    "Wanted standard error of the modulation: grid, samples and estimator follow")
       ->type_name("SHARE");
+  command->add_flag("--parameters", options->parameters,
+                    "Also the error that the finger's fitted numbers leave (its [[uncertainty]])");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--force", options->force,

@@ -131,9 +131,21 @@ struct TargetReport {
   std::vector<std::string> steps;  // what was run and why, one line each
 };
 
+// The finger moved one standard deviation up and down an independent direction of its fit's
+// covariance; fewer skins than the response, the same for all steps.
+struct ParameterStep {
+  std::vector<ResponsePoint> up, down;
+};
+struct ParameterSteps {
+  std::vector<ParameterStep> steps;  // empty: not asked for
+  int skins = 0, grid = 0;
+  std::string trouble;  // the first step whose response is not sound
+};
+
 struct Response {
   std::vector<ResponsePoint> points;
-  Fidelity fidelity;  // as run
+  ParameterSteps parameters;  // behind the parts of that name
+  Fidelity fidelity;          // as run
   TargetReport accuracy;
   Plan plan;
   bool driven = false;

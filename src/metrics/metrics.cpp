@@ -262,6 +262,30 @@ std::optional<double> humidity_error(Summary summary, const Response& response,
   return change / 3;
 }
 
+// Eq. accuracy.11: the summary itself is stepped, so changes that humidities share do not cancel.
+std::optional<double> parameter_error(Summary summary, const std::string& metric,
+                                      const Response& response, const std::vector<double>& weights,
+                                      Better better) {
+  const auto stepped = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    std::vector<double> values;
+    for (const ResponsePoint& point : points) {
+      const auto m = metric_at(metric, point);
+      if (!m || !std::isfinite(m->value)) return std::nullopt;
+      values.push_back(m->value);
+    }
+    const Series series(values, weights, better);
+    if (!series.defined(summary)) return std::nullopt;
+    return series.value(summary);
+  };
+  double sum = 0;
+  for (const ParameterStep& step : response.parameters.steps) {
+    const auto up = stepped(step.up), down = stepped(step.down);
+    if (!up || !down) return std::nullopt;
+    sum += square((*up - *down) / 2);
+  }
+  return std::sqrt(sum);
+}
+
 }  // namespace
 
 std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
@@ -300,6 +324,10 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
   for (std::size_t k = 0; k < errors.size(); ++k) {
     if (errors[k].size() == values.size())
       out.parts.*kErrorOrigins[k].part = series.error(summary, errors[k]);
+  }
+  if (!response.parameters.steps.empty()) {
+    if (const auto part = parameter_error(summary, metric, response, weights, info->better))
+      out.parts.parameters = part;
   }
   out.parts.humidity = humidity_error(summary, response, values, weights, info->better);
   out.se = out.parts.total();

@@ -204,6 +204,17 @@ void fields(FieldVisitor& v, SkinState& s) {
            s.shear_factor);
 }
 
+void fields(FieldVisitor& v, ParameterDeviation& s) {
+  v.text({"parameter", "number of the finger, \"skin.rms\"; \"water.scale\": all volumes"},
+         s.parameter);
+  v.number({"deviation", "%", 0, 300, "its standard deviation, relative (of the logarithm)",
+            Source::Fit, "papilla calibrate"},
+           s.deviation);
+  v.numbers({"correlation", "", -1, 1, "with the entries before this one; missing: 0", Source::Fit,
+             "papilla calibrate"},
+            s.correlation);
+}
+
 Finger Finger::applied() const {
   Finger out = *this;
   if (state == FingerState::Clean) return out;
@@ -230,6 +241,9 @@ void fields(FieldVisitor& v, Finger& s) {
   v.text(
       {"fitted_to", "published claims (papilla reproduce) that the fit used, separated by spaces"},
       s.fitted_to);
+  v.list({"uncertainty",
+          "of fitted numbers: parameter, deviation, correlation (evaluate --parameters)"},
+         s.uncertainty);
   v.section({"calibrated_for", "model options the finger was fitted with"}, s.calibrated_for);
 }
 

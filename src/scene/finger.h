@@ -128,6 +128,16 @@ struct SkinState {
 };
 void fields(FieldVisitor& v, SkinState& s);
 
+// How well the fit knows one number of the finger.
+struct ParameterDeviation {
+  std::string parameter;            // path into the finger: "skin.rms"; "water.scale": all volumes
+  double deviation = 0;             // one standard deviation of its logarithm
+  std::vector<double> correlation;  // with those before it in the list; missing ones are 0
+
+  bool operator==(const ParameterDeviation&) const = default;
+};
+void fields(FieldVisitor& v, ParameterDeviation& s);
+
 struct Finger {
   std::string name = "reference";
   FingerState state = FingerState::Clean;
@@ -142,6 +152,7 @@ struct Finger {
   ModelOptions calibrated_for;
   // Ids of the published claims that its fit used, separated by spaces.
   std::string fitted_to = "M1 M2 M3 M4 M5 M6 M7 M8 M9 M10 M11 M12 M13 M14 M15 M16 M17 M21";
+  std::vector<ParameterDeviation> uncertainty;  // of the fitted numbers; empty: not known
 
   double patch_pressure(double relative_humidity) const;  // F_N / (phi A) [Pa], Eq. scene.6
   Finger applied() const;  // the clean finger with the skin angle, sweat and shear of its state

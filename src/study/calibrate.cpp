@@ -635,6 +635,18 @@ CalibrationResult calibrate(const Calibration& calibration, const CalibrationOpt
   out.finger.fitted_to.clear();
   for (const std::string& id : calibration.fit)
     out.finger.fitted_to += (out.finger.fitted_to.empty() ? "" : " ") + id;
+  // What Eq. accuracy.11 carries on: relative deviations; a number at its bound has none.
+  out.finger.uncertainty.clear();
+  std::vector<std::size_t> known;
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    const ParameterFit& f = out.fit.parameters[i];
+    if (f.at_bound || !(f.se > 0) || !std::isfinite(f.se)) continue;
+    ParameterDeviation row{f.name, f.se / std::abs(f.value), {}};
+    for (const std::size_t j : known)
+      row.correlation.push_back(out.fit.correlation[i * parameters.size() + j]);
+    known.push_back(i);
+    out.finger.uncertainty.push_back(std::move(row));
+  }
   const std::vector<Estimate> after = comparison.model(out.finger);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].after = after[i].value;
   out.rows = rows;

@@ -16,6 +16,7 @@
 #include "config/writer.h"
 #include "metrics/metrics.h"
 #include "study/family.h"
+#include "study/parameters.h"
 
 namespace papilla {
 namespace {
@@ -37,6 +38,9 @@ void fields(FieldVisitor& v, AccuracySettings& s) {
             0, 4096, s.grid);
   v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
            s.target);
+  v.flag({"parameters",
+          "evaluate: also the error that the finger's fitted numbers leave (its `uncertainty`)"},
+         s.parameters);
   v.integer({"droplet_seeds", "placements of the droplets on each skin, averaged (M3: 6)"}, 1, 64,
             s.droplet_seeds);
 }
@@ -250,6 +254,8 @@ class StudyReader {
       for (const DesignProblem& p : design_problems(study_.design)) {
         document_.problem_at(p.path, p.message);
       }
+      if (const std::string wrong = uncertainty_problem(study_.design.finger); !wrong.empty())
+        document_.problem_at("finger.uncertainty", wrong);
     }
     numbers_ = number_fields(study_.design);
     read_variables();

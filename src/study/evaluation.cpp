@@ -79,10 +79,11 @@ std::string budget_text(const SummaryValue& v) {
   for (const ErrorOrigin& origin : kErrorOrigins) {
     if (const auto& part = v.parts.*origin.part) {
       out += fmt::format(", {} {:.2g} %", origin.name, 100 * *part / size);
-    } else {
+    } else if (origin.part != &ErrorParts::parameters) {
       unknown += (unknown.empty() ? "" : ", ") + std::string(origin.name);
     }
   }
+  if (!v.parts.parameters) out += "; parameters not asked for (--parameters)";
   return out + (unknown.empty() ? "" : "; not measured: " + unknown);
 }
 
@@ -141,6 +142,12 @@ std::string response_json(const Response& response, bool with_time) {
         {"regime", look->regime},      {"warning", look->warning},
         {"haze", value(look->haze)},   {"transmittance", value(look->transmittance)},
         {"gloss", value(look->gloss)}, {"colour_shift", value(look->colour_shift)}};
+  }
+  if (const ParameterSteps& p = response.parameters; !p.steps.empty()) {
+    out["parameters"] = {{"directions", p.steps.size()},
+                         {"skins", p.skins},
+                         {"grid", p.grid},
+                         {"status", p.trouble.empty() ? "ok" : p.trouble}};
   }
   if (with_time) {
     out["seconds"] = response.seconds;
@@ -281,6 +288,13 @@ std::string response_table(const Response& response) {
                     100 * a.target, 100 * a.reached, a.quantity, a.status, response.fidelity.grid,
                     response.fidelity.skins,
                     response.fidelity.estimator == Estimator::Load ? "load law" : "solved areas");
+  }
+  if (const ParameterSteps& p = response.parameters; !p.steps.empty()) {
+    out += fmt::format(
+        "parameters: {} directions of the finger's covariance, one standard deviation up and down, "
+        "{} skins, {} pixels{}\n",
+        p.steps.size(), p.skins, p.grid,
+        p.trouble.empty() ? "" : "; a step is not sound: " + p.trouble);
   }
   if (const std::string trouble = response.trouble(); !trouble.empty()) {
     out += "note: " + trouble + "\n";

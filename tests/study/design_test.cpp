@@ -38,7 +38,10 @@ std::string problems_of(const std::string& text, const std::vector<std::string>&
 }
 
 TEST(Design, TheReferenceFingerFileIsTheDefaultFinger) {
-  EXPECT_EQ(read_finger(kDesigns + "fingers/reference.toml"), Finger{});
+  Finger reference = read_finger(kDesigns + "fingers/reference.toml");
+  EXPECT_FALSE(reference.uncertainty.empty());
+  reference.uncertainty.clear();  // known of the file's fit alone
+  EXPECT_EQ(reference, Finger{});
 }
 
 TEST(Design, TheRelativesDifferInOneThing) {
@@ -55,12 +58,13 @@ TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
        {std::tuple("a3h350", 3e-6, 350e-9), std::tuple("a3h600", 3e-6, 600e-9),
         std::tuple("a3h900", 3e-6, 900e-9), std::tuple("a4h350", 4e-6, 350e-9),
         std::tuple("a4h600", 4e-6, 600e-9)}) {
-    const Design design = read_design(kDesigns + "m3_samples/" + name + ".toml");
+    Design design = read_design(kDesigns + "m3_samples/" + name + ".toml");
     EXPECT_EQ(get_number(design, "texture.diameter"), diameter);
     EXPECT_EQ(get_number(design, "texture.depth"), depth);
     EXPECT_EQ(get_number(design, "texture.period"), 6e-6);
     EXPECT_EQ(design.drive.amplitude, 200);
     EXPECT_NEAR(design.drive.v_rms(), 141.4, 0.1);
+    design.finger.uncertainty.clear();
     EXPECT_EQ(design.finger, Finger{});
   }
 }

@@ -1,0 +1,119 @@
+#include "study/parameters.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/units.h"
+#include "config/describe.h"
+
+namespace papilla {
+namespace {
+
+constexpr const char* kWaterScale = "water.scale";
+// Differences on common skins scatter far less than values: a few skins on few pixels are enough.
+constexpr int kMostSkins = 8, kFinestGrid = 128;
+constexpr double kTolerance = 1e-3;
+
+}  // namespace
+
+Finger moved_finger(const Finger& finger, const std::vector<double>& logarithms) {
+  Finger out = finger;
+  const std::vector<NumberField> numbers = number_fields(out);
+  for (std::size_t i = 0; i < logarithms.size(); ++i) {
+    const double factor = std::exp(logarithms[i]);
+    const std::string& path = finger.uncertainty[i].parameter;
+    if (path == kWaterScale) {
+      for (double& v : out.water.volume) v *= factor;
+      continue;
+    }
+    const NumberField field = find_number_field(numbers, path);
+    const double unit = find_unit(field.unit)->to_si;
+    *field.value = std::clamp(*field.value * factor, field.low * unit, field.high * unit);
+  }
+  return out;
+}
+
+std::vector<double> covariance_factor(const std::vector<ParameterDeviation>& uncertainty) {
+  const std::size_t n = uncertainty.size();
+  std::vector<double> l(n * n, 0.0);  // of the correlations first
+  for (std::size_t i = 0; i < n; ++i) {
+    const ParameterDeviation& row = uncertainty[i];
+    if (row.correlation.size() > i)
+      throw InputError(fmt::format("uncertainty of {}: {} correlations, but {} entries before it",
+                                   row.parameter, row.correlation.size(), i));
+    double rest = 1;
+    for (std::size_t j = 0; j < i; ++j) {
+      double sum = j < row.correlation.size() ? row.correlation[j] : 0;
+      for (std::size_t k = 0; k < j; ++k) sum -= l[i * n + k] * l[j * n + k];
+      l[i * n + j] = sum / l[j * n + j];
+      rest -= square(l[i * n + j]);
+    }
+    if (!(rest > 1e-12))
+      throw InputError(fmt::format(
+          "uncertainty of {}: its correlations contradict those before it (not positive definite)",
+          row.parameter));
+    l[i * n + i] = std::sqrt(rest);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) l[i * n + j] *= uncertainty[i].deviation;
+  }
+  return l;
+}
+
+std::string uncertainty_problem(const Finger& finger) {
+  try {
+    moved_finger(finger, std::vector<double>(finger.uncertainty.size(), 0.0));
+    covariance_factor(finger.uncertainty);
+  } catch (const InputError& error) {
+    return error.problems().front().message;
+  }
+  return {};
+}
+
+void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
+                          const Fidelity& fidelity) {
+  const std::size_t n = scene.finger.uncertainty.size();
+  if (n == 0)
+    throw InputError(fmt::format(
+        "finger \"{}\" has no [[uncertainty]]: nothing is known about its parameters (papilla "
+        "calibrate writes it)",
+        scene.finger.name));
+  const std::vector<double> factor = covariance_factor(scene.finger.uncertainty);
+  Fidelity few = fidelity;
+  few.skins = std::min(fidelity.skins, kMostSkins);
+  few.grid = std::min(fidelity.grid, kFinestGrid);
+  few.contact_tolerance = std::max(fidelity.contact_tolerance, kTolerance);
+  few.estimator = Estimator::Load;
+  few.control_skins = 0;
+  ParameterSteps& out = response.parameters;
+  out = {{}, few.skins, few.grid, ""};
+  const auto run = [&](std::size_t column, double sign) {
+    std::vector<double> logarithms;
+    for (std::size_t i = 0; i < n; ++i) logarithms.push_back(sign * factor[i * n + column]);
+    Scene moved = scene;
+    moved.finger = moved_finger(scene.finger, logarithms);
+    Response there = evaluate(moved, texture, few);
+    if (out.trouble.empty()) out.trouble = there.trouble();
+    response.seconds += there.seconds;
+    response.contact_solves += there.contact_solves;
+    response.fft_pairs += there.fft_pairs;
+    return std::move(there.points);
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    if (scene.finger.uncertainty[k].deviation > 0) out.steps.push_back({run(k, 1), run(k, -1)});
+  }
+  for (std::size_t i = 0; i < response.points.size(); ++i) {
+    for (const auto member : kMeasured) {
+      double sum = 0;
+      for (const ParameterStep& step : out.steps)
+        sum += square(((step.up[i].*member).value - (step.down[i].*member).value) / 2);
+      (response.points[i].*member).parts.parameters = std::sqrt(sum);
+    }
+  }
+}
+
+}  // namespace papilla
