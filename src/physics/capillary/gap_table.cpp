@@ -73,19 +73,21 @@ GapTable::GapTable(const Gap& gap, double floor)
       inverse_dx_(1 / gap.grid.dx()),
       inverse_dy_(1 / gap.grid.dy()),
       stride_(gap.grid.nx + 1),
-      value_(static_cast<std::size_t>(stride_) * gap.grid.ny),
-      prefix_(value_.size()) {
+      node_(static_cast<std::size_t>(stride_) * gap.grid.ny) {
   PAPILLA_CHECK(gap.value.size() == grid_.size() && grid_.size() > 0,
                 "gap and grid differ in size");
   double total = 0;
   for (int iy = 0; iy < grid_.ny; ++iy) {
-    double* v = &value_[static_cast<std::size_t>(iy) * stride_];
-    double* s = &prefix_[static_cast<std::size_t>(iy) * stride_];
-    for (int ix = 0; ix < grid_.nx; ++ix) v[ix] = std::max(gap.value[grid_.index(ix, iy)], floor);
-    v[grid_.nx] = v[0];
-    s[0] = 0;
-    for (int ix = 0; ix < grid_.nx; ++ix) s[ix + 1] = s[ix] + 0.5 * (v[ix] + v[ix + 1]);
-    total += s[grid_.nx];
+    Node* n = &node_[static_cast<std::size_t>(iy) * stride_];
+    for (int ix = 0; ix < grid_.nx; ++ix) {
+      n[ix].value = std::max(gap.value[grid_.index(ix, iy)], floor);
+    }
+    n[grid_.nx].value = n[0].value;
+    n[0].prefix = 0;
+    for (int ix = 0; ix < grid_.nx; ++ix) {
+      n[ix + 1].prefix = n[ix].prefix + 0.5 * (n[ix].value + n[ix + 1].value);
+    }
+    total += n[grid_.nx].prefix;
   }
   volume_ = total * grid_.pixel_area();
 }
@@ -93,20 +95,20 @@ GapTable::GapTable(const Gap& gap, double floor)
 inline double GapTable::row_integral(int iy, double u) const {
   const Cell c = locate(u, grid_.nx);
   const std::size_t row = static_cast<std::size_t>(iy) * stride_;
-  const std::size_t i = row + c.index;
+  const Node* n = &node_[row + c.index];
   const double f = c.fraction;
-  return prefix_[i] + f * (value_[i] + 0.5 * f * (value_[i + 1] - value_[i])) +
-         c.turns * prefix_[row + grid_.nx];
+  return n[0].prefix + f * (n[0].value + 0.5 * f * (n[1].value - n[0].value)) +
+         c.turns * node_[row + grid_.nx].prefix;
 }
 
 double GapTable::at(double x, double y) const {
   const Cell cx = locate(x * inverse_dx_ - 0.5, grid_.nx);
   const Cell cy = locate(y * inverse_dy_ - 0.5, grid_.ny);
   const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
-  const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
-  const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
-  const double low = a[0] + cx.fraction * (a[1] - a[0]);
-  const double high = b[0] + cx.fraction * (b[1] - b[0]);
+  const Node* a = &node_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
+  const Node* b = &node_[static_cast<std::size_t>(next) * stride_ + cx.index];
+  const double low = a[0].value + cx.fraction * (a[1].value - a[0].value);
+  const double high = b[0].value + cx.fraction * (b[1].value - b[0].value);
   return low + cy.fraction * (high - low);
 }
 
@@ -126,7 +128,7 @@ double GapTable::disc_volume(double x, double y, double radius, const Rule& rule
   const double *t = n.t.data(), *half = n.half_width.data(), *weight = n.weight.data();
   double sum = 0;
   if (inside(u0, v0, ru, rv)) {  // no wrapping
-    const double *value = value_.data(), *prefix = prefix_.data();
+    const Node* node = node_.data();
     const int stride = stride_;
     for (int j = 0; j < count; ++j) {
       const double v = v0 + rv * t[j];
@@ -137,12 +139,12 @@ double GapTable::disc_volume(double x, double y, double radius, const Rule& rule
       const double fl = left - il, fr = right - ir;
       const int a = iy * stride + il, b = iy * stride + ir;
       const int c = a + stride, d = b + stride;
-      const double low = prefix[b] - prefix[a] +
-                         fr * (value[b] + 0.5 * fr * (value[b + 1] - value[b])) -
-                         fl * (value[a] + 0.5 * fl * (value[a + 1] - value[a]));
-      const double high = prefix[d] - prefix[c] +
-                          fr * (value[d] + 0.5 * fr * (value[d + 1] - value[d])) -
-                          fl * (value[c] + 0.5 * fl * (value[c + 1] - value[c]));
+      const double low = node[b].prefix - node[a].prefix +
+                         fr * (node[b].value + 0.5 * fr * (node[b + 1].value - node[b].value)) -
+                         fl * (node[a].value + 0.5 * fl * (node[a + 1].value - node[a].value));
+      const double high = node[d].prefix - node[c].prefix +
+                          fr * (node[d].value + 0.5 * fr * (node[d + 1].value - node[d].value)) -
+                          fl * (node[c].value + 0.5 * fl * (node[c + 1].value - node[c].value));
       sum += weight[j] * (low + fy * (high - low));
     }
     return sum * grid_.dx() * radius;
@@ -166,16 +168,16 @@ GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule)
   const double *cosine = n.cosine.data(), *sine = n.sine.data();
   double sum = 0, slope_x = 0, slope_y = 0;
   if (inside(u0, v0, ru, rv)) {
-    const double* value = value_.data();
+    const Node* node = node_.data();
     const int stride = stride_;
     for (int j = 0; j < count; ++j) {
       const double u = u0 + ru * cosine[j], v = v0 + rv * sine[j];
       const int ix = static_cast<int>(u), iy = static_cast<int>(v);
       const double fx = u - ix, fy = v - iy;
       const int k = iy * stride + ix;
-      const double dlow = value[k + 1] - value[k];
-      const double dhigh = value[k + stride + 1] - value[k + stride];
-      const double low = value[k] + fx * dlow, high = value[k + stride] + fx * dhigh;
+      const double dlow = node[k + 1].value - node[k].value;
+      const double dhigh = node[k + stride + 1].value - node[k + stride].value;
+      const double low = node[k].value + fx * dlow, high = node[k + stride].value + fx * dhigh;
       sum += low + fy * (high - low);
       slope_x += (dlow + fy * (dhigh - dlow)) * cosine[j];
       slope_y += (high - low) * sine[j];
@@ -185,10 +187,10 @@ GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule)
       const Cell cx = locate(u0 + ru * cosine[j], grid_.nx);
       const Cell cy = locate(v0 + rv * sine[j], grid_.ny);
       const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
-      const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
-      const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
-      const double dlow = a[1] - a[0], dhigh = b[1] - b[0];
-      const double low = a[0] + cx.fraction * dlow, high = b[0] + cx.fraction * dhigh;
+      const Node* a = &node_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
+      const Node* b = &node_[static_cast<std::size_t>(next) * stride_ + cx.index];
+      const double dlow = a[1].value - a[0].value, dhigh = b[1].value - b[0].value;
+      const double low = a[0].value + cx.fraction * dlow, high = b[0].value + cx.fraction * dhigh;
       sum += low + cy.fraction * (high - low);
       slope_x += (dlow + cy.fraction * (dhigh - dlow)) * cosine[j];
       slope_y += (high - low) * sine[j];

@@ -42,8 +42,11 @@ class GapTable {
   double inverse_dx_, inverse_dy_;
   double volume_ = 0;
   int stride_;
-  std::vector<double> value_;   // rows of nx + 1 (first column repeated)
-  std::vector<double> prefix_;  // integral from pixel centre 0 to pixel centre i, in pixels
+  struct Node {
+    double value;   // the gap [m]
+    double prefix;  // integral from pixel centre 0 to here, in pixels
+  };
+  std::vector<Node> node_;  // rows of nx + 1 (first column repeated)
 };
 
 }  // namespace papilla
