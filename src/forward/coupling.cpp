@@ -90,7 +90,7 @@ class PatchSolver {
                       ? 1
                       : 1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
 
-  RestPatch rest(const ContactSolution& start) const {
+  RestPatch rest(const PatchStates& start) const {
     const Scene& scene = *problem_.scene;
     const Grid& grid = plan_.grid;
     RestPatch rest;
@@ -98,7 +98,7 @@ class PatchSolver {
     out.load = problem_.pressure * grid.area();
     rest.water.grid = grid;
 
-    rest.dry = contact({}, start.pressure.empty() ? nullptr : &start, out);
+    rest.dry = contact({}, start.dry.pressure.empty() ? nullptr : &start.dry, out);
     if (rest.dry.gap.empty()) return rest;
     out.area_dry = area(rest.dry);
     const Gap gap{grid, rest.dry.gap};
@@ -119,7 +119,8 @@ class PatchSolver {
     out.area_off = out.area_dry;
     if (plan_.traction_solves) {
       if (out.capillary_off != 0) {
-        rest.off = contact(capillary_traction(rest.water, gap, water).value, &rest.dry, out);
+        const ContactSolution expected = carried(rest.dry, start.dry, start.off);
+        rest.off = contact(capillary_traction(rest.water, gap, water).value, &expected, out);
         out.area_off = area(rest.off);
       } else {
         rest.off = rest.dry;
@@ -129,7 +130,8 @@ class PatchSolver {
     return rest;
   }
 
-  PatchResult drive(const RestPatch& rest, PatchFields* fields) const {
+  // start: in: of a nearby humidity; out: with the driven state of this one.
+  PatchResult drive(const RestPatch& rest, PatchStates& start, PatchFields* fields) const {
     const Scene& scene = *problem_.scene;
     PatchResult out = rest.result;
     if (rest.dry.gap.empty()) return out;
@@ -153,7 +155,8 @@ class PatchSolver {
         on_state = iterate(rest.dry, gap, rest.water, driven, field, pull, on, out);
         if (plan_.traction_solves) out.area_on = area(on_state);
       } else if (plan_.traction_solves) {
-        on_state = contact(total_traction(on, gap, driven, pull.traction), &rest.off, out);
+        const ContactSolution expected = carried(rest.off, start.off, start.on);
+        on_state = contact(total_traction(on, gap, driven, pull.traction), &expected, out);
         out.area_on = area(on_state);
         if (!on_state.gap.empty()) note_pull_in(gap, on_state, on, field, out);
       }
@@ -165,6 +168,7 @@ class PatchSolver {
       fields->wetting_on = std::move(on);
       fields->pull = std::move(pull.traction);
     }
+    start.on = std::move(on_state);
     return out;
   }
 
@@ -184,6 +188,22 @@ class PatchSolver {
     out.certificate = std::max(out.certificate, solution.certificate);
     if (!solution.converged() && out.status.empty()) out.status = "contact: " + solution.reason;
     return solution;
+  }
+
+  // The state expected under tractions: the one without them and the pressures that the same
+  // tractions added at a nearby humidity.
+  static ContactSolution carried(const ContactSolution& now, const ContactSolution& before,
+                                 const ContactSolution& after) {
+    ContactSolution expected = now;
+    if (before.pressure.size() != now.pressure.size() ||
+        after.pressure.size() != now.pressure.size()) {
+      return expected;
+    }
+    for (std::size_t i = 0; i < expected.pressure.size(); ++i) {
+      expected.pressure[i] =
+          std::max(0.0, expected.pressure[i] + after.pressure[i] - before.pressure[i]);
+    }
+    return expected;
   }
 
   double area(const ContactSolution& state) const {
@@ -310,21 +330,27 @@ class PatchSolver {
 }  // namespace
 
 RestPatch rest_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
-                     const ContactSolution& start) {
+                     const PatchStates& start) {
   return PatchSolver(problem, plan, fidelity).rest(start);
 }
 
 PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         const RestPatch& rest, PatchFields* fields) {
-  return PatchSolver(problem, plan, fidelity).drive(rest, fields);
+  PatchStates start;
+  return PatchSolver(problem, plan, fidelity).drive(rest, start, fields);
 }
 
 PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
-                        ContactSolution& start, PatchFields* fields) {
+                        PatchStates& states, PatchFields* fields) {
   const PatchSolver solver(problem, plan, fidelity);
-  RestPatch rest = solver.rest(start);
-  PatchResult out = solver.drive(rest, fields);
-  start = rest.dry.gap.empty() ? ContactSolution{} : std::move(rest.dry);
+  RestPatch rest = solver.rest(states);
+  PatchResult out = solver.drive(rest, states, fields);
+  if (rest.dry.gap.empty()) {
+    states = {};
+  } else {
+    states.dry = std::move(rest.dry);
+    states.off = std::move(rest.off);
+  }
   return out;
 }
 

@@ -60,17 +60,21 @@ struct RestPatch {
   Wetting water;
 };
 
-// start: a dry solution of a nearby state, or an empty one. A dry solution without a gap has
-// failed; the status says why.
+// Contact at one humidity, from which the next one starts: dry, and under the tractions solved.
+// Empty where there is none.
+struct PatchStates {
+  ContactSolution dry, off, on;
+};
+
+// start: of a nearby humidity. A dry solution without a gap has failed; the status says why.
 RestPatch rest_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
-                     const ContactSolution& start);
+                     const PatchStates& start);
 // The patch under the drive of its scene. fields: filled when not null.
 PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         const RestPatch& rest, PatchFields* fields = nullptr);
-// Both. start: in: a dry solution of a nearby state (or an empty one); out: the dry solution of
-// this one.
+// Both. states: in: of a nearby humidity; out: of this one.
 PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
-                        ContactSolution& start, PatchFields* fields = nullptr);
+                        PatchStates& states, PatchFields* fields = nullptr);
 
 // The electrical problem of the scene at a humidity.
 FieldProblem field_problem(const Scene& scene, double relative_humidity);

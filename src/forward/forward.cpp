@@ -367,8 +367,8 @@ PatchSet solve_patches(const Scene& given, const Texture& texture, const Fidelit
         const int index = fidelity.first_skin + k;
         const Heightmap skin = skin_patch(scene, set.plan, fidelity, index);
         const std::vector<double> height = added(surface, skin);
-        // One a patch pressure: the dry contact of the previous humidity.
-        std::vector<ContactSolution> start(set.bridges[0].pressures().size());
+        // One a patch pressure: the contact of the previous humidity.
+        std::vector<PatchStates> start(set.bridges[0].pressures().size());
         const std::vector<WaterMember> members = water_members(scene, set.plan, fidelity, index);
         std::vector<PatchResult> patches, one;
         for (std::size_t i = 0; i < humidities.size(); ++i) {
@@ -456,12 +456,12 @@ RestPatches::RestPatches(const Scene& scene, const Texture& texture, const Fidel
         height_[k] = added(surface_, skin_patch(scene_, plan_, fidelity_, index));
         const std::vector<WaterMember> members = water_members(scene_, plan_, fidelity_, index);
         for (double pressure : pressures_) {
-          ContactSolution start;  // the dry contact is that of the first member
+          PatchStates start;  // the dry contact is that of the first member
           for (const WaterMember& member : members) {
             const PatchProblem problem{&scene_,  &surface_, height_[k],   kernel_.get(),
                                        humidity, pressure,  member.index, member.factor};
             rest_[k].push_back(rest_patch(problem, plan_, fidelity_, start));
-            if (members.size() > 1) start = rest_[k].back().dry;
+            if (members.size() > 1) start.dry = rest_[k].back().dry;
           }
         }
       },
@@ -509,7 +509,7 @@ PatchPicture picture_patch(const Scene& given, const Texture& texture, const Fid
   picture.skin = skin_patch(scene, plan, fidelity, fidelity.first_skin + index);
   const std::vector<double> height = added(picture.texture, picture.skin);
   const auto kernel = kernel_at(scene, plan.grid, relative_humidity);
-  ContactSolution start;
+  PatchStates start;
   const PatchProblem problem{
       &scene,
       &picture.texture,

@@ -140,6 +140,35 @@ TEST(Dense, WarmStartsFarAwayConverge) {
   }
 }
 
+// Beyond a third of the pixels the solver works on whole fields instead of lists.
+TEST(Dense, ContactOfMostOfTheSurfaceIsCertifiedOnItsPressure) {
+  const Grid grid{128, 96, 12e-6, 9e-6};
+  const auto kernel = make_contact_kernel(grid, {66e6, 0.5, 1e-6, 20e6, 0.5});
+  const Heightmap skin = random_surface({1e-7, 3e-6, 0.8, 4e-7}, grid, 1, 0);
+  std::vector<double> disc(grid.size(), 0.0);
+  for (std::size_t i = 0; i < disc.size(); ++i) {
+    const int ix = static_cast<int>(i) % grid.nx, iy = static_cast<int>(i) / grid.nx;
+    if (std::hypot(grid.x(ix) - 4e-6, grid.y(iy) - 5e-6) < 3e-6) disc[i] = 3e6;
+  }
+  for (double load : {7e6, 14e6}) {
+    for (const std::vector<double>& traction : {std::vector<double>{}, disc}) {
+      const ContactOptions options{.tolerance = 1e-9, .method = ContactMethod::Dense};
+      const ContactSolution s = solve_contact(*kernel, skin.z, load, traction, options);
+      ASSERT_TRUE(s.converged()) << load << " " << s.reason;
+      EXPECT_GT(measure_area(*kernel, s).raw, 0.35);
+      EXPECT_LT(certificate(*kernel, skin.z, traction, s), 1.01e-9);
+      EXPECT_NEAR(mean(s.pressure), load + (traction.empty() ? 0 : mean(disc)), 1e-9 * load);
+      const double peak = *std::max_element(s.pressure.begin(), s.pressure.end());
+      const ContactSolution soft = solve_contact(
+          *kernel, skin.z, load, traction,
+          {.tolerance = 1e-9, .hardness = 0.4 * peak, .method = ContactMethod::Dense});
+      ASSERT_TRUE(soft.converged()) << load << " " << soft.reason;
+      EXPECT_LE(*std::max_element(soft.pressure.begin(), soft.pressure.end()), 0.4 * peak);
+      EXPECT_NEAR(mean(soft.pressure), mean(s.pressure), 1e-9 * load);
+    }
+  }
+}
+
 TEST(Dense, PrimeAndNarrowGridsConverge) {
   for (const Grid& grid : {Grid{97, 61, 9e-6, 6e-6}, Grid{127, 127, 12e-6, 12e-6},
                            Grid{200, 3, 12e-6, 2e-7}, Grid{1, 64, 1e-7, 6e-6}}) {

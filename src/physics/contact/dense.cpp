@@ -57,10 +57,11 @@ class DenseSolver {
 
  private:
   static constexpr int kReach = ContactKernel::kReach;
+  static constexpr double kFirstStep = 0.6;
   static constexpr double kBarred = 1e300;  // stands for a pixel held at a bound
 
   bool iterate() {
-    double alpha = 0.4;  // expected step along the preconditioned direction
+    double alpha = kFirstStep;  // expected step along the preconditioned direction
     double best = kInfinity;
     int since_best = 0;
     bool conjugate = false, plain = false;
@@ -92,13 +93,16 @@ class DenseSolver {
       // kept unless it went too far: its end tells which pixels are free.
       const auto [slope, curvature] = wide_ ? slopes_wide() : slopes();
       double t = curvature > 0 ? -slope / curvature : 0;
-      if (t > 0) alpha = std::clamp(alpha * t, 1e-4, 20.0);
+      // A direction far from any length expected lost its meaning: a share of the last step that
+      // cancels it, for one, where only two pixels are free.
+      const bool sound = t > 1e-3 && t < 1e3;
+      if (t > 0) alpha = sound ? std::clamp(alpha * t, 1e-4, 20.0) : kFirstStep;
       if (clipped) {
         t = t > 0.85 ? 1 : std::max(t, 0.0);
       } else {
         t = t > 1 ? std::min(t, room()) : std::max(t, 0.0);
       }
-      conjugate = t > 0;
+      conjugate = t > 0 && sound;
       // Cut at many bounds a preconditioned direction may climb; the gradient never does.
       if (t == 0) {
         alpha = plain ? std::max(1e-6, 0.3 * alpha) : 0.3;
@@ -290,8 +294,10 @@ class DenseSolver {
     ones_.assign(free_.size(), 1 / kernel_.self_compliance());
   }
 
-  // z = inverse-kernel stencil on the free set (single precision suffices for a direction),
-  // projected to zero mean in the metric of the stencil.
+  // z = inverse-kernel stencil on the free set (single precision suffices for a direction), less
+  // half of its row sums, projected to zero mean in its metric. The inverse of the kernel between
+  // the free pixels alone is softer at their edges than the plane's, whose rows sum to zero: the
+  // row sum is what an edge cuts off.
   void precondition() {
     const std::size_t m = free_.size();
     z_.resize(m);
@@ -311,9 +317,9 @@ class DenseSolver {
         value += t * residual;
         one += t * inside;
       }
-      const float z = total(value), o = total(one);
-      z_[k] = z;
-      ones_[k] = std::max(o, least_weight);
+      const float half = std::max(0.5F * total(one), least_weight);
+      z_[k] = total(value) - half * r_[k];
+      ones_[k] = half;
       sum_z += z_[k];
       sum_one += ones_[k];
     }
