@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "base/constants.h"
 #include "forward/forward.h"
@@ -16,6 +18,9 @@ constexpr int kSmallestGrid = 16;
 // (finer grids resolve more of the skin's spectrum), 1.5 for the rest. Grid table of
 // docs/accuracy.md
 constexpr double kAreaRest = 1.75, kOtherRest = 0.55;
+// By the load law the modulation's way to the limit is part of its method error; half of that way
+// is taken as not known. Eq. accuracy.2
+constexpr double kUnknownRest = 0.5;
 
 PatchSet first_skins(const PatchSet& patches, int skins) {
   PatchSet out = patches;
@@ -43,33 +48,39 @@ struct Run {
   PatchSet patches;
 };
 
-// Paired relative difference of two runs on the same skins with its jackknife error, per quantity;
-// each humidity is given the larger of its own and the root mean square over humidity, as a
-// difference may cross zero between two of them. Eq. accuracy.2, accuracy.3
-std::vector<Row> difference(const Run& base, const Run& other) {
-  const int n = base.patches.skins();
-  const auto relative = [&](int without) {
-    std::vector<Row> a = values(*base.scene, base.fidelity, base.patches, without);
-    const std::vector<Row> b = values(*other.scene, other.fidelity, other.patches, without);
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      for (std::size_t m = 0; m < kMeasured.size(); ++m) {
-        const double size = std::abs(a[i][m]);
-        a[i][m] = size > 0 ? (b[i][m] - a[i][m]) / size : 0;
-      }
-    }
-    return a;
-  };
-  const std::vector<Row> all = relative(-1);
+std::vector<Row> values(const Run& run, int without) {
+  return values(*run.scene, run.fidelity, run.patches, without);
+}
+
+// A relative difference of runs on the same skins, without one of them (-1: of all).
+using Difference = std::function<std::vector<Row>(int without)>;
+
+// (b - a) / |of|, quantity by quantity; zero where `of` is.
+std::vector<Row> relative(const std::vector<Row>& b, const std::vector<Row>& a,
+                          const std::vector<Row>& of) {
+  std::vector<Row> out(of.size());
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    for (std::size_t m = 0; m < kMeasured.size(); ++m)
+      out[i][m] = of[i][m] != 0 ? (b[i][m] - a[i][m]) / std::abs(of[i][m]) : 0;
+  }
+  return out;
+}
+
+// Root of its square with `scatter` times its jackknife variance; each humidity is given the larger
+// of its own and the root mean square over humidity, as a difference may cross zero between two of
+// them. Eq. accuracy.2, accuracy.3
+std::vector<Row> size_of(const Difference& difference, int skins, double scatter) {
+  const std::vector<Row> all = difference(-1);
   std::vector<std::vector<Row>> rest;
-  for (int k = 0; k < n; ++k) rest.push_back(relative(k));
+  for (int k = 0; k < skins; ++k) rest.push_back(difference(k));
   std::vector<Row> out(all.size());
   for (std::size_t m = 0; m < kMeasured.size(); ++m) {
     double sum = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {
       double mean = 0, variance = 0;
-      for (const auto& r : rest) mean += r[i][m] / n;
-      for (const auto& r : rest) variance += square(r[i][m] - mean) * (n - 1) / n;
-      out[i][m] = std::sqrt(square(all[i][m]) + variance);
+      for (const auto& r : rest) mean += r[i][m] / skins;
+      for (const auto& r : rest) variance += square(r[i][m] - mean) * (skins - 1) / skins;
+      out[i][m] = std::sqrt(std::max(square(all[i][m]) + scatter * variance, 0.0));
       sum += square(out[i][m]) / static_cast<double>(all.size());
     }
     for (Row& row : out) row[m] = std::max(row[m], std::sqrt(sum));
@@ -86,7 +97,7 @@ double resolved_area_error(double pixels_per_cutoff) {
 }
 
 // From the last halving of the pixel to what is missing to the limit. Eq. accuracy.2
-void extrapolate(std::vector<Row>& last, const Scene& scene, const Plan& plan) {
+void extrapolate(std::vector<Row>& last, const Scene& scene, const Plan& plan, bool load_law) {
   const double cutoff = scene.finger.skin.cutoff;
   const bool resolved = plan.effective_cutoff <= cutoff * (1 + 1e-9);
   const double pixel = std::max(plan.grid.dx(), plan.grid.dy());
@@ -98,6 +109,7 @@ void extrapolate(std::vector<Row>& last, const Scene& scene, const Plan& plan) {
     for (Row& row : last) {
       row[m] = area && resolved ? resolved_area_error(cutoff / pixel)
                                 : row[m] * (area ? kAreaRest : kOtherRest);
+      if (load_law && member == &ResponsePoint::modulation) row[m] *= kUnknownRest;
     }
   }
 }
@@ -124,28 +136,57 @@ std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& tex
     }
   };
 
-  if (fidelity.grid / 2 >= kSmallestGrid) {
-    Fidelity half = fidelity;
-    half.grid = fidelity.grid / 2;
-    const Run coarse = run(half);
-    MeasuredError error{&ErrorParts::grid, difference(base, coarse)};
-    count(coarse, error);
-    extrapolate(error.size, scene, patches.plan);
-    errors.push_back(std::move(error));
-  }
-  if (fidelity.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
-    Fidelity resolved = fidelity;
+  // With the load law, grids are compared by solved areas: its own steps between grids are partly
+  // what it lacks against them.
+  const bool load_law =
+      fidelity.estimator == Estimator::Load && (patches.plan.water || patches.plan.field);
+  MeasuredError method{&ErrorParts::method, {}};
+  std::optional<Run> areas, coarse;
+  Fidelity resolved = fidelity;
+  if (load_law) {
     resolved.estimator = Estimator::Area;
-    const Run areas = run(resolved);
-    MeasuredError error{&ErrorParts::method, difference(base, areas)};
-    count(areas, error);
-    for (const auto& results : areas.patches.results) {
-      std::string& status = error.pull_in.emplace_back();
+    areas = run(resolved);
+    count(*areas, method);
+  }
+  const Run& fine = load_law ? *areas : base;
+  if (fidelity.grid / 2 >= kSmallestGrid) {
+    Fidelity half = resolved;
+    half.grid = fidelity.grid / 2;
+    coarse = run(half);
+    MeasuredError grid{&ErrorParts::grid, {}};
+    count(*coarse, grid);
+    grid.size = size_of(
+        [&](int without) {
+          const std::vector<Row> v = values(fine, without);
+          return relative(values(*coarse, without), v, v);
+        },
+        skins, 1);
+    extrapolate(grid.size, scene, patches.plan, load_law);
+    errors.push_back(std::move(grid));
+  }
+  if (load_law) {
+    // The scatter of the difference between skins is no bias: it is taken off.
+    method.size = size_of(
+        [&](int without) {
+          const std::vector<Row> law = values(base, without), v = values(fine, without);
+          std::vector<Row> out = relative(v, law, law);
+          if (!coarse) return out;
+          const std::vector<Row> last = relative(v, values(*coarse, without), law);
+          for (std::size_t i = 0; i < out.size(); ++i) {
+            for (std::size_t m = 0; m < kMeasured.size(); ++m) {
+              if (kMeasured[m] == &ResponsePoint::modulation) out[i][m] += kOtherRest * last[i][m];
+            }
+          }
+          return out;
+        },
+        skins, -1);
+    for (const auto& results : areas->patches.results) {
+      std::string& status = method.pull_in.emplace_back();
       for (const PatchResult& p : results) {
         if (status.empty() && p.status.starts_with("pull-in")) status = p.status;
       }
     }
-    errors.push_back(std::move(error));
+    errors.push_back(std::move(method));
   }
   return errors;
 }

@@ -47,6 +47,7 @@ struct CoverageRow {
 };
 struct CoverageOptions {
   int scenes = 50;
+  int first = 0;                           // of the random scenes; those of the reports are 0 to 49
   int grid = 64, skins = 12;               // of the error bars that are tried
   int finer_grid = 128, finer_skins = 24;  // of the reference
   int threads = 0;
@@ -56,12 +57,13 @@ struct CoverageOptions {
 Scene random_scene(int index, Texture& texture);
 std::vector<CoverageRow> coverage(const CoverageOptions& options);
 
-// Share of the scenes whose reference lies inside the 95 % interval, and median half-width over the
-// 95 % quantile of the errors; by fidelity.
+// Share of the scenes whose reference lies inside the 95 % interval, median half-width over the
+// 95 % quantile of the errors, and the root mean square of error over stated standard error (1 for
+// bars that fit, whatever the spread of sizes among scenes); by fidelity.
 struct CoverageSummary {
   std::string fidelity;
   int scenes = 0;
-  double inside = 0, median_half_width = 0, error_quantile = 0;
+  double inside = 0, median_half_width = 0, error_quantile = 0, rms_ratio = 0;
 };
 std::vector<CoverageSummary> coverage_summary(const std::vector<CoverageRow>& rows);
 

@@ -120,6 +120,7 @@ TEST(AccuracyPage, TheErrorBarsCoverHeldOutScenes) {
               << s.median_half_width / s.error_quantile << "\n";
     EXPECT_EQ(s.scenes, 50);
     EXPECT_GE(s.inside, 0.9);
+    EXPECT_LE(s.median_half_width, 1.5 * s.error_quantile);
   }
 }
 
