@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -19,17 +20,25 @@ namespace {
 struct HazeOptions {
   DesignOptions design;
   std::string height, size;
+  std::vector<std::string> angles;
   double index = 0, fill = 0;
 };
 
 int solve(const HazeOptions& options) {
   if (options.design.file.empty() == options.height.empty())
     throw InputError("expected a design FILE or --height FILE");
+  std::vector<double> angles;
+  for (const std::string& angle : options.angles) {
+    angles.push_back(parse_si(angle, "deg"));
+    if (!(angles.back() >= 0 && angles.back() <= 70 * kPi / 180))
+      throw InputError("--angle: expected 0 to 70 deg");
+  }
   Optics o;
   if (options.height.empty()) {
     Design design = read_study(options.design.file, options.design.overrides).design;
     if (options.index > 0) design.surface.refractive_index = options.index;
     if (options.fill > 0) design.view.fill_index = options.fill;
+    if (!angles.empty()) design.view.angles = angles;
     if (design.view.fill_index > design.surface.refractive_index)
       throw InputError("--fill-index: expected 1 to the glass's index");
     o = appearance_of(design);
@@ -39,7 +48,9 @@ int solve(const HazeOptions& options) {
     if (options.fill > 0) media.fill = options.fill;
     if (media.fill > media.index) throw InputError("--fill-index: expected 1 to the glass's index");
     const double width = options.size.empty() ? 0 : parse_si(options.size, "um");
-    o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media);
+    Light light;
+    if (!angles.empty()) light.angles = angles;
+    o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media, light);
   }
   const bool refused = o.regime == "refused";
   if (options.design.json) {
@@ -55,6 +66,7 @@ int solve(const HazeOptions& options) {
              {"spectrum", Json::array()}};
     for (const SpectrumPoint& p : o.spectrum) {
       out["spectrum"].push_back({{"wavelength", p.wavelength},
+                                 {"angle", p.angle},
                                  {"specular", p.specular},
                                  {"haze", p.haze},
                                  {"transmitted", p.transmitted},
@@ -66,12 +78,13 @@ int solve(const HazeOptions& options) {
     if (!refused) {
       std::cout << fmt::format(
           "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"
-          "colour shift   {:.4f} (u'v')\n\n{:>8} {:>8} {:>8} {:>8}\n",
-          100 * o.haze, 100 * o.transmittance, 100 * o.gloss, o.colour_shift, "nm", "haze %",
+          "colour shift   {:.4f} (u'v')\n\n{:>8} {:>8} {:>8} {:>8} {:>8}\n",
+          100 * o.haze, 100 * o.transmittance, 100 * o.gloss, o.colour_shift, "deg", "nm", "haze %",
           "trans. %", "gloss %");
       for (const SpectrumPoint& p : o.spectrum) {
-        std::cout << fmt::format("{:>8.0f} {:>8.2f} {:>8.2f} {:>8.2f}\n", 1e9 * p.wavelength,
-                                 100 * p.haze, 100 * p.transmitted, 100 * p.gloss);
+        std::cout << fmt::format("{:>8.0f} {:>8.0f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+                                 p.angle * 180 / kPi, 1e9 * p.wavelength, 100 * p.haze,
+                                 100 * p.transmitted, 100 * p.gloss);
       }
     }
     if (!o.warning.empty()) std::cout << "note: " << o.warning << '\n';
@@ -96,6 +109,9 @@ void add_solve_haze(CLI::App& solve_command, Context& context) {
       ->add_option("--fill-index", options->fill,
                    "Index of what fills the texture; default: the design's, or 1, air")
       ->check(CLI::Range(1.0, 5.0));
+  command->add_option("--angle", options->angles,
+                      "From the normal, e.g. \"45 deg\"; several: their mean; default: the "
+                      "design's, or 0");
   command->add_flag("--json", options->design.json, "One JSON object, SI units");
   command->callback(
       [&context, options] { context.action = [options] { return solve(*options); }; });

@@ -34,11 +34,17 @@ Optics layer(const Texture& texture, const OpticalMedia& media, const View& view
     disorder.width = grooves->width;
     features = Features::Lines;
   }
-  return effective_medium(open_fraction(texture), texture_depth(texture), features, media,
-                          disorder);
+  return effective_medium(open_fraction(texture), texture_depth(texture), features, media, disorder,
+                          {visible_wavelengths(), view.angles});
 }
 
-Optics screen(const Texture& texture, const OpticalMedia& media) {
+// Below this period no order but the undeviated one leaves the layer.
+double finest_period(double index, const View& view) {
+  const double steepest = *std::max_element(view.angles.begin(), view.angles.end());
+  return visible_wavelengths().front() / (index + std::sin(steepest));
+}
+
+Optics screen(const Texture& texture, const OpticalMedia& media, const Light& light) {
   const double period = texture_period(texture);
   const bool array = quick_appearance(texture);
   Grid grid = patch_grid(texture, kRandomPixels, kRandomPatch);
@@ -51,7 +57,7 @@ Optics screen(const Texture& texture, const OpticalMedia& media) {
   const PixelEdges edges =
       array && edge < 0.1 * period ? PixelEdges::TwoLevels : PixelEdges::Sloped;
   const Heightmap h = generate(texture, grid);
-  Optics out = phase_screen(h, edges, media);
+  Optics out = phase_screen(h, edges, media, light);
   if (array) {
     const FabricationMargins margins = fabrication_margins(texture);
     const double feature = std::min(margins.min_hole, margins.min_wall);
@@ -69,21 +75,21 @@ Optics screen(const Texture& texture, const OpticalMedia& media) {
 }
 
 Optics computed(const Texture& texture, double index, const View& view) {
-  OpticalMedia media{index, view.fill_index};
+  const OpticalMedia media{index, view.fill_index};
+  const Light light{visible_wavelengths(), view.angles};
   Optics out;
   if (texture_depth(texture) <= 0) {
     const Heightmap flat{{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)};
-    out = phase_screen(flat, PixelEdges::Sloped, media);
+    out = phase_screen(flat, PixelEdges::Sloped, media, light);
     out.regime = "flat";
-  } else if (const std::string why = optics_refusal(texture, index); !why.empty()) {
+  } else if (const std::string why = optics_refusal(texture, index, view); !why.empty()) {
     out.regime = "refused";
     out.warning = why;
     return out;
-  } else if (quick_appearance(texture) &&
-             texture_period(texture) < visible_wavelengths().front() / index) {
+  } else if (quick_appearance(texture) && texture_period(texture) < finest_period(index, view)) {
     out = layer(texture, media, view);
   } else {
-    out = screen(texture, media);
+    out = screen(texture, media, light);
   }
   if (view.fill_index > 1) {
     warn(out, "seen with the texture filled; the finger feels it open");
@@ -100,17 +106,17 @@ bool quick_appearance(const Texture& texture) {
          std::holds_alternative<Grating>(texture.kind);
 }
 
-std::string optics_refusal(const Texture& texture, double index) {
+std::string optics_refusal(const Texture& texture, double index, const View& view) {
   const double period = texture_period(texture);
-  const double blue = visible_wavelengths().front(), red = visible_wavelengths().back();
-  if (!quick_appearance(texture) || texture_depth(texture) <= 0 || period < blue / index ||
+  const double finest = finest_period(index, view), red = visible_wavelengths().back();
+  if (!quick_appearance(texture) || texture_depth(texture) <= 0 || period < finest ||
       period >= 2 * red) {
     return {};
   }
   return fmt::format(
       "period {:.3g} nm is neither below {:.0f} nm (effective medium) nor above {:.0f} nm (phase "
       "screen)",
-      1e9 * period, 1e9 * blue / index, 1e9 * 2 * red);
+      1e9 * period, 1e9 * finest, 1e9 * 2 * red);
 }
 
 Optics appearance(const Texture& texture, double index, const View& view) {

@@ -8,12 +8,13 @@
 namespace papilla {
 
 // Why no theory here can say how a texture looks; empty: one can. Free.
-std::string optics_refusal(const Texture& texture, double index);
+std::string optics_refusal(const Texture& texture, double index, const View& view);
 // Whether appearance() takes about a millisecond: arrays. Else a second at most.
 bool quick_appearance(const Texture& texture);
 
-// Periods below the shortest wavelength / index: effective medium. Features of two wavelengths and
-// more: phase screen. Between: regime "refused", no numbers. The last answers are kept.
+// Periods below the shortest wavelength / (index + largest sine): effective medium. Features of two
+// wavelengths and more: phase screen. Between: regime "refused", no numbers. The last answers are
+// kept.
 Optics appearance(const Texture& texture, double index, const View& view);
 
 }  // namespace papilla

@@ -3,6 +3,10 @@
 namespace papilla {
 
 void fields(FieldVisitor& v, View& s) {
+  v.numbers(
+      {"angles", "deg", 0, 70,
+       "directions of view, from the normal; haze, transmittance and colour are means over them"},
+      s.angles);
   v.number({"fill_index", "", 1, 5,
             "refractive index of what fills the texture when it is looked at: 1 air, 1.33 water, "
             "the glass's own: a matched fill; friction is that of the open texture"},

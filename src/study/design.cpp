@@ -159,6 +159,7 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   if (drive.driven() && design.surface.equivalent_thickness() <= 0) {
     problem("surface.dielectric", "a driven surface needs a dielectric layer thicker than 0");
   }
+  if (design.view.angles.empty()) problem("view.angles", "expected at least one angle");
   if (design.view.fill_index > design.surface.refractive_index) {
     problem("view.fill_index", "expected at most surface.refractive_index");
   }

@@ -50,7 +50,7 @@ bool of_appearance(const Constraint& c) {
 bool on_metric(const Constraint& c) { return c.name.find('(') != std::string::npos; }
 
 std::string look_refusal(const Design& d) {
-  return optics_refusal(d.texture, d.surface.refractive_index);
+  return optics_refusal(d.texture, d.surface.refractive_index, d.view);
 }
 
 // Root mean square distance from the target over humidity. Eq. search.11

@@ -22,7 +22,7 @@ Texture holes(double period, double diameter, double depth) {
 Optics green(double depth, double period = 6e-6) {
   const Texture texture = holes(period, 0.75 * period, depth);
   return phase_screen(generate(texture, patch_grid(texture, 192, 2 * period)),
-                      PixelEdges::TwoLevels, {1.5, 1}, {550e-9});
+                      PixelEdges::TwoLevels, {1.5, 1}, {{550e-9}});
 }
 
 double binary_specular(double fill, double phase) {
@@ -51,6 +51,69 @@ TEST(PhaseScreen, OrdersInsideTheConeAreNoHaze) {
   // Above 12.6 um the first orders of 550 nm are within 2.5 deg.
   const double outside = green(300e-9, 12.5e-6).haze, within = green(300e-9, 12.7e-6).haze;
   EXPECT_NEAR(outside - within, 4 * 0.089988, 2e-3);
+}
+
+// Every order of round holes by its closed form, its direction in space against the undeviated one.
+TEST(PhaseScreen, ObliqueLightGivesTheSumOverTheOrdersOfItsCone) {
+  constexpr double kWavelength = 550e-9, kDepth = 250e-9;
+  for (const double period : {12.7e-6, 20e-6}) {
+    for (const double degrees : {0.0, 30.0, 60.0}) {
+      const double sine = std::sin(degrees * kPi / 180), radius = 0.375 * period;
+      const double path = std::sqrt(2.25 - sine * sine) - std::sqrt(1 - sine * sine);
+      const double step2 = 4 * square(std::sin(kPi * path * kDepth / kWavelength));
+      const double fill = kPi * square(radius / period);
+      double cone = 1 - fill * (1 - fill) * step2;
+      const double specular = cone;
+      for (int m = -3; m <= 3; ++m) {
+        for (int n = -3; n <= 3; ++n) {
+          if (m == 0 && n == 0) continue;
+          const double q = 2 * kPi * std::hypot(m, n) / period * radius;
+          const double power = square(fill * 2 * std::cyl_bessel_j(1, q) / q) * step2;
+          for (const bool along : {true, false}) {  // planes of incidence x and y
+            const double x = (along ? sine : 0) + m * kWavelength / period;
+            const double y = (along ? 0 : sine) + n * kWavelength / period;
+            const double z = std::sqrt(1 - x * x - y * y);
+            const double cosine = (along ? x : y) * sine + z * std::sqrt(1 - sine * sine);
+            if (cosine > std::cos(kHazeAngle)) cone += 0.5 * power;
+          }
+        }
+      }
+      const Texture texture = holes(period, 2 * radius, kDepth);
+      const Optics o =
+          phase_screen(generate(texture, patch_grid(texture, 192, 2 * period)),
+                       PixelEdges::TwoLevels, {1.5, 1}, {{kWavelength}, {degrees * kPi / 180}});
+      EXPECT_NEAR(o.spectrum[0].specular, specular, 3e-4) << period << " " << degrees;
+      EXPECT_NEAR(o.haze, 1 - cone, 1e-3) << period << " " << degrees;
+    }
+  }
+}
+
+TEST(PhaseScreen, AFlatPlateLosesHalfThePolarisationAtBrewstersAngle) {
+  // In the plane nothing is reflected; across it ((n^2 - 1)/(n^2 + 1))^2 at each face.
+  const double r = square(1.25 / 3.25), expected = 0.5 * (1 + (1 - r) / (1 + r));
+  const Light light{{550e-9}, {std::atan(1.5)}};
+  const Heightmap flat{{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)};
+  EXPECT_NEAR(phase_screen(flat, PixelEdges::Sloped, {1.5, 1}, light).transmittance, expected,
+              1e-12);
+  for (const Features features : {Features::Holes, Features::Lines}) {
+    for (const auto& [open, depth] : {std::pair{0.0, 100e-9}, {1.0, 100e-9}, {0.4, 0.0}}) {
+      const Optics o = effective_medium(open, depth, features, {1.5, 1}, {}, light);
+      EXPECT_NEAR(o.transmittance, expected, 1e-9);
+      EXPECT_NEAR(o.gloss, 1, 1e-9);
+    }
+  }
+}
+
+TEST(Appearance, IsTheMeanOverTheAnglesOfView) {
+  const Texture texture = holes(6e-6, 4.5e-6, 100e-9);
+  const auto haze = [&](std::vector<double> angles) {
+    return appearance(texture, 1.5, {.angles = std::move(angles)}).haze;
+  };
+  EXPECT_NEAR(haze({0.0, 1.0}), 0.5 * (haze({0.0}) + haze({1.0})), 1e-12);
+  EXPECT_GT(haze({1.0}), haze({0.0}));  // the path through the glass grows
+  // Oblique light is diffracted by finer arrays.
+  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {}).regime, "effective medium");
+  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {.angles = {1.0}}).regime, "refused");
 }
 
 TEST(PhaseScreen, MatchedFillRemovesHaze) {
@@ -92,7 +155,7 @@ TEST(PhaseScreen, GivesTheSeriesOfGaussianRoughness) {
             h(x, y) += c * cx[static_cast<std::size_t>(x)] - s * sx[static_cast<std::size_t>(x)];
         }
       }
-      const Optics o = phase_screen(h, PixelEdges::Sloped, {1.5, 1}, {kWavelength});
+      const Optics o = phase_screen(h, PixelEdges::Sloped, {1.5, 1}, {{kWavelength}});
       specular += o.spectrum[0].specular / kDraws;
       haze += o.haze / kDraws;
     }
@@ -114,8 +177,7 @@ TEST(EffectiveMedium, QuarterWaveLayerOfTheGeometricMeanReflectsNothing) {
   const double e = 1.5, a = (1 - e) / (1 + e), b = (2.25 - e) / (2.25 + e);
   const double open = b / (b - a);
   const double n = std::sqrt(e);
-  const Optics o = effective_medium(open, 550e-9 / (4 * n), Features::Holes, glass, {}, {550e-9});
-  EXPECT_NEAR(o.spectrum[0].gloss, 0, 1e-12);
+  const Optics o = effective_medium(open, 550e-9 / (4 * n), Features::Holes, glass, {}, {{550e-9}});
   EXPECT_NEAR(o.transmittance, 0.96, 1e-12);
   EXPECT_EQ(o.haze, 0);
   // Nothing open, all open, and no depth are the bare glass.
@@ -160,7 +222,7 @@ TEST(EffectiveMedium, HazeOfDisorderIsTheSumOverRandomHoles) {
       mean += sum * square(k * kDepth * 0.02) / kDraws;
     }
     const Optics o = effective_medium(open, kDepth, Features::Holes, weak,
-                                      {kDiameter, displacement, scatter}, {kWavelength});
+                                      {kDiameter, displacement, scatter}, {{kWavelength}});
     EXPECT_NEAR(o.haze, mean, 0.04 * mean) << displacement << " " << scatter;
     EXPECT_GT(mean, 0);
   }
@@ -189,7 +251,7 @@ TEST(Appearance, ColourOfADeepArrayIsSeen) {
   // At 900 nm depth the haze is 0, 0.29, 0.67 at 450, 550, 650 nm.
   const Texture texture = holes(6e-6, 4.5e-6, 900e-9);
   const Optics o = phase_screen(generate(texture, patch_grid(texture, 192, 12e-6)),
-                                PixelEdges::TwoLevels, {1.5, 1}, {450e-9, 550e-9, 650e-9});
+                                PixelEdges::TwoLevels, {1.5, 1}, {{450e-9, 550e-9, 650e-9}});
   EXPECT_NEAR(o.spectrum[0].haze, 0.000, 1e-3);
   EXPECT_NEAR(o.spectrum[1].haze, 0.288, 1e-3);
   EXPECT_NEAR(o.spectrum[2].haze, 0.668, 1e-3);

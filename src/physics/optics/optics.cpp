@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <numeric>
 
 #include "base/constants.h"
 
@@ -24,7 +25,30 @@ std::array<double, 3> observer(double wavelength) {
           lobe(l, 1.217, 437.0, 0.0845, 0.0278) + lobe(l, 0.681, 459.0, 0.0385, 0.0725)};
 }
 
-double fresnel(double from, double to) { return square((from - to) / (from + to)); }
+// A medium as light of a given sine in air meets it: permittivity along the plane of incidence,
+// across it, and along the normal. Eq. optics.8
+struct Medium {
+  double along, across, normal;
+};
+Medium plain(double index) { return {square(index), square(index), square(index)}; }
+
+enum class Polarisation { S, P };  // the field across the plane of incidence, or in it
+constexpr std::array<Polarisation, 2> kPolarisations{Polarisation::S, Polarisation::P};
+
+// Wave number along the normal over that of vacuum.
+double normal_wave(const Medium& m, Polarisation p, double sine) {
+  return p == Polarisation::S ? std::sqrt(m.across - sine * sine)
+                              : std::sqrt(m.along * (1 - sine * sine / m.normal));
+}
+double admittance(const Medium& m, Polarisation p, double sine) {
+  const double w = normal_wave(m, p, sine);
+  return p == Polarisation::S ? w : m.along / w;
+}
+// Amplitude of what a boundary sends back.
+double reflection(const Medium& from, const Medium& to, Polarisation p, double sine) {
+  const double a = admittance(from, p, sine), b = admittance(to, p, sine);
+  return (a - b) / (a + b);
+}
 
 // Both faces of a plate without interference. Eq. optics.4
 double plate(double reflected1, double reflected2) {
@@ -73,17 +97,28 @@ Orders orders(const Grid& grid, const std::vector<Number>& t, double radius) {
   return out;
 }
 
-// Power of the orders within a radius in wave numbers [1/m].
+// No order within the cone is further from the undeviated one than this sine, from any direction.
+const double kReach = 2 * std::sin(0.5 * kHazeAngle);
+
+// Power of the orders within 2.5 deg of light that falls in with these sines along x and y. Eq.
+// optics.2, 8
 struct Inside {
   double specular = 0, cone = 0;
 };
 template <typename Power>
-Inside inside(const Grid& grid, double radius, const Power& power) {
+Inside inside(const Grid& grid, double wavelength, double sx, double sy, const Power& power) {
+  const double radius = kReach / wavelength;
   const int mx = static_cast<int>(radius * grid.lx), my = static_cast<int>(radius * grid.ly);
+  const double sz = std::sqrt(1 - sx * sx - sy * sy);
   Inside out;
   for (int m = -mx; m <= mx; ++m) {
     for (int n = -my; n <= my; ++n) {
-      if (square(m / grid.lx) + square(n / grid.ly) > square(radius)) continue;
+      const double dx = m * wavelength / grid.lx, dy = n * wavelength / grid.ly;
+      const double z2 = 1 - square(sx + dx) - square(sy + dy);
+      if (z2 <= 0) continue;
+      // Length of the difference of two directions, exact for small ones.
+      const double dz = std::sqrt(z2) - sz;
+      if (dx * dx + dy * dy + dz * dz > kReach * kReach) continue;
       const double p = power(m, n);
       out.cone += p;
       if (m == 0 && n == 0) out.specular = p;
@@ -95,7 +130,7 @@ Inside inside(const Grid& grid, double radius, const Power& power) {
 // The amplitudes exp(i k h) of a heightmap, for any phase k a metre of height. Eq. optics.1
 class Screen {
  public:
-  Screen(const Heightmap& h, PixelEdges edges, double largest_radius) : h_(h), edges_(edges) {
+  Screen(const Heightmap& h, PixelEdges edges, double shortest) : h_(h), edges_(edges) {
     const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
     low_ = *low, high_ = *high;
     t_.resize(h.z.size());
@@ -103,23 +138,43 @@ class Screen {
     std::vector<double> share(h.z.size());
     for (std::size_t i = 0; i < h.z.size(); ++i)
       share[i] = high_ > low_ ? (h.z[i] - low_) / (high_ - low_) : 1;
-    share_ = orders(h.grid, share, largest_radius);
+    share_ = orders(h.grid, share, kReach / shortest);
   }
 
-  Inside power(double k, double radius) {
+  // Phase k a metre of height; the mean over the planes of incidence x and y.
+  Inside power(double k, double wavelength, double sine) {
     if (edges_ == PixelEdges::TwoLevels) {
       // The share of the upper level knows no wavelength: its transform serves all.
       const Complex bottom = std::polar(1.0, k * low_), step = std::polar(1.0, k * high_) - bottom;
-      return inside(h_.grid, radius, [&](int m, int n) {
+      return both_planes(wavelength, sine, [&](int m, int n) {
         return std::norm((m == 0 && n == 0 ? bottom : 0.0) + share_.at(m, n) * step);
       });
     }
     for (std::size_t i = 0; i < h_.z.size(); ++i) t_[i] = std::polar(1.0, k * h_.z[i]);
-    const Orders f = orders(h_.grid, t_, radius);
-    return inside(h_.grid, radius, [&](int m, int n) { return std::norm(f.at(m, n)); });
+    const Orders f = orders(h_.grid, t_, kReach / wavelength);
+    return both_planes(wavelength, sine, [&](int m, int n) { return std::norm(f.at(m, n)); });
+  }
+
+  // |mean amplitude|^2 alone.
+  double specular(double k) const {
+    if (edges_ == PixelEdges::TwoLevels) {
+      const Complex bottom = std::polar(1.0, k * low_), step = std::polar(1.0, k * high_) - bottom;
+      return std::norm(bottom + share_.at(0, 0) * step);
+    }
+    Complex sum = 0;
+    for (const double z : h_.z) sum += std::polar(1.0, k * z);
+    return std::norm(sum / static_cast<double>(h_.z.size()));
   }
 
  private:
+  template <typename Power>
+  Inside both_planes(double wavelength, double sine, const Power& power) const {
+    const Inside x = inside(h_.grid, wavelength, sine, 0, power);
+    if (sine == 0) return x;
+    const Inside y = inside(h_.grid, wavelength, 0, sine, power);
+    return {x.specular, 0.5 * (x.cone + y.cone)};
+  }
+
   const Heightmap& h_;
   PixelEdges edges_;
   double low_ = 0, high_ = 0;
@@ -130,28 +185,56 @@ class Screen {
 // 2 J1(x)/x and J0(x) for x up to a few.
 double airy(double x) { return x < 1e-6 ? 1 - x * x / 8 : 2 * std::cyl_bessel_j(1, x) / x; }
 
-// Index of the layer for each polarisation. Eq. optics.5
-std::vector<double> layer_indices(double open, bool lines, const OpticalMedia& media) {
+// The layer in each plane of incidence that counts. Eq. optics.5
+std::vector<Medium> layers(double open, bool lines, const OpticalMedia& media) {
   const double e1 = square(media.fill), e2 = square(media.index);
-  if (lines) {  // Rytov
-    return {std::sqrt(open * e1 + (1 - open) * e2), 1 / std::sqrt(open / e1 + (1 - open) / e2)};
+  const double mean = open * e1 + (1 - open) * e2;
+  if (lines) {  // Rytov; across and along the grooves
+    const double harmonic = 1 / (open / e1 + (1 - open) / e2);
+    return {{harmonic, mean, mean}, {mean, harmonic, mean}};
   }
   const double b = (2 * open - 1) * (e1 - e2);  // Bruggeman in the plane
-  return {std::sqrt(0.5 * (b + std::sqrt(b * b + 4 * e1 * e2)))};
+  const double round = 0.5 * (b + std::sqrt(b * b + 4 * e1 * e2));
+  return {{round, round, mean}};
+}
+
+// Wave numbers along the normal over that of vacuum, for each plane of incidence and polarisation.
+std::vector<double> normal_waves(double open, bool lines, const OpticalMedia& media, double sine) {
+  std::vector<double> out;
+  for (const Medium& layer : layers(open, lines, media)) {
+    for (const Polarisation p : kPolarisations) out.push_back(normal_wave(layer, p, sine));
+  }
+  return out;
+}
+
+// Share of the power that the layer sends back, for each plane and polarisation.
+std::vector<double> layer_reflection(double open, double depth, bool lines,
+                                     const OpticalMedia& media, double wavelength, double sine) {
+  std::vector<double> out;
+  const Medium fill = plain(media.fill), glass = plain(media.index);
+  for (const Medium& layer : layers(open, lines, media)) {
+    for (const Polarisation p : kPolarisations) {
+      const double r1 = reflection(fill, layer, p, sine), r2 = reflection(layer, glass, p, sine);
+      const Complex turn =
+          std::polar(1.0, 4 * kPi * normal_wave(layer, p, sine) * depth / wavelength);
+      out.push_back(std::norm((r1 + r2 * turn) / (1.0 + r1 * r2 * turn)));
+    }
+  }
+  return out;
 }
 
 // Share of the transmitted light that disorder sends beyond 2.5 deg: the layer's phase follows the
 // local share of features, whose fluctuation has the spectrum of independent errors. Eq. optics.7
 double disorder_haze(double open, double depth, Features features, const OpticalMedia& media,
-                     const Disorder& disorder, double wavelength) {
+                     const Disorder& disorder, double wavelength, double sine) {
   const double w = disorder.width, k = 2 * kPi / wavelength;
   const bool lines = features == Features::Lines;
   const double share = features == Features::Pillars ? 1 - open : open;
   if (w <= 0 || share <= 0 || share >= 1) return 0;
   constexpr double kStep = 1e-4;
-  double slope = 0;  // mean square of d(index)/d(open) over polarisations
-  const auto up = layer_indices(std::min(1.0, open + kStep), lines, media),
-             down = layer_indices(std::max(0.0, open - kStep), lines, media);
+  double slope = 0;  // mean square of d(wave number)/d(open) over planes and polarisations
+  const auto up = normal_waves(std::min(1.0, open + kStep), lines, media, sine),
+             down = normal_waves(std::max(0.0, open - kStep), lines, media, sine);
   for (std::size_t i = 0; i < up.size(); ++i)
     slope += square((up[i] - down[i]) / (2 * kStep)) / static_cast<double>(up.size());
   // Spectrum of the share: per feature F^2 (1 - exp(-q^2 d^2)) + (s w dF/dw)^2.
@@ -193,20 +276,32 @@ std::array<double, 2> chromaticity(const std::vector<SpectrumPoint>& spectrum, b
   return sum > 0 ? std::array<double, 2>{4 * x / sum, 9 * y / sum} : std::array<double, 2>{0, 0};
 }
 
-void photopic_means(Optics& o) {
-  double total = 0;
-  o.haze = o.transmittance = o.gloss = 0;
-  for (const SpectrumPoint& p : o.spectrum) {
-    const double weight = observer(p.wavelength)[1];
-    total += weight;
-    o.haze += weight * p.haze;
-    o.transmittance += weight * p.transmitted;
-    o.gloss += weight * p.gloss;
+void photopic_means(Optics& o, const Light& light) {
+  o.haze = o.transmittance = o.gloss = o.colour_shift = 0;
+  const double share = 1.0 / static_cast<double>(light.angles.size());
+  for (std::size_t a = 0; a < light.angles.size(); ++a) {
+    const auto begin =
+        o.spectrum.begin() + static_cast<std::ptrdiff_t>(a * light.wavelengths.size());
+    const std::vector<SpectrumPoint> points(
+        begin, begin + static_cast<std::ptrdiff_t>(light.wavelengths.size()));
+    double total = 0, haze = 0, transmittance = 0, gloss = 0;
+    for (const SpectrumPoint& p : points) {
+      const double weight = observer(p.wavelength)[1];
+      total += weight;
+      haze += weight * p.haze;
+      transmittance += weight * p.transmitted;
+      gloss += weight * p.gloss;
+    }
+    o.haze += share * haze / total;
+    o.transmittance += share * transmittance / total;
+    o.gloss += share * gloss / total;
+    const auto seen = chromaticity(points, true), source = chromaticity(points, false);
+    o.colour_shift += share * std::hypot(seen[0] - source[0], seen[1] - source[1]);
   }
-  o.haze /= total, o.transmittance /= total, o.gloss /= total;
-  const auto light = chromaticity(o.spectrum, true), source = chromaticity(o.spectrum, false);
-  o.colour_shift = std::hypot(light[0] - source[0], light[1] - source[1]);
 }
+
+// The 60 deg of a gloss meter.
+const double kGlossSine = std::sqrt(0.75);
 
 }  // namespace
 
@@ -220,53 +315,68 @@ const std::vector<double>& visible_wavelengths() {
 }
 
 Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& media,
-                    const std::vector<double>& wavelengths) {
+                    const Light& light) {
   Optics out;
   out.regime = "phase screen";
-  const double flat = fresnel(media.fill, media.index);
-  const double sine = std::sin(kHazeAngle);
-  Screen screen(h, edges, sine / *std::min_element(wavelengths.begin(), wavelengths.end()));
-  for (const double wavelength : wavelengths) {
-    SpectrumPoint p;
-    p.wavelength = wavelength;
-    const Inside through =
-        screen.power(2 * kPi * (media.index - media.fill) / wavelength, sine / wavelength);
-    p.specular = through.specular;
-    p.haze = std::max(0.0, 1 - through.cone);  // Eq. optics.2
-    p.transmitted = through.specular * plate(flat, fresnel(1, media.index));
-    // Eq. optics.3: the path back and forth at 60 deg in air, refracted into the fill.
-    const double cosine = std::sqrt(1 - 0.75 / square(media.fill));
-    p.gloss = screen.power(4 * kPi * media.fill * cosine / wavelength, 0).specular;
-    out.spectrum.push_back(p);
+  const Medium air = plain(1), fill = plain(media.fill), glass = plain(media.index);
+  Screen screen(h, edges, *std::min_element(light.wavelengths.begin(), light.wavelengths.end()));
+  for (const double angle : light.angles) {
+    const double sine = std::sin(angle);
+    double faces = 0;  // what a flat plate lets through
+    for (const Polarisation p : kPolarisations) {
+      faces += 0.5 * plate(square(reflection(fill, glass, p, sine)),
+                           square(reflection(air, glass, p, sine)));
+    }
+    const double path =
+        normal_wave(glass, Polarisation::S, sine) - normal_wave(fill, Polarisation::S, sine);
+    for (const double wavelength : light.wavelengths) {
+      SpectrumPoint p;
+      p.wavelength = wavelength, p.angle = angle;
+      const Inside through = screen.power(2 * kPi * path / wavelength, wavelength, sine);
+      p.specular = through.specular;
+      p.haze = std::max(0.0, 1 - through.cone);
+      p.transmitted = through.specular * faces;
+      // Eq. optics.3: the path back and forth, refracted into the fill.
+      const double back = 2 * normal_wave(fill, Polarisation::S, kGlossSine);
+      p.gloss = screen.specular(2 * kPi * back / wavelength);
+      out.spectrum.push_back(p);
+    }
   }
-  photopic_means(out);
+  photopic_means(out, light);
   return out;
 }
 
 Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,
-                        const Disorder& disorder, const std::vector<double>& wavelengths) {
+                        const Disorder& disorder, const Light& light) {
   Optics out;
   out.regime = "effective medium";
-  const std::vector<double> layers = layer_indices(open, features == Features::Lines, media);
-  for (const double wavelength : wavelengths) {
-    SpectrumPoint p;
-    p.wavelength = wavelength;
-    double reflected = 0;
-    for (const double n : layers) {
-      const double r1 = (media.fill - n) / (media.fill + n),
-                   r2 = (n - media.index) / (n + media.index);
-      const Complex turn = std::polar(1.0, 4 * kPi * n * depth / wavelength);
-      reflected +=
-          std::norm((r1 + r2 * turn) / (1.0 + r1 * r2 * turn)) / static_cast<double>(layers.size());
+  const bool lines = features == Features::Lines;
+  const Medium air = plain(1), fill = plain(media.fill), glass = plain(media.index);
+  const auto mean = [](const std::vector<double>& list) {
+    return std::accumulate(list.begin(), list.end(), 0.0) / static_cast<double>(list.size());
+  };
+  double bare = 0;  // flat glass, seen by the gloss meter
+  for (const Polarisation p : kPolarisations)
+    bare += 0.5 * square(reflection(fill, glass, p, kGlossSine));
+  for (const double angle : light.angles) {
+    const double sine = std::sin(angle);
+    for (const double wavelength : light.wavelengths) {
+      SpectrumPoint p;
+      p.wavelength = wavelength, p.angle = angle;
+      p.haze = disorder_haze(open, depth, features, media, disorder, wavelength, sine);
+      p.specular = 1 - p.haze;
+      std::vector<double> through = layer_reflection(open, depth, lines, media, wavelength, sine);
+      for (std::size_t i = 0; i < through.size(); ++i)
+        through[i] = plate(through[i], square(reflection(air, glass, kPolarisations[i % 2], sine)));
+      p.transmitted = p.specular * mean(through);
+      p.gloss =
+          bare > 0
+              ? mean(layer_reflection(open, depth, lines, media, wavelength, kGlossSine)) / bare
+              : 1;
+      out.spectrum.push_back(p);
     }
-    const double flat = fresnel(media.fill, media.index);
-    p.haze = disorder_haze(open, depth, features, media, disorder, wavelength);
-    p.specular = 1 - p.haze;
-    p.transmitted = p.specular * plate(reflected, fresnel(1, media.index));
-    p.gloss = flat > 0 ? reflected / flat : 1;
-    out.spectrum.push_back(p);
   }
-  photopic_means(out);
+  photopic_means(out, light);
   return out;
 }
 

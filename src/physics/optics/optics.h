@@ -1,5 +1,5 @@
-// How a texture looks on glass: haze, transmittance, gloss and colour, scalar theory at normal
-// incidence, one textured interface. docs/theory/optics.md.
+// How a texture looks on glass: haze, transmittance, gloss and colour, scalar theory, one textured
+// interface. docs/theory/optics.md.
 #pragma once
 
 #include <string>
@@ -19,8 +19,15 @@ struct OpticalMedia {
 // 400 to 720 nm in steps of 20 nm.
 const std::vector<double>& visible_wavelengths();
 
+// What the texture is looked at with: every wavelength from every direction.
+struct Light {
+  std::vector<double> wavelengths = visible_wavelengths();  // [m], in vacuum
+  std::vector<double> angles{0};  // between the light in air and the normal [rad], below 80 deg
+};
+
 struct SpectrumPoint {
   double wavelength = 0;   // [m], in vacuum
+  double angle = 0;        // [rad], in air
   double specular = 1;     // share of the transmitted light in the undeviated order
   double haze = 0;         // share of the transmitted light beyond 2.5 deg
   double transmitted = 1;  // undeviated share of the incident light, both faces of the plate
@@ -28,8 +35,8 @@ struct SpectrumPoint {
 };
 
 struct Optics {
-  double haze = 0, transmittance = 1, gloss = 1;  // photopic means of the spectrum
-  double colour_shift = 0;  // CIE 1976 u'v' distance of the undeviated light from the source
+  double haze = 0, transmittance = 1, gloss = 1;  // photopic means, mean over the angles
+  double colour_shift = 0;  // CIE 1976 u'v' distance of the undeviated light from the source; mean
   std::vector<SpectrumPoint> spectrum;
   std::string regime;   // "flat", "phase screen", "effective medium"; "refused": no numbers
   std::string warning;  // empty: inside the validity
@@ -49,17 +56,17 @@ struct Disorder {
 };
 
 // Thin phase screen of one period (or a patch of 100 um and more for random textures).
-// Eq. optics.1-4. Cost: pixels x wavelengths x orders inside the cone.
+// Eq. optics.1-4, 8. Oblique light: mean over the planes of incidence x and y. Cost: pixels x
+// wavelengths x angles x orders inside the cone.
 Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& media,
-                    const std::vector<double>& wavelengths = visible_wavelengths());
+                    const Light& light = {});
 
 // A layer finer than the wavelength: a share `open` of it is the fill, the rest glass. Eq.
-// optics.5. Lines: grooves (mean over both polarisations), else round holes or pillars: a share
-// `open` or 1 - `open`. A perfect array scatters nothing; haze comes from disorder, Eq. optics.7,
-// independent from feature to feature, single scattering.
+// optics.5. Lines: grooves (mean over polarisations and planes of incidence), else round holes or
+// pillars: a share `open` or 1 - `open`. A perfect array scatters nothing; haze comes from
+// disorder, Eq. optics.7, independent from feature to feature, single scattering.
 enum class Features { Holes, Pillars, Lines };
 Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,
-                        const Disorder& disorder = {},
-                        const std::vector<double>& wavelengths = visible_wavelengths());
+                        const Disorder& disorder = {}, const Light& light = {});
 
 }  // namespace papilla
