@@ -81,6 +81,8 @@ class CandidateSolver {
   }
 
  private:
+  using Low = std::pair<double, int>;  // gap and pixel
+
   // First watch set: the lowest gaps, four times the contact that Persson's and Bush's theories
   // expect, 2 p / (E* rms slope).
   bool choose_cold(bool demand) {
@@ -101,30 +103,38 @@ class CandidateSolver {
     }
     const double slope = std::sqrt(slopes / static_cast<double>(n_));
     const double expected = 2 * problem_.load / (problem_.kernel.contact_modulus() * slope);
-    return choose(g0, 4 * expected, demand, {});
+    double wanted = 4 * expected;
+    if (!affordable(wanted, demand)) return false;
+    watch(lowest(g0, std::max<std::size_t>(16, static_cast<std::size_t>(wanted))), wanted, {});
+    return true;
   }
 
+  // Pixels under pressure have no gap: they are among the lowest.
   bool choose_near(const ContactSolution& start, bool demand) {
+    std::vector<Low> low = lowest(start.gap, 2 * limit_);
     double load = 0, contact = 0;
-    const std::vector<double>& p = start.pressure;
-#pragma omp simd reduction(+ : load, contact)
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      load += p[i];
-      contact += p[i] > 0 ? 1.0 : 0.0;
+    for (const auto& [gap, i] : low) {
+      load += start.pressure[i];
+      contact += start.pressure[i] > 0 ? 1.0 : 0.0;
     }
-    return choose(start.gap, 3 * contact * std::max(1.0, problem_.load / load), demand,
-                  start.pressure);
+    if (!(load > 0)) return false;
+    double wanted = 3 * contact * std::max(1.0, problem_.load / load);
+    if (!affordable(wanted, demand)) return false;
+    watch(std::move(low), wanted, start.pressure);
+    return true;
   }
 
-  // The lowest `wanted` values of score, found from a sample, as watch set; touching at first:
-  // those under pressure, or half of them.
-  bool choose(std::span<const double> score, double wanted, bool demand,
-              std::span<const double> pressure) {
-    if (!(wanted <= 2 * static_cast<double>(limit_))) {
+  bool affordable(double& wanted, bool demand) const {
+    const double most = 2 * static_cast<double>(limit_);
+    if (!(wanted <= most)) {
       if (!demand) return false;
-      wanted = 2 * static_cast<double>(limit_);
+      wanted = most;
     }
-    const std::size_t count = std::max<std::size_t>(16, static_cast<std::size_t>(wanted));
+    return true;
+  }
+
+  // The lowest values of score, found from a sample: `count` of them and some more.
+  std::vector<Low> lowest(std::span<const double> score, std::size_t count) const {
     const std::size_t stride = std::max<std::size_t>(1, n_ / 8192) | 1;
     std::vector<double> sample;
     for (std::size_t i = 0; i < n_; i += stride) sample.push_back(score[i]);
@@ -132,7 +142,7 @@ class CandidateSolver {
     std::nth_element(sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(rank),
                      sample.end());
     const double below = sample[rank];
-    std::vector<std::pair<double, int>> low;
+    std::vector<Low> low;
     constexpr std::size_t kBlock = 64;
     for (std::size_t begin = 0; begin < n_; begin += kBlock) {
       const std::size_t end = std::min(begin + kBlock, n_);
@@ -144,6 +154,12 @@ class CandidateSolver {
         if (score[i] <= below) low.emplace_back(score[i], static_cast<int>(i));
       }
     }
+    return low;
+  }
+
+  // The lowest `wanted` of them as watch set; touching at first: those under pressure, or half.
+  void watch(std::vector<Low> low, double wanted, std::span<const double> pressure) {
+    const std::size_t count = std::max<std::size_t>(16, static_cast<std::size_t>(wanted));
     if (low.size() > count) {
       std::nth_element(low.begin(), low.begin() + static_cast<std::ptrdiff_t>(count), low.end());
       low.resize(count);
@@ -153,7 +169,6 @@ class CandidateSolver {
       const int i = low[k].second;
       members_.emplace_back(i, pressure.empty() ? 2 * k <= low.size() : pressure[i] > 0);
     }
-    return true;
   }
 
   // Pressures of the pixels watched by what half the pixels say of the tractions: with their
