@@ -18,11 +18,27 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
       {"study",
        0.03,
        {read_bytes(PAPILLA_TEST_DATA "/study/tiny.toml"),
-        design_text("electroadhesive_glass/study.toml"), design_text("two_level_glass/study.toml")},
+        design_text("electroadhesive_glass/study.toml"), design_text("two_level_glass/study.toml"),
+        "schema_version = 1\n[texture]\ntype = \"flat\"\n"
+        "[[finger.uncertainty]]\nparameter = \"skin.rms\"\ndeviation = \"15 %\"\n"
+        "[[finger.uncertainty]]\nparameter = \"load\"\ndeviation = \"3 %\"\ncorrelation = "
+        "[-0.4]\n"},
        from_file(folder + "/study.toml", [](const std::string& path) {
          Study study = read_study(path);
          for (const NumberField& n : number_fields(study.design))
            require_finite(*n.value, n.path.c_str());
+       })});
+
+  out.push_back(
+      {"calibration",
+       0.03,
+       {design_text("fingers/reference.calibration.toml")},
+       from_file(folder + "/calibration.toml", [](const std::string& path) {
+         const Calibration calibration = read_calibration(path);
+         for (const CalibrationParameter& p : calibration.parameters) {
+           for (double v : {p.fit.start, p.fit.low, p.fit.high, p.fit.prior, p.fit.prior_sd})
+             require_finite(v, p.path.c_str());
+         }
        })});
 
   Evaluation e{{1.0 / 7, 0.1}, {true, "", {1.0 / 3, 2}, {-0.5}, {7}}};
@@ -31,7 +47,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
   std::string failed = journal_line(e);
   good.pop_back();
   failed.pop_back();
-  out.push_back({"journal", 0.3, {good, failed}, [](const std::string& bytes) {
+  out.push_back({"journal", 0.27, {good, failed}, [](const std::string& bytes) {
                    Evaluation back;
                    // The checksum: no changed record is taken for a sound one.
                    if (parse_journal_line(bytes, back) && journal_line(back) != bytes + "\n")
