@@ -303,6 +303,9 @@ class PatchSolver {
     out.wetted = off.wetted_fraction;
     out.bridge_volume = off.bridge_volume;
     out.retention = off.retention;
+    for (const Droplet& d : off.droplets) {
+      if (d.film > 0 && d.film < 1) out.on_its_way += d.volume;
+    }
     if (off.status == WettingStatus::Flooded && out.status.empty()) {
       out.status = "flooded: more water than gap, no meniscus and no capillary force";
     }

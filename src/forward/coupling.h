@@ -35,6 +35,7 @@ struct PatchResult {
   double capillary_off = 0, capillary_on = 0, pull = 0, retention = 0;
   double area_dry = 0, area_off = 0, area_on = 0;
   double bridges = 0, wetted = 0, bridge_volume = 0, volume = 0;
+  double on_its_way = 0;                 // water of bridges between disc and film [m^3]
   double mean_gap = 0, indentation = 0;  // [m]
   double over_limit_area = 0, over_limit_share = 0, peak_oxide_field = 0, peak_air_field = 0;
   double oxide_margin = kInfinity;  // strength of the dielectric over its peak field

@@ -108,7 +108,8 @@ PatchResult mean_of(const std::vector<PatchResult>& members) {
        {&PatchResult::capillary_off, &PatchResult::capillary_on, &PatchResult::pull,
         &PatchResult::retention, &PatchResult::area_off, &PatchResult::area_on,
         &PatchResult::bridges, &PatchResult::wetted, &PatchResult::bridge_volume,
-        &PatchResult::volume, &PatchResult::over_limit_area, &PatchResult::over_limit_share}) {
+        &PatchResult::on_its_way, &PatchResult::volume, &PatchResult::over_limit_area,
+        &PatchResult::over_limit_share}) {
     out.*value = 0;
     for (const PatchResult& m : members) {
       out.*value += m.*value / static_cast<double>(members.size());
@@ -242,8 +243,9 @@ class PointBuilder {
       point.modulation.parts.water = short_of / (1 - short_of) * std::abs(point.modulation.value);
       return;
     }
-    const DropletBand band =
+    DropletBand band =
         droplet_band(volume / plan_.grid.area(), point.mean_gap.value, point.bridge_water_share);
+    add_hand_over(band, patches, capillary, pull);
     const double beta = fidelity_.load_exponent;
     // Of a load that water or drive lift off there is nothing to be wrong by.
     const auto share = [&](double change, double load) {
@@ -267,6 +269,21 @@ class PointBuilder {
       Measured& m = point.*member;
       m.parts.water = relative * std::abs(m.value);
     }
+  }
+
+  // Eq. capillary.23: patches whose water is between disc and film, each with a step of its own.
+  static void add_hand_over(DropletBand& band, const std::vector<PatchResult>& patches,
+                            double capillary, double pull) {
+    constexpr double kForceStep = 0.18, kPullStep = 0.10;
+    double forces = 0, pulls = 0;
+    for (const PatchResult& p : patches) {
+      if (!(p.on_its_way > 0)) continue;
+      const double share = p.on_its_way / p.bridge_volume;
+      forces += square(kForceStep * share * p.capillary_off);
+      pulls += square(kPullStep * share * p.pull);
+    }
+    if (capillary != 0) band.capillary = std::hypot(band.capillary, std::sqrt(forces) / capillary);
+    if (pull > 0) band.pull = std::hypot(band.pull, std::sqrt(pulls) / pull);
   }
 
   // Eq. friction.3: F ~ L^beta on the dry contact area.

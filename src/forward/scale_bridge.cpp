@@ -118,6 +118,7 @@ PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
     out.bridges += part * p.bridges;
     out.wetted += part * p.wetted;
     out.bridge_volume += part * p.bridge_volume;
+    out.on_its_way += part * p.on_its_way;
     out.volume += part * p.volume;
     out.mean_gap += part * p.mean_gap;
     out.indentation += part * p.indentation;
