@@ -73,7 +73,7 @@ bool parse_journal_line(const std::string& line, Evaluation& e) {
       !read_numbers(in, e.outcome.info))
     return false;
   e.outcome.reason = body.substr(bar + 1);
-  return true;
+  return journal_line(e) == line + "\n";  // as it is written, in every letter
 }
 
 Journal::Journal(const std::string& path, const std::string& key, bool resume) : path_(path) {
