@@ -51,7 +51,7 @@ void settle(const std::string& part, const std::string& path, const Fail& fail) 
 }
 
 // Large images are written and checked by strips of rows.
-constexpr int kStripRows = 64;
+constexpr int kStripRows = 128;
 // A compressed image of more pixels is read back by every 16th strip, spread over its height, and
 // the last one; others are read back whole.
 constexpr double kReadBackWhole = 1 << 24;
