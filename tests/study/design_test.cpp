@@ -45,7 +45,7 @@ TEST(Design, TheReferenceFingerFileIsTheDefaultFinger) {
 }
 
 TEST(Design, TheRelativesDifferInOneThing) {
-  Finger expected;
+  Finger expected = read_finger(kDesigns + "fingers/reference.toml");
   expected.name = "smooth";
   expected.skin.rms = 128e-9;
   EXPECT_EQ(read_finger(kDesigns + "fingers/smooth.toml"), expected);
