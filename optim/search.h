@@ -20,6 +20,9 @@ struct SearchProblem {
   std::size_t residuals = 0;
   // Constraints known without an evaluation (<= 0 feasible, in the unit cube); may be empty.
   std::function<std::vector<double>(const Point&)> cheap_constraints;
+  // What the outcomes hang on more directly than on the coordinates, as further coordinates of the
+  // models of "bayesian" (each about 0 to 1); may be empty.
+  std::function<std::vector<double>(const Point&)> features;
   std::vector<Point> starts;  // points to try first (the user's design)
   int evaluations = 100;      // the budget that the searcher plans for
   // Cheap, biased evaluations of the same objectives and constraints that may be asked besides
@@ -29,6 +32,18 @@ struct SearchProblem {
 
   bool cheaply_feasible(const Point& unit) const;
 };
+
+// The point as surrogate models see it: a choice of kinds becomes one coordinate a kind, so that any
+// two kinds are equally far apart; the problem's features follow.
+Point model_coordinates(const SearchProblem& problem, const Point& unit);
+
+// The evaluations that deserve a surer one: each next adds most to the hypervolume, at most `count`
+// and none that adds less than a hundredth. Eq. search.12 They are compared by what a Gaussian process through
+// all feasible ones says of each: the luckiest of many like designs need not be the best. Without a
+// feasible evaluation the one that violates least; empty when all failed. O(n^3), n at most 300:
+// beyond, those that the fewest others dominate.
+std::vector<std::size_t> promising(const SearchProblem& problem,
+                                   const std::vector<Evaluation>& evaluations, std::size_t count);
 
 class Searcher {
  public:

@@ -31,8 +31,6 @@ class Bayesian : public Searcher {
     initial_ =
         static_cast<int>(std::clamp<std::size_t>(problem.drafts > 0 ? n + 4 : 3 * n + 4, 6, third));
     drafts_left_ = problem.drafts;
-    kinds_ = std::any_of(problem.space.dimensions.begin(), problem.space.dimensions.end(),
-                         [](const Dimension& d) { return !d.ordered; });
   }
 
   bool asks_drafts() const override { return asking_drafts_; }
@@ -73,22 +71,7 @@ class Bayesian : public Searcher {
            std::none_of(others.begin(), others.end(), same);
   }
 
-  // What the models see: a choice of kinds becomes one coordinate a kind, so that any two kinds are
-  // equally far apart.
-  Point encoded(const Point& u) const {
-    if (!kinds_) return u;
-    Point out;
-    for (std::size_t k = 0; k < u.size(); ++k) {
-      const Dimension& d = problem_.space.dimensions[k];
-      if (d.ordered) {
-        out.push_back(u[k]);
-        continue;
-      }
-      const double count = static_cast<double>(d.choices.size());
-      for (double i = 0; i < count; ++i) out.push_back(std::floor(u[k] * count) == i ? 0.5 : 0.0);
-    }
-    return out;
-  }
+  Point encoded(const Point& u) const { return model_coordinates(problem_, u); }
 
   // Points of a low-discrepancy set that keep the cheap constraints, added up to `count`.
   void fill(std::vector<Point>& out, std::size_t count, const std::vector<Evaluation>& known) {
@@ -229,14 +212,14 @@ class Bayesian : public Searcher {
   }
 
   // Eq. search.3: chance that every constraint holds and the evaluation succeeds.
-  double feasibility(const Point& u) const {
+  double feasibility(const Point& x) const {
     double p = 1;
     for (const DraftedProcess& model : constraints_) {
-      const Prediction c = model.predict(encoded(u));
+      const Prediction c = model.predict(x);
       p *= c.sd > 0 ? normal_cdf(-c.mean / c.sd) : (c.mean <= 0 ? 1 : 0);
     }
     for (const GaussianProcess& model : failures_)
-      p *= std::clamp(1 - model.predict(encoded(u)).mean, 0.0, 1.0);
+      p *= std::clamp(1 - model.predict(x).mean, 0.0, 1.0);
     return p;
   }
 
@@ -246,11 +229,12 @@ class Bayesian : public Searcher {
       for (double c : problem_.cheap_constraints(u)) violation += std::max(0.0, c);
       if (violation > 0) return -violation;
     }
-    const double p = feasibility(u);
+    const Point x = encoded(u);
+    const double p = feasibility(x);
     if (!any_feasible_) return p;
     if (problem_.objectives == 1)
-      return p * integrated_cdf(front_.front()[0], objectives_[0].predict(encoded(u)));
-    const Prediction a = objectives_[0].predict(encoded(u)), b = objectives_[1].predict(encoded(u));
+      return p * integrated_cdf(front_.front()[0], objectives_[0].predict(x));
+    const Prediction a = objectives_[0].predict(x), b = objectives_[1].predict(x);
     // Eq. search.2: expected hypervolume improvement, strip by strip under the front.
     double sum = 0, lower = 0, height = reference_[1];
     for (std::size_t i = 0; i <= front_.size(); ++i) {
@@ -351,7 +335,7 @@ class Bayesian : public Searcher {
   SearchProblem problem_;
   std::vector<Evaluation> seen_, drafts_;
   int initial_ = 0, drafts_left_ = 0;
-  bool asking_drafts_ = false, kinds_ = false;
+  bool asking_drafts_ = false;
   std::uint64_t drawn_ = 0;
   std::vector<DraftedProcess> objectives_, constraints_;
   std::vector<GaussianProcess> failures_, draft_objectives_, draft_constraints_;

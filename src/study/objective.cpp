@@ -308,6 +308,18 @@ Point StudyProblem::unit_of_study() const {
   return space_.unit(value);
 }
 
+bool StudyProblem::has_features() const {
+  const auto varies = [&](const char* path) {
+    return std::any_of(study_.variables.begin(), study_.variables.end(),
+                       [&](const Variable& v) { return v.path == path; });
+  };
+  return varies("texture.period") && (varies("texture.diameter") || varies("texture.width"));
+}
+
+std::vector<double> StudyProblem::features(const Point& unit) const {
+  return {std::sqrt(open_fraction(design(unit).texture))};
+}
+
 Point StudyProblem::collapsed(const Point& unit) const {
   const bool textured =
       std::any_of(study_.variables.begin(), study_.variables.end(),

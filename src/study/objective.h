@@ -82,6 +82,11 @@ class StudyProblem {
   Point unit_of_study() const;  // the study's own design
   std::vector<Point> starts() const;
 
+  // What the response hangs on more directly than on the variables: the open share of a lattice,
+  // as a length over the period, where both lengths vary. For SearchProblem::features.
+  bool has_features() const;
+  std::vector<double> features(const Point& unit) const;
+
   // Fabrication limits, known without an evaluation: <= 0 feasible, relative to the limit; the
   // first is 1 for a shape that cannot exist. Reasons for people.
   std::vector<double> geometry(const Point& unit) const;

@@ -30,8 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFreshSkins = 1000;  // the confirmation's skins start here: none of the search
-constexpr std::size_t kFinalists = 5;
-constexpr double kSameDesign = 0.03;       // of the front's extent
+constexpr std::size_t kFinalists = 8;
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
@@ -148,6 +147,8 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   p.constraints = problem.constraints();
   p.residuals = problem.residuals();
   p.cheap_constraints = [&problem](const Point& u) { return problem.geometry(u); };
+  if (problem.has_features())
+    p.features = [&problem](const Point& u) { return problem.features(u); };
   p.starts = problem.starts();
   p.evaluations =
       study.search.evaluations > 0 ? study.search.evaluations : default_evaluations(study);
@@ -500,14 +501,10 @@ class Run {
   }
 
   std::vector<std::size_t> finalists() const {
-    const std::vector<std::size_t> front = pareto_front(history_);
-    std::vector<std::vector<double>> values;
-    for (std::size_t i : front) values.push_back(history_[i].outcome.objectives);
-    if (values.empty()) return front;
-    std::vector<std::size_t> chosen;
-    // Points closer together than the search can tell apart are one finalist.
-    for (std::size_t i : spread_points(values, kFinalists, kSameDesign)) chosen.push_back(front[i]);
+    std::vector<std::size_t> chosen = promising(search_, history_, kFinalists);
+    if (chosen.empty()) return chosen;
     // The one with the highest worst modulation is always confirmed.
+    const std::vector<std::size_t> front = pareto_front(history_);
     std::size_t steady = front.front();
     for (std::size_t i : front) {
       const auto& info = history_[i].outcome.info;

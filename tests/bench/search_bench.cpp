@@ -10,6 +10,9 @@
 //   search_bench share FILE CSV FRONT... [-- MOST] the hypervolume of each FRONT over that of the
 //                                                 reference front CSV, all designs judged again at
 //                                                 design level on fresh skins, at most MOST a front
+//   search_bench single FILE N STEP SKINS PREFIX  a search at the level of the confirmation alone:
+//   its
+//                                                 front after every STEP evaluations, for share
 //   search_bench levels FILE DESIGNS              what cheap levels cost and know
 #include <fmt/format.h>
 
@@ -277,6 +280,8 @@ SearchProblem search_of(const StudyProblem& problem) {
   p.objectives = problem.objectives().size();
   p.constraints = problem.constraints();
   p.cheap_constraints = [&problem](const Point& u) { return problem.geometry(u); };
+  if (problem.has_features())
+    p.features = [&problem](const Point& u) { return problem.features(u); };
   p.starts = problem.starts();
   return p;
 }
@@ -366,6 +371,55 @@ Point beyond(const std::vector<std::vector<double>>& front) {
   return out;
 }
 
+// The front of the evaluations, as read_front() reads it.
+void write_front(const std::string& path, const Study& study, const StudyProblem& problem,
+                 const std::vector<Evaluation>& all) {
+  std::FILE* out = std::fopen(path.c_str(), "w");
+  if (!out) throw InputError("cannot write " + path);
+  for (const Variable& v : study.variables)
+    fmt::print(out, "{}{},", v.path, v.unit.empty() ? "" : " [" + v.unit + "]");
+  for (std::size_t k = 0; k < problem.objectives().size(); ++k)
+    fmt::print(out, "{}{}", k ? "," : "", problem.objectives()[k].name);
+  fmt::print(out, "\n");
+  for (std::size_t i : pareto_front(all)) {
+    const std::vector<double> values = problem.values(all[i].unit);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      fmt::print(out, "{},", variable_text(study.variables[k], values[k], true));
+    for (std::size_t k = 0; k < problem.objectives().size(); ++k)
+      fmt::print(out, "{}{:.5g}", k ? "," : "",
+                 (problem.objectives()[k].maximise ? -1 : 1) * all[i].outcome.objectives[k]);
+    fmt::print(out, "\n");
+  }
+  std::fclose(out);
+}
+
+// A search of one level alone, that of the confirmation (`skins` a finger on the design level's
+// grid): its front after every `step` evaluations to PREFIX-N.csv, for share().
+void single(const std::string& file, int evaluations, int step, int skins,
+            const std::string& prefix) {
+  const Study study = read_study(file);
+  const StudyProblem problem(study);
+  Fidelity confirmation = fidelity_level("design");
+  confirmation.first_skin = 1000;
+  confirmation.skins = skins;
+  Judge judge(problem, confirmation);
+  std::vector<Evaluation> all;
+  Bench bench;
+  bench.problem = search_of(problem);
+  bench.reference.assign(bench.problem.objectives, 0);  // for the trace of this run, not read
+  bench.full = [&](const Point& u) {
+    all.push_back({u, judge(u)});
+    const int n = static_cast<int>(all.size());
+    if (n % step == 0) {
+      write_front(fmt::format("{}-{}.csv", prefix, n), study, problem, all);
+      fmt::print("{},{:.1f}\n", n, n * judge.seconds_each());
+      std::fflush(stdout);
+    }
+    return all.back().outcome;
+  };
+  run("bayesian", bench, 1, evaluations);
+}
+
 // Share of a reference front's hypervolume that searches of few evaluations reach, all at the same
 // level. The reference: a sweep; refined: of half the evaluations, then NSGA-II from its front.
 void fronts(bool refined, const std::string& file, int evaluations, int few, int grid, int skins,
@@ -392,34 +446,14 @@ void fronts(bool refined, const std::string& file, int evaluations, int few, int
   bench.full = evaluate;
   bench.reference.assign(p.objectives, 0);  // for the traces of this run, not read
   if (refined) run("nsga2", bench, 1, evaluations - evaluations / 2);
-  std::vector<std::size_t> front = pareto_front(all);
-  std::sort(front.begin(), front.end(), [&](std::size_t i, std::size_t j) {
-    return all[i].outcome.objectives[0] < all[j].outcome.objectives[0];
-  });
+  const std::vector<std::size_t> front = pareto_front(all);
   std::vector<std::vector<double>> points;
   for (std::size_t i : front) points.push_back(all[i].outcome.objectives);
   bench.reference = beyond(points);
   const double best = hypervolume(points, bench.reference);
   fmt::print(stderr, "reference: {} evaluations, {} on the front, {:.3f} s each\n", all.size(),
              front.size(), judge.seconds_each());
-  if (!out.empty()) {
-    std::FILE* file_out = std::fopen(out.c_str(), "w");
-    for (const Variable& v : study.variables)
-      fmt::print(file_out, "{}{},", v.path, v.unit.empty() ? "" : " [" + v.unit + "]");
-    for (std::size_t k = 0; k < p.objectives; ++k)
-      fmt::print(file_out, "{}{}", k ? "," : "", problem.objectives()[k].name);
-    fmt::print(file_out, "\n");
-    for (std::size_t i : front) {
-      const std::vector<double> values = problem.values(all[i].unit);
-      for (std::size_t k = 0; k < values.size(); ++k)
-        fmt::print(file_out, "{},", variable_text(study.variables[k], values[k], true));
-      for (std::size_t k = 0; k < p.objectives; ++k)
-        fmt::print(file_out, "{}{:.5g}", k ? "," : "",
-                   (problem.objectives()[k].maximise ? -1 : 1) * all[i].outcome.objectives[k]);
-      fmt::print(file_out, "\n");
-    }
-    std::fclose(file_out);
-  }
+  if (!out.empty()) write_front(out, study, problem, all);
   bench.until = 0;
   bench.problem.starts = p.starts;
   bench.full = [&](const Point& u) { return judge(u); };
@@ -525,6 +559,11 @@ int main(int argc, char** argv) {
     }
     fmt::print("front,designs,judged,on the front,hypervolume,share of the first\n");
     shares(a.at(1), fronts, most);
+    return 0;
+  }
+  if (what == "single") {
+    fmt::print("evaluations,processor s\n");
+    single(a.at(1), number(2), number(3), number(4), a.at(5));
     return 0;
   }
   fmt::print("problem,method,full evaluations,hypervolume median,least,greatest,searcher s\n");

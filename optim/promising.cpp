@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "optim/gaussian_process.h"
+#include "optim/pareto.h"
+#include "optim/search.h"
+
+namespace papilla {
+namespace {
+
+constexpr std::size_t kMostModelled = 300;
+constexpr double kLeastGain = 0.01;  // of the hypervolume so far
+
+// Indices of feasible evaluations, at most kMostModelled: those that the fewest others dominate.
+std::vector<std::size_t> modelled(const std::vector<Evaluation>& evaluations) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    if (evaluations[i].outcome.feasible()) out.push_back(i);
+  }
+  if (out.size() <= kMostModelled) return out;
+  std::vector<std::size_t> worse_than(evaluations.size(), 0);
+  for (std::size_t i : out) {
+    for (std::size_t j : out)
+      worse_than[i] +=
+          dominates(evaluations[j].outcome.objectives, evaluations[i].outcome.objectives);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [&](std::size_t i, std::size_t j) { return worse_than[i] < worse_than[j]; });
+  out.resize(kMostModelled);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace
+
+Point model_coordinates(const SearchProblem& problem, const Point& unit) {
+  Point out;
+  for (std::size_t k = 0; k < unit.size(); ++k) {
+    const Dimension& d = problem.space.dimensions[k];
+    if (d.ordered) {
+      out.push_back(unit[k]);
+      continue;
+    }
+    const double count = static_cast<double>(d.choices.size());
+    for (double i = 0; i < count; ++i) out.push_back(std::floor(unit[k] * count) == i ? 0.5 : 0.0);
+  }
+  if (problem.features) {
+    for (double f : problem.features(unit)) out.push_back(f);
+  }
+  return out;
+}
+
+std::vector<std::size_t> promising(const SearchProblem& problem,
+                                   const std::vector<Evaluation>& evaluations, std::size_t count) {
+  const std::vector<std::size_t> of = modelled(evaluations);
+  if (of.empty()) return pareto_front(evaluations);
+  std::vector<Point> points;
+  for (std::size_t i : of) points.push_back(model_coordinates(problem, evaluations[i].unit));
+  std::vector<std::vector<double>> believed(of.size());
+  std::vector<Evaluation> judged(of.size());
+  for (std::size_t k = 0; k < problem.objectives; ++k) {
+    std::vector<double> values;
+    for (std::size_t i : of) values.push_back(evaluations[i].outcome.objectives[k]);
+    const GaussianProcess model(points, values);
+    for (std::size_t j = 0; j < of.size(); ++j)
+      believed[j].push_back(model.predict(points[j]).mean);
+  }
+  for (std::size_t j = 0; j < of.size(); ++j) {
+    judged[j].outcome.ok = true;
+    judged[j].outcome.objectives = believed[j];
+  }
+  const std::vector<std::size_t> front = pareto_front(judged);
+  Point reference;  // a tenth of the front's extent beyond its far ends
+  for (std::size_t k = 0; k < problem.objectives; ++k) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t j : front) {
+      low = std::min(low, believed[j][k]);
+      high = std::max(high, believed[j][k]);
+    }
+    reference.push_back(high + 0.1 * std::max(high - low, 1e-12));
+  }
+  // Eq. search.12
+  std::vector<std::size_t> chosen;
+  std::vector<std::vector<double>> have;
+  double total = 0;
+  while (chosen.size() < std::min(count, front.size())) {
+    double most = 0;
+    std::size_t best = front.size();
+    for (std::size_t j : front) {
+      have.push_back(believed[j]);
+      const double gain = hypervolume(have, reference) - total;
+      have.pop_back();
+      if (gain > most) most = gain, best = j;
+    }
+    if (best == front.size() || most < kLeastGain * total) break;
+    have.push_back(believed[best]);
+    total += most;
+    chosen.push_back(of[best]);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+}  // namespace papilla

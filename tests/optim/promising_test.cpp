@@ -1,0 +1,109 @@
+// Which evaluations deserve a surer one, and what a feature tells a model.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "optim/gaussian_process.h"
+#include "optim/pareto.h"
+#include "optim/search.h"
+
+namespace papilla {
+namespace {
+
+SearchProblem box(std::size_t n) {
+  SearchProblem p;
+  p.space.dimensions.assign(n, Dimension{});
+  p.objectives = 2;
+  return p;
+}
+
+std::vector<double> on_curve(double x) { return {x, (1 - x) * (1 - x)}; }
+
+Evaluation seen(Point u, std::vector<double> values) {
+  return {std::move(u), {true, {}, std::move(values), {}, {}}};
+}
+
+TEST(Promising, AddsMoreHypervolumeThanPointsSpreadAlongTheFront) {
+  std::vector<Evaluation> all;
+  std::vector<std::vector<double>> front;
+  for (int i = 0; i <= 40; ++i) {
+    const double x = std::pow(i / 40.0, 2);
+    front.push_back(on_curve(x));
+    all.push_back(seen({x}, front.back()));
+  }
+  const auto volume = [&](const std::vector<std::size_t>& chosen) {
+    std::vector<std::vector<double>> points;
+    for (std::size_t i : chosen) points.push_back(front[i]);
+    return hypervolume(points, {1.1, 1.1});
+  };
+  EXPECT_GT(volume(promising(box(1), all, 5)), volume(spread_points(front, 5)));
+  double best = 0;  // of all sets of three
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      for (std::size_t k = 0; k < j; ++k) best = std::max(best, volume({i, j, k}));
+    }
+  }
+  const std::vector<std::size_t> three = promising(box(1), all, 3);
+  EXPECT_EQ(three.size(), 3U);
+  EXPECT_GT(volume(three), 0.95 * best);
+}
+
+TEST(Promising, LuckOfOneAmongLikeDesignsDoesNotWin) {
+  double chosen_volume = 0, spread_volume = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RandomStream random(seed, "scatter");
+    std::vector<Evaluation> all;
+    std::vector<std::vector<double>> raw, truth;
+    for (int i = 0; i < 60; ++i) {
+      const Point u{random.uniform(), random.uniform()};
+      std::vector<double> f = on_curve(u[0]);
+      for (double& v : f) v += u[1];  // the second variable only does harm
+      truth.push_back(f);
+      for (double& v : f) v += 0.1 * random.normal();
+      raw.push_back(f);
+      all.push_back(seen(u, f));
+    }
+    const auto volume = [&](const std::vector<std::size_t>& chosen) {
+      std::vector<std::vector<double>> points;
+      for (std::size_t i : chosen) points.push_back(truth[i]);
+      return hypervolume(points, {1.5, 1.5});
+    };
+    chosen_volume += volume(promising(box(2), all, 5));
+    std::vector<std::vector<double>> values;
+    const std::vector<std::size_t> front = pareto_front(all);
+    for (std::size_t i : front) values.push_back(raw[i]);
+    std::vector<std::size_t> spread;
+    for (std::size_t i : spread_points(values, 5)) spread.push_back(front[i]);
+    spread_volume += volume(spread);
+  }
+  EXPECT_GT(chosen_volume, 1.02 * spread_volume);
+}
+
+TEST(Promising, FeasibilityComesFirst) {
+  std::vector<Evaluation> all{seen({0.1}, {0, 0}), seen({0.2}, {1, 1}), seen({0.3}, {2, 0.5})};
+  all[0].outcome.constraints = {0.5};
+  EXPECT_EQ(promising(box(1), all, 5), (std::vector<std::size_t>{1, 2}));
+  all[1].outcome.constraints = all[2].outcome.constraints = {0.1};
+  EXPECT_EQ(promising(box(1), all, 5), std::vector<std::size_t>{1});
+  for (Evaluation& e : all) e.outcome = {};
+  EXPECT_TRUE(promising(box(1), all, 5).empty());
+}
+
+TEST(Promising, AFeatureLetsAModelSeeARatio) {
+  SearchProblem plain = box(2), told = plain;
+  told.features = [](const Point& u) { return std::vector<double>{u[0] / (u[1] + 0.5)}; };
+  std::vector<Point> with, without;
+  std::vector<double> values;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    const Point u = low_discrepancy(2, 1, i);
+    without.push_back(model_coordinates(plain, u));
+    with.push_back(model_coordinates(told, u));
+    values.push_back(std::exp(-std::pow((u[0] / (u[1] + 0.5) - 0.8) / 0.2, 2)));
+  }
+  EXPECT_LT(GaussianProcess(with, values).leave_one_out_error(),
+            0.5 * GaussianProcess(without, values).leave_one_out_error());
+}
+
+}  // namespace
+}  // namespace papilla
