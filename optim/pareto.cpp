@@ -50,6 +50,26 @@ std::vector<std::size_t> pareto_front(const std::vector<Evaluation>& evaluations
   return front;
 }
 
+std::vector<std::size_t> least_dominated(const std::vector<Evaluation>& evaluations,
+                                         std::size_t most) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    if (evaluations[i].outcome.feasible()) out.push_back(i);
+  }
+  if (out.size() <= most) return out;
+  std::vector<std::size_t> worse_than(evaluations.size(), 0);
+  for (std::size_t i : out) {
+    for (std::size_t j : out)
+      worse_than[i] +=
+          dominates(evaluations[j].outcome.objectives, evaluations[i].outcome.objectives);
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [&](std::size_t i, std::size_t j) { return worse_than[i] < worse_than[j]; });
+  out.resize(most);
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
 double hypervolume(std::vector<std::vector<double>> points, const std::vector<double>& reference) {
   const std::size_t m = reference.size();
   PAPILLA_CHECK(m >= 1 && m <= 3, "one to three objectives");

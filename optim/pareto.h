@@ -14,6 +14,11 @@ bool dominates(const std::vector<double>& a, const std::vector<double>& b);
 // single least-violating one; empty when every evaluation failed. Equal outcomes: the earliest.
 std::vector<std::size_t> pareto_front(const std::vector<Evaluation>& evaluations);
 
+// Indices of feasible evaluations in their order, at most `most`: those that the fewest others
+// dominate.
+std::vector<std::size_t> least_dominated(const std::vector<Evaluation>& evaluations,
+                                         std::size_t most);
+
 // Hypervolume between the points and a reference point, exact, 1 to 3 objectives (minimisation).
 // Points beyond the reference count nothing.
 double hypervolume(std::vector<std::vector<double>> points, const std::vector<double>& reference);

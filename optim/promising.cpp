@@ -12,26 +12,6 @@ namespace {
 constexpr std::size_t kMostModelled = 300;
 constexpr double kLeastGain = 0.01;  // of the hypervolume so far
 
-// Indices of feasible evaluations, at most kMostModelled: those that the fewest others dominate.
-std::vector<std::size_t> modelled(const std::vector<Evaluation>& evaluations) {
-  std::vector<std::size_t> out;
-  for (std::size_t i = 0; i < evaluations.size(); ++i) {
-    if (evaluations[i].outcome.feasible()) out.push_back(i);
-  }
-  if (out.size() <= kMostModelled) return out;
-  std::vector<std::size_t> worse_than(evaluations.size(), 0);
-  for (std::size_t i : out) {
-    for (std::size_t j : out)
-      worse_than[i] +=
-          dominates(evaluations[j].outcome.objectives, evaluations[i].outcome.objectives);
-  }
-  std::stable_sort(out.begin(), out.end(),
-                   [&](std::size_t i, std::size_t j) { return worse_than[i] < worse_than[j]; });
-  out.resize(kMostModelled);
-  std::sort(out.begin(), out.end());
-  return out;
-}
-
 }  // namespace
 
 Point model_coordinates(const SearchProblem& problem, const Point& unit) {
@@ -53,7 +33,7 @@ Point model_coordinates(const SearchProblem& problem, const Point& unit) {
 
 std::vector<std::size_t> promising(const SearchProblem& problem,
                                    const std::vector<Evaluation>& evaluations, std::size_t count) {
-  const std::vector<std::size_t> of = modelled(evaluations);
+  const std::vector<std::size_t> of = least_dominated(evaluations, kMostModelled);
   if (of.empty()) return pareto_front(evaluations);
   std::vector<Point> points;
   for (std::size_t i : of) points.push_back(model_coordinates(problem, evaluations[i].unit));

@@ -28,20 +28,22 @@ struct SearchProblem {
   // Cheap, biased evaluations of the same objectives and constraints that may be asked besides
   // (Searcher::asks_drafts): their largest number.
   int drafts = 0;
+  // Drafts that are known already: "bayesian" asks no others, and starts from what it is told.
+  std::vector<Evaluation> known_drafts;
   std::uint64_t seed = 1;
 
   bool cheaply_feasible(const Point& unit) const;
 };
 
-// The point as surrogate models see it: a choice of kinds becomes one coordinate a kind, so that any
-// two kinds are equally far apart; the problem's features follow.
+// The point as surrogate models see it: a choice of kinds becomes one coordinate a kind, so that
+// any two kinds are equally far apart; the problem's features follow.
 Point model_coordinates(const SearchProblem& problem, const Point& unit);
 
 // The evaluations that deserve a surer one: each next adds most to the hypervolume, at most `count`
-// and none that adds less than a hundredth. Eq. search.12 They are compared by what a Gaussian process through
-// all feasible ones says of each: the luckiest of many like designs need not be the best. Without a
-// feasible evaluation the one that violates least; empty when all failed. O(n^3), n at most 300:
-// beyond, those that the fewest others dominate.
+// and none that adds less than a hundredth. Eq. search.12 They are compared by what a Gaussian
+// process through all feasible ones says of each: the luckiest of many like designs need not be the
+// best. Without a feasible evaluation the one that violates least; empty when all failed. O(n^3), n
+// at most 300: beyond, those that the fewest others dominate.
 std::vector<std::size_t> promising(const SearchProblem& problem,
                                    const std::vector<Evaluation>& evaluations, std::size_t count);
 

@@ -31,6 +31,10 @@ class Bayesian : public Searcher {
     initial_ =
         static_cast<int>(std::clamp<std::size_t>(problem.drafts > 0 ? n + 4 : 3 * n + 4, 6, third));
     drafts_left_ = problem.drafts;
+    if (!problem.known_drafts.empty()) {
+      drafts_ = problem.known_drafts;
+      drafts_left_ = initial_ = 0;
+    }
   }
 
   bool asks_drafts() const override { return asking_drafts_; }

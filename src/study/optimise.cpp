@@ -29,8 +29,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFreshSkins = 1000;  // the confirmation's skins start here: none of the search
-constexpr std::size_t kFinalists = 8;
+constexpr int kFreshSkins = 1000;      // the confirmation's skins start here: none of the search
+constexpr std::size_t kFinalists = 6;  // of the search
+// Designs that the confirmed ones lead to: one for so many evaluations of the search, at most.
+constexpr int kEvaluationsPerRefinement = 12;
+constexpr int kMostRefinements = 6;
+constexpr std::size_t kMostDrafts = 300;
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
@@ -155,6 +159,13 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   p.seed = static_cast<std::uint64_t>(study.search.seed);
   if (choose_method(study.search.method, p).name == "bayesian") p.drafts = study.search.drafts;
   return p;
+}
+
+// How many designs the confirmed ones lead to: where there is a model of the front.
+std::size_t refinements(const SearchProblem& p) {
+  if (p.objectives > 2 || p.space.single_point()) return 0;
+  return static_cast<std::size_t>(
+      std::min(kMostRefinements, p.evaluations / kEvaluationsPerRefinement));
 }
 
 // A rule that no front could meet is refused before the search.
@@ -305,7 +316,8 @@ class Run {
         make_plan(scene, study_.design.texture, confirm_fidelity(study_, problem_.nominal_tasks()))
             .seconds() /
         make_plan(scene, study_.design.texture, search_fidelity(study_)).seconds();
-    return evaluation_seconds() * ratio * static_cast<double>(kFinalists + 1);
+    return evaluation_seconds() * ratio *
+           static_cast<double>(kFinalists + refinements(search_) + 1);
   }
 
   void report_progress(const char* stage, int done, int total, double left) {
@@ -514,9 +526,58 @@ class Run {
     return chosen;
   }
 
+  void add_finalist(const Point& unit, Score searched) {
+    FinalDesign f;
+    f.unit = unit;
+    f.design = problem_.design(unit);
+    f.searched = std::move(searched);
+    f.confirmed = confirmed(unit, false);
+    f.feasible = f.confirmed.ok && problem_.feasible(f.confirmed, unit);
+    result_.finalists.push_back(std::move(f));
+  }
+
+  Evaluation as_evaluation(const FinalDesign& f) const {
+    Evaluation e{f.unit, problem_.outcome(f.confirmed)};
+    if (f.confirmed.ok && !f.feasible && e.outcome.violation() <= 0)
+      e.outcome.constraints.push_back(1);  // outside the fabrication limits
+    return e;
+  }
+
+  // The search's level is biased, and not everywhere alike: the confirmed designs correct it. The
+  // search's evaluations as drafts of the confirmation, Eq. search.7-8, say where the confirmed
+  // front has most to gain. False: interrupted.
+  bool refine(const std::function<void()>& step) {
+    if (refinements(search_) == 0 || result_.finalists.empty()) return true;
+    SearchProblem problem = search_;
+    problem.residuals = 0;
+    std::vector<std::size_t> drafts;
+    for (std::size_t i = 0; i < history_.size(); ++i) {
+      if (history_[i].outcome.ok) drafts.push_back(i);
+    }
+    if (drafts.size() > kMostDrafts) drafts = least_dominated(history_, kMostDrafts);
+    for (std::size_t i : drafts) problem.known_drafts.push_back(history_[i]);
+    if (problem.known_drafts.empty()) return true;
+    const auto searcher = make_searcher({"bayesian", ""}, problem);
+    std::vector<Evaluation> known;
+    for (const FinalDesign& f : result_.finalists) known.push_back(as_evaluation(f));
+    searcher->tell(known);
+    for (std::size_t i = 0; i < refinements(search_); ++i) {
+      if (stopped()) {
+        result_.interrupted = true;
+        return false;
+      }
+      const std::vector<Point> asked = searcher->ask();
+      if (asked.empty() || !search_.cheaply_feasible(asked.front())) break;
+      add_finalist(asked.front(), {});
+      searcher->tell({as_evaluation(result_.finalists.back())});
+      step();
+    }
+    return true;
+  }
+
   void confirm() {
     const std::vector<std::size_t> chosen = finalists();
-    const int total = static_cast<int>(chosen.size()) + 1;
+    const int total = static_cast<int>(chosen.size() + refinements(search_)) + 1;
     const double from = seconds();
     int done = 0;
     const auto step = [&] {
@@ -529,20 +590,16 @@ class Run {
         result_.interrupted = true;
         return;
       }
-      FinalDesign f;
-      f.unit = history_[i].unit;
-      f.design = problem_.design(f.unit);
-      f.searched.ok = history_[i].outcome.ok;
-      for (std::size_t k = 0; k < search_.objectives; ++k) {
-        const double v =
-            history_[i].outcome.objectives.empty() ? 0 : history_[i].outcome.objectives[k];
-        f.searched.values.push_back(problem_.objectives()[k].maximise ? -v : v);
+      Score searched;
+      searched.ok = history_[i].outcome.ok;
+      for (std::size_t k = 0; k < history_[i].outcome.objectives.size(); ++k) {
+        const double v = history_[i].outcome.objectives[k];
+        searched.values.push_back(problem_.objectives()[k].maximise ? -v : v);
       }
-      f.confirmed = confirmed(f.unit, false);
-      f.feasible = f.confirmed.ok && problem_.feasible(f.confirmed, f.unit);
-      result_.finalists.push_back(std::move(f));
+      add_finalist(history_[i].unit, std::move(searched));
       step();
     }
+    if (!refine(step)) return;
     judge();
     if (!chosen.empty() && texture_depth(study_.design.texture) > 0) compare_with_flat();
     step();
@@ -571,10 +628,7 @@ class Run {
   void judge() {
     std::vector<Evaluation> confirmed;
     for (const FinalDesign& f : result_.finalists) {
-      Evaluation e{f.unit, problem_.outcome(f.confirmed)};
-      if (f.confirmed.ok && !f.feasible && e.outcome.violation() <= 0)
-        e.outcome.constraints.push_back(1);  // outside the fabrication limits
-      confirmed.push_back(std::move(e));
+      confirmed.push_back(as_evaluation(f));
       result_.any_feasible = result_.any_feasible || f.feasible;
     }
     for (std::size_t i : pareto_front(confirmed)) result_.finalists[i].on_front = true;
@@ -647,7 +701,8 @@ std::string search_plan(const Study& study) {
                     study.design.drive, study.design.model};
   out +=
       "\n\nsearch level:\n" + make_plan(scene, study.design.texture, search_fidelity(study)).text();
-  out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
+  out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n",
+                     kFinalists + 1 + refinements(search)) +
          make_plan(scene, study.design.texture, confirm_fidelity(study, problem.nominal_tasks()))
              .text();
   return out;

@@ -90,6 +90,44 @@ TEST(Promising, FeasibilityComesFirst) {
   EXPECT_TRUE(promising(box(1), all, 5).empty());
 }
 
+// Drafts that put the front at the wrong place: after four sure evaluations where they see it
+// and four more, the next ones lie where it is.
+TEST(Promising, SureEvaluationsCorrectTheDrafts) {
+  const auto surface = [](const Point& u, double best) {
+    std::vector<double> f = on_curve(u[0]);
+    f[1] += 2 * std::pow(u[1] - best, 2);
+    return f;
+  };
+  SearchProblem p = box(2);
+  for (std::uint64_t i = 0; i < 120; ++i) {
+    const Point u = low_discrepancy(2, 1, i);
+    p.known_drafts.push_back(seen(u, surface(u, 0.3)));
+  }
+  const auto volume = [&](const std::vector<Evaluation>& sure) {
+    std::vector<std::vector<double>> points;
+    for (const Evaluation& e : sure) points.push_back(e.outcome.objectives);
+    return hypervolume(points, {1.1, 1.1});
+  };
+  const auto judged = [&](const Point& u) { return seen(u, surface(u, 0.7)); };
+  std::vector<Evaluation> sure;
+  for (std::size_t i : promising(p, p.known_drafts, 4))
+    sure.push_back(judged(p.known_drafts[i].unit));
+  const double before = volume(sure);
+  const auto searcher = make_searcher({"bayesian", ""}, p);
+  searcher->tell(sure);
+  for (int i = 0; i < 6; ++i) {
+    const std::vector<Point> asked = searcher->ask();
+    ASSERT_EQ(asked.size(), 1U);
+    EXPECT_FALSE(searcher->asks_drafts());
+    sure.push_back(judged(asked.front()));
+    searcher->tell({sure.back()});
+    if (i >= 4) {
+      EXPECT_NEAR(asked.front()[1], 0.7, 0.1);
+    }
+  }
+  EXPECT_GT(volume(sure), 1.25 * before);
+}
+
 TEST(Promising, AFeatureLetsAModelSeeARatio) {
   SearchProblem plain = box(2), told = plain;
   told.features = [](const Point& u) { return std::vector<double>{u[0] / (u[1] + 0.5)}; };
