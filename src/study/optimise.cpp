@@ -503,7 +503,10 @@ class Run {
   void check_stability() {
     const std::size_t variants = stability_variants(problem_).size();
     std::vector<std::vector<Outcome>> outcomes;
+    // The front comes first.
+    const bool any_front = !result_.finalists.empty() && result_.finalists.front().on_front;
     for (const FinalDesign& f : result_.finalists) {
+      if (any_front && !f.on_front) break;
       std::vector<Point> requests;
       for (std::size_t v = 0; v < variants; ++v)
         requests.push_back(work_request(v, kStability, false, f.unit));

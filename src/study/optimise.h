@@ -57,7 +57,7 @@ struct OptimiseResult {
   std::size_t best = 0;                // of the finalists: highest worst modulation, or as picked
   std::optional<Score> flat;           // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
-  Stability stability;               // of the finalists' order, in their order
+  Stability stability;               // of the order of the finalists on the front, in their order
   std::vector<VariableSensitivity> sensitivity;  // of the best design
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
 };

@@ -322,16 +322,19 @@ class Writer {
   std::string stability_text() const {
     const Stability& s = f_.result.stability;
     const auto& objectives = f_.problem.objectives();
-    if (s.variants.empty() || f_.result.finalists.size() < 2) return {};
+    const std::size_t judged = s.times_on_front.size();
+    if (s.variants.empty() || judged < 2) return {};
     std::string out =
-        "\n## Does the order hold?\n\nEach finalist on each finger alone, then on the first finger "
+        "\n## Does the order hold?\n\nEach design of the front on each finger alone, then on the "
+        "first finger "
         "with one choice of the model changed (128 pixels, 12 skins, common random numbers; " +
         objectives.front().name + (objectives.size() > 1 ? ", " + objectives[1].name : "") +
         "; * on the front of these designs):\n\n|";
-    for (const FinalDesign& d : f_.result.finalists)
-      out += " | " + (d.folder.empty() ? "(dominated)" : d.folder);
+    for (std::size_t i = 0; i < judged; ++i)
+      out += " | " + (f_.result.finalists[i].folder.empty() ? "(dominated)"
+                                                            : f_.result.finalists[i].folder);
     out += " |\n|---";
-    for (std::size_t i = 0; i < f_.result.finalists.size(); ++i) out += "|---";
+    for (std::size_t i = 0; i < judged; ++i) out += "|---";
     out += "|\n";
     for (const StabilityVariant& v : s.variants) {
       out += "| " + v.name;
@@ -344,7 +347,7 @@ class Writer {
       out += " |\n";
     }
     out += "| **on the front** |";
-    for (std::size_t i = 0; i < f_.result.finalists.size(); ++i) {
+    for (std::size_t i = 0; i < judged; ++i) {
       out += fmt::format(" {} of {}{} |", s.times_on_front[i], s.variants.size(),
                          s.stable(i) ? "" : ", **unstable**");
     }
