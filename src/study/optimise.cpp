@@ -30,10 +30,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFreshSkins = 1000;      // the confirmation's skins start here: none of the search
-constexpr std::size_t kFinalists = 6;  // of the search
+constexpr std::size_t kFinalists = 5;  // of the search
 // Designs that the confirmed ones lead to: one for so many evaluations of the search, at most.
-constexpr int kEvaluationsPerRefinement = 12;
-constexpr int kMostRefinements = 6;
+constexpr int kEvaluationsPerRefinement = 20;
+constexpr int kMostRefinements = 4;
 constexpr std::size_t kMostDrafts = 300;
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
@@ -71,7 +71,7 @@ Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
   Fidelity f = fidelity_level(study.design.accuracy.level_name());
   f.seed = static_cast<std::uint64_t>(study.search.seed);
   f.first_skin = kFreshSkins;
-  f.skins = std::max(12, f.skins / static_cast<int>(tasks));
+  f.skins = std::max(10, f.skins / static_cast<int>(tasks));
   return f;
 }
 

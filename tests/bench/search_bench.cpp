@@ -508,7 +508,12 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
       designs = kept;
     }
     std::vector<Evaluation> judged;
-    for (const Point& u : designs) judged.push_back({u, judge(u)});
+    for (const Point& u : designs) {
+      judged.push_back({u, judge(u)});
+      for (double v : problem.values(u)) fmt::print(stderr, "{:.4g} ", v);
+      for (double v : judged.back().outcome.objectives) fmt::print(stderr, " {:.4f}", v);
+      fmt::print(stderr, "{}\n", judged.back().outcome.feasible() ? "" : " infeasible");
+    }
     std::vector<std::vector<double>> points;
     for (std::size_t i : pareto_front(judged)) points.push_back(judged[i].outcome.objectives);
     if (reference.empty()) reference = beyond(points);

@@ -11,6 +11,7 @@
 
 #include "base/constants.h"
 #include "base/random.h"
+#include "physics/capillary/bridge_table.h"
 #include "physics/capillary/water.h"
 
 namespace papilla {
@@ -68,6 +69,29 @@ TEST(Bridge, LimitsAgreeWithTheReferenceTable) {
     if (row.size() > 11 && !row[11].empty()) {
       EXPECT_NEAR(b.zero_force, std::stod(row[11]), 1e-5) << row[0] << " " << row[1];
     }
+  }
+}
+
+// Nearly equal angles are an imperfect pitchfork: the limit lies below that of equal ones by the
+// difference to the power 2/3, and a table exists.
+TEST(Bridge, NearlyEqualAnglesRuptureJustBeforeEqualOnes) {
+  for (double theta : {42.0, 50.0, 65.0, 80.0, 88.0}) {
+    const BridgeTable equal(theta * kDegree, theta * kDegree);
+    const auto early = [&](double difference) {
+      const BridgeTable table(theta * kDegree, (theta + difference) * kDegree);
+      EXPECT_TRUE(table.valid()) << theta << " " << difference;
+      EXPECT_NEAR(table(0.6).force, equal(0.6).force, 0.06 * std::abs(difference));
+      return (equal.limits().rupture - table.limits().rupture) /
+             std::pow(std::abs(difference), 2.0 / 3);
+    };
+    const double factor = 0.5 * (early(0.05) + early(-0.05));
+    EXPECT_GT(factor, 0.03);
+    EXPECT_LT(factor, 0.08);
+    for (double difference : {1e-3, 0.004, 0.0126, 0.0292, 0.12, 0.3}) {
+      EXPECT_NEAR(early(difference), factor, 0.1 * factor) << theta << " " << difference;
+      EXPECT_NEAR(early(-difference), factor, 0.1 * factor) << theta << " " << -difference;
+    }
+    for (double difference : {-1e-5, -1e-9, 1e-7}) EXPECT_NEAR(early(difference), factor, 0.1);
   }
 }
 

@@ -333,13 +333,17 @@ Limit Branch::limit() {
     }
     // Where a fold and a pitchfork lie close together the determinant changes sign twice: the
     // fold alone turns the height round, so such a step is too long.
+    // Only equal angles lose stability while the height still grows. Nearly equal ones turn round
+    // just before: a step that changes the sign without turning has jumped to the other branch.
     const bool folded = next.ok && next.tangent[3] * here.tangent[3] < 0;
-    if (!next.ok || turn < 0.95 || (folded && next.det * sign_ > 0)) {
+    const bool unstable = next.det * sign_ <= 0;
+    if (!next.ok || turn < 0.95 || (folded && !unstable) ||
+        (unstable && !folded && theta1_ != theta2_)) {
       length *= 0.5;
       if (length < 1e-10) return out;
       continue;
     }
-    if (next.det * sign_ > 0) {
+    if (!unstable) {
       here = next;
       if (turn > 0.995) length = std::min(1.5 * length, 0.2);
       continue;
