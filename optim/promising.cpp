@@ -9,7 +9,6 @@
 namespace papilla {
 namespace {
 
-constexpr std::size_t kMostModelled = 300;
 constexpr double kLeastGain = 0.01;  // of the hypervolume so far
 
 }  // namespace

@@ -39,11 +39,15 @@ struct SearchProblem {
 // any two kinds are equally far apart; the problem's features follow.
 Point model_coordinates(const SearchProblem& problem, const Point& unit);
 
+// A Gaussian process costs the cube of its evaluations: beyond these, only those that the fewest
+// others dominate are modelled.
+constexpr std::size_t kMostModelled = 300;
+
 // The evaluations that deserve a surer one: each next adds most to the hypervolume, at most `count`
 // and none that adds less than a hundredth. Eq. search.12 They are compared by what a Gaussian
 // process through all feasible ones says of each: the luckiest of many like designs need not be the
 // best. Without a feasible evaluation the one that violates least; empty when all failed. O(n^3), n
-// at most 300: beyond, those that the fewest others dominate.
+// at most kMostModelled.
 std::vector<std::size_t> promising(const SearchProblem& problem,
                                    const std::vector<Evaluation>& evaluations, std::size_t count);
 

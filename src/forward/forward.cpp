@@ -274,6 +274,7 @@ class PointBuilder {
   // Eq. capillary.23: patches whose water is between disc and film, each with a step of its own.
   static void add_hand_over(DropletBand& band, const std::vector<PatchResult>& patches,
                             double capillary, double pull) {
+    // The largest steps of the sweeps in Film.WithMovingDroplets... and docs/theory/capillary.md.
     constexpr double kForceStep = 0.18, kPullStep = 0.10;
     double forces = 0, pulls = 0;
     for (const PatchResult& p : patches) {

@@ -34,7 +34,6 @@ constexpr std::size_t kFinalists = 5;  // of the search
 // Designs that the confirmed ones lead to: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerRefinement = 20;
 constexpr int kMostRefinements = 4;
-constexpr std::size_t kMostDrafts = 300;
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
@@ -557,7 +556,7 @@ class Run {
     for (std::size_t i = 0; i < history_.size(); ++i) {
       if (history_[i].outcome.ok) drafts.push_back(i);
     }
-    if (drafts.size() > kMostDrafts) drafts = least_dominated(history_, kMostDrafts);
+    if (drafts.size() > kMostModelled) drafts = least_dominated(history_, kMostModelled);
     for (std::size_t i : drafts) problem.known_drafts.push_back(history_[i]);
     if (problem.known_drafts.empty()) return true;
     const auto searcher = make_searcher({"bayesian", ""}, problem);

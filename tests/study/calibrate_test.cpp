@@ -32,6 +32,16 @@ class Calibrate : public testing::Test {
     std::ofstream(folder_ + "/" + name) << text;
     return folder_ + "/" + name;
   }
+  static Finger planted_finger() {
+    Finger truth = read_finger(find_design("fingers/reference.toml"));
+    truth.macro.load_share = 0.009;
+    truth.macro.shear_strength = 7.5e6;
+    truth.skin.softening = 2.3;
+    return truth;
+  }
+  // The fit of three parameters to the planted finger's table, from `start`.
+  Calibration planted_calibration(const std::string& start) const;
+
   std::string folder_;
 };
 
@@ -54,15 +64,9 @@ std::string planted_table(const Finger& truth, const ClaimSampling& sampling) {
   return out;
 }
 
-TEST_F(Calibrate, PlantedParametersAreFoundWithinTheirIntervals) {
-  const Finger start = read_finger(find_design("fingers/reference.toml"));
-  Finger truth = start;
-  truth.macro.load_share = 0.009;
-  truth.macro.shear_strength = 7.5e6;
-  truth.skin.softening = 2.3;
-  write("measured.csv", planted_table(truth, {"draft", 4, 0, 64}));
-  const std::string file = write("fit.toml", R"(schema_version = 1
-finger = "fingers/reference.toml"
+Calibration Calibrate::planted_calibration(const std::string& start) const {
+  write("measured.csv", planted_table(planted_finger(), {"draft", 4, 0, 64}));
+  return read_calibration(write("fit.toml", "schema_version = 1\nfinger = \"" + start + R"("
 data = "measured.csv"
 [sampling]
 level = "draft"
@@ -72,8 +76,11 @@ skins = 4
 "macro.load_share" = { low = 0.001, high = 0.05 }
 "macro.shear_strength" = { low = "3 MPa", high = "20 MPa" }
 "skin.softening" = { low = 1.2, high = 4.0 }
-)");
-  const Calibration calibration = read_calibration(file);
+)"));
+}
+
+TEST_F(Calibrate, PlantedParametersAreFoundWithinTheirIntervals) {
+  const Calibration calibration = planted_calibration("fingers/reference.toml");
   ASSERT_EQ(calibration.data.size(), 8u);
   CalibrationOptions options;
   options.check = false;
@@ -81,9 +88,9 @@ skins = 4
   const CalibrationResult r = calibrate(calibration, options);
   EXPECT_TRUE(r.fit.converged) << r.fit.message;
   EXPECT_GT(r.chi2_before, 100);
-  // Not zero, for a reason not found: the frictions of these four skins end up to half a per cent
-  // off. A hundredth of the degrees of freedom.
-  EXPECT_LT(r.fit.chi2, 0.01 * 13);
+  // Not zero as at the planted values (below): droplets jump from hollow to hollow, so that the sum
+  // of squares has ripples of a few tenths of a per cent of friction, and the descent ends in one.
+  EXPECT_LT(r.fit.chi2, 0.05);
   const std::vector<double> planted{0.009, 7.5e6, 2.3};
   for (std::size_t i = 0; i < planted.size(); ++i) {
     const ParameterFit& p = r.fit.parameters[i];
@@ -98,6 +105,25 @@ skins = 4
   for (const char* words :
        {"95 % interval", "Correlations", "What the data tell apart", "miss, sd"})
     EXPECT_NE(report.find(words), std::string::npos) << words;
+}
+
+TEST_F(Calibrate, AtThePlantedValuesNothingIsLeft) {
+  const std::string truth =
+      write("truth.toml", "schema_version = 1\nbase = \"" + find_design("fingers/reference.toml") +
+                              R"("
+[macro]
+load_share = 0.009
+shear_strength = "7.5 MPa"
+[skin]
+softening = 2.3
+)");
+  const Calibration calibration = planted_calibration(truth);
+  CalibrationOptions options;
+  options.check = false;
+  options.threads = 1;
+  const CalibrationResult r = calibrate(calibration, options);
+  EXPECT_LT(r.chi2_before, 1e-9);  // eight digits in the table
+  EXPECT_NEAR(r.fit.parameters[0].value, 0.009, 1e-8);
 }
 
 TEST_F(Calibrate, WhatOnlyTheirProductMovesIsNotIdentified) {
