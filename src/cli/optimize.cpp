@@ -88,7 +88,10 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
   const auto score = [&](const Score& s) {
     Json j = Json::object();
     for (std::size_t k = 0; k < s.values.size(); ++k) {
-      j[problem.objectives()[k].name] = {{"value", s.values[k]}, {"se", s.errors[k]}};
+      const auto parameters = parameter_error(s, k);
+      j[problem.objectives()[k].name] = {{"value", s.values[k]},
+                                         {"se", s.errors[k]},
+                                         {"parameters", parameters ? Json(*parameters) : Json()}};
     }
     j["worst_modulation"] = s.worst;
     return j;

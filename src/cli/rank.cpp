@@ -20,7 +20,7 @@ struct RankCommand {
   std::vector<std::string> files, overrides;
   std::string by, states, out;
   int max_skins = 96, jobs = 0;
-  bool json = false;
+  bool json = false, parameters = false;
 };
 
 std::vector<FingerState> parse_states(const std::string& text) {
@@ -67,6 +67,9 @@ int run(const Context& context, const RankCommand& command) {
                                           : parse_states(command.states);
   options.max_skins = command.max_skins;
   options.threads = command.jobs;
+  options.parameters =
+      command.parameters || std::any_of(designs.begin(), designs.end(),
+                                        [](const Design& d) { return d.accuracy.parameters; });
   options.note = [&](const std::string& text) { context.note(text); };
   const std::vector<std::string> names = short_names(command.files);
   const Ranking ranking = rank(candidates, options);
@@ -120,6 +123,9 @@ void add_rank(CLI::App& app, Context& context) {
       ->type_name("STATE,...");
   command->add_option("--max-skins", options->max_skins, "Most skins a candidate and state")
       ->check(CLI::Range(12, 100000));
+  command->add_flag("--parameters", options->parameters,
+                    "Also what the finger's fitted numbers (its [[uncertainty]]) leave of each "
+                    "value and of each difference");
   command->add_option("--out", options->out, "Also write table, JSON, designs and report.html")
       ->type_name("DIR");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")

@@ -133,8 +133,12 @@ struct TargetReport {
 
 // The finger moved one standard deviation up and down an independent direction of its fit's
 // covariance; fewer skins than the response, the same for all steps.
+struct StepEnd {
+  std::vector<ResponsePoint> points;
+  std::vector<std::vector<ResponsePoint>> without;  // [skin] the same without that skin
+};
 struct ParameterStep {
-  std::vector<ResponsePoint> up, down;
+  StepEnd up, down;
 };
 struct ParameterSteps {
   std::vector<ParameterStep> steps;  // empty: not asked for

@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/statistics.h"
 #include "base/text.h"
 
 namespace papilla {
@@ -262,11 +263,11 @@ std::optional<double> humidity_error(Summary summary, const Response& response,
   return change / 3;
 }
 
-// Eq. accuracy.11: the summary itself is stepped, so changes that humidities share do not cancel.
+// The summary itself is stepped, so changes that humidities share do not cancel.
 std::optional<double> parameter_error(Summary summary, const std::string& metric,
                                       const Response& response, const std::vector<double>& weights,
                                       Better better) {
-  const auto stepped = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+  const auto value = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
     std::vector<double> values;
     for (const ResponsePoint& point : points) {
       const auto m = metric_at(metric, point);
@@ -277,16 +278,48 @@ std::optional<double> parameter_error(Summary summary, const std::string& metric
     if (!series.defined(summary)) return std::nullopt;
     return series.value(summary);
   };
-  double sum = 0;
-  for (const ParameterStep& step : response.parameters.steps) {
-    const auto up = stepped(step.up), down = stepped(step.down);
-    if (!up || !down) return std::nullopt;
-    sum += square((*up - *down) / 2);
-  }
-  return std::sqrt(sum);
+  const auto samples = step_samples(response.parameters.steps, value);
+  return samples ? std::optional(step_error(*samples)) : std::nullopt;
 }
 
 }  // namespace
+
+std::optional<StepSamples> step_samples(
+    const std::vector<ParameterStep>& steps,
+    const std::function<std::optional<double>(const std::vector<ResponsePoint>&)>& value) {
+  StepSamples out;
+  for (const ParameterStep& step : steps) {
+    const auto half = [&](const std::vector<ResponsePoint>& up,
+                          const std::vector<ResponsePoint>& down) {
+      const auto high = value(up), low = value(down);
+      return high && low ? std::optional((*high - *low) / 2) : std::nullopt;
+    };
+    const auto all = half(step.up.points, step.down.points);
+    if (!all) return std::nullopt;
+    std::vector<double> rest;  // the half difference without each skin
+    for (std::size_t k = 0; k < step.up.without.size(); ++k) {
+      const auto one = half(step.up.without[k], step.down.without.at(k));
+      if (!one) return std::nullopt;
+      rest.push_back(*one);
+    }
+    const double mean = mean_estimate(rest).value;
+    std::vector<double> samples;
+    for (const double r : rest)
+      samples.push_back(*all - (static_cast<double>(rest.size()) - 1) * (r - mean));
+    if (samples.empty()) samples.push_back(*all);
+    out.push_back(std::move(samples));
+  }
+  return out;
+}
+
+double step_error(const StepSamples& samples) {
+  double sum = 0;
+  for (const std::vector<double>& direction : samples) {
+    const Estimate e = mean_estimate(direction);
+    sum += square(e.value) - square(e.se);
+  }
+  return std::sqrt(std::max(0.0, sum));
+}
 
 std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
                                       const Response& response) {

@@ -2,6 +2,7 @@
 // this list.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,15 @@ struct SummaryValue {
 // (undriven, or a mean of zero).
 std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
                                       const Response& response);
+
+// Half the change of a number over each step of the finger's parameters, a sample a skin whose mean
+// it is; nothing where the number is not defined at a step. Eq. accuracy.11
+using StepSamples = std::vector<std::vector<double>>;  // [direction][skin]
+std::optional<StepSamples> step_samples(
+    const std::vector<ParameterStep>& steps,
+    const std::function<std::optional<double>(const std::vector<ResponsePoint>&)>& value);
+// The standard error that they leave, less what the skins scatter. Eq. accuracy.11
+double step_error(const StepSamples& samples);
 
 // "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name).
 struct MetricExpression {

@@ -39,7 +39,8 @@ void fields(FieldVisitor& v, AccuracySettings& s) {
   v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
            s.target);
   v.flag({"parameters",
-          "evaluate: also the error that the finger's fitted numbers leave (its `uncertainty`)"},
+          "evaluate, rank: also the error that the finger's fitted numbers leave (its "
+          "`uncertainty`); optimize always states it"},
          s.parameters);
   v.integer({"droplet_seeds", "placements of the droplets on each skin, averaged (M3: 6)"}, 1, 64,
             s.droplet_seeds);
@@ -666,6 +667,8 @@ Finger read_finger(const std::string& path) {
   document.take("schema_version");
   Finger finger;
   read_section(document, "", finger);
+  if (const std::string wrong = uncertainty_problem(finger); !wrong.empty())
+    document.problem_at("uncertainty", wrong);
   finish(document);
   return finger;
 }

@@ -18,10 +18,14 @@
 #include "forward/voltage.h"
 #include "study/evaluation.h"
 #include "study/family.h"
+#include "study/parameters.h"
 #include "study/target.h"
 
 namespace papilla {
 namespace {
+
+// Steps of the parameters of confirmed designs: skins over all fingers, pixels.
+constexpr int kStepSkins = 12, kStepGrid = 64;
 
 // <= 0 when kept, relative to the limit, bounded.
 double relative_violation(double value, double limit, bool at_least) {
@@ -61,6 +65,20 @@ double distance(const StudyObjective& o, const Response& response) {
     total += p.weight;
   }
   return std::sqrt(sum / total);
+}
+
+// Of the objective over the steps of the response; empty: not defined.
+StepSamples steps_of(const StudyObjective& o, const Response& response) {
+  Response there;
+  there.driven = response.driven;
+  there.appearance = response.appearance;
+  const auto value = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    there.points = points;
+    const auto v = summarise(o.expression.summary, o.expression.metric, there);
+    if (!v || !std::isfinite(v->value)) return std::nullopt;
+    return o.aimed ? distance(o, there) : v->value;
+  };
+  return step_samples(response.parameters.steps, value).value_or(StepSamples{});
 }
 
 double parse_number(const std::string& text, const std::string& whole) {
@@ -455,7 +473,8 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
 
 // info of a task: a summary and its error an objective, worst modulation, oxide margin, the metric
 // of each objective at each humidity, then haze, transmittance, gloss and colour where asked for,
-// then the summary of each constraint on a metric.
+// then the summary of each constraint on a metric; of confirmed designs also the steps of the
+// parameters: an objective their number, and of each its samples and their number.
 Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const Fidelity& fidelity,
                                     bool report) const {
   const StudyTask& task = tasks_.at(index);
@@ -489,6 +508,13 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
   }
   if (!voltage_targets_.empty())
     add_voltages(response, scene_of(d), d.texture, fidelity, voltage_targets_);
+  // The steps of a finger share out the skins over the population, as the search does.
+  if (report && index < nominal_ && !scene.finger.uncertainty.empty()) {
+    Fidelity few = fidelity;
+    few.skins = std::max(2, kStepSkins / static_cast<int>(nominal_));
+    few.grid = kStepGrid;
+    add_parameter_errors(response, scene, d.texture, few);
+  }
   std::vector<double> limited;
   for (const auto* list : {&objectives_, &limited_}) {
     for (const StudyObjective& o : *list) {
@@ -503,7 +529,9 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
         limited.push_back(value->value);
       } else {
         out.info.push_back(o.aimed ? distance(o, response) : value->value);
-        out.info.push_back(value->se);
+        ErrorParts own = value->parts;
+        own.parameters.reset();
+        out.info.push_back(own.total());
       }
     }
   }
@@ -523,6 +551,16 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
     for (const double v : {look->haze, look->transmittance, look->gloss, look->colour_shift})
       out.info.push_back(v);
   out.info.insert(out.info.end(), limited.begin(), limited.end());
+  if (!response.parameters.steps.empty()) {
+    for (const StudyObjective& o : objectives_) {
+      const StepSamples steps = steps_of(o, response);
+      out.info.push_back(static_cast<double>(steps.size()));
+      for (const std::vector<double>& samples : steps) {
+        out.info.push_back(static_cast<double>(samples.size()));
+        out.info.insert(out.info.end(), samples.begin(), samples.end());
+      }
+    }
+  }
   out.ok = true;
   if (report) out.reason = response_json(response, false);
   return out;
@@ -570,9 +608,7 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
     };
     for (std::size_t t = 0; t < nominal_; ++t) {
       const std::vector<double>& info = tasks[t].info;
-      PAPILLA_CHECK(
-          info.size() == 2 * m + 2 + m * rh.size() + (needs_appearance() ? 4 : 0) + limited_.size(),
-          "numbers of a task");
+      PAPILLA_CHECK(info.size() >= task_numbers(), "numbers of a task");
       error += tasks_[t].weight * info[2 * k + 1];  // tasks share their skins: errors add linearly
       total += tasks_[t].weight;
       if (!points) add(t, 2 * k, tasks_[t].weight);
@@ -605,8 +641,7 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
     score.worst = std::min(score.worst, tasks[t].info[2 * m]);
     score.oxide_margin = std::min(score.oxide_margin, tasks[t].info[2 * m + 1]);
     for (std::size_t j = 0; j < limited_.size(); ++j) {
-      const double value =
-          tasks[t].info[2 * m + 2 + m * rh.size() + (needs_appearance() ? 4 : 0) + j];
+      const double value = tasks[t].info[task_numbers() - limited_.size() + j];
       double& bad = score.limited[j];
       bad = limited_[j].maximise ? std::min(bad, value) : std::max(bad, value);
     }
@@ -622,8 +657,70 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
       }
     }
   }
+  add_steps(score, tasks);
   score.ok = true;
   return score;
+}
+
+std::size_t StudyProblem::task_numbers() const {
+  const std::size_t m = objectives_.size();
+  return 2 * m + 2 + m * study_.design.environment.relative_humidity.size() +
+         (needs_appearance() ? 4 : 0) + limited_.size();
+}
+
+// Fingers of one uncertainty move together, others on their own; all share their skins.
+void StudyProblem::add_steps(Score& score, const std::vector<Outcome>& tasks) const {
+  double total = 0;
+  for (std::size_t t = 0; t < nominal_; ++t) {
+    total += tasks_[t].weight;
+    if (tasks[t].info.size() == task_numbers()) return;  // not asked for or not known
+  }
+  score.parameter_steps.resize(objectives_.size());
+  std::vector<std::size_t> at(nominal_, task_numbers());
+  for (StepSamples& sums : score.parameter_steps) {
+    std::vector<std::size_t> first(nominal_);  // direction of each finger
+    bool known = true;
+    for (std::size_t t = 0; t < nominal_; ++t) {
+      const auto next = [&] { return tasks[t].info.at(at[t]++); };
+      const auto count = static_cast<std::size_t>(next());
+      std::size_t same = 0;
+      while (tasks_[same].finger.uncertainty != tasks_[t].finger.uncertainty) ++same;
+      first[t] = same < t ? first[same] : sums.size();
+      known = known && count > 0;
+      if (sums.size() < first[t] + count) sums.resize(first[t] + count);
+      for (std::size_t k = 0; k < count; ++k) {
+        std::vector<double>& sum = sums[first[t] + k];
+        const auto skins = static_cast<std::size_t>(next());
+        sum.resize(skins, 0);
+        for (double& s : sum) s += tasks_[t].weight / total * next();
+      }
+    }
+    if (!known) sums.clear();
+  }
+}
+
+std::string StudyProblem::parameters_unknown() const {
+  for (std::size_t t = 0; t < nominal_; ++t) {
+    if (tasks_[t].finger.uncertainty.empty()) return unknown_parameters(tasks_[t].finger);
+  }
+  return {};
+}
+
+std::optional<double> parameter_error(const Score& score, std::size_t objective) {
+  if (objective >= score.parameter_steps.size() || score.parameter_steps[objective].empty())
+    return std::nullopt;
+  return step_error(score.parameter_steps[objective]);
+}
+
+std::optional<double> parameter_error(const Score& score, const Score& other,
+                                      std::size_t objective) {
+  if (!parameter_error(score, objective) || !parameter_error(other, objective)) return std::nullopt;
+  StepSamples difference = score.parameter_steps[objective];
+  for (std::size_t k = 0; k < difference.size(); ++k) {
+    for (std::size_t s = 0; s < difference[k].size(); ++s)
+      difference[k][s] -= other.parameter_steps[objective].at(k).at(s);
+  }
+  return step_error(difference);
 }
 
 // Looks of arrays cost about a millisecond and steer the search itself; of others they are known

@@ -56,14 +56,25 @@ struct StudyObjective {
 struct Score {
   bool ok = false;
   std::string reason;
-  std::vector<double> values, errors;  // one an objective; one standard error
-  std::vector<double> residuals;       // of targets: weighted distances, one a task and humidity
-  double worst = 0;                    // lowest modulation over tasks and humidities; 0: undriven
-  double oxide_margin = 0;             // smallest; infinite without a field
-  std::optional<Optics> appearance;    // where the study asks for it
-  std::vector<double> limited;         // the bad side over tasks of each constraint on a metric
-  std::vector<std::string> reports;    // JSON of the response of each task as designed, where asked
+  // One an objective; one standard error of what is the design's own: all but the parameters.
+  std::vector<double> values, errors;
+  // What a standard deviation of the fingers' fitted numbers does to each objective: directions are
+  // the same for every design of a study. Empty where not known (of an objective: not defined at a
+  // step); only of confirmed designs. Eq. accuracy.12
+  std::vector<StepSamples> parameter_steps;
+  std::vector<double> residuals;     // of targets: weighted distances, one a task and humidity
+  double worst = 0;                  // lowest modulation over tasks and humidities; 0: undriven
+  double oxide_margin = 0;           // smallest; infinite without a field
+  std::optional<Optics> appearance;  // where the study asks for it
+  std::vector<double> limited;       // the bad side over tasks of each constraint on a metric
+  std::vector<std::string> reports;  // JSON of the response of each task as designed, where asked
 };
+
+// Standard error that the parameters leave of an objective, or of its difference from another
+// design's; nothing where not known. Eq. accuracy.12
+std::optional<double> parameter_error(const Score& score, std::size_t objective);
+std::optional<double> parameter_error(const Score& score, const Score& other,
+                                      std::size_t objective);
 
 class StudyProblem {
  public:
@@ -76,6 +87,8 @@ class StudyProblem {
   std::size_t nominal_tasks() const { return nominal_; }  // the first ones: as designed
   const std::vector<StudyObjective>& objectives() const { return objectives_; }
   const std::vector<double>& voltage_targets() const { return voltage_targets_; }
+  // Why the parameters' part of confirmed designs is not known; "" when it is.
+  std::string parameters_unknown() const;
 
   Design design(const Point& unit) const;
   std::vector<double> values(const Point& unit) const { return space_.value(unit); }
@@ -118,6 +131,8 @@ class StudyProblem {
   // The representative of all points that are the same design: numbers without effect on this kind
   // of texture, or at depth 0, take the study's own value.
   Point collapsed(const Point& unit) const;
+  std::size_t task_numbers() const;  // of a task's info, before the steps of the parameters
+  void add_steps(Score& score, const std::vector<Outcome>& tasks) const;
   // The design of a task.
   Design task_design(Design design, const StudyTask& task) const;
   std::string problem_of(const Design& design) const;

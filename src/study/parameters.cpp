@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "config/describe.h"
+#include "metrics/metrics.h"
 
 namespace papilla {
 namespace {
@@ -74,44 +75,71 @@ std::string uncertainty_problem(const Finger& finger) {
   return {};
 }
 
-void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
-                          const Fidelity& fidelity) {
-  const std::size_t n = scene.finger.uncertainty.size();
-  if (n == 0)
-    throw InputError(fmt::format(
-        "finger \"{}\" has no [[uncertainty]]: nothing is known about its parameters (papilla "
-        "calibrate writes it)",
-        scene.finger.name));
-  const std::vector<double> factor = covariance_factor(scene.finger.uncertainty);
+std::string unknown_parameters(const Finger& finger) {
+  return fmt::format(
+      "finger \"{}\" has no [[uncertainty]]: nothing is known about its parameters (papilla "
+      "calibrate writes it)",
+      finger.name);
+}
+
+std::vector<FingerStep> finger_steps(const Finger& finger) {
+  const std::size_t n = finger.uncertainty.size();
+  if (n == 0) throw InputError(unknown_parameters(finger));
+  const std::vector<double> factor = covariance_factor(finger.uncertainty);
+  std::vector<FingerStep> out;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (finger.uncertainty[k].deviation <= 0) continue;
+    std::vector<double> up, down;
+    for (std::size_t i = 0; i < n; ++i) {
+      up.push_back(factor[i * n + k]);
+      down.push_back(-up.back());
+    }
+    out.push_back({moved_finger(finger, up), moved_finger(finger, down)});
+  }
+  return out;
+}
+
+Fidelity step_fidelity(const Fidelity& fidelity) {
   Fidelity few = fidelity;
   few.skins = std::min(fidelity.skins, kMostSkins);
   few.grid = std::min(fidelity.grid, kFinestGrid);
   few.contact_tolerance = std::max(fidelity.contact_tolerance, kTolerance);
   few.estimator = Estimator::Load;
   few.control_skins = 0;
+  return few;
+}
+
+StepEnd step_end(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches) {
+  StepEnd out{respond(scene, fidelity, patches).points, {}};
+  for (int k = 0; k < patches.skins() && patches.skins() > 1; ++k)
+    out.without.push_back(respond(scene, fidelity, patches, k).points);
+  return out;
+}
+
+void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
+                          const Fidelity& fidelity) {
+  const std::vector<FingerStep> steps = finger_steps(scene.finger);
+  const Fidelity few = step_fidelity(fidelity);
   ParameterSteps& out = response.parameters;
   out = {{}, few.skins, few.grid, ""};
-  const auto run = [&](std::size_t column, double sign) {
-    std::vector<double> logarithms;
-    for (std::size_t i = 0; i < n; ++i) logarithms.push_back(sign * factor[i * n + column]);
+  const auto run = [&](const Finger& finger) {
     Scene moved = scene;
-    moved.finger = moved_finger(scene.finger, logarithms);
-    Response there = evaluate(moved, texture, few);
+    moved.finger = finger;
+    const PatchSet patches = solve_patches(moved, texture, few);
+    const Response there = respond(moved, few, patches);
     if (out.trouble.empty()) out.trouble = there.trouble();
     response.seconds += there.seconds;
     response.contact_solves += there.contact_solves;
     response.fft_pairs += there.fft_pairs;
-    return std::move(there.points);
+    return step_end(moved, few, patches);
   };
-  for (std::size_t k = 0; k < n; ++k) {
-    if (scene.finger.uncertainty[k].deviation > 0) out.steps.push_back({run(k, 1), run(k, -1)});
-  }
+  for (const FingerStep& step : steps) out.steps.push_back({run(step.up), run(step.down)});
   for (std::size_t i = 0; i < response.points.size(); ++i) {
     for (const auto member : kMeasured) {
-      double sum = 0;
-      for (const ParameterStep& step : out.steps)
-        sum += square(((step.up[i].*member).value - (step.down[i].*member).value) / 2);
-      (response.points[i].*member).parts.parameters = std::sqrt(sum);
+      const auto value = [&](const std::vector<ResponsePoint>& points) {
+        return std::optional((points[i].*member).value);
+      };
+      (response.points[i].*member).parts.parameters = step_error(*step_samples(out.steps, value));
     }
   }
 }

@@ -19,10 +19,25 @@ std::vector<double> covariance_factor(const std::vector<ParameterDeviation>& unc
 // What is wrong with the `uncertainty` of a finger, for people; "" when nothing is.
 std::string uncertainty_problem(const Finger& finger);
 
-// Eq. accuracy.11: central differences over one standard deviation along each column of L, on
-// common skins, offsets and droplets. Fills response.parameters and the part `parameters` of every
-// number. Cost: 2 n evaluations by the load law with at most 8 skins and 128 pixels. Throws
-// InputError where the finger has no `uncertainty`.
+// One independent direction of the covariance: the finger one standard deviation up and down.
+struct FingerStep {
+  Finger up, down;
+};
+// One a column of L that moves anything. Throws InputError where the finger has no `uncertainty`.
+std::vector<FingerStep> finger_steps(const Finger& finger);
+
+// What is said of a finger without `uncertainty`.
+std::string unknown_parameters(const Finger& finger);
+
+// What the steps are run with: the load law, at most 8 skins and 128 pixels.
+Fidelity step_fidelity(const Fidelity& fidelity);
+
+// The response of solved patches and without each skin, for a step.
+StepEnd step_end(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches);
+
+// Eq. accuracy.11: central differences over the steps, on common skins, offsets and droplets. Fills
+// response.parameters and the part `parameters` of every number. Cost: 2 n evaluations at
+// step_fidelity. Throws as finger_steps.
 void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
                           const Fidelity& fidelity);
 

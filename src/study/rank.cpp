@@ -14,6 +14,7 @@
 #include "base/statistics.h"
 #include "base/text.h"
 #include "forward/forward.h"
+#include "study/parameters.h"
 
 namespace papilla {
 namespace {
@@ -33,6 +34,7 @@ class Candidate {
         fidelity_(fidelity_of(design_)) {
     scene_.finger.state = state;
     fidelity_.threads = options.threads;
+    fidelity_.skins = options.batch;
     if (std::any_of(options.criteria.begin(), options.criteria.end(), [](const Criterion& c) {
           return find_metric(c.expression.metric)->appearance;
         })) {
@@ -44,23 +46,15 @@ class Candidate {
 
   // More skins: the next of the common sequence, shared out over the regions.
   void extend() {
-    const int count = static_cast<int>(regions_.size());
-    for (int r = 0; r < count; ++r) {
-      fidelity_.first_skin = skins();
-      fidelity_.skins = options_.batch * (r + 1) / count - options_.batch * r / count;
-      if (fidelity_.skins == 0) continue;
-      Scene scene = scene_of(regions_[static_cast<std::size_t>(r)]);
-      scene.finger.state = scene_.finger.state;
-      PatchSet more =
-          solve_patches(scene, regions_[static_cast<std::size_t>(r)].texture, fidelity_);
-      if (skins() == 0) {
-        patches_ = std::move(more);
-      } else {
-        patches_.add(more);
-      }
-    }
+    solve([](const Finger& finger) { return finger; }, fidelity_, patches_);
     // Jackknife pseudo-values: a sample a skin of any metric. Eq. ranking.2
     const int n = skins();
+    const auto values = [&](int without) {
+      Response response = respond(scene_, fidelity_, patches_, without);
+      std::vector<double> out;
+      for (const Criterion& c : options_.criteria) out.push_back(value(c, response));
+      return out;
+    };
     const std::vector<double> all = values(-1);
     pseudo_.assign(all.size(), std::vector<double>(static_cast<std::size_t>(n)));
     for (int k = 0; k < n; ++k) {
@@ -72,23 +66,71 @@ class Candidate {
 
   const std::vector<double>& samples(std::size_t criterion) const { return pseudo_[criterion]; }
 
- private:
-  std::vector<double> values(int without) const {
-    Response response = respond(scene_, fidelity_, patches_, without);
-    response.appearance = look_;
-    std::vector<double> out;
+  const Finger& finger() const { return scene_.finger; }
+  Fidelity steps_fidelity() const { return step_fidelity(fidelity_of(design_)); }
+
+  // What each step of the finger does to each criterion. Eq. ranking.5
+  void step() {
+    Fidelity few = steps_fidelity();
+    few.threads = options_.threads;
+    const auto moved = [&](std::size_t direction, bool up) {
+      const auto move = [&](const Finger& finger) {
+        const FingerStep step = finger_steps(finger)[direction];
+        return up ? step.up : step.down;
+      };
+      Scene scene = scene_;
+      scene.finger = move(scene_.finger);
+      PatchSet patches;
+      solve(move, few, patches);
+      return step_end(scene, few, patches);
+    };
+    std::vector<ParameterStep> ends;
+    for (std::size_t k = 0; k < finger_steps(scene_.finger).size(); ++k)
+      ends.push_back({moved(k, true), moved(k, false)});
+    Response there;
+    there.driven = scene_.drive.driven();
     for (const Criterion& c : options_.criteria) {
-      const auto v = summarise(c.expression.summary, c.expression.metric, response);
-      if (!v || !std::isfinite(v->value)) {
-        throw InputError(fmt::format("{} is not defined for \"{}\"{}", metric_text(c.expression),
-                                     design_.title,
-                                     look_ && look_->regime == "refused" ? ": " + look_->warning
-                                     : response.driven                   ? ""
-                                                       : ": it is not driven (0 V)"));
-      }
-      out.push_back(v->value);
+      const auto samples = step_samples(ends, [&](const std::vector<ResponsePoint>& points) {
+        there.points = points;
+        return std::optional(value(c, there));
+      });
+      steps_.push_back(*samples);
     }
-    return out;
+  }
+  const StepSamples& steps(std::size_t criterion) const { return steps_[criterion]; }
+
+ private:
+  // The next skins of the common sequence, as many as the fidelity says, on the moved finger.
+  void solve(const std::function<Finger(const Finger&)>& move, Fidelity fidelity,
+             PatchSet& patches) const {
+    const int count = static_cast<int>(regions_.size()), skins = fidelity.skins;
+    for (int r = 0; r < count; ++r) {
+      fidelity.first_skin = patches.skins();
+      fidelity.skins = skins * (r + 1) / count - skins * r / count;
+      if (fidelity.skins == 0) continue;
+      Scene scene = scene_of(regions_[static_cast<std::size_t>(r)]);
+      scene.finger.state = scene_.finger.state;
+      scene.finger = move(scene.finger);
+      PatchSet more = solve_patches(scene, regions_[static_cast<std::size_t>(r)].texture, fidelity);
+      if (patches.skins() == 0) {
+        patches = std::move(more);
+      } else {
+        patches.add(more);
+      }
+    }
+  }
+
+  double value(const Criterion& c, Response& response) const {
+    response.appearance = look_;
+    const auto v = summarise(c.expression.summary, c.expression.metric, response);
+    if (!v || !std::isfinite(v->value)) {
+      throw InputError(fmt::format("{} is not defined for \"{}\"{}", metric_text(c.expression),
+                                   design_.title,
+                                   look_ && look_->regime == "refused" ? ": " + look_->warning
+                                   : response.driven                   ? ""
+                                                     : ": it is not driven (0 V)"));
+    }
+    return v->value;
   }
 
   const Regions& regions_;
@@ -99,14 +141,23 @@ class Candidate {
   std::optional<Optics> look_;  // where a criterion asks for it
   PatchSet patches_;
   std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
+  std::vector<StepSamples> steps_;           // one a criterion
 };
 
-Interval interval(const std::vector<double>& samples) {
+// steps: of the finger's parameters; empty: not asked for.
+Interval interval(const std::vector<double>& samples, const StepSamples& steps) {
   const Estimate e = mean_estimate(samples);
-  const double half = samples.size() > 1
-                          ? student_t_quantile(0.975, static_cast<int>(samples.size()) - 1) * e.se
-                          : kInfinity;
-  return {e.value, e.value - half, e.value + half};
+  double half = samples.size() > 1
+                    ? student_t_quantile(0.975, static_cast<int>(samples.size()) - 1) * e.se
+                    : kInfinity;
+  Interval out{e.value, 0, 0, std::nullopt};
+  if (!steps.empty()) {
+    out.parameters = step_error(steps);
+    half = std::hypot(half, normal_quantile(0.975) * *out.parameters);
+  }
+  out.low = out.value - half;
+  out.high = out.value + half;
+  return out;
 }
 
 class StateRanker {
@@ -143,27 +194,53 @@ class StateRanker {
       }
     }
     for (const Candidate& c : candidates_) skins += c.skins();
+    if (options_.parameters) step();  // more skins make nothing of it surer
     return result();
   }
 
  private:
+  // Scores over the steps of the finger, the same for all candidates. Eq. ranking.5
+  void step() {
+    if (options_.note)
+      options_.note(fmt::format("{}: parameters of the finger",
+                                finger_state_names()[static_cast<std::size_t>(state_)]));
+    const std::vector<double> scale = score_scale();
+    for (Candidate& x : candidates_) {
+      x.step();
+      StepSamples s = x.steps(0);
+      for (std::size_t k = 0; k < s.size(); ++k) {
+        for (std::size_t i = 0; i < s[k].size(); ++i) {
+          s[k][i] = 0;
+          for (std::size_t c = 0; c < scale.size(); ++c) s[k][i] += scale[c] * x.steps(c)[k][i];
+        }
+      }
+      steps_.push_back(std::move(s));
+    }
+  }
+
+  // What a unit of each criterion is worth in the score. Eq. ranking.1
+  std::vector<double> score_scale() const {
+    const std::size_t criteria = options_.criteria.size();
+    std::vector<double> out;
+    for (std::size_t c = 0; c < criteria; ++c) {
+      double typical = 0;
+      for (const Candidate& x : candidates_)
+        typical +=
+            std::abs(mean_estimate(x.samples(c)).value) / static_cast<double>(candidates_.size());
+      out.push_back((options_.criteria[c].high ? 1 : -1) / (typical > 0 ? typical : 1) /
+                    static_cast<double>(criteria));
+    }
+    return out;
+  }
+
   // Scores a skin. Eq. ranking.1
   void score() {
-    const std::size_t criteria = options_.criteria.size();
-    std::vector<double> typical(criteria, 0);
-    for (std::size_t c = 0; c < criteria; ++c) {
-      for (const Candidate& x : candidates_)
-        typical[c] +=
-            std::abs(mean_estimate(x.samples(c)).value) / static_cast<double>(candidates_.size());
-    }
+    const std::vector<double> scale = score_scale();
     scores_.clear();
     for (const Candidate& x : candidates_) {
       std::vector<double> s(static_cast<std::size_t>(x.skins()), 0);
-      for (std::size_t c = 0; c < criteria; ++c) {
-        const double sign = options_.criteria[c].high ? 1 : -1;
-        const double scale = typical[c] > 0 ? typical[c] : 1;
-        for (std::size_t k = 0; k < s.size(); ++k)
-          s[k] += sign * x.samples(c)[k] / scale / static_cast<double>(criteria);
+      for (std::size_t c = 0; c < scale.size(); ++c) {
+        for (std::size_t k = 0; k < s.size(); ++k) s[k] += scale[c] * x.samples(c)[k];
       }
       scores_.push_back(std::move(s));
     }
@@ -175,12 +252,45 @@ class StateRanker {
                      [&](std::size_t a, std::size_t b) { return mean[a] > mean[b]; });
   }
 
-  // Score of a minus b over the skins that both have.
+  // Score of a minus b over the skins that both have, and over the steps of the finger.
   Interval difference(std::size_t a, std::size_t b) const {
-    const std::size_t n = std::min(scores_[a].size(), scores_[b].size());
-    std::vector<double> d(n);
-    for (std::size_t k = 0; k < n; ++k) d[k] = scores_[a][k] - scores_[b][k];
-    return interval(d);
+    return interval(minus(scores_[a], scores_[b]), step_difference(a, b));
+  }
+  StepSamples step_difference(std::size_t a, std::size_t b) const {
+    StepSamples out;
+    for (std::size_t k = 0; !steps_.empty() && k < steps_[a].size(); ++k)
+      out.push_back(minus(steps_[a][k], steps_[b][k]));
+    return out;
+  }
+  // [design][direction] What a step of the finger does to a score beyond the mean over designs,
+  // scaled to what is left of all of them without the scatter of the skins.
+  std::vector<std::vector<double>> step_moves() const {
+    std::vector<std::vector<double>> out;
+    double sure = 0, all = 0;
+    for (const StepSamples& own : steps_) {
+      StepSamples beyond = own;
+      for (std::size_t k = 0; k < beyond.size(); ++k) {
+        for (std::size_t s = 0; s < beyond[k].size(); ++s) {
+          for (const StepSamples& other : steps_)
+            beyond[k][s] -= other[k][s] / static_cast<double>(steps_.size());
+        }
+      }
+      out.emplace_back();
+      for (const std::vector<double>& direction : beyond) {
+        out.back().push_back(mean_estimate(direction).value);
+        all += square(out.back().back());
+      }
+      sure += square(step_error(beyond));
+    }
+    for (std::vector<double>& moves : out) {
+      for (double& v : moves) v *= all > 0 ? std::sqrt(std::min(1.0, sure / all)) : 0;
+    }
+    return out;
+  }
+  static std::vector<double> minus(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> d(std::min(a.size(), b.size()));
+    for (std::size_t k = 0; k < d.size(); ++k) d[k] = a[k] - b[k];
+    return d;
   }
   bool decided(std::size_t a, std::size_t b) const {
     const Interval d = difference(a, b);
@@ -203,14 +313,17 @@ class StateRanker {
       for (std::size_t k = 0; k < n; ++k) centred[i][k] = factor * (scores_[i][k] - average);
     }
     RandomStream random(1, "ranking", static_cast<std::uint64_t>(state_));
-    std::vector<double> z(n);
+    const std::vector<std::vector<double>> moves = step_moves();
+    std::vector<double> z(n), finger(moves.empty() ? 0 : moves.front().size());
     for (int draw = 0; draw < kDraws; ++draw) {
       for (double& v : z) v = random.normal();
+      for (double& v : finger) v = random.normal();
       std::size_t winner = 0;
       double highest = -kInfinity;
       for (std::size_t i = 0; i < m; ++i) {
         double v = mean[i];
         for (std::size_t k = 0; k < n; ++k) v += centred[i][k] * z[k];
+        for (std::size_t k = 0; k < finger.size(); ++k) v += moves[i][k] * finger[k];
         if (v > highest) {
           highest = v;
           winner = i;
@@ -223,11 +336,9 @@ class StateRanker {
 
   // Eq. ranking.4: normal error of the paired difference.
   double probability_ahead(std::size_t a, std::size_t b) const {
-    const std::size_t n = std::min(scores_[a].size(), scores_[b].size());
-    std::vector<double> d(n);
-    for (std::size_t k = 0; k < n; ++k) d[k] = scores_[a][k] - scores_[b][k];
-    const Estimate e = mean_estimate(d);
-    return e.se > 0 ? normal_cdf(e.value / e.se) : e.value > 0 ? 1 : 0.5;
+    const Estimate e = mean_estimate(minus(scores_[a], scores_[b]));
+    const double se = std::hypot(e.se, step_error(step_difference(a, b)));
+    return se > 0 ? normal_cdf(e.value / se) : e.value > 0 ? 1 : 0.5;
   }
 
   StateRanking result() const {
@@ -244,7 +355,7 @@ class StateRanker {
       const std::size_t i = order_[place];
       RankedCandidate r;
       r.index = i;
-      r.score = interval(scores_[i]);
+      r.score = interval(scores_[i], steps_.empty() ? StepSamples{} : steps_[i]);
       if (place > 0) r.behind_best = difference(i, order_.front());
       if (place + 1 < order_.size()) {
         r.ahead_of_next = difference(i, order_[place + 1]);
@@ -255,7 +366,9 @@ class StateRanker {
       if (place > 0 && out.candidates.back().tied_with_next) r.rank = out.candidates.back().rank;
       r.p_best = p[i];
       for (std::size_t c = 0; c < options_.criteria.size(); ++c)
-        r.metrics.push_back(interval(candidates_[i].samples(c)));
+        r.metrics.push_back(interval(candidates_[i].samples(c), options_.parameters
+                                                                    ? candidates_[i].steps(c)
+                                                                    : StepSamples{}));
       r.skins = candidates_[i].skins();
       out.candidates.push_back(std::move(r));
     }
@@ -266,6 +379,7 @@ class StateRanker {
   FingerState state_;
   std::vector<Candidate> candidates_;
   std::vector<std::vector<double>> scores_;  // [design][skin]
+  std::vector<StepSamples> steps_;           // one a design; empty: not asked for
   std::vector<std::size_t> order_;
 };
 
@@ -331,6 +445,22 @@ Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
 Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Ranking out;
+  if (options.parameters) {
+    const Design& first = candidates.front().front();
+    out.directions = static_cast<int>(finger_steps(first.finger).size());
+    const Fidelity few = step_fidelity(fidelity_of(first));
+    out.step_skins = few.skins;
+    out.step_grid = few.grid;
+    for (const Regions& regions : candidates) {
+      for (const Design& d : regions) {
+        if (d.finger.uncertainty != first.finger.uncertainty)
+          throw InputError(fmt::format(
+              "\"{}\" and \"{}\" are of fingers with other [[uncertainty]]: what their parameters "
+              "do to a difference is not known",
+              first.title, d.title));
+      }
+    }
+  }
   for (FingerState state : options.states)
     out.states.push_back(StateRanker(candidates, state, options).run(out.skins));
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -347,8 +477,9 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
       const std::string unit = people(c).second;
       rows[0].push_back(c.text() + (unit.empty() ? "" : " " + unit));
     }
-    for (const char* name : {"ahead of the next, %", "p(ahead)", "p(best)", "skins"})
-      rows[0].push_back(name);
+    rows[0].push_back("ahead of the next, %");
+    if (options.parameters) rows[0].push_back("finger's part");
+    for (const char* name : {"p(ahead)", "p(best)", "skins"}) rows[0].push_back(name);
     for (const RankedCandidate& r : state.candidates) {
       std::vector<std::string> row{fmt::format("{:>3}{}", r.rank, r.tied_with_next ? "=" : " "),
                                    names[r.index]};
@@ -361,6 +492,10 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
       row.push_back(last ? std::string("-")
                          : fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * r.ahead_of_next.value,
                                        100 * r.ahead_of_next.low, 100 * r.ahead_of_next.high));
+      if (options.parameters)
+        row.push_back(last ? std::string("-")
+                           : fmt::format("±{:.1f}", 100 * normal_quantile(0.975) *
+                                                        r.ahead_of_next.parameters.value_or(0)));
       row.push_back(last ? std::string("-") : fmt::format("{:.3f}", r.p_ahead));
       row.push_back(fmt::format("{:.3f}", r.p_best));
       row.push_back(fmt::format("{}", r.skins));
@@ -370,6 +505,12 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
     out += fmt::format("{} skins; {} if everyone had as many as the neediest ({:.0f} %)\n\n",
                        state.skins, state.equal_skins,
                        100.0 * state.skins / std::max(1, state.equal_skins));
+  }
+  if (ranking.directions > 0) {
+    out += fmt::format(
+        "parameters of the finger in every interval and probability: {} directions of its "
+        "covariance, the same for all designs; {} skins, {} pixels. Finger's part: of the lead\n",
+        ranking.directions, ranking.step_skins, ranking.step_grid);
   }
   return out + fmt::format(
                    "± and [ ] are 95 % intervals, differences are paired over common skins; = "
@@ -381,7 +522,10 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
                          const Ranking& ranking) {
   const auto number = [](double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); };
   const auto interval_json = [&](const Interval& i) {
-    return Json{{"value", number(i.value)}, {"low", number(i.low)}, {"high", number(i.high)}};
+    return Json{{"value", number(i.value)},
+                {"low", number(i.low)},
+                {"high", number(i.high)},
+                {"parameters", i.parameters ? number(*i.parameters) : Json(nullptr)}};
   };
   Json states = Json::array();
   for (const StateRanking& state : ranking.states) {
@@ -421,6 +565,10 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
               {"criteria", criteria},
               {"candidates", states.front()["candidates"]},
               {"states", states},
+              {"parameters", ranking.directions > 0 ? Json{{"directions", ranking.directions},
+                                                           {"skins", ranking.step_skins},
+                                                           {"grid", ranking.step_grid}}
+                                                    : Json(nullptr)},
               {"skins", ranking.skins},
               {"seconds", ranking.seconds}}
       .dump(2);

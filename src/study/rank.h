@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ std::vector<Criterion> parse_criteria(const std::string& text);
 
 struct Interval {
   double value = 0, low = 0, high = 0;  // 95 %
+  // The part of the finger's fitted numbers in it, one standard error; nothing where not asked for.
+  std::optional<double> parameters{};
 };
 
 struct RankedCandidate {
@@ -52,6 +55,7 @@ struct RankOptions {
   int batch = 6;       // skins a step
   int max_skins = 96;  // a candidate and state
   int threads = 0;
+  bool parameters = false;  // also what the finger's fitted numbers leave open, Eq. ranking.5
   std::function<void(const std::string&)> note;  // progress for people; may be empty
 };
 
@@ -59,11 +63,14 @@ struct Ranking {
   std::vector<StateRanking> states;
   int skins = 0;  // solved in all
   double seconds = 0;
+  // Of the finger's parameters: independent directions, and what their steps were run with.
+  int directions = 0, step_skins = 0, step_grid = 0;  // 0: not asked for
 };
 
 // A candidate: a design, or several regions of one that its skins take in turn.
 using Regions = std::vector<Design>;
-// Throws InputError when a criterion is not defined for a design (modulation without a drive).
+// Throws InputError when a criterion is not defined for a design (modulation without a drive), and
+// for parameters of fingers that have no `uncertainty` or not the same.
 Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options);
 Ranking rank(const std::vector<Design>& designs, const RankOptions& options);
 

@@ -91,7 +91,7 @@ Json design_json(const fs::path& folder, bool with_flat) {
   const Json metrics = Json::parse(read_bytes(folder / "metrics.json"));
   Json out;
   for (const char* key : {"variables", "objectives", "worst_modulation", "oxide_breakdown_margin",
-                          "feasible", "stability", "flat"}) {
+                          "feasible", "stability", "flat", "parameters"}) {
     if (metrics.contains(key)) out[key] = metrics[key];
   }
   out["tasks"] = Json::array();

@@ -38,6 +38,14 @@ std::string csv_text(std::string text) {
   return text;
 }
 
+// "0.612 ± 0.014 (0.051)": its own error, in brackets the one that parameters leave.
+std::string with_errors(const Score& score, std::size_t k) {
+  std::string out = fmt::format("{:.3f} ± {:.3f}", score.values[k], score.errors[k]);
+  if (const auto parameters = parameter_error(score, k))
+    out += fmt::format(" ({:.3f})", *parameters);
+  return out;
+}
+
 class Writer {
  public:
   explicit Writer(const ResultFiles& files) : f_(files) {}
@@ -116,13 +124,15 @@ class Writer {
     const auto& objectives = f_.problem.objectives();
     std::string out = "design" + variable_header();
     for (const StudyObjective& o : objectives)
-      out += fmt::format(",{0},{0} se,{0} at search level", o.name);
+      out += fmt::format(",{0},{0} se,{0} parameters,{0} at search level", o.name);
     out += ",worst modulation,breakdown margin,feasible,on front,status\n";
     const auto row = [&](const std::string& name, const Point& unit, const Score& c,
                          const Score& searched, bool feasible, bool front) {
       out += name + variable_values(unit);
       for (std::size_t k = 0; k < objectives.size(); ++k) {
         out += c.ok ? fmt::format(",{:.6g},{:.3g}", c.values[k], c.errors[k]) : std::string(",,");
+        const auto parameters = parameter_error(c, k);
+        out += parameters ? fmt::format(",{:.3g}", *parameters) : std::string(",");
         out += k < searched.values.size() ? fmt::format(",{:.6g}", searched.values[k])
                                           : std::string(",");
       }
@@ -143,7 +153,11 @@ class Writer {
     for (std::size_t k = 0; k < score.values.size(); ++k) {
       Json value{{"value", number(score.values[k])},
                  {"maximise", f_.problem.objectives()[k].maximise}};
-      if (k < score.errors.size()) value["se"] = number(score.errors[k]);
+      if (k < score.errors.size()) {
+        value["se"] = number(score.errors[k]);
+        const auto parameters = parameter_error(score, k);
+        value["parameters"] = parameters ? number(*parameters) : Json(nullptr);
+      }
       out[f_.problem.objectives()[k].name] = value;
     }
     return out;
@@ -171,6 +185,14 @@ class Writer {
     if (f_.result.flat)
       out["flat"] = {{"objectives", score_json(*f_.result.flat)},
                      {"worst_modulation", number(f_.result.flat->worst)}};
+    const std::string unknown = f_.problem.parameters_unknown();
+    out["parameters"] = {{"status", unknown.empty() ? "ok" : unknown},
+                         {"of_the_difference_to_flat", Json::object()}};
+    for (std::size_t k = 0; f_.result.flat && k < d.confirmed.values.size(); ++k) {
+      const auto part = parameter_error(d.confirmed, *f_.result.flat, k);
+      out["parameters"]["of_the_difference_to_flat"][f_.problem.objectives()[k].name] =
+          part ? number(*part) : Json(nullptr);
+    }
     out["tasks"] = Json::array();
     for (std::size_t t = 0; t < d.confirmed.reports.size(); ++t) {
       Json task{{"name", f_.problem.tasks()[t].name},
@@ -253,12 +275,22 @@ class Writer {
     const auto row = [&](const char* name, const Score& s) {
       out += fmt::format("| {} |", name);
       for (std::size_t k = 0; k < objectives.size(); ++k)
-        out += fmt::format(" {:.3f} ± {:.3f} |", s.values[k], s.errors[k]);
+        out += fmt::format(" {} |", with_errors(s, k));
       out += fmt::format(" {:.3f} |\n", s.worst);
     };
     if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
     row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
     row("best design", best.confirmed);
+    if (parameter_error(best.confirmed, *r.flat, 0)) {
+      out += "| difference made by the texture |";
+      for (std::size_t k = 0; k < objectives.size(); ++k) {
+        out += fmt::format(" {:+.3f}", best.confirmed.values[k] - r.flat->values[k]);
+        if (const auto part = parameter_error(best.confirmed, *r.flat, k))
+          out += fmt::format(" ({:.3f})", *part);
+        out += " |";
+      }
+      out += " |\n";
+    }
     if (r.flat_before) {
       out +=
           "\nFrom the first row to the second is the finish (and drive), from the second to the "
@@ -377,13 +409,18 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
       out.append(" | ").append(variable_text(study.variables[i], values[i]));
     }
     for (std::size_t k = 0; k < objectives.size(); ++k) {
-      out += d.confirmed.ok
-                 ? fmt::format(" | {:.3f} ± {:.3f}", d.confirmed.values[k], d.confirmed.errors[k])
-                 : " | failed";
+      out += fmt::format(" | {}", d.confirmed.ok ? with_errors(d.confirmed, k) : "failed");
     }
     out += fmt::format(" | {:.3f} |\n", d.confirmed.worst);
   }
-  return out;
+  const std::string unknown = problem.parameters_unknown();
+  if (!unknown.empty())
+    return out + fmt::format("\nWhat the fit of the finger leaves open is in no ±: {}.\n", unknown);
+  return out +
+         "\n± is one standard error of skins, droplets, grid and method. In brackets what the fit "
+         "of "
+         "the finger leaves open, one standard deviation: it moves all designs together, so "
+         "differences are known better.\n";
 }
 
 FolderLock::FolderLock(const std::string& folder) {

@@ -85,6 +85,46 @@ TEST(StudyProblem, RefusesToMaximiseTheModulationOfAnUndrivenDesign) {
   EXPECT_THROW(StudyProblem{study}, InputError);
 }
 
+// Friction is proportional to the shear strength: of fingers that share its uncertainty the errors
+// add, of others they add in squares.
+TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
+  Study study = small_study();
+  study.design.environment.relative_humidity = {0.35};
+  study.objective.maximise.clear();
+  study.objective.minimise = {"friction"};
+  study.population.assign(2, study.design.finger);
+  for (Finger& f : study.population) {
+    f.water.hysteresis = 0;
+    f.uncertainty = {{"macro.shear_strength", 0.1, {}}};
+  }
+  Fidelity f = fidelity_level("search");
+  f.grid = 64;
+  f.skins = 6;
+  const auto score = [&] {
+    const StudyProblem problem(study);
+    std::vector<Outcome> tasks;
+    for (std::size_t t = 0; t < problem.tasks().size(); ++t)
+      tasks.push_back(problem.evaluate_task(problem.unit_of_study(), t, f, true));
+    return problem.score(tasks);
+  };
+  const Score same = score();
+  ASSERT_TRUE(same.ok) << same.reason;
+  const double friction = same.values[0];
+  EXPECT_NEAR(*parameter_error(same, 0) / friction, std::sinh(0.1), 2e-3);
+  EXPECT_EQ(*parameter_error(same, same, 0), 0);
+  EXPECT_NE(same.reports[0].find("\"directions\": 1"), std::string::npos);
+
+  study.population[1].uncertainty[0].deviation = 0.1 + 1e-9;
+  const Score other = score();
+  EXPECT_EQ(other.parameter_steps[0].size(), 2u);
+  EXPECT_NEAR(*parameter_error(other, 0) / friction, std::sinh(0.1) / std::sqrt(2), 2e-3);
+  EXPECT_EQ(other.errors[0], same.errors[0]);  // of its own
+
+  study.population[1].uncertainty.clear();
+  EXPECT_FALSE(parameter_error(score(), 0));
+  EXPECT_NE(StudyProblem(study).parameters_unknown().find("[[uncertainty]]"), std::string::npos);
+}
+
 TEST(Optimise, WritesItsResultsAndResumesToTheSameBytes) {
   const Study study = small_study();
   const std::string whole = fresh_folder("whole");

@@ -84,7 +84,7 @@ TEST(Parameters, OfALinearModelTheErrorOfTheMeanIsExact) {
   };
   Response r = of_modulation({1, 1});
   for (std::size_t k = 0; k < 2; ++k)
-    r.parameters.steps.push_back({model(l[k], l[2 + k]), model(-l[k], -l[2 + k])});
+    r.parameters.steps.push_back({{model(l[k], l[2 + k]), {}}, {model(-l[k], -l[2 + k]), {}}});
   const double variance = 4 * square(0.1) + 0.25 * square(0.2) + 2 * 2 * 0.5 * 0.5 * 0.1 * 0.2;
   EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.parameters, std::sqrt(variance),
               1e-15);
@@ -92,6 +92,29 @@ TEST(Parameters, OfALinearModelTheErrorOfTheMeanIsExact) {
   const double first = square(0.1) + 4 * square(0.2) + 2 * 2 * 0.5 * 0.1 * 0.2;
   EXPECT_NEAR(*summarise(Summary::First, "modulation", r)->parts.parameters, std::sqrt(first),
               1e-15);
+}
+
+// Draws of a change of 0.3 that scatters by 0.2 from skin to skin: the scatter is no error.
+TEST(Parameters, WhatSkinsScatterIsTakenOff) {
+  RandomStream random(1, "steps", 0);
+  double square_mean = 0, raw = 0;
+  constexpr int kDraws = 2000, kSkins = 4;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    StepSamples samples(6, std::vector<double>(kSkins));
+    double all = 0;
+    for (auto& direction : samples) {
+      double mean = 0;
+      for (double& s : direction) {
+        s = 0.3 + 0.2 * random.normal();
+        mean += s / kSkins;
+      }
+      all += square(mean);
+    }
+    square_mean += square(step_error(samples)) / kDraws;
+    raw += all / kDraws;
+  }
+  EXPECT_NEAR(square_mean, 6 * square(0.3), 0.01);
+  EXPECT_GT(raw, 6 * square(0.3) + 0.05);
 }
 
 // Friction is proportional to the shear strength, and the modulation free of it.
@@ -103,8 +126,13 @@ TEST(Parameters, TheShearStrengthMovesFrictionByItsShareAndNotTheModulation) {
   Response r = evaluate(scene, flat, small_fidelity());
   EXPECT_FALSE(r.points[0].friction_off.parts.parameters);
   add_parameter_errors(r, scene, flat, small_fidelity());
-  for (const ResponsePoint& p : r.points) {
-    EXPECT_NEAR(*p.friction_off.parts.parameters / p.friction_off.value, std::sinh(0.05), 1e-9);
+  const ParameterStep& step = r.parameters.steps.at(0);
+  for (std::size_t i = 0; i < r.points.size(); ++i) {
+    const ResponsePoint& p = r.points[i];
+    EXPECT_NEAR((step.up.points[i].friction_off.value - step.down.points[i].friction_off.value) /
+                    2 / p.friction_off.value,
+                std::sinh(0.05), 1e-9);
+    EXPECT_NEAR(*p.friction_off.parts.parameters / p.friction_off.value, std::sinh(0.05), 1e-4);
     EXPECT_LT(*p.modulation.parts.parameters, 1e-12);
   }
   EXPECT_EQ(r.parameters.steps.size(), 1u);

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/constants.h"
 #include "base/error.h"
+#include "base/statistics.h"
 
 namespace papilla {
 namespace {
@@ -61,6 +63,44 @@ TEST(Rank, PairingNarrowsTheIntervalOfADifference) {
   const auto& c = r.states.front().candidates;
   const auto width = [](const Interval& i) { return i.high - i.low; };
   EXPECT_LT(width(c[0].ahead_of_next), 0.7 * std::hypot(width(c[0].score), width(c[1].score)));
+}
+
+// Friction is proportional to the shear strength, so the share is common and cancels in ratios.
+TEST(Rank, WhatTheFingerLeavesOpenMovesBothOfADifference) {
+  std::vector<Design> designs{sample("flat"), sample("a3h350")};
+  for (Design& d : designs) {
+    d.finger.water.hysteresis = 0;
+    d.finger.uncertainty = {{"macro.shear_strength", 0.3, {}}};
+  }
+  RankOptions options = by("friction:low");
+  options.max_skins = 6;
+  const Ranking without = rank(designs, options);
+  options.parameters = true;
+  const Ranking with = rank(designs, options);
+  const auto& a = without.states.front().candidates;
+  const auto& b = with.states.front().candidates;
+  EXPECT_EQ(with.directions, 1);
+  EXPECT_FALSE(a[0].score.parameters);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(a[i].index, b[i].index);
+    EXPECT_NEAR(*b[i].metrics[0].parameters / b[i].metrics[0].value, std::sinh(0.3), 0.03);
+    EXPECT_NEAR(b[i].score.high - b[i].score.low, 2 * 1.96 * std::sinh(0.3), 0.1);
+  }
+  const Interval &open = b[0].ahead_of_next, &own = a[0].ahead_of_next;
+  EXPECT_LT(*open.parameters, 1.2 * std::sinh(0.3) * std::abs(open.value));
+  EXPECT_NEAR(square(open.high - open.low) - square(own.high - own.low),
+              square(2 * normal_quantile(0.975) * *open.parameters), 1e-12);
+  EXPECT_LE(std::abs(b[0].p_ahead - 0.5), std::abs(a[0].p_ahead - 0.5));
+}
+
+TEST(Rank, FingersOfUnknownOrOtherUncertaintyAreRefused) {
+  std::vector<Design> designs{sample("flat"), sample("a3h350")};
+  RankOptions options = by("modulation:high");
+  options.parameters = true;
+  designs[1].finger.uncertainty = {{"skin.rms", 0.1, {}}};
+  EXPECT_THROW(rank(designs, options), InputError);
+  for (Design& d : designs) d.finger.uncertainty.clear();
+  EXPECT_THROW(rank(designs, options), InputError);
 }
 
 TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {

@@ -80,8 +80,10 @@ function showSolid(map) {
   render();
 }
 
+// Without the part of the finger's parameters, which moves all designs together.
+const ownError = (q) => Math.sqrt(Math.max(0, q.se * q.se - Math.pow(q.parts.parameters || 0, 2)));
 function curve(name, points, tint, dash) {
-  const at = points.filter((p) => p.modulation).map((p) => ({ x: 100 * p.relative_humidity, y: p.modulation.value, se: p.modulation.se }));
+  const at = points.filter((p) => p.modulation).map((p) => ({ x: 100 * p.relative_humidity, y: p.modulation.value, se: ownError(p.modulation) }));
   const common = { borderColor: tint, backgroundColor: tint, pointRadius: 0, borderWidth: 0, tension: 0 };
   return [
     Object.assign({}, common, { label: name, data: at, borderWidth: 2.5, pointRadius: 3.5, borderDash: dash || [] }),
@@ -97,7 +99,8 @@ function meanPoints(tasks, key) {
     relative_humidity: p.relative_humidity,
     modulation: lists.every((l) => l[i].modulation) ? {
       value: lists.reduce((s, l) => s + l[i].modulation.value, 0) / lists.length,
-      se: lists.reduce((s, l) => s + l[i].modulation.se, 0) / lists.length,
+      se: lists.reduce((s, l) => s + ownError(l[i].modulation), 0) / lists.length,
+      parts: {},
     } : null,
   }));
 }
@@ -189,7 +192,7 @@ function showPareto() {
 }
 function showFinalists() {
   const columns = ['design'].concat(variables, objectives, ['worst modulation', 'feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : `${(+r[c]).toFixed(3)} ± ${(+r[c + ' se']).toFixed(3)}`) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : withError({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] })) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
   const body = table($('finalists'), columns, finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
   finalists.forEach((r, i) => {
     const row = body.rows[i];
@@ -318,6 +321,10 @@ options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humid
 startSolid();
 select('best');
 showStability();
+const known = best.parameters;
+$('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What the fit of the finger leaves open is in no error here: ${known.status}.`
+  : 'Numbers in brackets are what the fit of the finger leaves open, one standard deviation. It moves all designs together'
+  + Object.entries(known.of_the_difference_to_flat).filter(([n, v]) => v !== null).map(([n, v], i) => `${i ? ', ' : ': of the difference between best and flat it leaves '}${round(v, 2)} of ${n}`).join('') + '.';
 showProgress();
 if (data.fields.length) showMaps(0);
 const plan = best.plan;

@@ -7,7 +7,7 @@ const charts = {};
 
 // ---- numbers and tables ----
 const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits));
-const withError = (q) => q ? q.value.toFixed(3) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') : '–';
+const withError = (q) => q ? q.value.toFixed(3) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') + (q.parameters ? ' (' + q.parameters.toFixed(3) + ')' : '') : '–';
 function csv(text) {
   const rows = text.trim().split('\n').map((line) => line.split(','));
   const head = rows.shift();
