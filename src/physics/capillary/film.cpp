@@ -108,11 +108,15 @@ class Growth {
     }
   }
 
+  // In rounds: bodies that meet in one grow as one from the next on, so that a patch of many costs
+  // a few fillings and not one for each that joins.
   FilmRegions run(const WaterProperties& water) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      if (!bodies_[i].members.empty()) {
-        while (!grow(static_cast<int>(i))) {
-        }
+    for (bool met = true; met;) {
+      met = false;
+      for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (bodies_[i].grown || bodies_[i].members.empty()) continue;
+        bodies_[i].grown = grow(static_cast<int>(i));
+        met = met || !bodies_[i].grown;
       }
     }
     measure(water);
@@ -125,6 +129,7 @@ class Growth {
     std::vector<int> members;  // sources
     std::vector<std::size_t> pixels;
     FilmRegion region;
+    bool grown = false;
   };
 
   double level_at(int source, std::size_t pixel) const {
@@ -145,7 +150,8 @@ class Growth {
     body.pixels.clear();
   }
 
-  // False: it met another body, which is now part of it, and has to grow anew.
+  // False: it met another body, which is now part of it, and has to grow anew. Until then both stay
+  // where they are, for others to meet.
   bool grow(int index) {
     Body& body = bodies_[index];
     FilmRegion& region = body.region;
@@ -155,7 +161,7 @@ class Growth {
     ++stamp_;
     struct Entry {
       double level;
-      std::size_t pixel;
+      std::uint32_t pixel;
       int source;
       bool operator>(const Entry& other) const {
         return level != other.level ? level > other.level : pixel > other.pixel;
@@ -165,7 +171,7 @@ class Growth {
     const auto reach = [&](std::size_t pixel, int source) {
       if (queued_[pixel] == stamp_) return;
       queued_[pixel] = stamp_;
-      edge.push({level_at(source, pixel), pixel, source});
+      edge.push({level_at(source, pixel), static_cast<std::uint32_t>(pixel), source});
     };
     for (int m : body.members) reach(seeds_[m], m);
     double placed = 0, pixels = 0;
@@ -198,7 +204,7 @@ class Growth {
   void unite(int index, int other) {
     Body& taken = bodies_[other];
     Body& body = bodies_[index];
-    release(taken);
+    body.pixels.insert(body.pixels.end(), taken.pixels.begin(), taken.pixels.end());
     for (int m : taken.members) out_.of_source[m] = index;
     body.members.insert(body.members.end(), taken.members.begin(), taken.members.end());
     body.region.volume += taken.region.volume;
