@@ -39,8 +39,8 @@ void fields(FieldVisitor& v, AccuracySettings& s) {
   v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
            s.target);
   v.flag({"parameters",
-          "evaluate, rank: also the error that the finger's fitted numbers leave (its "
-          "`uncertainty`); optimize always states it"},
+          "also the error that the finger's fitted numbers leave (its `uncertainty`); optimize "
+          "states it of the best design, and with this of all confirmed ones"},
          s.parameters);
   v.integer({"droplet_seeds", "placements of the droplets on each skin, averaged (M3: 6)"}, 1, 64,
             s.droplet_seeds);

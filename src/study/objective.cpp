@@ -474,7 +474,7 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
 // info of a task: a summary and its error an objective, worst modulation, oxide margin, the metric
 // of each objective at each humidity, then haze, transmittance, gloss and colour where asked for,
 // then the summary of each constraint on a metric; of confirmed designs also the steps of the
-// parameters: an objective their number, and of each its samples and their number.
+// parameters.
 Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const Fidelity& fidelity,
                                     bool report) const {
   const StudyTask& task = tasks_.at(index);
@@ -508,13 +508,8 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
   }
   if (!voltage_targets_.empty())
     add_voltages(response, scene_of(d), d.texture, fidelity, voltage_targets_);
-  // The steps of a finger share out the skins over the population, as the search does.
-  if (report && index < nominal_ && !scene.finger.uncertainty.empty()) {
-    Fidelity few = fidelity;
-    few.skins = std::max(2, kStepSkins / static_cast<int>(nominal_));
-    few.grid = kStepGrid;
-    add_parameter_errors(response, scene, d.texture, few);
-  }
+  if (report && index < nominal_ && d.accuracy.parameters && !scene.finger.uncertainty.empty())
+    add_parameter_errors(response, scene, d.texture, steps_fidelity(fidelity));
   std::vector<double> limited;
   for (const auto* list : {&objectives_, &limited_}) {
     for (const StudyObjective& o : *list) {
@@ -552,17 +547,46 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
       out.info.push_back(v);
   out.info.insert(out.info.end(), limited.begin(), limited.end());
   if (!response.parameters.steps.empty()) {
-    for (const StudyObjective& o : objectives_) {
-      const StepSamples steps = steps_of(o, response);
-      out.info.push_back(static_cast<double>(steps.size()));
-      for (const std::vector<double>& samples : steps) {
-        out.info.push_back(static_cast<double>(samples.size()));
-        out.info.insert(out.info.end(), samples.begin(), samples.end());
-      }
-    }
+    const std::vector<double> steps = step_numbers(response);
+    out.info.insert(out.info.end(), steps.begin(), steps.end());
   }
   out.ok = true;
   if (report) out.reason = response_json(response, false);
+  return out;
+}
+
+// Skins are shared out over the population, as in the search.
+Fidelity StudyProblem::steps_fidelity(Fidelity fidelity) const {
+  fidelity.skins = std::max(2, kStepSkins / static_cast<int>(nominal_));
+  fidelity.grid = kStepGrid;
+  return fidelity;
+}
+
+// An objective: the number of its directions, and of each the number of its samples and they.
+std::vector<double> StudyProblem::step_numbers(const Response& response) const {
+  std::vector<double> out;
+  for (const StudyObjective& o : objectives_) {
+    const StepSamples steps = steps_of(o, response);
+    out.push_back(static_cast<double>(steps.size()));
+    for (const std::vector<double>& samples : steps) {
+      out.push_back(static_cast<double>(samples.size()));
+      out.insert(out.end(), samples.begin(), samples.end());
+    }
+  }
+  return out;
+}
+
+Outcome StudyProblem::evaluate_steps(const Design& base, std::size_t task,
+                                     const Fidelity& fidelity) const {
+  const Design d = task_design(base, tasks_.at(task));
+  const Scene scene = scene_of(d);
+  Response response;
+  response.driven = d.drive.driven();
+  if (needs_appearance()) response.appearance = appearance_of(d);
+  add_parameter_errors(response, scene, d.texture, steps_fidelity(fidelity));
+  Outcome out;
+  out.ok = true;
+  out.info = step_numbers(response);
   return out;
 }
 
@@ -657,7 +681,12 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
       }
     }
   }
-  add_steps(score, tasks);
+  std::vector<std::vector<double>> steps;
+  for (std::size_t t = 0; t < nominal_; ++t) {
+    const auto end = tasks[t].info.begin() + static_cast<std::ptrdiff_t>(task_numbers());
+    steps.emplace_back(end, tasks[t].info.end());
+  }
+  add_steps(score, steps);
   score.ok = true;
   return score;
 }
@@ -669,19 +698,19 @@ std::size_t StudyProblem::task_numbers() const {
 }
 
 // Fingers of one uncertainty move together, others on their own; all share their skins.
-void StudyProblem::add_steps(Score& score, const std::vector<Outcome>& tasks) const {
+void StudyProblem::add_steps(Score& score, const std::vector<std::vector<double>>& tasks) const {
   double total = 0;
   for (std::size_t t = 0; t < nominal_; ++t) {
     total += tasks_[t].weight;
-    if (tasks[t].info.size() == task_numbers()) return;  // not asked for or not known
+    if (tasks.at(t).empty()) return;  // not asked for or not known
   }
   score.parameter_steps.resize(objectives_.size());
-  std::vector<std::size_t> at(nominal_, task_numbers());
+  std::vector<std::size_t> at(nominal_, 0);
   for (StepSamples& sums : score.parameter_steps) {
     std::vector<std::size_t> first(nominal_);  // direction of each finger
     bool known = true;
     for (std::size_t t = 0; t < nominal_; ++t) {
-      const auto next = [&] { return tasks[t].info.at(at[t]++); };
+      const auto next = [&] { return tasks[t].at(at[t]++); };
       const auto count = static_cast<std::size_t>(next());
       std::size_t same = 0;
       while (tasks_[same].finger.uncertainty != tasks_[t].finger.uncertainty) ++same;

@@ -115,6 +115,12 @@ class StudyProblem {
   }
   Score score(const std::vector<Outcome>& tasks) const;
 
+  // The steps of the parameters alone, for a task as designed whose finger has an `uncertainty`;
+  // info for add_steps. With [accuracy] parameters a reported evaluate_task has them too.
+  Outcome evaluate_steps(const Design& design, std::size_t task, const Fidelity& fidelity) const;
+  // info of every task as designed.
+  void add_steps(Score& score, const std::vector<std::vector<double>>& tasks) const;
+
   std::size_t constraints() const;            // that need an evaluation
   std::size_t residuals() const;              // of an outcome; 0: the objective is no target
   Outcome outcome(const Score& score) const;  // for the searcher: minimised
@@ -132,7 +138,8 @@ class StudyProblem {
   // of texture, or at depth 0, take the study's own value.
   Point collapsed(const Point& unit) const;
   std::size_t task_numbers() const;  // of a task's info, before the steps of the parameters
-  void add_steps(Score& score, const std::vector<Outcome>& tasks) const;
+  Fidelity steps_fidelity(Fidelity fidelity) const;
+  std::vector<double> step_numbers(const Response& response) const;
   // The design of a task.
   Design task_design(Design design, const StudyTask& task) const;
   std::string problem_of(const Design& design) const;

@@ -37,7 +37,7 @@ constexpr int kMostRefinements = 4;
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
-enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3, kSensitivity = 4 };
+enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3, kSensitivity = 4, kSteps = 5 };
 
 // Of one design on its own: one finger, one choice of the model, a small step.
 Fidelity check_fidelity(const Study& study) {
@@ -86,13 +86,15 @@ Evaluate work_function(const StudyProblem& problem, const Study& study, int thre
   return [&problem, &study, threads](const Point& request) {
     const auto task = static_cast<std::size_t>(request[0]);
     const auto stage = static_cast<Stage>(static_cast<int>(request[1]));
-    Fidelity fidelity = stage == kConfirm  ? confirm_fidelity(study, problem.nominal_tasks())
+    Fidelity fidelity = stage == kConfirm || stage == kSteps
+                            ? confirm_fidelity(study, problem.nominal_tasks())
                         : stage == kDraft  ? draft_fidelity(study)
                         : stage == kSearch ? search_fidelity(study)
                                            : check_fidelity(study);
     fidelity.threads = threads;
     Design design = problem.design(Point(request.begin() + 3, request.end()));
     if (request[2] > 0) design.texture = Texture{};
+    if (stage == kSteps) return problem.evaluate_steps(design, task, fidelity);
     if (stage == kStability) return evaluate_variant(problem, design, task, fidelity);
     return problem.evaluate_task(design, task, fidelity, stage == kConfirm);
   };
@@ -605,7 +607,23 @@ class Run {
     judge();
     if (!chosen.empty() && texture_depth(study_.design.texture) > 0) compare_with_flat();
     step();
-    if (!result_.finalists.empty()) find_sensitivity();
+    if (result_.finalists.empty()) return;
+    find_sensitivity();
+    FinalDesign& best = result_.finalists[result_.best];
+    find_parameters(best.confirmed, best.unit, false);
+    if (result_.flat) find_parameters(*result_.flat, best.unit, true);
+  }
+
+  // What the fit of the fingers leaves open. Eq. accuracy.12
+  void find_parameters(Score& score, const Point& unit, bool flat) {
+    if (!score.ok || !score.parameter_steps.empty() || !problem_.parameters_unknown().empty())
+      return;
+    std::vector<Point> requests;
+    for (std::size_t t = 0; t < problem_.nominal_tasks(); ++t)
+      requests.push_back(work_request(t, kSteps, flat, unit));
+    std::vector<std::vector<double>> steps;
+    for (const Outcome& outcome : answers(requests)) steps.push_back(outcome.info);
+    problem_.add_steps(score, steps);
   }
 
   // What of the gain is the texture's and what the finish's: the best surface without its texture,

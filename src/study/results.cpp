@@ -416,11 +416,13 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   const std::string unknown = problem.parameters_unknown();
   if (!unknown.empty())
     return out + fmt::format("\nWhat the fit of the finger leaves open is in no ±: {}.\n", unknown);
-  return out +
-         "\n± is one standard error of skins, droplets, grid and method. In brackets what the fit "
-         "of "
-         "the finger leaves open, one standard deviation: it moves all designs together, so "
-         "differences are known better.\n";
+  return out + fmt::format(
+                   "\n± is one standard error of skins, droplets, grid and method. In brackets{} "
+                   "what the fit of the finger leaves open, one standard deviation: it moves all "
+                   "designs together, so differences are known better.\n",
+                   study.design.accuracy.parameters
+                       ? ""
+                       : ", of the best design (all: `[accuracy] parameters = true`),");
 }
 
 FolderLock::FolderLock(const std::string& folder) {

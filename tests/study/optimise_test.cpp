@@ -92,6 +92,7 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
   study.design.environment.relative_humidity = {0.35};
   study.objective.maximise.clear();
   study.objective.minimise = {"friction"};
+  study.design.accuracy.parameters = true;
   study.population.assign(2, study.design.finger);
   for (Finger& f : study.population) {
     f.water.hysteresis = 0;
@@ -113,6 +114,14 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
   EXPECT_NEAR(*parameter_error(same, 0) / friction, std::sinh(0.1), 2e-3);
   EXPECT_EQ(*parameter_error(same, same, 0), 0);
   EXPECT_NE(same.reports[0].find("\"directions\": 1"), std::string::npos);
+  {
+    const StudyProblem problem(study);  // the steps alone
+    Score alone;
+    problem.add_steps(alone,
+                      {problem.evaluate_steps(problem.design(problem.unit_of_study()), 0, f).info,
+                       problem.evaluate_steps(problem.design(problem.unit_of_study()), 1, f).info});
+    EXPECT_EQ(alone.parameter_steps, same.parameter_steps);
+  }
 
   study.population[1].uncertainty[0].deviation = 0.1 + 1e-9;
   const Score other = score();

@@ -323,7 +323,7 @@ select('best');
 showStability();
 const known = best.parameters;
 $('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What the fit of the finger leaves open is in no error here: ${known.status}.`
-  : 'Numbers in brackets are what the fit of the finger leaves open, one standard deviation. It moves all designs together'
+  : 'Numbers in brackets (of the best design, where not asked for of all) are what the fit of the finger leaves open, one standard deviation. It moves all designs together'
   + Object.entries(known.of_the_difference_to_flat).filter(([n, v]) => v !== null).map(([n, v], i) => `${i ? ', ' : ': of the difference between best and flat it leaves '}${round(v, 2)} of ${n}`).join('') + '.';
 showProgress();
 if (data.fields.length) showMaps(0);

@@ -80,7 +80,8 @@ function showSure(state) {
     data: list.map((c) => 100 * c.ahead_of_next.value), interval: list.map((c) => [100 * c.ahead_of_next.low, 100 * c.ahead_of_next.high]),
     text: list.map((c) => `${percent(c.ahead_of_next.value)} % [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}], p(ahead) ${c.p_ahead.toFixed(3)}` + (c.tied_with_next ? ': tie' : '')),
   }, 'lead over the next [% of the score]');
-  $('skins').textContent = `${state.skins} skins were solved; ${state.equal_skins} if every candidate had as many as the neediest. Skins go where the order is open.`;
+  $('skins').textContent = `${state.skins} skins were solved; ${state.equal_skins} if every candidate had as many as the neediest. Skins go where the order is open.`
+    + (ranking.parameters ? ' Every interval and probability holds what the fit of the finger leaves open, which moves all candidates together: of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '');
 }
 
 function showCompared() {
