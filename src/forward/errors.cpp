@@ -21,6 +21,7 @@ constexpr double kAreaRest = 1.75, kOtherRest = 0.55;
 // By the load law the modulation's way to the limit is part of its method error; half of that way
 // is taken as not known. Eq. accuracy.2
 constexpr double kUnknownRest = 0.5;
+constexpr double kNothingLeft = 0.05;  // of the largest over humidity
 
 PatchSet first_skins(const PatchSet& patches, int skins) {
   PatchSet out = patches;
@@ -68,22 +69,29 @@ std::vector<Row> relative(const std::vector<Row>& b, const std::vector<Row>& a,
 
 // Root of its square with `scatter` times its jackknife variance; each humidity is given the larger
 // of its own and the root mean square over humidity, as a difference may cross zero between two of
-// them. Eq. accuracy.2, accuracy.3
-std::vector<Row> size_of(const Difference& difference, int skins, double scatter) {
+// them. Humidities at which next to nothing of the quantity `of` is left (a flooded patch) say
+// nothing about the others: their differences are large for being relative. Eq. accuracy.2,
+// accuracy.3
+std::vector<Row> size_of(const Difference& difference, int skins, double scatter,
+                         const std::vector<Row>& of) {
   const std::vector<Row> all = difference(-1);
   std::vector<std::vector<Row>> rest;
   for (int k = 0; k < skins; ++k) rest.push_back(difference(k));
   std::vector<Row> out(all.size());
   for (std::size_t m = 0; m < kMeasured.size(); ++m) {
-    double sum = 0;
+    double sum = 0, largest = 0;
+    int counted = 0;
+    for (const Row& row : of) largest = std::max(largest, std::abs(row[m]));
     for (std::size_t i = 0; i < all.size(); ++i) {
       double mean = 0, variance = 0;
       for (const auto& r : rest) mean += r[i][m] / skins;
       for (const auto& r : rest) variance += square(r[i][m] - mean) * (skins - 1) / skins;
       out[i][m] = std::sqrt(std::max(square(all[i][m]) + scatter * variance, 0.0));
-      sum += square(out[i][m]) / static_cast<double>(all.size());
+      if (std::abs(of[i][m]) < kNothingLeft * largest) continue;
+      sum += square(out[i][m]);
+      ++counted;
     }
-    for (Row& row : out) row[m] = std::max(row[m], std::sqrt(sum));
+    for (Row& row : out) row[m] = std::max(row[m], std::sqrt(sum / std::max(counted, 1)));
   }
   return out;
 }
@@ -160,7 +168,7 @@ std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& tex
           const std::vector<Row> v = values(fine, without);
           return relative(values(*coarse, without), v, v);
         },
-        skins, 1);
+        skins, 1, values(fine, -1));
     extrapolate(grid.size, scene, patches.plan, load_law);
     errors.push_back(std::move(grid));
   }
@@ -179,7 +187,7 @@ std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& tex
           }
           return out;
         },
-        skins, -1);
+        skins, -1, values(base, -1));
     for (const auto& results : areas->patches.results) {
       std::string& status = method.pull_in.emplace_back();
       for (const PatchResult& p : results) {

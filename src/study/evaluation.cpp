@@ -71,18 +71,25 @@ Json plan_json(const Plan& plan) {
       {"skipped", skipped}};
 }
 
-// "sampling 3.1 %, grid 0.8 %, ...": of the value; what was not measured at the end.
+// "sampling 3.1 %, grid 0.8 %, ...": of the value; then what ± leaves out, and what was not
+// measured.
 std::string budget_text(const SummaryValue& v) {
   const double size = std::abs(v.value);
   if (size == 0) return {};
-  std::string out = fmt::format("sampling {:.1f} %", 100 * v.parts.sampling / size), unknown;
+  std::string out = fmt::format("sampling {:.1f} %", 100 * v.parts.sampling / size), apart, unknown;
   for (const ErrorOrigin& origin : kErrorOrigins) {
     if (const auto& part = v.parts.*origin.part) {
-      out += fmt::format(", {} {:.2g} %", origin.name, 100 * *part / size);
+      const std::string text = fmt::format("{} {:.2g} %", origin.name, 100 * *part / size);
+      if (origin.in_total) {
+        out += ", " + text;
+      } else {
+        apart = "; not in ±: " + text + ", common to all designs";
+      }
     } else if (origin.part != &ErrorParts::parameters) {
       unknown += (unknown.empty() ? "" : ", ") + std::string(origin.name);
     }
   }
+  out += apart;
   if (!v.parts.parameters) out += "; parameters not asked for (--parameters)";
   return out + (unknown.empty() ? "" : "; not measured: " + unknown);
 }

@@ -300,36 +300,37 @@ class StateRanker {
   // Eq. ranking.3: normal scores with the covariance of the common skins.
   std::vector<double> probabilities() const {
     const std::size_t m = scores_.size();
-    std::size_t n = scores_.front().size();
-    for (const auto& s : scores_) n = std::min(n, s.size());
+    std::size_t n = 0;
+    for (const auto& s : scores_) n = std::max(n, s.size());
     std::vector<double> mean(m), best(m, 0);
-    for (std::size_t i = 0; i < m; ++i) mean[i] = mean_estimate(scores_[i]).value;
-    // A draw of the means is a random combination of the centred samples.
-    std::vector<std::vector<double>> centred(m, std::vector<double>(n));
+    // A draw of the means is a random combination of the centred samples, a number a skin: those
+    // that two scores have in common move both.
+    std::vector<std::vector<double>> centred(m);
     for (std::size_t i = 0; i < m; ++i) {
-      double average = 0;
-      for (std::size_t k = 0; k < n; ++k) average += scores_[i][k] / static_cast<double>(n);
-      const double factor = 1 / std::sqrt(static_cast<double>(n) * (static_cast<double>(n) - 1));
-      for (std::size_t k = 0; k < n; ++k) centred[i][k] = factor * (scores_[i][k] - average);
+      mean[i] = mean_estimate(scores_[i]).value;
+      const auto own = static_cast<double>(scores_[i].size());
+      for (double s : scores_[i])
+        centred[i].push_back((s - mean[i]) / std::sqrt(own * std::max(1.0, own - 1)));
     }
     RandomStream random(1, "ranking", static_cast<std::uint64_t>(state_));
     const std::vector<std::vector<double>> moves = step_moves();
     std::vector<double> z(n), finger(moves.empty() ? 0 : moves.front().size());
+    std::vector<std::size_t> winners;
     for (int draw = 0; draw < kDraws; ++draw) {
       for (double& v : z) v = random.normal();
       for (double& v : finger) v = random.normal();
-      std::size_t winner = 0;
       double highest = -kInfinity;
       for (std::size_t i = 0; i < m; ++i) {
         double v = mean[i];
-        for (std::size_t k = 0; k < n; ++k) v += centred[i][k] * z[k];
+        for (std::size_t k = 0; k < centred[i].size(); ++k) v += centred[i][k] * z[k];
         for (std::size_t k = 0; k < finger.size(); ++k) v += moves[i][k] * finger[k];
-        if (v > highest) {
-          highest = v;
-          winner = i;
-        }
+        if (v < highest) continue;
+        if (v > highest) winners.clear();
+        highest = v;
+        winners.push_back(i);
       }
-      best[winner] += 1.0 / kDraws;
+      for (std::size_t i : winners)  // equal designs share the win
+        best[i] += 1.0 / kDraws / static_cast<double>(winners.size());
     }
     return best;
   }
@@ -512,10 +513,16 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
         "covariance, the same for all designs; {} skins, {} pixels. Finger's part: of the lead\n",
         ranking.directions, ranking.step_skins, ranking.step_grid);
   }
-  return out + fmt::format(
-                   "± and [ ] are 95 % intervals, differences are paired over common skins; = "
-                   "marks a tie with the next. {} skins solved, {:.1f} s\n",
-                   ranking.skins, ranking.seconds);
+  if (options.criteria.size() > 1)
+    out +=
+        "ahead of the next: by the mean over criteria of what each is better by, in parts of the "
+        "candidates' mean size\n";
+  return out +
+         fmt::format(
+             "± and [ ] are 95 % intervals over skins, differences are paired over common "
+             "skins; = marks a tie with the next. Errors that all designs share (grid, water) "
+             "are not in ±: papilla evaluate has them. {} skins solved, {:.1f} s\n",
+             ranking.skins, ranking.seconds);
 }
 
 std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,

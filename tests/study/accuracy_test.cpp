@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/files.h"
 #include "metrics/metrics.h"
+#include "study/design.h"
 #include "study/target.h"
 
 namespace papilla {
@@ -52,6 +53,19 @@ TEST(Target, OfAnUndrivenSurfaceIsOnFriction) {
   const Response r = evaluate_to_target(
       scene, Texture{}, {.target = 0.3, .largest_grid = 128, .most_skins = 24, .threads = 2});
   EXPECT_EQ(r.accuracy.quantity, "mean(friction)");
+}
+
+TEST(Errors, AFloodedHumiditySaysNothingOfTheOthers) {
+  const Design design = read_design(find_design("m3_samples/a3h600.toml"));
+  Fidelity f = fidelity_level("draft");
+  f.skins = 4;
+  Scene scene = scene_of(design);
+  const auto dry_part = [&](double other) {
+    scene.environment.relative_humidity = {0.0, other};
+    const Response r = evaluate(scene, design.texture, f);
+    return *r.points[0].modulation.parts.grid / r.points[0].modulation.value;
+  };
+  EXPECT_LT(dry_part(1.0), 2 * dry_part(0.15));  // a hundred times, were it in the mean
 }
 
 TEST(Errors, AreMeasuredOnControlSkinsAndUnknownWithoutThem) {

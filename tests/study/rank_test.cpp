@@ -55,6 +55,8 @@ TEST(Rank, CallsEqualDesignsATie) {
   EXPECT_EQ(c[0].skins, 24);                   // the open pair used all it may
   EXPECT_EQ(c[2].skins, RankOptions{}.batch);  // the clear one did not
   EXPECT_EQ(c[0].ahead_of_next.value, 0);
+  EXPECT_NEAR(c[0].p_best, 0.5, 0.01);  // equal designs share the win
+  EXPECT_NEAR(c[1].p_best, 0.5, 0.01);
 }
 
 TEST(Rank, PairingNarrowsTheIntervalOfADifference) {
