@@ -97,8 +97,10 @@ int solve(const FieldCommand& c) {
         "area, {:.1f} % of the "
         "pull\n",
         c.method, s.ok ? "converged" : s.reason,
-        local ? "" : fmt::format(" to {:.1g} in {} iterations", s.residual, s.iterations), seconds,
-        1e-3 * s.mean_pressure, 1e-6 * s.peak_air_field, 1e-6 * s.peak_oxide_field,
+        local || !s.ok
+            ? ""
+            : fmt::format(" to residual {:.1g} in {} iterations", s.residual, s.iterations),
+        seconds, 1e-3 * s.mean_pressure, 1e-6 * s.peak_air_field, 1e-6 * s.peak_oxide_field,
         strength > 0 ? s.peak_oxide_field / strength : 0.0, 100 * s.over_limit_area,
         100 * s.over_limit_share);
   }

@@ -96,6 +96,25 @@ TEST(SpreadField, GathersTheFluxOfContactSpots) {
   EXPECT_LT(spread, 1.14 * full);
 }
 
+// Without a layer on the skin the air's conductance spans orders of magnitude between a contact
+// spot and its rim.
+TEST(SpreadField, ConvergesUnderABareSkinThatTouches) {
+  const Gap gap = rough_gap({64, 64, 12e-6, 12e-6}, 250e-9, 600e-9);
+  FieldProblem p = glass();
+  double before = 0;
+  for (const double layer : {24e-9, 1e-9, 0.01e-9, 0.0}) {
+    p.skin_layer = layer;
+    const FieldSolution s = solve_spread_field(gap, nullptr, {}, p);
+    EXPECT_TRUE(s.ok) << layer << ": " << s.reason;
+    EXPECT_LE(s.iterations, 15) << layer;
+    EXPECT_GT(s.mean_pressure, before) << layer;
+    before = s.mean_pressure;
+    const FieldSolution fine = solve_spread_field(gap, nullptr, {}, p, 1e-8);
+    ASSERT_TRUE(fine.ok) << layer;
+    EXPECT_NEAR(s.mean_pressure, fine.mean_pressure, 1e-3 * fine.mean_pressure) << layer;
+  }
+}
+
 // The lost pull beside a straight wall of water against the fit to finite volumes of Eq.
 // electrostatics.3.
 TEST(SpreadField, AWaterWallScreensOverTheLengthOfTheThreeDimensionalField) {

@@ -43,7 +43,7 @@ class Filter {
 };
 
 // phi for one volt on the electrode: K phi + c phi = eps/d, zero on wet pixels. Conjugate gradients
-// preconditioned by 1/(K + mean c). Eq. electrostatics.16
+// preconditioned by 1/(K + mean c) between weights that follow c. Eq. electrostatics.16
 class SurfacePotential {
  public:
   SurfacePotential(const Grid& grid, const std::vector<double>& conductance,
@@ -55,7 +55,6 @@ class SurfacePotential {
     for (std::size_t i = 0; i < wet.size(); ++i) {
       if (wet[i]) dry_[i] = 0;
     }
-    const double mean = std::accumulate(c_.begin(), c_.end(), 0.0) / static_cast<double>(c_.size());
     const double scale = 1 / static_cast<double>(grid.size());  // of the unnormalised transforms
     const int half = grid.nx / 2 + 1;
     RealArray kernel(static_cast<std::size_t>(half) * grid.ny), inverse(kernel.size());
@@ -67,10 +66,21 @@ class SurfacePotential {
         for (int mirrored : {iy, (grid.ny - iy) % grid.ny}) {
           const std::size_t o = static_cast<std::size_t>(mirrored) * half + ix;
           kernel[o] = k * scale;
-          inverse[o] = scale / (k + mean);
         }
       }
     }
+    // Contact spots of a bare skin raise c by orders of magnitude over a few pixels: the weight
+    // follows c where it exceeds what K couples a pixel with, k; the rest is left to K + mean c,
+    // the mean taken as 1/(k + c).
+    const double k = std::accumulate(kernel.begin(), kernel.end(), 0.0) /
+                     (scale * static_cast<double>(kernel.size()));
+    double sum = 0;
+    for (const double c : c_) sum += 1 / (k + c);
+    const double level = static_cast<double>(c_.size()) / sum;  // k + mean c
+    weight_ = dry_;
+    for (std::size_t i = 0; i < c_.size(); ++i) weight_[i] *= std::sqrt(level / (k + c_[i]));
+    for (std::size_t o = 0; o < kernel.size(); ++o)
+      inverse[o] = scale / (kernel[o] / scale + level - k);
     kernel_ = filter_.symbol(kernel);
     inverse_ = filter_.symbol(inverse);
   }
@@ -86,14 +96,17 @@ class SurfacePotential {
     const double energy = drive_ * dot(phi, dry_);
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
-      filter_.apply(r, inverse_, z);
-      for (std::size_t i = 0; i < n; ++i) z[i] *= dry_[i];
+      for (std::size_t i = 0; i < n; ++i) q[i] = weight_[i] * r[i];
+      filter_.apply(q, inverse_, z);
+      for (std::size_t i = 0; i < n; ++i) z[i] *= weight_[i];
       const double rz = dot(r, z);
       out.residual = energy > 0 ? std::sqrt(std::max(rz, 0.0) / energy) : 0;
       if (!std::isfinite(rz) || !std::isfinite(energy) || out.iterations == kMaxIterations) {
         out.ok = false;
-        out.reason =
-            fmt::format("the surface potential has not converged: residual {:.1e}", out.residual);
+        out.reason = fmt::format(
+            "the surface potential has not converged: residual {:.1e} after {} iterations, asked "
+            "for {:.1e}",
+            out.residual, out.iterations, tolerance);
       }
       if (!out.ok || out.residual <= tolerance) return phi;
       const double beta = out.iterations > 0 ? rz / old : 0;
@@ -135,6 +148,7 @@ class SurfacePotential {
   Filter filter_;
   const std::vector<double>& c_;  // [1/m]
   RealArray dry_;                 // 0 under bridges, 1 elsewhere
+  RealArray weight_;              // of the preconditioner, either side of 1/(K + mean c)
   double drive_;
   RealArray kernel_, inverse_;
 };
