@@ -289,6 +289,7 @@ struct Document::State final : public FieldVisitor {
   struct Frame {
     const Node* table;  // null: not in the file
     std::string path;
+    bool partial = false;  // stands above an item of a default list, which has the other keys
   };
 
   Node root;
@@ -313,7 +314,7 @@ struct Document::State final : public FieldVisitor {
     const Node* node = frame().table->find(key);
     if (node) {
       origins[join_path(frame().path, key)] = node->place;
-    } else if (presence == Presence::Required) {
+    } else if (presence == Presence::Required && !frame().partial) {
       problem(frame().table->place, frame().path, fmt::format("missing `{}` ({}", key, what));
     }
     return node;
@@ -336,15 +337,15 @@ struct Document::State final : public FieldVisitor {
         }
         return false;
       }
+      if (!plain && quantity->unit.empty()) {
+        problem(node.place, path, needs_unit(spec, quantity->value));
+        return false;
+      }
       if (!find_unit(quantity->unit)->same_dimension(unit)) {
         problem(node.place, path,
                 fmt::format("expected {}, got {}",
                             plain ? std::string("a plain number") : dimension_name(unit),
                             describe(node)));
-        return false;
-      }
-      if (!plain && quantity->unit.empty()) {
-        problem(node.place, path, needs_unit(spec, quantity->value));
         return false;
       }
       result = quantity->si;
@@ -398,6 +399,13 @@ struct Document::State final : public FieldVisitor {
               fmt::format("{}), a list, each {}", spec.doc, dimension_of(spec.unit)));
     if (!node) return;
     const std::string path = join_path(frame().path, spec.key);
+    if (changes_items(*node, path, static_cast<int>(si.size()))) {
+      for (std::size_t i = 0; i < si.size(); ++i) {
+        if (const Node* item = node->find(std::to_string(i)))
+          convert(spec, *item, fmt::format("{}.{}", path, i), si[i]);
+      }
+      return;
+    }
     if (!node->is_array()) {
       problem(node->place, path,
               fmt::format(
@@ -490,9 +498,23 @@ struct Document::State final : public FieldVisitor {
     for (const Node& child : frame().table->children) known[frame().path].push_back(child.key);
   }
 
-  void push(const Node* table, const std::string& path) {
+  void push(const Node* table, const std::string& path, bool partial = false) {
     if (table) visited[path] = table;
-    stack.push_back({table, path});
+    stack.push_back({table, path, partial});
+  }
+
+  // Items set one by one (--set surface.dielectric.0.thickness=1 um) in a list that the file leaves
+  // at its default. Reports indices beyond it.
+  bool changes_items(const Node& node, const std::string& path, int count) {
+    if (!node.is_table() || node.children.empty() ||
+        !std::all_of(node.children.begin(), node.children.end(),
+                     [](const Node& child) { return is_index(child.key); }))
+      return false;
+    for (const Node& child : node.children) {
+      if (std::stoi(child.key) >= count)
+        problem(child.place, path, fmt::format("no item {} in a list of {}", child.key, count));
+    }
+    return true;
   }
 
   bool begin_section(const FieldSpec& spec) override {
@@ -512,7 +534,8 @@ struct Document::State final : public FieldVisitor {
   int begin_list(const FieldSpec& spec, int current, bool& replace) override {
     const Node* node = value(spec.key, spec.presence, std::string(spec.doc) + "), a list");
     const std::string path = join_path(frame().path, spec.key);
-    if (node && !node->is_array()) {
+    const bool items = node && changes_items(*node, path, current);
+    if (node && !node->is_array() && !items) {
       problem(node->place, path,
               fmt::format("expected a list of sections, [[{}]] or [{{ ... }}], got {}", path,
                           describe(*node)));
@@ -520,19 +543,22 @@ struct Document::State final : public FieldVisitor {
     }
     lists.push_back(node);
     stack.push_back({nullptr, path});
-    replace = node != nullptr;
-    return node ? static_cast<int>(node->children.size()) : current;
+    replace = node && !items;
+    return replace ? static_cast<int>(node->children.size()) : current;
   }
 
   bool begin_item(int index) override {
     const Node* list = lists.back();
     const std::string path = fmt::format("{}.{}", frame().path, index);
-    const Node* item = list ? &list->children[static_cast<std::size_t>(index)] : nullptr;
+    const bool partial = list && list->is_table();
+    const Node* item = !list     ? nullptr
+                       : partial ? list->find(std::to_string(index))
+                                 : &list->children[static_cast<std::size_t>(index)];
     if (item && !item->is_table()) {
       problem(item->place, path, "expected a section { ... }, got " + describe(*item));
       item = nullptr;
     }
-    push(item, path);
+    push(item, path, partial);
     return true;
   }
 

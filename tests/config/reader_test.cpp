@@ -162,6 +162,30 @@ TEST(Reader, OverridesTakeTextWithoutQuotesAndSayWhereTheyCameFrom) {
   EXPECT_THROW(read_whole("schema_version = 1", {"finger.load"}), InputError);
 }
 
+TEST(Reader, ATextWithoutAUnitIsToldWhichOneIsMissing) {
+  EXPECT_EQ(problems_of("[finger]\nload = \"1.5\"\n"),
+            "hole.toml:2:8: finger.load: needs a unit, e.g. \"1.5 N\"");
+}
+
+TEST(Reader, OverridesReachTheItemsOfADefaultList) {
+  const Whole plain = read_whole("schema_version = 1\n");
+  ASSERT_EQ(plain.surface.dielectric.size(), 1u);
+  Whole expected = plain;
+  expected.surface.dielectric[0].thickness = 1e-6;
+  expected.environment.relative_humidity.at(1) = 0.4;
+  for (const char* text : {"schema_version = 1\n", "schema_version = 1\n[surface]\n"}) {
+    EXPECT_EQ(read_whole(text, {"surface.dielectric.0.thickness=1 um",
+                                "environment.relative_humidity.1=40 %"}),
+              expected);
+  }
+  EXPECT_EQ(problems_of("schema_version = 1\n", {"surface.dielectric.1.thickness=1 um"}),
+            "--set surface.dielectric.1.thickness=1 um: surface.dielectric: no item 1 in a list of "
+            "1");
+  EXPECT_EQ(problems_of("schema_version = 1\n", {"surface.dielectric.0.thikness=1 um"}),
+            "--set surface.dielectric.0.thikness=1 um: surface.dielectric.0: unknown key "
+            "`thikness`, did you mean `thickness`?");
+}
+
 TEST(Reader, ANewListReplacesTheDefaultItems) {
   const Whole whole = read_whole("[[surface.dielectric]]\nmaterial = \"HfO2\"\n");
   ASSERT_EQ(whole.surface.dielectric.size(), 1u);
