@@ -153,6 +153,11 @@ class FrictionReader {
   std::vector<Problem> problems_;
 };
 
+// Fits with the correction to the fine level taken anew, and the change of a friction below which
+// it is good enough, in standard deviations of the datum.
+constexpr int kMostRounds = 3;
+constexpr double kSmallCorrection = 0.25;
+
 // --- Residuals --------------------------------------------------------------------------------
 
 // Rows of one design, drive and load: one evaluation over their humidities.
@@ -165,7 +170,7 @@ struct MeasuredGroup {
 class Comparison {
  public:
   Comparison(const Calibration& calibration, int threads)
-      : calibration_(calibration), threads_(threads) {
+      : calibration_(calibration), threads_(threads), factors_(calibration.data.size()) {
     const std::set<std::string> wanted(calibration.fit.begin(), calibration.fit.end());
     for (ClaimTarget& target : m3_targets()) {
       if (wanted.count(target.claim)) targets_.push_back(std::move(target));
@@ -194,29 +199,41 @@ class Comparison {
     std::vector<Estimate> out;
     ClaimInputs inputs(finger, finger.calibrated_for.preset, threads_, calibration_.sampling);
     for (const ClaimTarget& t : targets_) out.push_back(t.model(inputs));
-    std::vector<std::pair<Estimate, Estimate>> friction(calibration_.data.size());
-    for (const MeasuredGroup& s : groups_) {
-      Scene scene = scene_of(s.design);
-      const double load = scene.finger.load;
-      const FingerState state = scene.finger.state;
-      scene.finger = finger;
-      scene.finger.load = load;
-      scene.finger.state = state;
-      scene.model = finger.calibrated_for;
-      const Fidelity fidelity = calibration_.sampling.fidelity(threads_);
-      const Response response = evaluate(scene, s.design.texture, fidelity);
-      for (std::size_t k = 0; k < s.rows.size(); ++k) {
-        const ResponsePoint& p = response.points[s.humidity_of[k]];
-        friction[s.rows[k]] = {{p.friction_off.value, p.friction_off.parts.sampling},
-                               {p.friction_on.value, p.friction_on.parts.sampling}};
-      }
-    }
+    const std::vector<Friction> friction = frictions(finger, calibration_.sampling);
     for (std::size_t i = 0; i < friction.size(); ++i) {
-      const auto& [off, on] = friction[i];
-      out.push_back({1e3 * off.value, 1e3 * off.se});
-      if (calibration_.data[i].on_sd > 0) out.push_back({1e3 * on.value, 1e3 * on.se});
+      const auto add = [&](const Estimate& force, double factor) {
+        out.push_back({1e3 * factor * force.value, 1e3 * factor * force.se});
+      };
+      add(friction[i].off, factors_[i].off);
+      if (calibration_.data[i].on_sd > 0) add(friction[i].on, factors_[i].on);
     }
     return out;
+  }
+
+  // What a coarse level gets wrong in a friction, a factor: taken at this finger from the level of
+  // the checks on the same skins. Returns the largest change of a friction in standard deviations
+  // of its datum. Eq. calibration.6
+  double correct(const Finger& finger) {
+    ClaimSampling fine = calibration_.sampling;
+    fine.level = calibration_.check.level;
+    fine.grid = calibration_.check.grid;
+    const ClaimSampling& coarse = calibration_.sampling;
+    if (calibration_.data.empty() || (fine.level == coarse.level && fine.grid == coarse.grid))
+      return 0;
+    const std::vector<Friction> good = frictions(finger, fine), fast = frictions(finger, coarse);
+    double largest = 0;
+    for (std::size_t i = 0; i < good.size(); ++i) {
+      const FrictionDatum& d = calibration_.data[i];
+      const auto update = [&](double& factor, const Estimate& from, const Estimate& to, double sd) {
+        if (!(from.value > 0) || !(to.value > 0)) return;
+        const double now = to.value / from.value;
+        largest = std::max(largest, std::abs(now - factor) * from.value / sd);
+        factor = now;
+      };
+      update(factors_[i].off, fast[i].off, good[i].off, d.off_sd);
+      if (d.on_sd > 0) update(factors_[i].on, fast[i].on, good[i].on, d.on_sd);
+    }
+    return largest;
   }
 
   // Distance from the band in standard deviations: the data's and the model's sampling error,
@@ -233,6 +250,35 @@ class Comparison {
   }
 
  private:
+  struct Friction {
+    Estimate off, on;  // [N], with the error of the skins
+  };
+  struct Factor {
+    double off = 1, on = 1;
+  };
+
+  // Of the data's rows.
+  std::vector<Friction> frictions(const Finger& finger, const ClaimSampling& sampling) const {
+    std::vector<Friction> out(calibration_.data.size());
+    const Fidelity fidelity = sampling.fidelity(threads_);
+    for (const MeasuredGroup& s : groups_) {
+      Scene scene = scene_of(s.design);
+      const double load = scene.finger.load;
+      const FingerState state = scene.finger.state;
+      scene.finger = finger;
+      scene.finger.load = load;
+      scene.finger.state = state;
+      scene.model = finger.calibrated_for;
+      const Response response = evaluate(scene, s.design.texture, fidelity);
+      for (std::size_t k = 0; k < s.rows.size(); ++k) {
+        const ResponsePoint& p = response.points[s.humidity_of[k]];
+        out[s.rows[k]] = {{p.friction_off.value, p.friction_off.parts.sampling},
+                          {p.friction_on.value, p.friction_on.parts.sampling}};
+      }
+    }
+    return out;
+  }
+
   void group() {
     std::map<std::tuple<std::string, double, double, double>, std::vector<std::size_t>> same;
     for (std::size_t i = 0; i < calibration_.data.size(); ++i) {
@@ -261,6 +307,7 @@ class Comparison {
   int threads_;
   std::vector<ClaimTarget> targets_;
   std::vector<MeasuredGroup> groups_;
+  std::vector<Factor> factors_;  // of each datum
   std::vector<FitRow> rows_;
 };
 
@@ -600,6 +647,7 @@ CalibrationResult calibrate(const Calibration& calibration, const CalibrationOpt
 
   CalibrationResult out;
   std::vector<FitRow>& rows = comparison.rows();
+  comparison.correct(start);
   const std::vector<Estimate> before = comparison.model(start);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].before = before[i].value;
@@ -619,18 +667,23 @@ CalibrationResult calibrate(const Calibration& calibration, const CalibrationOpt
   fit.profile_iterations = 4;
   fit.note = options.note;
   int evaluations = 0;
-  out.fit = least_squares(
-      parameters, comparison.size(),
-      [&](std::span<const double> p, std::span<double> residuals) {
-        const bool ok = comparison.residuals(with_parameters(calibration, p), residuals);
-        if (++evaluations % 10 == 0) {
-          double sum = 0;
-          for (double v : residuals) sum += v * v;
-          note(fmt::format("evaluation {}: chi2 {:.4g}", evaluations, sum));
-        }
-        return ok;
-      },
-      fit);
+  const auto misses = [&](std::span<const double> p, std::span<double> out_of) {
+    const bool ok = comparison.residuals(with_parameters(calibration, p), out_of);
+    if (++evaluations % 10 == 0) {
+      double sum = 0;
+      for (double v : out_of) sum += v * v;
+      note(fmt::format("evaluation {}: chi2 {:.4g}", evaluations, sum));
+    }
+    return ok;
+  };
+  // Where the fitted finger is far from the start the correction is another: again from there.
+  for (int round = 0; round < kMostRounds; ++round) {
+    out.fit = least_squares(parameters, comparison.size(), misses, fit);
+    const std::vector<double> found = out.fit.values();
+    if (comparison.correct(with_parameters(calibration, found)) < kSmallCorrection) break;
+    note("frictions of the fine level have moved: fitted again from here");
+    for (std::size_t i = 0; i < found.size(); ++i) parameters[i].start = found[i];
+  }
   out.finger = with_parameters(calibration, out.fit.values());
   out.finger.fitted_to.clear();
   for (const std::string& id : calibration.fit)
@@ -695,8 +748,12 @@ std::string calibration_markdown(const Calibration& c, const CalibrationResult& 
       r.rows.size(), c.parameters.size(), r.chi2_before, r.fit.chi2, r.fit.prior_chi2,
       r.fit.degrees_of_freedom, std::sqrt(r.fit.variance_factor), r.evaluations,
       r.fit.converged ? "converged" : "stopped: " + r.fit.message);
-  out += fmt::format("Skins {} to {} at level {}.\n", c.sampling.first_skin,
-                     c.sampling.first_skin + c.sampling.skins - 1, c.sampling.level);
+  out += fmt::format(
+      "Skins {} to {} at level {}{}.\n", c.sampling.first_skin,
+      c.sampling.first_skin + c.sampling.skins - 1, c.sampling.level,
+      c.data.empty() || c.check.level == c.sampling.level
+          ? ""
+          : fmt::format("; frictions corrected to level {} on the same skins", c.check.level));
 
   out +=
       "\n## Parameters\n\n| parameter | start | fitted | 95 % interval | prior | from the data, % "

@@ -40,7 +40,19 @@ class Calibrate : public testing::Test {
     return truth;
   }
   // The fit of three parameters to the planted finger's table, from `start`.
-  Calibration planted_calibration(const std::string& start) const;
+  // Its data are of the level `check`; the fit runs on four skins of 64 pixels.
+  Calibration planted_calibration(const std::string& start, const std::string& check) const;
+  std::string planted_file() const {
+    return write("truth.toml", "schema_version = 1\nbase = \"" +
+                                   find_design("fingers/reference.toml") +
+                                   R"("
+[macro]
+load_share = 0.009
+shear_strength = "7.5 MPa"
+[skin]
+softening = 2.3
+)");
+  }
 
   std::string folder_;
 };
@@ -64,8 +76,9 @@ std::string planted_table(const Finger& truth, const ClaimSampling& sampling) {
   return out;
 }
 
-Calibration Calibrate::planted_calibration(const std::string& start) const {
-  write("measured.csv", planted_table(planted_finger(), {"draft", 4, 0, 64}));
+Calibration Calibrate::planted_calibration(const std::string& start,
+                                           const std::string& check) const {
+  write("measured.csv", planted_table(planted_finger(), {check, 4, 0, 64}));
   return read_calibration(write("fit.toml", "schema_version = 1\nfinger = \"" + start + R"("
 data = "measured.csv"
 [sampling]
@@ -76,11 +89,13 @@ skins = 4
 "macro.load_share" = { low = 0.001, high = 0.05 }
 "macro.shear_strength" = { low = "3 MPa", high = "20 MPa" }
 "skin.softening" = { low = 1.2, high = 4.0 }
-)"));
+[check]
+grid = 64
+level = ")" + check + "\"\n"));
 }
 
 TEST_F(Calibrate, PlantedParametersAreFoundWithinTheirIntervals) {
-  const Calibration calibration = planted_calibration("fingers/reference.toml");
+  const Calibration calibration = planted_calibration("fingers/reference.toml", "draft");
   ASSERT_EQ(calibration.data.size(), 8u);
   CalibrationOptions options;
   options.check = false;
@@ -108,22 +123,16 @@ TEST_F(Calibrate, PlantedParametersAreFoundWithinTheirIntervals) {
 }
 
 TEST_F(Calibrate, AtThePlantedValuesNothingIsLeft) {
-  const std::string truth =
-      write("truth.toml", "schema_version = 1\nbase = \"" + find_design("fingers/reference.toml") +
-                              R"("
-[macro]
-load_share = 0.009
-shear_strength = "7.5 MPa"
-[skin]
-softening = 2.3
-)");
-  const Calibration calibration = planted_calibration(truth);
-  CalibrationOptions options;
-  options.check = false;
-  options.threads = 1;
-  const CalibrationResult r = calibrate(calibration, options);
-  EXPECT_LT(r.chi2_before, 1e-9);  // eight digits in the table
-  EXPECT_NEAR(r.fit.parameters[0].value, 0.009, 1e-8);
+  // Of data of the level design too: a draft judges, corrected on the same skins.
+  for (const char* level : {"draft", "design"}) {
+    const Calibration calibration = planted_calibration(planted_file(), level);
+    CalibrationOptions options;
+    options.check = false;
+    options.threads = 1;
+    const CalibrationResult r = calibrate(calibration, options);
+    EXPECT_LT(r.chi2_before, 1e-9) << level;  // eight digits in the table
+    EXPECT_NEAR(r.fit.parameters[0].value, 0.009, 1e-8) << level;
+  }
 }
 
 TEST_F(Calibrate, WhatOnlyTheirProductMovesIsNotIdentified) {
