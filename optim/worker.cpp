@@ -89,8 +89,10 @@ void Worker::start() {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // no orphan computes on
     if (::getppid() != parent) ::_exit(0);
     ::signal(SIGINT, SIG_IGN);  // Ctrl-C is the parent's to handle; the closed pipe ends the child
+#ifndef __SANITIZE_ADDRESS__    // whose shadow is larger than any limit
     rlimit limit{static_cast<rlim_t>(limits_.bytes), static_cast<rlim_t>(limits_.bytes)};
     ::setrlimit(RLIMIT_AS, &limit);
+#endif
     bool timed_out = false;
     while (true) {
       const std::string line = read_line(down[0], kInfinity, timed_out);
