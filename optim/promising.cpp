@@ -50,29 +50,32 @@ std::vector<std::size_t> promising(const SearchProblem& problem,
     judged[j].outcome.objectives = believed[j];
   }
   const std::vector<std::size_t> front = pareto_front(judged);
-  Point reference;  // a tenth of the front's extent beyond its far ends
+  // In units of the front's extent, from its best ends: the reference is a tenth beyond the far
+  // ones.
   for (std::size_t k = 0; k < problem.objectives; ++k) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t j : front) {
       low = std::min(low, believed[j][k]);
       high = std::max(high, believed[j][k]);
     }
-    reference.push_back(high + 0.1 * std::max(high - low, 1e-12));
+    for (std::size_t j : front)
+      believed[j][k] = high > low ? (believed[j][k] - low) / (high - low) : 0;
   }
+  const Point reference(problem.objectives, 1.1);
   // Eq. search.12
   std::vector<std::size_t> chosen;
   std::vector<std::vector<double>> have;
   double total = 0;
   while (chosen.size() < std::min(count, front.size())) {
     double most = 0;
-    std::size_t best = front.size();
+    std::size_t best = of.size();
     for (std::size_t j : front) {
       have.push_back(believed[j]);
       const double gain = hypervolume(have, reference) - total;
       have.pop_back();
       if (gain > most) most = gain, best = j;
     }
-    if (best == front.size() || most < kLeastGain * total) break;
+    if (best == of.size() || most < kLeastGain * total) break;
     have.push_back(believed[best]);
     total += most;
     chosen.push_back(of[best]);

@@ -80,6 +80,24 @@ TEST(Promising, LuckOfOneAmongLikeDesignsDoesNotWin) {
   EXPECT_GT(chosen_volume, 1.02 * spread_volume);
 }
 
+// However few the evaluations, or alone the best of them.
+TEST(Promising, AnyFeasibleEvaluationLeavesOneToConfirm) {
+  const std::vector<Evaluation> three{seen({0.5, 0.154}, {-0.51629, 0.21032}),
+                                      seen({0.567, 0.071}, {-0.552529, 0.208639}),
+                                      seen({0.322, 0.641}, {-0.508688, 0.215713})};
+  EXPECT_EQ(promising(box(2), three, 5), std::vector<std::size_t>{1});
+  EXPECT_EQ(promising(box(2), {three.front()}, 5), std::vector<std::size_t>{0});
+  SearchProblem one = box(2);
+  one.objectives = 1;
+  for (const double scale : {1e-9, 1.0, 1e6, 1e12}) {
+    std::vector<Evaluation> all = three;
+    for (Evaluation& e : all) e.outcome.objectives = {scale * e.outcome.objectives[0]};
+    EXPECT_EQ(promising(one, all, 5), std::vector<std::size_t>{1}) << scale;
+    for (Evaluation& e : all) e.outcome.objectives[0] = -scale;
+    EXPECT_EQ(promising(one, all, 5).size(), 1U) << scale;
+  }
+}
+
 TEST(Promising, FeasibilityComesFirst) {
   std::vector<Evaluation> all{seen({0.1}, {0, 0}), seen({0.2}, {1, 1}), seen({0.3}, {2, 0.5})};
   all[0].outcome.constraints = {0.5};
