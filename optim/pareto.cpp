@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/check.h"
 
@@ -23,11 +24,13 @@ std::vector<std::size_t> pareto_front(const std::vector<Evaluation>& evaluations
   bool any_feasible = false;
   for (const Evaluation& e : evaluations) any_feasible = any_feasible || e.outcome.feasible();
   if (!any_feasible) {
-    double least = std::numeric_limits<double>::infinity();
+    // What was refused before an evaluation may violate more than it says.
+    std::pair least{true, std::numeric_limits<double>::infinity()};
     for (std::size_t i = 0; i < evaluations.size(); ++i) {
       const Outcome& o = evaluations[i].outcome;
-      if ((o.ok || !o.constraints.empty()) && o.violation() < least) {
-        least = o.violation();
+      const std::pair here{!o.ok, o.violation()};
+      if ((o.ok || !o.constraints.empty()) && here < least) {
+        least = here;
         front = {i};
       }
     }

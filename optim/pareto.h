@@ -11,7 +11,8 @@ namespace papilla {
 bool dominates(const std::vector<double>& a, const std::vector<double>& b);
 
 // Indices of the non-dominated feasible evaluations, by first objective; when none is feasible, the
-// single least-violating one; empty when every evaluation failed. Equal outcomes: the earliest.
+// single least-violating one, of those that were evaluated where any was; empty when every
+// evaluation failed. Equal outcomes: the earliest.
 std::vector<std::size_t> pareto_front(const std::vector<Evaluation>& evaluations);
 
 // Indices of feasible evaluations in their order, at most `most`: those that the fewest others

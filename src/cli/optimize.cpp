@@ -116,6 +116,33 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
   return out;
 }
 
+// As a shell reads it back.
+std::string quoted(const std::string& word) {
+  if (!word.empty() && word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                              "0123456789_./+-=,:%@") == std::string::npos)
+    return word;
+  std::string out = "'";
+  for (char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// The command that goes on where this one stopped.
+std::string resume_command(const OptimizeOptions& options, const std::string& folder) {
+  std::string out =
+      "papilla optimize " + quoted(options.study) + " --out " + quoted(folder) + " --resume";
+  const auto add = [&out](const char* name, const std::string& value) {
+    if (!value.empty()) out += std::string(" ") + name + " " + quoted(value);
+  };
+  if (options.jobs > 0) add("--jobs", std::to_string(options.jobs));
+  if (options.evaluations > 0) add("--evaluations", std::to_string(options.evaluations));
+  add("--time", options.time);
+  if (options.seed >= 0) add("--seed", std::to_string(options.seed));
+  add("--method", options.method);
+  add("--pick", options.pick);
+  for (const std::string& setting : options.overrides) add("--set", setting);
+  return out;
+}
+
 int optimize(const OptimizeOptions& options, const Context& context) {
   if (launched_rank() > 0) {  // of an MPI job: one voice is enough
     [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
@@ -152,16 +179,18 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result.interrupted) {
-    context.note(fmt::format("interrupted; continue with: papilla optimize {} --out {} --resume",
-                             options.study, run.folder));
+    context.note("interrupted; continue with: " + resume_command(options, run.folder));
     return kWorkFailed;
   }
-  context.note(
-      fmt::format("{} evaluations in {:.0f} s; results in {}/ (report.html, summary.md, "
-                  "pareto.csv, best/design.toml)",
-                  result.evaluations, seconds, run.folder));
+  context.note(fmt::format(
+      "{} evaluations in {:.0f} s; results in {}/ ({})", result.evaluations, seconds, run.folder,
+      result.has_best() ? "report.html, summary.md, pareto.csv, best/design.toml"
+                        : "summary.md, pareto.csv, history.csv"));
   if (!result.any_feasible) {
-    context.note("no design keeps every constraint; summary.md says which comes nearest");
+    context.note(result.finalists.empty()
+                     ? "no design could be evaluated; history.csv says why for each"
+                     : "no design keeps every constraint: " + infeasible_text(result) +
+                           "; summary.md shows the one that comes nearest");
     return kWorkFailed;
   }
   return kSuccess;

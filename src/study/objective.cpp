@@ -27,11 +27,18 @@ namespace {
 // Steps of the parameters of confirmed designs: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
 
-// <= 0 when kept, relative to the limit, bounded.
+// Bounded by -1 and 11, yet larger for more: the least of large violations stays the least.
+double bounded(double violation) {
+  constexpr double kLarge = 10;
+  if (violation > kLarge) return kLarge + 1 - kLarge / violation;
+  return std::max(violation, -1.0);
+}
+
+// <= 0 when kept, relative to the limit.
 double relative_violation(double value, double limit, bool at_least) {
-  if (limit <= 0) return at_least ? -1 : std::clamp(value, -1.0, 10.0);
-  if (!at_least) return std::clamp(value / limit - 1, -1.0, 10.0);
-  return value <= 0 ? 10 : std::clamp(limit / value - 1, -1.0, 10.0);
+  if (limit <= 0) return at_least ? -1 : bounded(value);
+  if (!at_least) return bounded(value / limit - 1);
+  return bounded(value <= 0 ? kInfinity : limit / value - 1);
 }
 
 // What a constraint of shape or look limits.
@@ -52,6 +59,21 @@ bool of_appearance(const Constraint& c) {
 }
 
 bool on_metric(const Constraint& c) { return c.name.find('(') != std::string::npos; }
+
+// For people, and how many of it are one in SI.
+std::pair<std::string, double> unit_of(const Constraint& c) {
+  for (const ConstraintKind& k : constraint_kinds()) {
+    if (k.name == c.name) return {k.unit, k.unit == "um" ? 1e6 : k.unit == "%" ? 100 : 1};
+  }
+  return {"", 1};
+}
+
+// "min_wall (at least 5.5 um)"
+std::string constraint_text(const Constraint& c) {
+  const auto [unit, scale] = unit_of(c);
+  return fmt::format("{} (at {} {:.3g}{}{})", c.name, c.at_least ? "least" : "most",
+                     c.limit * scale, unit.empty() ? "" : " ", unit);
+}
 
 std::string look_refusal(const Design& d) {
   return optics_refusal(d.texture, d.surface.refractive_index, d.view);
@@ -461,10 +483,7 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
     if (needs_evaluation(c)) continue;
     const double value = limited_value(c.name, d);
     if (relative_violation(value, c.limit, c.at_least) <= 0) continue;
-    const std::string& u = std::find_if(constraint_kinds().begin(), constraint_kinds().end(),
-                                        [&](const ConstraintKind& k) { return k.name == c.name; })
-                               ->unit;
-    const double scale = u == "um" ? 1e6 : u == "%" ? 100 : 1;
+    const auto [u, scale] = unit_of(c);
     return fmt::format("{} {:.3g} {} is {} {:.3g} {}", c.name, value * scale, u,
                        c.at_least ? "below" : "above", c.limit * scale, u);
   }
@@ -756,6 +775,23 @@ std::optional<double> parameter_error(const Score& score, const Score& other,
 // with the evaluation.
 bool StudyProblem::needs_evaluation(const Constraint& c) const {
   return c.name == "oxide_breakdown_margin" || on_metric(c) || (of_appearance(c) && slow_look_);
+}
+
+std::vector<std::string> StudyProblem::never_kept(const std::vector<Evaluation>& tried) const {
+  std::vector<std::string> out;
+  std::size_t shape = 1, evaluated = 0;  // places in the constraints of a refused, a judged design
+  for (const Constraint& c : study_.constraints) {
+    const bool judged = needs_evaluation(c);
+    const std::size_t place = judged ? evaluated++ : shape++;
+    int known = 0, kept = 0;
+    for (const Evaluation& e : tried) {
+      if (!e.outcome.ok && (judged || place >= e.outcome.constraints.size())) continue;
+      ++known;  // what was evaluated keeps every limit of the shape
+      kept += (e.outcome.ok && !judged) || e.outcome.constraints[place] <= 0;
+    }
+    if (known > 0 && kept == 0) out.push_back(constraint_text(c));
+  }
+  return out;
 }
 
 std::size_t StudyProblem::constraints() const {

@@ -121,6 +121,9 @@ class StudyProblem {
   // info of every task as designed.
   void add_steps(Score& score, const std::vector<std::vector<double>>& tasks) const;
 
+  // The constraints that none of these designs keeps, for people: "min_wall (at least 5.5 um)".
+  std::vector<std::string> never_kept(const std::vector<Evaluation>& tried) const;
+
   std::size_t constraints() const;            // that need an evaluation
   std::size_t residuals() const;              // of an outcome; 0: the objective is no target
   Outcome outcome(const Score& score) const;  // for the searcher: minimised

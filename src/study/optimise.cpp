@@ -186,13 +186,13 @@ class Run {
         problem_(study),
         search_(search_problem(problem_, study)),
         method_(choose_method(study.search.method, search_)),
-        folder_(options.folder),
-        lock_(open_folder(options.folder)),
+        folder_(checked_folder(options, problem_)),
+        lock_(open_folder(folder_)),
         journal_(options.folder + "/journal", text_hash(problem_.identity()), options.resume),
         pool_(problem_, study, mpi) {}
 
   OptimiseResult run() {
-    check_pick_rule(options_.pick, problem_.objectives());
+    check_budget();
     result_.method = method_.name;
     result_.why = method_.why;
     write_bytes(folder_ + "/resolved.toml", resolved_toml(study_));
@@ -202,10 +202,8 @@ class Run {
     if (!result_.interrupted) confirm();
     ResultFiles files{folder_, study_, problem_, history_, result_, options_.pick};
     write_results(files);
-    if (!result_.interrupted && !result_.finalists.empty() &&
-        result_.finalists[result_.best].on_front) {
+    if (!result_.interrupted && result_.has_best())
       write_bytes(folder_ + "/report.html", report_page(folder_));
-    }
     write_bytes(folder_ + "/timing.json",
                 fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
                             "\"confirm_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
@@ -214,6 +212,28 @@ class Run {
   }
 
  private:
+  // What can be refused before anything is written.
+  static std::string checked_folder(const OptimiseOptions& options, const StudyProblem& problem) {
+    check_pick_rule(options.pick, problem.objectives());
+    if (options.resume && !fs::exists(options.folder + "/journal"))
+      throw InputError(options.folder + ": no run to continue here (no journal)");
+    return options.folder;
+  }
+
+  // The earlier run's searched designs, without those that the shape's limits refused.
+  void check_budget() const {
+    int evaluated = 0;
+    for (const Evaluation& e : journal_.records()) {
+      if (e.unit.size() < 2 || e.unit.rbegin()[1] != static_cast<double>(kSearch)) continue;
+      evaluated += e.outcome.ok || e.outcome.constraints.empty();
+    }
+    if (evaluated <= search_.evaluations) return;
+    throw InputError(fmt::format(
+        "{}: the earlier run has {} evaluations already, more than the {} asked for; continue it "
+        "with as many as it was started with",
+        folder_, evaluated, search_.evaluations));
+  }
+
   static FolderLock open_folder(const std::string& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
@@ -326,11 +346,18 @@ class Run {
     std::string best;
     const auto front = pareto_front(history_);
     const auto& objectives = problem_.objectives();
+    if (!front.empty() && !history_[front[0]].outcome.feasible())
+      best = "none keeps every constraint yet";
     for (std::size_t k = 0; k < objectives.size() && !front.empty(); ++k) {
+      if (!history_[front[0]].outcome.feasible()) break;
       double value = history_[front[0]].outcome.objectives[k];
       for (std::size_t i : front) value = std::min(value, history_[i].outcome.objectives[k]);
-      best += fmt::format("{}{} {:.3f}", best.empty() ? "best " : ", ", objectives[k].name,
-                          objectives[k].maximise ? -value : value);
+      // The ends of a front are different designs.
+      best += fmt::format("{}{} {:.3f}",
+                          !best.empty()      ? ", "
+                          : front.size() > 1 ? "best of each: "
+                                             : "best ",
+                          objectives[k].name, objectives[k].maximise ? -value : value);
     }
     options_.progress({stage, done, total, best, left});
   }
@@ -505,9 +532,8 @@ class Run {
     const std::size_t variants = stability_variants(problem_).size();
     std::vector<std::vector<Outcome>> outcomes;
     // The front comes first.
-    const bool any_front = !result_.finalists.empty() && result_.finalists.front().on_front;
     for (const FinalDesign& f : result_.finalists) {
-      if (any_front && !f.on_front) break;
+      if (f.folder.empty()) break;
       std::vector<Point> requests;
       for (std::size_t v = 0; v < variants; ++v)
         requests.push_back(work_request(v, kStability, false, f.unit));
@@ -651,10 +677,16 @@ class Run {
       confirmed.push_back(as_evaluation(f));
       result_.any_feasible = result_.any_feasible || f.feasible;
     }
-    for (std::size_t i : pareto_front(confirmed)) result_.finalists[i].on_front = true;
+    if (!result_.any_feasible) result_.never_kept = problem_.never_kept(history_);
+    for (std::size_t i : pareto_front(confirmed)) {
+      FinalDesign& f = result_.finalists[i];
+      f.on_front = f.feasible;
+      if (!f.feasible && f.confirmed.ok) f.folder = "best";
+    }
     std::stable_sort(result_.finalists.begin(), result_.finalists.end(),
                      [&](const FinalDesign& a, const FinalDesign& b) {
                        if (a.on_front != b.on_front) return a.on_front;
+                       if (a.folder.empty() != b.folder.empty()) return b.folder.empty();
                        if (!a.confirmed.ok || !b.confirmed.ok) return a.confirmed.ok;
                        const double d = a.confirmed.values[0] - b.confirmed.values[0];
                        return problem_.objectives()[0].maximise ? d > 0 : d < 0;

@@ -33,7 +33,9 @@ struct FinalDesign {
   Design design;
   Score searched, confirmed;
   bool feasible = false, on_front = false;
-  std::string folder;  // "front/01"; empty when dominated
+  // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
+  // rest.
+  std::string folder;
 };
 
 // What a variable does at the best design, at search level. Eq. search.9
@@ -53,17 +55,22 @@ struct OptimiseResult {
   int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
   bool interrupted = false;
   bool any_feasible = false;
-  std::vector<FinalDesign> finalists;  // by first objective, best first
-  std::size_t best = 0;                // of the finalists: highest worst modulation, or as picked
-  std::optional<Score> flat;           // the best surface without its texture, confirmed
+  std::vector<std::string> never_kept;  // constraints that no design of the search keeps
+  std::vector<FinalDesign> finalists;   // by first objective, best first
+  std::size_t best = 0;                 // of the finalists: highest worst modulation, or as picked
+  std::optional<Score> flat;            // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
   Stability stability;               // of the order of the finalists on the front, in their order
   std::vector<VariableSensitivity> sensitivity;  // of the best design
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
+
+  bool has_best() const { return !finalists.empty() && finalists[best].confirmed.ok; }
 };
 
-// Throws InputError for a folder that belongs to another study or is in use. Launched by mpirun as
-// several processes, rank 0 does this and the others evaluate for it and return an empty result.
+// Throws InputError for a folder that belongs to another study or is in use, for one without a run
+// to resume, and for a rule of `pick` that no front could meet; the folder is then as before.
+// Launched by mpirun as several processes, rank 0 does this and the others evaluate for it and
+// return an empty result.
 OptimiseResult optimise(const Study& study, const OptimiseOptions& options);
 
 // Evaluations that a study gets when nothing else is said.
@@ -71,6 +78,9 @@ int default_evaluations(const Study& study);
 
 // The finalists as a table for people (Markdown).
 std::string result_table(const Study& study, const OptimiseResult& result);
+
+// Why nothing is feasible, as part of a sentence.
+std::string infeasible_text(const OptimiseResult& result);
 
 // What will run, for plan.txt and people.
 std::string search_plan(const Study& study);

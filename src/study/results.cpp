@@ -59,7 +59,7 @@ class Writer {
     for (const FinalDesign& d : f_.result.finalists) {
       if (d.on_front) write_design_folder(d, f_.folder + "/" + d.folder);
     }
-    if (!f_.result.finalists.empty() && f_.result.finalists[f_.result.best].on_front)
+    if (f_.result.has_best())
       write_design_folder(f_.result.finalists[f_.result.best], f_.folder + "/best");
     write_bytes(f_.folder + "/sensitivity.json", sensitivity());
     write_bytes(f_.folder + "/summary.md", summary());
@@ -142,8 +142,10 @@ class Writer {
                          c.ok ? "ok" : csv_text(c.reason));
     };
     for (const FinalDesign& d : f_.result.finalists) {
-      row(d.folder.empty() ? "dominated" : d.folder, d.unit, d.confirmed, d.searched, d.feasible,
-          d.on_front);
+      row(!d.folder.empty() ? d.folder
+          : d.feasible      ? "dominated"
+                            : "infeasible",
+          d.unit, d.confirmed, d.searched, d.feasible, d.on_front);
     }
     return out;
   }
@@ -230,34 +232,39 @@ class Writer {
     out += ".\n\n";
     if (r.finalists.empty()) {
       return out +
-             "**No design could be evaluated**: every one failed or lies outside the fabrication "
-             "limits; history.csv says why for each.\n";
+             "**No design could be evaluated**: every one failed; history.csv says why for each.\n";
     }
     if (!r.any_feasible) {
-      out +=
-          "**No design keeps every constraint.** The one that violates them least is shown; loosen "
-          "a constraint or widen the design space.\n\n";
+      out += "**No design keeps every constraint**: " + infeasible_text(r) +
+             ". The one that violates them least is shown; loosen a constraint or widen the design "
+             "space.\n\n";
     }
     out += result_table(f_.study, r);
     const FinalDesign& best = r.finalists[r.best];
-    out += fmt::format(
-        "\n`best/` is {}: {}{}.\n", best.folder.empty() ? "not on the front" : best.folder,
-        f_.pick.empty() || f_.pick == "worst"
-            ? "the highest worst modulation over fingers and humidity"
-            : "picked by \"" + f_.pick + "\"",
-        !f_.pick.empty() && f_.pick != "worst" && r.stability.stable(r.best) ? ""
-        : r.stability.stable(r.best) ? " among the designs whose place on the front holds"
-                                     : "; its place on the front does not hold, see below");
+    if (best.on_front) out += best_text(best);
     if (r.flat && best.confirmed.ok) out += gain_text(best);
     out += stability_text();
     out += sensitivity_text();
-    out +=
-        "\nFiles: report.html (all of this with charts), pareto.csv (finalists), history.csv "
-        "(every evaluation), front/ and best/ "
-        "(design.toml, metrics.json, heightmap.exr, heightmap.gsf, mask.tif, preview.png), "
-        "sensitivity.json, resolved.toml (every value and where it came from), plan.txt, "
-        "journal.\n";
+    out += r.has_best()
+               ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
+                 "history.csv (every evaluation), front/ and best/ (design.toml, metrics.json, "
+                 "heightmap.exr, heightmap.gsf, mask.tif, preview.png), sensitivity.json, "
+                 "resolved.toml (every value and where it came from), plan.txt, journal.\n"
+               : "\nFiles: pareto.csv (finalists), history.csv (every evaluation), resolved.toml "
+                 "(every value and where it came from), plan.txt, journal.\n";
     return out;
+  }
+
+  std::string best_text(const FinalDesign& best) const {
+    const OptimiseResult& r = f_.result;
+    return fmt::format("\n`best/` is {}: {}{}.\n", best.folder,
+                       f_.pick.empty() || f_.pick == "worst"
+                           ? "the highest worst modulation over fingers and humidity"
+                           : "picked by \"" + f_.pick + "\"",
+                       !f_.pick.empty() && f_.pick != "worst" && r.stability.stable(r.best) ? ""
+                       : r.stability.stable(r.best)
+                           ? " among the designs whose place on the front holds"
+                           : "; its place on the front does not hold, see below");
   }
 
   // The step from the study's own flat surface to the best design, split into the part of the
@@ -403,7 +410,8 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   for (std::size_t i = 0; i < study.variables.size() + objectives.size() + 2; ++i) out += "---|";
   out += "\n";
   for (const FinalDesign& d : result.finalists) {
-    out += "| " + (d.folder.empty() ? "(dominated)" : d.folder);
+    out += "| " + (!d.folder.empty() ? d.folder : d.feasible ? "(dominated)" : "(infeasible)");
+    if (!d.folder.empty() && !d.feasible) out += " (infeasible)";
     const std::vector<double> values = problem.values(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       out.append(" | ").append(variable_text(study.variables[i], values[i]));
@@ -423,6 +431,13 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
                    study.design.accuracy.parameters
                        ? ""
                        : ", of the best design (all: `[accuracy] parameters = true`),");
+}
+
+std::string infeasible_text(const OptimiseResult& result) {
+  std::string names;
+  for (const std::string& name : result.never_kept) names += (names.empty() ? "" : ", nor ") + name;
+  return names.empty() ? "each is kept by some design that was tried, but not all by one"
+                       : "no design of the space that was tried keeps " + names;
 }
 
 FolderLock::FolderLock(const std::string& folder) {

@@ -196,6 +196,106 @@ TEST(Optimise, AnEmptyFeasibleSetNamesTheLeastViolatingDesign) {
   EXPECT_FALSE(result.finalists[0].feasible);
 }
 
+// Nothing was evaluated, so nothing is best so far; the result says which limit no design keeps.
+TEST(Optimise, ASpaceThatNeverKeepsALimitEndsInASummary) {
+  Study study = small_study();
+  study.search.evaluations = 2;
+  study.constraints = {{"min_wall", 5.5e-6, true}, {"aspect_ratio", 3, false}};
+  study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}}};
+  for (const char* method : {"nsga2", "bobyqa"}) {
+    const bool several = std::string(method) == "nsga2";
+    study.objective.minimise.clear();
+    if (several) study.objective.minimise = {"variation(modulation)"};
+    study.search.method = method;
+    const std::string folder = fresh_folder(std::string("never_") + method);
+    int said = 0;
+    const auto progress = [&](const Progress& p) {
+      said += p.best == "none keeps every constraint yet";
+    };
+    const OptimiseResult result = optimise(study, {folder, false, progress, nullptr});
+    EXPECT_GT(said, 0);
+    EXPECT_EQ(result.evaluations, 0);
+    EXPECT_FALSE(result.any_feasible);
+    EXPECT_EQ(result.never_kept, std::vector<std::string>{"min_wall (at least 5.5 um)"}) << method;
+    EXPECT_NE(bytes(folder + "/summary.md").find("keeps min_wall (at least 5.5 um)"),
+              std::string::npos);
+  }
+}
+
+// The one shown is the least violating of all that were evaluated, and not on any front.
+TEST(Optimise, TheNearestToAnImpossibleLimitIsShown) {
+  Study study = small_study();
+  study.search.evaluations = 6;
+  study.search.method = "nsga2";
+  study.variables = {{"texture.diameter", "um", 1e-6, 4.9e-6, {}},
+                     {"texture.depth", "nm", 100e-9, 1e-6, {}}};
+  study.constraints = {{"min_wall", 1.5e-6, true}, {"worst(modulation)", 5, true}};
+  const std::string folder = fresh_folder("nearest");
+  const OptimiseResult result = optimise(study, {folder, false, {}, nullptr});
+  EXPECT_FALSE(result.any_feasible);
+  EXPECT_GT(result.refused, 0);
+  EXPECT_EQ(result.never_kept, std::vector<std::string>{"worst(modulation) (at least 5)"});
+  ASSERT_TRUE(result.has_best());
+  const FinalDesign& best = result.finalists[result.best];
+  EXPECT_FALSE(best.on_front);
+  EXPECT_EQ(best.folder, "best");
+  EXPECT_TRUE(fs::exists(folder + "/report.html"));
+  EXPECT_FALSE(fs::exists(folder + "/front"));
+  double highest = 0;  // at the search level
+  std::string line, row;
+  std::istringstream history(bytes(folder + "/history.csv"));
+  const auto cells = [](const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> out;
+    for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
+    return out;
+  };
+  while (std::getline(history, line)) {
+    const auto c = cells(line);
+    if (c.back() != "ok" || std::stod(c[c.size() - 4]) <= highest) continue;
+    highest = std::stod(c[c.size() - 4]);
+    row = c[1] + "," + c[2];
+  }
+  EXPECT_NE(bytes(folder + "/pareto.csv").find("best," + row), std::string::npos) << row;
+  EXPECT_EQ(bytes(folder + "/pareto.csv").find(",yes,ok"), std::string::npos);
+}
+
+TEST(Optimise, AFewEvaluationsHaveFinalists) {
+  Study study = small_study();
+  for (const int evaluations : {1, 3}) {
+    study.search.evaluations = evaluations;
+    const std::string folder = fresh_folder("few");
+    EXPECT_TRUE(optimise(study, {folder, false, {}, nullptr}).has_best()) << evaluations;
+    EXPECT_TRUE(fs::exists(folder + "/report.html"));
+  }
+}
+
+TEST(Optimise, ARefusedStartLeavesNothingBehind) {
+  const Study study = small_study();
+  const std::string folder = fresh_folder("refused");
+  EXPECT_THROW(optimise(study, {folder, true, {}, nullptr}), InputError);  // nothing to continue
+  EXPECT_THROW(optimise(study, {folder, false, {}, nullptr, "bestest"}), InputError);
+  EXPECT_FALSE(fs::exists(folder));
+}
+
+TEST(Optimise, AResumedRunIsNotShortened) {
+  Study study = small_study();
+  study.search.evaluations = 5;
+  const std::string folder = fresh_folder("shortened");
+  std::atomic<bool> stop{false};
+  const auto progress = [&](const Progress& p) { stop = p.done >= 4; };
+  EXPECT_TRUE(optimise(study, {folder, false, progress, &stop}).interrupted);
+  study.search.evaluations = 3;
+  try {
+    optimise(study, {folder, true, {}, nullptr});
+    ADD_FAILURE() << "went on";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("has 4 evaluations already, more than the 3"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
 TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
   Study study = small_study();
   study.variables = {{"texture.diameter", "um", 3e-6, 3e-6, {3e-6}}};
