@@ -7,6 +7,7 @@
 #include "forward/skips.h"
 #include "study/design.h"
 #include "study/evaluation.h"
+#include "study/objective.h"
 
 namespace papilla {
 namespace {
@@ -22,6 +23,8 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
   }
   std::string text = (design.title.empty() ? study.name : design.title) + '\n' + plan.text();
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
+  if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
+    text += "frequency not felt: " + why + '\n';
   context.print(text);
   return kSuccess;
 }

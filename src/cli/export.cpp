@@ -59,9 +59,16 @@ void print_json(const std::string& folder, const std::optional<Verification>& v)
 }
 
 int export_files(const ExportCommand& command) {
-  std::string source = command.design.file;
-  if (std::filesystem::is_directory(source)) {
-    source = picked_design_file(source, command.pick);
+  namespace fs = std::filesystem;
+  std::string source = command.design.file, beside;  // beside: where the files go by default
+  if (command.pick.empty() && fs::exists(fs::path(source) / "design.toml")) {  // front/02
+    beside = (fs::path(source) / "export").string();
+    source = (fs::path(source) / "design.toml").string();
+  } else if (fs::is_directory(source)) {
+    const fs::path picked(picked_design_file(source, command.pick));
+    beside =
+        (fs::path(source) / "export" / picked.parent_path().lexically_relative(source)).string();
+    source = picked.string();
   } else if (!command.pick.empty()) {
     throw InputError("--pick chooses from a folder of results; " + source + " is a file");
   }
@@ -85,8 +92,9 @@ int export_files(const ExportCommand& command) {
   if (!command.facet_error.empty()) options.facet_error = parse_si(command.facet_error, "nm");
   if (!(options.facet_error > 0)) throw InputError("--facet-error: expected a length above 0");
   const double tolerance = parse_si(command.tolerance, "%");
-  const std::string folder =
-      command.out.empty() ? "results/" + study.name + "/export" : command.out;
+  const std::string folder = !command.out.empty() ? command.out
+                             : !beside.empty()    ? beside
+                                                  : "results/" + study.name + "/export";
   const Export result = export_design(study.design, options, folder);
   std::optional<Verification> v;
   if (command.verify) {
@@ -151,7 +159,9 @@ void add_export(CLI::App& app, Context& context) {
                     "Read the heights back, measure holes and walls, simulate again");
   command->add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
       ->capture_default_str();
-  command->add_option("--out", options->out, "Folder; default results/NAME/export")
+  command
+      ->add_option("--out", options->out,
+                   "Folder; default results/NAME/export, of a folder FILE in FILE/export")
       ->type_name("DIR");
   add_pick_option(*command, options->pick);
   command->callback(

@@ -117,7 +117,7 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
 }
 
 // As a shell reads it back.
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
   if (!word.empty() && word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
                                               "0123456789_./+-=,:%@") == std::string::npos)
     return word;
@@ -128,10 +128,10 @@ std::string quoted(const std::string& word) {
 
 // The command that goes on where this one stopped.
 std::string resume_command(const OptimizeOptions& options, const std::string& folder) {
-  std::string out =
-      "papilla optimize " + quoted(options.study) + " --out " + quoted(folder) + " --resume";
+  std::string out = "papilla optimize " + shell_word(options.study) + " --out " +
+                    shell_word(folder) + " --resume";
   const auto add = [&out](const char* name, const std::string& value) {
-    if (!value.empty()) out += std::string(" ") + name + " " + quoted(value);
+    if (!value.empty()) out += std::string(" ") + name + " " + shell_word(value);
   };
   if (options.jobs > 0) add("--jobs", std::to_string(options.jobs));
   if (options.evaluations > 0) add("--evaluations", std::to_string(options.evaluations));
@@ -174,7 +174,15 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   if (options.json) {
     std::cout << result_json(result, StudyProblem(study), run.folder, study).dump(2) << '\n';
   } else if (!result.interrupted) {
-    context.print(result_table(study, result));
+    std::string text = result_table(study, result);
+    if (result.has_best()) {
+      text += fmt::format(
+          "\nIn best/mask.tif white is deep; `papilla export {} --format mask --polarity "
+          "white-high` "
+          "writes the other.\n",
+          shell_word(run.folder));
+    }
+    context.print(text);
   }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

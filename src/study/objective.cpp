@@ -115,6 +115,22 @@ double parse_number(const std::string& text, const std::string& whole) {
 
 }  // namespace
 
+bool no_better(const std::vector<StudyObjective>& objectives, const Score& design,
+               const Score& other) {
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    const double gain = (objectives[k].maximise ? 1 : -1) * (design.values[k] - other.values[k]);
+    if (gain > 2 * std::hypot(design.errors[k], other.errors[k])) return false;
+  }
+  return true;
+}
+
+std::string frequency_not_felt(const Design& design) {
+  if (design.drive.waveform == Waveform::Dc) return "the drive is a direct voltage";
+  if (design.finger.electrical.corner_frequency > 0) return "";
+  return "the dielectric has no loss, and the finger's skin layer never conducts "
+         "(finger.electrical.corner_frequency is 0)";
+}
+
 Risk parse_risk(const std::string& text) {
   std::string compact;
   for (char c : text) {
@@ -262,6 +278,20 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
   }
   if (std::none_of(tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.weight > 0; }))
     throw InputError("scenarios: at least one weight above 0 is needed");
+  const auto searches = [&](const std::string& beginning) {
+    return std::any_of(study.variables.begin(), study.variables.end(),
+                       [&](const Variable& v) { return v.path.starts_with(beginning); });
+  };
+  if (searches("drive.frequency") && !searches("finger.electrical.")) {
+    const auto deaf = [&](const StudyTask& t) {
+      return !frequency_not_felt(task_design(study.design, t)).empty();
+    };
+    if (std::all_of(tasks_.begin(), tasks_.end(), deaf)) {
+      throw InputError("design_space: drive.frequency has no effect: " +
+                       frequency_not_felt(task_design(study.design, tasks_.front())) +
+                       "; leave the variable out, or give a finger its corner frequency");
+    }
+  }
   const auto add = [&](std::vector<StudyObjective>& list, const MetricExpression& expression,
                        bool maximise, const Target* target) {
     list.push_back({expression, maximise, metric_text(expression)});

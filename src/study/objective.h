@@ -76,6 +76,14 @@ std::optional<double> parameter_error(const Score& score, std::size_t objective)
 std::optional<double> parameter_error(const Score& score, const Score& other,
                                       std::size_t objective);
 
+// Why drive.frequency changes nothing on this design; "" where it may.
+std::string frequency_not_felt(const Design& design);
+
+// By no objective is the design better than the other by more than two standard errors of the
+// difference, taken as of independent samples.
+bool no_better(const std::vector<StudyObjective>& objectives, const Score& design,
+               const Score& other);
+
 class StudyProblem {
  public:
   explicit StudyProblem(const Study& study);  // throws InputError for what cannot be judged

@@ -205,6 +205,50 @@ Columns read_columns(const fs::path& file) {
   return out;
 }
 
+// The headings, paragraphs and tables of Markdown as this program writes it.
+std::string plain_html(const std::string& markdown) {
+  std::string out;
+  bool in_table = false;
+  for (std::string line : split(markdown, '\n')) {
+    for (const char* mark : {"**", "`"}) {
+      for (std::size_t at = 0; (at = line.find(mark, at)) != std::string::npos;)
+        line.erase(at, std::string_view(mark).size());
+    }
+    const bool row = line.starts_with('|');
+    if (in_table != row) out += row ? "<div class=\"scroll\"><table>\n" : "</table></div>\n";
+    const bool first = row && !in_table;
+    in_table = row;
+    if (line.empty() || line.starts_with("# ") || line.starts_with("|-")) continue;
+    if (line.starts_with("## ")) {
+      out += "<h2>" + markup_text(line.substr(3)) + "</h2>\n";
+    } else if (!row) {
+      out += "<p>" + markup_text(line) + "</p>\n";
+    } else {
+      std::vector<std::string> cells = split(line.substr(1), '|');
+      if (!cells.empty()) cells.pop_back();
+      out += "<tr>";
+      for (const std::string& cell : cells)
+        out.append(first ? "<th>" : "<td>")
+            .append(markup_text(cell))
+            .append(first ? "</th>" : "</td>");
+      out += "</tr>\n";
+    }
+  }
+  return out + (in_table ? "</table></div>\n" : "");
+}
+
+// What a browser without scripts shows in place of the sections that they fill.
+std::string without_scripts(const fs::path& folder) {
+  std::string text;
+  for (const char* name : {"summary.md", "fit.md"}) {
+    if (fs::exists(folder / name)) text = plain_html(read_bytes(folder / name));
+  }
+  if (fs::exists(folder / "ranking.txt"))
+    text = "<pre>" + markup_text(read_bytes(folder / "ranking.txt")) + "</pre>\n";
+  return "<noscript><style>main > section, nav, .choice, #lead { display: none; }</style>\n" +
+         text + "</noscript>\n";
+}
+
 // One kind of page: what it holds beside the common frame.
 struct PageKind {
   std::string_view body, script, solid;
@@ -221,13 +265,15 @@ std::string page_text(const fs::path& folder, std::string title, const PageKind&
     const std::size_t at = page.find(mark);
     page.replace(at, mark.size(), text);
   };
-  // Last marks first: what is put in is never searched. The body has the mark of the heading.
+  // Last marks first: what is put in is never searched. The body has the marks of the heading and,
+  // below it, of what is shown without scripts.
   put("{{script}}", kind.script);
   put("{{common}}", kPageScript);
   put("{{data}}", script_text(data.dump()));
   put("{{three}}", kind.solid);
   put("{{chart}}", kChartScript);
   put("{{body}}", kind.body);
+  put("{{plain}}", without_scripts(folder));
   put("{{heading}}", markup_text(title));
   put("{{style}}", kPageStyle);
   put("{{title}}", markup_text(title));

@@ -24,6 +24,9 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kExportPixels = 512;  // across one patch
+constexpr const char* kNoBetter =
+    "The best design is no better than its surface without texture: no objective gains more than "
+    "two standard errors.";
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
@@ -186,7 +189,10 @@ class Writer {
     }
     if (f_.result.flat)
       out["flat"] = {{"objectives", score_json(*f_.result.flat)},
-                     {"worst_modulation", number(f_.result.flat->worst)}};
+                     {"worst_modulation", number(f_.result.flat->worst)},
+                     {"no_better", no_better(f_.problem.objectives(), d.confirmed, *f_.result.flat)
+                                       ? Json(kNoBetter)
+                                       : Json(nullptr)}};
     const std::string unknown = f_.problem.parameters_unknown();
     out["parameters"] = {{"status", unknown.empty() ? "ok" : unknown},
                          {"of_the_difference_to_flat", Json::object()}};
@@ -248,7 +254,8 @@ class Writer {
     out += r.has_best()
                ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
                  "history.csv (every evaluation), front/ and best/ (design.toml, metrics.json, "
-                 "heightmap.exr, heightmap.gsf, mask.tif, preview.png), sensitivity.json, "
+                 "heightmap.exr, heightmap.gsf, mask.tif (white is deep), preview.png), "
+                 "sensitivity.json, "
                  "resolved.toml (every value and where it came from), plan.txt, journal.\n"
                : "\nFiles: pareto.csv (finalists), history.csv (every evaluation), resolved.toml "
                  "(every value and where it came from), plan.txt, journal.\n";
@@ -285,6 +292,8 @@ class Writer {
         out += fmt::format(" {} |", with_errors(s, k));
       out += fmt::format(" {:.3f} |\n", s.worst);
     };
+    if (no_better(objectives, best.confirmed, *r.flat))
+      out = "\n**" + std::string(kNoBetter) + "**\n" + out;
     if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
     row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
     row("best design", best.confirmed);

@@ -85,6 +85,23 @@ TEST(StudyProblem, RefusesToMaximiseTheModulationOfAnUndrivenDesign) {
   EXPECT_THROW(StudyProblem{study}, InputError);
 }
 
+TEST(StudyProblem, RefusesAFrequencyThatNothingFeels) {
+  Study study = small_study();
+  study.variables.push_back({"drive.frequency", "kHz", 1e3, 20e3, {}});
+  try {
+    const StudyProblem problem(study);
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("drive.frequency has no effect: the dielectric has no"),
+              std::string::npos)
+        << e.what();
+  }
+  // One finger of the population that conducts at low frequency is enough.
+  study.population.assign(2, study.design.finger);
+  study.population[1].electrical.corner_frequency = 2e3;
+  EXPECT_NO_THROW(StudyProblem{study});
+}
+
 // Friction is proportional to the shear strength: of fingers that share its uncertainty the errors
 // add, of others they add in squares.
 TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {

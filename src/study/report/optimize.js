@@ -144,7 +144,7 @@ const describe = (row) => variables.map((v) => {
 const state = { design: 'best', finger: 'mean' };
 
 // best/ is a copy of a design of the front: the one with the same variables.
-const twin = Object.keys(data.designs).find((name) => name !== 'best' && JSON.stringify(data.designs[name].variables) === JSON.stringify(data.designs.best.variables));
+const twin = Object.keys(data.designs).find((name) => name !== 'best' && JSON.stringify(data.designs[name].variables) === JSON.stringify(data.designs.best.variables)) || 'best';
 const shown = () => state.design === 'best' ? twin : state.design;
 
 function showPareto() {
@@ -156,7 +156,7 @@ function showPareto() {
   const sets = [
     { label: 'shown on this page', data: chosen.map((r) => point(r)), pointRadius: 12, pointHoverRadius: 12, borderWidth: 2.5, backgroundColor: 'transparent', borderColor: colours[1] },
     { label: 'front, confirmed', data: front.map((r) => point(r, true)), bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] },
-    { label: 'confirmed, dominated', data: dominated.map((r) => point(r, true)), bars: true, pointRadius: 5, pointStyle: 'rect', borderColor: colours[3], backgroundColor: colours[3] },
+    { label: 'confirmed, dominated', data: dominated.map((r) => point(r, true)), pointRadius: 3.5, pointStyle: 'rect', borderColor: '#c3b1d4', backgroundColor: '#c3b1d4' },
     { label: 'searched', data: history.filter((r) => r.status === 'ok' && number(r)).map((r) => point(r)), pointRadius: 3, borderColor: '#b9c0ca', backgroundColor: '#b9c0ca' },
   ];
   const flat = data.designs.best.flat;
@@ -221,17 +221,16 @@ function showBudget() {
   });
 }
 
-// The tables of summary.md below a heading.
-function showStability() {
-  const text = data.summary.split('## Does the order hold?')[1];
-  const box = $('stability');
+// The explanation and the table of summary.md below a heading; `none`: what to say without them.
+function showSection(box, heading, none) {
+  const text = (data.summary.split('## ' + heading + '\n')[1] || '').split('\n## ')[0];
   if (!text) {
-    box.textContent = 'One finalist: there is no order to check.';
+    box.textContent = none;
     return;
   }
-  const lines = text.split('\n').map((l) => l.trim());
+  const lines = text.split('\n').map((l) => l.trim()).filter((l) => !l.startsWith('Files: '));
   const h = document.createElement('h2');
-  h.textContent = 'Does the order hold?';
+  h.textContent = heading;
   const p = document.createElement('p');
   p.className = 'note';
   p.textContent = lines.find((l) => l && !l.startsWith('|'));
@@ -314,13 +313,14 @@ function select(name) {
 const best = data.designs.best, flat = best.flat;
 $('lead').textContent = 'The best design has ' + Object.keys(best.objectives).map((n) => `${n} ${withError(best.objectives[n])}` + (flat ? ` (flat ${withError(flat.objectives[n])})` : '')).join(', ')
   + `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity.'
-  + (best.feasible ? '' : ' It does not keep every constraint.');
-options($('design'), Object.keys(data.designs).map((n) => [n, n === 'best' && twin ? `best (${label(twin)})` : label(n)]), select);
+  + (best.feasible ? '' : ' It does not keep every constraint.') + (flat && flat.no_better ? ' ' + flat.no_better : '');
+options($('design'), Object.keys(data.designs).map((n) => [n, n === 'best' && twin !== n ? `best (${label(twin)})` : label(n)]), select);
 options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
 options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
 startSolid();
 select('best');
-showStability();
+showSection($('stability'), 'Does the order hold?', 'One finalist: there is no order to check.');
+showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;
 $('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What the fit of the finger leaves open is in no error here: ${known.status}.`
   : 'Numbers in brackets (of the best design, where not asked for of all) are what the fit of the finger leaves open, one standard deviation. It moves all designs together'

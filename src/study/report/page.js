@@ -128,6 +128,9 @@ const errorBars = {
     chart.data.datasets.forEach((set, i) => {
       if (!set.bars || !chart.isDatasetVisible(i)) return;
       c.save();
+      c.beginPath();
+      c.rect(x.left, y.top, x.right - x.left, y.bottom - y.top);
+      c.clip();
       c.strokeStyle = set.borderColor;
       set.data.forEach((p) => {
         c.beginPath();
