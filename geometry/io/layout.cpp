@@ -327,8 +327,11 @@ DoseCurve read_dose_curve(const std::string& path) {
     double depth = 0, grey = 0;
     char rest = 0;
     if (std::sscanf(line.c_str(), "%lf , %lf %c", &depth, &grey, &rest) != 2) {
-      if (number == 1) continue;  // a heading
-      throw InputError(fmt::format("{}:{}: expected depth_nm,grey", path, number));
+      const bool other_separator = line.find_first_of(";\t") != std::string::npos;
+      if (number == 1 && !other_separator) continue;  // a heading
+      throw InputError(
+          fmt::format("{}:{}: expected depth_nm,grey{}", path, number,
+                      other_separator ? "; the separator is a comma, decimals a point" : ""));
     }
     if (!(grey >= 0 && grey <= 255) || !(depth >= 0 && depth < 1e9))
       throw InputError(
@@ -359,15 +362,18 @@ void write_stl(const std::string& path, const Heightmap& h, double base) {
         fmt::format("{} x {} pixels are too many for STL; export fewer", grid.nx, grid.ny));
   }
   const double floor = *std::min_element(h.z.begin(), h.z.end()) - base;
+  // The first row and column again at the far sides, so that tiles meet; all half a pixel nearer
+  // the origin, so that the block starts there.
   const auto at = [&](int ix, int iy) {
-    return Vertex{static_cast<float>(1e6 * grid.x(ix)), static_cast<float>(1e6 * grid.y(iy)),
-                  static_cast<float>(1e6 * (h(ix, iy) - floor))};
+    return Vertex{static_cast<float>(1e6 * ix * grid.dx()),
+                  static_cast<float>(1e6 * iy * grid.dy()),
+                  static_cast<float>(1e6 * (h(ix % grid.nx, iy % grid.ny) - floor))};
   };
   const auto below = [](Vertex v) {
     v.z = 0;
     return v;
   };
-  const int nx = grid.nx, ny = grid.ny;
+  const int nx = grid.nx + 1, ny = grid.ny + 1;
   const auto faces = static_cast<std::uint32_t>(4L * (nx - 1) * (ny - 1) + 4L * (nx - 1 + ny - 1));
   std::string out(80, '\0');
   out.replace(0, 24, "papilla heightmap in um ");

@@ -57,7 +57,8 @@ struct DoseMap {
 DoseCurve read_dose_curve(const std::string& path);  // CSV depth_nm,grey; throws InputError
 DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve& curve);
 
-// Binary STL in um: the surface on a closed block that reaches `base` [m] below its lowest point.
+// Binary STL in um: one whole period of the surface, 0 to lx and ly, on a closed block that reaches
+// `base` [m] below its lowest point.
 // Throws InputError above 4 million pixels.
 void write_stl(const std::string& path, const Heightmap& h, double base = 1e-6);
 

@@ -158,15 +158,26 @@ TEST(Stl, IsAClosedBodyOfTheRightVolume) {
     EXPECT_EQ(count, 1);
     EXPECT_TRUE(edges.count({edge.second, edge.first}));
   }
-  // Trapezoids over the pixel centres of the block of depth + 1 um.
+  // Of the whole period: each pixel counts once.
   double expected = 0;
-  for (int iy = 0; iy + 1 < grid.ny; ++iy) {
-    for (int ix = 0; ix + 1 < grid.nx; ++ix) {
-      const double a = h(ix, iy), b = h(ix + 1, iy), c = h(ix + 1, iy + 1), d = h(ix, iy + 1);
-      expected += 1e18 * grid.pixel_area() * ((2 * a + b + 2 * c + d) / 6 + 350e-9 + 1e-6);
+  for (const double z : h.z) expected += 1e18 * grid.pixel_area() * (z + 350e-9 + 1e-6);
+  EXPECT_NEAR(volume, expected, 1e-4 * expected);
+  // From 0 to the sides, and alike at opposite ones, so that tiles meet.
+  std::map<std::pair<float, float>, float> top;
+  for (const auto& [edge, count] : edges) {
+    if (edge.first[2] > 0) top[{edge.first[0], edge.first[1]}] = edge.first[2];
+  }
+  const auto lx = static_cast<float>(1e6 * grid.lx), ly = static_cast<float>(1e6 * grid.ly);
+  EXPECT_EQ(top.begin()->first, std::pair(0.0F, 0.0F));
+  EXPECT_EQ(top.rbegin()->first, std::pair(lx, ly));
+  for (const auto& [place, z] : top) {
+    if (place.first == 0) {
+      EXPECT_EQ(z, top.at({lx, place.second}));
+    }
+    if (place.second == 0) {
+      EXPECT_EQ(z, top.at({place.first, ly}));
     }
   }
-  EXPECT_NEAR(volume, expected, 1e-4 * expected);
 }
 
 }  // namespace
