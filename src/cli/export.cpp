@@ -58,6 +58,18 @@ void print_json(const std::string& folder, const std::optional<Verification>& v)
   std::cout << out.dump(2) << '\n';
 }
 
+std::string size_line(const Export& result) {
+  const Grid& grid = result.heightmap.grid;
+  std::string out =
+      fmt::format("size {:.6g} x {:.6g} um, {} x {} pixels of {:.4g} x {:.4g} nm", 1e6 * grid.lx,
+                  1e6 * grid.ly, grid.nx, grid.ny, 1e9 * grid.dx(), 1e9 * grid.dy());
+  if (result.cells_x > 0) {
+    out += fmt::format(", {} x {} periods of {:.6g} x {:.6g} um", result.cells_x, result.cells_y,
+                       1e6 * grid.lx / result.cells_x, 1e6 * grid.ly / result.cells_y);
+  }
+  return out + '\n';
+}
+
 int export_files(const ExportCommand& command) {
   namespace fs = std::filesystem;
   std::string source = command.design.file, beside;  // beside: where the files go by default
@@ -76,9 +88,10 @@ int export_files(const ExportCommand& command) {
   ExportOptions options;
   options.formats = command.formats;
   options.pixels = command.pixels;
-  if (!command.size.empty()) options.size = parse_si(command.size, "um");
-  if (!(options.size > 0 && options.size <= 1)) {
-    throw InputError("--size: expected a length above 0 and up to 1 m");
+  if (!command.size.empty()) {
+    options.size = parse_si(command.size, "um");
+    if (!(options.size > 0 && options.size <= 1))
+      throw InputError("--size: expected a length above 0 and up to 1 m");
   }
   if (!command.polarity.empty()) {
     options.polarity = command.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
@@ -96,6 +109,7 @@ int export_files(const ExportCommand& command) {
                              : !beside.empty()    ? beside
                                                   : "results/" + study.name + "/export";
   const Export result = export_design(study.design, options, folder);
+  for (const std::string& warning : result.warnings) std::cerr << "warning: " << warning << '\n';
   std::optional<Verification> v;
   if (command.verify) {
     Study judged = study;  // the file is what the process turns into the design
@@ -106,7 +120,7 @@ int export_files(const ExportCommand& command) {
     print_json(folder, v);
   } else {
     for (const ExportedFile& file : result.files) std::cout << file.path << '\n';
-    std::cout << folder << "/export.json\n";
+    std::cout << folder << "/export.json\n" << size_line(result);
     if (v) {
       std::cout << fmt::format(
           "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, of the "
@@ -136,7 +150,8 @@ void add_export(CLI::App& app, Context& context) {
           "exr, tiff, tiff32, mask, gsf, npy, png, png16, x3p, gds, stl, dose; default: what the "
           "texture allows")
       ->delimiter(',');
-  command->add_option("--size", options->size, "Side, rounded to whole periods, e.g. \"1 mm\"");
+  command->add_option("--size", options->size,
+                      "Side, rounded to whole periods, e.g. \"1 mm\"; default: about 12 um");
   command->add_option("--pixels", options->pixels, "Pixels along x")
       ->check(CLI::Range(8, 65536))
       ->capture_default_str();

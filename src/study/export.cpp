@@ -58,6 +58,21 @@ std::vector<std::string> chosen_formats(const Design& design, const ExportOption
   return options.formats;
 }
 
+// One cell of the lattice; sides of 0 where nothing repeats. Two periods along x hold two rows of a
+// square lattice, one of a hexagonal.
+Grid unit_cell(const Texture& texture, int pixels) {
+  const double period = texture_period(texture);
+  if (!(period > 0)) return {};
+  Grid cell = patch_grid(texture, 2 * (pixels + pixels % 2), 2 * period);
+  cell.lx = period;
+  cell.nx /= 2;
+  if (std::abs(cell.ly - 2 * period) < 1e-6 * period) {
+    cell.ly = period;
+    cell.ny /= 2;
+  }
+  return cell;
+}
+
 Json margin(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
@@ -99,7 +114,9 @@ Export export_design(const Design& wanted, const ExportOptions& options,
   design.texture = compensated(wanted.texture, options.bias);
   const std::vector<std::string> formats = chosen_formats(design, options);
   Json gds_json, dose_json;
-  const Grid grid = patch_grid(design.texture, options.pixels, options.size);
+  const Grid cell = unit_cell(design.texture, options.pixels);
+  Grid grid = patch_grid(design.texture, options.pixels, options.size > 0 ? options.size : kWindow);
+  if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
   constexpr double kLargest = 1 << 28;
   if (static_cast<double>(grid.nx) * grid.ny > kLargest) {
     throw InputError(
@@ -110,6 +127,18 @@ Export export_design(const Design& wanted, const ExportOptions& options,
                  fmt::format("a heightmap of {} x {} pixels", grid.nx, grid.ny));
   Export out;
   out.heightmap = generate(design.texture, grid);
+  if (cell.lx > 0) {
+    out.cells_x = static_cast<int>(std::lround(grid.lx / cell.lx));
+    out.cells_y = static_cast<int>(std::lround(grid.ly / cell.ly));
+  }
+  if (options.size > 0 && std::abs(grid.lx - options.size) > 1e-6 * options.size) {
+    out.warnings.push_back(fmt::format(
+        "{:.6g} um were asked for, {:.6g} um are written: {}", 1e6 * options.size, 1e6 * grid.lx,
+        out.cells_x > 0 ? "a whole number of periods"
+        : std::holds_alternative<Measured3d>(design.texture.kind)
+            ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
+            : "the smallest patch that holds the texture"));
+  }
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
@@ -141,6 +170,15 @@ Export export_design(const Design& wanted, const ExportOptions& options,
                    {"highest_grey", dose.highest},
                    {"clipped_shallow", dose.shallow},
                    {"clipped_deep", dose.deep}};
+      const auto share = [&](std::size_t pixels) {
+        return 100 * static_cast<double>(pixels) / static_cast<double>(grid.size());
+      };
+      if (dose.deep > 0 || dose.shallow > 0) {
+        out.warnings.push_back(fmt::format(
+            "the dose curve does not reach all depths: {:.3g} % of the pixels are deeper than its "
+            "end, {:.3g} % shallower than its start; they get the dose of that end",
+            share(dose.deep), share(dose.shallow)));
+      }
     } else if (format == "tiff") {
       path = folder + "/heightmap.tif";
       write_tiff16(path, h, *options.polarity, info);
@@ -185,6 +223,7 @@ Export export_design(const Design& wanted, const ExportOptions& options,
       {"texture", texture_name(design.texture)},
       {"pixels", {grid.nx, grid.ny}},
       {"size", {grid.lx, grid.ly}},
+      {"cells", {out.cells_x, out.cells_y}},
       {"lowest", *low},
       {"highest", *high},
       {"polarity", !options.polarity                          ? Json(nullptr)
@@ -198,6 +237,7 @@ Export export_design(const Design& wanted, const ExportOptions& options,
       {"gds", gds_json},
       {"dose", dose_json},
       {"files", files},
+      {"warnings", out.warnings},
   };
   write_bytes(folder + "/export.json", json.dump(2) + "\n");
   return out;

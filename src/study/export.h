@@ -24,7 +24,8 @@ Texture compensated(const Texture& texture, const ProcessBias& bias);
 
 struct ExportOptions {
   std::vector<std::string> formats;  // empty: all that the texture and the polarity allow
-  double size = 12e-6;               // wanted side [m], rounded to whole periods
+  double size =
+      0;  // wanted side [m], rounded to whole periods; 0: the window, two periods at least
   int pixels = 1024;                 // along x
   std::optional<Polarity> polarity;  // needed for tiff and mask
   int repeat = 1;                    // EXR: times in x and y, streamed
@@ -41,6 +42,8 @@ struct ExportedFile {
 struct Export {
   std::vector<ExportedFile> files;
   Heightmap heightmap;
+  int cells_x = 0, cells_y = 0;       // unit cells along either side; 0: nothing repeats within
+  std::vector<std::string> warnings;  // what the files hold otherwise than asked for
 };
 
 // Writes heightmap.exr, heightmap.tif, mask.tif, ... and export.json (sizes, polarity, margins)
