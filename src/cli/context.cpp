@@ -1,10 +1,14 @@
 #include "cli/context.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <string_view>
 
+#include "base/error.h"
 #include "base/text.h"
 
 namespace papilla {
@@ -47,6 +51,17 @@ void Context::print(const std::string& text) const {
 
 void Context::note(const std::string& text) const {
   if (!quiet) std::cerr << text << std::endl;
+}
+
+void make_folder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error && !std::filesystem::is_directory(path, error))
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw InputError({Problem{path, 0, 0, "", "no such folder can be made: " + error.message()}});
+  if (access(path.c_str(), W_OK | X_OK) != 0)
+    throw InputError({Problem{path, 0, 0, "", "the folder cannot be written to"}});
 }
 
 void add_design_options(CLI::App& command, DesignOptions& options) {

@@ -27,6 +27,10 @@ struct Context {
   void print(const std::string& text) const;
 };
 
+// Makes a folder that results go to, and sees that files can be written into it: before the work,
+// not after. Throws InputError.
+void make_folder(const std::string& path);
+
 // What a command that reads one design takes.
 struct DesignOptions {
   std::string file;

@@ -40,12 +40,9 @@ struct Sweep {
 };
 
 double sweep_limit(const std::string& text, const NumberField& field) {
-  double si = 0;
-  if (const auto quantity = parse_quantity(text); quantity && quantity->unit.empty()) {
-    si = quantity->value * find_unit(field.unit)->to_si;  // 50..200: in the unit of the key
-  } else {
-    si = parse_si(text, field.unit);
-  }
+  const auto quantity = parse_quantity(text);  // 50..200: in the unit of the key
+  const bool bare = quantity && quantity->unit.empty();
+  const double si = parse_si(bare ? text + " " + field.unit : text, field.unit);
   const double scaled = si / find_unit(field.unit)->to_si;
   if (scaled < field.low * (1 - 1e-12) || scaled > field.high * (1 + 1e-12)) {
     throw InputError(
@@ -77,16 +74,20 @@ Sweep parse_sweep(const std::string& text, const Design& design) {
   const double from = sweep_limit(text.substr(equals + 1, dots - equals - 1), field);
   const double to = sweep_limit(high, field);
   Sweep sweep{field.path, field.unit, {}};
-  for (int i = 0; i < count; ++i) sweep.values.push_back(from + (to - from) * i / (count - 1));
+  const double scale = find_unit(field.unit)->to_si;
+  for (int i = 0; i < count; ++i) {
+    const double si = from + (to - from) * i / (count - 1);
+    // 500 nm, not 500.0000000000001 nm.
+    sweep.values.push_back(parse_si(fmt::format("{:.12g} {}", si / scale, field.unit), field.unit));
+  }
   return sweep;
 }
 
-void check_design(const Design& design) {
-  std::vector<Problem> problems;
-  for (const DesignProblem& p : design_problems(design)) {
-    problems.push_back({"", 0, 0, p.path, p.message});
+const char* breakdown(const Response& response) {
+  for (const ResponsePoint& p : response.points) {
+    if (response.driven && p.oxide_margin < 1) return "  the dielectric breaks down";
   }
-  if (!problems.empty()) throw InputError(problems);
+  return "";
 }
 
 std::string haze_column(const Optics& look) {
@@ -97,6 +98,16 @@ std::string haze_column(const Optics& look) {
 int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
                    const Fidelity& fidelity, bool json, bool look, bool parameters) {
   std::string documents;
+  std::vector<Problem> problems;
+  for (const double value : sweep.values) {
+    Design changed = design;
+    set_number(changed, sweep.path, value);
+    for (const DesignProblem& p : design_problems(changed)) {
+      problems.push_back({"--sweep", 0, 0, p.path,
+                          fmt::format("at {}: {}", format_quantity(value, sweep.unit), p.message)});
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
   if (!json) {
     std::cout << fmt::format("{:>16} {:>12} {:>18} {:>14} {:>14}{}\n", sweep.path, "F_off mN",
                              "mean modulation", "variation", "worst", look ? "   haze %" : "");
@@ -104,7 +115,6 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
   for (const double value : sweep.values) {
     Design changed = design;
     set_number(changed, sweep.path, value);
-    check_design(changed);
     Response response = evaluate(scene_of(changed), changed.texture, fidelity);
     if (parameters) add_parameter_errors(response, scene_of(changed), changed.texture, fidelity);
     if (look) response.appearance = appearance_of(changed);
@@ -122,9 +132,10 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
     std::cout << fmt::format(
                      "{:>16} {:>12} {:>18} {:>14} {:>14}", format_quantity(value, sweep.unit),
                      column(Summary::Mean, "friction", 1e3), column(Summary::Mean, "modulation", 1),
-                     column(Summary::Variation, "modulation", 1),
+                     response.points.size() > 1 ? column(Summary::Variation, "modulation", 1) : "-",
                      column(Summary::Worst, "modulation", 1))
-              << (look ? haze_column(*response.appearance) : "") << std::endl;
+              << (look ? haze_column(*response.appearance) : "") << breakdown(response)
+              << std::endl;
   }
   if (json) {
     std::cout << fmt::format("{{\"schema\": 1, \"sweep\": \"{}\", \"runs\": [\n{}\n]}}\n",
@@ -146,6 +157,25 @@ void print_field_check(const Context& context, const Design& design, const Fidel
           row.method == "spread" ? "with spreading flux" : "by local columns", 100 * row.error));
     }
   }
+}
+
+constexpr const char* kPictures[] = {"gap", "pressure_off", "pressure_on", "pull", "water"};
+
+// Those of an earlier run, at humidities or of a drive that this one may not have.
+void remove_pictures(const std::string& folder) {
+  if (!std::filesystem::exists(folder + "/response.json")) return;  // not a folder of results
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension(), stem = entry.path().stem();
+    const std::size_t bar = stem.rfind('_');
+    if ((extension != ".png" && extension != ".npy") || bar == std::string::npos) continue;
+    const bool numbered =
+        bar + 1 < stem.size() && stem.find_first_not_of("0123456789", bar + 1) == std::string::npos;
+    if (numbered && std::find(std::begin(kPictures), std::end(kPictures), stem.substr(0, bar)) !=
+                        std::end(kPictures))
+      old.push_back(entry.path());
+  }
+  for (const auto& path : old) std::filesystem::remove(path);
 }
 
 // Gap, pressure, water and pull of the first skin at each humidity, as pictures and arrays.
@@ -200,6 +230,7 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
                           options.design.json, options.appearance, parameters);
   }
 
+  if (!options.out.empty()) make_folder(options.out);
   const double target =
       options.accuracy.empty() ? design.accuracy.target : wanted_accuracy(options.accuracy);
   Response response = target > 0 ? evaluate_to_target(scene_of(design), design.texture,
@@ -212,12 +243,7 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   if (!options.voltage_for.empty())
     add_voltages(response, scene_of(design), design.texture, fidelity, options.voltage_for);
   if (!options.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error) {
-      throw InputError(
-          {Problem{options.out, 0, 0, "", "no such folder can be made: " + error.message()}});
-    }
+    remove_pictures(options.out);
     write_bytes(options.out + "/resolved.toml", resolved_toml(study));
     write_bytes(options.out + "/response.json", response_json(response, false) + "\n");
     write_bytes(options.out + "/response.txt", response_table(response));

@@ -4,7 +4,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -90,6 +89,20 @@ std::string layer_line(const char* name, const ImpedanceLayer& layer) {
                      1e12 * layer.capacitance, layer.corner_frequency());
 }
 
+// Which limits a plain sine would pass: "  source beyond 150 V, gap beyond 327 V".
+std::string beyond(const DriveResponse& p, const std::vector<DriveCheck>& checks) {
+  std::string out;
+  for (const DriveCheck& check : checks) {
+    const double value = check.name == "source voltage" ? p.source_voltage
+                         : check.name == "gap voltage"  ? p.gap_voltage
+                                                        : p.current;
+    if (value <= check.limit) continue;
+    out += fmt::format("{}{} beyond {:.4g} {}", out.empty() ? "  " : ", ", check.name,
+                       check.limit / find_unit(check.unit)->to_si, check.unit);
+  }
+  return out;
+}
+
 void print(const DriveCase& c, const DriveResult& r) {
   if (!c.title.empty()) std::cout << c.title << '\n';
   std::cout << layer_line("dielectric", r.network.dielectric)
@@ -140,9 +153,10 @@ void print(const DriveCase& c, const DriveResult& r) {
            "ripple mN\n";
     for (std::size_t i = 0; i < r.response.size(); ++i) {
       const DriveResponse& p = r.response[i];
-      std::cout << fmt::format("{:>12.6g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}\n",
+      std::cout << fmt::format("{:>12.6g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g}{}\n",
                                c.sweep.frequency[i], p.source_voltage, p.gap_voltage,
-                               1e3 * p.current, 1e3 * p.mean_force, 1e3 * p.ripple);
+                               1e3 * p.current, 1e3 * p.mean_force, 1e3 * p.ripple,
+                               beyond(p, r.checks));
     }
   }
 }
@@ -161,14 +175,9 @@ void print_swipe(const DriveCase& c, const std::string& file) {
 
 int solve(const Context& context, const DriveCommand& command) {
   const DriveCase c = read_drive_case(command.file.file, command.file.overrides);
+  if (!command.out.empty()) make_folder(command.out);
   const DriveResult r = solve_drive(c);
   if (!command.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(command.out, error);
-    if (error) {
-      throw InputError(
-          {Problem{command.out, 0, 0, "", "no such folder can be made: " + error.message()}});
-    }
     write_bytes(command.out + "/series.csv", drive_series_csv(r));
     write_bytes(command.out + "/lines.csv", drive_lines_csv(r));
     write_bytes(command.out + "/drive.svg", drive_svg(c, r));

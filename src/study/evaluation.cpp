@@ -240,8 +240,11 @@ std::string response_table(const Response& response) {
   }
   if (response.driven) {
     const auto mean = summarise(Summary::Mean, "modulation", response);
-    const auto variation = summarise(Summary::Variation, "modulation", response);
-    const auto range = summarise(Summary::Range, "modulation", response);
+    std::optional<SummaryValue> variation, range;
+    if (response.points.size() > 1) {  // one humidity does not vary
+      variation = summarise(Summary::Variation, "modulation", response);
+      range = summarise(Summary::Range, "modulation", response);
+    }
     const auto worst = summarise(Summary::Worst, "modulation", response);
     out += fmt::format("modulation {}", modulation_sparkline(response));
     if (mean) out += fmt::format("  mean {:.3f} ±{:.3f}", mean->value, mean->se);
@@ -250,13 +253,16 @@ std::string response_table(const Response& response) {
       out += fmt::format("  variation (sd/mean) {:.3f} ±{:.3f}", variation->value, variation->se);
     if (range) out += fmt::format("  range/mean {:.3f} ±{:.3f}", range->value, range->se);
     out += '\n';
-    if (mean) out += "error of the mean modulation: " + budget_text(*mean) + "\n";
-    if (variation) out += "error of the variation: " + budget_text(*variation) + "\n";
-    double area = 0, share = 0, oxide = 0, least = 1, most = 0;
+    if (mean && mean->value != 0)
+      out += "error of the mean modulation: " + budget_text(*mean) + "\n";
+    if (variation && variation->value != 0)
+      out += "error of the variation: " + budget_text(*variation) + "\n";
+    double area = 0, share = 0, oxide = 0, margin = kInfinity, least = 1, most = 0;
     for (const ResponsePoint& p : response.points) {
       area = std::max(area, p.over_limit_area);
       share = std::max(share, p.over_limit_share);
       oxide = std::max(oxide, p.peak_oxide_field);
+      margin = std::min(margin, p.oxide_margin);
       least = std::min(least, p.field_error);
       most = std::max(most, p.field_error);
     }
@@ -264,9 +270,15 @@ std::string response_table(const Response& response) {
         "air beyond its breakdown field on up to {:.1f} % of the patch, {:.0f} % of the pull; "
         "peak field in the dielectric {:.0f} V/um\n",
         100 * area, 100 * share, 1e-6 * oxide);
-    out +=
-        fmt::format("pull by this field rule within {:.0f} to {:.0f} % of the refined 3-D field\n",
-                    100 * least, 100 * most);
+    if (margin < 1) {
+      out += fmt::format(
+          "warning: the dielectric breaks down: the field in a layer is {:.3g} times its strength; "
+          "at most {:.3g} of this amplitude holds\n",
+          1 / margin, margin);
+    }
+    const auto low = fmt::format("{:.0f}", 100 * least), high = fmt::format("{:.0f}", 100 * most);
+    out += fmt::format("pull by this field rule within {} % of the refined 3-D field\n",
+                       low == high ? low : low + " to " + high);
   } else {
     out += "undriven (0 V): no modulation\n";
     if (const auto friction = summarise(Summary::Mean, "friction", response))
