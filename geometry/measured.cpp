@@ -90,6 +90,13 @@ Heightmap load(const Measured3d& map) {
         map.file, 1e6 * h.grid.lx, 1e6 * h.grid.ly, 1e6 * map.patch));
   }
   level_and_mend(h);
+  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+  if (*high - *low > 10 * h.grid.lx) {
+    throw InputError(fmt::format(
+        "{}: heights over {:.4g} um on a width of {:.4g} um: no surface is so steep; the file's "
+        "heights are likely in another unit (NPY holds m, EXR um)",
+        map.file, 1e6 * (*high - *low), 1e6 * h.grid.lx));
+  }
   return h;
 }
 

@@ -318,6 +318,7 @@ std::vector<std::pair<std::string, std::string>> problems(const Texture& texture
             }
           },
           [&](const Stack& t) {
+            if (t.parts.empty()) out.emplace_back("parts", "a stack needs at least one part");
             const double largest = unit_cell(texture).x;
             for (std::size_t i = 0; i < t.parts.size(); ++i) {
               for (auto& [key, message] : problems(t.parts[i])) {

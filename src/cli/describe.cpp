@@ -49,7 +49,7 @@ void add_describe(CLI::App& app, Context& context) {
       app.add_subcommand("describe", "The reference of every key: unit, range, default, source");
   auto options = std::make_shared<DescribeOptions>();
   command->add_option("section", options->section,
-                      "texture, surface, finger, ...; all when left out");
+                      "texture, surface, texture.depth, ...; all sections when left out");
   command->add_flag("--markdown", options->markdown, "Markdown tables");
   command->add_flag("--json", options->json, "One JSON object on standard output");
   command->add_option("--out", options->out, "Write one Markdown page a section into this folder")

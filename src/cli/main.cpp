@@ -31,17 +31,26 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-// A first word that is no command: CLI11 would only say that it was not expected.
+// A word in the place of a command that is none (papilla foo, papilla solve foo): CLI11 would only
+// say that it was not expected.
 bool knows_command(const CLI::App& app, int argc, char** argv, const Context& context) {
-  if (argc < 2 || argv[1][0] == '-') return true;
-  const std::vector<std::string> names = command_names(app);
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return true;
-  const std::string near = nearest_name(argv[1], names);
-  print_error(context,
-              near.empty()
-                  ? fmt::format("unknown command `{}`; known: {}", argv[1], join_names(names))
-                  : fmt::format("unknown command `{}`, did you mean `{}`?", argv[1], near));
-  return false;
+  const CLI::App* level = &app;
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const std::vector<std::string> names = command_names(*level);
+    if (names.empty()) return true;
+    if (std::find(names.begin(), names.end(), argv[i]) != names.end()) {
+      level = level->get_subcommand(argv[i]);
+      continue;
+    }
+    const std::string near = nearest_name(argv[i], names);
+    const std::string above = i > 1 ? level->get_name() + " " : "";
+    print_error(context, near.empty() ? fmt::format("unknown command `{}{}`; known: {}", above,
+                                                    argv[i], join_names(names))
+                                      : fmt::format("unknown command `{}{}`, did you mean `{}{}`?",
+                                                    above, argv[i], above, near));
+    return false;
+  }
+  return true;
 }
 
 int run(int argc, char** argv) {
@@ -65,9 +74,11 @@ int run(int argc, char** argv) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
     print_error(context, e.what());
-    const auto chosen = app.get_subcommands();
-    std::cerr << "try: papilla " << (chosen.empty() ? "" : chosen.front()->get_name() + " ")
-              << "--help" << std::endl;
+    std::string chosen;
+    for (auto level = app.get_subcommands(); !level.empty();
+         level = level.front()->get_subcommands())
+      chosen += level.front()->get_name() + " ";
+    std::cerr << "try: papilla " << chosen << "--help" << std::endl;
     return kWrongInput;
   }
 

@@ -79,13 +79,14 @@ void add_solve_bridge(CLI::App& solve_command, Context& context) {
   CLI::App* command =
       solve_command.add_subcommand("bridge", "Exact liquid bridge between two plates");
   auto options = std::make_shared<BridgeOptions>();
-  command->add_option("--volume", options->volume)->capture_default_str();
-  command->add_option("--gap", options->gap)->capture_default_str();
+  command->add_option("--volume", options->volume, "Of the liquid")->capture_default_str();
+  command->add_option("--gap", options->gap, "Distance of the plates")->capture_default_str();
   command->add_option("--theta1", options->theta1, "Contact angle on the first plate")
       ->capture_default_str();
   command->add_option("--theta2", options->theta2, "Contact angle on the second plate")
       ->capture_default_str();
-  command->add_option("--surface-tension", options->surface_tension)->capture_default_str();
+  command->add_option("--surface-tension", options->surface_tension, "Of the liquid")
+      ->capture_default_str();
   command->add_flag("--json", options->json, "One JSON object, SI units");
   command->callback(
       [&context, options] { context.action = [options] { return solve(*options); }; });

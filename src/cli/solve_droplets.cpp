@@ -254,7 +254,8 @@ int solve(const DropletsOptions& options) {
 
   if (options.seeds > 0) {
     if (options.model != "droplets") throw InputError("--placements is for droplets");
-    if (!(options.spread >= 0 && options.spread < 1)) throw InputError("--spread is 0 to below 1");
+    if (!(options.spread > 0 && options.spread < 1))
+      throw InputError("--spread is above 0 and below 1: two volumes are compared");
     return solve_ensemble(options, gap, volume, water, how);
   }
   const auto start = std::chrono::steady_clock::now();
@@ -333,19 +334,30 @@ void add_solve_droplets(CLI::App& solve_command, Context& context) {
                     "Design file: gap of its dry contact, water and angles of its finger");
   where->require_option(1);
   command->add_option("--humidity", options->humidity, "Of the design")->capture_default_str();
-  command->add_option("--skin", options->skin, "Skin patch of the design")->capture_default_str();
+  command->add_option("--skin", options->skin, "Skin patch of the design, from 0")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
   command->add_option("--size", options->size, "Lateral size in x where the file does not say");
   command->add_option("--volume", options->volume, "Water in the patch")->capture_default_str();
-  command->add_option("--theta-skin", options->theta_skin)->capture_default_str();
-  command->add_option("--theta-substrate", options->theta_substrate)->capture_default_str();
-  command->add_option("--surface-tension", options->surface_tension)->capture_default_str();
-  command->add_option("--hysteresis", options->hysteresis, "cos(receding) - cos(advancing)")
+  command->add_option("--theta-skin", options->theta_skin, "Contact angle on the skin")
       ->capture_default_str();
-  command->add_option("--drops-per-um3", options->drops_per_um3)->capture_default_str();
+  command->add_option("--theta-substrate", options->theta_substrate, "Contact angle on the surface")
+      ->capture_default_str();
+  command->add_option("--surface-tension", options->surface_tension, "Of the sweat")
+      ->capture_default_str();
+  command->add_option("--hysteresis", options->hysteresis, "cos(receding) - cos(advancing), 0 to 2")
+      ->check(CLI::Range(0.0, 2.0))
+      ->capture_default_str();
+  command->add_option("--drops-per-um3", options->drops_per_um3, "Droplets that a volume starts as")
+      ->capture_default_str();
   command->add_option("--step", options->step, "First step of a droplet: its mobility")
       ->capture_default_str();
-  command->add_option("--seed", options->seed)->capture_default_str();
-  command->add_option("--index", options->index, "Member of the ensemble")->capture_default_str();
+  command->add_option("--seed", options->seed, "Seed of the placement")
+      ->check(CLI::Range(0L, 1L << 53))
+      ->capture_default_str();
+  command->add_option("--index", options->index, "Member of the ensemble")
+      ->check(CLI::Range(0L, 1L << 53))
+      ->capture_default_str();
   command->add_option("--model", options->model, "droplets or threshold")
       ->check(CLI::IsMember({"droplets", "threshold"}))
       ->capture_default_str();

@@ -114,7 +114,7 @@ std::string optics_refusal(const Texture& texture, double index, const View& vie
     return {};
   }
   return fmt::format(
-      "period {:.3g} nm is neither below {:.0f} nm (effective medium) nor above {:.0f} nm (phase "
+      "period {:.0f} nm is neither below {:.0f} nm (effective medium) nor above {:.0f} nm (phase "
       "screen)",
       1e9 * period, 1e9 * finest, 1e9 * 2 * red);
 }

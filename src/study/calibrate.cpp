@@ -53,6 +53,10 @@ class FrictionReader {
       if (line.find_first_not_of(" \t,") == std::string::npos || line[0] == '#') continue;
       const std::vector<std::string> cells = split(line, ',');
       if (column.empty()) {
+        if (cells.size() == 1 && line.find_first_of(";\t") != std::string::npos) {
+          problem("", "the separator is a comma, decimals a point");
+          break;
+        }
         columns = cells.size();
         if (!header(cells, column)) break;
         continue;

@@ -136,6 +136,8 @@ std::vector<DesignProblem> design_problems(const Design& design) {
       break;
     }
   }
+  if (design.accuracy.grid > 0 && design.accuracy.grid < 16)
+    problem("accuracy.grid", "expected 0 (by level) or at least 16 pixels");
   if (design.finger.load <= 0) problem("finger.load", "expected a force above 0 N");
   if (design.finger.saturation.rest_low == design.finger.saturation.rest_high) {
     problem("finger.saturation.rest_high", "expected another angle than rest_low");

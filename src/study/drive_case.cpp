@@ -315,8 +315,15 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
       good = error == std::errc{} && stop == end && std::isfinite(force[i]);
     }
     if (!good) {
-      if (number == 1 || line.empty()) continue;
-      throw InputError({Problem{name, number, 1, "", "expected \"lateral,normal\" in N"}});
+      const bool head = number == 1 && cells.size() == 2 &&
+                        cells[0].find("lateral") != std::string::npos &&
+                        cells[1].find("normal") != std::string::npos;
+      if (head || line.empty()) continue;
+      throw InputError({Problem{name, number, 1, "",
+                                fmt::format("expected \"lateral,normal\" in N, got \"{}\"{}", line,
+                                            line.find(';') != std::string::npos
+                                                ? "; the separator is a comma, decimals a point"
+                                                : "")}});
     }
     const double time = samples++ * options.step;
     const double current = machine.update(force[0], force[1]);

@@ -157,6 +157,25 @@ std::vector<Part> parts_of(const std::string& section) {
           : fmt::format("no section `{}`, did you mean `{}`?", section, near));
 }
 
+// The parts of a section with the rows of one key, or of a section's section, alone.
+std::vector<Part> parts_of_key(const std::string& key) {
+  std::vector<Part> out;
+  std::vector<std::string> names;
+  const std::string section = key.substr(0, key.find('.'));
+  for (Part part : parts_of(section)) {
+    for (const FieldRow& row : part.rows) names.push_back(row.path);
+    std::erase_if(part.rows, [&](const FieldRow& row) {
+      return row.path != key && !row.path.starts_with(key + ".");
+    });
+    if (!part.rows.empty()) out.push_back(std::move(part));
+  }
+  if (!out.empty()) return out;
+  const std::string near = nearest_name(key, names);
+  throw InputError(near.empty()
+                       ? fmt::format("no key `{}`; `papilla describe {}` lists them", key, section)
+                       : fmt::format("no key `{}`, did you mean `{}`?", key, near));
+}
+
 }  // namespace
 
 std::vector<std::string> reference_sections() {
@@ -166,6 +185,10 @@ std::vector<std::string> reference_sections() {
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {
   std::string out;
+  if (section.find('.') != std::string::npos) {
+    for (const Part& part : parts_of_key(section)) out += render(part, format);
+    return out;
+  }
   for (const Part& part : parts_of(section)) out += render(part, format);
   return (format == ReferenceFormat::Markdown
               ? fmt::format("# {}\n\n{}\n\n", section, about(section))
@@ -178,7 +201,8 @@ std::string reference_json(const std::vector<std::string>& sections) {
   Json list = Json::array();
   for (const std::string& section : sections) {
     Json tables = Json::array();
-    for (const Part& part : parts_of(section)) {
+    const bool key = section.find('.') != std::string::npos;
+    for (const Part& part : key ? parts_of_key(section) : parts_of(section)) {
       Json keys = Json::array();
       for (const FieldRow& row : part.rows) {
         Json item{{"key", row.path}, {"meaning", row.doc}};

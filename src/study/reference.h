@@ -13,7 +13,8 @@ std::vector<std::string> reference_sections();
 
 enum class ReferenceFormat { Text, Markdown };
 
-// Throws InputError, with a "did you mean", for an unknown section.
+// A section, or one key of it: "texture.depth". Throws InputError, with a "did you mean", for an
+// unknown one.
 std::string reference_section(const std::string& section, ReferenceFormat format);
 
 // {"schema": 1, "sections": [{"section", "about", "tables": [{"name", "keys": [...]}]}]}

@@ -126,6 +126,52 @@ TEST(Evaluate, SweepsANumber) {
             8 * json["runs"][0]["response"]["summary"]["mean_modulation"]["value"].get<double>());
 }
 
+TEST(Evaluate, ASweepHasRoundValuesAndIsCheckedBeforeItStarts) {
+  const Workplace place;
+  const std::string one = kDraft + "--set 'environment.relative_humidity=[\"50 %\"]' ";
+  const Outcome depths = place.run("evaluate " + kSample + one + "--sweep texture.depth=0..1000:3");
+  EXPECT_EQ(depths.status, 0) << depths.err;
+  EXPECT_NE(depths.out.find("  500 nm "), std::string::npos) << depths.out;
+  EXPECT_NE(depths.out.find("  1000 nm "), std::string::npos) << depths.out;
+  const Outcome wide = place.run("evaluate " + kSample + one + "--sweep texture.diameter=1..8:3");
+  EXPECT_EQ(wide.status, 2);
+  EXPECT_EQ(wide.out, "");
+  EXPECT_NE(wide.err.find("at 8 um"), std::string::npos) << wide.err;
+}
+
+TEST(Evaluate, OneHumidityHasNoVariationAndABrokenDielectricIsWarnedOf) {
+  const Workplace place;
+  const Outcome run = place.run("evaluate " + kSample + kDraft +
+                                "--set 'environment.relative_humidity=[\"50 %\"]' "
+                                "--set drive.amplitude=1kV");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.out.find("variation"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("range/mean"), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("warning: the dielectric breaks down"), std::string::npos) << run.out;
+}
+
+TEST(Evaluate, TheFolderIsTriedFirstAndHoldsThePicturesOfOneRun) {
+  const Workplace place;
+  place.write("afile", "");
+  const Outcome refused = place.run("evaluate " + kSample + kDraft + "--out afile");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_NE(refused.err.find("no such folder can be made"), std::string::npos) << refused.err;
+  const auto at = [&](const char* humidity) {
+    return place
+        .run(fmt::format("evaluate {}{}--out out --set 'environment.relative_humidity=[\"{} %\"]'",
+                         kSample, kDraft, humidity))
+        .status;
+  };
+  ASSERT_EQ(at("30"), 0);
+  place.write("out/gap_old.png", "");
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "out/gap_30.png"));
+  ASSERT_EQ(at("50"), 0);
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "out/gap_30.png"));
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "out/gap_30.npy"));
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "out/gap_50.png"));
+  EXPECT_TRUE(std::filesystem::exists(place.path() / "out/gap_old.png"));
+}
+
 TEST(Export, WritesTheFilesThatItNames) {
   const Workplace place;
   const Outcome run =
@@ -134,9 +180,14 @@ TEST(Export, WritesTheFilesThatItNames) {
   std::istringstream names(run.out);
   int count = 0;
   for (std::string name; std::getline(names, name); ++count) {
-    EXPECT_TRUE(std::filesystem::exists(place.path() / name)) << name;
+    if (count == 8) {
+      EXPECT_EQ(name,
+                "size 12 x 12 um, 64 x 64 pixels of 187.5 x 187.5 nm, 2 x 2 periods of 6 x 6 um");
+    } else {
+      EXPECT_TRUE(std::filesystem::exists(place.path() / name)) << name;
+    }
   }
-  EXPECT_EQ(count, 8);
+  EXPECT_EQ(count, 9);
   const auto json = nlohmann::json::parse(file_text(place.path() / "out/export.json"));
   EXPECT_EQ(json["min_hole"], 3e-6);
   EXPECT_NEAR(json["lowest"].get<double>(), -600e-9, 1e-15);
@@ -147,6 +198,38 @@ TEST(Export, WritesTheFilesThatItNames) {
     EXPECT_EQ(file_text(place.path() / "out" / name), file_text(place.path() / "two" / name))
         << name;
   }
+}
+
+TEST(Export, HonoursTheSizeOrSaysWhatItWroteInstead) {
+  const Workplace place;
+  const auto written = [&](const std::string& arguments, std::string& warning) {
+    const Outcome run = place.run("export --format npy --pixels 64 --out out " + arguments);
+    EXPECT_EQ(run.status, 0) << run.err;
+    warning = run.err;
+    return nlohmann::json::parse(file_text(place.path() / "out/export.json"))["size"][0]
+        .get<double>();
+  };
+  std::string warning;
+  EXPECT_NEAR(written(kSample + " --size 6um", warning), 6e-6, 1e-12);
+  EXPECT_EQ(warning, "");
+  EXPECT_NEAR(written(kSample + " --size 16um", warning), 18e-6, 1e-12);
+  EXPECT_NE(warning.find("16 um were asked for, 18 um are written"), std::string::npos) << warning;
+  EXPECT_NEAR(written(kSample + " --size 1um", warning), 6e-6, 1e-12);
+  EXPECT_NE(warning.find("1 um were asked for, 6 um"), std::string::npos) << warning;
+  EXPECT_NEAR(
+      written(PAPILLA_SOURCE_DIR "/designs/measured_surface/study.toml --size 100um", warning),
+      12e-6, 1e-12);
+  EXPECT_NE(warning.find("a measured surface is its patch"), std::string::npos) << warning;
+}
+
+TEST(Export, ADoseCurveThatEndsAboveTheFloorIsWarnedOf) {
+  const Workplace place;
+  place.write("dose.csv", "depth_nm,grey\n0,0\n100,255\n");
+  const Outcome run =
+      place.run("export " + kSample + " --format dose --dose-curve dose.csv --pixels 64 --out out");
+  EXPECT_EQ(run.status, 0);
+  EXPECT_NE(run.err.find("warning: the dose curve does not reach all depths"), std::string::npos)
+      << run.err;
 }
 
 TEST(Export, MasksNeedAPolarityAndLayoutsARelief) {
@@ -238,6 +321,55 @@ TEST(Solve, PerssonAndDriveGiveTheDocumentedJson) {
   }
   EXPECT_EQ(
       place.run("solve drive " + physics + "fingertip_drive.toml --set gap.distanc=1um").status, 2);
+}
+
+TEST(Solve, PerssonAndDriveMarkWhatALimitHolds) {
+  const Workplace place;
+  const std::string cases = PAPILLA_SOURCE_DIR "/designs/physics/";
+  const Outcome persson = place.run("solve persson " + cases + "wrist_on_glass.toml");
+  EXPECT_EQ(persson.status, 0) << persson.err;
+  EXPECT_NE(persson.out.find("  gap held\n"), std::string::npos) << persson.out;
+  EXPECT_NE(persson.out.find("limited by the finite body"), std::string::npos) << persson.out;
+  EXPECT_EQ(persson.out.find("inf"), std::string::npos) << persson.out;
+  const Outcome drive = place.run("solve drive " + cases + "fingertip_drive.toml");
+  EXPECT_EQ(drive.status, 0) << drive.err;
+  EXPECT_NE(drive.out.find("source voltage beyond 150 V"), std::string::npos) << drive.out;
+  EXPECT_NE(drive.out.find("gap voltage beyond 327 V"), std::string::npos) << drive.out;
+}
+
+TEST(Describe, ShowsOneKey) {
+  const Workplace place;
+  const Outcome key = place.run("describe texture.depth");
+  EXPECT_EQ(key.status, 0) << key.err;
+  EXPECT_NE(key.out.find("texture.depth"), std::string::npos) << key.out;
+  EXPECT_EQ(key.out.find("texture.diameter"), std::string::npos) << key.out;
+  const Outcome wrong = place.run("describe texture.dept");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("did you mean `texture.depth`?"), std::string::npos) << wrong.err;
+}
+
+TEST(Program, MistakesOnTheCommandLineNameThemselves) {
+  const Workplace place;
+  place.write("dose.csv", "depth_nm,grey\n0,0\n100,255\n");
+  place.write("semicolons.csv", "depth_nm;grey\n0;0\n100;255\n");
+  const std::string drive = PAPILLA_SOURCE_DIR "/designs/physics/fingertip_drive.toml";
+  for (const auto& [arguments, message] : std::vector<std::pair<std::string, std::string>>{
+           {"solve foo", "unknown command `solve foo`"},
+           {"solve contct", "did you mean `solve contact`?"},
+           {"solve droplets", "try: papilla solve droplets --help"},
+           {"solve drive " + drive + " --swipe dose.csv", "expected \"lateral,normal\" in N"},
+           {"solve droplets --design " + kSample + " --skin -4", "--skin"},
+           {"solve droplets --design " + kSample + " --seed -1", "--seed"},
+           {"solve droplets --design " + kSample + " --hysteresis 5", "--hysteresis"},
+           {"solve droplets --design " + kSample + " --placements 2 --spread 0", "--spread"},
+           {"evaluate " + kSample + " --set accuracy.grid=7", "at least 16 pixels"},
+           {"evaluate " + kSample + " --set texture.type=stack", "at least one part"},
+           {"export " + kSample + " --format dose --dose-curve semicolons.csv --out out",
+            "the separator is a comma"}}) {
+    const Outcome run = place.run(arguments);
+    EXPECT_EQ(run.status, 2) << arguments;
+    EXPECT_NE(run.err.find(message), std::string::npos) << arguments << "\n" << run.err;
+  }
 }
 
 TEST(Reproduce, GivesTheDocumentedJsonAndTables) {
