@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -350,16 +351,19 @@ class Writer {
     for (const VariableSensitivity& s : f_.result.sensitivity) {
       const Variable& v = f_.study.variables[s.variable];
       const double unit = find_unit(v.unit)->to_si;
-      out += fmt::format("| {} | {:.3g} {}", v.path, s.step / unit, v.unit);
+      const auto rounded = [](double value, int digits) {  // 2000 where {:.3g} writes 2e+03
+        return format_number(std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr));
+      };
+      out += fmt::format("| {} | {} {}", v.path, rounded(s.step / unit, 3), v.unit);
       for (std::size_t k = 0; k < objectives.size(); ++k) {
         out += k < s.change.size()
                    ? fmt::format(" | {:+.4f}, {:.0f} %", s.change[k], 100 * s.share[k])
                    : std::string(" | -");
       }
       const auto drift = [&](double value, bool beyond) {
-        return value > 0
-                   ? fmt::format("{}{:.2g} {}", beyond ? "at least " : "", value / unit, v.unit)
-                   : std::string("at its bound");
+        return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "",
+                                       rounded(value / unit, 2), v.unit)
+                         : std::string("at its bound");
       };
       out += " | " + drift(s.down, s.down_beyond) + " | " + drift(s.up, s.up_beyond) + " |\n";
     }
