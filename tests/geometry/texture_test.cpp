@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "geometry/io/files.h"
 #include "geometry/particles.h"
 #include "geometry/roughness.h"
 
@@ -192,6 +193,25 @@ TEST(Roughness, HolesHaveTheirMomentsAndFlagTheirSlopes) {
   EXPECT_NEAR(r.sq, 350e-9 * std::sqrt(f * (1 - f)), 0.01 * r.sq);
   EXPECT_NEAR(r.ssk, -(1 - 2 * f) / std::sqrt(f * (1 - f)), 0.03);
   EXPECT_TRUE(r.slopes_sampling_limited);
+}
+
+TEST(Measured, HeightsInAnotherUnitAreRefused) {
+  const Grid grid{32, 32, 20e-6, 20e-6};
+  Heightmap map{grid, std::vector<double>(grid.size())};
+  for (std::size_t i = 0; i < map.z.size(); ++i)
+    map.z[i] = static_cast<double>(i % 7);  // um, not m
+  const std::string path = testing::TempDir() + "papilla_unit.npy";
+  write_npy(path, map);
+  Measured3d measured;
+  measured.file = path;
+  measured.width = grid.lx;
+  measured.patch = 12e-6;
+  try {
+    generate(Texture{measured}, {32, 32, 12e-6, 12e-6});
+    FAIL() << "taken";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("another unit"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace
