@@ -100,6 +100,11 @@ const seen = new Set(); for (let i = 0; i < d.length; i += 4) seen.add(d[i] << 1
 
 
 def inspect_optimize(browser):
+    headings = "return [...document.querySelectorAll('#stability h2, #sensitivity h2')].map(h => h.textContent)"
+    check("What the best design is sensitive to" in browser.run(headings), f"headings {browser.run(headings)}")
+    check(browser.run("return document.querySelectorAll('#sensitivity tbody tr').length") >= 2, "no sensitivities")
+    cut = "return [...document.querySelectorAll('#numbers, #finalists')].map(t => t.parentElement.scrollWidth - t.parentElement.clientWidth)"
+    check(max(browser.run(cut)) <= 0, f"tables cut by {browser.run(cut)} px")
     check(browser.run(COLOURS.replace("arguments_id", "'top'")) > 4, "the picture from above is empty")
     if browser.run("return papilla.solid.ready"):
         distinct = browser.run("""

@@ -45,6 +45,32 @@ TEST(Report, IsWrittenByOptimizeAndTheSameByTheCommand) {
   EXPECT_EQ(page.find("timing.json"), std::string::npos);  // nothing that depends on the clock
 }
 
+TEST(Report, HoldsTheTablesOfTheSummaryForABrowserWithoutScripts) {
+  const std::string page = file_text(finished_run().path() / "run/report.html");
+  const std::size_t begin = page.find("<noscript>"), end = page.find("</noscript>");
+  ASSERT_NE(end, std::string::npos);
+  const std::string plain = page.substr(begin, end - begin);
+  for (const char* text : {"<td>front/01</td>", "<h2>What the best design is sensitive to</h2>",
+                           "<td>texture.depth</td>", "<th>worst modulation</th>"})
+    EXPECT_NE(plain.find(text), std::string::npos) << text;
+  EXPECT_EQ(plain.find("**"), std::string::npos);
+  EXPECT_EQ(plain.find("|"), std::string::npos);
+}
+
+TEST(Export, OfARunStaysInItsFolder) {
+  const Workplace& place = finished_run();
+  const std::string how = " --format mask --polarity white-deep --pixels 64";
+  for (const auto& [source, to] :
+       {std::pair("run", "run/export/best"), std::pair("run --pick 1", "run/export/front/01"),
+        std::pair("run/front/01", "run/front/01/export")}) {
+    const Outcome run = place.run(std::string("export ") + source + how);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out, std::string(to) + "/mask.tif\n" + to + "/export.json\n");
+  }
+  for (const char* folder : {"run/export", "run/front/01/export"})  // as the other tests found it
+    std::filesystem::remove_all(place.path() / folder);
+}
+
 TEST(Report, RefusesAFolderThatIsNoRun) {
   const Workplace place;
   const Outcome run = place.run("report .");
