@@ -119,7 +119,7 @@ bool no_better(const std::vector<StudyObjective>& objectives, const Score& desig
                const Score& other) {
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const double gain = (objectives[k].maximise ? 1 : -1) * (design.values[k] - other.values[k]);
-    if (gain > 2 * std::hypot(design.errors[k], other.errors[k])) return false;
+    if (gain > std::max(design.errors[k], other.errors[k])) return false;
   }
   return true;
 }

@@ -79,8 +79,8 @@ std::optional<double> parameter_error(const Score& score, const Score& other,
 // Why drive.frequency changes nothing on this design; "" where it may.
 std::string frequency_not_felt(const Design& design);
 
-// By no objective is the design better than the other by more than two standard errors of the
-// difference, taken as of independent samples.
+// By no objective is the design better than the other by more than the error of either: they share
+// skins, droplets and grid, so their difference is surer than both.
 bool no_better(const std::vector<StudyObjective>& objectives, const Score& design,
                const Score& other);
 

@@ -703,7 +703,6 @@ class Run {
       for (const StudyObjective& o : problem_.objectives()) c.names.push_back(o.name);
       c.objectives = problem_.outcome(f.confirmed).objectives;
       c.worst = f.confirmed.worst;
-      c.stable = result_.stability.stable(front.size());
       front.push_back(std::move(c));
     }
     if (!front.empty()) result_.best = pick_design(options_.pick, front);

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <tuple>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -46,8 +45,7 @@ std::size_t knee(const std::vector<PickCandidate>& front) {
 std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate>& front) {
   if (front.empty()) throw InputError("--pick: the front has no design");
   if (rule.empty() || rule == "worst") {
-    return largest(front.size(),
-                   [&](std::size_t i) { return std::tuple(front[i].stable, front[i].worst); });
+    return largest(front.size(), [&](std::size_t i) { return front[i].worst; });
   }
   if (rule == "knee") return knee(front);
   std::size_t number = 0;
@@ -92,7 +90,6 @@ std::string picked_design_file(const std::string& results, const std::string& ru
         c.objectives.push_back(value.at("maximise").get<bool>() ? -v : v);
       }
       c.worst = metrics.at("worst_modulation").get<double>();
-      if (metrics.contains("stability")) c.stable = metrics["stability"].at("stable").get<bool>();
       front.push_back(std::move(c));
       files.push_back((folder / "design.toml").string());
     }

@@ -10,11 +10,10 @@ struct PickCandidate {
   std::vector<std::string> names;  // of the objectives: "mean(modulation)"
   std::vector<double> objectives;  // minimised
   double worst = 0;                // lowest modulation over fingers and humidity
-  bool stable = true;              // its place on the front holds
 };
 
 // Index of the design of a front (in the order of its folders) by a rule: "worst" (or empty) has
-// the highest worst modulation among the stable ones; "knee" the least sum of objectives, each
+// the highest worst modulation; "knee" the least sum of objectives, each
 // scaled to the front's extent; "mean(modulation)", or the beginning of an objective's name, the
 // best of that objective; "3" is front/03. Throws InputError for anything else.
 std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate>& front);

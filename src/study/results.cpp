@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kExportPixels = 512;  // across one patch
 constexpr const char* kNoBetter =
     "The best design is no better than its surface without texture: no objective gains more than "
-    "two standard errors.";
+    "the error of either.";
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
@@ -265,14 +265,14 @@ class Writer {
 
   std::string best_text(const FinalDesign& best) const {
     const OptimiseResult& r = f_.result;
-    return fmt::format("\n`best/` is {}: {}{}.\n", best.folder,
-                       f_.pick.empty() || f_.pick == "worst"
-                           ? "the highest worst modulation over fingers and humidity"
-                           : "picked by \"" + f_.pick + "\"",
-                       !f_.pick.empty() && f_.pick != "worst" && r.stability.stable(r.best) ? ""
-                       : r.stability.stable(r.best)
-                           ? " among the designs whose place on the front holds"
-                           : "; its place on the front does not hold, see below");
+    return fmt::format(
+        "\n`best/` is {}: {}{}.\n", best.folder,
+        f_.pick.empty() || f_.pick == "worst"
+            ? "the highest worst modulation over fingers and humidity"
+            : "picked by \"" + f_.pick + "\"",
+        r.stability.stable(r.best)
+            ? ""
+            : "; under other choices of the model its neighbours beat it, see below");
   }
 
   // The step from the study's own flat surface to the best design, split into the part of the
