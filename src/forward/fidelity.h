@@ -31,6 +31,10 @@ struct Fidelity {
   std::uint64_t seed = 1;       // of skins, offsets and droplets: common to all designs
   int threads = 0;              // 0: all
 
+  // Residual of the potential that spreads in the dielectric, energy norm: the pull is then high by
+  // at most a quarter of it, within what the error part of the solver states (Eq. accuracy.1).
+  double field_tolerance() const { return 10 * contact_tolerance; }
+
   bool operator==(const Fidelity&) const = default;
 };
 

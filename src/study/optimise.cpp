@@ -29,15 +29,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFreshSkins = 1000;      // the confirmation's skins start here: none of the search
-constexpr std::size_t kFinalists = 5;  // of the search
-// Designs that the confirmed ones lead to: one for so many evaluations of the search, at most.
-constexpr int kEvaluationsPerRefinement = 20;
-constexpr int kMostRefinements = 4;
+constexpr int kNarrowSkins = 500;      // skins of the level between start here
+constexpr int kFreshSkins = 1000;      // the confirmation's: none of what came before
+constexpr std::size_t kFinalists = 8;
+// Designs that the level between judges: one for so many evaluations of the search, at most.
+constexpr int kEvaluationsPerNarrowing = 3;
+constexpr int kMostNarrowings = 32;
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
-enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3, kSensitivity = 4, kSteps = 5 };
+enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3, kSensitivity = 4, kSteps = 5, kNarrow = 6 };
 
 // Of one design on its own: one finger, one choice of the model, a small step.
 Fidelity check_fidelity(const Study& study) {
@@ -61,6 +62,17 @@ Fidelity search_fidelity(const Study& study) {
 Fidelity draft_fidelity(const Study& study) {
   Fidelity f = search_fidelity(study);
   f.skins = 2;
+  return f;
+}
+
+// Between search and confirmation: half the search's scatter against design level at a fifteenth of
+// the confirmation's cost (`search_bench scatter`, results/bench/search_scatter.csv).
+Fidelity narrow_fidelity(const Study& study) {
+  Fidelity f = search_fidelity(study);
+  f.level = "narrow";
+  f.grid = 128;
+  f.first_skin = kNarrowSkins;
+  f.skins *= 2;
   return f;
 }
 
@@ -90,6 +102,7 @@ Evaluate work_function(const StudyProblem& problem, const Study& study, int thre
                             ? confirm_fidelity(study, problem.nominal_tasks())
                         : stage == kDraft  ? draft_fidelity(study)
                         : stage == kSearch ? search_fidelity(study)
+                        : stage == kNarrow ? narrow_fidelity(study)
                                            : check_fidelity(study);
     fidelity.threads = threads;
     Design design = problem.design(Point(request.begin() + 3, request.end()));
@@ -162,11 +175,11 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   return p;
 }
 
-// How many designs the confirmed ones lead to: where there is a model of the front.
-std::size_t refinements(const SearchProblem& p) {
+// How many designs the level between judges: where there is a model of the front.
+std::size_t narrowings(const SearchProblem& p) {
   if (p.objectives > 2 || p.space.single_point()) return 0;
   return static_cast<std::size_t>(
-      std::min(kMostRefinements, p.evaluations / kEvaluationsPerRefinement));
+      std::min(kMostNarrowings, p.evaluations / kEvaluationsPerNarrowing));
 }
 
 // A rule that no front could meet is refused before the search.
@@ -199,7 +212,7 @@ class Run {
     write_bytes(folder_ + "/plan.txt", search_plan(study_));
     search();
     const double searched = seconds();
-    if (!result_.interrupted) confirm();
+    if (!result_.interrupted && narrow()) confirm();
     ResultFiles files{folder_, study_, problem_, history_, result_, options_.pick};
     write_results(files);
     if (!result_.interrupted && result_.has_best())
@@ -300,9 +313,34 @@ class Run {
     return out;
   }
 
+  // Outcomes of another stage than the search's own.
+  std::vector<Evaluation> judged(const std::vector<Point>& units, Stage stage) {
+    std::vector<Evaluation> out;
+    const std::vector<Score> scores = scored(units, stage);
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      out.push_back({units[i], guarded(problem_.outcome(scores[i]), search_.objectives,
+                                       search_.constraints)});
+    }
+    return out;
+  }
+
+  std::vector<Score> scored(const std::vector<Point>& units, Stage stage) {
+    const std::size_t tasks = problem_.tasks().size();
+    std::vector<Point> requests;
+    for (const Point& u : units) {
+      for (std::size_t t = 0; t < tasks; ++t) requests.push_back(work_request(t, stage, false, u));
+    }
+    const std::vector<Outcome> outcomes = answers(requests);
+    std::vector<Score> out;
+    for (std::size_t i = 0; i < units.size(); ++i) {
+      const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(i * tasks);
+      out.push_back(problem_.score({first, first + static_cast<std::ptrdiff_t>(tasks)}));
+    }
+    return out;
+  }
+
   // Cheap outcomes that steer.
   void draft(Searcher& searcher, const std::vector<Point>& units) {
-    const std::size_t tasks = problem_.tasks().size();
     std::vector<Evaluation> batch;
     // Few at a time, so that a kill loses little and Ctrl-C is heard.
     while (batch.size() < units.size()) {
@@ -310,35 +348,26 @@ class Run {
         result_.interrupted = true;
         return;
       }
-      const std::size_t begin = batch.size();
-      const std::size_t end = std::min(units.size(), begin + 4 * pool_.size());
-      std::vector<Point> requests;
-      for (std::size_t i = begin; i < end; ++i) {
-        for (std::size_t t = 0; t < tasks; ++t)
-          requests.push_back(work_request(t, kDraft, false, units[i]));
-      }
-      const std::vector<Outcome> outcomes = answers(requests);
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>((i - begin) * tasks);
-        const Score score = problem_.score({first, first + static_cast<std::ptrdiff_t>(tasks)});
-        batch.push_back(
-            {units[i], guarded(problem_.outcome(score), search_.objectives, search_.constraints)});
-      }
-      drafts_ += static_cast<int>(end - begin);
+      const auto begin = units.begin() + static_cast<std::ptrdiff_t>(batch.size());
+      const std::size_t count = std::min(units.size() - batch.size(), 4 * pool_.size());
+      for (Evaluation& e : judged({begin, begin + static_cast<std::ptrdiff_t>(count)}, kDraft))
+        batch.push_back(std::move(e));
+      drafts_ += static_cast<int>(count);
       report_progress("draft", drafts_, search_.drafts, -1);
     }
     searcher.tell(batch);
   }
 
-  double confirm_seconds_expected() const {
+  double seconds_after_search() const {
     const Scene scene{study_.design.surface, study_.design.finger, study_.design.environment,
                       study_.design.drive, study_.design.model};
-    const double ratio =
-        make_plan(scene, study_.design.texture, confirm_fidelity(study_, problem_.nominal_tasks()))
-            .seconds() /
-        make_plan(scene, study_.design.texture, search_fidelity(study_)).seconds();
-    return evaluation_seconds() * ratio *
-           static_cast<double>(kFinalists + refinements(search_) + 1);
+    const auto cost = [&](const Fidelity& f) {
+      return make_plan(scene, study_.design.texture, f).seconds();
+    };
+    const double confirmed = static_cast<double>(kFinalists + 1);
+    return evaluation_seconds() / cost(search_fidelity(study_)) *
+           (static_cast<double>(narrowings(search_)) * cost(narrow_fidelity(study_)) +
+            confirmed * cost(confirm_fidelity(study_, problem_.nominal_tasks())));
   }
 
   void report_progress(const char* stage, int done, int total, double left) {
@@ -366,7 +395,7 @@ class Run {
     const auto searcher = make_searcher(method_, search_);
     const std::size_t budget = static_cast<std::size_t>(search_.evaluations);
     const auto out_of_time = [&] {
-      return study_.search.time > 0 && seconds() + confirm_seconds_expected() > study_.search.time;
+      return study_.search.time > 0 && seconds() + seconds_after_search() > study_.search.time;
     };
     const auto searching_record = [&] {  // a resumed run stops where its confirmation began
       const auto& records = journal_.records();
@@ -411,7 +440,7 @@ class Run {
         result_.evaluations = static_cast<int>(evaluated);
         const double left = fresh_ > 0 ? static_cast<double>(budget - evaluated) *
                                                  evaluation_seconds() * overhead() +
-                                             confirm_seconds_expected()
+                                             seconds_after_search()
                                        : -1;
         report_progress("search", static_cast<int>(evaluated), search_.evaluations, left);
       }
@@ -479,18 +508,7 @@ class Run {
       }
     }
     if (moves.empty()) return;
-    const std::size_t tasks = problem_.tasks().size();
-    std::vector<Point> requests;
-    for (const Point& u : points) {
-      for (std::size_t t = 0; t < tasks; ++t)
-        requests.push_back(work_request(t, kSensitivity, false, u));
-    }
-    const std::vector<Outcome> outcomes = answers(requests);
-    std::vector<Score> scores;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto first = outcomes.begin() + static_cast<std::ptrdiff_t>(i * tasks);
-      scores.push_back(problem_.score({first, first + static_cast<std::ptrdiff_t>(tasks)}));
-    }
+    const std::vector<Score> scores = scored(points, kSensitivity);
     if (!scores.front().ok) return;
     const std::size_t m = problem_.objectives().size();
     const std::vector<double> centre_values = problem_.values(centre);
@@ -542,25 +560,70 @@ class Run {
     result_.stability = judge_stability(problem_, outcomes);
   }
 
-  std::vector<std::size_t> finalists() const {
-    std::vector<std::size_t> chosen = promising(search_, history_, kFinalists);
+  // Of evaluations at one level, those to judge at the next.
+  std::vector<std::size_t> finalists(const std::vector<Evaluation>& of, std::size_t most) const {
+    std::vector<std::size_t> chosen = promising(search_, of, most);
     if (chosen.empty()) return chosen;
-    // The one with the highest worst modulation is always confirmed.
-    const std::vector<std::size_t> front = pareto_front(history_);
+    // The one with the highest worst modulation is always among them.
+    const std::vector<std::size_t> front = pareto_front(of);
     std::size_t steady = front.front();
     for (std::size_t i : front) {
-      const auto& info = history_[i].outcome.info;
-      if (!info.empty() && info.back() > history_[steady].outcome.info.back()) steady = i;
+      const auto& info = of[i].outcome.info;
+      if (!info.empty() && info.back() > of[steady].outcome.info.back()) steady = i;
     }
     if (std::find(chosen.begin(), chosen.end(), steady) == chosen.end()) chosen.push_back(steady);
     return chosen;
   }
 
-  void add_finalist(const Point& unit, Score searched) {
+  // The search's level is noisy and biased, and not everywhere alike. On other skins and a finer
+  // grid its best designs are judged again, then others where the front has most to gain, with the
+  // search's evaluations as drafts (Eq. search.7-8): the finalists come from these. False:
+  // interrupted.
+  bool narrow() {
+    const std::size_t count = narrowings(search_);
+    SearchProblem problem = search_;
+    problem.residuals = 0;
+    std::vector<std::size_t> drafts;
+    for (std::size_t i = 0; i < history_.size(); ++i) {
+      if (history_[i].outcome.ok) drafts.push_back(i);
+    }
+    if (drafts.size() > kMostModelled) drafts = least_dominated(history_, kMostModelled);
+    for (std::size_t i : drafts) problem.known_drafts.push_back(history_[i]);
+    if (count < 2 || drafts.empty()) return true;
+    const auto searcher = make_searcher({"bayesian", ""}, problem);
+    std::vector<Point> asked;
+    for (std::size_t i : finalists(history_, count / 2)) asked.push_back(history_[i].unit);
+    const double from = seconds();
+    while (narrowed_.size() < count) {
+      if (asked.empty()) asked = searcher->ask();
+      if (asked.empty() || !search_.cheaply_feasible(asked.front())) break;
+      if (!replaying() && stopped()) {
+        result_.interrupted = true;
+        return false;
+      }
+      narrowed_.push_back(judged({asked.front()}, kNarrow).front());
+      searcher->tell({narrowed_.back()});
+      asked.erase(asked.begin());
+      const auto done = static_cast<double>(narrowed_.size());
+      report_progress("narrow", static_cast<int>(done), static_cast<int>(count),
+                      (seconds() - from) / done * (static_cast<double>(count) - done));
+    }
+    return true;
+  }
+
+  void add_finalist(const Point& unit) {
     FinalDesign f;
     f.unit = unit;
     f.design = problem_.design(unit);
-    f.searched = std::move(searched);
+    for (const Evaluation& e : history_) {
+      if (e.unit != unit) continue;
+      f.searched.ok = e.outcome.ok;
+      for (std::size_t k = 0; k < e.outcome.objectives.size(); ++k) {
+        const double v = e.outcome.objectives[k];
+        f.searched.values.push_back(problem_.objectives()[k].maximise ? -v : v);
+      }
+      break;
+    }
     f.confirmed = confirmed(unit, false);
     f.feasible = f.confirmed.ok && problem_.feasible(f.confirmed, unit);
     result_.finalists.push_back(std::move(f));
@@ -573,63 +636,25 @@ class Run {
     return e;
   }
 
-  // The search's level is biased, and not everywhere alike: the confirmed designs correct it. The
-  // search's evaluations as drafts of the confirmation, Eq. search.7-8, say where the confirmed
-  // front has most to gain. False: interrupted.
-  bool refine(const std::function<void()>& step) {
-    if (refinements(search_) == 0 || result_.finalists.empty()) return true;
-    SearchProblem problem = search_;
-    problem.residuals = 0;
-    std::vector<std::size_t> drafts;
-    for (std::size_t i = 0; i < history_.size(); ++i) {
-      if (history_[i].outcome.ok) drafts.push_back(i);
-    }
-    if (drafts.size() > kMostModelled) drafts = least_dominated(history_, kMostModelled);
-    for (std::size_t i : drafts) problem.known_drafts.push_back(history_[i]);
-    if (problem.known_drafts.empty()) return true;
-    const auto searcher = make_searcher({"bayesian", ""}, problem);
-    std::vector<Evaluation> known;
-    for (const FinalDesign& f : result_.finalists) known.push_back(as_evaluation(f));
-    searcher->tell(known);
-    for (std::size_t i = 0; i < refinements(search_); ++i) {
-      if (stopped()) {
-        result_.interrupted = true;
-        return false;
-      }
-      const std::vector<Point> asked = searcher->ask();
-      if (asked.empty() || !search_.cheaply_feasible(asked.front())) break;
-      add_finalist(asked.front(), {});
-      searcher->tell({as_evaluation(result_.finalists.back())});
-      step();
-    }
-    return true;
-  }
-
   void confirm() {
-    const std::vector<std::size_t> chosen = finalists();
-    const int total = static_cast<int>(chosen.size() + refinements(search_)) + 1;
+    const std::vector<Evaluation>& below = narrowed_.empty() ? history_ : narrowed_;
+    const std::vector<std::size_t> chosen = finalists(below, kFinalists);
+    const int total = static_cast<int>(chosen.size()) + 1;
     const double from = seconds();
     int done = 0;
     const auto step = [&] {
       ++done;
       report_progress("confirm", done, total, (seconds() - from) / done * (total - done));
     };
-    report_progress("confirm", 0, total, confirm_seconds_expected());
+    report_progress("confirm", 0, total, seconds_after_search());
     for (std::size_t i : chosen) {
       if (stopped()) {
         result_.interrupted = true;
         return;
       }
-      Score searched;
-      searched.ok = history_[i].outcome.ok;
-      for (std::size_t k = 0; k < history_[i].outcome.objectives.size(); ++k) {
-        const double v = history_[i].outcome.objectives[k];
-        searched.values.push_back(problem_.objectives()[k].maximise ? -v : v);
-      }
-      add_finalist(history_[i].unit, std::move(searched));
+      add_finalist(below[i].unit);
       step();
     }
-    if (!refine(step)) return;
     judge();
     if (!chosen.empty() && texture_depth(study_.design.texture) > 0) compare_with_flat();
     step();
@@ -719,7 +744,7 @@ class Run {
   Journal journal_;
   Pool pool_;
   OptimiseResult result_;
-  std::vector<Evaluation> history_;
+  std::vector<Evaluation> history_, narrowed_;
   std::size_t next_record_ = 0;
   bool picked_ = false, beside_journal_ = false;
   double spent_ = 0;
@@ -752,8 +777,13 @@ std::string search_plan(const Study& study) {
                     study.design.drive, study.design.model};
   out +=
       "\n\nsearch level:\n" + make_plan(scene, study.design.texture, search_fidelity(study)).text();
+  if (narrowings(search) > 1) {
+    out += fmt::format("\n{} of them and of their neighbours again, other skins:\n",
+                       narrowings(search)) +
+           make_plan(scene, study.design.texture, narrow_fidelity(study)).text();
+  }
   out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n",
-                     kFinalists + 1 + refinements(search)) +
+                     kFinalists + 1) +
          make_plan(scene, study.design.texture, confirm_fidelity(study, problem.nominal_tasks()))
              .text();
   return out;

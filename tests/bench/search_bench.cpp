@@ -10,9 +10,10 @@
 //   search_bench share FILE CSV FRONT... [-- MOST] the hypervolume of each FRONT over that of the
 //                                                 reference front CSV, all designs judged again at
 //                                                 design level on fresh skins, at most MOST a front
-//   search_bench single FILE N STEP SKINS PREFIX  a search at the level of the confirmation alone:
-//   its
-//                                                 front after every STEP evaluations, for share
+//   search_bench single FILE N STEP GRID SKINS PREFIX SEED
+//                                                 a search at one level alone (GRID 0: that of the
+//                                                 confirmation): its front after every STEP
+//                                                 evaluations, for share
 //   search_bench levels FILE DESIGNS              what cheap levels cost and know
 #include <fmt/format.h>
 
@@ -393,31 +394,34 @@ void write_front(const std::string& path, const Study& study, const StudyProblem
   std::fclose(out);
 }
 
-// A search of one level alone, that of the confirmation (`skins` a finger on the design level's
-// grid): its front after every `step` evaluations to PREFIX-N.csv, for share().
-void single(const std::string& file, int evaluations, int step, int skins,
-            const std::string& prefix) {
+// A search of one level alone: that of the confirmation (GRID 0: the design level's; `skins` a
+// finger) or a cheaper one (`skins` in all on GRID x GRID pixels). Its front after every `step`
+// evaluations to PREFIX-N.csv, for share(); the processor time so far, the search's own included.
+void single(const std::string& file, int evaluations, int step, int grid, int skins,
+            const std::string& prefix, std::uint64_t seed) {
   const Study study = read_study(file);
   const StudyProblem problem(study);
-  Fidelity confirmation = fidelity_level("design");
-  confirmation.first_skin = 1000;
-  confirmation.skins = skins;
-  Judge judge(problem, confirmation);
+  Fidelity alone = grid > 0 ? level(grid, skins) : fidelity_level("design");
+  alone.skins = skins;
+  alone.seed = seed;
+  if (grid == 0) alone.first_skin = 1000;
+  Judge judge(problem, alone);
   std::vector<Evaluation> all;
   Bench bench;
   bench.problem = search_of(problem);
   bench.reference.assign(bench.problem.objectives, 0);  // for the trace of this run, not read
+  const auto from = std::clock();
   bench.full = [&](const Point& u) {
     all.push_back({u, judge(u)});
     const int n = static_cast<int>(all.size());
     if (n % step == 0) {
       write_front(fmt::format("{}-{}.csv", prefix, n), study, problem, all);
-      fmt::print("{},{:.1f}\n", n, n * judge.seconds_each());
+      fmt::print("{},{:.1f}\n", n, static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC);
       std::fflush(stdout);
     }
     return all.back().outcome;
   };
-  run("bayesian", bench, 1, evaluations);
+  run("bayesian", bench, seed, evaluations);
 }
 
 // Share of a reference front's hypervolume that searches of few evaluations reach, all at the same
@@ -568,7 +572,8 @@ int main(int argc, char** argv) {
   }
   if (what == "single") {
     fmt::print("evaluations,processor s\n");
-    single(a.at(1), number(2), number(3), number(4), a.at(5));
+    single(a.at(1), number(2), number(3), number(4), number(5), a.at(6),
+           static_cast<std::uint64_t>(number(7)));
     return 0;
   }
   fmt::print("problem,method,full evaluations,hypervolume median,least,greatest,searcher s\n");
