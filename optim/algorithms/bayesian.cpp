@@ -12,6 +12,9 @@
 namespace papilla {
 namespace {
 
+constexpr std::size_t kCandidatesAPoint = 50;  // of the first design
+constexpr std::size_t kExploreEvery = 3;
+
 double normal_density(double t) { return std::exp(-0.5 * t * t) / std::sqrt(2 * kPi); }
 
 // Integral of the normal distribution function of (m, s) from -inf to z.
@@ -53,6 +56,11 @@ class Bayesian : public Searcher {
       drafts_left_ = 0;
     }
     if (static_cast<int>(seen_.size()) < initial_) return start_points();
+    if (problem_.known_drafts.empty() && seen_.size() % kExploreEvery == 0) {
+      std::vector<Point> out;
+      fill(out, 1, seen_);
+      if (!out.empty()) return out;
+    }
     return {next_point(seen_)};
   }
 
@@ -77,12 +85,39 @@ class Bayesian : public Searcher {
 
   Point encoded(const Point& u) const { return model_coordinates(problem_, u); }
 
-  // Points of a low-discrepancy set that keep the cheap constraints, added up to `count`.
+  // Points that keep the cheap constraints, added up to `count`: of a low-discrepancy set always
+  // the one farthest from all others as the model sees them, so that the ends of every measure that
+  // it sees are among them.
   void fill(std::vector<Point>& out, std::size_t count, const std::vector<Evaluation>& known) {
-    for (int tries = 0; out.size() < count && tries < 4000; ++tries) {
+    if (out.size() >= count) return;
+    std::vector<Point> free;
+    std::vector<double> nearest;  // squared distance
+    for (int tries = 0;
+         free.size() < std::max<std::size_t>(200, kCandidatesAPoint * count) && tries < 20000;
+         ++tries) {
       const Point u =
           problem_.space.snapped(low_discrepancy(problem_.space.size(), problem_.seed, drawn_++));
-      if (is_new(u, known, out) && (problem_.cheaply_feasible(u) || tries > 3000)) out.push_back(u);
+      if (is_new(u, known, out) && (problem_.cheaply_feasible(u) || tries > 19000))
+        free.push_back(u);
+    }
+    std::vector<Point> seen_as;
+    for (const Point& u : free) seen_as.push_back(encoded(u));
+    nearest.assign(free.size(), std::numeric_limits<double>::infinity());
+    const auto near = [&](const Point& u) {
+      const Point x = encoded(u);
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        double sum = 0;
+        for (std::size_t k = 0; k < x.size(); ++k) sum += square(x[k] - seen_as[i][k]);
+        nearest[i] = std::min(nearest[i], sum);
+      }
+    };
+    for (const Evaluation& e : known) near(e.unit);
+    for (const Point& u : out) near(u);
+    while (out.size() < count && !free.empty()) {
+      const auto best = std::max_element(nearest.begin(), nearest.end());
+      if (*best <= 0) break;
+      out.push_back(free[static_cast<std::size_t>(best - nearest.begin())]);
+      near(out.back());
     }
   }
 

@@ -29,8 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kNarrowSkins = 500;      // skins of the level between start here
-constexpr int kFreshSkins = 1000;      // the confirmation's: none of what came before
+constexpr int kNarrowSkins = 500;  // skins of the level between start here
+constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came before
 constexpr std::size_t kFinalists = 8;
 // Designs that the level between judges: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerNarrowing = 3;
@@ -38,7 +38,15 @@ constexpr int kMostNarrowings = 32;
 constexpr double kSensitivityStep = 0.05;  // of a variable's range
 constexpr double kToleratedLoss = 0.05;    // of an objective's value
 // Last coordinate of a journal record: what was evaluated.
-enum Stage { kSearch = 0, kConfirm = 1, kStability = 2, kDraft = 3, kSensitivity = 4, kSteps = 5, kNarrow = 6 };
+enum Stage {
+  kSearch = 0,
+  kConfirm = 1,
+  kStability = 2,
+  kDraft = 3,
+  kSensitivity = 4,
+  kSteps = 5,
+  kNarrow = 6
+};
 
 // Of one design on its own: one finger, one choice of the model, a small step.
 Fidelity check_fidelity(const Study& study) {
@@ -782,8 +790,7 @@ std::string search_plan(const Study& study) {
                        narrowings(search)) +
            make_plan(scene, study.design.texture, narrow_fidelity(study)).text();
   }
-  out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n",
-                     kFinalists + 1) +
+  out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
          make_plan(scene, study.design.texture, confirm_fidelity(study, problem.nominal_tasks()))
              .text();
   return out;

@@ -14,6 +14,7 @@
 //                                                 a search at one level alone (GRID 0: that of the
 //                                                 confirmation): its front after every STEP
 //                                                 evaluations, for share
+//   search_bench scatter FILE FRONT MOST          how cheaper levels scatter about design level
 //   search_bench levels FILE DESIGNS              what cheap levels cost and know
 #include <fmt/format.h>
 
@@ -25,6 +26,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -493,24 +495,33 @@ std::vector<Point> read_front(const std::string& path, const StudyProblem& probl
   return out;
 }
 
+// At most `most` designs along a front, both ends with it.
+std::vector<Point> evenly(const std::vector<Point>& designs, std::size_t most) {
+  if (designs.size() <= most) return designs;
+  std::vector<Point> kept;
+  for (std::size_t i = 0; i < most; ++i)
+    kept.push_back(designs[i * (designs.size() - 1) / (most - 1)]);
+  return kept;
+}
+
+// Design level on skins that no search has seen.
+Fidelity fresh_level() {
+  Fidelity fresh = fidelity_level("design");
+  fresh.first_skin = 100000;
+  fresh.control_skins = 0;
+  return fresh;
+}
+
 // Hypervolumes of fronts at design level on skins that no search has seen, over the first one's.
 void shares(const std::string& file, const std::vector<std::string>& fronts, std::size_t most) {
   const Study study = read_study(file);
   const StudyProblem problem(study);
-  Fidelity fresh = fidelity_level("design");
-  fresh.first_skin = 100000;
-  fresh.control_skins = 0;
-  Judge judge(problem, fresh);
+  Judge judge(problem, fresh_level());
   Point reference;
   double best = 0;
   for (const std::string& path : fronts) {
-    std::vector<Point> designs = read_front(path, problem, study.variables);
-    const std::size_t all = designs.size();
-    if (all > most) {  // evenly along the front, both ends with it
-      std::vector<Point> kept;
-      for (std::size_t i = 0; i < most; ++i) kept.push_back(designs[i * (all - 1) / (most - 1)]);
-      designs = kept;
-    }
+    const std::vector<Point> front = read_front(path, problem, study.variables);
+    const std::vector<Point> designs = evenly(front, most);
     std::vector<Evaluation> judged;
     for (const Point& u : designs) {
       judged.push_back({u, judge(u)});
@@ -523,9 +534,51 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
     if (reference.empty()) reference = beyond(points);
     const double volume = hypervolume(points, reference);
     if (best == 0) best = volume;
-    fmt::print("{},{},{},{},{:.4g},{:.4f}\n", path, all, designs.size(), points.size(), volume,
-               volume / best);
+    fmt::print("{},{},{},{},{:.4g},{:.4f}\n", path, front.size(), designs.size(), points.size(),
+               volume, volume / best);
     std::fflush(stdout);
+  }
+}
+
+// What cheaper levels know of the designs of a front, at most `most` of them: their scatter about
+// the best straight line to design level on fresh skins, with three sets of skins each.
+void scatter(const std::string& file, const std::string& front, std::size_t most) {
+  const Study study = read_study(file);
+  const StudyProblem problem(study);
+  const std::vector<Point> designs = evenly(read_front(front, problem, study.variables), most);
+  const auto objectives = [&](Judge& judge) {
+    std::vector<std::vector<double>> out(problem.objectives().size());
+    for (const Point& u : designs) {
+      const Outcome o = judge(u);
+      for (std::size_t k = 0; k < out.size(); ++k) out[k].push_back(o.objectives[k]);
+    }
+    return out;
+  };
+  Judge fresh(problem, fresh_level());
+  const auto truth = objectives(fresh);
+  fmt::print("grid,skins a finger,seed,processor s,objective,scatter,spread of the designs\n");
+  for (const auto& [grid, skins] : {std::pair{64, 4}, {64, 8}, {64, 16}, {128, 4}, {128, 8}}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      Fidelity f = level(grid, skins);
+      f.seed = seed;
+      Judge judge(problem, f);
+      const auto seen = objectives(judge);
+      for (std::size_t k = 0; k < truth.size(); ++k) {
+        const auto n = static_cast<double>(designs.size());
+        const double mx = std::accumulate(seen[k].begin(), seen[k].end(), 0.0) / n;
+        const double my = std::accumulate(truth[k].begin(), truth[k].end(), 0.0) / n;
+        double xx = 0, xy = 0, yy = 0;
+        for (std::size_t i = 0; i < designs.size(); ++i) {
+          xx += square(seen[k][i] - mx);
+          xy += (seen[k][i] - mx) * (truth[k][i] - my);
+          yy += square(truth[k][i] - my);
+        }
+        fmt::print("{},{},{},{:.3f},{},{:.4f},{:.4f}\n", grid, skins, seed, judge.seconds_each(),
+                   problem.objectives()[k].name, std::sqrt(std::max(0.0, yy - xy * xy / xx) / n),
+                   std::sqrt(yy / n));
+      }
+      std::fflush(stdout);
+    }
   }
 }
 
@@ -568,6 +621,10 @@ int main(int argc, char** argv) {
     }
     fmt::print("front,designs,judged,on the front,hypervolume,share of the first\n");
     shares(a.at(1), fronts, most);
+    return 0;
+  }
+  if (what == "scatter") {
+    scatter(a.at(1), a.at(2), static_cast<std::size_t>(number(3)));
     return 0;
   }
   if (what == "single") {

@@ -202,6 +202,27 @@ TEST(Optimise, AnInterruptLeavesAResumableFolder) {
   EXPECT_EQ(result.evaluations, 6);
 }
 
+// The level between judges a third as many designs as the search, the best of it first; what it
+// judged is in the journal, so the finished run continues without a new evaluation.
+TEST(Optimise, FinalistsComeFromALevelBetween) {
+  Study study = small_study();
+  study.search.evaluations = 9;
+  const std::string folder = fresh_folder("narrow");
+  std::vector<std::string> stages;
+  const auto progress = [&](const Progress& p) {
+    if (stages.empty() || stages.back() != p.stage) stages.push_back(p.stage);
+    if (p.stage == "narrow") {
+      EXPECT_EQ(p.total, 3);
+    }
+  };
+  const OptimiseResult first = optimise(study, {folder, false, progress, nullptr});
+  EXPECT_EQ(stages, (std::vector<std::string>{"search", "narrow", "confirm"}));
+  const std::string journal = bytes(folder + "/journal"), front = bytes(folder + "/pareto.csv");
+  optimise(study, {folder, true, {}, nullptr});
+  EXPECT_EQ(bytes(folder + "/journal"), journal);
+  EXPECT_EQ(bytes(folder + "/pareto.csv"), front);
+}
+
 TEST(Optimise, AnEmptyFeasibleSetNamesTheLeastViolatingDesign) {
   Study study = small_study();
   study.search.evaluations = 3;
