@@ -115,6 +115,19 @@ TEST(SpreadField, ConvergesUnderABareSkinThatTouches) {
   }
 }
 
+// What levels of accuracy ask for (Fidelity::field_tolerance): the pull, high by a quarter at most.
+TEST(SpreadField, ALooseResidualMovesThePullByLessThanAQuarterOfIt) {
+  const FieldProblem p = glass();
+  for (const double rms : {150e-9, 250e-9, 500e-9}) {
+    const Gap gap = rough_gap({128, 128, 12e-6, 12e-6}, rms, 400e-9);
+    const double exact = solve_spread_field(gap, nullptr, {}, p, 1e-9).mean_pressure;
+    for (const double tolerance : {1e-2, 1e-3}) {
+      const FieldSolution s = solve_spread_field(gap, nullptr, {}, p, tolerance);
+      EXPECT_NEAR(s.mean_pressure, exact, 0.25 * tolerance * exact) << rms << " " << tolerance;
+    }
+  }
+}
+
 // The lost pull beside a straight wall of water against the fit to finite volumes of Eq.
 // electrostatics.3.
 TEST(SpreadField, AWaterWallScreensOverTheLengthOfTheThreeDimensionalField) {
