@@ -149,7 +149,7 @@ class PatchSolver {
         on = rewet_timed(rest.water, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance(), out);
+      pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
       note_field(pull, out);
       if (scene.model.coupling == Coupling::SelfConsistent) {
         on_state = iterate(rest.dry, gap, rest.water, driven, field, pull, on, out);
@@ -236,7 +236,7 @@ class PatchSolver {
     }
     if (!(after > kSuspicious * before) || out.pull <= 0) return;
     const FieldSolution next = solve_field_timed(problem_, {plan_.grid, state.gap}, wetting, field,
-                                                 fidelity_.field_tolerance(), out);
+                                                 fidelity_.field_tolerance, out);
     const double ratio = next.mean_pressure * plan_.grid.area() / out.pull;
     if (ratio >= kTwice && out.status.empty()) {
       out.status = fmt::format(
@@ -264,7 +264,7 @@ class PatchSolver {
         on = rewet_timed(off, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
-      pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance(), out);
+      pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
       note_field(pull, out);
       change = (out.pull - previous) / std::max(out.pull, 1e-30);
       const std::vector<double> target = total_traction(on, gap, driven, pull.traction);

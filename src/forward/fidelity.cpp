@@ -12,6 +12,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.skins = 12;
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
+    f.field_tolerance = 1e-2;
     f.control_skins = 0;
   } else if (name == "draft") {
     f.grid = 128;
@@ -22,6 +23,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.grid = 512;
     f.skins = 96;
     f.contact_tolerance = 1e-6;
+    f.field_tolerance = 1e-5;
     f.coupling_tolerance = 1e-3;
     f.coupling_passes = 40;
     f.bridge_nodes = 6;

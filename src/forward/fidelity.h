@@ -20,7 +20,10 @@ struct Fidelity {
   int skins = 40;      // independent skin patches
   int first_skin = 0;  // fresh skins start beyond those of a search
   Estimator estimator = Estimator::Area;
-  double contact_tolerance = 1e-4;   // Frank-Wolfe certificate (docs/theory/contact.md: its worth)
+  double contact_tolerance = 1e-4;  // Frank-Wolfe certificate (docs/theory/contact.md: its worth)
+  // Residual of the potential that spreads in the dielectric, energy norm: the pull is then high by
+  // at most a quarter of it, within what the error part of the solver states (Eq. accuracy.1).
+  double field_tolerance = 1e-3;
   int coupling_passes = 12;          // self-consistent coupling: largest number of passes
   double coupling_tolerance = 5e-3;  // relative change of the pull between passes
   int bridge_nodes = 3;              // patch-pressure nodes of the Persson closure
@@ -30,10 +33,6 @@ struct Fidelity {
   double load_exponent = 0.84;  // beta of the load-based estimator (Eq. friction.3)
   std::uint64_t seed = 1;       // of skins, offsets and droplets: common to all designs
   int threads = 0;              // 0: all
-
-  // Residual of the potential that spreads in the dielectric, energy norm: the pull is then high by
-  // at most a quarter of it, within what the error part of the solver states (Eq. accuracy.1).
-  double field_tolerance() const { return 10 * contact_tolerance; }
 
   bool operator==(const Fidelity&) const = default;
 };

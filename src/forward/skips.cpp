@@ -78,7 +78,7 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
       if (!scene.drive.driven()) continue;
       pull += p.fields.pull.mean();
       next += solve_field(scene, on, &p.texture, p.fields.wetting_on, field_problem(scene, rh),
-                          fidelity.field_tolerance())
+                          fidelity.field_tolerance)
                   .mean_pressure;
     }
     if (load_off <= 0) continue;
