@@ -73,8 +73,8 @@ Fidelity draft_fidelity(const Study& study) {
   return f;
 }
 
-// Between search and confirmation: half the search's scatter against design level at a fifteenth of
-// the confirmation's cost (`search_bench scatter`, results/bench/search_scatter.csv).
+// Between search and confirmation: two thirds of the search's scatter about design level, at a
+// tenth of the confirmation's cost (`search_bench scatter`, results/bench/search_scatter.csv).
 Fidelity narrow_fidelity(const Study& study) {
   Fidelity f = search_fidelity(study);
   f.level = "narrow";
