@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -41,10 +42,10 @@ int solve(const FieldCommand& c) {
   const Heightmap gap = read_map(c.gap, c.size);
   if (*std::min_element(gap.z.begin(), gap.z.end()) < 0)
     throw InputError(c.gap + ": a gap must not be negative anywhere");
-  Heightmap texture;
+  std::optional<Heightmap> texture;
   if (!c.texture.empty()) {
     texture = read_map(c.texture, c.size);
-    if (texture.grid.nx != gap.grid.nx || texture.grid.ny != gap.grid.ny)
+    if (texture->grid.nx != gap.grid.nx || texture->grid.ny != gap.grid.ny)
       throw InputError("--texture and --gap differ in pixels");
   }
   FieldProblem p;
@@ -63,7 +64,9 @@ int solve(const FieldCommand& c) {
     require_memory(80.0 * 64 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
 
   const auto begin = std::chrono::steady_clock::now();
-  const Heightmap* surface = c.texture.empty() ? nullptr : &texture;
+  std::optional<CoveredSurface> covered;
+  if (texture) covered.emplace(*texture, p.dielectric_thickness);
+  const CoveredSurface* surface = covered ? &*covered : nullptr;
   const FieldSolution s = local                  ? solve_local_field(given, surface, dry, p)
                           : c.method == "spread" ? solve_spread_field(given, surface, dry, p)
                                                  : solve_full_field(given, surface, dry, p);

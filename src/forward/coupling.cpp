@@ -46,7 +46,7 @@ Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
   options.drops_per_volume = scene.finger.water.drops_per_um3 * 1e18;
   options.first_step = scene.model.droplet_step;
   if (scene.model.rim_pinning || scene.model.corner_wicking) {
-    options.rims = std::make_shared<RimMap>(*problem.texture);
+    options.rims = std::make_shared<RimMap>(problem.surface->height);
     options.rim_pinning = scene.model.rim_pinning;
     options.corner_wicking = scene.model.corner_wicking;
   }
@@ -69,7 +69,7 @@ Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& d
 FieldSolution solve_field_timed(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
                                 const FieldProblem& field, double tolerance, PatchResult& out) {
   const Timed timed(out.seconds.field);
-  return solve_field(*problem.scene, gap, problem.texture, wetting, field, tolerance);
+  return solve_field(*problem.scene, gap, problem.surface, wetting, field, tolerance);
 }
 
 // Preset m3: hydrophobic surfaces carry no capillary force when off.
@@ -317,10 +317,9 @@ class PatchSolver {
     out.over_limit_share = pull.over_limit_share;
     out.peak_air_field = pull.peak_air_field;
     out.peak_oxide_field = pull.peak_oxide_field;
-    const std::vector<Dielectric>& layers = problem_.scene->surface.dielectric;
-    double thickness = 0;
-    for (const Dielectric& layer : layers) thickness += layer.thickness;
-    out.oxide_margin = dielectric_margin(layers, thickness * pull.peak_oxide_field, kInfinity);
+    const Surface& surface = problem_.scene->surface;
+    out.oxide_margin = dielectric_margin(
+        surface.dielectric, surface.dielectric_thickness() * pull.peak_oxide_field, kInfinity);
     if (!pull.ok && out.status.empty()) out.status = "field: " + pull.reason;
   }
 
@@ -357,17 +356,17 @@ PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fid
   return out;
 }
 
-FieldSolution solve_field(const Scene& scene, const Gap& gap, const Heightmap* texture,
+FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurface* surface,
                           const Wetting& wetting, const FieldProblem& problem, double tolerance) {
   switch (field_method(scene.model)) {
     case FieldMethod::Full:
-      return solve_full_field(gap, texture, wetting, problem);
+      return solve_full_field(gap, surface, wetting, problem);
     case FieldMethod::Spread:
-      return solve_spread_field(gap, texture, wetting, problem, tolerance);
+      return solve_spread_field(gap, surface, wetting, problem, tolerance);
     case FieldMethod::Local:
       break;
   }
-  return solve_local_field(gap, texture, wetting, problem);
+  return solve_local_field(gap, surface, wetting, problem);
 }
 
 FieldProblem field_problem(const Scene& scene, double relative_humidity) {
@@ -375,10 +374,7 @@ FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   p.v_rms = scene.drive.v_rms();
   p.v_peak = scene.drive.amplitude;
   p.dielectric = scene.surface.equivalent_thickness();
-  p.dielectric_thickness = 0;
-  for (const Dielectric& layer : scene.surface.dielectric) {
-    p.dielectric_thickness += layer.thickness;
-  }
+  p.dielectric_thickness = scene.surface.dielectric_thickness();
   p.edge_radius = scene.surface.electrode_edge_radius;
   // Stratum corneum in series: conducts below its corner frequency, h(w) = h / (1 + i wc/w).
   const double h = scene.finger.electrical.equivalent_thickness(relative_humidity);

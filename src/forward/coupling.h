@@ -10,8 +10,8 @@
 #include "forward/fidelity.h"
 #include "forward/plan.h"
 #include "forward/response.h"
-#include "geometry/heightmap.h"
 #include "physics/contact/contact.h"
+#include "physics/electrostatics/electrode.h"
 #include "physics/electrostatics/field.h"
 #include "scene/scene.h"
 
@@ -19,7 +19,7 @@ namespace papilla {
 
 struct PatchProblem {
   const Scene* scene = nullptr;
-  const Heightmap* texture = nullptr;
+  const CoveredSurface* surface = nullptr;
   std::span<const double> height;  // texture + skin [m], high touches first
   const ContactKernel* kernel =
       nullptr;  // moduli at 15 % RH; of this humidity if the surface yields
@@ -81,7 +81,7 @@ PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fid
 FieldProblem field_problem(const Scene& scene, double relative_humidity);
 
 // The pull by the scene's field rule; tolerance: of the potential that spreads in the dielectric.
-FieldSolution solve_field(const Scene& scene, const Gap& gap, const Heightmap* texture,
+FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurface* surface,
                           const Wetting& wetting, const FieldProblem& problem, double tolerance);
 
 // Contact angle of the surface under the scene's drive (electrowetting) [rad].

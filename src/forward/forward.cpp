@@ -368,7 +368,7 @@ PatchSet solve_patches(const Scene& given, const Texture& texture, const Fidelit
   PatchSet set;
   set.plan = make_plan(scene, texture, fidelity);
   const Grid& grid = set.plan.grid;
-  const Heightmap surface = generate(texture, grid);
+  const CoveredSurface surface(generate(texture, grid), scene.surface.dielectric_thickness());
   const std::vector<double>& humidities = scene.environment.relative_humidity;
   PAPILLA_CHECK(!humidities.empty(), "one humidity at least");
   std::vector<std::shared_ptr<const ContactKernel>> kernels;
@@ -384,7 +384,7 @@ PatchSet solve_patches(const Scene& given, const Texture& texture, const Fidelit
       [&](int k) {
         const int index = fidelity.first_skin + k;
         const Heightmap skin = skin_patch(scene, set.plan, fidelity, index);
-        const std::vector<double> height = added(surface, skin);
+        const std::vector<double> height = added(surface.height, skin);
         // One a patch pressure: the contact of the previous humidity.
         std::vector<PatchStates> start(set.bridges[0].pressures().size());
         const std::vector<WaterMember> members = water_members(scene, set.plan, fidelity, index);
@@ -461,7 +461,8 @@ RestPatches::RestPatches(const Scene& scene, const Texture& texture, const Fidel
   PAPILLA_CHECK(scene.environment.relative_humidity.size() == 1, "one humidity");
   if (!scene_.drive.driven()) scene_.drive.amplitude = 1;
   plan_ = make_plan(scene_, texture, fidelity_);
-  surface_ = generate(texture, plan_.grid);
+  surface_ = std::make_unique<const CoveredSurface>(generate(texture, plan_.grid),
+                                                    scene_.surface.dielectric_thickness());
   const double humidity = scene_.environment.relative_humidity[0];
   kernel_ = kernel_at(scene_, plan_.grid, humidity);
   pressures_ = ScaleBridge(scene_, fidelity_, plan_.grid, humidity).pressures();
@@ -471,13 +472,13 @@ RestPatches::RestPatches(const Scene& scene, const Texture& texture, const Fidel
       fidelity_.skins,
       [&](int k) {
         const int index = fidelity_.first_skin + k;
-        height_[k] = added(surface_, skin_patch(scene_, plan_, fidelity_, index));
+        height_[k] = added(surface_->height, skin_patch(scene_, plan_, fidelity_, index));
         const std::vector<WaterMember> members = water_members(scene_, plan_, fidelity_, index);
         for (double pressure : pressures_) {
           PatchStates start;  // the dry contact is that of the first member
           for (const WaterMember& member : members) {
-            const PatchProblem problem{&scene_,  &surface_, height_[k],   kernel_.get(),
-                                       humidity, pressure,  member.index, member.factor};
+            const PatchProblem problem{&scene_,  surface_.get(), height_[k],   kernel_.get(),
+                                       humidity, pressure,       member.index, member.factor};
             rest_[k].push_back(rest_patch(problem, plan_, fidelity_, start));
             if (members.size() > 1) start.dry = rest_[k].back().dry;
           }
@@ -506,8 +507,8 @@ ResponsePoint RestPatches::drive(double amplitude, Estimator estimator) const {
         for (double pressure : pressures_) {
           one.clear();
           for (const WaterMember& member : members) {
-            const PatchProblem problem{&scene,   &surface_, height_[k],   kernel_.get(),
-                                       humidity, pressure,  member.index, member.factor};
+            const PatchProblem problem{&scene,   surface_.get(), height_[k],   kernel_.get(),
+                                       humidity, pressure,       member.index, member.factor};
             one.push_back(drive_patch(problem, plan, fidelity, rest_[k][at++]));
           }
           patches.push_back(mean_of(one));
@@ -523,14 +524,15 @@ PatchPicture picture_patch(const Scene& given, const Texture& texture, const Fid
   const Scene scene = applied(given);
   const Plan plan = make_plan(scene, texture, fidelity);
   PatchPicture picture;
-  picture.texture = generate(texture, plan.grid);
+  const CoveredSurface surface(generate(texture, plan.grid), scene.surface.dielectric_thickness());
+  picture.texture = surface.height;
   picture.skin = skin_patch(scene, plan, fidelity, fidelity.first_skin + index);
   const std::vector<double> height = added(picture.texture, picture.skin);
   const auto kernel = kernel_at(scene, plan.grid, relative_humidity);
   PatchStates start;
   const PatchProblem problem{
       &scene,
-      &picture.texture,
+      &surface,
       height,
       kernel.get(),
       relative_humidity,

@@ -68,7 +68,7 @@ class RestPatches {
   Scene scene_;
   Fidelity fidelity_;
   Plan plan_;
-  Heightmap surface_;
+  std::unique_ptr<const CoveredSurface> surface_;
   std::shared_ptr<const ContactKernel> kernel_;
   std::vector<double> pressures_;
   std::vector<std::vector<double>> height_;   // one a skin

@@ -69,6 +69,7 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
     double load_off = 0, load_on = 0, waals = 0, kelvin = 0, pull = 0, next = 0;
     for (int k = 0; k < skins; ++k) {
       const PatchPicture p = picture_patch(once, texture, fidelity, rh, k);
+      const CoveredSurface surface(p.texture, scene.surface.dielectric_thickness());
       const Gap off{p.texture.grid, p.fields.off.gap}, on{p.texture.grid, p.fields.on.gap};
       if (off.value.empty() || on.value.empty()) continue;
       load_off += mean(p.fields.off.pressure);
@@ -77,7 +78,7 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
       kelvin += kelvin_traction(off, scene, rh).mean();
       if (!scene.drive.driven()) continue;
       pull += p.fields.pull.mean();
-      next += solve_field(scene, on, &p.texture, p.fields.wetting_on, field_problem(scene, rh),
+      next += solve_field(scene, on, &surface, p.fields.wetting_on, field_problem(scene, rh),
                           fidelity.field_tolerance)
                   .mean_pressure;
     }

@@ -31,6 +31,12 @@ double Surface::equivalent_thickness() const {
   return sum;
 }
 
+double Surface::dielectric_thickness() const {
+  double sum = 0;
+  for (const Dielectric& layer : dielectric) sum += layer.thickness;
+  return sum;
+}
+
 void fields(FieldVisitor& v, Surface& s) {
   v.number({"contact_angle", "deg", 0, 180, "contact angle of water at rest", Source::Paper,
             "M3: SiO2 50 deg"},

@@ -39,6 +39,7 @@ struct Surface {
   double poisson = 0.4;  // theirs
 
   double equivalent_thickness() const;  // sum of d/eps [m]
+  double dielectric_thickness() const;  // of all layers [m]
 
   bool operator==(const Surface&) const = default;
 };

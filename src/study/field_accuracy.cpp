@@ -50,21 +50,24 @@ std::vector<double> refined(const Grid& grid, const std::vector<double>& values,
 
 // The patch on a finer grid: gap between the refined skin and the texture made anew.
 struct FinePatch {
-  Heightmap texture;
+  CoveredSurface surface;
   Gap gap;
   Wetting wetting;
 };
 
 FinePatch fine_patch(const Design& design, const PatchPicture& picture, int factor) {
   const Grid& grid = picture.texture.grid;
-  FinePatch out{picture.texture, {grid, picture.fields.off.gap}, picture.fields.wetting_on};
+  const double thickness = design.surface.dielectric_thickness();
+  FinePatch out{CoveredSurface(picture.texture, thickness),
+                {grid, picture.fields.off.gap},
+                picture.fields.wetting_on};
   if (factor == 1) return out;
   const Grid fine{factor * grid.nx, factor * grid.ny, grid.lx, grid.ly};
   std::vector<double> skin(grid.size());
   for (std::size_t i = 0; i < skin.size(); ++i)
     skin[i] = picture.texture.z[i] + picture.fields.off.gap[i];
   skin = refined(grid, skin, fine, factor);
-  out.texture = generate(design.texture, fine);
+  out.surface = CoveredSurface(generate(design.texture, fine), thickness);
   out.gap = {fine, std::vector<double>(fine.size())};
   out.wetting.grid = fine;
   if (!out.wetting.bridged.empty()) out.wetting.bridged.assign(fine.size(), 0);
@@ -72,8 +75,9 @@ FinePatch fine_patch(const Design& design, const PatchPicture& picture, int fact
     for (int ix = 0; ix < fine.nx; ++ix) {
       const std::size_t i = fine.index(ix, iy), coarse = grid.index(ix / factor, iy / factor);
       // Contact stays contact; elsewhere the interpolation must not dip below the texture.
-      out.gap.value[i] =
-          picture.fields.off.gap[coarse] == 0 ? 0 : std::max(0.0, skin[i] - out.texture.z[i]);
+      out.gap.value[i] = picture.fields.off.gap[coarse] == 0
+                             ? 0
+                             : std::max(0.0, skin[i] - out.surface.height.z[i]);
       if (!out.wetting.bridged.empty()) {
         out.wetting.bridged[i] = picture.fields.wetting_on.bridged[coarse];
       }
@@ -115,18 +119,18 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
       FieldProblem p = problem;
       p.screening = screening;
       add(screening ? "screened" : "local", solved, 0, [&](const FinePatch& patch) {
-        return solve_local_field(patch.gap, &patch.texture, patch.wetting, p);
+        return solve_local_field(patch.gap, &patch.surface, patch.wetting, p);
       });
     }
     add("spread", solved, 0, [&](const FinePatch& patch) {
-      return solve_spread_field(patch.gap, &patch.texture, patch.wetting, problem);
+      return solve_spread_field(patch.gap, &patch.surface, patch.wetting, problem);
     });
     for (const int factor : options.refinements) {
       PotentialOptions potential;
       potential.levels = options.levels;
       add("full", fine_patch(design, picture, factor), potential.levels,
           [&](const FinePatch& patch) {
-            return solve_full_field(patch.gap, &patch.texture, patch.wetting, problem, potential);
+            return solve_full_field(patch.gap, &patch.surface, patch.wetting, problem, potential);
           });
     }
     const double exact = rows.back().pull;

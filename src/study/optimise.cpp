@@ -366,16 +366,21 @@ class Run {
     searcher.tell(batch);
   }
 
-  double seconds_after_search() const {
+  // Expected of `designs` at a fidelity, by what one of the search took.
+  double seconds_of(std::size_t designs, const Fidelity& fidelity) const {
     const Scene scene{study_.design.surface, study_.design.finger, study_.design.environment,
                       study_.design.drive, study_.design.model};
     const auto cost = [&](const Fidelity& f) {
       return make_plan(scene, study_.design.texture, f).seconds();
     };
-    const double confirmed = static_cast<double>(kFinalists + 1);
-    return evaluation_seconds() / cost(search_fidelity(study_)) *
-           (static_cast<double>(narrowings(search_)) * cost(narrow_fidelity(study_)) +
-            confirmed * cost(confirm_fidelity(study_, problem_.nominal_tasks())));
+    return evaluation_seconds() * static_cast<double>(designs) * cost(fidelity) /
+           cost(search_fidelity(study_));
+  }
+  double seconds_to_confirm() const {
+    return seconds_of(kFinalists + 1, confirm_fidelity(study_, problem_.nominal_tasks()));
+  }
+  double seconds_after_search() const {
+    return seconds_of(narrowings(search_), narrow_fidelity(study_)) + seconds_to_confirm();
   }
 
   void report_progress(const char* stage, int done, int total, double left) {
@@ -654,7 +659,7 @@ class Run {
       ++done;
       report_progress("confirm", done, total, (seconds() - from) / done * (total - done));
     };
-    report_progress("confirm", 0, total, seconds_after_search());
+    report_progress("confirm", 0, total, seconds_to_confirm());
     for (std::size_t i : chosen) {
       if (stopped()) {
         result_.interrupted = true;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,8 @@ struct Patches {
   DropletOptions options;
   FieldProblem field;
   std::vector<Gap> gaps;
-  Heightmap texture;
+  std::optional<CoveredSurface> surface;
+  Grid grid;
 };
 
 Patches solve_dry(const std::string& folder, const std::string& file, double angle, double rh) {
@@ -55,11 +57,12 @@ Patches solve_dry(const std::string& folder, const std::string& file, double ang
   for (int k = 0; k < kSkins; ++k) {
     PatchPicture p = picture_patch(dry, design.texture, fidelity, rh, k);
     out.gaps.push_back({p.texture.grid, std::move(p.fields.off.gap)});
-    out.texture = std::move(p.texture);
+    out.grid = p.texture.grid;
+    out.surface.emplace(std::move(p.texture), scene.surface.dielectric_thickness());
   }
-  const double area = out.texture.grid.area();
+  const double area = out.grid.area();
   out.volume = water.volume_per_area(rh) * area;
-  out.load = ScaleBridge(scene, fidelity, out.texture.grid, rh).mean_pressure() * area;
+  out.load = ScaleBridge(scene, fidelity, out.grid, rh).mean_pressure() * area;
   return out;
 }
 
@@ -70,7 +73,7 @@ struct Answer {
 Answer answer(const Patches& p, std::size_t k, const Wetting& off) {
   const Wetting on = rewet(off, p.gaps[k], p.on);
   const double pull =
-      solve_spread_field(p.gaps[k], &p.texture, on, p.field).mean_pressure * p.gaps[k].grid.area();
+      solve_spread_field(p.gaps[k], &*p.surface, on, p.field).mean_pressure * p.gaps[k].grid.area();
   return {off.capillary_force / p.load, pull / p.load,
           (p.load + on.capillary_force + pull) / (p.load + off.capillary_force) - 1,
           off.volume > 0 ? off.bridge_volume / off.volume : 0};
@@ -183,7 +186,7 @@ void study_placement(const std::vector<Patches>& all) {
   };
   using Place = std::function<std::vector<DropletSeed>(const Patches&, std::uint64_t, bool)>;
   const auto uniform = [](const Patches& p, std::uint64_t i) {
-    return scatter_droplets(p.texture.grid, p.volume, p.options, 7, i);
+    return scatter_droplets(p.grid, p.volume, p.options, 7, i);
   };
   const std::vector<std::pair<std::string, Place>> places = {
       {"independent", [&](const Patches& p, std::uint64_t i,
@@ -193,8 +196,8 @@ void study_placement(const std::vector<Patches>& all) {
          auto seeds = uniform(p, 2 * i);
          if (!second) return seeds;
          for (DropletSeed& d : seeds) {
-           d.x = std::fmod(d.x + 0.5 * p.texture.grid.lx, p.texture.grid.lx);
-           d.y = std::fmod(d.y + 0.5 * p.texture.grid.ly, p.texture.grid.ly);
+           d.x = std::fmod(d.x + 0.5 * p.grid.lx, p.grid.lx);
+           d.y = std::fmod(d.y + 0.5 * p.grid.ly, p.grid.ly);
          }
          return seeds;
        }},
@@ -217,10 +220,10 @@ void study_placement(const std::vector<Patches>& all) {
          for (std::size_t r = 0, k = 0; r < rows; ++r) {
            const std::size_t end = (r + 1) * n / rows, in_row = end - k;
            for (std::size_t c = 0; k < end; ++k, ++c) {
-             const double cell_x = p.texture.grid.lx / static_cast<double>(in_row),
-                          cell_y = p.texture.grid.ly / static_cast<double>(rows);
-             seeds[k].x = (static_cast<double>(c) + seeds[k].x / p.texture.grid.lx) * cell_x;
-             seeds[k].y = (static_cast<double>(r) + seeds[k].y / p.texture.grid.ly) * cell_y;
+             const double cell_x = p.grid.lx / static_cast<double>(in_row),
+                          cell_y = p.grid.ly / static_cast<double>(rows);
+             seeds[k].x = (static_cast<double>(c) + seeds[k].x / p.grid.lx) * cell_x;
+             seeds[k].y = (static_cast<double>(r) + seeds[k].y / p.grid.ly) * cell_y;
            }
          }
          return seeds;

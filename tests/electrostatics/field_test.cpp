@@ -172,8 +172,9 @@ TEST(LocalField, HoleArraysAreWithinTheStatedErrorOfTheStepRule) {
     const double exact = number(row, "F_over_eps0V2") * 1.0;
     const double local = solve_local_field(gap, nullptr, {}, p).mean_pressure / unit;
     EXPECT_NEAR(local, number(row, "F_local_over_eps0V2"), 3e-3 * local);
+    const CoveredSurface surface(texture, p.dielectric_thickness);
     const double error =
-        std::abs(solve_local_field(gap, &texture, {}, p).mean_pressure / unit / exact - 1);
+        std::abs(solve_local_field(gap, &surface, {}, p).mean_pressure / unit / exact - 1);
     if (g <= 0.2e-6) {
       worst_near = std::max(worst_near, error);
     } else {
@@ -196,6 +197,10 @@ TEST(Electrode, LiesOneThicknessBelowFlatsAndBelowTheFootBehindWalls) {
   EXPECT_DOUBLE_EQ(e(25, 1), -0.5e-6);
   EXPECT_DOUBLE_EQ(e(34, 1), -0.5e-6);
   EXPECT_DOUBLE_EQ(e(35, 1), -1.1e-6);  // the wall at the periodic seam
+  const CoveredSurface covered(h, 0.5e-6);
+  EXPECT_NEAR(covered.behind_walls[h.grid.index(24, 1)], 0.6e-6, 1e-15);
+  EXPECT_EQ(covered.behind_walls[h.grid.index(25, 1)], 0);
+  EXPECT_TRUE(CoveredSurface(h, 0).behind_walls.empty());
 }
 
 // Lost pull around a bridge, as the radius of a disc without pull beyond the bridge.

@@ -191,6 +191,7 @@ TEST(FullField, TheStatedEdgeRadiusRaisesTheFieldInTheDielectricBehindWalls) {
   for (int iy = 8; iy < 24; ++iy) {
     for (int ix = 8; ix < 24; ++ix) hole.z[grid.index(ix, iy)] = -600e-9;
   }
+  const CoveredSurface covered(hole, 500e-9);
   Gap gap{grid, std::vector<double>(grid.size())};
   for (std::size_t i = 0; i < grid.size(); ++i) gap.value[i] = 20e-9 - hole.z[i];
   FieldProblem p;
@@ -198,20 +199,20 @@ TEST(FullField, TheStatedEdgeRadiusRaisesTheFieldInTheDielectricBehindWalls) {
   p.v_peak = 100 * std::sqrt(2.0);
   p.dielectric = 500e-9 / 3.9;
   p.dielectric_thickness = 500e-9;
-  const FieldSolution square_edges = solve_full_field(gap, &hole, {}, p);
-  const FieldSolution flat_rule = solve_local_field(gap, &hole, {}, p);
+  const FieldSolution square_edges = solve_full_field(gap, &covered, {}, p);
+  const FieldSolution flat_rule = solve_local_field(gap, &covered, {}, p);
   // The grid's own edge: above the flat field.
   EXPECT_GT(square_edges.peak_oxide_field, flat_rule.peak_oxide_field);
   p.edge_radius = 20e-9;  // a pixel is 125 nm
   const double k = 25 / std::log(26);
-  const FieldSolution rounded = solve_full_field(gap, &hole, {}, p);
+  const FieldSolution rounded = solve_full_field(gap, &covered, {}, p);
   EXPECT_NEAR(rounded.peak_oxide_field, k * p.v_peak / 500e-9, 1e-6 * rounded.peak_oxide_field);
-  EXPECT_NEAR(solve_local_field(gap, &hole, {}, p).peak_oxide_field, k * flat_rule.peak_oxide_field,
-              1e-6 * rounded.peak_oxide_field);
+  EXPECT_NEAR(solve_local_field(gap, &covered, {}, p).peak_oxide_field,
+              k * flat_rule.peak_oxide_field, 1e-6 * rounded.peak_oxide_field);
   EXPECT_EQ(rounded.mean_pressure, square_edges.mean_pressure);
   // A radius that the grid resolves is the grid's business; a flat electrode has no edge.
   p.edge_radius = 400e-9;
-  EXPECT_EQ(solve_full_field(gap, &hole, {}, p).peak_oxide_field, square_edges.peak_oxide_field);
+  EXPECT_EQ(solve_full_field(gap, &covered, {}, p).peak_oxide_field, square_edges.peak_oxide_field);
   p.edge_radius = 20e-9;
   gap.value.assign(grid.size(), 20e-9);
   EXPECT_LT(solve_full_field(gap, nullptr, {}, p).peak_oxide_field, p.v_peak / 500e-9);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 
@@ -47,6 +48,17 @@ Heightmap electrode_below(const Heightmap& surface, double thickness) {
     }
   }
   return electrode;
+}
+
+CoveredSurface::CoveredSurface(Heightmap surface, double thickness) : height(std::move(surface)) {
+  if (thickness <= 0) return;
+  behind_walls = electrode_below(height, thickness).z;
+  bool any = false;
+  for (std::size_t i = 0; i < behind_walls.size(); ++i) {
+    behind_walls[i] = height.z[i] - behind_walls[i] - thickness;
+    any = any || behind_walls[i] > 1e-12;
+  }
+  if (!any) behind_walls.clear();
 }
 
 }  // namespace papilla

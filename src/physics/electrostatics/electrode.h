@@ -1,6 +1,8 @@
 // Where the electrode lies below a textured dielectric.
 #pragma once
 
+#include <vector>
+
 #include "geometry/heightmap.h"
 
 namespace papilla {
@@ -11,5 +13,16 @@ namespace papilla {
 // one thickness of its foot the electrode lies one thickness below the foot. Cost: wall pixels
 // times pixels in a disc of the thickness. Eq. electrostatics.2
 Heightmap electrode_below(const Heightmap& surface, double thickness);
+
+// A rigid finished surface and the dielectric below it: what the field rules know of a texture, the
+// same for every gap above it.
+struct CoveredSurface {
+  // thickness: of the dielectric on flats [m]; 0: none.
+  CoveredSurface(Heightmap surface, double thickness);
+
+  Heightmap height;  // [m]
+  // Dielectric [m] that a column behind a wall holds beyond the thickness; empty without walls.
+  std::vector<double> behind_walls;
+};
 
 }  // namespace papilla

@@ -5,28 +5,10 @@
 
 #include "base/constants.h"
 #include "physics/electrostatics/breakdown.h"
-#include "physics/electrostatics/electrode.h"
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
 
 namespace papilla {
-namespace {
-
-// Dielectric [m] beyond the uniform thickness that a column behind a wall holds; empty without
-// walls.
-std::vector<double> extra_columns(const Heightmap& texture, double thickness) {
-  if (thickness <= 0) return {};
-  std::vector<double> extra = electrode_below(texture, thickness).z;
-  bool any = false;
-  for (std::size_t i = 0; i < extra.size(); ++i) {
-    extra[i] = texture.z[i] - extra[i] - thickness;
-    any = any || extra[i] > 1e-12;
-  }
-  if (!any) extra.clear();
-  return extra;
-}
-
-}  // namespace
 
 double spread_rule_error(double wetted) { return 0.09 - 0.26 * std::clamp(wetted, 0.0, 0.23); }
 
@@ -78,7 +60,7 @@ AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProb
   return out;
 }
 
-FieldSolution pull(const Gap& gap, const Heightmap* texture, const FieldProblem& p,
+FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldProblem& p,
                    const AirColumns& columns, const FluxFactors& factors) {
   FieldSolution out;
   const Grid& grid = gap.grid;
@@ -90,8 +72,7 @@ FieldSolution pull(const Gap& gap, const Heightmap* texture, const FieldProblem&
     out.reason = "no dielectric anywhere: contact would short the drive";
     return out;
   }
-  const std::vector<double> extra =
-      texture ? extra_columns(*texture, p.dielectric_thickness) : std::vector<double>{};
+  const bool walls = surface && !surface->behind_walls.empty();
   const double per_thickness =
       p.dielectric_thickness > 0 ? p.dielectric / p.dielectric_thickness : 0;
   const double scale = 0.5 * kVacuumPermittivity * square(p.v_rms);
@@ -114,8 +95,9 @@ FieldSolution pull(const Gap& gap, const Heightmap* texture, const FieldProblem&
         columns.water.empty() ? series : series + columns.water[i] / kWaterPermittivity;
     const double distance2 = (square(g + rest) + quadrature) / gain;
     double pressure = scale / distance2;
-    if (!extra.empty() && extra[i] > 0) {
-      const double behind = square(g + rest + extra[i] * per_thickness) + quadrature;
+    if (walls && surface->behind_walls[i] > 0) {
+      const double behind =
+          square(g + rest + surface->behind_walls[i] * per_thickness) + quadrature;
       pressure = 0.5 * (pressure + scale * gain / behind);
     }
     pressure = std::min(pressure, cap) * open;
@@ -144,7 +126,7 @@ FieldSolution pull(const Gap& gap, const Heightmap* texture, const FieldProblem&
                              ? factors.most_voltage
                              : p.dielectric / std::sqrt(std::min(least_air, least_touched));
     out.peak_oxide_field = p.v_peak * share / p.dielectric_thickness;
-    if (!extra.empty() && p.edge_radius > 0) {
+    if (walls && p.edge_radius > 0) {
       out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
     }
   }
@@ -154,11 +136,11 @@ FieldSolution pull(const Gap& gap, const Heightmap* texture, const FieldProblem&
   return out;
 }
 
-FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                const FieldProblem& p) {
+FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
+                                const Wetting& wetting, const FieldProblem& p) {
   const std::vector<double> open =
       screening_factor(gap, wetting, p.dielectric_thickness, p.screening);
-  return pull(gap, texture, p, columns_above(gap, wetting, p), {.open = open, .gain = {}});
+  return pull(gap, surface, p, columns_above(gap, wetting, p), {.open = open, .gain = {}});
 }
 
 }  // namespace papilla

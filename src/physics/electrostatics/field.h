@@ -6,7 +6,7 @@
 
 #include "fields/gap.h"
 #include "fields/wetting.h"
-#include "geometry/heightmap.h"
+#include "physics/electrostatics/electrode.h"
 
 namespace papilla {
 
@@ -40,11 +40,11 @@ struct FieldSolution {
 // faded around them (Eq. electrostatics.3), raised over droplets that do not bridge (Eq.
 // electrostatics.4); behind walls the mean of the rules with uniform and with column-wise
 // dielectric (Eq. electrostatics.2; within 1.4 % of the 3-D field on the arrays of the M3 paper for
-// gaps up to 0.2 um, 3 % up to 1 um). texture: the rigid finished surface below the gap, for the
-// walls; may be null. Not ok: a bare electrode, or a gap that is not finite. Cost: O(pixels), 0.3
+// gaps up to 0.2 um, 3 % up to 1 um). surface: the rigid one below the gap, for its walls;
+// may be null. Not ok: a bare electrode, or a gap that is not finite. Cost: O(pixels), 0.3
 // ms at 128^2.
-FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                const FieldProblem& problem);
+FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
+                                const Wetting& wetting, const FieldProblem& problem);
 
 // The local rule with the flux free to spread sideways in the dielectric: the potential phi on its
 // surface solves K phi + phi/(g + h_SC) = (eps/d) V, K = eps q coth(q d), phi = 0 under bridges
@@ -52,8 +52,9 @@ FieldSolution solve_local_field(const Gap& gap, const Heightmap* texture, const 
 // water by tanh^2 over the pixel's own gap. Conjugate gradients in the energy norm, two FFT pairs
 // an iteration, about 6 iterations to 1e-4. Without a dielectric: the local rule. Not ok: as the
 // local rule, or the iteration limit. Options, walls, caps and droplets as there.
-FieldSolution solve_spread_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                 const FieldProblem& problem, double tolerance = 1e-4);
+FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
+                                 const Wetting& wetting, const FieldProblem& problem,
+                                 double tolerance = 1e-4);
 
 // How far the local rule with screening is below the 3-D potential on rough skin, relative to the
 // pull: a law over the published samples at 15 to 75 % RH; wetted: share of the patch under

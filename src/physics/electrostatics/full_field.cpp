@@ -629,8 +629,9 @@ PotentialSolution solve_potential(const PotentialProblem& problem,
   return PotentialSolver(problem, options).run();
 }
 
-FieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                               const FieldProblem& p, const PotentialOptions& options) {
+FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
+                               const Wetting& wetting, const FieldProblem& p,
+                               const PotentialOptions& options) {
   FieldSolution out;
   const Grid& grid = gap.grid;
   const std::size_t n = grid.size();
@@ -639,14 +640,14 @@ FieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const W
 
   PotentialProblem potential;
   potential.grid = grid;
-  const Heightmap surface = texture ? *texture : Heightmap{grid, std::vector<double>(n, 0)};
-  potential.surface = surface.z;
-  potential.electrode = electrode_below(surface, p.dielectric_thickness).z;
+  const bool walls = surface && !surface->behind_walls.empty();
+  potential.surface = surface ? surface->height.z : std::vector<double>(n, 0);
+  potential.electrode.resize(n);
   potential.skin.resize(n);
-  bool walls = false;
   for (std::size_t i = 0; i < n; ++i) {
-    potential.skin[i] = surface.z[i] + gap.value[i];
-    walls = walls || surface.z[i] - potential.electrode[i] > p.dielectric_thickness + 1e-12;
+    potential.electrode[i] = potential.surface[i] - p.dielectric_thickness;
+    if (walls) potential.electrode[i] -= surface->behind_walls[i];
+    potential.skin[i] = potential.surface[i] + gap.value[i];
   }
   if (p.dielectric_thickness > 0) {
     potential.permittivity = p.dielectric_thickness / p.dielectric;

@@ -53,10 +53,11 @@ PotentialSolution solve_potential(const PotentialProblem& problem, const Potenti
 // water bridges at the body's potential, droplets that do not bridge as dielectric caps; options
 // of the problem as in the local rule (water without screening: pull zero in bridges only). A lossy
 // layer: the potential sees its real part, and the imaginary part lowers the pull as in Eq.
-// electrostatics.1. texture as in solve_local_field. The peak field in
+// electrostatics.1. surface as in solve_local_field. The peak field in
 // the dielectric is that of the grid, with its square edges, or where an edge radius is stated that
 // the grid does not resolve the larger of it and the flat value times Eq. electrostatics.8.
-FieldSolution solve_full_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                               const FieldProblem& problem, const PotentialOptions& options = {});
+FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
+                               const Wetting& wetting, const FieldProblem& problem,
+                               const PotentialOptions& options = {});
 
 }  // namespace papilla

@@ -23,7 +23,7 @@ struct FluxFactors {
   const std::vector<double>& gain;  // of the squared flux
   double most_voltage = 0;  // largest share of the voltage across the dielectric; 0: by the columns
 };
-FieldSolution pull(const Gap& gap, const Heightmap* texture, const FieldProblem& p,
+FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldProblem& p,
                    const AirColumns& columns, const FluxFactors& factors);
 
 }  // namespace papilla

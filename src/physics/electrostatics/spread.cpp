@@ -155,10 +155,10 @@ class SurfacePotential {
 
 }  // namespace
 
-FieldSolution solve_spread_field(const Gap& gap, const Heightmap* texture, const Wetting& wetting,
-                                 const FieldProblem& p, double tolerance) {
+FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
+                                 const Wetting& wetting, const FieldProblem& p, double tolerance) {
   if (p.dielectric_thickness <= 0 || (p.v_rms == 0 && p.v_peak == 0))
-    return solve_local_field(gap, texture, wetting, p);
+    return solve_local_field(gap, surface, wetting, p);
   const AirColumns columns = columns_above(gap, wetting, p);
   const std::size_t n = gap.grid.size();
   std::vector<double> conductance(n);
@@ -184,7 +184,7 @@ FieldSolution solve_spread_field(const Gap& gap, const Heightmap* texture, const
   const double voltage = (1 - least) / std::hypot(1, flux * p.skin_layer.imag());
   const std::vector<double> open = air_screening_factor(gap, wetting, p.screening);
   FieldSolution out =
-      pull(gap, texture, p, columns, {.open = open, .gain = gain, .most_voltage = voltage});
+      pull(gap, surface, p, columns, {.open = open, .gain = gain, .most_voltage = voltage});
   out.residual = status.residual;
   out.iterations = status.iterations;
   if (out.ok && !status.ok) {
