@@ -16,6 +16,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include "base/constants.h"
 #include "optim/journal.h"
@@ -93,31 +94,37 @@ void Worker::start() {
     rlimit limit{static_cast<rlim_t>(limits_.bytes), static_cast<rlim_t>(limits_.bytes)};
     ::setrlimit(RLIMIT_AS, &limit);
 #endif
-    bool timed_out = false;
-    while (true) {
-      const std::string line = read_line(down[0], kInfinity, timed_out);
-      Evaluation request;
-      if (line.empty() || !parse_journal_line(line, request)) ::_exit(0);
-      Evaluation reply;
-      try {
-        reply.outcome = evaluate_(request.unit);
-      } catch (const std::bad_alloc&) {
-        reply.outcome = {};
-        reply.outcome.reason = "not enough memory";
-      } catch (const std::exception& e) {
-        reply.outcome = {};
-        reply.outcome.reason = e.what();
-      } catch (...) {
-        reply.outcome = {};
-        reply.outcome.reason = "an exception of an unknown kind";
-      }
-      if (!write_all(up[1], journal_line(reply))) ::_exit(0);
-    }
+    // OpenMP's threads do not survive a fork, but the thread that forked would wait for them in the
+    // next parallel loop; a new thread gets new ones.
+    std::thread([&] { serve(down[0], up[1]); }).join();
   }
   ::close(down[0]);
   ::close(up[1]);
   to_child_ = down[1];
   from_child_ = up[0];
+}
+
+void Worker::serve(int requests, int replies) const {
+  bool timed_out = false;
+  while (true) {
+    const std::string line = read_line(requests, kInfinity, timed_out);
+    Evaluation request;
+    if (line.empty() || !parse_journal_line(line, request)) ::_exit(0);
+    Evaluation reply;
+    try {
+      reply.outcome = evaluate_(request.unit);
+    } catch (const std::bad_alloc&) {
+      reply.outcome = {};
+      reply.outcome.reason = "not enough memory";
+    } catch (const std::exception& e) {
+      reply.outcome = {};
+      reply.outcome.reason = e.what();
+    } catch (...) {
+      reply.outcome = {};
+      reply.outcome.reason = "an exception of an unknown kind";
+    }
+    if (!write_all(replies, journal_line(reply))) ::_exit(0);
+  }
 }
 
 void Worker::stop(bool kill) {

@@ -18,8 +18,7 @@ struct WorkerLimits {
 };
 
 // Keeps one child process, started on the first call and again after it died; the child ends with
-// its parent, however that ends. The parent must not have used OpenMP before (its threads do not
-// survive a fork).
+// its parent, however that ends.
 class Worker {
  public:
   Worker(Evaluate evaluate, const WorkerLimits& limits);
@@ -36,6 +35,7 @@ class Worker {
 
  private:
   void start();
+  [[noreturn]] void serve(int requests, int replies) const;  // in the child
   void stop(bool kill);
 
   Evaluate evaluate_;

@@ -12,9 +12,39 @@
 namespace papilla {
 namespace {
 
-// Seconds of one forward and inverse FFT of n pixels on one core (measured, results/bench).
-double pair_seconds(std::size_t n) {
-  return 2.2e-10 * static_cast<double>(n) * std::log2(static_cast<double>(n));
+// Seconds of the pieces for one patch at one humidity on one core, between two machines of which
+// one is twice as fast. FFT pairs a solve, seconds a pair and the water: `papilla evaluate --json`
+// of the published samples on 128 to 512 pixels (a smooth finger takes three times the water).
+struct Prices {
+  double contact, water, field, tractions;
+
+  double sum() const { return contact + water + field + tractions; }
+};
+
+Prices prices(const Scene& scene, const Plan& plan, const Grid& grid, const Fidelity& fidelity,
+              bool tractions) {
+  const auto n = static_cast<double>(grid.size());
+  const double pair = 3.3e-10 * n * std::log2(n);
+  const auto digits = [](double tolerance) { return std::max(1.0, -std::log10(tolerance)); };
+  const double contact = std::max(3.0, 3.3 * digits(fidelity.contact_tolerance) - 5) * pair;
+  Prices out{contact, 0, 0, 0};
+  if (plan.water)
+    out.water = scene.model.water == WaterModel::Droplets ? 1e-5 * std::sqrt(n) : 9e-9 * n;
+  if (plan.field) {
+    switch (field_method(scene.model)) {
+      case FieldMethod::Local:
+        out.field = 2e-8 * n;
+        break;
+      case FieldMethod::Spread:
+        out.field = std::max(6.0, 10.5 * digits(fidelity.field_tolerance) - 12) * pair;
+        break;
+      case FieldMethod::Full:
+        out.field = 2.0 * n / 65536;
+        break;
+    }
+  }
+  if (tractions) out.tractions = (plan.field ? 2 : 1) * contact;
+  return out;
 }
 
 // One standard error of the modulation from one skin patch, relative (m3-prototype, section 3).
@@ -58,13 +88,13 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   const auto states = static_cast<double>(fidelity.skins) *
                       static_cast<double>(scene.environment.relative_humidity.size()) *
                       (scene.model.closure == Closure::Persson ? fidelity.bridge_nodes : 1);
-  const double pair = pair_seconds(plan.grid.size());
+  const Prices price = prices(scene, plan, plan.grid, fidelity, plan.traction_solves);
 
   plan.steps.push_back(
       {"contact", fmt::format("layered half-space, certified to {:g}", fidelity.contact_tolerance),
        fmt::format("{} skins on {} x {} pixels, skin resolved to {:.0f} nm", fidelity.skins,
                    plan.grid.nx, plan.grid.ny, 1e9 * plan.effective_cutoff),
-       states * 38 * pair, 0});
+       states * price.contact, 0});
   if (plan.water) {
     const bool droplets = scene.model.water == WaterModel::Droplets;
     plan.steps.push_back(
@@ -72,28 +102,24 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
          droplets
              ? "its variation over humidity is what textures change; error: mobility and number"
              : "cheap and smooth; it reverses the sign of the texture's effect on variation",
-         states * (droplets ? 1.5e-3 : 4e-4),
-         droplets ? droplet_error : threshold_shortfall(largest_volume)});
+         states * price.water, droplets ? droplet_error : threshold_shortfall(largest_volume)});
   } else {
     plan.skipped.push_back({"water", "no water at any of these humidities", 0});
   }
   if (plan.field) {
-    const double pixels = static_cast<double>(plan.grid.size());
+    const double seconds = states * price.field;
     switch (field_method(scene.model)) {
       case FieldMethod::Local:
         plan.steps.push_back({"field", "columns, one by one",
-                              "pull 20 % (dry) to 35 % (wet) below the 3-D field", states * 1e-3,
-                              0.2});
+                              "pull 20 % (dry) to 35 % (wet) below the 3-D field", seconds, 0.2});
         break;
       case FieldMethod::Spread:
         plan.steps.push_back({"field", "columns, the flux spreading in the dielectric",
-                              "pull 3 % (wet) to 9 % (dry) above the 3-D field", states * 12 * pair,
-                              0.09});
+                              "pull 3 % (wet) to 9 % (dry) above the 3-D field", seconds, 0.09});
         break;
       case FieldMethod::Full:
         plan.steps.push_back({"field", "3-D potential",
-                              "asked for; pull stated to 8 % on these pixels",
-                              states * 2.0 * pixels / 65536, 0.08});
+                              "asked for; pull stated to 8 % on these pixels", seconds, 0.08});
         break;
     }
     plan.steps.push_back(
@@ -110,7 +136,7 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   if (plan.traction_solves) {
     plan.steps.push_back({"contact with tractions", plan.field ? "off and on states" : "off state",
                           "areas from resolved contact, not from the load law",
-                          states * (plan.field ? 2 : 1) * 45 * pair, 0});
+                          states * price.tractions, 0});
   } else if (plan.water || plan.field) {
     plan.skipped.push_back({"contact with tractions",
                             fmt::format("the load law F ~ L^{:g} ranks designs (Eq. friction.3)",
@@ -121,7 +147,7 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
     plan.steps.push_back({"coupling", "self-consistent",
                           fmt::format("gap, field and water to a fixed point, {} passes at most",
                                       fidelity.coupling_passes),
-                          states * 6 * 45 * pair, 0});
+                          states * 6 * (price.contact + price.water + price.field), 0});
   } else if (plan.field) {
     plan.skipped.push_back(
         {"self-consistent coupling",
@@ -154,6 +180,17 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   plan.steps.push_back({"sampling", fmt::format("{} skins, common to all designs", fidelity.skins),
                         "patches differ by tens of percent; designs are compared on the same skins",
                         0, se});
+  const int controls = std::min(fidelity.control_skins, fidelity.skins);
+  if (controls >= 2) {  // measure_errors
+    const bool load_law = !plan.traction_solves && (plan.water || plan.field);
+    const Grid half = simulated_patch(texture, fidelity.grid / 2);
+    double seconds = prices(scene, plan, half, fidelity, plan.water || plan.field).sum();
+    if (load_law) seconds += prices(scene, plan, plan.grid, fidelity, true).sum();
+    plan.steps.push_back({"errors", fmt::format("{} of the skins on half the pixels", controls),
+                          load_law ? "what the grid and the load law may be off by, on solved areas"
+                                   : "what the grid may be off by",
+                          states / fidelity.skins * controls * seconds, 0});
+  }
   return plan;
 }
 

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <tuple>
 
@@ -32,6 +33,9 @@ namespace fs = std::filesystem;
 constexpr int kNarrowSkins = 500;  // skins of the level between start here
 constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came before
 constexpr std::size_t kFinalists = 8;
+// Flat surface, sensitivity and parameters cost about as much as confirming so many designs; the
+// stability of a design on the front as much as one.
+constexpr int kOtherChecks = 4;
 // Designs that the level between judges: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
@@ -220,15 +224,21 @@ class Run {
     write_bytes(folder_ + "/plan.txt", search_plan(study_));
     search();
     const double searched = seconds();
-    if (!result_.interrupted && narrow()) confirm();
+    const bool go_on = !result_.interrupted && narrow();
+    const double narrowed = seconds();
+    if (go_on) confirm();
+    const double confirmed = seconds();
+    if (go_on && !result_.interrupted) check();
     ResultFiles files{folder_, study_, problem_, history_, result_, options_.pick};
     write_results(files);
     if (!result_.interrupted && result_.has_best())
       write_bytes(folder_ + "/report.html", report_page(folder_));
     write_bytes(folder_ + "/timing.json",
                 fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
-                            "\"confirm_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
-                            searched, seconds() - searched, evaluation_seconds()));
+                            "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "
+                            "\"check_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
+                            searched, narrowed - searched, confirmed - narrowed,
+                            seconds() - confirmed, evaluation_seconds()));
     return std::move(result_);
   }
 
@@ -377,7 +387,8 @@ class Run {
            cost(search_fidelity(study_));
   }
   double seconds_to_confirm() const {
-    return seconds_of(kFinalists + 1, confirm_fidelity(study_, problem_.nominal_tasks()));
+    return seconds_of(2 * kFinalists + kOtherChecks,
+                      confirm_fidelity(study_, problem_.nominal_tasks()));
   }
   double seconds_after_search() const {
     return seconds_of(narrowings(search_), narrow_fidelity(study_)) + seconds_to_confirm();
@@ -559,18 +570,22 @@ class Run {
     }
   }
 
-  void check_stability() {
+  // step: after each design; false: interrupted.
+  bool check_stability(const std::function<void()>& step) {
     const std::size_t variants = stability_variants(problem_).size();
     std::vector<std::vector<Outcome>> outcomes;
     // The front comes first.
     for (const FinalDesign& f : result_.finalists) {
       if (f.folder.empty()) break;
+      if (stopped()) return false;
       std::vector<Point> requests;
       for (std::size_t v = 0; v < variants; ++v)
         requests.push_back(work_request(v, kStability, false, f.unit));
       outcomes.push_back(answers(requests));
+      step();
     }
     result_.stability = judge_stability(problem_, outcomes);
+    return true;
   }
 
   // Of evaluations at one level, those to judge at the next.
@@ -652,30 +667,46 @@ class Run {
   void confirm() {
     const std::vector<Evaluation>& below = narrowed_.empty() ? history_ : narrowed_;
     const std::vector<std::size_t> chosen = finalists(below, kFinalists);
-    const int total = static_cast<int>(chosen.size()) + 1;
+    const std::size_t total = chosen.size();
     const double from = seconds();
-    int done = 0;
-    const auto step = [&] {
-      ++done;
-      report_progress("confirm", done, total, (seconds() - from) / done * (total - done));
-    };
-    report_progress("confirm", 0, total, seconds_to_confirm());
-    for (std::size_t i : chosen) {
+    report_progress("confirm", 0, static_cast<int>(total), seconds_to_confirm());
+    for (std::size_t done = 1; done <= total; ++done) {
       if (stopped()) {
         result_.interrupted = true;
         return;
       }
-      add_finalist(below[i].unit);
-      step();
+      add_finalist(below[chosen[done - 1]].unit);
+      const double each = (seconds() - from) / static_cast<double>(done);
+      report_progress("confirm", static_cast<int>(done), static_cast<int>(total),
+                      each * static_cast<double>(2 * total - done + kOtherChecks));
     }
     judge();
-    if (!chosen.empty() && texture_depth(study_.design.texture) > 0) compare_with_flat();
-    step();
+  }
+
+  // What is said of the front and the best beside their numbers: whether the order holds under
+  // other models, what is the texture's, what the variables and the fit of the finger do.
+  void check() {
     if (result_.finalists.empty()) return;
+    int done = 0, total = kOtherChecks;
+    for (const FinalDesign& f : result_.finalists) total += !f.folder.empty();
+    const double from = seconds();
+    const auto step = [&](int by = 1) {
+      done += by;
+      report_progress("check", done, total, (seconds() - from) / done * (total - done));
+    };
+    if (!check_stability([&] { step(); }) || stopped()) {
+      result_.interrupted = true;
+      return;
+    }
+    pick();
+    if (texture_depth(study_.design.texture) > 0) compare_with_flat();
+    step();
     find_sensitivity();
+    step(2);
     FinalDesign& best = result_.finalists[result_.best];
     find_parameters(best.confirmed, best.unit, false);
     if (result_.flat) find_parameters(*result_.flat, best.unit, true);
+    step();
   }
 
   // What the fit of the fingers leaves open. Eq. accuracy.12
@@ -733,7 +764,10 @@ class Run {
     for (FinalDesign& f : result_.finalists) {
       if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
     }
-    check_stability();
+  }
+
+  // The best of the front by the rule asked for.
+  void pick() {
     std::vector<PickCandidate> front;  // the first ones; none: the first finalist is best
     for (const FinalDesign& f : result_.finalists) {
       if (!f.on_front) continue;

@@ -14,7 +14,7 @@
 namespace papilla {
 
 struct Progress {
-  std::string stage;  // "draft", "search", "narrow", "confirm"
+  std::string stage;  // "draft", "search", "narrow", "confirm", "check"
   int done = 0, total = 0;
   std::string best;         // best values so far, for people
   double seconds_left = 0;  // < 0: not known yet

@@ -4,12 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <numbers>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/random.h"
 #include "optim/gaussian_process.h"
 #include "optim/pareto.h"
@@ -292,6 +294,24 @@ TEST(Worker, ACrashAHangAndAnExceptionBecomeFailures) {
   EXPECT_EQ(ask(0.3).reason, "no water left");
   EXPECT_NE(ask(0.5).reason.find("longer"), std::string::npos);
   EXPECT_EQ(ask(0.75).objectives[0], 0.75);
+}
+
+TEST(Worker, RunsInParallelAlthoughItsParentDidSoBefore) {
+  std::atomic<int> sum{0};
+  parallel_for(
+      4, [&](int i) { sum += i; }, 2);
+  Worker worker(
+      [](const Point& x) {
+        std::atomic<int> counted{0};
+        parallel_for(
+            8, [&](int) { ++counted; }, 2);
+        return outcome({x[0] + counted});
+      },
+      {.seconds = 20});
+  worker.send({1});
+  const Outcome out = worker.receive();
+  ASSERT_TRUE(out.ok) << out.reason;
+  EXPECT_EQ(out.objectives[0], 9);
 }
 
 TEST(Worker, TooMuchMemoryBecomesAFailure) {

@@ -202,6 +202,20 @@ TEST(Optimise, AnInterruptLeavesAResumableFolder) {
   EXPECT_EQ(result.evaluations, 6);
 }
 
+TEST(Optimise, ARunInterruptedBeforeItsChecksEndsAsIfItHadNotBeen) {
+  const Study study = small_study();
+  const std::string folder = fresh_folder("unchecked"), whole = fresh_folder("checked");
+  std::atomic<bool> stop{false};
+  const auto progress = [&](const Progress& p) {
+    stop = p.stage == "confirm" && p.done == p.total;
+  };
+  EXPECT_TRUE(optimise(study, {folder, false, progress, &stop}).interrupted);
+  EXPECT_FALSE(optimise(study, {folder, true, {}, nullptr}).interrupted);
+  EXPECT_FALSE(optimise(study, {whole, false, {}, nullptr}).interrupted);
+  for (const char* file : {"journal", "pareto.csv", "summary.md"})
+    EXPECT_EQ(bytes(folder + "/" + file), bytes(whole + "/" + file)) << file;
+}
+
 // The level between judges a third as many designs as the search, the best of it first; what it
 // judged is in the journal, so the finished run continues without a new evaluation.
 TEST(Optimise, FinalistsComeFromALevelBetween) {
@@ -216,7 +230,7 @@ TEST(Optimise, FinalistsComeFromALevelBetween) {
     }
   };
   const OptimiseResult first = optimise(study, {folder, false, progress, nullptr});
-  EXPECT_EQ(stages, (std::vector<std::string>{"search", "narrow", "confirm"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"search", "narrow", "confirm", "check"}));
   const std::string journal = bytes(folder + "/journal"), front = bytes(folder + "/pareto.csv");
   optimise(study, {folder, true, {}, nullptr});
   EXPECT_EQ(bytes(folder + "/journal"), journal);
