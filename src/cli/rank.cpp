@@ -20,7 +20,7 @@ struct RankCommand {
   std::vector<std::string> files, overrides;
   std::string by, states, out;
   int max_skins = 96, jobs = 0;
-  bool json = false, parameters = false;
+  bool json = false, parameters = false, any_conditions = false;
 };
 
 std::vector<FingerState> parse_states(const std::string& text) {
@@ -50,10 +50,21 @@ int run(const Context& context, const RankCommand& command) {
   if (command.files.size() < 2) throw InputError("name two designs at least");
   std::vector<Regions> candidates;
   std::vector<Design> designs;
+  std::vector<std::vector<std::string>> seen;
   for (const std::string& file : command.files) {
     Regions regions;
-    for (const std::string& region : split(file, '+'))
+    seen.emplace_back();
+    for (const std::string& region : split(file, '+')) {
+      if (region.empty()) {
+        throw InputError("\"" + file +
+                         "\": A.toml+B.toml joins the regions of one design, and a name is missing "
+                         "beside a +");
+      }
       regions.push_back(read_design(region, command.overrides));
+      seen.back().push_back(std::filesystem::weakly_canonical(region).string());
+    }
+    if (std::count(seen.begin(), seen.end(), seen.back()) > 1)
+      throw InputError("\"" + file + "\" is named twice: it cannot be better than itself");
     designs.insert(designs.end(), regions.begin(), regions.end());
     candidates.push_back(std::move(regions));
   }
@@ -63,15 +74,23 @@ int run(const Context& context, const RankCommand& command) {
   options.criteria = parse_criteria(!command.by.empty() ? command.by
                                     : driven            ? "modulation:high"
                                                         : "friction:low,adhesion:low");
-  options.states = command.states.empty() ? std::vector<FingerState>{designs.front().finger.state}
-                                          : parse_states(command.states);
+  const FingerState first_state = designs.front().finger.state;
+  if (command.states.empty() && std::any_of(designs.begin(), designs.end(), [&](const Design& d) {
+        return d.finger.state != first_state;
+      })) {
+    throw InputError("the designs' fingers are in different states (finger.state); say --state " +
+                     finger_state_names()[static_cast<std::size_t>(first_state)]);
+  }
+  options.states =
+      command.states.empty() ? std::vector<FingerState>{first_state} : parse_states(command.states);
   options.max_skins = command.max_skins;
   options.threads = command.jobs;
   options.parameters =
       command.parameters || std::any_of(designs.begin(), designs.end(),
                                         [](const Design& d) { return d.accuracy.parameters; });
   options.note = [&](const std::string& text) { context.note(text); };
-  const std::vector<std::string> names = short_names(command.files);
+  options.any_conditions = command.any_conditions;
+  const std::vector<std::string> names = options.names = short_names(command.files);
   const Ranking ranking = rank(candidates, options);
   if (!command.out.empty()) {
     std::error_code error;
@@ -126,6 +145,9 @@ void add_rank(CLI::App& app, Context& context) {
   command->add_flag("--parameters", options->parameters,
                     "Also what the finger's fitted numbers (its [[uncertainty]]) leave of each "
                     "value and of each difference");
+  command->add_flag("--any-conditions", options->any_conditions,
+                    "Also designs of different finger, air, drive or accuracy: the order is then "
+                    "not of the surfaces alone");
   command->add_option("--out", options->out, "Also write table, JSON, designs and report.html")
       ->type_name("DIR");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")

@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <utility>
 
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/random.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "config/writer.h"
 #include "forward/forward.h"
 #include "study/parameters.h"
 
@@ -170,7 +173,7 @@ class StateRanker {
   // Everyone gets a batch; then only neighbours in the order whose difference is open.
   StateRanking run(int& skins) {
     for (Candidate& c : candidates_) c.extend();
-    for (;;) {
+    for (std::ptrdiff_t said = 0;;) {
       score();
       std::vector<bool> open(candidates_.size(), false);
       for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
@@ -187,11 +190,13 @@ class StateRanker {
         more = true;
       }
       if (!more) break;
-      if (options_.note) {
+      const auto still = std::count(open.begin(), open.end(), true);
+      if (options_.note && still != said) {  // a batch is quick: only what is new
         options_.note(fmt::format("{}: {} of {} candidates still open",
-                                  finger_state_names()[static_cast<std::size_t>(state_)],
-                                  std::count(open.begin(), open.end(), true), open.size()));
+                                  finger_state_names()[static_cast<std::size_t>(state_)], still,
+                                  open.size()));
       }
+      said = still;
     }
     for (const Candidate& c : candidates_) skins += c.skins();
     if (options_.parameters) step();  // more skins make nothing of it surer
@@ -384,6 +389,55 @@ class StateRanker {
   std::vector<std::size_t> order_;
 };
 
+// Every value below a node as a file has it, by its key; a list is one value.
+void leaves(const Node& node, const std::string& path,
+            std::vector<std::pair<std::string, std::string>>& out) {
+  if (node.is_table()) {
+    for (const Node& child : node.children)
+      leaves(child, path.empty() ? child.key : path + "." + child.key, out);
+    return;
+  }
+  Node line = table_node();
+  line.set("v", node);
+  std::string text = write_toml(line);
+  if (const std::size_t at = text.find("v = "); at != std::string::npos) text.erase(0, at + 4);
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  if (node.is_text()) text = node.text;
+  out.emplace_back(path, std::move(text));
+}
+
+// What all candidates have to share for these criteria, key by key.
+std::vector<std::pair<std::string, std::string>> conditions_of(const Design& design,
+                                                               const RankOptions& options) {
+  bool felt = false, driven = false, seen = false;
+  for (const Criterion& c : options.criteria) {
+    const MetricInfo& info = *find_metric(c.expression.metric);
+    seen = seen || info.appearance;
+    felt = felt || !info.appearance;
+    driven = driven || info.needs_drive;
+  }
+  std::vector<std::pair<std::string, std::string>> out;
+  if (felt) {
+    Finger finger = design.finger;
+    // Names and the story of the fit move nothing; the options rule the state.
+    finger.name.clear();
+    finger.fitted_to.clear();
+    finger.uncertainty.clear();
+    finger.calibrated_for = {};
+    finger.state = FingerState::Clean;
+    leaves(to_table(finger), "finger", out);
+    leaves(to_table(design.environment), "environment", out);
+    leaves(to_table(design.model), "model", out);
+    AccuracySettings accuracy = design.accuracy;
+    accuracy.target = 0;  // a ranking takes the skins that its order asks for
+    accuracy.parameters = false;
+    leaves(to_table(accuracy), "accuracy", out);
+  }
+  if (driven) leaves(to_table(design.drive), "drive", out);
+  if (seen) leaves(to_table(design.view), "view", out);
+  return out;
+}
+
 const MetricInfo& info_of(const Criterion& c) { return *find_metric(c.expression.metric); }
 
 // A number of a metric for people: its scale and unit.
@@ -443,9 +497,67 @@ Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
   return rank(candidates, options);
 }
 
+std::string ConditionDifference::text() const {
+  const auto cut = [](const std::string& text) {  // lists of fitted numbers are long
+    constexpr std::size_t kLongest = 48;
+    return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
+  };
+  return fmt::format("{}: {} in {}, {} in {}", key, cut(value), first, cut(other_value), other);
+}
+
+std::vector<ConditionDifference> condition_differences(const std::vector<Regions>& candidates,
+                                                       const RankOptions& options) {
+  const auto name = [&](std::size_t i) {
+    if (i < options.names.size()) return options.names[i];
+    const std::string& title = candidates[i].front().title;
+    return title.empty() ? fmt::format("candidate {}", i + 1) : "\"" + title + "\"";
+  };
+  std::vector<ConditionDifference> out;
+  const auto first = conditions_of(candidates.front().front(), options);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    for (const Design& design : candidates[i]) {
+      const auto other = conditions_of(design, options);
+      const auto value = [&](const auto& list, const std::string& key) {
+        const auto at = std::find_if(list.begin(), list.end(),
+                                     [&](const auto& pair) { return pair.first == key; });
+        return at == list.end() ? std::string("nothing") : at->second;
+      };
+      const auto add = [&](const std::string& key) {
+        const std::string a = value(first, key), b = value(other, key);
+        if (a == b || std::any_of(out.begin(), out.end(),
+                                  [&](const ConditionDifference& d) { return d.key == key; }))
+          return;
+        out.push_back({key, name(0), a, b, name(i)});
+      };
+      for (const auto& pair : first) add(pair.first);
+      for (const auto& pair : other) add(pair.first);
+    }
+  }
+  return out;
+}
+
 Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Ranking out;
+  out.conditions = condition_differences(candidates, options);
+  if (!out.conditions.empty() && !options.any_conditions) {
+    std::vector<std::string> texts, sets;
+    for (const ConditionDifference& d : out.conditions) {
+      texts.push_back(d.text());
+      sets.push_back(fmt::format("--set '{}={}'", d.key, d.value));
+    }
+    constexpr std::size_t kShown = 6, kSettable = 3;  // other fingers differ in dozens of keys
+    const std::size_t more = texts.size() > kShown ? texts.size() - kShown : 0;
+    texts.resize(texts.size() - more);
+    throw InputError(fmt::format(
+        "the candidates are not judged under the same conditions, so that their order would say "
+        "nothing about the surfaces:\n  {}{}\nmake them equal: {}; or compare them as they are: "
+        "--any-conditions",
+        join_names(texts, "\n  "), more ? fmt::format("\n  and {} keys more", more) : "",
+        sets.size() > kSettable
+            ? std::string("the same [finger] base, environment, drive and accuracy in every file")
+            : join_names(sets, " ")));
+  }
   if (options.parameters) {
     const Design& first = candidates.front().front();
     out.directions = static_cast<int>(finger_steps(first.finger).size());
@@ -503,9 +615,17 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
       rows.push_back(std::move(row));
     }
     out += aligned_table(rows, 2);
-    out += fmt::format("{} skins; {} if everyone had as many as the neediest ({:.0f} %)\n\n",
-                       state.skins, state.equal_skins,
-                       100.0 * state.skins / std::max(1, state.equal_skins));
+    out += fmt::format("{} patches of skin tried", state.skins);
+    if (state.skins < state.equal_skins)
+      out += fmt::format(" (more where two designs are close; {} with as many for every design)",
+                         state.equal_skins);
+    out += "\n\n";
+  }
+  if (!ranking.conditions.empty()) {
+    out +=
+        "warning: the designs are not judged under the same conditions, and the order is that of "
+        "surface and conditions together:\n";
+    for (const ConditionDifference& d : ranking.conditions) out += "  " + d.text() + "\n";
   }
   if (ranking.directions > 0) {
     out += fmt::format(
@@ -517,12 +637,18 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
     out +=
         "ahead of the next: by the mean over criteria of what each is better by, in parts of the "
         "candidates' mean size\n";
+  int fewest = std::numeric_limits<int>::max();
+  for (const StateRanking& state : ranking.states) {
+    for (const RankedCandidate& r : state.candidates) fewest = std::min(fewest, r.skins);
+  }
   return out +
          fmt::format(
-             "± and [ ] are 95 % intervals over skins, differences are paired over common "
-             "skins; = marks a tie with the next. Errors that all designs share (grid, water) "
-             "are not in ±: papilla evaluate has them. {} skins solved, {:.1f} s\n",
-             ranking.skins, ranking.seconds);
+             "read order, leads and probabilities: they are paired, all designs meet the same "
+             "skins. The values share the luck of these few ({} at least) and may all be high or "
+             "low together, beyond their ±; errors that all designs share (grid, water) are not in "
+             "± either: papilla evaluate gives values. ± and [ ] are 95 % intervals over skins; = "
+             "marks a tie with the next. {} patches of skin in all, {:.1f} s\n",
+             fewest, ranking.skins, ranking.seconds);
 }
 
 std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
@@ -567,8 +693,14 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
                         {"better", c.high ? "high" : "low"},
                         {"unit", relative ? "" : info_of(c).unit}});
   }
+  Json conditions = Json::array();
+  for (const ConditionDifference& d : ranking.conditions) {
+    conditions.push_back(
+        {{"key", d.key}, {"designs", {d.first, d.other}}, {"values", {d.value, d.other_value}}});
+  }
   return Json{{"schema", 1},
               {"by", by},
+              {"conditions_differ", conditions},
               {"criteria", criteria},
               {"candidates", states.front()["candidates"]},
               {"states", states},

@@ -55,13 +55,25 @@ struct RankOptions {
   int batch = 6;       // skins a step
   int max_skins = 96;  // a candidate and state
   int threads = 0;
-  bool parameters = false;  // also what the finger's fitted numbers leave open, Eq. ranking.5
+  bool parameters = false;      // also what the finger's fitted numbers leave open, Eq. ranking.5
+  bool any_conditions = false;  // candidates under other conditions are compared all the same
+  std::vector<std::string> names;  // of the candidates in messages; empty: their titles
   std::function<void(const std::string&)> note;  // progress for people; may be empty
+};
+
+// A key that is no part of a candidate but of what it is judged under, and that differs.
+struct ConditionDifference {
+  std::string key;                        // "finger.load"
+  std::string first, value, other_value;  // name and value of the first candidate; of another
+  std::string other;
+
+  std::string text() const;  // "finger.load: 0.3 N in mine, 0.2 N in flat"
 };
 
 struct Ranking {
   std::vector<StateRanking> states;
-  int skins = 0;  // solved in all
+  std::vector<ConditionDifference> conditions;  // empty unless any_conditions
+  int skins = 0;                                // solved in all
   double seconds = 0;
   // Of the finger's parameters: independent directions, and what their steps were run with.
   int directions = 0, step_skins = 0, step_grid = 0;  // 0: not asked for
@@ -69,8 +81,15 @@ struct Ranking {
 
 // A candidate: a design, or several regions of one that its skins take in turn.
 using Regions = std::vector<Design>;
-// Throws InputError when a criterion is not defined for a design (modulation without a drive), and
-// for parameters of fingers that have no `uncertainty` or not the same.
+// What the criteria hang on besides texture, surface and dielectric: finger and air, model and
+// accuracy where something is felt; the drive where a criterion needs one; the view where one is
+// looked at. The finger's state is that of the options. Only the first difference in each key.
+std::vector<ConditionDifference> condition_differences(const std::vector<Regions>& candidates,
+                                                       const RankOptions& options);
+
+// Throws InputError when the candidates are under other conditions (unless any_conditions), when a
+// criterion is not defined for a design (modulation without a drive), and for parameters of fingers
+// that have no `uncertainty` or not the same.
 Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options);
 Ranking rank(const std::vector<Design>& designs, const RankOptions& options);
 

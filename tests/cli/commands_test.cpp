@@ -56,6 +56,16 @@ TEST(Explain, NamesWhatItSkipsAndWhy) {
   EXPECT_GE(plan["plan"]["steps"].size(), 3u);
 }
 
+TEST(Rank, RefusesADesignAgainstItselfAndARegionWithoutAName) {
+  const Workplace place;
+  const Outcome twice = place.run("rank " + kSample + " " + kSample + kDraft);
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_NE(twice.err.find("named twice"), std::string::npos) << twice.err;
+  const Outcome nameless = place.run("rank " + kSample + "+ " + kSample + kDraft);
+  EXPECT_EQ(nameless.status, 2);
+  EXPECT_NE(nameless.err.find("a3h600.toml+"), std::string::npos) << nameless.err;
+}
+
 TEST(Evaluate, GivesTheDocumentedJson) {
   const Workplace place;
   const Outcome run = place.run("evaluate --json " + kSample + kDraft);

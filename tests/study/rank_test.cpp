@@ -154,6 +154,58 @@ TEST(Rank, RegionsAreOneCandidate) {
     EXPECT_GE(c.metrics[1].low, -1e-12);  // no repulsion
 }
 
+TEST(Rank, OtherConditionsAreRefusedByTheirKeys) {
+  std::vector<Design> designs{sample("flat"), sample("a4h600")};
+  designs[1].surface.contact_angle = 1.5;  // a finish is a candidate
+  designs[1].finger.load = 0.3;
+  designs[1].environment.relative_humidity = {0.55};
+  designs[1].drive.amplitude = 150;
+  RankOptions options = by("friction:low");
+  options.max_skins = 6;
+  std::string message;
+  try {
+    rank(designs, options);
+  } catch (const InputError& e) {
+    message = e.what();
+  }
+  EXPECT_NE(message.find("finger.load"), std::string::npos) << message;
+  EXPECT_NE(message.find("--set 'finger.load=0.2 N'"), std::string::npos) << message;
+  EXPECT_NE(message.find("environment.relative_humidity"), std::string::npos);
+  EXPECT_EQ(message.find("drive"), std::string::npos);  // friction without voltage is another's
+  EXPECT_EQ(message.find("contact_angle"), std::string::npos);
+
+  options.any_conditions = true;
+  const Ranking all_the_same = rank(designs, options);
+  EXPECT_EQ(all_the_same.conditions.size(), 2u);
+  const std::vector<std::string> names{"flat", "a4h600"};
+  EXPECT_NE(ranking_table(names, options, all_the_same).find("warning: "), std::string::npos);
+  const auto json = nlohmann::json::parse(ranking_json(names, options, all_the_same));
+  EXPECT_EQ(json["conditions_differ"][0]["key"], "finger.load");
+
+  options = by("modulation:high");
+  designs[1].finger = designs[0].finger;
+  designs[1].finger.name = "the same, named otherwise";
+  designs[1].environment = designs[0].environment;
+  EXPECT_EQ(condition_differences({{designs[0]}, {designs[1]}}, options).at(0).key,
+            "drive.amplitude");
+  designs[1].drive = designs[0].drive;
+  designs[1].accuracy.level = AccuracyLevel::Design;  // its grid has another error
+  EXPECT_EQ(condition_differences({{designs[0]}, {designs[1]}}, options).at(0).key,
+            "accuracy.level");
+  EXPECT_TRUE(condition_differences({{designs[0]}, {designs[1]}}, by("haze:low")).empty());
+}
+
+TEST(Rank, SaysWhatIsOpenOnceAndThatTheValuesShareTheirSkins) {
+  const std::vector<Design> designs{sample("flat"), sample("flat")};
+  RankOptions options = by("friction:low");
+  std::vector<std::string> notes;
+  options.note = [&](const std::string& text) { notes.push_back(text); };
+  const Ranking r = rank(designs, options);
+  EXPECT_EQ(r.states.front().candidates.front().skins, 24);  // four batches
+  EXPECT_EQ(notes.size(), 1u);
+  EXPECT_NE(ranking_table({"a", "b"}, options, r).find("share the luck"), std::string::npos);
+}
+
 TEST(Rank, RefusesWhatHasNoMeaning) {
   EXPECT_THROW(parse_criteria("frictoin:low"), InputError);
   EXPECT_THROW(parse_criteria("friction:down"), InputError);

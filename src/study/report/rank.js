@@ -80,7 +80,7 @@ function showSure(state) {
     data: list.map((c) => 100 * c.ahead_of_next.value), interval: list.map((c) => [100 * c.ahead_of_next.low, 100 * c.ahead_of_next.high]),
     text: list.map((c) => `${percent(c.ahead_of_next.value)} % [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}], p(ahead) ${c.p_ahead.toFixed(3)}` + (c.tied_with_next ? ': tie' : '')),
   }, 'lead over the next [% of the score]');
-  $('skins').textContent = `${state.skins} skins were solved; ${state.equal_skins} if every candidate had as many as the neediest. Skins go where the order is open.`
+  $('skins').textContent = `${state.skins} patches of skin were tried` + (state.skins < state.equal_skins ? `, more where two candidates are close; ${state.equal_skins} with as many for every candidate.` : '.')
     + (ranking.parameters ? ' Every interval and probability holds what the fit of the finger leaves open, which moves all candidates together: of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '');
 }
 
@@ -112,6 +112,7 @@ function select(index) {
   showSure(state);
 }
 
+if ((ranking.conditions_differ || []).length) $('conditions').textContent = 'Warning: the candidates are not judged under the same conditions, and the order is that of surface and conditions together: ' + ranking.conditions_differ.map((d) => `${d.key} (${d.designs.map((name, i) => `${name}: ${d.values[i]}`).join(', ')})`).join('; ') + '.';
 options($('finger'), ranking.states.map((s, i) => [i, s.state]), select);
 select(0);
 showCompared();
