@@ -73,6 +73,54 @@ Grid unit_cell(const Texture& texture, int pixels) {
   return cell;
 }
 
+// GDSII places whole cells on a grid of 1 nm, where a period that a search found never lies. All
+// files of an export are of one texture, so that a map and a layout of it lie on each other.
+void snap_period(Texture& texture, std::vector<std::string>& warnings) {
+  const double period = texture_period(texture), nm = 1e9 * period;
+  const auto with = [&](double whole) {
+    Texture out = texture;
+    std::visit(
+        [&](auto& kind) {
+          if constexpr (requires { kind.period; }) kind.period = 1e-9 * whole;
+        },
+        out.kind);
+    return out;
+  };
+  if (std::abs(nm - std::round(nm)) <= 1e-4) return;
+  Texture snapped = with(std::round(nm));
+  if (!problems(snapped).empty()) snapped = with(std::ceil(nm));  // walls may be that thin
+  for (const auto& [key, message] : problems(snapped))
+    throw InputError("on the 1 nm grid of GDSII: texture." + key + ": " + message);
+  const double after = 1e9 * texture_period(snapped);
+  warnings.push_back(fmt::format(
+      "the period of {:.8g} nm is not on the 1 nm grid of GDSII: all files of this export, maps "
+      "and layout, have {:.0f} nm, {:.2g} nm ({:.2g} %) {}",
+      nm, after, std::abs(after - nm), 100 * std::abs(after / nm - 1),
+      after > nm ? "more" : "less"));
+  texture = snapped;
+}
+
+// Heights and masks of too few pixels move and round every edge.
+void judge_pixels(const Texture& texture, const Grid& grid, std::vector<std::string>& warnings) {
+  constexpr double kPixelsAcross = 4;
+  const FabricationMargins margins = fabrication_margins(texture);
+  const double smallest = std::min(margins.min_hole, margins.min_wall);
+  const double pixel = std::max(grid.dx(), grid.dy());
+  if (!std::isfinite(smallest) || !(smallest > 0) || pixel <= smallest / kPixelsAcross) return;
+  const double pixels = 2 * std::ceil(0.5 * std::max(grid.lx, grid.ly) * kPixelsAcross / smallest);
+  constexpr double kMost = 1 << 14;  // 2^28 of a square
+  warnings.push_back(fmt::format(
+      "a pixel of {:.3g} nm is more than a quarter of the smallest hole or wall, {:.3g} nm: edges "
+      "are not where the design has them; {}",
+      1e9 * pixel, 1e9 * smallest,
+      pixels <= kMost
+          ? fmt::format("--pixels {:.0f} would do", pixels)
+          : fmt::format(
+                "that would take {:.0f} pixels a side: ask for a smaller --size (one period "
+                "to be repeated) or a layout, --format gds",
+                pixels)));
+}
+
 Json margin(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
@@ -114,6 +162,9 @@ Export export_design(const Design& wanted, const ExportOptions& options,
   design.texture = compensated(wanted.texture, options.bias);
   const std::vector<std::string> formats = chosen_formats(design, options);
   Json gds_json, dose_json;
+  Export out;
+  const bool layout = std::find(formats.begin(), formats.end(), "gds") != formats.end();
+  if (layout && is_array(design.texture)) snap_period(design.texture, out.warnings);
   const Grid cell = unit_cell(design.texture, options.pixels);
   Grid grid = patch_grid(design.texture, options.pixels, options.size > 0 ? options.size : kWindow);
   if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
@@ -125,7 +176,6 @@ Export export_design(const Design& wanted, const ExportOptions& options,
   // The heights, the encoded file, and both again when the file is read back.
   require_memory(32.0 * static_cast<double>(grid.size()),
                  fmt::format("a heightmap of {} x {} pixels", grid.nx, grid.ny));
-  Export out;
   out.heightmap = generate(design.texture, grid);
   if (cell.lx > 0) {
     out.cells_x = static_cast<int>(std::lround(grid.lx / cell.lx));
@@ -139,6 +189,9 @@ Export export_design(const Design& wanted, const ExportOptions& options,
             ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
             : "the smallest patch that holds the texture"));
   }
+  if (std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f != "gds"; }) ||
+      (layout && !is_array(design.texture)))
+    judge_pixels(design.texture, grid, out.warnings);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)

@@ -47,7 +47,9 @@ struct Export {
 };
 
 // Writes heightmap.exr, heightmap.tif, mask.tif, ... and export.json (sizes, polarity, margins)
-// into a folder, which it makes. Throws InputError; then files of the formats before stay.
+// into a folder, which it makes. With a GDSII layout of an array the period of all files is the
+// nearest whole nanometre, with a warning; so there is one where a pixel is more than a quarter of
+// the smallest hole or wall. Throws InputError; then files of the formats before stay.
 Export export_design(const Design& design, const ExportOptions& options, const std::string& folder);
 
 }  // namespace papilla

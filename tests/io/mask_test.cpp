@@ -94,6 +94,49 @@ TEST(GdsArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
   EXPECT_EQ(fine.drift, 0);
 }
 
+TEST(ExportedFiles, AllHaveThePeriodThatALayoutCanHold) {
+  Design design;
+  HoleArray holes;
+  holes.period = 7997.3636e-9;
+  design.texture.kind = holes;
+  ExportOptions options;
+  options.pixels = 256;
+  const std::string folder = temporary("snapped");
+  const Export out = export_design(design, options, folder);  // the default formats
+  EXPECT_TRUE(std::filesystem::exists(folder + "/texture.gds"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/export.json"));
+  EXPECT_NEAR(out.heightmap.grid.lx / out.cells_x, 7997e-9, 1e-15);
+  ASSERT_EQ(out.warnings.size(), 1u);
+  EXPECT_NE(out.warnings[0].find("7997 nm, 0.36 nm (0.0045 %) less"), std::string::npos)
+      << out.warnings[0];
+  options.formats = {"npy"};  // nothing asks for whole nanometres
+  const Export maps = export_design(design, options, folder);
+  EXPECT_NEAR(maps.heightmap.grid.lx / maps.cells_x, holes.period, 1e-15);
+  EXPECT_TRUE(maps.warnings.empty());
+}
+
+TEST(ExportedFiles, PixelsTooLargeForAWallAreSaidWithThoseThatWouldDo) {
+  Design design;
+  HoleArray holes;
+  holes.period = 3e-6;
+  holes.diameter = 2.54e-6;  // walls of 0.46 um
+  design.texture.kind = holes;
+  ExportOptions options;
+  options.formats = {"npy"};
+  options.size = 120e-6;
+  options.pixels = 512;  // 234 nm
+  const std::string folder = temporary("coarse");
+  const Export coarse = export_design(design, options, folder);
+  ASSERT_EQ(coarse.warnings.size(), 1u);
+  EXPECT_NE(coarse.warnings[0].find("--pixels 1044 would do"), std::string::npos)
+      << coarse.warnings[0];
+  options.pixels = 1044;
+  EXPECT_TRUE(export_design(design, options, folder).warnings.empty());
+  options.formats = {"gds"};  // has no pixels
+  options.pixels = 512;
+  EXPECT_TRUE(export_design(design, options, folder).warnings.empty());
+}
+
 TEST(GdsArray, HexagonsKeepTheirPlacesOverTheWholeArea) {
   HoleArray holes;
   holes.lattice = Lattice::Hexagonal;
