@@ -163,6 +163,24 @@ Interval interval(const std::vector<double>& samples, const StepSamples& steps) 
   return out;
 }
 
+// What the skins that candidate i has not met would move its mean by: as much as they move the mean
+// of the candidates that have met most. Without it the luck of few skins orders the candidates.
+// Eq. ranking.6
+double unmet(const std::vector<std::vector<double>>& samples, std::size_t i) {
+  std::size_t most = 0;
+  for (const auto& s : samples) most = std::max(most, s.size());
+  const auto own = static_cast<std::ptrdiff_t>(samples[i].size());
+  double sum = 0;
+  int count = 0;
+  for (const auto& s : samples) {
+    if (s.size() != most) continue;
+    sum += mean_estimate(s).value -
+           mean_estimate(std::vector<double>(s.begin(), s.begin() + own)).value;
+    ++count;
+  }
+  return sum / count;
+}
+
 class StateRanker {
  public:
   StateRanker(const std::vector<Regions>& candidates, FingerState state, const RankOptions& options)
@@ -252,9 +270,20 @@ class StateRanker {
     order_.resize(candidates_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::vector<double> mean;
-    for (const auto& v : scores_) mean.push_back(mean_estimate(v).value);
+    for (std::size_t i = 0; i < scores_.size(); ++i)
+      mean.push_back(mean_estimate(scores_[i]).value + unmet(scores_, i));
     std::stable_sort(order_.begin(), order_.end(),
                      [&](std::size_t a, std::size_t b) { return mean[a] > mean[b]; });
+    // Neighbours stand as their paired difference says; it may go in circles, so not for ever.
+    for (std::size_t pass = 0; pass < order_.size(); ++pass) {
+      bool swapped = false;
+      for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
+        if (difference(order_[i], order_[i + 1]).value >= 0) continue;
+        std::swap(order_[i], order_[i + 1]);
+        swapped = true;
+      }
+      if (!swapped) break;
+    }
   }
 
   // Score of a minus b over the skins that both have, and over the steps of the finger.
@@ -311,11 +340,29 @@ class StateRanker {
     // A draw of the means is a random combination of the centred samples, a number a skin: those
     // that two scores have in common move both.
     std::vector<std::vector<double>> centred(m);
+    // Of those that met all skins, a number a skin: what carries the others to all, Eq. ranking.6.
+    std::vector<double> carrier(n, 0);
+    const auto met_all = static_cast<double>(std::count_if(
+        scores_.begin(), scores_.end(), [&](const auto& s) { return s.size() == n; }));
+    for (const auto& s : scores_) {
+      for (std::size_t k = 0; s.size() == n && k < n; ++k) carrier[k] += s[k] / met_all;
+    }
+    const auto add = [&](const std::vector<double>& samples, std::size_t count, double sign,
+                         std::vector<double>& to) {
+      double middle = 0;
+      for (std::size_t k = 0; k < count; ++k) middle += samples[k] / static_cast<double>(count);
+      const auto c = static_cast<double>(count);
+      for (std::size_t k = 0; k < count; ++k)
+        to[k] += sign * (samples[k] - middle) / std::sqrt(c * std::max(1.0, c - 1));
+    };
     for (std::size_t i = 0; i < m; ++i) {
-      mean[i] = mean_estimate(scores_[i]).value;
-      const auto own = static_cast<double>(scores_[i].size());
-      for (double s : scores_[i])
-        centred[i].push_back((s - mean[i]) / std::sqrt(own * std::max(1.0, own - 1)));
+      const std::size_t own = scores_[i].size();
+      mean[i] = mean_estimate(scores_[i]).value + unmet(scores_, i);
+      centred[i].assign(n, 0);
+      add(scores_[i], own, 1, centred[i]);
+      if (own == n) continue;
+      add(carrier, n, 1, centred[i]);
+      add(carrier, own, -1, centred[i]);
     }
     RandomStream random(1, "ranking", static_cast<std::uint64_t>(state_));
     const std::vector<std::vector<double>> moves = step_moves();
@@ -357,11 +404,22 @@ class StateRanker {
     }
     out.equal_skins = most * static_cast<int>(candidates_.size());
     const std::vector<double> p = probabilities();
+    std::vector<std::vector<std::vector<double>>> samples(options_.criteria.size());
+    for (std::size_t c = 0; c < samples.size(); ++c) {
+      for (const Candidate& x : candidates_) samples[c].push_back(x.samples(c));
+    }
+    const auto moved = [](Interval v, double by) {
+      v.value += by;
+      v.low += by;
+      v.high += by;
+      return v;
+    };
     for (std::size_t place = 0; place < order_.size(); ++place) {
       const std::size_t i = order_[place];
       RankedCandidate r;
       r.index = i;
-      r.score = interval(scores_[i], steps_.empty() ? StepSamples{} : steps_[i]);
+      r.score = moved(interval(scores_[i], steps_.empty() ? StepSamples{} : steps_[i]),
+                      unmet(scores_, i));
       if (place > 0) r.behind_best = difference(i, order_.front());
       if (place + 1 < order_.size()) {
         r.ahead_of_next = difference(i, order_[place + 1]);
@@ -372,9 +430,9 @@ class StateRanker {
       if (place > 0 && out.candidates.back().tied_with_next) r.rank = out.candidates.back().rank;
       r.p_best = p[i];
       for (std::size_t c = 0; c < options_.criteria.size(); ++c)
-        r.metrics.push_back(interval(candidates_[i].samples(c), options_.parameters
-                                                                    ? candidates_[i].steps(c)
-                                                                    : StepSamples{}));
+        r.metrics.push_back(moved(
+            interval(samples[c][i], options_.parameters ? candidates_[i].steps(c) : StepSamples{}),
+            unmet(samples[c], i)));
       r.skins = candidates_[i].skins();
       out.candidates.push_back(std::move(r));
     }
