@@ -43,12 +43,14 @@ int run(const Context& context, const CalibrateCommand& command) {
   write_bytes(out + "/fit.md", markdown);
   write_bytes(out + "/fit.json", json);
   write_bytes(out + "/report.html", report_page(out));
+  const std::string warning = calibration_warning(result);
+  if (!warning.empty()) std::cerr << "warning: " << warning << '\n';
   context.note("wrote " + out);
   if (command.json)
     std::cout << json;
   else
     context.print(markdown);
-  return result.fit.converged ? kSuccess : kWorkFailed;
+  return result.fit.converged && warning.empty() ? kSuccess : kWorkFailed;
 }
 
 }  // namespace

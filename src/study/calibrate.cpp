@@ -29,6 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr double kLargestCoefficient = 10;  // friction over load that a table may say
 constexpr const char* kWaterScale = "water.scale";
 const std::vector<std::string> kColumns{
     "design",  "relative_humidity", "amplitude_V", "frequency_Hz", "load_N",
@@ -84,7 +85,12 @@ class FrictionReader {
       const auto found = std::find(cells.begin(), cells.end(), name);
       column.push_back(static_cast<std::size_t>(found - cells.begin()));
       if (found != cells.end()) continue;
-      const std::string near = nearest_name(name, cells);
+      std::vector<std::string> unknown;  // a column that has its own name is not this one misspelt
+      for (const std::string& cell : cells) {
+        if (std::find(kColumns.begin(), kColumns.end(), cell) == kColumns.end())
+          unknown.push_back(cell);
+      }
+      const std::string near = nearest_name(name, unknown);
       problem(name, near.empty() ? "no such column; expected " + join_names(kColumns)
                                  : fmt::format("no such column, is it `{}`?", near));
       good = false;
@@ -148,6 +154,19 @@ class FrictionReader {
       if (d.amplitude == 0)
         problem("F_on_N", "a friction under voltage, but amplitude_V is 0",
                 static_cast<int>(column[7]) + 1);
+    }
+    // No skin rubs at ten times its load (coefficients are 0.1 to 3): it is another unit.
+    const bool readable = problems_.size() == before;
+    for (const int i : {5, 7}) {
+      const double force = i == 5 ? d.off : d.on;
+      if (!readable || force <= kLargestCoefficient * d.load) continue;
+      problem(kColumns[static_cast<std::size_t>(i)],
+              fmt::format("{:.6g} N is {:.3g} times the load of {:.3g} N{}", force, force / d.load,
+                          d.load,
+                          force > 50 * d.load
+                              ? fmt::format("; are these mN? Then {:.4g} N is meant", force / 1000)
+                              : "; no finger rubs so"),
+              static_cast<int>(column[static_cast<std::size_t>(i)]) + 1);
     }
     if (problems_.size() == before) out.push_back(d);
   }
@@ -591,6 +610,26 @@ std::string band(const FitRow& row) {
   return fmt::format("{:.3g} to {:.3g}", row.low, row.high);
 }
 
+// A chi squared a degree of freedom beyond which the fit says nothing about the finger: misses of
+// four standard deviations each.
+constexpr double kPoorFit = 16;
+
+double misfit(const CalibrationResult& r) {
+  return r.fit.chi2 / std::max(1, r.fit.degrees_of_freedom);
+}
+
+std::string misfit_text(const CalibrationResult& r) {
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < r.rows.size(); ++i) {
+    if (std::abs(r.fit.residuals[i]) > std::abs(r.fit.residuals[worst])) worst = i;
+  }
+  return fmt::format(
+      "the fitted finger does not explain the data: χ² a degree of freedom is {:.3g}, where 1 is "
+      "expected; the worst is {} ({}), {:+.1f} standard deviations. Check units and the stated "
+      "standard deviations, or let more parameters move; do not use this finger",
+      misfit(r), r.rows[worst].source, r.rows[worst].what, r.fit.residuals[worst]);
+}
+
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 bool holds(const ClaimResult& r) {
@@ -611,6 +650,10 @@ std::string direction_text(const Calibration& c, const FitDirection& d) {
 }
 
 }  // namespace
+
+std::string calibration_warning(const CalibrationResult& result) {
+  return misfit(result) > kPoorFit ? misfit_text(result) : "";
+}
 
 std::vector<FrictionDatum> read_friction(const std::string& path) {
   return FrictionReader(path).read();
@@ -745,6 +788,8 @@ CalibrationResult calibrate(const Calibration& calibration, const CalibrationOpt
 
 std::string calibration_markdown(const Calibration& c, const CalibrationResult& r) {
   std::string out = fmt::format("# Fit: {}\n\n", c.title.empty() ? c.finger.name : c.title);
+  if (const std::string warning = calibration_warning(r); !warning.empty())
+    out += "Warning: " + warning + ".\n\n";
   out += fmt::format(
       "{} residuals, {} parameters; χ² of the data {:.3g} before, {:.3g} after, of the priors "
       "{:.3g}; {} "
@@ -907,6 +952,7 @@ std::string calibration_json(const Calibration& c, const CalibrationResult& r) {
   return Json{{"schema", 1},
               {"title", c.title},
               {"converged", r.fit.converged},
+              {"warning", calibration_warning(r)},
               {"chi2_before", r.chi2_before},
               {"chi2", r.fit.chi2},
               {"prior_chi2", r.fit.prior_chi2},

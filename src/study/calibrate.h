@@ -22,7 +22,7 @@ struct FrictionDatum {
 
 // `design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N`:
 // designs beside the table, humidity as "15 %" or 0.15; empty F_on where nothing is driven. Throws
-// InputError with every bad cell, each with its line.
+// InputError with every bad cell, each with its line; a friction over ten times the load is one.
 std::vector<FrictionDatum> read_friction(const std::string& path);
 
 struct CalibrationParameter {
@@ -75,6 +75,10 @@ struct CalibrationOptions {
 };
 
 CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options = {});
+
+// Why the fitted finger is not to be used, for people: the data are far outside what it explains,
+// whether or not the fit converged. "" where they are not.
+std::string calibration_warning(const CalibrationResult& result);
 
 // The fit report: parameters with intervals, correlations, what is not identified, every residual,
 // fitted and held-out claims apart.

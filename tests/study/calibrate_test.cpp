@@ -198,6 +198,61 @@ TEST_F(Calibrate, BadCellsAreNamedByLineAndColumn) {
   EXPECT_FALSE(problems_of([&] { read_friction(write("empty.csv", kHeader)); }).empty());
 }
 
+TEST_F(Calibrate, AMissingColumnIsNotTakenForAnotherThatIsThere) {
+  const auto problems = problems_of([&] {
+    read_friction(write("a.csv",
+                        "design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_on_N,"
+                        "F_on_sd\n"));
+  });
+  ASSERT_EQ(problems.size(), 3u);
+  EXPECT_EQ(problems[0].key, "F_off_sd_N");
+  EXPECT_EQ(problems[0].message.find("`F_off_N`"), std::string::npos) << problems[0].message;
+  EXPECT_EQ(problems[1].message, "no such column, is it `F_on_sd`?");
+}
+
+TEST_F(Calibrate, FrictionBeyondTenTimesTheLoadIsRefusedAsAnotherUnit) {
+  const auto problems = problems_of([&] {
+    read_friction(write(
+        "mn.csv", std::string(kHeader) + "m3_samples/flat.toml,35 %,200,5000,0.2,81,4,142,6\n"));
+  });
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(problems[0].key, "F_off_N");
+  EXPECT_NE(problems[0].message.find("are these mN? Then 0.081 N"), std::string::npos)
+      << problems[0].message;
+  EXPECT_EQ(problems[1].key, "F_on_N");
+}
+
+TEST_F(Calibrate, AFitThatExplainsNothingIsNoSuccess) {
+  write("far.csv", std::string(kHeader) +
+                       "m3_samples/flat.toml,35 %,200,5000,0.2,1.2,0.01,1.2,"
+                       "0.01\n");
+  const std::string file = write("fit.toml", R"(schema_version = 1
+finger = "fingers/reference.toml"
+data = "far.csv"
+iterations = 2
+[sampling]
+level = "draft"
+grid = 64
+skins = 4
+[check]
+level = "draft"
+grid = 64
+skins = 4
+[parameters]
+"macro.shear_strength" = { low = "8 MPa", high = "10 MPa", prior = "9 MPa", sd = "1 MPa" }
+)");
+  const Calibration calibration = read_calibration(file);
+  CalibrationOptions options;
+  options.check = false;
+  const CalibrationResult r = calibrate(calibration, options);
+  EXPECT_NE(calibration_warning(r).find("does not explain the data"), std::string::npos);
+  EXPECT_NE(calibration_markdown(calibration, r).find("Warning: "), std::string::npos);
+  EXPECT_NE(calibration_json(calibration, r).find("does not explain"), std::string::npos);
+  CalibrationResult good = r;
+  good.fit.chi2 = 2.0 * good.fit.degrees_of_freedom;
+  EXPECT_EQ(calibration_warning(good), "");
+}
+
 TEST_F(Calibrate, MistakesOfTheFileAreToldTogether) {
   const std::string file = write("fit.toml", R"(schema_version = 1
 finger = "fingers/reference.toml"

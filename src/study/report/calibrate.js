@@ -93,7 +93,7 @@ function showClaims() {
     + (mu.length === 4 ? ` Friction coefficient on flat glass at 0.2 N: ${mu.map((v) => v.toFixed(2)).join(', ')} at 15, 35, 55, 75 % RH (published on screens at 1 N: 0.2 and 0.4).` : '');
 }
 
-$('lead').textContent = `${fit.residuals.length} numbers, ${parameters.length} parameters: χ² of the data ${round(fit.chi2_before)} before, ${round(fit.chi2)} after, of the priors ${round(fit.prior_chi2)}; ${fit.degrees_of_freedom} degrees of freedom. `
+$('lead').textContent = (fit.warning ? `Warning: ${fit.warning}. ` : '') + `${fit.residuals.length} numbers, ${parameters.length} parameters: χ² of the data ${round(fit.chi2_before)} before, ${round(fit.chi2)} after, of the priors ${round(fit.prior_chi2)}; ${fit.degrees_of_freedom} degrees of freedom. `
   + (fit.converged ? 'The fit converged' : 'The fit stopped early') + ` after ${fit.evaluations} evaluations of the model.`;
 showParameters();
 showMatrix();
