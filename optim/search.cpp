@@ -8,10 +8,22 @@
 
 namespace papilla {
 
-bool SearchProblem::cheaply_feasible(const Point& unit) const {
-  if (!cheap_constraints) return true;
-  const std::vector<double> c = cheap_constraints(unit);
+namespace {
+
+bool kept(const std::function<std::vector<double>(const Point&)>& constraints, const Point& unit) {
+  if (!constraints) return true;
+  const std::vector<double> c = constraints(unit);
   return std::all_of(c.begin(), c.end(), [](double v) { return v <= 0; });
+}
+
+}  // namespace
+
+bool SearchProblem::cheaply_feasible(const Point& unit) const {
+  return kept(cheap_constraints, unit);
+}
+
+bool SearchProblem::feasible_before_evaluation(const Point& unit) const {
+  return cheaply_feasible(unit) && kept(costly_constraints, unit);
 }
 
 std::vector<std::string> searcher_names() {

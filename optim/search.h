@@ -20,6 +20,9 @@ struct SearchProblem {
   std::size_t residuals = 0;
   // Constraints known without an evaluation (<= 0 feasible, in the unit cube); may be empty.
   std::function<std::vector<double>(const Point&)> cheap_constraints;
+  // The same for constraints that cost as much as a small evaluation: asked only of points that are
+  // about to be chosen, a limited number of times.
+  std::function<std::vector<double>(const Point&)> costly_constraints;
   // What the outcomes hang on more directly than on the coordinates, as further coordinates of the
   // models of "bayesian" (each about 0 to 1); may be empty.
   std::function<std::vector<double>(const Point&)> features;
@@ -33,6 +36,7 @@ struct SearchProblem {
   std::uint64_t seed = 1;
 
   bool cheaply_feasible(const Point& unit) const;
+  bool feasible_before_evaluation(const Point& unit) const;  // the costly constraints too
 };
 
 // The point as surrogate models see it: a choice of kinds becomes one coordinate a kind, so that

@@ -13,6 +13,8 @@ namespace papilla {
 namespace {
 
 constexpr std::size_t kCandidatesAPoint = 50;  // of the first design
+// Costly constraints asked for one point to evaluate.
+constexpr int kCostlyChecks = 40;
 constexpr std::size_t kExploreEvery = 3;
 
 double normal_density(double t) { return std::exp(-0.5 * t * t) / std::sqrt(2 * kPi); }
@@ -113,10 +115,18 @@ class Bayesian : public Searcher {
     };
     for (const Evaluation& e : known) near(e.unit);
     for (const Point& u : out) near(u);
+    int checks = kCostlyChecks;
     while (out.size() < count && !free.empty()) {
       const auto best = std::max_element(nearest.begin(), nearest.end());
       if (*best <= 0) break;
-      out.push_back(free[static_cast<std::size_t>(best - nearest.begin())]);
+      const Point& u = free[static_cast<std::size_t>(best - nearest.begin())];
+      // After the last check whatever comes: what it lacks is learned from its refusal.
+      if (checks > 0 && problem_.costly_constraints && checks-- > 0 &&
+          !problem_.feasible_before_evaluation(u)) {
+        *best = 0;
+        continue;
+      }
+      out.push_back(u);
       near(out.back());
     }
   }
@@ -344,16 +354,43 @@ class Bayesian : public Searcher {
     }
     Point best;
     double value = -std::numeric_limits<double>::infinity();
+    int checks = kCostlyChecks;
+    double apart = 0.1;  // of points that fail: beside one the next would fail too
+    std::vector<Point> failed;
+    const auto keeps_costly = [&](const Point& u) {
+      if (!problem_.costly_constraints) return true;
+      const auto beside = [&](const Point& v) {
+        double most = 0;
+        for (std::size_t k = 0; k < n; ++k) most = std::max(most, std::abs(u[k] - v[k]));
+        return most < apart;
+      };
+      if (std::any_of(failed.begin(), failed.end(), beside) || checks <= 0) return false;
+      --checks;
+      if (problem_.feasible_before_evaluation(u)) return true;
+      failed.push_back(u);
+      return false;
+    };
+    if (problem_.costly_constraints) {  // the most promising first, to check few
+      std::vector<std::pair<double, std::size_t>> order;
+      for (std::size_t i = 0; i < candidates.size(); ++i)
+        order.emplace_back(-acquisition(problem_.space.snapped(candidates[i])), i);
+      std::sort(order.begin(), order.end());
+      std::vector<Point> sorted;
+      for (const auto& [negative, i] : order) sorted.push_back(candidates[i]);
+      candidates = std::move(sorted);
+    }
     const auto consider = [&](const Point& raw) {
       const Point u = problem_.space.snapped(raw);
       const double a = acquisition(u);
-      if (a <= value || !is_new(u, known)) return false;
+      if (a <= value || !is_new(u, known) || !keeps_costly(u)) return false;
       value = a;
       best = u;
       return true;
     };
     for (const Point& u : candidates) consider(u);
-    if (best.empty()) return candidates.front();
+    if (best.empty()) return problem_.space.snapped(candidates.front());
+    checks = kCostlyChecks;
+    apart = 1e-3;
     for (double step = 0.1; step > 2e-3; step *= 0.5) {  // pattern search from the best candidate
       bool moved = true;
       for (int round = 0; round < 8 && moved; ++round) {

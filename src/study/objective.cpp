@@ -27,6 +27,10 @@ namespace {
 // Steps of the parameters of confirmed designs: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
 
+// Shallower relief is none: polished glass is as rough, and no process holds such a depth [m].
+// Else a search finds textures of a nanometre whose patch has the luckier skins.
+constexpr double kLeastDepth = 2e-9;
+
 // Bounded by -1 and 11, yet larger for more: the least of large violations stays the least.
 double bounded(double violation) {
   constexpr double kLarge = 10;
@@ -41,12 +45,16 @@ double relative_violation(double value, double limit, bool at_least) {
   return bounded(value <= 0 ? kInfinity : limit / value - 1);
 }
 
-// What a constraint of shape or look limits.
-double limited_value(const std::string& name, const Design& d) {
-  if (name == "haze") return appearance_of(d).haze;
-  if (name == "transmittance") return appearance_of(d).transmittance;
-  if (name == "gloss") return appearance_of(d).gloss;
-  if (name == "colour_shift") return appearance_of(d).colour_shift;
+// What a constraint of look limits.
+double look_value(const std::string& name, const Optics& optics) {
+  if (name == "haze") return optics.haze;
+  if (name == "transmittance") return optics.transmittance;
+  if (name == "gloss") return optics.gloss;
+  return optics.colour_shift;
+}
+
+// What a constraint of shape limits.
+double shape_value(const std::string& name, const Design& d) {
   const FabricationMargins m = fabrication_margins(d.texture);
   if (name == "min_hole") return m.min_hole;
   if (name == "min_wall") return m.min_wall;
@@ -395,8 +403,16 @@ Point StudyProblem::collapsed(const Point& unit) const {
       std::any_of(study_.variables.begin(), study_.variables.end(),
                   [](const Variable& v) { return v.path.starts_with("texture."); });
   if (!textured) return unit;
-  Design d = design(unit);
+  const auto is_depth = [](const Variable& v) {
+    return v.path.starts_with("texture.") &&
+           (v.path.ends_with(".depth") || v.path.ends_with(".height"));
+  };
   Point value = space_.value(unit);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Variable& v = study_.variables[i];
+    if (is_depth(v) && v.choices.empty() && v.low <= 0 && value[i] < kLeastDepth) value[i] = v.low;
+  }
+  Design d = design(space_.unit(value));
   const Point& own = own_value_;
   const auto offered = [](const Variable& v, double choice) {
     return std::find(v.choices.begin(), v.choices.end(), choice) != v.choices.end();
@@ -427,8 +443,7 @@ Point StudyProblem::collapsed(const Point& unit) const {
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
     if (!v.path.starts_with("texture.") || v.is_kind() || v.is_levels()) continue;
-    const bool depth = v.path.ends_with(".depth") || v.path.ends_with(".height");
-    if (!acts(known, i) || (!depth && texture_depth(texture_of(path_in(known, v.path))) <= 0))
+    if (!acts(known, i) || (!is_depth(v) && texture_depth(texture_of(path_in(known, v.path))) <= 0))
       value[i] = own[i];
   }
   return space_.unit(value);
@@ -449,13 +464,29 @@ std::vector<Point> StudyProblem::starts() const {
       }
       continue;
     }
-    // The flat surface, where one variable alone makes it.
-    Point flat = out.front();
-    flat[i] = 0;
-    if (texture_depth(study_.design.texture) > 0 && texture_depth(design(flat).texture) <= 0)
-      add(flat);
+    if (const auto flat = flat_by(i, out.front())) add(*flat);
   }
   return out;
+}
+
+std::optional<Point> StudyProblem::flat_by(std::size_t variable, const Point& unit) const {
+  Point flat = unit;
+  flat[variable] = 0;
+  if (study_.variables[variable].is_kind()) {
+    Point value = space_.value(unit);
+    value[variable] = study_.variables[variable].low;  // "flat" is the first of all kinds
+    flat = space_.unit(value);
+  }
+  if (texture_depth(design(unit).texture) <= 0 || texture_depth(design(flat).texture) > 0)
+    return std::nullopt;
+  return space_.snapped(flat);
+}
+
+std::optional<Point> StudyProblem::flattened(const Point& unit) const {
+  for (std::size_t i = 0; i < space_.size(); ++i) {
+    if (auto flat = flat_by(i, unit)) return flat;
+  }
+  return std::nullopt;
 }
 
 // Finger, scenario, then the end of the scatter, within the range that the number may have at all.
@@ -494,11 +525,28 @@ std::vector<double> StudyProblem::geometry(const Point& unit) const {
   std::vector<double> out{problem_of(d).empty() ? -1.0 : 1.0};
   if (out.front() <= 0 && needs_appearance() && !look_refusal(d).empty()) out.front() = 1;
   for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c)) continue;
-    // A shape that cannot be judged has no numbers to compare.
-    out.push_back(out.front() > 0 && of_appearance(c)
-                      ? 1.0
-                      : relative_violation(limited_value(c.name, d), c.limit, c.at_least));
+    if (needs_evaluation(c) || of_appearance(c)) continue;
+    out.push_back(relative_violation(shape_value(c.name, d), c.limit, c.at_least));
+  }
+  return out;
+}
+
+bool StudyProblem::limits_look() const {
+  return std::any_of(study_.constraints.begin(), study_.constraints.end(),
+                     [&](const Constraint& c) { return !needs_evaluation(c) && of_appearance(c); });
+}
+
+std::vector<double> StudyProblem::look(const Point& unit) const {
+  std::vector<double> out;
+  if (!limits_look()) return out;
+  const Design d = design(unit);
+  // A shape that cannot be judged has no numbers to compare.
+  const bool judged = problem_of(d).empty() && look_refusal(d).empty();
+  const Optics optics = judged ? appearance_of(d) : Optics{};
+  for (const Constraint& c : study_.constraints) {
+    if (needs_evaluation(c) || !of_appearance(c)) continue;
+    out.push_back(judged ? relative_violation(look_value(c.name, optics), c.limit, c.at_least)
+                         : 1.0);
   }
   return out;
 }
@@ -511,7 +559,8 @@ std::string StudyProblem::geometry_reason(const Point& unit) const {
   }
   for (const Constraint& c : study_.constraints) {
     if (needs_evaluation(c)) continue;
-    const double value = limited_value(c.name, d);
+    const double value =
+        of_appearance(c) ? look_value(c.name, appearance_of(d)) : shape_value(c.name, d);
     if (relative_violation(value, c.limit, c.at_least) <= 0) continue;
     const auto [u, scale] = unit_of(c);
     return fmt::format("{} {:.3g} {} is {} {:.3g} {}", c.name, value * scale, u,
@@ -872,9 +921,10 @@ bool StudyProblem::needs_appearance() const {
 }
 
 bool StudyProblem::feasible(const Score& score, const Point& unit) const {
-  const std::vector<double> g = geometry(unit);
-  return outcome(score).feasible() &&
-         std::all_of(g.begin(), g.end(), [](double v) { return v <= 0; });
+  const auto kept = [](const std::vector<double>& c) {
+    return std::all_of(c.begin(), c.end(), [](double v) { return v <= 0; });
+  };
+  return outcome(score).feasible() && kept(geometry(unit)) && kept(look(unit));
 }
 
 std::string StudyProblem::identity() const {

@@ -102,6 +102,8 @@ class StudyProblem {
   std::vector<double> values(const Point& unit) const { return space_.value(unit); }
   Point unit_of_study() const;  // the study's own design
   std::vector<Point> starts() const;
+  // The same surface without its texture, where the space holds that and the point has a texture.
+  std::optional<Point> flattened(const Point& unit) const;
 
   // What the response hangs on more directly than on the variables: the open share of a lattice,
   // as a length over the period, where both lengths vary. For SearchProblem::features.
@@ -110,7 +112,9 @@ class StudyProblem {
 
   // Fabrication limits, known without an evaluation: <= 0 feasible, relative to the limit; the
   // first is 1 for a shape that cannot exist. Reasons for people.
-  std::vector<double> geometry(const Point& unit) const;
+  std::vector<double> geometry(const Point& unit) const;  // of the shape alone: microseconds
+  std::vector<double> look(const Point& unit) const;      // of its look: an optical calculation
+  bool limits_look() const;
   std::string geometry_reason(const Point& unit) const;
 
   // One task of one design: numbers for score(), with the response as JSON where wanted. Runs the
@@ -154,6 +158,8 @@ class StudyProblem {
   // The design of a task.
   Design task_design(Design design, const StudyTask& task) const;
   std::string problem_of(const Design& design) const;
+  // Flat by one variable alone; nothing where that is not possible, or is so already.
+  std::optional<Point> flat_by(std::size_t variable, const Point& unit) const;
   bool acts(const std::vector<NumberField>& known, std::size_t variable) const;
 
   std::vector<StudyTask> tasks_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <tuple>
 
@@ -106,6 +107,18 @@ Point work_request(std::size_t task, Stage stage, bool flat, const Point& unit) 
   return request;
 }
 
+// The same surface without its relief. Of a lattice a picometre stays, so that it is judged on the
+// patch and the skins of the lattice: the difference is the texture's, not that of other skins.
+Texture without_relief(const Design& textured) {
+  constexpr double kNone = 1e-12;  // [m]
+  Design flat = textured;
+  for (const NumberField& field : number_fields(flat)) {
+    if (field.path == "texture.depth" || field.path == "texture.height")
+      *field.value = std::min(*field.value, kNone);
+  }
+  return texture_depth(flat.texture) > kNone ? Texture{} : flat.texture;
+}
+
 Evaluate work_function(const StudyProblem& problem, const Study& study, int threads) {
   return [&problem, &study, threads](const Point& request) {
     const auto task = static_cast<std::size_t>(request[0]);
@@ -118,7 +131,7 @@ Evaluate work_function(const StudyProblem& problem, const Study& study, int thre
                                            : check_fidelity(study);
     fidelity.threads = threads;
     Design design = problem.design(Point(request.begin() + 3, request.end()));
-    if (request[2] > 0) design.texture = Texture{};
+    if (request[2] > 0) design.texture = without_relief(design);
     if (stage == kSteps) return problem.evaluate_steps(design, task, fidelity);
     if (stage == kStability) return evaluate_variant(problem, design, task, fidelity);
     return problem.evaluate_task(design, task, fidelity, stage == kConfirm);
@@ -177,6 +190,15 @@ SearchProblem search_problem(const StudyProblem& problem, const Study& study) {
   p.constraints = problem.constraints();
   p.residuals = problem.residuals();
   p.cheap_constraints = [&problem](const Point& u) { return problem.geometry(u); };
+  if (problem.limits_look()) {
+    // Each point is asked of again when it is evaluated and counted.
+    p.costly_constraints = [&problem,
+                            known = std::make_shared<std::map<Point, Point>>()](const Point& u) {
+      const auto [it, is_new] = known->try_emplace(u);
+      if (is_new) it->second = problem.look(u);
+      return it->second;
+    };
+  }
   if (problem.has_features())
     p.features = [&problem](const Point& u) { return problem.features(u); };
   p.starts = problem.starts();
@@ -229,6 +251,8 @@ class Run {
     if (go_on) confirm();
     const double confirmed = seconds();
     if (go_on && !result_.interrupted) check();
+    // Of a finished run that was to be written anew: what is there stays.
+    if (result_.interrupted && fs::exists(folder_ + "/best/design.toml")) return std::move(result_);
     ResultFiles files{folder_, study_, problem_, history_, result_, options_.pick};
     write_results(files);
     if (!result_.interrupted && result_.has_best())
@@ -255,7 +279,7 @@ class Run {
   void check_budget() const {
     int evaluated = 0;
     for (const Evaluation& e : journal_.records()) {
-      if (e.unit.size() < 2 || e.unit.rbegin()[1] != static_cast<double>(kSearch)) continue;
+      if (stage_of(e) != kSearch) continue;
       evaluated += e.outcome.ok || e.outcome.constraints.empty();
     }
     if (evaluated <= search_.evaluations) return;
@@ -309,7 +333,7 @@ class Run {
       out.push_back(replayed(keyed(units[out.size()], kSearch)));
     std::vector<Point> fresh;
     for (std::size_t i = out.size(); i < units.size(); ++i) {
-      if (search_.cheaply_feasible(units[i])) fresh.push_back(units[i]);
+      if (search_.feasible_before_evaluation(units[i])) fresh.push_back(units[i]);
     }
     const double from = seconds();
     const auto answers = pool_.evaluate(fresh, kSearch, false);
@@ -318,12 +342,13 @@ class Run {
     std::size_t next = 0;
     for (std::size_t i = out.size(); i < units.size(); ++i) {
       Outcome outcome;
-      if (search_.cheaply_feasible(units[i])) {
+      if (search_.feasible_before_evaluation(units[i])) {
         outcome = guarded(problem_.outcome(problem_.score(answers[next++])), search_.objectives,
                           search_.constraints);
       } else {
         outcome.reason = problem_.geometry_reason(units[i]);
         outcome.constraints = problem_.geometry(units[i]);
+        for (double c : problem_.look(units[i])) outcome.constraints.push_back(c);
       }
       record(keyed(units[i], kSearch), outcome);
       out.push_back(std::move(outcome));
@@ -415,7 +440,50 @@ class Run {
     options_.progress({stage, done, total, best, left});
   }
 
+  static Stage stage_of(const Evaluation& record) {
+    if (record.unit.size() < 2) return kSearch;
+    return static_cast<Stage>(static_cast<int>(record.unit.rbegin()[1]));
+  }
+
+  static Point unit_of(const Evaluation& record) {
+    return {record.unit.begin(), record.unit.end() - 2};
+  }
+
+  // Whether the journal goes beyond a stage: nothing of it is left to ask.
+  bool finished(Stage stage) const {
+    const auto& records = journal_.records();
+    const auto later = [&](const Evaluation& e) {
+      const Stage s = stage_of(e);
+      if (s == kSearch || s == kDraft) return false;
+      return stage == kSearch || s != stage;
+    };
+    return !records.empty() && later(records.back());
+  }
+
+  // The searched designs of a run that went on to confirm, from its journal.
+  void replay_search() {
+    while (replaying()) {
+      const Evaluation& e = journal_.records()[next_record_];
+      const Stage stage = stage_of(e);
+      if (stage != kSearch && stage != kDraft) return;
+      ++next_record_;
+      if (stage == kSearch) add_to_history({unit_of(e), e.outcome});
+    }
+  }
+
+  // Whether the design was evaluated, not refused before.
+  bool add_to_history(Evaluation e) {
+    history_.push_back(std::move(e));
+    const Evaluation& added = history_.back();
+    const bool refused = !added.outcome.ok && !search_.feasible_before_evaluation(added.unit);
+    result_.refused += refused;
+    result_.evaluations += !refused;
+    result_.failures += !added.outcome.ok && !refused;
+    return !refused;
+  }
+
   void search() {
+    if (finished(kSearch)) return replay_search();
     const auto searcher = make_searcher(method_, search_);
     const std::size_t budget = static_cast<std::size_t>(search_.evaluations);
     const auto out_of_time = [&] {
@@ -423,9 +491,8 @@ class Run {
     };
     const auto searching_record = [&] {  // a resumed run stops where its confirmation began
       const auto& records = journal_.records();
-      return next_record_ >= records.size() || records[next_record_].unit.size() < 2 ||
-             records[next_record_].unit.rbegin()[1] == static_cast<double>(kSearch) ||
-             records[next_record_].unit.rbegin()[1] == static_cast<double>(kDraft);
+      return next_record_ >= records.size() || stage_of(records[next_record_]) == kSearch ||
+             stage_of(records[next_record_]) == kDraft;
     };
     std::size_t evaluated = 0;
     while (evaluated < budget && history_.size() < 10 * budget && searching_record()) {
@@ -450,18 +517,13 @@ class Run {
         for (std::size_t i = batch.size();
              i < asked.size() && units.size() < most && counted < budget; ++i) {
           units.push_back(asked[i]);
-          counted += search_.cheaply_feasible(asked[i]);
+          counted += search_.feasible_before_evaluation(asked[i]);
         }
         const std::vector<Outcome> outcomes = search_outcomes(units);
         for (std::size_t i = 0; i < units.size(); ++i) {
           batch.push_back({units[i], outcomes[i]});
-          history_.push_back(batch.back());
-          const bool refused = !outcomes[i].ok && !search_.cheaply_feasible(units[i]);
-          result_.refused += refused;
-          evaluated += !refused;
-          result_.failures += !outcomes[i].ok && !refused;
+          evaluated += add_to_history(batch.back());
         }
-        result_.evaluations = static_cast<int>(evaluated);
         const double left = fresh_ > 0 ? static_cast<double>(budget - evaluated) *
                                                  evaluation_seconds() * overhead() +
                                              seconds_after_search()
@@ -621,10 +683,17 @@ class Run {
     const auto searcher = make_searcher({"bayesian", ""}, problem);
     std::vector<Point> asked;
     for (std::size_t i : finalists(history_, count / 2)) asked.push_back(history_[i].unit);
+    const bool done_before = finished(kNarrow);
     const double from = seconds();
     while (narrowed_.size() < count) {
-      if (asked.empty()) asked = searcher->ask();
-      if (asked.empty() || !search_.cheaply_feasible(asked.front())) break;
+      if (done_before) {
+        asked.clear();
+        if (replaying() && stage_of(journal_.records()[next_record_]) == kNarrow)
+          asked.push_back(unit_of(journal_.records()[next_record_]));
+      } else if (asked.empty()) {
+        asked = searcher->ask();
+      }
+      if (asked.empty() || !search_.feasible_before_evaluation(asked.front())) break;
       if (!replaying() && stopped()) {
         result_.interrupted = true;
         return false;
@@ -664,9 +733,28 @@ class Run {
     return e;
   }
 
+  // The finalists, and the surface of the first one by the first objective without its texture: a
+  // texture of a nanometre must not pass for a design because its patch has other skins.
+  std::vector<Point> to_confirm(const std::vector<Evaluation>& below) const {
+    const std::vector<std::size_t> chosen = finalists(below, kFinalists);
+    std::vector<Point> out;
+    const Evaluation* first = nullptr;
+    for (std::size_t i : chosen) {
+      out.push_back(below[i].unit);
+      if (below[i].outcome.ok &&
+          (!first || below[i].outcome.objectives[0] < first->outcome.objectives[0]))
+        first = &below[i];
+    }
+    const auto flat = first ? problem_.flattened(first->unit) : std::nullopt;
+    if (flat && search_.feasible_before_evaluation(*flat) &&
+        std::find(out.begin(), out.end(), *flat) == out.end())
+      out.push_back(*flat);
+    return out;
+  }
+
   void confirm() {
     const std::vector<Evaluation>& below = narrowed_.empty() ? history_ : narrowed_;
-    const std::vector<std::size_t> chosen = finalists(below, kFinalists);
+    const std::vector<Point> chosen = to_confirm(below);
     const std::size_t total = chosen.size();
     const double from = seconds();
     report_progress("confirm", 0, static_cast<int>(total), seconds_to_confirm());
@@ -675,7 +763,7 @@ class Run {
         result_.interrupted = true;
         return;
       }
-      add_finalist(below[chosen[done - 1]].unit);
+      add_finalist(chosen[done - 1]);
       const double each = (seconds() - from) / static_cast<double>(done);
       report_progress("confirm", static_cast<int>(done), static_cast<int>(total),
                       each * static_cast<double>(2 * total - done + kOtherChecks));

@@ -275,6 +275,23 @@ TEST(Drafts, BiasedOnesHelpAndMisleadingOnesAreDropped) {
   EXPECT_LT(drafted_best(-1, 60), 0.3);
 }
 
+TEST(Bayesian, ACostlyConstraintIsAskedOfFewPointsAndKept) {
+  SearchProblem p = box(2, 1, 24);
+  int asked = 0;
+  p.costly_constraints = [&](const Point& u) {
+    ++asked;
+    return std::vector<double>{0.7 - u[0]};
+  };
+  const auto all = run("bayesian", p, [&](const Point& x) {
+    return x[0] < 0.7 ? Outcome{false, "refused", {}, {}, {}} : outcome({x[0] + x[1]});
+  });
+  int refused = 0;
+  for (const Evaluation& e : all) refused += !e.outcome.ok;
+  EXPECT_LE(refused, 8);  // 14 when only the most promising candidates are asked
+  EXPECT_LT(best(all), 0.75);
+  EXPECT_LT(asked, 60 * 24);
+}
+
 TEST(Worker, ACrashAHangAndAnExceptionBecomeFailures) {
   const auto evaluate = [](const Point& u) -> Outcome {
     if (u[0] < 0.2) ::abort();

@@ -388,6 +388,44 @@ TEST(Optimise, AnotherPickOfTheSameRunNeedsNoNewSearch) {
   EXPECT_EQ(read_design(picked_design_file(folder, "")), second.finalists[second.best].design);
   options.pick = "best of all";
   EXPECT_THROW(optimise(study, options), InputError);
+  // Neither a number beyond the front nor an interruption takes what is there.
+  const std::string best = bytes(folder + "/best/design.toml"),
+                    summary = bytes(folder + "/summary.md");
+  options.pick = "99";
+  EXPECT_THROW(optimise(study, options), InputError);
+  std::atomic<bool> stop{true};
+  EXPECT_TRUE(optimise(study, {folder, true, {}, &stop, "variation"}).interrupted);
+  EXPECT_EQ(bytes(folder + "/best/design.toml"), best);
+  EXPECT_EQ(bytes(folder + "/summary.md"), summary);
+}
+
+// A relief that nobody feels is no better than none: both are judged on the same skins.
+TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
+  Study study = small_study();
+  for (Variable& v : study.variables) {
+    if (v.path == "texture.depth") {
+      v.low = 2.5e-9;
+      v.high = 3e-9;
+    }
+  }
+  const OptimiseResult r = optimise(study, {fresh_folder("relief"), false, {}, nullptr});
+  ASSERT_TRUE(r.flat && r.has_best());
+  const Score& best = r.finalists[r.best].confirmed;
+  for (std::size_t k = 0; k < best.values.size(); ++k)
+    EXPECT_NEAR(r.flat->values[k], best.values[k], 0.05 * best.values[k]) << k;
+}
+
+TEST(Optimise, ALimitOnTheLookIsKept) {
+  Study study = small_study();
+  study.constraints.push_back({"haze", 0.03, false});
+  study.design.surface.refractive_index = 1.52;
+  const OptimiseResult r = optimise(study, {fresh_folder("haze"), false, {}, nullptr});
+  ASSERT_TRUE(r.any_feasible);
+  for (const FinalDesign& f : r.finalists) {
+    if (f.feasible) {
+      EXPECT_LE(appearance_of(f.design).haze, 0.03);
+    }
+  }
 }
 
 }  // namespace
