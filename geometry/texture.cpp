@@ -353,8 +353,7 @@ Grid patch_grid(const Texture& texture, int pixels, double target) {
   return {nx, ny, lx, ly};
 }
 
-Grid simulated_patch(const Texture& texture, int pixels) {
-  constexpr int kMostPixels = 1024;
+Grid simulated_patch(const Texture& texture, int pixels, int most) {
   const Cell cell = unit_cell(texture);
   double lx, ly;
   if (cell.x > 0) {
@@ -362,9 +361,9 @@ Grid simulated_patch(const Texture& texture, int pixels) {
     double least = kInfinity;
     lx = cell.x;
     ly = cell.y;
-    const int most = std::max(1, static_cast<int>(std::ceil(2 * kWindow / cell.x)));
-    for (int i = 1; i <= most; ++i) {
-      for (int j = 1; j <= most; ++j) {
+    const int periods = std::max(1, static_cast<int>(std::ceil(2 * kWindow / cell.x)));
+    for (int i = 1; i <= periods; ++i) {
+      for (int j = 1; j <= periods; ++j) {
         const double x = i * cell.x, y = j * cell.y;
         const double unlike =
             std::abs(std::log(x * y / (kWindow * kWindow))) + 0.5 * std::abs(std::log(x / y));
@@ -378,7 +377,7 @@ Grid simulated_patch(const Texture& texture, int pixels) {
   } else {
     lx = ly = free_patch(texture, kWindow);
   }
-  const double pixel = std::max(kWindow / pixels, std::max(lx, ly) / kMostPixels);
+  const double pixel = std::max(kWindow / pixels, std::max(lx, ly) / most);
   return {even_count(lx / pixel), even_count(ly / pixel), lx, ly};
 }
 

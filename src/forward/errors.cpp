@@ -160,6 +160,7 @@ std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& tex
   if (fidelity.grid / 2 >= kSmallestGrid) {
     Fidelity half = resolved;
     half.grid = fidelity.grid / 2;
+    half.most_pixels = fidelity.pixels_a_side() / 2;  // else long patches keep their pixels
     coarse = run(half);
     MeasuredError grid{&ErrorParts::grid, {}};
     count(*coarse, grid);

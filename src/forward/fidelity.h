@@ -1,6 +1,7 @@
 // The one home of accuracy choices: grid, samples, tolerances, method a piece.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -16,9 +17,10 @@ enum class Estimator {
 
 struct Fidelity {
   std::string level = "design";
-  int grid = 256;      // pixels along the patch
-  int skins = 40;      // independent skin patches
-  int first_skin = 0;  // fresh skins start beyond those of a search
+  int grid = 256;       // pixels along the window of 12 um: what sets the pixel of any patch
+  int most_pixels = 0;  // a side of a patch far beyond the window; 0: 1024, or `grid` if larger
+  int skins = 40;       // independent skin patches
+  int first_skin = 0;   // fresh skins start beyond those of a search
   Estimator estimator = Estimator::Area;
   double contact_tolerance = 1e-4;  // Frank-Wolfe certificate (docs/theory/contact.md: its worth)
   // Residual of the potential that spreads in the dielectric, energy norm: the pull is then high by
@@ -34,6 +36,7 @@ struct Fidelity {
   std::uint64_t seed = 1;       // of skins, offsets and droplets: common to all designs
   int threads = 0;              // 0: all
 
+  int pixels_a_side() const { return most_pixels > 0 ? most_pixels : std::max(1024, grid); }
   bool operator==(const Fidelity&) const = default;
 };
 

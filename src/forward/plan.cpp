@@ -50,6 +50,34 @@ Prices prices(const Scene& scene, const Plan& plan, const Grid& grid, const Fide
 // One standard error of the modulation from one skin patch, relative (m3-prototype, section 3).
 double patch_scatter(const Fidelity& f) { return f.estimator == Estimator::Load ? 0.09 : 0.11; }
 
+// A patch so much longer than the window that its pixels, limited in number, drop waves of the skin
+// that every level keeps on the window.
+std::string unresolved_skin(const Plan& plan, const Fidelity& fidelity, double cutoff) {
+  constexpr int kCoarsestLevel = 128, kLargestKey = 4096;
+  constexpr double kNoticed = 1.2;  // shares of a pixel are no reason to warn
+  const double usual = std::max(cutoff, 2 * kWindow / std::min(fidelity.grid, kCoarsestLevel));
+  if (plan.effective_cutoff <= kNoticed * usual) return {};
+  const double side = std::max(plan.grid.lx, plan.grid.ly);
+  const double needed = std::ceil(2 * side / usual);
+  const double period = 0.5 * usual * fidelity.pixels_a_side();
+  const std::string remedy =
+      needed <= kLargestKey
+          ? fmt::format(
+                "accuracy.grid = {:.0f}, or a period of at most {:.3g} um, resolves it as "
+                "on a small patch",
+                needed, 1e6 * period)
+          : fmt::format(
+                "a period of at most {:.3g} um resolves it as on a small patch, "
+                "accuracy.grid = {} to {:.0f} nm",
+                1e6 * period, kLargestKey, 1e9 * std::max(cutoff, 2 * side / kLargestKey));
+  return fmt::format(
+      "the patch is {:.3g} um long and has {} pixels a side, so its skin has no waves below {:.0f} "
+      "nm (the finger's end at {:.0f} nm): this is a smoother skin, its contact area and friction "
+      "are not the finger's; {}",
+      1e6 * side, std::max(plan.grid.nx, plan.grid.ny), 1e9 * plan.effective_cutoff, 1e9 * cutoff,
+      remedy);
+}
+
 }  // namespace
 
 double Plan::seconds() const {
@@ -65,10 +93,11 @@ FieldMethod field_method(const ModelOptions& model) {
 
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Plan plan;
-  plan.grid = simulated_patch(texture, fidelity.grid);
+  plan.grid = simulated_patch(texture, fidelity.grid, fidelity.pixels_a_side());
   // The same for every texture, although its patch may have somewhat finer pixels.
   plan.effective_cutoff = std::max({scene.finger.skin.cutoff, 2 * kWindow / fidelity.grid,
                                     2 * std::max(plan.grid.dx(), plan.grid.dy())});
+  plan.warning = unresolved_skin(plan, fidelity, scene.finger.skin.cutoff);
 
   double largest_volume = 0, droplet_error = 0;
   for (double rh : scene.environment.relative_humidity) {
@@ -183,7 +212,7 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   const int controls = std::min(fidelity.control_skins, fidelity.skins);
   if (controls >= 2) {  // measure_errors
     const bool load_law = !plan.traction_solves && (plan.water || plan.field);
-    const Grid half = simulated_patch(texture, fidelity.grid / 2);
+    const Grid half = simulated_patch(texture, fidelity.grid / 2, fidelity.pixels_a_side() / 2);
     double seconds = prices(scene, plan, half, fidelity, plan.water || plan.field).sum();
     if (load_law) seconds += prices(scene, plan, plan.grid, fidelity, true).sum();
     plan.steps.push_back({"errors", fmt::format("{} of the skins on half the pixels", controls),
@@ -211,6 +240,7 @@ std::string Plan::text() const {
     out += '\n';
   }
   out += fmt::format("expected {:.2g} s on one core\n", seconds());
+  if (!warning.empty()) out += "warning: " + warning + '\n';
   return out;
 }
 

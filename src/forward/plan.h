@@ -31,6 +31,7 @@ struct Plan {
   std::vector<PlanSkip> skipped;
   Grid grid;
   double effective_cutoff = 0;  // shortest skin wavelength on this grid [m]
+  std::string warning;          // why this is not the finger's skin; empty: it is
 
   // The decisions as data, for the forward model.
   bool field = false;            // electrostatics and electrowetting

@@ -34,8 +34,11 @@ std::string AccuracySettings::level_name() const {
 
 void fields(FieldVisitor& v, AccuracySettings& s) {
   v.choice({"level", "grid, samples and tolerances by name"}, accuracy_level_names(), s.level);
-  v.integer({"grid", "pixels along the patch, for features finer than eight pixels; 0: by level"},
-            0, 4096, s.grid);
+  v.integer(
+      {"grid",
+       "pixels along 12 um of the patch, for features finer than eight pixels; a longer patch "
+       "has at most this many a side, or 1024; 0: by level"},
+      0, 4096, s.grid);
   v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
            s.target);
   v.flag({"parameters",

@@ -22,7 +22,7 @@ const std::vector<std::string>& accuracy_level_names();
 
 struct AccuracySettings {
   AccuracyLevel level = AccuracyLevel::Design;
-  int grid = 0;       // pixels along the patch; 0: by level
+  int grid = 0;       // pixels along the window; 0: by level
   double target = 0;  // wanted standard error of the modulation, as a share of it; 0: by level
   bool parameters = false;  // evaluate: also what the finger's fitted numbers leave open
   int droplet_seeds = 1;    // placements of the droplets on each skin, averaged; the M3 paper: 6

@@ -66,6 +66,7 @@ Json plan_json(const Plan& plan) {
       {"grid",
        {{"nx", plan.grid.nx}, {"ny", plan.grid.ny}, {"lx", plan.grid.lx}, {"ly", plan.grid.ly}}},
       {"effective_cutoff", plan.effective_cutoff},
+      {"warning", plan.warning},
       {"seconds", plan.seconds()},
       {"steps", steps},
       {"skipped", skipped}};
@@ -186,6 +187,7 @@ std::string plan_document(const Plan& plan) {
 
 std::string response_svg(const Response& response, const std::string& title) {
   const auto curve = [&](const char* name, const char* colour, double scale, auto member) {
+      {"window", kWindow},
     SvgSeries s{.name = name, .colour = colour, .x = {}, .y = {}, .ex = {}, .ey = {}};
     s.line = s.band = true;
     for (const ResponsePoint& p : response.points) {
@@ -322,3 +324,4 @@ std::string response_table(const Response& response) {
 }
 
 }  // namespace papilla
+  if (!response.plan.warning.empty()) out += "warning: " + response.plan.warning + "\n";

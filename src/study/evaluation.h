@@ -11,7 +11,8 @@ namespace papilla {
 std::string response_table(const Response& response);
 
 // {"schema": 1, "points": [...], "summary": {...}, "plan": {...}, "seconds", "contact_solves",
-// "fft_pairs"}: SI units, fractions for percentages, null never NaN.
+// "fft_pairs"}: fidelity.grid counts pixels along fidelity.window, plan.grid is the patch as run;
+// SI units, fractions for percentages, null never NaN.
 // with_time = false leaves the clock out, for files that must be reproducible.
 std::string response_json(const Response& response, bool with_time = true);
 

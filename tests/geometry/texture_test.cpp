@@ -62,6 +62,11 @@ TEST(SimulatedPatch, IsAlikeForEveryPeriod) {
   const Grid wide = simulated_patch({HoleArray{.period = 80e-6, .diameter = 40e-6}}, 256);
   EXPECT_EQ(wide.nx, 1024);
   EXPECT_DOUBLE_EQ(wide.lx, 80e-6);
+  for (const double period : {6e-6, 80e-6, 900e-6}) {  // half of both numbers: twice the pixel
+    const Texture t{HoleArray{.period = period, .diameter = period / 2}};
+    const Grid fine = simulated_patch(t, 256, 1024), half = simulated_patch(t, 128, 512);
+    EXPECT_NEAR(half.dx() / fine.dx(), 2, 0.05) << period;
+  }
 }
 
 TEST(HoleArray, SlopedWallsRemoveAFrustum) {

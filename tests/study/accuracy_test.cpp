@@ -111,6 +111,24 @@ TEST(AccuracyPage, IsThatOfTheCommittedTables) {
 
 // Honest and not huge, as the committed table of 50 scenes has it.
 TEST(AccuracyPage, TheErrorBarsCoverHeldOutScenes) {
+// Long patches have a limited number of pixels a side; the control run has half of that too.
+TEST(Errors, OfALongPatchAreOfHalfItsPixels) {
+  Fidelity f = fidelity_level("search");
+  f.skins = f.control_skins = 2;
+  f.grid = 128;
+  f.most_pixels = 128;
+  const Texture texture{HoleArray{.period = 60e-6, .diameter = 30e-6}};
+  const Response r = evaluate(driven(), texture, f);
+  EXPECT_EQ(r.plan.grid.nx, 128);
+  EXPECT_GT(r.points[0].friction_off.parts.grid.value(), 0.01 * r.points[0].friction_off.value);
+  EXPECT_NE(r.plan.warning.find("accuracy.grid = 640"), std::string::npos) << r.plan.warning;
+  f.most_pixels = 0;
+  EXPECT_EQ(make_plan(driven(), texture, f).grid.nx, 640);
+  EXPECT_EQ(make_plan(driven(), texture, f).warning, "");
+  f.grid = 4096;  // the largest of accuracy.grid
+  EXPECT_EQ(make_plan(driven(), Texture{}, f).grid.nx, 4096);
+}
+
   std::istringstream in(
       read_bytes(std::string(PAPILLA_SOURCE_DIR) + "/results/accuracy/coverage.csv"));
   std::vector<CoverageRow> rows;
