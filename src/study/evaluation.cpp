@@ -95,6 +95,21 @@ std::string budget_text(const SummaryValue& v) {
   return out + (unknown.empty() ? "" : "; not measured: " + unknown);
 }
 
+// Parts of the mean's ± that a target leaves out: humidities and finger are the user's.
+std::string beside_target(const Response& response) {
+  const auto v = summarise(Summary::Mean, response.driven ? "modulation" : "friction", response);
+  if (!v || v->value == 0) return {};
+  std::string out;
+  for (const auto& [name, part] :
+       {std::pair{"humidity", v->parts.humidity}, std::pair{"parameters", v->parts.parameters}}) {
+    if (part && *part > 0) {
+      out += fmt::format("{}{} {:.2g} %", out.empty() ? "" : ", ", name,
+                         100 * *part / std::abs(v->value));
+    }
+  }
+  return out;
+}
+
 std::string with_error(const Measured& m, double scale, int digits) {
   return fmt::format("{:.{}f} ±{:.{}f}", m.value * scale, digits, m.se() * scale, digits);
 }
@@ -164,15 +179,15 @@ std::string response_json(const Response& response, bool with_time) {
         {"contact", pieces.contact}, {"water", pieces.water}, {"field", pieces.field}};
   }
   if (const TargetReport& a = response.accuracy; a.target > 0) {
-    out["accuracy"] = {{"target", a.target},
-                       {"reached", number(a.reached)},
-                       {"quantity", a.quantity},
-                       {"status", a.status},
-                       {"steps", a.steps}};
+    out["accuracy"] = {
+        {"target", a.target},     {"reached", number(a.reached)},
+        {"quantity", a.quantity}, {"parts", {"sampling", "grid", "method", "solver"}},
+        {"status", a.status},     {"steps", a.steps}};
   }
   out["fidelity"] = {
       {"level", response.fidelity.level},
       {"grid", response.fidelity.grid},
+      {"window", kWindow},
       {"skins", response.fidelity.skins},
       {"estimator", response.fidelity.estimator == Estimator::Load ? "load" : "area"},
       {"contact_tolerance", response.fidelity.contact_tolerance}};
@@ -187,7 +202,6 @@ std::string plan_document(const Plan& plan) {
 
 std::string response_svg(const Response& response, const std::string& title) {
   const auto curve = [&](const char* name, const char* colour, double scale, auto member) {
-      {"window", kWindow},
     SvgSeries s{.name = name, .colour = colour, .x = {}, .y = {}, .ex = {}, .ey = {}};
     s.line = s.band = true;
     for (const ResponsePoint& p : response.points) {
@@ -309,6 +323,8 @@ std::string response_table(const Response& response) {
                     100 * a.target, 100 * a.reached, a.quantity, a.status, response.fidelity.grid,
                     response.fidelity.skins,
                     response.fidelity.estimator == Estimator::Load ? "load law" : "solved areas");
+    if (const std::string apart = beside_target(response); !apart.empty())
+      out += "not counted in it: " + apart + "\n";
   }
   if (const ParameterSteps& p = response.parameters; !p.steps.empty()) {
     out += fmt::format(
@@ -317,6 +333,7 @@ std::string response_table(const Response& response) {
         p.steps.size(), p.skins, p.grid,
         p.trouble.empty() ? "" : "; a step is not sound: " + p.trouble);
   }
+  if (!response.plan.warning.empty()) out += "warning: " + response.plan.warning + "\n";
   if (const std::string trouble = response.trouble(); !trouble.empty()) {
     out += "note: " + trouble + "\n";
   }
@@ -324,4 +341,3 @@ std::string response_table(const Response& response) {
 }
 
 }  // namespace papilla
-  if (!response.plan.warning.empty()) out += "warning: " + response.plan.warning + "\n";

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 #include "metrics/metrics.h"
@@ -15,6 +17,8 @@ constexpr int kSmallestGrid = 64, kFewestSkins = 8, kBatch = 8, kMostPlans = 5;
 // Share of the target's square that grid, method and solver may take in a plan: the rest is left to
 // sampling, whose error is known only within a third.
 constexpr double kSystematicShare = 0.6;
+// Of a target out of reach: how near to the least error that the limits allow is near enough.
+constexpr double kNearEnough = 1.1;
 
 struct Parts {
   double sampling = 0, grid = 0, method = 0, solver = 0;  // relative
@@ -36,7 +40,8 @@ class TargetRun {
     fidelity_.contact_tolerance = std::clamp(options_.target / 100, 1e-6, 1e-3);
     fidelity_.grid = kSmallestGrid;
     fidelity_.estimator = Estimator::Load;
-    Response response = fresh(kFewestSkins, "pilot");
+    Response response = fresh(kFewestSkins, "pilot"), best = response;
+    Parts best_parts = parts_;
     std::string status = "reached";
     for (int plans = 0; !(parts_.total() <= options_.target);) {
       if (!(value_ > 0)) {
@@ -51,14 +56,23 @@ class TargetRun {
         }
         fidelity_.grid = choice.grid;
         fidelity_.estimator = choice.estimator;
-        response = fresh(std::min(choice.skins, options_.most_skins), "planned");
-        continue;
-      }
-      if (patches_.skins() >= options_.most_skins || parts_.systematic() >= options_.target) {
-        status = limit();
+        response = fresh(choice.skins, "planned");
+      } else if (patches_.skins() >= choice.skins) {
+        status = limit(best_parts.total() < parts_.total() ? best_parts : parts_);
         break;
+      } else {
+        const int most = std::min(kBatch, options_.most_skins - patches_.skins());
+        response = extended(std::min(most, std::max(choice.skins - patches_.skins(), kBatch / 4)));
       }
-      response = extended(std::clamp(choice.skins - patches_.skins(), kBatch / 4, kBatch));
+      // A new plan may come out worse than the last one, as errors are known within a third.
+      if (parts_.total() <= best_parts.total() || !(best_parts.total() > 0)) {
+        best = response;
+        best_parts = parts_;
+      }
+    }
+    if (best_parts.total() < parts_.total() && best_parts.total() > 0) {
+      response = best;
+      parts_ = best_parts;
     }
     response.accuracy = {options_.target, parts_.total(), quantity_, status, steps_};
     response.seconds = seconds_;
@@ -128,43 +142,82 @@ class TargetRun {
     return response;
   }
 
-  // Eq. accuracy.5: the grid part falls with the pixel; one skin's scatter is that seen so far.
-  // Eq. accuracy.6: work = skins x solves x n^2 log n. Never coarser than what was measured already
-  // and found wanting. Where nothing is inside, the finest grid with areas.
-  Choice cheapest() const {
-    const double scatter = parts_.sampling * std::sqrt(static_cast<double>(patches_.skins()));
-    Choice best;
+  // Pixel of a plan: beyond a number of pixels a side, a finer grid is none.
+  Grid patch(int grid) const {
+    Fidelity at = fidelity_;
+    at.grid = grid;
+    return simulated_patch(texture_, grid, at.pixels_a_side());
+  }
+
+  // Error parts of a plan but for sampling, in squares. Eq. accuracy.5: the grid part falls with
+  // the pixel.
+  double systematic(int grid, Estimator estimator) const {
+    const double grid_part = parts_.grid * patch(grid).dx() / patch(fidelity_.grid).dx();
+    const double method = estimator == Estimator::Load ? parts_.method : 0;
+    return square(grid_part) + square(method) + square(parts_.solver);
+  }
+
+  // Every plan within the limits that is no coarser than what was measured already and found
+  // wanting: use(grid, estimator).
+  template <class Use>
+  void each_plan(const Use& use) const {
     for (int grid = fidelity_.grid; grid <= options_.largest_grid; grid *= 2) {
       for (const Estimator estimator : {Estimator::Load, Estimator::Area}) {
         if (estimator == Estimator::Load && fidelity_.estimator == Estimator::Area) continue;
-        const double grid_part = parts_.grid * fidelity_.grid / grid;
-        const double method = estimator == Estimator::Load ? parts_.method : 0;
-        const double systematic = square(grid_part) + square(method) + square(parts_.solver);
-        const bool here = grid == fidelity_.grid && estimator == fidelity_.estimator;
-        if (systematic > (here ? 1 : kSystematicShare) * square(options_.target)) continue;
-        const double needed = square(scatter) / (square(options_.target) - systematic);
-        const int skins =
-            std::max(kFewestSkins, static_cast<int>(std::ceil(std::min(needed, 1e6))));
-        if (skins > options_.most_skins && !here) continue;
-        const double n = square(static_cast<double>(grid));
-        const double cost = (here ? skins - patches_.skins() : skins) *
-                            (estimator == Estimator::Area ? 3 : 1) * n * std::log2(n);
-        if (cost < best.cost) best = {grid, estimator, skins, cost};
+        use(grid, estimator);
       }
     }
-    if (best.grid == 0) {
-      best = {options_.largest_grid, Estimator::Area, kFewestSkins, kInfinity};
-    }
+  }
+
+  // One skin's scatter is that seen so far. Eq. accuracy.5
+  double scatter() const {
+    return parts_.sampling * std::sqrt(static_cast<double>(patches_.skins()));
+  }
+
+  // The cheapest plan inside a target; cost infinite: none. share: of its square that all but
+  // sampling may take in a plan other than the present one. Eq. accuracy.6: work = skins x solves x
+  // n^2 log n.
+  Choice inside(double target, double share) const {
+    Choice best;
+    each_plan([&](int grid, Estimator estimator) {
+      const double known = systematic(grid, estimator);
+      const bool here = grid == fidelity_.grid && estimator == fidelity_.estimator;
+      if (known >= (here ? 1 : share) * square(target)) return;
+      const double needed = square(scatter()) / (square(target) - known);
+      const int skins = std::max(kFewestSkins, static_cast<int>(std::ceil(std::min(needed, 1e6))));
+      if (skins > std::max(options_.most_skins, kFewestSkins)) return;
+      const auto n = static_cast<double>(patch(grid).size());
+      const double cost = std::max(here ? skins - patches_.skins() : skins, 0) *
+                          (estimator == Estimator::Area ? 3 : 1) * n * std::log2(n);
+      if (cost < best.cost) best = {grid, estimator, skins, cost};
+    });
     return best;
   }
 
-  std::string limit() const {
-    if (parts_.systematic() < options_.target)
-      return fmt::format("not reached: sampling {:.1f} % at the largest number of skins, {}",
-                         100 * parts_.sampling, options_.most_skins);
-    return fmt::format("not reached: {} {:.1f} % at the finest grid, {} pixels",
-                       parts_.grid > parts_.solver ? "grid" : "solver",
-                       100 * std::max(parts_.grid, parts_.solver), fidelity_.grid);
+  // Where the target is out of reach, the cheapest plan next to the least error within the limits:
+  // who asks for more than can be had gets no less than who asks for that.
+  Choice cheapest() const {
+    const Choice asked = inside(options_.target, kSystematicShare);
+    if (asked.cost < kInfinity) return asked;
+    double least = kInfinity;
+    each_plan([&](int grid, Estimator estimator) {
+      least = std::min(least, systematic(grid, estimator) +
+                                  square(scatter()) / std::max(options_.most_skins, kFewestSkins));
+    });
+    const double reachable = kNearEnough * std::sqrt(least);
+    return inside(std::max(reachable, options_.target), 1);
+  }
+
+  std::string limit(const Parts& parts) const {
+    const std::array<std::pair<const char*, double>, 4> all{{{"sampling", parts.sampling},
+                                                             {"grid", parts.grid},
+                                                             {"method", parts.method},
+                                                             {"solver", parts.solver}}};
+    const auto largest = std::max_element(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    return fmt::format("not reached: {} {:.2g} % is the largest part; at most {} pixels, {} skins",
+                       largest->first, 100 * largest->second, options_.largest_grid,
+                       options_.most_skins);
   }
 
   const Scene& scene_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <sstream>
@@ -47,6 +48,28 @@ TEST(Target, EndsAtItsLimitsWithTheReason) {
   EXPECT_LE(r.fidelity.skins, 16);
 }
 
+// What is asked for in vain is answered as well as what can just be had.
+TEST(Target, OutOfReachGetsNoLessThanALooserOne) {
+  const auto reached = [](double target) {
+    return evaluate_to_target(
+        driven(), Texture{HoleArray{}},
+        {.target = target, .largest_grid = 128, .most_skins = 32, .threads = 2});
+  };
+  const Response loose = reached(0.08), tight = reached(0.001);
+  EXPECT_LE(tight.accuracy.reached, 1.1 * loose.accuracy.reached);
+  EXPECT_GT(tight.fidelity.skins, 8);
+  // The largest part is named, sampling among them.
+  const ErrorParts& e = tight.points[0].modulation.parts;
+  const std::pair<std::string, double> all[]{{"sampling", e.sampling},
+                                             {"grid", e.grid.value_or(0)},
+                                             {"method", e.method.value_or(0)},
+                                             {"solver", e.solver.value_or(0)}};
+  const auto& largest = *std::max_element(std::begin(all), std::end(all),
+                                          [](auto& a, auto& b) { return a.second < b.second; });
+  EXPECT_EQ(tight.accuracy.status.rfind("not reached: " + largest.first, 0), 0u)
+      << tight.accuracy.status;
+}
+
 TEST(Target, OfAnUndrivenSurfaceIsOnFriction) {
   Scene scene = driven();
   scene.drive.amplitude = 0;
@@ -88,6 +111,24 @@ TEST(Errors, AreMeasuredOnControlSkinsAndUnknownWithoutThem) {
   EXPECT_FALSE(evaluate(scene, Texture{}, f).points[0].modulation.parts.method);
 }
 
+// Long patches have a limited number of pixels a side; the control run has half of that too.
+TEST(Errors, OfALongPatchAreOfHalfItsPixels) {
+  Fidelity f = fidelity_level("search");
+  f.skins = f.control_skins = 2;
+  f.grid = 128;
+  f.most_pixels = 128;
+  const Texture texture{HoleArray{.period = 60e-6, .diameter = 30e-6}};
+  const Response r = evaluate(driven(), texture, f);
+  EXPECT_EQ(r.plan.grid.nx, 128);
+  EXPECT_GT(r.points[0].friction_off.parts.grid.value(), 0.01 * r.points[0].friction_off.value);
+  EXPECT_NE(r.plan.warning.find("accuracy.grid = 640"), std::string::npos) << r.plan.warning;
+  f.most_pixels = 0;
+  EXPECT_EQ(make_plan(driven(), texture, f).grid.nx, 640);
+  EXPECT_EQ(make_plan(driven(), texture, f).warning, "");
+  f.grid = 4096;  // the largest of accuracy.grid
+  EXPECT_EQ(make_plan(driven(), Texture{}, f).grid.nx, 4096);
+}
+
 TEST(Errors, OfTheMeanOverHumidityCountItsNodes) {
   Response r;
   r.driven = true;
@@ -111,24 +152,6 @@ TEST(AccuracyPage, IsThatOfTheCommittedTables) {
 
 // Honest and not huge, as the committed table of 50 scenes has it.
 TEST(AccuracyPage, TheErrorBarsCoverHeldOutScenes) {
-// Long patches have a limited number of pixels a side; the control run has half of that too.
-TEST(Errors, OfALongPatchAreOfHalfItsPixels) {
-  Fidelity f = fidelity_level("search");
-  f.skins = f.control_skins = 2;
-  f.grid = 128;
-  f.most_pixels = 128;
-  const Texture texture{HoleArray{.period = 60e-6, .diameter = 30e-6}};
-  const Response r = evaluate(driven(), texture, f);
-  EXPECT_EQ(r.plan.grid.nx, 128);
-  EXPECT_GT(r.points[0].friction_off.parts.grid.value(), 0.01 * r.points[0].friction_off.value);
-  EXPECT_NE(r.plan.warning.find("accuracy.grid = 640"), std::string::npos) << r.plan.warning;
-  f.most_pixels = 0;
-  EXPECT_EQ(make_plan(driven(), texture, f).grid.nx, 640);
-  EXPECT_EQ(make_plan(driven(), texture, f).warning, "");
-  f.grid = 4096;  // the largest of accuracy.grid
-  EXPECT_EQ(make_plan(driven(), Texture{}, f).grid.nx, 4096);
-}
-
   std::istringstream in(
       read_bytes(std::string(PAPILLA_SOURCE_DIR) + "/results/accuracy/coverage.csv"));
   std::vector<CoverageRow> rows;
