@@ -47,6 +47,10 @@ std::vector<std::string> split(std::string_view text, char separator) {
   return parts;
 }
 
+std::string counted(long long count, std::string_view noun) {
+  return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+}
+
 std::string join_names(const std::vector<std::string>& names, std::string_view separator) {
   std::string out;
   for (const std::string& name : names) {

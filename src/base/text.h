@@ -11,6 +11,8 @@ namespace papilla {
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
 // Parts between separators, blanks at their ends removed: "a, b" -> {"a", "b"}.
 std::vector<std::string> split(std::string_view text, char separator);
+// "1 evaluation", "2 evaluations".
+std::string counted(long long count, std::string_view noun);
 std::string join_names(const std::vector<std::string>& names, std::string_view separator = ", ");
 
 // Columns on a terminal, of UTF-8 text.

@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "optim/mpi.h"
@@ -190,10 +191,11 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     context.note("interrupted; continue with: " + resume_command(options, run.folder));
     return kWorkFailed;
   }
-  context.note(fmt::format(
-      "{} evaluations in {:.0f} s; results in {}/ ({})", result.evaluations, seconds, run.folder,
-      result.has_best() ? "report.html, summary.md, pareto.csv, best/design.toml"
-                        : "summary.md, pareto.csv, history.csv"));
+  context.note(fmt::format("{} in {:.0f} s; results in {}/ ({})",
+                           counted(result.evaluations, "evaluation"), seconds, run.folder,
+                           result.has_best()
+                               ? "report.html, summary.md, pareto.csv, best/design.toml"
+                               : "summary.md, pareto.csv, history.csv"));
   if (!result.any_feasible) {
     context.note(result.finalists.empty()
                      ? "no design could be evaluated; history.csv says why for each"

@@ -793,9 +793,10 @@ std::string calibration_markdown(const Calibration& c, const CalibrationResult& 
   out += fmt::format(
       "{} residuals, {} parameters; χ² of the data {:.3g} before, {:.3g} after, of the priors "
       "{:.3g}; {} "
-      "degrees of freedom; errors times {:.3g}; {} evaluations of the model; {}.\n",
+      "degrees of freedom; errors times {:.3g}; {} of the model; {}.\n",
       r.rows.size(), c.parameters.size(), r.chi2_before, r.fit.chi2, r.fit.prior_chi2,
-      r.fit.degrees_of_freedom, std::sqrt(r.fit.variance_factor), r.evaluations,
+      r.fit.degrees_of_freedom, std::sqrt(r.fit.variance_factor),
+      counted(r.evaluations, "evaluation"),
       r.fit.converged ? "converged" : "stopped: " + r.fit.message);
   out += fmt::format(
       "Skins {} to {} at level {}{}.\n", c.sampling.first_skin,

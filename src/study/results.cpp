@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "config/writer.h"
 #include "geometry/io/files.h"
@@ -230,10 +231,11 @@ class Writer {
     std::string out =
         "# " + (f_.study.design.title.empty() ? f_.study.name : f_.study.design.title) + "\n\n";
     if (r.interrupted) {
-      return out + fmt::format("Interrupted after {} evaluations; continue with --resume.\n",
-                               r.evaluations);
+      return out + fmt::format("Interrupted after {}; continue with --resume.\n",
+                               counted(r.evaluations, "evaluation"));
     }
-    out += fmt::format("Search: {} ({}). {} evaluations", r.method, r.why, r.evaluations);
+    out +=
+        fmt::format("Search: {} ({}). {}", r.method, r.why, counted(r.evaluations, "evaluation"));
     if (r.refused) out += fmt::format(", {} refused by the fabrication limits", r.refused);
     if (r.failures) out += fmt::format(", **{} failed** (history.csv says why)", r.failures);
     out += ".\n\n";
@@ -298,16 +300,19 @@ class Writer {
     if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
     row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
     row("best design", best.confirmed);
-    if (parameter_error(best.confirmed, *r.flat, 0)) {
-      out += "| difference made by the texture |";
-      for (std::size_t k = 0; k < objectives.size(); ++k) {
-        out += fmt::format(" {:+.3f}", best.confirmed.values[k] - r.flat->values[k]);
-        if (const auto part = parameter_error(best.confirmed, *r.flat, k))
-          out += fmt::format(" ({:.3f})", *part);
-        out += " |";
-      }
-      out += " |\n";
+    // Both met the same skins, droplets and grid, whose part in the difference is not known: the
+    // larger of the two errors is more than it while they are mostly common.
+    out += "| difference made by the texture |";
+    for (std::size_t k = 0; k < objectives.size(); ++k) {
+      out += fmt::format(" {:+.3f} ± {:.3f}", best.confirmed.values[k] - r.flat->values[k],
+                         std::max(best.confirmed.errors[k], r.flat->errors[k]));
+      if (const auto part = parameter_error(best.confirmed, *r.flat, k))
+        out += fmt::format(" ({:.3f})", *part);
+      out += " |";
     }
+    out +=
+        " |\n\n± of the difference is the larger of the two: both met the same skins, droplets and "
+        "grid, so that it is not their sum.\n";
     if (r.flat_before) {
       out +=
           "\nFrom the first row to the second is the finish (and drive), from the second to the "
@@ -437,13 +442,28 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   const std::string unknown = problem.parameters_unknown();
   if (!unknown.empty())
     return out + fmt::format("\nWhat the fit of the finger leaves open is in no ±: {}.\n", unknown);
-  return out + fmt::format(
-                   "\n± is one standard error of skins, droplets, grid and method. In brackets{} "
-                   "what the fit of the finger leaves open, one standard deviation: it moves all "
-                   "designs together, so differences are known better.\n",
-                   study.design.accuracy.parameters
-                       ? ""
-                       : ", of the best design (all: `[accuracy] parameters = true`),");
+  out += fmt::format(
+      "\n± is one standard error of skins, droplets, grid and method. In brackets{} what the fit "
+      "of "
+      "the finger leaves open, one standard deviation, common to all designs",
+      study.design.accuracy.parameters
+          ? ""
+          : ", of the best design (all: `[accuracy] parameters = true`),");
+  // Common is not cancelled: a design may answer to the finger as its flat surface does not.
+  std::vector<std::string> better, worse;
+  for (std::size_t k = 0; result.has_best() && result.flat && k < objectives.size(); ++k) {
+    const Score& best = result.finalists[result.best].confirmed;
+    const auto own = parameter_error(best, k), flat = parameter_error(*result.flat, k),
+               both = parameter_error(best, *result.flat, k);
+    if (both) (*both < std::min(*own, *flat) ? better : worse).push_back(objectives[k].name);
+  }
+  if (!better.empty())
+    out += "; it leaves the difference from flat better known than the values in " +
+           join_names(better);
+  if (!worse.empty())
+    out += fmt::format("; {} it leaves the difference from flat no better known than the values",
+                       "in " + join_names(worse));
+  return out + ".\n";
 }
 
 std::string infeasible_text(const OptimiseResult& result) {

@@ -9,8 +9,10 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/statistics.h"
 #include "study/pick.h"
+#include "study/results.h"
 
 namespace papilla {
 namespace {
@@ -426,6 +428,48 @@ TEST(Optimise, ALimitOnTheLookIsKept) {
       EXPECT_LE(appearance_of(f.design).haze, 0.03);
     }
   }
+}
+
+// What the finger leaves open of two designs cancels where both answer alike, and only there.
+TEST(Results, DifferencesAreSaidToBeBetterKnownWhereTheyAre) {
+  const Study study = read_study(find_design("electroadhesive_glass/study.toml"));
+  const StudyProblem problem(study);
+  ASSERT_EQ(problem.objectives().size(), 2u);
+  FinalDesign d;
+  d.unit.assign(study.variables.size(), 0.5);
+  d.design = study.design;
+  d.feasible = d.on_front = true;
+  d.folder = "front/01";
+  d.confirmed.ok = true;
+  d.confirmed.values = {0.366, 0.215};
+  d.confirmed.errors = {0.075, 0.120};
+  d.confirmed.parameter_steps = {{{0.05, 0.05}}, {{0.010, 0.010}}};
+  OptimiseResult result;
+  result.evaluations = 1;
+  result.any_feasible = true;
+  result.finalists = {d};
+  result.stability.variants = {{"alone", {d.confirmed.values}, {true}}};
+  result.stability.times_on_front = {1};
+  result.flat = d.confirmed;
+  result.flat->values = {0.344, 0.222};
+  result.flat->errors = {0.071, 0.114};
+  result.flat->parameter_steps = {{{0.04, 0.04}}, {{-0.005, -0.005}}};
+  const std::string first = problem.objectives()[0].name, second = problem.objectives()[1].name;
+  const std::string table = result_table(study, result);
+  EXPECT_NE(table.find("better known than the values in " + first + ";"), std::string::npos);
+  EXPECT_NE(table.find("in " + second + " it leaves the difference from flat no better"),
+            std::string::npos)
+      << table;
+
+  const std::string folder = testing::TempDir() + "papilla_results", pick;
+  std::filesystem::create_directories(folder);
+  write_results({folder, study, problem, {}, result, pick});
+  const std::string summary = read_bytes(folder + "/summary.md");
+  EXPECT_NE(summary.find("| +0.022 ± 0.075 (0.010) | -0.007 ± 0.120 (0.015) |"), std::string::npos)
+      << summary;
+  EXPECT_NE(summary.find("1 evaluation."), std::string::npos) << summary;
+  result.flat->parameter_steps.clear();
+  EXPECT_EQ(result_table(study, result).find("difference"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The page of `papilla optimize`.
 // ---- the turnable texture ----
-const solid = { ready: false };
+const solid = { ready: false, radius: 1.13 };
 function startSolid() {
   const box = $('solid');
   const probe = document.createElement('canvas');
@@ -16,8 +16,6 @@ function startSolid() {
   box.appendChild(solid.renderer.domElement);
   solid.scene = new THREE.Scene();
   solid.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 20);
-  solid.camera.position.set(0, 1.75, 2.25);
-  solid.camera.lookAt(0, -0.05, 0);
   solid.scene.add(new THREE.AmbientLight(0xffffff, 0.45));
   const light = new THREE.DirectionalLight(0xffffff, 0.75);
   light.position.set(1.2, 2, 0.6);
@@ -45,6 +43,10 @@ function render() {
   const box = $('solid'), w = box.clientWidth, h = box.clientHeight;
   solid.renderer.setSize(w, h);
   solid.camera.aspect = w / h;
+  // As far off as the texture fits in, however it is turned: its corners go round in a circle.
+  const away = solid.radius / (Math.tan(solid.camera.fov / 2 * Math.PI / 180) * Math.min(1, w / h));
+  solid.camera.position.set(0, 0.614 * away, 0.789 * away);
+  solid.camera.lookAt(0, -0.05, 0);
   solid.camera.updateProjectionMatrix();
   solid.renderer.render(solid.scene, solid.camera);
 }
@@ -59,7 +61,7 @@ function showSolid(map) {
     old.geometry.dispose();
     old.material.dispose();
   }
-  const { nx, ny } = map, unit = 1.6 / map.lx, positions = [], tints = [], index = [];
+  const { nx, ny } = map, unit = 1.6 / Math.max(map.lx, map.ly), positions = [], tints = [], index = [];
   for (let y = 0; y < ny; ++y) {
     for (let x = 0; x < nx; ++x) {
       const z = values[y * nx + x];
@@ -71,6 +73,7 @@ function showSolid(map) {
       }
     }
   }
+  solid.radius = 0.5 * unit * Math.hypot(map.lx, map.ly);
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
   geometry.setAttribute('color', new THREE.Float32BufferAttribute(tints, 3));
@@ -157,7 +160,7 @@ function showPareto() {
     { label: 'shown on this page', data: chosen.map((r) => point(r)), pointRadius: 12, pointHoverRadius: 12, borderWidth: 2.5, backgroundColor: 'transparent', borderColor: colours[1] },
     { label: 'front, confirmed', data: front.map((r) => point(r, true)), bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] },
     { label: 'confirmed, dominated', data: dominated.map((r) => point(r, true)), pointRadius: 3.5, pointStyle: 'rect', borderColor: '#c3b1d4', backgroundColor: '#c3b1d4' },
-    { label: 'searched', data: history.filter((r) => r.status === 'ok' && number(r)).map((r) => point(r)), pointRadius: 3, borderColor: '#b9c0ca', backgroundColor: '#b9c0ca' },
+    { label: 'searched (cheaper level, biased)', hidden: front.length + dominated.length > 0, data: history.filter((r) => r.status === 'ok' && number(r)).map((r) => point(r)), pointRadius: 3, borderColor: '#b9c0ca', backgroundColor: '#b9c0ca' },
   ];
   const flat = data.designs.best.flat;
   if (flat) {
@@ -193,7 +196,9 @@ function showPareto() {
 function showFinalists() {
   const columns = ['design'].concat(variables, objectives, ['worst modulation', 'feasible']);
   const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : withError({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] })) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
-  const body = table($('finalists'), columns, finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
+  // Keys break where people read a break, not inside words.
+  const heading = (c) => c.replace(/([._(])/g, '$1\u200b');
+  const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
   finalists.forEach((r, i) => {
     const row = body.rows[i];
     if (!data.designs[r.design]) return;
@@ -294,7 +299,7 @@ function showDesign() {
   table($('numbers'), ['Result', label(state.design), 'flat'],
     Object.keys(d.objectives).map((name) => [name, withError(d.objectives[name]), flat ? withError(flat.objectives[name]) : '–'])
       .concat([['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–'], ['oxide breakdown margin', round(d.oxide_breakdown_margin), '']])
-      .concat(d.stability ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '']] : []), [1, 2]);
+      .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '']] : []), [1, 2]);
   $('toml').textContent = d.toml;
 }
 
@@ -319,7 +324,7 @@ options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i
 options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
 startSolid();
 select('best');
-showSection($('stability'), 'Does the order hold?', 'One finalist: there is no order to check.');
+showSection($('stability'), 'Does the order hold?', 'One design on the front: there is no order to check.');
 showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;
 $('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What the fit of the finger leaves open is in no error here: ${known.status}.`

@@ -196,7 +196,7 @@ function sectionOf(toml, name) {
   const text = ('\n' + toml).split(`\n[${name}]`)[1] || '';
   return text.split(/\n\[/)[0].split('\n').map((l) => /^(\w+) = (.*)$/.exec(l)).filter(Boolean).map((m) => {
     const value = m[2].replace(/"/g, ''), q = /^(-?[\d.e+-]+) (.*)$/.exec(value);
-    return [m[1].replace(/_/g, ' '), q ? round(+q[1], 4) + ' ' + q[2].replace('um', 'µm').replace('deg', '°') : value.replace(/_/g, ' ')];
+    return [m[1].replace(/_/g, ' '), q ? round(+q[1], 4) + ' ' + q[2].replace('um', 'µm').replace('deg', '°') : value];
   });
 }
 // The largest of some SI values decides the prefix: { scale, unit }.
