@@ -21,7 +21,8 @@ struct PlanStep {
 
 struct PlanSkip {
   std::string piece, reason;
-  double bound = 0;  // bound on the relative error of friction made by skipping
+  double bound = 0;      // on the relative error of friction made by skipping; 0: none
+  bool estimate = true;  // what other scenes had; false: a bound from patches of this scene
 
   bool operator==(const PlanSkip&) const = default;
 };

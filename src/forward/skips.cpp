@@ -99,11 +99,15 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
 Plan measured_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Plan plan = make_plan(scene, texture, fidelity);
   const SkipBounds bounds = skip_bounds(scene, texture, fidelity);
+  const auto is = [](PlanSkip& skip, double bound) {
+    skip.bound = bound;
+    skip.estimate = false;
+  };
   for (PlanSkip& skip : plan.skipped) {
-    if (skip.piece == "van der Waals") skip.bound = bounds.van_der_waals;
-    if (skip.piece == "Kelvin condensation") skip.bound = bounds.kelvin;
-    if (skip.piece == "self-consistent coupling") skip.bound = bounds.self_consistency;
-    if (skip.piece == "retention") skip.bound = bounds.retention;
+    if (skip.piece == "van der Waals") skip.bound = bounds.van_der_waals;  // proven by nothing
+    if (skip.piece == "Kelvin condensation") is(skip, bounds.kelvin);
+    if (skip.piece == "self-consistent coupling") is(skip, bounds.self_consistency);
+    if (skip.piece == "retention") is(skip, bounds.retention);
   }
   return plan;
 }

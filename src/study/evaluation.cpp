@@ -60,7 +60,10 @@ Json plan_json(const Plan& plan) {
                      {"error", s.error}});
   }
   for (const PlanSkip& s : plan.skipped) {
-    skipped.push_back({{"piece", s.piece}, {"reason", s.reason}, {"bound", s.bound}});
+    skipped.push_back({{"piece", s.piece},
+                       {"reason", s.reason},
+                       {"bound", number(s.bound)},
+                       {"estimate", s.estimate}});
   }
   return {
       {"grid",

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
+#include <sstream>
 
+#include "base/files.h"
 #include "base/statistics.h"
+#include "base/text.h"
 #include "physics/contact/contact.h"
 #include "study/accuracy.h"
 
@@ -76,6 +80,57 @@ TEST(SkipBounds, HoldForRetention) {
     bounds.push_back(skip_bounds(scene, texture, small()).retention);
   }
   expect_bounds("retention", bounds, actual);
+}
+
+// What the plan says of the load law is what the committed scenes have: both estimators on the
+// same skins.
+TEST(PlanSkips, TheLoadLawIsAsFarOffAsOnTheCommittedScenes) {
+  std::vector<double> friction, modulation;
+  for (const char* file : {"coverage.csv", "training/coverage.csv"}) {
+    std::istringstream in(
+        read_bytes(std::string(PAPILLA_SOURCE_DIR) + "/results/accuracy/" + file));
+    std::map<std::string, std::map<bool, double>> scenes;  // [scene][load law]
+    for (std::string line; std::getline(in, line);) {
+      const std::vector<std::string> c = split(line, ',');
+      if (line[0] == '#' || c[0] == "scene") continue;
+      scenes[c[0]][c[2].find("load law") != std::string::npos] = std::stod(c[3]);
+    }
+    for (const auto& [name, m] : scenes) {
+      if (m.size() < 2) continue;
+      friction.push_back(std::abs((1 + m.at(true)) / (1 + m.at(false)) - 1));
+      modulation.push_back(std::abs(m.at(true) / m.at(false) - 1));
+    }
+  }
+  ASSERT_EQ(friction.size(), 130u);
+  EXPECT_NEAR(quantile(friction, 0.95), 0.05, 0.005);
+  EXPECT_NEAR(quantile(modulation, 0.95), 0.12, 0.005);
+  EXPECT_NEAR(quantile(modulation, 1), 0.30, 0.01);
+  Scene scene;
+  scene.drive.amplitude = 200;
+  const Plan plan = make_plan(scene, Texture{}, fidelity_level("draft"));
+  for (const PlanSkip& skip : plan.skipped) {
+    if (skip.piece != "contact with tractions") continue;
+    EXPECT_NEAR(skip.bound, quantile(friction, 1), 0.005);
+    EXPECT_NE(plan.text().find("estimate 11 % of friction"), std::string::npos) << plan.text();
+  }
+}
+
+// A priori estimates hold on the published sample's patches; only measured ones are called bounds.
+TEST(PlanSkips, AreEstimatesUntilMeasured) {
+  Scene scene;
+  scene.drive.amplitude = 200;
+  scene.environment.relative_humidity = {0.55};
+  const Texture texture{HoleArray{}};
+  const Plan before = make_plan(scene, texture, small());
+  const Plan after = measured_plan(scene, texture, small());
+  EXPECT_EQ(before.text().find("(bound"), std::string::npos) << before.text();
+  for (std::size_t i = 0; i < before.skipped.size(); ++i) {
+    const PlanSkip &a = before.skipped[i], &b = after.skipped[i];
+    EXPECT_TRUE(a.estimate) << a.piece;
+    if (a.piece != "Kelvin condensation") continue;
+    EXPECT_FALSE(b.estimate);
+    EXPECT_GE(a.bound, b.bound);
+  }
 }
 
 // Contact solved again under the attraction of the piece that has no model of its own.
