@@ -1,4 +1,6 @@
 // papilla explain FILE: what would be modelled, what not, why, at which cost and error.
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -8,6 +10,7 @@
 #include "study/design.h"
 #include "study/evaluation.h"
 #include "study/objective.h"
+#include "study/target.h"
 
 namespace papilla {
 namespace {
@@ -15,13 +18,25 @@ namespace {
 int explain(const Context& context, const DesignOptions& options, bool measure) {
   const Study study = read_study(options.file, options.overrides);
   const Design& design = study.design;
-  const Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity_of(design))
-                            : make_plan(scene_of(design), design.texture, fidelity_of(design));
+  const TargetOptions target{.target = design.accuracy.target};
+  const Fidelity fidelity = target.target > 0 ? pilot_fidelity(target) : fidelity_of(design);
+  const Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity)
+                            : make_plan(scene_of(design), design.texture, fidelity);
   if (options.json) {
     std::cout << plan_document(plan) << '\n';
     return kSuccess;
   }
-  std::string text = (design.title.empty() ? study.name : design.title) + '\n' + plan.text();
+  std::string text = (design.title.empty() ? study.name : design.title) + '\n';
+  if (target.target > 0) {
+    text += fmt::format(
+        "accuracy.target = {:.3g} %: what follows is the pilot that measures the errors; from them "
+        "`evaluate` chooses load law or solved areas, at most {} pixels along 12 um and {} skins\n",
+        100 * target.target, target.largest_grid, target.most_skins);
+    if (study.origins.count("accuracy.level") || study.origins.count("accuracy.grid"))
+      text +=
+          "accuracy.level and accuracy.grid count for --sweep, --voltage-for and pictures only\n";
+  }
+  text += plan.text();
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';

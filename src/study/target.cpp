@@ -33,13 +33,7 @@ class TargetRun {
       : scene_(scene), texture_(texture), options_(options) {}
 
   Response run() {
-    fidelity_ = fidelity_level("design");
-    fidelity_.level = "target";
-    fidelity_.seed = options_.seed;
-    fidelity_.threads = options_.threads;
-    fidelity_.contact_tolerance = std::clamp(options_.target / 100, 1e-6, 1e-3);
-    fidelity_.grid = kSmallestGrid;
-    fidelity_.estimator = Estimator::Load;
+    fidelity_ = pilot_fidelity(options_);
     Response response = fresh(kFewestSkins, "pilot"), best = response;
     Parts best_parts = parts_;
     std::string status = "reached";
@@ -234,6 +228,18 @@ class TargetRun {
 };
 
 }  // namespace
+
+Fidelity pilot_fidelity(const TargetOptions& options) {
+  Fidelity f = fidelity_level("design");
+  f.level = "target";
+  f.seed = options.seed;
+  f.threads = options.threads;
+  f.contact_tolerance = std::clamp(options.target / 100, 1e-6, 1e-3);
+  f.grid = kSmallestGrid;
+  f.skins = kFewestSkins;
+  f.estimator = Estimator::Load;
+  return f;
+}
 
 Response evaluate_to_target(const Scene& scene, const Texture& texture,
                             const TargetOptions& options) {

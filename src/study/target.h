@@ -15,6 +15,9 @@ struct TargetOptions {
   int threads = 0;
 };
 
+// What the pilot runs.
+Fidelity pilot_fidelity(const TargetOptions& options);
+
 // A pilot measures sampling scatter, grid part and load-law part; of all grids and both estimators
 // the cheapest is run whose predicted error is inside (Eq. accuracy.5, accuracy.6); its parts are
 // measured again, skins are added in batches where sampling is too large, and the plan is made anew

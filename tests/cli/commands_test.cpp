@@ -54,6 +54,27 @@ TEST(Explain, NamesWhatItSkipsAndWhy) {
   const auto plan = nlohmann::json::parse(place.run("explain --json " + kSample).out);
   EXPECT_EQ(plan["schema"], 1);
   EXPECT_GE(plan["plan"]["steps"].size(), 3u);
+  const Outcome target =
+      place.run("explain " + kSample + " --set accuracy.target=5% --set accuracy.level=draft");
+  EXPECT_NE(target.out.find("accuracy.target = 5 %: what follows is the pilot"), std::string::npos)
+      << target.out;
+  EXPECT_NE(target.out.find("8 skins on 64 x 64 pixels"), std::string::npos) << target.out;
+  EXPECT_NE(target.out.find("accuracy.level and accuracy.grid count for"), std::string::npos);
+}
+
+TEST(Evaluate, BeyondBreakdownItsNumbersMeanNothing) {
+  const Workplace place;
+  const std::string line = "evaluate " + kSample + kDraft +
+                           "--set 'environment.relative_humidity=[\"50 %\"]' "
+                           "--set drive.amplitude=99kV ";
+  const Outcome text = place.run(line), json = place.run(line + "--json");
+  EXPECT_NE(text.out.find("mean nothing physical"), std::string::npos) << text.out;
+  EXPECT_EQ(text.out.find("from the refined 3-D field"), std::string::npos) << text.out;
+  const auto status = nlohmann::json::parse(json.out)["points"][0]["status"].get<std::string>();
+  EXPECT_NE(status.find("nothing physical"), std::string::npos) << status;
+  const Outcome sound = place.run("evaluate " + kSample + kDraft + "--voltage-for 0.3");
+  EXPECT_NE(sound.out.find("V (±: sampling, solver; not in ±: grid"), std::string::npos)
+      << sound.out;
 }
 
 TEST(Rank, RefusesADesignAgainstItselfAndARegionWithoutAName) {
