@@ -472,17 +472,24 @@ Heightmap read_heightmap(const std::string& path, double width) {
     throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
   }
   if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
-    throw InputError("cannot read " + path +
-                     ": the file does not say its lateral size; give the width");
+    throw InputError(
+        "cannot read " + path +
+        ": the file does not say its lateral size; give it: texture.width of a measured "
+        "texture, the --size or --width of a command");
   }
   if (std::min(h.grid.lx, h.grid.ly) < 1e-12 || std::max(h.grid.lx, h.grid.ly) > 1e3) {
     throw InputError(
         fmt::format("cannot read {}: a lateral size of {:.3g} x {:.3g} m; expected 1 pm to 1 km",
                     path, h.grid.lx, h.grid.ly));
   }
-  for (double z : h.z) {
-    if (!std::isfinite(z))
-      throw InputError("cannot read " + path + ": a height is not a finite number");
+  const auto broken = [](double z) { return !std::isfinite(z); };
+  if (const auto first = std::find_if(h.z.begin(), h.z.end(), broken); first != h.z.end()) {
+    const auto at = static_cast<std::size_t>(first - h.z.begin());
+    const auto nx = static_cast<std::size_t>(h.grid.nx);
+    throw InputError(fmt::format(
+        "cannot read {}: {} of {} heights are no finite numbers, the first in column {} of row {} "
+        "(counted from 0, row 0 at y = 0)",
+        path, std::count_if(h.z.begin(), h.z.end(), broken), h.z.size(), at % nx, at / nx));
   }
   return h;
 }

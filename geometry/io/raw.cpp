@@ -158,7 +158,10 @@ Heightmap read_npy(const std::string& path, double width) {
     broken(path, "needs a two-dimensional array");
   }
   check_size(path, static_cast<double>(columns), static_cast<double>(rows));
-  if (!(width > 0)) broken(path, "the file holds no lateral size; give the width");
+  if (!(width > 0))
+    broken(path,
+           "the file holds no lateral size; give it (texture.width of a measured texture, the size "
+           "option of a command)");
   Heightmap h;
   h.grid = {static_cast<int>(columns), static_cast<int>(rows), width,
             width * static_cast<double>(rows) / static_cast<double>(columns)};

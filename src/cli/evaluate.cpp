@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -203,6 +204,8 @@ void write_pictures(const std::string& folder, const Design& design, const Fidel
 
 // "5%" or "5 %": a relative standard error.
 double wanted_accuracy(const std::string& text) {
+  if (const auto q = parse_quantity(text); q && q->unit.empty() && q->value >= 1)
+    throw InputError(fmt::format("--accuracy: {0} has no unit; write {0}%", text));
   const double target = parse_si(text, "%");
   if (!(target > 0 && target < 1))
     throw InputError(
@@ -273,7 +276,17 @@ void add_evaluate(CLI::App& app, Context& context) {
       ->add_option("--voltage-for", options->voltage_for,
                    "Also the amplitude at which the modulation reaches this value")
       ->type_name("MODULATION")
-      ->check(CLI::Range(1e-3, 1e6));
+      ->check([](const std::string& text) {
+        double value = 0;
+        const char* end = text.data() + text.size();
+        const auto [last, error] = std::from_chars(text.data(), end, value);
+        if (error == std::errc{} && last == end && value >= 1e-3 && value <= 1e6)
+          return std::string();
+        return "expected a modulation (F_on - F_off)/F_off from 0.001 to 1e6 as a plain number, "
+               "0.5 "
+               "for 50 %, got " +
+               text;
+      });
   command->add_flag(
       "--check-field", options->check_field,
       "Also solve the 3-D field on one skin and say how far the cheaper rules are off");

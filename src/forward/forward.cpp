@@ -175,7 +175,9 @@ class PointBuilder {
       // Resolved areas end at the patch, the load law does not.
       if (area->value > 1 && point.status == "ok") {
         point.status = fmt::format(
-            "full contact: the area estimate is {:.3g} times the patch, friction is not valid",
+            "full contact: the area estimate is {:.3g} times the patch, friction and modulation "
+            "mean "
+            "nothing physical",
             area->value);
       }
     }

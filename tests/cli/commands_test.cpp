@@ -388,6 +388,8 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
            {"solve foo", "unknown command `solve foo`"},
            {"solve contct", "did you mean `solve contact`?"},
            {"solve droplets", "try: papilla solve droplets --help"},
+           {"evaluate " + kSample + " --voltage-for 50%", "0.5 for 50 %, got 50%"},
+           {"evaluate " + kSample + " --accuracy 5", "has no unit; write 5%"},
            {"solve drive " + drive + " --swipe dose.csv", "expected \"lateral,normal\" in N"},
            {"solve droplets --design " + kSample + " --skin -4", "--skin"},
            {"solve droplets --design " + kSample + " --seed -1", "--seed"},

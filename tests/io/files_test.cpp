@@ -51,6 +51,26 @@ TEST_F(Files, NpyKeepsEveryBit) {
   EXPECT_THROW(read_heightmap(path("h.npy")), InputError);  // no size in the file
 }
 
+TEST_F(Files, ABrokenHeightIsNamedByItsPixelAndASizeByItsKey) {
+  const auto message = [](const std::string& file, double width) -> std::string {
+    try {
+      read_heightmap(file, width);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  Heightmap h = holes();
+  write_npy(path("h.npy"), h);
+  EXPECT_NE(message(path("h.npy"), 0).find("texture.width"), std::string::npos);
+  const auto nx = static_cast<std::size_t>(h.grid.nx);
+  h.z[3 * nx + 5] = h.z[7 * nx + 2] = std::numeric_limits<double>::quiet_NaN();
+  write_npy(path("n.npy"), h);
+  const std::string broken = message(path("n.npy"), 12e-6);
+  EXPECT_NE(broken.find("2 of "), std::string::npos) << broken;
+  EXPECT_NE(broken.find("column 5 of row 3"), std::string::npos) << broken;
+}
+
 TEST_F(Files, GsfExrAndTiffKeepSizeAndHeights) {
   const Heightmap h = holes();
   const double depth = 350e-9;
