@@ -334,7 +334,7 @@ showProgress();
 if (data.fields.length) showMaps(0);
 const plan = best.plan;
 table($('modelled'), ['Modelled', 'How', 'Why', 'Error'], plan.steps.map((s) => [s.piece, s.method, s.reason, s.error ? round(100 * s.error, 2) + ' %' : '']), [3]);
-table($('skipped'), ['Not modelled', 'Why', 'At most, of friction'], plan.skipped.map((s) => [s.piece, s.reason, s.bound ? round(100 * s.bound, 2) + ' %' : '']), [2]);
+table($('skipped'), ['Not modelled', 'Why', 'Of friction'], plan.skipped.map((s) => [s.piece, s.reason, s.bound ? (s.estimate ? 'about ' : 'at most ') + round(100 * s.bound, 2) + ' %' : '']), [2]);
 $('plantext').textContent = data.plan;
 $('polarity').textContent = 'Bright is high in the EXR and the preview; white is deep in mask.tif.';
 window.addEventListener('beforeprint', render);
