@@ -307,12 +307,13 @@ class Run {
   // The earlier run's answer to a question.
   const Outcome& replayed(const Point& key) {
     const Evaluation& e = journal_.records()[next_record_++];
-    if (e.unit != key) {
-      throw InputError(folder_ +
-                       "/journal: the earlier run took another path (other budget or another "
-                       "version of Papilla); start again with another --out folder");
-    }
+    if (e.unit != key) refuse_journal();
     return e.outcome;
+  }
+  [[noreturn]] void refuse_journal() const {
+    throw InputError(folder_ +
+                     "/journal: the earlier run took another path (other budget or another "
+                     "version of Papilla); start again with another --out folder");
   }
 
   void record(const Point& key, const Outcome& outcome) {
@@ -445,8 +446,10 @@ class Run {
     return static_cast<Stage>(static_cast<int>(record.unit.rbegin()[1]));
   }
 
-  static Point unit_of(const Evaluation& record) {
-    return {record.unit.begin(), record.unit.end() - 2};
+  Point unit_of(const Evaluation& record) const {
+    const std::size_t n = search_.space.size();
+    if (record.unit.size() != n + 2) refuse_journal();
+    return {record.unit.begin(), record.unit.begin() + static_cast<std::ptrdiff_t>(n)};
   }
 
   // Whether the journal goes beyond a stage: nothing of it is left to ask.
@@ -467,6 +470,7 @@ class Run {
       const Stage stage = stage_of(e);
       if (stage != kSearch && stage != kDraft) return;
       ++next_record_;
+      if (e.outcome.ok && e.outcome.objectives.size() != search_.objectives) refuse_journal();
       if (stage == kSearch) add_to_history({unit_of(e), e.outcome});
     }
   }
