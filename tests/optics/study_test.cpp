@@ -37,8 +37,10 @@ TEST(AppearanceInStudies, ALimitOnHazeHoldsBeforeAnEvaluation) {
     const StudyProblem problem(study);
     EXPECT_EQ(problem.constraints(), 1u);  // only the breakdown margin needs a field
     const Point unit = problem.unit_of_study();
-    const std::vector<double> g = problem.geometry(unit);
-    return std::pair{*std::max_element(g.begin(), g.end()), problem.geometry_reason(unit)};
+    const std::vector<double> g = problem.geometry(unit), look = problem.look(unit);
+    EXPECT_LT(*std::max_element(g.begin(), g.end()), 0);  // the shape can be made
+    EXPECT_EQ(look.size(), 1u);
+    return std::pair{look.front(), problem.geometry_reason(unit)};
   };
   EXPECT_LT(violation("80 nm").first, 0);
   EXPECT_EQ(violation("80 nm").second, "");
