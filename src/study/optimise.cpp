@@ -470,8 +470,9 @@ class Run {
       const Stage stage = stage_of(e);
       if (stage != kSearch && stage != kDraft) return;
       ++next_record_;
+      if (stage == kDraft) continue;
       if (e.outcome.ok && e.outcome.objectives.size() != search_.objectives) refuse_journal();
-      if (stage == kSearch) add_to_history({unit_of(e), e.outcome});
+      add_to_history({unit_of(e), e.outcome});
     }
   }
 
