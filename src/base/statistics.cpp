@@ -35,6 +35,10 @@ Estimate ratio_estimate(std::span<const double> a, std::span<const double> b) {
   return {ratio, se};
 }
 
+double jackknife_error(std::span<const double> without_each) {
+  return (static_cast<double>(without_each.size()) - 1) * mean_estimate(without_each).se;
+}
+
 double weighted_mean(std::span<const double> values, std::span<const double> weights) {
   PAPILLA_CHECK(values.size() == weights.size(), "one weight a value");
   double sum = 0, total = 0;

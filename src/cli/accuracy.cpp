@@ -56,14 +56,14 @@ int run(const Context& context, const AccuracyCommand& c) {
       std::cout << coverage_json(rows) << '\n';
       return kSuccess;
     }
-    std::cout << fmt::format("{:<34} {:>6} {:>8} {:>11} {:>13} {:>6} {:>15}\n", "fidelity",
-                             "scenes", "inside", "half-width", "95 % of error", "ratio",
+    std::cout << fmt::format("{:<34} {:<16} {:>6} {:>8} {:>11} {:>13} {:>6} {:>15}\n", "fidelity",
+                             "quantity", "scenes", "inside", "half-width", "95 % of error", "ratio",
                              "error/stated");
     for (const CoverageSummary& s : coverage_summary(rows)) {
-      std::cout << fmt::format("{:<34} {:>6} {:>6.0f} % {:>11.4f} {:>13.4f} {:>6.2f} {:>15.2f}\n",
-                               s.fidelity, s.scenes, 100 * s.inside, s.median_half_width,
-                               s.error_quantile, s.median_half_width / s.error_quantile,
-                               s.rms_ratio);
+      std::cout << fmt::format(
+          "{:<34} {:<16} {:>6} {:>6.0f} % {:>11.4g} {:>13.4g} {:>6.2f} {:>15.2f}\n", s.fidelity,
+          s.quantity, s.scenes, 100 * s.inside, s.median_half_width, s.error_quantile,
+          s.median_half_width / s.error_quantile, s.rms_ratio);
     }
     return kSuccess;
   }

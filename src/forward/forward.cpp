@@ -410,21 +410,28 @@ PatchSet solve_patches(const Scene& given, const Texture& texture, const Fidelit
   return set;
 }
 
-Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set, int without) {
+Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set) {
   const Scene scene = applied(given);
   Response response;
   response.plan = set.plan;
+  response.controls = set.controls;
   response.fidelity = fidelity;
   response.fidelity.skins = set.skins();
   response.driven = set.plan.field;
   response.seconds = set.seconds;
   const PointBuilder builder(scene, response.plan, fidelity);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
+  if (set.skins() > 1) response.without.resize(static_cast<std::size_t>(set.skins()));
   for (std::size_t i = 0; i < humidities.size(); ++i) {
-    std::vector<PatchResult> patches = set.results[i];
-    if (without >= 0) patches.erase(patches.begin() + without);
+    const std::vector<PatchResult>& patches = set.results[i];
     const double weight = scene.environment.weights.empty() ? 1 : scene.environment.weights[i];
     response.points.push_back(builder.build(humidities[i], weight, set.bridges[i], patches));
+    std::vector<PatchResult> rest(patches.begin() + 1, patches.end());  // all but skin k
+    for (std::size_t k = 0; k < response.without.size(); ++k) {
+      response.without[k].push_back(builder.build(humidities[i], weight, set.bridges[i], rest));
+      response.without[k].back().samples = {};
+      if (k < rest.size()) rest[k] = patches[k];
+    }
     for (const PatchResult& patch : patches) {
       response.contact_solves += patch.contact_solves;
       response.fft_pairs += patch.fft_pairs;
@@ -454,7 +461,7 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
 
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   PatchSet patches = solve_patches(scene, texture, fidelity);
-  patches.errors = measure_errors(scene, texture, fidelity, patches);
+  measure_errors(scene, texture, fidelity, patches);
   return respond(scene, fidelity, patches);
 }
 

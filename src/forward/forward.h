@@ -1,6 +1,7 @@
 // The forward model: friction of a finger on a texture, off and on, over humidity.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "forward/coupling.h"
@@ -27,8 +28,9 @@ struct PatchSet {
   Plan plan;
   std::vector<ScaleBridge> bridges;               // one a humidity
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
-  std::vector<MeasuredError> errors;              // of measure_errors
-  double seconds = 0;                             // wall time
+  std::vector<MeasuredError> errors;              // of measure_errors, like the next
+  ControlRuns controls;
+  double seconds = 0;  // wall time
 
   int skins() const { return results.empty() ? 0 : static_cast<int>(results.front().size()); }
   void add(const PatchSet& other);  // the same scene, other skins
@@ -39,16 +41,26 @@ struct PatchSet {
 // solves.
 PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
-// The grid and method parts of the error, from fidelity.control_skins of the patches run again: on
-// half the pixels (Eq. accuracy.2), and with contact areas solved in place of the load law (Eq.
-// accuracy.3). Nothing with fewer than two control skins.
-std::vector<MeasuredError> measure_errors(const Scene& scene, const Texture& texture,
-                                          const Fidelity& fidelity, const PatchSet& patches);
+// Fills patches.errors and patches.controls, the grid and method parts of the error, from
+// fidelity.control_skins of the patches run again: on half the pixels (Eq. accuracy.2), and with
+// contact areas solved in place of the load law (Eq. accuracy.3). Nothing with fewer than two
+// control skins.
+void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                    PatchSet& patches);
 
-// Friction, modulation and their causes at each humidity. without: leaves out that skin (for the
-// jackknife); -1: none.
-Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches,
-                 int without = -1);
+// Friction, modulation and their causes at each humidity, of all skins and without each.
+Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches);
+
+// A number read off the points of a response; nothing where it is not defined.
+using Reading = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
+
+// What grid and load law do to a number that stands on a quantity, relative to it: Eq. accuracy.2,
+// accuracy.3 of the control runs. Nothing where they were not run or the number is not defined.
+struct ControlledError {
+  std::optional<double> grid, method;
+};
+ControlledError controlled_error(const ControlRuns& runs, Measured ResponsePoint::*quantity,
+                                 const Reading& number);
 
 // All three: friction, modulation and their causes with their errors at each humidity.
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity);

@@ -182,10 +182,10 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
         {"contact with tractions",
          fmt::format(
              "the load law F ~ L^{:g} stands for it (Eq. friction.3){}", fidelity.load_exponent,
-             plan.field ? ": within 5 % of F_on/F_off and 12 % of the modulation on 95 % of "
-                          "130 random scenes, 11 and 30 % on the worst"
+             plan.field ? ": within 4 % of F_on/F_off and 13 % of the modulation on 95 % of "
+                          "130 random scenes, 10 and 34 % on the worst"
                         : ""),
-         plan.field ? 0.11 : 0.02});
+         plan.field ? 0.10 : 0.02});
   }
   if (scene.model.coupling == Coupling::SelfConsistent && plan.field) {
     plan.steps.push_back({"coupling", "self-consistent",

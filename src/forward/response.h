@@ -131,14 +131,23 @@ struct TargetReport {
   std::vector<std::string> steps;  // what was run and why, one line each
 };
 
+// Points over humidity, and the same without each skin for the jackknife (none of one skin).
+struct Resampled {
+  std::vector<ResponsePoint> points;
+  std::vector<std::vector<ResponsePoint>> without;  // [skin], without samples of their own
+};
+
+// The control skins of a response, run again: as it was, by solved areas where it was by the load
+// law, and on half the pixels. Empty: not run.
+struct ControlRuns {
+  Resampled own, areas, coarse;
+  double octaves = 0;  // of the skin's spectrum that the grid of `own` leaves out
+};
+
 // The finger moved one standard deviation up and down an independent direction of its fit's
 // covariance; fewer skins than the response, the same for all steps.
-struct StepEnd {
-  std::vector<ResponsePoint> points;
-  std::vector<std::vector<ResponsePoint>> without;  // [skin] the same without that skin
-};
 struct ParameterStep {
-  StepEnd up, down;
+  Resampled up, down;
 };
 struct ParameterSteps {
   std::vector<ParameterStep> steps;  // empty: not asked for
@@ -146,8 +155,8 @@ struct ParameterSteps {
   std::string trouble;  // the first step whose response is not sound
 };
 
-struct Response {
-  std::vector<ResponsePoint> points;
+struct Response : Resampled {
+  ControlRuns controls;       // behind the parts of grid and method
   ParameterSteps parameters;  // behind the parts of that name
   Fidelity fidelity;          // as run
   TargetReport accuracy;

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "forward/forward.h"
 
 namespace papilla {
 namespace {
@@ -68,6 +69,10 @@ const std::vector<AppearanceEntry>& appearance_entries() {
        &Optics::colour_shift},
   };
   return list;
+}
+
+bool is_spread(Summary summary) {
+  return summary == Summary::Variation || summary == Summary::Range || summary == Summary::Std;
 }
 
 constexpr const char* kVoltageFor = "voltage_for";
@@ -263,23 +268,14 @@ std::optional<double> humidity_error(Summary summary, const Response& response,
   return change / 3;
 }
 
-// The summary itself is stepped, so changes that humidities share do not cancel.
-std::optional<double> parameter_error(Summary summary, const std::string& metric,
-                                      const Response& response, const std::vector<double>& weights,
-                                      Better better) {
-  const auto value = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
-    std::vector<double> values;
-    for (const ResponsePoint& point : points) {
-      const auto m = metric_at(metric, point);
-      if (!m || !std::isfinite(m->value)) return std::nullopt;
-      values.push_back(m->value);
-    }
-    const Series series(values, weights, better);
-    if (!series.defined(summary)) return std::nullopt;
-    return series.value(summary);
-  };
-  const auto samples = step_samples(response.parameters.steps, value);
-  return samples ? std::optional(step_error(*samples)) : std::nullopt;
+// The quantity that carries the errors of a metric; nothing for a voltage, which has its own.
+std::optional<Measured ResponsePoint::*> quantity_of(const std::string& metric) {
+  if (metric == "adhesion") return &ResponsePoint::capillary_force;
+  if (metric == "compliance") return &ResponsePoint::indentation;
+  for (const Entry& entry : entries()) {
+    if (entry.info.name == metric) return entry.member;
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -327,8 +323,7 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
   if (info && info->appearance) {
     if (!response.appearance || response.appearance->regime == "refused") return std::nullopt;
     // One look at all humidities: no spread.
-    if (summary == Summary::Variation || summary == Summary::Range || summary == Summary::Std)
-      return SummaryValue{};
+    if (is_spread(summary)) return SummaryValue{};
     for (const AppearanceEntry& entry : appearance_entries()) {
       if (entry.info.name == metric)
         return SummaryValue{(*response.appearance).*entry.member, 0, {}};
@@ -358,11 +353,37 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
     if (errors[k].size() == values.size())
       out.parts.*kErrorOrigins[k].part = series.error(summary, errors[k]);
   }
-  if (!response.parameters.steps.empty()) {
-    if (const auto part = parameter_error(summary, metric, response, weights, info->better))
-      out.parts.parameters = part;
-  }
   out.parts.humidity = humidity_error(summary, response, values, weights, info->better);
+  // Where the runs behind a part are at hand, the summary itself is followed through them, so that
+  // what humidities share cancels where it does. Eq. accuracy.13
+  if (const auto quantity = quantity_of(metric)) {
+    const Reading number = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+      std::vector<double> there;
+      for (const ResponsePoint& point : points) {
+        const auto m = metric_at(metric, point);
+        if (!m || !std::isfinite(m->value)) return std::nullopt;
+        there.push_back(m->value);
+      }
+      const Series of(there, weights, info->better);
+      if (!of.defined(summary)) return std::nullopt;
+      return of.value(summary);
+    };
+    std::vector<double> without;
+    for (const auto& points : response.without) {
+      if (const auto v = number(points)) without.push_back(*v);
+    }
+    if (without.size() > 1 && without.size() == response.without.size())
+      out.parts.sampling = jackknife_error(without);
+    if (is_spread(summary)) {
+      const ControlledError own = controlled_error(response.controls, *quantity, number);
+      if (own.grid) out.parts.grid = *own.grid * std::abs(out.value);
+      if (own.method) out.parts.method = *own.method * std::abs(out.value);
+    }
+    if (!response.parameters.steps.empty()) {
+      if (const auto samples = step_samples(response.parameters.steps, number))
+        out.parts.parameters = step_error(*samples);
+    }
+  }
   out.se = out.parts.total();
   return out;
 }
@@ -410,8 +431,7 @@ std::string metric_text(const MetricExpression& expression) {
 }
 
 Better better_direction(const MetricExpression& expression) {
-  const Summary s = expression.summary;
-  if (s == Summary::Variation || s == Summary::Range || s == Summary::Std) return Better::Lower;
+  if (is_spread(expression.summary)) return Better::Lower;
   return find_metric(expression.metric)->better;
 }
 

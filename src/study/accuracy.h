@@ -35,10 +35,10 @@ struct AccuracyOptions {
 // Sweeps "grid", "skins", "seed", "tolerance", "estimator", "model" and, where asked for, "level".
 std::vector<AccuracyRow> accuracy_sweeps(const Design& design, const AccuracyOptions& options);
 
-// One random scene judged at a small fidelity, and by a finer one on fresh skins.
+// One quantity of a random scene judged at a small fidelity, and by a finer one on fresh skins.
 struct CoverageRow {
   int scene = 0;
-  std::string texture, fidelity;
+  std::string texture, fidelity, quantity;
   double value = 0, half_width = 0;           // 95 %: 1.96 standard errors
   double reference = 0, reference_error = 0;  // its own standard error from sampling
   ErrorParts parts = {};                      // of value
@@ -48,20 +48,22 @@ struct CoverageRow {
 struct CoverageOptions {
   int scenes = 50;
   int first = 0;                           // of the random scenes; those of the reports are 0 to 49
-  int grid = 64, skins = 12;               // of the error bars that are tried
-  int finer_grid = 128, finer_skins = 24;  // of the reference
+  int grid = 64, skins = 12;               // of both estimators beside the levels
+  int finer_grid = 256, finer_skins = 48;  // of the reference
   int threads = 0;
   std::function<void(const std::string&)> note;
 };
 // A driven scene drawn from the range of the designs: texture, skin, sweat, angle, voltage.
 Scene random_scene(int index, Texture& texture);
+// The error bars of both estimators on a small grid, of the levels of searches and drafts and of a
+// target of 5 %.
 std::vector<CoverageRow> coverage(const CoverageOptions& options);
 
 // Share of the scenes whose reference lies inside the 95 % interval, median half-width over the
 // 95 % quantile of the errors, and the root mean square of error over stated standard error (1 for
-// bars that fit, whatever the spread of sizes among scenes); by fidelity.
+// bars that fit, whatever the spread of sizes among scenes); by fidelity and quantity.
 struct CoverageSummary {
-  std::string fidelity;
+  std::string fidelity, quantity;
   int scenes = 0;
   double inside = 0, median_half_width = 0, error_quantile = 0, rms_ratio = 0;
 };
@@ -69,6 +71,8 @@ std::vector<CoverageSummary> coverage_summary(const std::vector<CoverageRow>& ro
 
 std::string accuracy_csv(const std::vector<AccuracyRow>& rows, const std::string& provenance);
 std::string coverage_csv(const std::vector<CoverageRow>& rows, const std::string& provenance);
+// A table of coverage_csv, without the parts. Throws InputError.
+std::vector<CoverageRow> read_coverage(const std::string& path);
 // {"schema": 1, "sweeps": [...]} and {"schema": 1, "coverage": [...]}; null never NaN.
 std::string accuracy_json(const std::vector<AccuracyRow>& rows);
 std::string coverage_json(const std::vector<CoverageRow>& rows);

@@ -159,13 +159,9 @@ struct SkinEstimate : Estimate {
 
 template <class F>
 SkinEstimate jackknife(int skins, F&& f) {
-  double mean = 0, squares = 0;
-  for (int k = 0; k < skins; ++k) {
-    const double v = f(k);
-    mean += v / skins;
-    squares += v * v / skins;
-  }
-  return {{f(-1), std::sqrt((skins - 1) * std::max(0.0, squares - mean * mean))}, skins};
+  std::vector<double> without;
+  for (int k = 0; k < skins; ++k) without.push_back(f(k));
+  return {{f(-1), jackknife_error(without)}, skins};
 }
 template <class F>
 SkinEstimate jackknife(const Sample& s, F&& f) {

@@ -109,29 +109,22 @@ Fidelity step_fidelity(const Fidelity& fidelity) {
   return few;
 }
 
-StepEnd step_end(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches) {
-  StepEnd out{respond(scene, fidelity, patches).points, {}};
-  for (int k = 0; k < patches.skins() && patches.skins() > 1; ++k)
-    out.without.push_back(respond(scene, fidelity, patches, k).points);
-  return out;
-}
-
 void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
                           const Fidelity& fidelity) {
   const std::vector<FingerStep> steps = finger_steps(scene.finger);
   const Fidelity few = step_fidelity(fidelity);
   ParameterSteps& out = response.parameters;
   out = {{}, few.skins, few.grid, ""};
-  const auto run = [&](const Finger& finger) {
+  const auto run = [&](const Finger& finger) -> Resampled {
     Scene moved = scene;
     moved.finger = finger;
     const PatchSet patches = solve_patches(moved, texture, few);
-    const Response there = respond(moved, few, patches);
+    Response there = respond(moved, few, patches);
     if (out.trouble.empty()) out.trouble = there.trouble();
     response.seconds += there.seconds;
     response.contact_solves += there.contact_solves;
     response.fft_pairs += there.fft_pairs;
-    return step_end(moved, few, patches);
+    return there;
   };
   for (const FingerStep& step : steps) out.steps.push_back({run(step.up), run(step.down)});
   for (std::size_t i = 0; i < response.points.size(); ++i) {

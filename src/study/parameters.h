@@ -32,9 +32,6 @@ std::string unknown_parameters(const Finger& finger);
 // What the steps are run with: the load law, at most 8 skins and 128 pixels.
 Fidelity step_fidelity(const Fidelity& fidelity);
 
-// The response of solved patches and without each skin, for a step.
-StepEnd step_end(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches);
-
 // Eq. accuracy.11: central differences over the steps, on common skins, offsets and droplets. Fills
 // response.parameters and the part `parameters` of every number. Cost: 2 n evaluations at
 // step_fidelity. Throws as finger_steps.

@@ -52,16 +52,19 @@ class Candidate {
     solve([](const Finger& finger) { return finger; }, fidelity_, patches_);
     // Jackknife pseudo-values: a sample a skin of any metric. Eq. ranking.2
     const int n = skins();
-    const auto values = [&](int without) {
-      Response response = respond(scene_, fidelity_, patches_, without);
+    Response response = respond(scene_, fidelity_, patches_);
+    const auto values = [&] {
       std::vector<double> out;
       for (const Criterion& c : options_.criteria) out.push_back(value(c, response));
       return out;
     };
-    const std::vector<double> all = values(-1);
+    const std::vector<double> all = values();
     pseudo_.assign(all.size(), std::vector<double>(static_cast<std::size_t>(n)));
+    const std::vector<std::vector<ResponsePoint>> without = std::move(response.without);
+    response.without.clear();
     for (int k = 0; k < n; ++k) {
-      const std::vector<double> rest = values(k);
+      response.points = without[static_cast<std::size_t>(k)];
+      const std::vector<double> rest = values();
       for (std::size_t c = 0; c < all.size(); ++c)
         pseudo_[c][static_cast<std::size_t>(k)] = n * all[c] - (n - 1) * rest[c];
     }
@@ -85,7 +88,7 @@ class Candidate {
       scene.finger = move(scene_.finger);
       PatchSet patches;
       solve(move, few, patches);
-      return step_end(scene, few, patches);
+      return Resampled(respond(scene, few, patches));
     };
     std::vector<ParameterStep> ends;
     for (std::size_t k = 0; k < finger_steps(scene_.finger).size(); ++k)

@@ -87,7 +87,7 @@ class TargetRun {
     fidelity_.skins = std::max(skins, kFewestSkins);
     fidelity_.first_skin = options_.first_skin;
     patches_ = solve_patches(scene_, texture_, fidelity_);
-    patches_.errors = measure_errors(scene_, texture_, fidelity_, patches_);
+    measure_errors(scene_, texture_, fidelity_, patches_);
     return measured(why, patches_.seconds, 0);
   }
 
