@@ -35,8 +35,13 @@ Estimate ratio_estimate(std::span<const double> a, std::span<const double> b) {
   return {ratio, se};
 }
 
-double jackknife_error(std::span<const double> without_each) {
-  return (static_cast<double>(without_each.size()) - 1) * mean_estimate(without_each).se;
+std::vector<double> jackknife_samples(double all, std::span<const double> without_each) {
+  if (without_each.empty()) return {all};
+  const double mean = mean_estimate(without_each).value;
+  std::vector<double> out;
+  for (const double rest : without_each)
+    out.push_back(all - (static_cast<double>(without_each.size()) - 1) * (rest - mean));
+  return out;
 }
 
 double weighted_mean(std::span<const double> values, std::span<const double> weights) {

@@ -28,22 +28,17 @@ bool is_area(Measured ResponsePoint::*quantity) {
          quantity == &ResponsePoint::area_fraction_on;
 }
 
-// Of a jackknife over the control skins.
-struct Difference {
-  double value = 0, variance = 0;
-};
-
-// of(k): the difference without skin k, -1: of all; nothing where it is not defined.
-std::optional<Difference> difference(std::size_t skins,
-                                     const std::function<std::optional<double>(int)>& of) {
+// of(k): the difference without skin k, -1: of all; no samples where it is not defined.
+std::vector<double> samples_of(std::size_t skins,
+                               const std::function<std::optional<double>(int)>& of) {
   const std::optional<double> all = of(-1);
   std::vector<double> rest;
   for (std::size_t k = 0; k < skins; ++k) {
     const std::optional<double> one = of(static_cast<int>(k));
-    if (!all || !one) return std::nullopt;
+    if (!all || !one) return {};
     rest.push_back(*one);
   }
-  return Difference{*all, square(jackknife_error(rest))};
+  return jackknife_samples(*all, rest);
 }
 
 // The number of a run without skin k, -1: of all.
@@ -88,38 +83,46 @@ void level_out(std::vector<double>& size, const std::vector<double>& of) {
 
 }  // namespace
 
-ControlledError controlled_error(const ControlRuns& runs, Measured ResponsePoint::*quantity,
-                                 const Reading& number) {
+double grid_error(const std::vector<double>& samples) {
+  const Estimate e = mean_estimate(samples);
+  return std::hypot(e.value, e.se);
+}
+
+double method_error(const std::vector<double>& samples) {
+  const Estimate e = mean_estimate(samples);
+  return std::sqrt(std::max(square(e.value) - square(e.se), 0.0));
+}
+
+ControlledChange controlled_change(const ControlRuns& runs, Measured ResponsePoint::*quantity,
+                                   const Reading& number) {
   const bool load_law = !runs.areas.points.empty();
   const Resampled& fine = load_law ? runs.areas : runs.own;
   const bool to_limit = load_law && quantity == &ResponsePoint::modulation;
   const auto halving = [&](int k, const Resampled& of) {
     return relative(read(number, runs.coarse, k), read(number, fine, k), read(number, of, k));
   };
-  ControlledError out;
+  ControlledChange out;
   // With the load law, grids are compared by solved areas: its own steps between grids are partly
   // what it lacks against them. Eq. accuracy.2
   if (!runs.coarse.points.empty()) {
-    const auto d = difference(fine.without.size(), [&](int k) { return halving(k, fine); });
-    if (d) {
-      const double step = std::sqrt(square(d->value) + d->variance);
-      const bool pull = quantity == &ResponsePoint::electrostatic_force;
-      out.grid = is_area(quantity) ? left_out(step, std::max(runs.octaves, kFewestOctaves))
-                 : pull            ? kPullRest * step
-                 : to_limit        ? kUnknownRest * kOtherRest * step
-                                   : kOtherRest * step;
-    }
+    out.grid = samples_of(fine.without.size(), [&](int k) { return halving(k, fine); });
+    const double step = grid_error(out.grid);
+    double rest = kOtherRest;
+    if (to_limit) rest *= kUnknownRest;
+    if (quantity == &ResponsePoint::electrostatic_force) rest = kPullRest;
+    if (is_area(quantity) && step > 0)
+      rest = left_out(step, std::max(runs.octaves, kFewestOctaves)) / step;
+    for (double& change : out.grid) change *= rest;
   }
-  // The scatter of the difference between skins is no bias: it is taken off. Eq. accuracy.3
+  // Eq. accuracy.3
   if (load_law) {
-    const auto d = difference(fine.without.size(), [&](int k) {
+    out.method = samples_of(fine.without.size(), [&](int k) {
       auto m =
           relative(read(number, fine, k), read(number, runs.own, k), read(number, runs.own, k));
       if (!m || !to_limit || runs.coarse.points.empty()) return m;
       const auto last = halving(k, runs.own);
       return last ? std::optional(*m - kOtherRest * *last) : std::nullopt;
     });
-    if (d) out.method = std::sqrt(std::max(square(d->value) - d->variance, 0.0));
   }
   return out;
 }
@@ -185,9 +188,9 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
       const auto number = [&](const std::vector<ResponsePoint>& points) {
         return std::optional((points[i].*member).value);
       };
-      const ControlledError error = controlled_error(controls, member, number);
-      of_grid.push_back(error.grid.value_or(0));
-      of_method.push_back(error.method.value_or(0));
+      const ControlledChange change = controlled_change(controls, member, number);
+      of_grid.push_back(grid_error(change.grid));
+      of_method.push_back(method_error(change.method));
       law.push_back((own[i].*member).value);
       fine.push_back(load_law ? (controls.areas.points[i].*member).value : law.back());
     }

@@ -54,13 +54,18 @@ Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& p
 // A number read off the points of a response; nothing where it is not defined.
 using Reading = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
 
-// What grid and load law do to a number that stands on a quantity, relative to it: Eq. accuracy.2,
-// accuracy.3 of the control runs. Nothing where they were not run or the number is not defined.
-struct ControlledError {
-  std::optional<double> grid, method;
+// What grid and load law do to a number that stands on a quantity, relative to it, as samples of
+// the control skins: Eq. accuracy.2, accuracy.3. Empty where they were not run or the number is not
+// defined.
+struct ControlledChange {
+  std::vector<double> grid, method;
 };
-ControlledError controlled_error(const ControlRuns& runs, Measured ResponsePoint::*quantity,
-                                 const Reading& number);
+ControlledChange controlled_change(const ControlRuns& runs, Measured ResponsePoint::*quantity,
+                                   const Reading& number);
+// The errors that they state: the scatter between skins is added, of the load law taken off. 0 for
+// no samples.
+double grid_error(const std::vector<double>& samples);
+double method_error(const std::vector<double>& samples);
 
 // All three: friction, modulation and their causes with their errors at each humidity.
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity);

@@ -242,6 +242,23 @@ class Series {
   std::size_t low_ = 0, high_ = 0;
 };
 
+// A summary of a metric of any points of a response.
+Reading reading(Summary summary, const std::string& metric) {
+  const Better better = find_metric(metric)->better;
+  return [=](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    std::vector<double> values, weights;
+    for (const ResponsePoint& point : points) {
+      const auto m = metric_at(metric, point);
+      if (!m || !std::isfinite(m->value)) return std::nullopt;
+      values.push_back(m->value);
+      weights.push_back(point.weight);
+    }
+    const Series series(values, weights, better);
+    if (!series.defined(summary)) return std::nullopt;
+    return series.value(summary);
+  };
+}
+
 // Eq. accuracy.4: every second inner humidity replaced by the line between its neighbours, from the
 // first and from the second on; the larger change of the summary, over 3.
 std::optional<double> humidity_error(Summary summary, const Response& response,
@@ -298,12 +315,7 @@ std::optional<StepSamples> step_samples(
       if (!one) return std::nullopt;
       rest.push_back(*one);
     }
-    const double mean = mean_estimate(rest).value;
-    std::vector<double> samples;
-    for (const double r : rest)
-      samples.push_back(*all - (static_cast<double>(rest.size()) - 1) * (r - mean));
-    if (samples.empty()) samples.push_back(*all);
-    out.push_back(std::move(samples));
+    out.push_back(jackknife_samples(*all, rest));
   }
   return out;
 }
@@ -356,36 +368,50 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
   out.parts.humidity = humidity_error(summary, response, values, weights, info->better);
   // Where the runs behind a part are at hand, the summary itself is followed through them, so that
   // what humidities share cancels where it does. Eq. accuracy.13
-  if (const auto quantity = quantity_of(metric)) {
-    const Reading number = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
-      std::vector<double> there;
-      for (const ResponsePoint& point : points) {
-        const auto m = metric_at(metric, point);
-        if (!m || !std::isfinite(m->value)) return std::nullopt;
-        there.push_back(m->value);
-      }
-      const Series of(there, weights, info->better);
-      if (!of.defined(summary)) return std::nullopt;
-      return of.value(summary);
-    };
-    std::vector<double> without;
-    for (const auto& points : response.without) {
-      if (const auto v = number(points)) without.push_back(*v);
-    }
-    if (without.size() > 1 && without.size() == response.without.size())
-      out.parts.sampling = jackknife_error(without);
-    if (is_spread(summary)) {
-      const ControlledError own = controlled_error(response.controls, *quantity, number);
-      if (own.grid) out.parts.grid = *own.grid * std::abs(out.value);
-      if (own.method) out.parts.method = *own.method * std::abs(out.value);
-    }
-    if (!response.parameters.steps.empty()) {
-      if (const auto samples = step_samples(response.parameters.steps, number))
-        out.parts.parameters = step_error(*samples);
-    }
+  const ErrorSamples samples = error_samples(summary, metric, response);
+  if (samples.sampling.size() > 1) out.parts.sampling = mean_estimate(samples.sampling).se;
+  if (is_spread(summary)) {
+    if (!samples.grid.empty()) out.parts.grid = grid_error(samples.grid);
+    if (!samples.method.empty()) out.parts.method = method_error(samples.method);
+  }
+  if (!response.parameters.steps.empty()) {
+    if (const auto steps = step_samples(response.parameters.steps, reading(summary, metric)))
+      out.parts.parameters = step_error(*steps);
   }
   out.se = out.parts.total();
   return out;
+}
+
+ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response) {
+  ErrorSamples out;
+  const auto quantity = quantity_of(metric);
+  const Reading number = reading(summary, metric);
+  const auto value = quantity ? number(response.points) : std::nullopt;
+  if (!value) return out;
+  std::vector<double> without;
+  for (const auto& points : response.without) {
+    if (const auto v = number(points)) without.push_back(*v);
+  }
+  if (without.size() == response.without.size()) out.sampling = jackknife_samples(*value, without);
+  const ControlledChange change = controlled_change(response.controls, *quantity, number);
+  for (const double c : change.grid) out.grid.push_back(c * std::abs(*value));
+  for (const double c : change.method) out.method.push_back(c * std::abs(*value));
+  return out;
+}
+
+std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second) {
+  bool same = first.sampling.size() > 1;
+  const auto minus = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> out = a;
+    same = same && a.size() == b.size();
+    for (std::size_t k = 0; k < a.size() && same; ++k) out[k] -= b[k];
+    return out;
+  };
+  const double sampling = mean_estimate(minus(first.sampling, second.sampling)).se,
+               grid = grid_error(minus(first.grid, second.grid)),
+               method = method_error(minus(first.method, second.method));
+  if (!same) return std::nullopt;
+  return std::sqrt(square(sampling) + square(grid) + square(method));
 }
 
 MetricExpression parse_metric(const std::string& text) {

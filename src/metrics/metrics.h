@@ -58,6 +58,17 @@ std::optional<StepSamples> step_samples(
 // The standard error that they leave, less what the skins scatter. Eq. accuracy.11
 double step_error(const StepSamples& samples);
 
+// The errors of a summary skin by skin, for its difference from that of another design on the same
+// skins; empty where the runs behind them are not known. In the unit of the value.
+struct ErrorSamples {
+  std::vector<double> sampling;      // their mean is the value
+  std::vector<double> grid, method;  // of the control skins: their mean is what would be added
+};
+ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response);
+// Of the first less the second, from samples of the same skins: sampling, grid and method part.
+// Nothing where one of them lacks the samples of the other. Eq. accuracy.14
+std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second);
+
 // "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name).
 struct MetricExpression {
   Summary summary = Summary::Mean;

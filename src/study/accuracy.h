@@ -32,7 +32,8 @@ struct AccuracyOptions {
   std::function<void(const std::string&)> note;  // progress; may be empty
 };
 
-// Sweeps "grid", "skins", "seed", "tolerance", "estimator", "model" and, where asked for, "level".
+// Sweeps "grid", "skins", "seed", "tolerance", "field", "estimator", "model" and, where asked for,
+// "level".
 std::vector<AccuracyRow> accuracy_sweeps(const Design& design, const AccuracyOptions& options);
 
 // One quantity of a random scene judged at a small fidelity, and by a finer one on fresh skins.

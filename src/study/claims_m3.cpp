@@ -161,7 +161,7 @@ template <class F>
 SkinEstimate jackknife(int skins, F&& f) {
   std::vector<double> without;
   for (int k = 0; k < skins; ++k) without.push_back(f(k));
-  return {{f(-1), jackknife_error(without)}, skins};
+  return {mean_estimate(jackknife_samples(f(-1), without)), skins};
 }
 template <class F>
 SkinEstimate jackknife(const Sample& s, F&& f) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -30,6 +31,9 @@ constexpr int kStepSkins = 12, kStepGrid = 64;
 // Shallower relief is none: polished glass is as rough, and no process holds such a depth [m].
 // Else a search finds textures of a nanometre whose patch has the luckier skins.
 constexpr double kLeastDepth = 2e-9;
+
+constexpr std::array kSampleLists{&ErrorSamples::sampling, &ErrorSamples::grid,
+                                  &ErrorSamples::method};
 
 // Bounded by -1 and 11, yet larger for more: the least of large violations stays the least.
 double bounded(double violation) {
@@ -123,11 +127,19 @@ double parse_number(const std::string& text, const std::string& whole) {
 
 }  // namespace
 
+double difference_error(const Score& score, const Score& other, std::size_t objective) {
+  if (objective < score.samples.size() && objective < other.samples.size()) {
+    if (const auto error = difference_error(score.samples[objective], other.samples[objective]))
+      return *error;
+  }
+  return std::max(score.errors[objective], other.errors[objective]);
+}
+
 bool no_better(const std::vector<StudyObjective>& objectives, const Score& design,
                const Score& other) {
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const double gain = (objectives[k].maximise ? 1 : -1) * (design.values[k] - other.values[k]);
-    if (gain > std::max(design.errors[k], other.errors[k])) return false;
+    if (gain > difference_error(design, other, k)) return false;
   }
   return true;
 }
@@ -644,6 +656,10 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
     for (const double v : {look->haze, look->transmittance, look->gloss, look->colour_shift})
       out.info.push_back(v);
   out.info.insert(out.info.end(), limited.begin(), limited.end());
+  if (report) {
+    const std::vector<double> samples = sample_numbers(response);
+    out.info.insert(out.info.end(), samples.begin(), samples.end());
+  }
   if (!response.parameters.steps.empty()) {
     const std::vector<double> steps = step_numbers(response);
     out.info.insert(out.info.end(), steps.begin(), steps.end());
@@ -658,6 +674,22 @@ Fidelity StudyProblem::steps_fidelity(Fidelity fidelity) const {
   fidelity.skins = std::max(2, kStepSkins / static_cast<int>(nominal_));
   fidelity.grid = kStepGrid;
   return fidelity;
+}
+
+// An objective: of each of its lists of samples the number and they.
+std::vector<double> StudyProblem::sample_numbers(const Response& response) const {
+  std::vector<double> out;
+  for (const StudyObjective& o : objectives_) {
+    const ErrorSamples samples =
+        o.aimed || o.expression.summary == Summary::Worst  // not linear in the tasks
+            ? ErrorSamples{}
+            : error_samples(o.expression.summary, o.expression.metric, response);
+    for (const auto list : kSampleLists) {
+      out.push_back(static_cast<double>((samples.*list).size()));
+      out.insert(out.end(), (samples.*list).begin(), (samples.*list).end());
+    }
+  }
+  return out;
 }
 
 // An objective: the number of its directions, and of each the number of its samples and they.
@@ -779,12 +811,13 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
       }
     }
   }
-  std::vector<std::vector<double>> steps;
+  std::vector<std::vector<double>> rest;
   for (std::size_t t = 0; t < nominal_; ++t) {
     const auto end = tasks[t].info.begin() + static_cast<std::ptrdiff_t>(task_numbers());
-    steps.emplace_back(end, tasks[t].info.end());
+    rest.emplace_back(end, tasks[t].info.end());
   }
-  add_steps(score, steps);
+  add_samples(score, rest);
+  add_steps(score, rest);
   score.ok = true;
   return score;
 }
@@ -793,6 +826,36 @@ std::size_t StudyProblem::task_numbers() const {
   const std::size_t m = objectives_.size();
   return 2 * m + 2 + m * study_.design.environment.relative_humidity.size() +
          (needs_appearance() ? 4 : 0) + limited_.size();
+}
+
+// Takes the samples off the front of what the tasks have left; all tasks share their skins.
+void StudyProblem::add_samples(Score& score, std::vector<std::vector<double>>& tasks) const {
+  double total = 0;
+  for (std::size_t t = 0; t < nominal_; ++t) {
+    total += tasks_[t].weight;
+    if (tasks.at(t).empty()) return;  // not confirmed
+  }
+  score.samples.resize(objectives_.size());
+  std::vector<std::size_t> at(nominal_, 0);
+  bool common = risk_.kind == Risk::Kind::Mean && tasks_.size() == nominal_;
+  for (ErrorSamples& sums : score.samples) {
+    for (const auto list : kSampleLists) {
+      std::vector<double>& sum = sums.*list;
+      for (std::size_t t = 0; t < nominal_; ++t) {
+        const auto next = [&] { return tasks[t].at(at[t]++); };
+        const auto count = static_cast<std::size_t>(next());
+        if (t == 0) sum.resize(count, 0);
+        common = common && count == sum.size();
+        for (std::size_t k = 0; k < count; ++k) {
+          const double sample = next();
+          if (common) sum[k] += tasks_[t].weight / total * sample;
+        }
+      }
+    }
+  }
+  if (!common) score.samples.clear();
+  for (std::size_t t = 0; t < nominal_; ++t)
+    tasks[t].erase(tasks[t].begin(), tasks[t].begin() + static_cast<std::ptrdiff_t>(at[t]));
 }
 
 // Fingers of one uncertainty move together, others on their own; all share their skins.

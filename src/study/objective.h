@@ -62,6 +62,9 @@ struct Score {
   // the same for every design of a study. Empty where not known (of an objective: not defined at a
   // step); only of confirmed designs. Eq. accuracy.12
   std::vector<StepSamples> parameter_steps;
+  // Behind the errors, one an objective, over all tasks by weight; only of confirmed designs under
+  // no risk, else empty.
+  std::vector<ErrorSamples> samples;
   std::vector<double> residuals;     // of targets: weighted distances, one a task and humidity
   double worst = 0;                  // lowest modulation over tasks and humidities; 0: undriven
   double oxide_margin = 0;           // smallest; infinite without a field
@@ -79,8 +82,11 @@ std::optional<double> parameter_error(const Score& score, const Score& other,
 // Why drive.frequency changes nothing on this design; "" where it may.
 std::string frequency_not_felt(const Design& design);
 
-// By no objective is the design better than the other by more than the error of either: they share
-// skins, droplets and grid, so their difference is surer than both.
+// Standard error of the difference of two designs in an objective: from their samples on common
+// skins, droplets and grids (Eq. accuracy.14); the larger of both errors where those are not known.
+double difference_error(const Score& score, const Score& other, std::size_t objective);
+
+// By no objective is the design better than the other by more than the error of the difference.
 bool no_better(const std::vector<StudyObjective>& objectives, const Score& design,
                const Score& other);
 
@@ -154,6 +160,8 @@ class StudyProblem {
   Point collapsed(const Point& unit) const;
   std::size_t task_numbers() const;  // of a task's info, before the steps of the parameters
   Fidelity steps_fidelity(Fidelity fidelity) const;
+  std::vector<double> sample_numbers(const Response& response) const;
+  void add_samples(Score& score, std::vector<std::vector<double>>& tasks) const;
   std::vector<double> step_numbers(const Response& response) const;
   // The design of a task.
   Design task_design(Design design, const StudyTask& task) const;

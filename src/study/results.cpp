@@ -170,6 +170,16 @@ class Writer {
     return out;
   }
 
+  // The design less the flat surface, each objective.
+  Json differences(const Score& design, const Score& flat) const {
+    Json out = Json::object();
+    for (std::size_t k = 0; k < design.values.size(); ++k) {
+      out[f_.problem.objectives()[k].name] = {{"value", number(design.values[k] - flat.values[k])},
+                                              {"se", number(difference_error(design, flat, k))}};
+    }
+    return out;
+  }
+
   std::string metrics(const FinalDesign& d) const {
     Json out{{"schema", 1}, {"title", d.design.title}};
     Json variables = Json::object();
@@ -192,6 +202,7 @@ class Writer {
     if (f_.result.flat)
       out["flat"] = {{"objectives", score_json(*f_.result.flat)},
                      {"worst_modulation", number(f_.result.flat->worst)},
+                     {"difference", differences(d.confirmed, *f_.result.flat)},
                      {"no_better", no_better(f_.problem.objectives(), d.confirmed, *f_.result.flat)
                                        ? Json(kNoBetter)
                                        : Json(nullptr)}};
@@ -300,19 +311,18 @@ class Writer {
     if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
     row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
     row("best design", best.confirmed);
-    // Both met the same skins, droplets and grid, whose part in the difference is not known: the
-    // larger of the two errors is more than it while they are mostly common.
     out += "| difference made by the texture |";
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       out += fmt::format(" {:+.3f} ± {:.3f}", best.confirmed.values[k] - r.flat->values[k],
-                         std::max(best.confirmed.errors[k], r.flat->errors[k]));
+                         difference_error(best.confirmed, *r.flat, k));
       if (const auto part = parameter_error(best.confirmed, *r.flat, k))
         out += fmt::format(" ({:.3f})", *part);
       out += " |";
     }
     out +=
-        " |\n\n± of the difference is the larger of the two: both met the same skins, droplets and "
-        "grid, so that it is not their sum.\n";
+        " |\n\n± of the difference is from both on the same skins, droplets and grid, pair by "
+        "pair: "
+        "what moves both alike is not in it.\n";
     if (r.flat_before) {
       out +=
           "\nFrom the first row to the second is the finish (and drive), from the second to the "

@@ -111,6 +111,20 @@ TEST(Errors, AreMeasuredOnControlSkinsAndUnknownWithoutThem) {
   EXPECT_FALSE(evaluate(scene, Texture{}, f).points[0].modulation.parts.method);
 }
 
+// The octaves of the skin that a draft leaves out: no more and no less than they are worth.
+TEST(Errors, OfAreasAreTheOctavesLeftOut) {
+  const Scene scene = driven();
+  Fidelity f = fidelity_level("draft"), fine = fidelity_level("design");
+  f.skins = fine.skins = 6;
+  f.estimator = Estimator::Area;
+  fine.control_skins = 0;
+  const Measured draft = evaluate(scene, Texture{}, f).points[0].area_fraction_off,
+                 design = evaluate(scene, Texture{}, fine).points[0].area_fraction_off;
+  const double missing = draft.value - design.value;
+  EXPECT_GT(missing, 0.1 * design.value);
+  EXPECT_NEAR(draft.parts.grid.value(), missing, 0.35 * missing);
+}
+
 // Long patches have a limited number of pixels a side; the control run has half of that too.
 TEST(Errors, OfALongPatchAreOfHalfItsPixels) {
   Fidelity f = fidelity_level("search");
