@@ -7,7 +7,7 @@ target_compile_definitions(papilla_options INTERFACE PAPILLA_VERSION="${PROJECT_
                            # would align, and free, differently from them.
                            EIGEN_DONT_VECTORIZE EIGEN_MAX_ALIGN_BYTES=16
                            EIGEN_MAX_STATIC_ALIGN_BYTES=16)
-# OpenImageIO brings 250 libraries, 0.3 s a start: only programs that read images load it.
+# A program loads what it calls, not what its layers might.
 target_link_options(papilla_options INTERFACE LINKER:--as-needed)
 if(PAPILLA_WARNINGS_AS_ERRORS)
   target_compile_options(papilla_options INTERFACE -Werror)

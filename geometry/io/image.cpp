@@ -1,4 +1,4 @@
-// EXR, TIFF and PNG through OpenImageIO.
+// EXR, TIFF and PNG.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -16,12 +16,10 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-// OpenImageIO brings its own copy of fmt's macros; ours come first.
-#include <OpenImageIO/imageio.h>
-#include <OpenImageIO/parallel.h>
-
 #include "base/error.h"
+#include "base/parallel.h"
 #include "base/units.h"
+#include "geometry/io/codec.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
 #include "geometry/io/raw.h"
@@ -73,21 +71,27 @@ void stream(const std::vector<int>& begins, const Fill& fill, const Use& use) {
   }
 }
 
+ImageSpec plain_spec(const Grid& grid) {
+  ImageSpec spec{.width = grid.nx, .height = grid.ny};
+  spec.compressed = false;
+  return spec;
+}
+
 // Writes an image of T that is never held whole: fill_row(y, out) gives row y, from the top. Read
 // back and compared before the old file goes.
 template <typename T, typename FillRow>
-void write_rows(const std::string& path, OIIO::ImageSpec spec, const FillRow& fill_row) {
+void write_rows(const std::string& path, ImageSpec spec, const FillRow& fill_row) {
   const std::string part = part_name(path);
-  spec.attribute("DateTime", kFixedDate);
-  spec.attribute("Software", "papilla " PAPILLA_VERSION);
+  spec.sample = kSampleOf<T>;
+  spec.attributes.emplace_back("DateTime", kFixedDate);
+  spec.attributes.emplace_back("Software", "papilla " PAPILLA_VERSION);
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
     const bool full = fs::space(fs::path(path).parent_path(), ignored).available < 1 << 16;
     fs::remove(part, ignored);
     throw InputError("cannot write " + path + ": " + why + (full ? " (the disk is full)" : ""));
   };
-  const auto type = OIIO::TypeDesc(OIIO::BaseTypeFromC<T>::value);
-  const std::size_t width = static_cast<std::size_t>(spec.width) * spec.nchannels;
+  const std::size_t width = static_cast<std::size_t>(spec.width) * spec.channels.size();
   // Whole blocks of 16 rows of the compressor, enough for its threads, 64 MB at most.
   const int rows = std::clamp(static_cast<int>((16u << 20) / width) / 16 * 16, 16, kStripRows);
   const auto strip_end = [&](int y) { return std::min(y + rows, spec.height); };
@@ -98,21 +102,20 @@ void write_rows(const std::string& path, OIIO::ImageSpec spec, const FillRow& fi
   };
   std::vector<int> strips;
   for (int y = 0; y < spec.height; y += rows) strips.push_back(y);
-  auto out = OIIO::ImageOutput::create(part);
-  if (!out) fail(OIIO::geterror());
-  if (!out->open(part, spec)) fail(out->geterror());
+  std::string error;
+  const auto checked = [&](const std::string& why) {
+    if (!why.empty()) fail(why);
+  };
+  const auto out = image_codec().create(part, spec, error);
+  if (!out) fail(error);
   stream<T>(strips, fill, [&](int y, const std::vector<T>& strip) {
-    if (!out->write_scanlines(y, strip_end(y), 0, type, strip.data())) fail(out->geterror());
+    checked(out->write(y, strip_end(y), strip.data()));
   });
-  const bool closed = out->close();
-  // close() alone may say true for a truncated file.
-  if (const std::string error = out->geterror(); !closed || !error.empty())
-    fail(error.empty() ? "incomplete" : error);
+  checked(out->close());
 
-  auto in = OIIO::ImageInput::open(part);
-  if (!in) fail("does not open again: " + OIIO::geterror());
-  if (static_cast<double>(spec.width) * spec.height > kReadBackWhole &&
-      spec.get_string_attribute("compression") != "none") {
+  auto in = image_codec().open(part, "", error);
+  if (!in) fail("does not open again: " + error);
+  if (static_cast<double>(spec.width) * spec.height > kReadBackWhole && spec.compressed) {
     std::vector<int> some;
     for (std::size_t i = 0; i < strips.size(); ++i) {
       if (i % kReadBackStep == 0 || i + 1 == strips.size()) some.push_back(strips[i]);
@@ -121,20 +124,20 @@ void write_rows(const std::string& path, OIIO::ImageSpec spec, const FillRow& fi
   }
   std::vector<T> back(static_cast<std::size_t>(rows) * width);
   stream<T>(strips, fill, [&](int y, const std::vector<T>& strip) {
-    if (!in->read_scanlines(0, 0, y, strip_end(y), 0, 0, spec.nchannels, type, back.data()))
-      fail("does not read back: " + in->geterror());
+    if (const auto why = in->read_rows(y, strip_end(y), spec.sample, back.data()); !why.empty())
+      fail("does not read back: " + why);
     if (std::memcmp(back.data(), strip.data(),
                     static_cast<std::size_t>(strip_end(y) - y) * width * sizeof(T)) != 0) {
       fail("reads back with other values");
     }
   });
-  in->close();
+  in.reset();
   settle(part, path, fail);
 }
 
-void write_bytes_image(const std::string& path, const OIIO::ImageSpec& spec,
+void write_bytes_image(const std::string& path, const ImageSpec& spec,
                        const std::vector<std::uint8_t>& bytes) {
-  const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(spec.width) * spec.nchannels;
+  const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(spec.width) * std::ssize(spec.channels);
   write_rows<std::uint8_t>(path, spec, [&](int y, std::uint8_t* out) {
     std::copy_n(bytes.begin() + y * width, width, out);
   });
@@ -150,9 +153,9 @@ HeightRange checked_range(const std::string& path, const Heightmap& h) {
   const auto size = static_cast<std::int64_t>(h.z.size());
   std::vector<HeightRange> parts(static_cast<std::size_t>((size + kChunk - 1) / kChunk));
   std::atomic<bool> finite = true;
-  OIIO::parallel_for(std::int64_t{0}, static_cast<std::int64_t>(parts.size()), [&](std::int64_t p) {
-    const double* z = h.z.data() + p * kChunk;
-    const double* end = h.z.data() + std::min(size, (p + 1) * kChunk);
+  parallel_for(static_cast<int>(parts.size()), [&](int p) {
+    const double* z = h.z.data() + std::int64_t{p} * kChunk;
+    const double* end = h.z.data() + std::min(size, (std::int64_t{p} + 1) * kChunk);
     bool all = true;  // no way out of the loop: it runs in vector registers
     for (const double* i = z; i < end; ++i) all &= std::isfinite(*i);
     if (!all) finite = false;
@@ -177,13 +180,14 @@ void micrometre_row(const Heightmap& h, double low, int y, float* out) {
   for (int ix = 0; ix < h.grid.nx; ++ix) out[ix] = micrometres(row[ix] - low);
 }
 
-void set_resolution(OIIO::ImageSpec& spec, const Grid& grid) {
+void set_resolution(ImageSpec& spec, const Grid& grid) {
   const auto x = static_cast<float>(0.01 / grid.dx()), y = static_cast<float>(0.01 / grid.dy());
-  spec.attribute("XResolution", x);
-  spec.attribute("YResolution", y);
-  spec.attribute("ResolutionUnit", "cm");
-  spec.attribute("tiff:write_exif", 0);       // libtiff 4.5 fails on the empty Exif directory
-  spec.attribute("PixelAspectRatio", y / x);  // without it unequal pixels are silently made equal
+  auto& a = spec.attributes;
+  a.emplace_back("XResolution", x);
+  a.emplace_back("YResolution", y);
+  a.emplace_back("ResolutionUnit", "cm");
+  a.emplace_back("tiff:write_exif", 0);       // libtiff 4.5 fails on the empty Exif directory
+  a.emplace_back("PixelAspectRatio", y / x);  // without it unequal pixels are silently made equal
 }
 
 std::string description(const Heightmap& h, const FileInfo& info, const char* polarity, double low,
@@ -200,7 +204,7 @@ std::string description(const Heightmap& h, const FileInfo& info, const char* po
   return json.dump();
 }
 
-void write_sixteen_bits(const std::string& path, const OIIO::ImageSpec& spec, const Heightmap& h,
+void write_sixteen_bits(const std::string& path, const ImageSpec& spec, const Heightmap& h,
                         HeightRange range, Polarity polarity, bool binary) {
   const double low = range.low, span = range.high - low;
   write_rows<std::uint16_t>(path, spec, [&](int y, std::uint16_t* out) {
@@ -216,14 +220,13 @@ void write_sixteen_bits(const std::string& path, const OIIO::ImageSpec& spec, co
 void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarity, bool binary,
                    const FileInfo& info) {
   const HeightRange range = checked_range(path, h);
-  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT16);
-  spec.attribute("compression", "none");
+  ImageSpec spec = plain_spec(h.grid);
   set_resolution(spec, h.grid);
   const auto [low, high] = range;
   const bool white_high = polarity == Polarity::WhiteHigh;
-  spec.attribute("ImageDescription",
-                 description(h, info, white_high ? "white-is-high" : "white-is-deep",
-                             white_high ? low : high, white_high ? high : low));
+  spec.attributes.emplace_back("ImageDescription",
+                               description(h, info, white_high ? "white-is-high" : "white-is-deep",
+                                           white_high ? low : high, white_high ? high : low));
   write_sixteen_bits(path, spec, h, range, polarity, binary);
 }
 
@@ -272,12 +275,12 @@ Heightmap read_image(const std::string& path, double width) {
   // The reader of the ending alone: others would be tried on a broken file.
   const bool exr = fs::path(path).extension() == ".exr";
   if (exr) check_exr_header(path);
-  const auto in = OIIO::ImageInput::create(exr ? "openexr" : "tiff");
-  OIIO::ImageSpec spec;
-  if (!in) throw InputError("cannot read " + path + ": " + OIIO::geterror());
-  if (!in->open(path, spec)) throw InputError("cannot read " + path + ": " + in->geterror());
+  std::string why;
+  const auto in = image_codec().open(path, exr ? "openexr" : "tiff", why);
+  if (!in) throw InputError("cannot read " + path + ": " + why);
+  const ImageSpec& spec = in->spec();
   check_size(path, spec.width, spec.height);
-  if (spec.depth != 1 || spec.nchannels < 1 || spec.nchannels > 64) {
+  if (spec.depth != 1 || spec.channels.empty() || spec.channels.size() > 64) {
     throw InputError("cannot read " + path + ": not a plane image of at most 64 channels");
   }
   // Deflate packs 1032 to 1 at best: a header that claims much more is not worth its memory.
@@ -286,37 +289,28 @@ Heightmap read_image(const std::string& path, double width) {
   if (pixel_count > 2000 * static_cast<double>(fs::file_size(path, error)) || error) {
     throw InputError("cannot read " + path + ": the data are cut off");
   }
-  int channel = 0;
-  for (int c = 0; c < spec.nchannels; ++c) {
-    if (spec.channelnames[static_cast<std::size_t>(c)] == "Y") channel = c;
-  }
+  const auto named = std::find(spec.channels.rbegin(), spec.channels.rend(), "Y");
+  const auto channel =
+      named == spec.channels.rend() ? 0 : static_cast<int>(spec.channels.rend() - named) - 1;
   std::vector<float> pixels(static_cast<std::size_t>(spec.width) * spec.height);
-  if (!in->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, pixels.data())) {
-    throw InputError("cannot read " + path + ": " + in->geterror());
-  }
+  why = in->read_channel(channel, pixels.data());
+  if (!why.empty()) throw InputError("cannot read " + path + ": " + why);
   Heightmap h;
   h.grid = {spec.width, spec.height, width, width * spec.height / spec.width};
   double scale = 1e-6, base = 0;  // float images hold micrometres
-  double real = 0;
-  const auto attribute = [&](const char* name, double& value) {
-    const OIIO::ParamValue* p = spec.find_attribute(name, OIIO::TypeDesc::DOUBLE);
-    if (p) value = *static_cast<const double*>(p->data());
-    return p != nullptr;
-  };
   const auto unit = [&](const char* name, double otherwise) {
-    const std::string text = spec.get_string_attribute(name);
+    const std::string text = in->text(name);
     const auto known = find_unit(text);
     const double u = known && known->same_dimension(*find_unit("m")) ? known->to_si : 0;
     return u > 0 ? u : otherwise;
   };
-  if (attribute("Gwy::XReal", real)) {
+  if (const auto x = in->number("Gwy::XReal")) {
     const double xy = unit("Gwy::XYUnit", 1);
-    h.grid.lx = real * xy;
-    if (attribute("Gwy::YReal", real)) h.grid.ly = real * xy;
+    h.grid.lx = *x * xy;
+    if (const auto y = in->number("Gwy::YReal")) h.grid.ly = *y * xy;
     scale = unit("Gwy::ZUnit", 1e-6);
   }
-  if (const std::string text = spec.get_string_attribute("ImageDescription");
-      !text.empty() && text.front() == '{') {
+  if (const std::string text = in->text("ImageDescription"); !text.empty() && text.front() == '{') {
     const auto json = nlohmann::json::parse(text, nullptr, false);
     const auto number = [&](const char* key, double& value) {
       const auto it = json.find(key);
@@ -329,14 +323,14 @@ Heightmap read_image(const std::string& path, double width) {
       h.grid.lx = x;
       h.grid.ly = y;
     }
-    if (spec.format == OIIO::TypeDesc::UINT16) {
+    if (spec.sample == Sample::U16) {
       if (!number("black_m", black) || !number("white_m", white)) {
         throw InputError("cannot read " + path + ": an integer image without its height scale");
       }
       base = black;
       scale = white - black;
     }
-  } else if (spec.format == OIIO::TypeDesc::UINT16 || spec.format == OIIO::TypeDesc::UINT8) {
+  } else if (spec.sample == Sample::U16 || spec.sample == Sample::U8) {
     throw InputError(
         "cannot read " + path +
         ": an integer image without its height scale; use a float image, .gsf or .npy");
@@ -354,19 +348,14 @@ Heightmap read_image(const std::string& path, double width) {
 
 namespace {
 
-OIIO::ImageSpec exr_spec(const Heightmap& h, int repeat, const FileInfo& info) {
-  OIIO::ImageSpec spec(repeat * h.grid.nx, repeat * h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {"Y"};
-  spec.attribute("compression", "zip");
-  // Gwyddion reads these as doubles only; floats are silently ignored.
-  for (const auto& [name, value] :
-       {std::pair{"Gwy::XReal", repeat * h.grid.lx}, {"Gwy::YReal", repeat * h.grid.ly}}) {
-    spec.attribute(name, OIIO::TypeDesc::DOUBLE, &value);
-  }
-  spec.attribute("Gwy::XYUnit", "m");
-  spec.attribute("Gwy::ZUnit", "um");
-  spec.attribute("Gwy::Title", info.title);
-  if (!info.comment.empty()) spec.attribute("comments", info.comment);
+ImageSpec exr_spec(const Heightmap& h, int repeat, const FileInfo& info) {
+  ImageSpec spec{.width = repeat * h.grid.nx, .height = repeat * h.grid.ny, .channels = {"Y"}};
+  spec.attributes = {{"Gwy::XReal", repeat * h.grid.lx},
+                     {"Gwy::YReal", repeat * h.grid.ly},
+                     {"Gwy::XYUnit", "m"},
+                     {"Gwy::ZUnit", "um"},
+                     {"Gwy::Title", info.title}};
+  if (!info.comment.empty()) spec.attributes.emplace_back("comments", info.comment);
   return spec;
 }
 
@@ -388,15 +377,15 @@ void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
 
 void write_png16(const std::string& path, const Heightmap& h) {
   const HeightRange range = checked_range(path, h);
-  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT16);
+  ImageSpec spec{.width = h.grid.nx, .height = h.grid.ny};
   for (const auto& [name, value] : {std::pair{"Gwy::XReal", h.grid.lx},
                                     {"Gwy::YReal", h.grid.ly},
                                     {"Gwy::ZMin", range.low},
                                     {"Gwy::ZMax", range.high}}) {
-    spec.attribute(name, fmt::format("{}", value));
+    spec.attributes.emplace_back(name, fmt::format("{}", value));
   }
-  spec.attribute("Gwy::XYUnit", "m");
-  spec.attribute("Gwy::ZUnit", "m");
+  spec.attributes.emplace_back("Gwy::XYUnit", "m");
+  spec.attributes.emplace_back("Gwy::ZUnit", "m");
   write_sixteen_bits(path, spec, h, range, Polarity::WhiteHigh, false);
 }
 
@@ -426,7 +415,7 @@ DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve&
   }
   const auto [a, b] = std::minmax_element(grey.begin(), grey.end());
   out.lowest = *a, out.highest = *b;
-  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::UINT8);
+  ImageSpec spec{.width = h.grid.nx, .height = h.grid.ny};
   set_resolution(spec, h.grid);
   write_bytes_image(path, spec, grey);
   return out;
@@ -434,10 +423,9 @@ DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve&
 
 void write_tiff_float(const std::string& path, const Heightmap& h, const FileInfo& info) {
   const double low = checked_range(path, h).low;
-  OIIO::ImageSpec spec(h.grid.nx, h.grid.ny, 1, OIIO::TypeDesc::FLOAT);
-  spec.attribute("compression", "none");
+  ImageSpec spec = plain_spec(h.grid);
   set_resolution(spec, h.grid);
-  spec.attribute("ImageDescription", description(h, info, "white-is-high", 0, 1e-6));
+  spec.attributes.emplace_back("ImageDescription", description(h, info, "white-is-high", 0, 1e-6));
   write_rows<float>(path, spec, [&](int y, float* out) { micrometre_row(h, low, y, out); });
 }
 
@@ -453,8 +441,7 @@ void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polar
 
 void write_png_rgb(const std::string& path, int width, int height,
                    const std::vector<std::uint8_t>& rgb) {
-  OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
-  write_bytes_image(path, spec, rgb);
+  write_bytes_image(path, {.width = width, .height = height, .channels = {"", "", ""}}, rgb);
 }
 
 Heightmap read_heightmap(const std::string& path, double width) {

@@ -32,6 +32,27 @@ TEST(Program, HelpAndVersionSucceed) {
   EXPECT_GE(commands, 4);
 }
 
+// The library of image formats takes longer to load than most commands run.
+TEST(Program, ImageFormatsAreLoadedWhereAnImageIsTouchedAndNowhereElse) {
+  const Workplace place;
+  const auto loads = [&](const std::string& arguments) {
+    const Outcome run = place.shell("LD_DEBUG=libs '" PAPILLA_PROGRAM "' " + arguments);
+    EXPECT_EQ(run.status, 0) << arguments;
+    return run.err.find("libOpenImageIO") != std::string::npos;
+  };
+  EXPECT_FALSE(loads("--version"));
+  EXPECT_FALSE(loads("explain " + kSample));
+  EXPECT_FALSE(loads("export " + kSample + " --format npy,gsf --pixels 64 --out plain"));
+  EXPECT_TRUE(loads("export " + kSample + " --format exr --pixels 64 --out image"));
+  // A module that does not load is said to be missing, before anything is written.
+  place.write("papilla_images.so", "");
+  const Outcome broken = place.shell("LD_LIBRARY_PATH=. '" PAPILLA_PROGRAM "' export " + kSample +
+                                     " --format exr --pixels 64 --out broken");
+  EXPECT_EQ(broken.status, 1);
+  EXPECT_NE(broken.err.find("papilla_images.so"), std::string::npos) << broken.err;
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "broken/heightmap.exr"));
+}
+
 TEST(Program, CompletionIsValidShell) {
   const Workplace place;
   const Outcome run = place.shell("'" PAPILLA_PROGRAM "' completion bash > c.sh && bash -n c.sh");
