@@ -426,8 +426,9 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
     const std::vector<PatchResult>& patches = set.results[i];
     const double weight = scene.environment.weights.empty() ? 1 : scene.environment.weights[i];
     response.points.push_back(builder.build(humidities[i], weight, set.bridges[i], patches));
-    std::vector<PatchResult> rest(patches.begin() + 1, patches.end());  // all but skin k
+    std::vector<PatchResult> rest(patches.begin() + (patches.empty() ? 0 : 1), patches.end());
     for (std::size_t k = 0; k < response.without.size(); ++k) {
+      // `rest` holds all but skin k.
       response.without[k].push_back(builder.build(humidities[i], weight, set.bridges[i], rest));
       response.without[k].back().samples = {};
       if (k < rest.size()) rest[k] = patches[k];
