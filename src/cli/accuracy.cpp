@@ -19,7 +19,7 @@ struct AccuracyCommand {
   std::string file, out, render;
   std::vector<std::string> overrides;
   int scenes = 0, first_scene = 0, jobs = 0, grid = 128, skins = 16, finest = 512;
-  bool no_levels = false, json = false;
+  bool no_levels = false, json = false, tight = false;
 };
 
 void make_folder(const std::string& folder) {
@@ -37,20 +37,24 @@ int run(const Context& context, const AccuracyCommand& c) {
   }
   const auto note = [&](const std::string& text) { context.note(text); };
   if (c.scenes > 0) {
-    const CoverageOptions options{
-        .scenes = c.scenes, .first = c.first_scene, .threads = c.jobs, .note = note};
+    const CoverageOptions options{.scenes = c.scenes,
+                                  .first = c.first_scene,
+                                  .tight = c.tight,
+                                  .threads = c.jobs,
+                                  .note = note};
     const std::vector<CoverageRow> rows = coverage(options);
     if (!c.out.empty()) {
       make_folder(c.out);
+      const Fidelity reference = coverage_reference(options);
       write_bytes(
-          c.out + "/coverage.csv",
+          c.out + (c.tight ? "/coverage_tight.csv" : "/coverage.csv"),
           coverage_csv(
               rows,
-              fmt::format("# papilla {} accuracy --scenes {}{}: random scenes; "
+              fmt::format("# papilla {} accuracy --scenes {}{}{}: random scenes; "
                           "reference of {} pixels and {} fresh skins\n",
-                          PAPILLA_VERSION, c.scenes,
+                          PAPILLA_VERSION, c.scenes, c.tight ? " --tight" : "",
                           c.first_scene > 0 ? fmt::format(" --first-scene {}", c.first_scene) : "",
-                          options.finer_grid, options.finer_skins)));
+                          reference.grid, reference.skins)));
     }
     if (c.json) {
       std::cout << coverage_json(rows) << '\n';
@@ -122,6 +126,9 @@ void add_accuracy(CLI::App& app, Context& context) {
       ->add_option("--scenes", c->scenes,
                    "Instead: error bars against a finer reference on that many random scenes")
       ->check(CLI::Range(1, 100000));
+  command->add_flag(
+      "--tight", c->tight,
+      "Of --scenes: the level design and a target of 2 % against the level reference");
   command->add_option("--first-scene", c->first_scene, "Number of the first of them")
       ->check(CLI::Range(0, 1000000000));
   command->add_flag("--json", c->json, "One JSON object on standard output");

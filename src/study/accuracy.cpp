@@ -289,6 +289,18 @@ Scene random_scene(int index, Texture& texture) {
   return scene;
 }
 
+Fidelity coverage_reference(const CoverageOptions& options) {
+  Fidelity f = fidelity_level(options.tight ? "reference" : "design");
+  if (!options.tight) {
+    f.grid = options.finer_grid;
+    f.skins = options.finer_skins;
+  }
+  f.threads = options.threads;
+  f.first_skin = 1000;  // held out
+  f.control_skins = 0;
+  return f;
+}
+
 std::vector<CoverageRow> coverage(const CoverageOptions& options) {
   std::vector<CoverageRow> rows;
   for (int i = options.first; i < options.first + options.scenes; ++i) {
@@ -302,11 +314,8 @@ std::vector<CoverageRow> coverage(const CoverageOptions& options) {
       f.seed = seed;
       return f;
     };
-    Fidelity fine = level("design");
-    fine.grid = options.finer_grid;
-    fine.skins = options.finer_skins;
-    fine.first_skin = 1000;  // held out
-    fine.control_skins = 0;
+    Fidelity fine = coverage_reference(options);
+    fine.seed = seed;
     const Response truth = evaluate(scene, texture, fine);
     const auto judge = [&](const std::string& fidelity, const Response& r) {
       for (const Quantity& q : kQuantities) {
@@ -319,19 +328,27 @@ std::vector<CoverageRow> coverage(const CoverageOptions& options) {
                         t->value, t->parts.sampling, parts});
       }
     };
-    for (const Estimator estimator : {Estimator::Load, Estimator::Area}) {
-      Fidelity f = level("design");
-      f.grid = options.grid;
-      f.skins = options.skins;
-      f.estimator = estimator;
-      judge(fmt::format("{} pixels {} skins {}", f.grid, f.skins,
-                        estimator == Estimator::Load ? "load law" : "solved areas"),
-            evaluate(scene, texture, f));
+    const auto judge_target = [&](const char* name, double target) {
+      judge(name, evaluate_to_target(scene, texture,
+                                     {.target = target, .seed = seed, .threads = options.threads}));
+    };
+    if (options.tight) {
+      judge("design", evaluate(scene, texture, level("design")));
+      judge_target("target 2 %", 0.02);
+    } else {
+      for (const Estimator estimator : {Estimator::Load, Estimator::Area}) {
+        Fidelity f = level("design");
+        f.grid = options.grid;
+        f.skins = options.skins;
+        f.estimator = estimator;
+        judge(fmt::format("{} pixels {} skins {}", f.grid, f.skins,
+                          estimator == Estimator::Load ? "load law" : "solved areas"),
+              evaluate(scene, texture, f));
+      }
+      for (const char* name : {"search", "draft"})
+        judge(name, evaluate(scene, texture, level(name)));
+      judge_target("target 5 %", 0.05);
     }
-    for (const char* name : {"search", "draft"}) judge(name, evaluate(scene, texture, level(name)));
-    judge("target 5 %",
-          evaluate_to_target(scene, texture,
-                             {.target = 0.05, .seed = seed, .threads = options.threads}));
     if (options.note)
       options.note(fmt::format("scene {} of {}", i - options.first + 1, options.scenes));
   }
@@ -516,7 +533,6 @@ std::vector<CoverageRow> read_coverage(const std::string& path) {
 
 std::string accuracy_page(const std::string& folder) {
   const Table sweeps = read_table(folder + "/sweeps.csv");
-  const std::string coverage_path = folder + "/coverage.csv";
   std::string out =
       "# Speed against error\n\nMade by `papilla accuracy --render results/accuracy` from the "
       "tables "
@@ -565,14 +581,17 @@ std::string accuracy_page(const std::string& folder) {
   }
   end_sweep();
   out += "\n## Error bars on held-out scenes\n\n";
-  for (const std::string& line : read_table(coverage_path).comments) out += "- " + line + "\n";
+  std::vector<CoverageSummary> rows;
+  for (const char* name : {"/coverage.csv", "/coverage_tight.csv"}) {
+    for (const std::string& line : read_table(folder + name).comments) out += "- " + line + "\n";
+    const auto more = coverage_summary(read_coverage(folder + name));
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
   out +=
       "\n| fidelity | quantity | scenes | reference inside the 95 % interval | median half-width | "
-      "95 % "
-      "quantile "
-      "of the error | ratio | error over stated standard error, rms "
+      "95 % quantile of the error | ratio | error over stated standard error, rms "
       "|\n|---|---|---|---|---|---|---|---|\n";
-  for (const CoverageSummary& s : coverage_summary(read_coverage(coverage_path))) {
+  for (const CoverageSummary& s : rows) {
     out += fmt::format("| {} | {} | {} | {:.0f} % | {:.4g} | {:.4g} | {:.2f} | {:.2f} |\n",
                        s.fidelity, s.quantity, s.scenes, 100 * s.inside, s.median_half_width,
                        s.error_quantile, s.median_half_width / s.error_quantile, s.rms_ratio);

@@ -25,6 +25,9 @@
 namespace papilla {
 namespace {
 
+// What the numbers of a journal's records mean: raised when their order changes.
+constexpr int kRecords = 2;
+
 // Steps of the parameters of confirmed designs: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
 
@@ -991,7 +994,8 @@ bool StudyProblem::feasible(const Score& score, const Point& unit) const {
 }
 
 std::string StudyProblem::identity() const {
-  std::string out = fmt::format("papilla {}\n", PAPILLA_VERSION) + to_toml(study_.design);
+  std::string out =
+      fmt::format("papilla {}, records {}\n", PAPILLA_VERSION, kRecords) + to_toml(study_.design);
   for (const Variable& v : study_.variables) {
     out += fmt::format("{} {:a} {:a}", v.path, v.low, v.high);
     for (double c : v.choices) out += fmt::format(" {:a}", c);

@@ -10,6 +10,8 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
+#include <sstream>
 #include <tuple>
 
 #include "base/constants.h"
@@ -225,6 +227,50 @@ void check_pick_rule(const std::string& rule, const std::vector<StudyObjective>&
   pick_design(rule, {any});
 }
 
+// The values of a resolved file by their path, as it is written there.
+std::vector<std::pair<std::string, std::string>> resolved_values(const std::string& text) {
+  std::vector<std::pair<std::string, std::string>> out;
+  std::istringstream lines(text);
+  std::string table;
+  std::map<std::string, int> count;  // of an array's tables
+  for (std::string line; std::getline(lines, line);) {
+    line.erase(std::min(line.find("  # "), line.size()));
+    if (line.starts_with("[[")) {
+      table = line.substr(2, line.size() - 4);
+      table += fmt::format("[{}].", count[table]++);
+    } else if (line.starts_with("[")) {
+      table = line.substr(1, line.size() - 2) + ".";
+    } else if (const std::size_t equals = line.find(" = "); equals != std::string::npos) {
+      out.emplace_back(table + line.substr(0, equals), line.substr(equals + 3));
+    }
+  }
+  return out;
+}
+
+// "texture.depth \"350 nm\", \"400 nm\"": what two resolved files say otherwise, three at most.
+// Without the keys that a run may be continued with.
+std::string differing_keys(const std::string& there, const std::string& here) {
+  const std::set<std::string> free{"search.evaluations", "search.jobs", "search.time"};
+  const auto known = resolved_values(there), own = resolved_values(here);
+  const std::map<std::string, std::string> before(known.begin(), known.end()),
+      now(own.begin(), own.end());
+  std::string out;
+  int left = 3;
+  const auto add = [&](const std::string& path, const std::string& a, const std::string& b) {
+    if (a == b || free.count(path) > 0 || left-- <= 0) return;
+    out += fmt::format("{}{} {}, {}", out.empty() ? "" : "; ", path, a, b);
+  };
+  const auto value = [](const std::map<std::string, std::string>& of, const std::string& path) {
+    const auto found = of.find(path);
+    return found == of.end() ? std::string("none") : found->second;
+  };
+  for (const auto& [path, text] : own) add(path, value(before, path), text);
+  for (const auto& [path, text] : known) {
+    if (now.count(path) == 0) add(path, text, "none");
+  }
+  return out;
+}
+
 class Run {
  public:
   Run(const Study& study, const OptimiseOptions& options, const MpiSession& mpi)
@@ -235,7 +281,7 @@ class Run {
         method_(choose_method(study.search.method, search_)),
         folder_(checked_folder(options, problem_)),
         lock_(open_folder(folder_)),
-        journal_(options.folder + "/journal", text_hash(problem_.identity()), options.resume),
+        journal_(open_journal(options, text_hash(problem_.identity()), resolved_toml(study))),
         pool_(problem_, study, mpi) {}
 
   OptimiseResult run() {
@@ -273,6 +319,20 @@ class Run {
     if (options.resume && !fs::exists(options.folder + "/journal"))
       throw InputError(options.folder + ": no run to continue here (no journal)");
     return options.folder;
+  }
+
+  // A journal of another study is refused by the keys in which the studies differ.
+  static Journal open_journal(const OptimiseOptions& options, const std::string& key,
+                              const std::string& study) {
+    try {
+      return Journal(options.folder + "/journal", key, options.resume);
+    } catch (const InputError& e) {
+      const std::string file = options.folder + "/resolved.toml";
+      if (!options.resume || !fs::exists(file)) throw;
+      const std::string differ = differing_keys(read_bytes(file), study);
+      if (differ.empty()) throw;
+      throw InputError(std::string(e.what()) + "; there and here: " + differ);
+    }
   }
 
   // The earlier run's searched designs, without those that the shape's limits refused.

@@ -44,10 +44,10 @@ TEST(Program, ImageFormatsAreLoadedWhereAnImageIsTouchedAndNowhereElse) {
   EXPECT_FALSE(loads("explain " + kSample));
   EXPECT_FALSE(loads("export " + kSample + " --format npy,gsf --pixels 64 --out plain"));
   EXPECT_TRUE(loads("export " + kSample + " --format exr --pixels 64 --out image"));
-  // A module that does not load is said to be missing, before anything is written.
-  place.write("papilla_images.so", "");
-  const Outcome broken = place.shell("LD_LIBRARY_PATH=. '" PAPILLA_PROGRAM "' export " + kSample +
-                                     " --format exr --pixels 64 --out broken");
+  // A program that was copied without its module says so, before anything is written.
+  std::filesystem::copy_file(PAPILLA_PROGRAM, place.path() / "alone");
+  const Outcome broken =
+      place.shell("./alone export " + kSample + " --format exr --pixels 64 --out broken");
   EXPECT_EQ(broken.status, 1);
   EXPECT_NE(broken.err.find("papilla_images.so"), std::string::npos) << broken.err;
   EXPECT_FALSE(std::filesystem::exists(place.path() / "broken/heightmap.exr"));

@@ -402,6 +402,25 @@ TEST(Optimise, AnotherPickOfTheSameRunNeedsNoNewSearch) {
   EXPECT_EQ(bytes(folder + "/summary.md"), summary);
 }
 
+// Who continues a run with another study hears in which keys they differ.
+TEST(Optimise, AnotherStudyIsRefusedByTheKeysThatDiffer) {
+  Study study = small_study();
+  const std::string folder = fresh_folder("another");
+  std::atomic<bool> stop{true};
+  EXPECT_TRUE(optimise(study, {folder, false, {}, &stop}).interrupted);
+  study.search.evaluations += 5;  // may be more
+  study.design.drive.amplitude = 150;
+  try {
+    optimise(study, {folder, true, {}, nullptr});
+    FAIL();
+  } catch (const InputError& e) {
+    const std::string why = e.what();
+    EXPECT_NE(why.find("written for another study"), std::string::npos) << why;
+    EXPECT_NE(why.find("drive.amplitude \"200 V\", \"150 V\""), std::string::npos) << why;
+    EXPECT_EQ(why.find("evaluations"), std::string::npos) << why;
+  }
+}
+
 // A relief that nobody feels is no better than none: both are judged on the same skins.
 TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
   Study study = small_study();
