@@ -1,11 +1,24 @@
-// Measured surfaces as textures.
+// Measured surfaces: textures and skins.
 #pragma once
+
+#include <cstdint>
+#include <string>
 
 #include "geometry/texture.h"
 
 namespace papilla {
 
-// The map of the file, levelled, mended and made periodic, resampled on the grid.
+// The map of the file, levelled, mended and made periodic, resampled on the grid: cut from the
+// middle. Throws InputError for a map smaller than its patch.
 Heightmap measured_heights(const Measured3d& map, const Grid& grid);
+
+// A patch of a measured skin: a cut of the map at a random place, mirrored at random, levelled and
+// made periodic. Independent patches are cuts of the same map: they know no more of the skin than
+// it does. width [m]: where the file does not say. Throws InputError for a map that is smaller than
+// the patch and a tenth.
+Heightmap measured_skin(const std::string& file, double width, const Grid& grid, std::uint64_t seed,
+                        std::uint64_t index);
+// The shortest wavelength that the map holds [m].
+double measured_skin_cutoff(const std::string& file, double width);
 
 }  // namespace papilla

@@ -129,7 +129,8 @@ class Codec : public ImageCodec {
 }  // namespace
 }  // namespace papilla
 
-extern "C" const papilla::ImageCodec* papilla_image_codec() {
+// interface: of the program that asks; null: another one.
+extern "C" const papilla::ImageCodec* papilla_image_codec(int interface) {
   static const papilla::Codec codec;
-  return &codec;
+  return interface == papilla::kCodecInterface ? &codec : nullptr;
 }

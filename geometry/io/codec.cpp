@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "geometry/io/files.h"
+
 namespace papilla {
 namespace {
 
@@ -17,6 +19,7 @@ std::string module_path() {
   std::error_code error;
   const fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
   for (const char* place : {".", "..", "../lib/papilla"}) {
+    if (place == std::string("..") && folder.filename() != "tests") continue;
     const fs::path path = folder / place / "papilla_images.so";
     if (fs::exists(path, error)) return path.lexically_normal().string();
   }
@@ -24,6 +27,8 @@ std::string module_path() {
 }
 
 }  // namespace
+
+void require_images() { image_codec(); }
 
 const ImageCodec& image_codec() {
   static const ImageCodec* codec = [] {
@@ -34,7 +39,12 @@ const ImageCodec& image_codec() {
       throw std::runtime_error(std::string("cannot read or write images: ") + dlerror() +
                                "; build or install Papilla anew: the module belongs to it");
     }
-    return reinterpret_cast<const ImageCodec* (*)()>(entry)();
+    const ImageCodec* loaded = reinterpret_cast<const ImageCodec* (*)(int)>(entry)(kCodecInterface);
+    if (!loaded) {
+      throw std::runtime_error("cannot read or write images: " + module_path() +
+                               " is of another version; build or install Papilla anew");
+    }
+    return loaded;
   }();
   return *codec;
 }

@@ -58,6 +58,9 @@ class ImageCodec {
                                         std::string& error) const = 0;
 };
 
+// Of the classes above: the module of another build is refused.
+constexpr int kCodecInterface = 1;
+
 // Loads the module on the first call. Throws std::runtime_error where it does not load.
 const ImageCodec& image_codec();
 

@@ -25,6 +25,10 @@ struct FileInfo {
   std::string comment;  // one line, e.g. the design's hash
 };
 
+// Loads what image files need, for work that ends with one. Throws std::runtime_error where it is
+// missing.
+void require_images();
+
 void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info);
 void write_tiff16(const std::string& path, const Heightmap& h, Polarity polarity,
                   const FileInfo& info);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -34,6 +35,12 @@ constexpr const char* kFixedDate = "2000:01:01 00:00:00";  // the same bytes on 
 std::string part_name(const std::string& path) {
   const fs::path p(path);
   return (p.parent_path() / (p.stem().string() + ".part" + p.extension().string())).string();
+}
+
+std::string lower_ending(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
 }
 
 // Onto the disk, then to its name.
@@ -80,7 +87,8 @@ ImageSpec plain_spec(const Grid& grid) {
 // Writes an image of T that is never held whole: fill_row(y, out) gives row y, from the top. Read
 // back and compared before the old file goes.
 template <typename T, typename FillRow>
-void write_rows(const std::string& path, ImageSpec spec, const FillRow& fill_row) {
+void write_rows(const std::string& asked, ImageSpec spec, const FillRow& fill_row) {
+  const std::string path = replaceable(asked);
   const std::string part = part_name(path);
   spec.sample = kSampleOf<T>;
   spec.attributes.emplace_back("DateTime", kFixedDate);
@@ -273,7 +281,7 @@ void check_exr_header(const std::string& path) {
 
 Heightmap read_image(const std::string& path, double width) {
   // The reader of the ending alone: others would be tried on a broken file.
-  const bool exr = fs::path(path).extension() == ".exr";
+  const bool exr = lower_ending(path) == ".exr";
   if (exr) check_exr_header(path);
   std::string why;
   const auto in = image_codec().open(path, exr ? "openexr" : "tiff", why);
@@ -445,9 +453,12 @@ void write_png_rgb(const std::string& path, int width, int height,
 }
 
 Heightmap read_heightmap(const std::string& path, double width) {
-  const std::string ending = fs::path(path).extension().string();
+  const std::string ending = lower_ending(path);
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) throw InputError("cannot read " + path + ": no such file");
+  if (!fs::is_regular_file(path, error)) {
+    throw InputError("cannot read " + path +
+                     (fs::exists(path, error) ? ": not a file" : ": no such file"));
+  }
   Heightmap h;
   if (ending == ".npy") {
     h = read_npy(path, width);

@@ -28,7 +28,21 @@ std::uint64_t check_sum(std::uint64_t sum, const char* bytes, std::size_t size) 
 
 }  // namespace
 
-FileWriter::FileWriter(std::string path) : path_(std::move(path)), part_(path_ + ".part") {
+std::string replaceable(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status there = fs::status(path, error);
+  if (fs::exists(there) && !fs::is_regular_file(there)) {
+    throw InputError("cannot write " + path + ": " +
+                     (fs::is_directory(there) ? "it is a folder" : "it is no regular file") +
+                     "; give the path of a file");
+  }
+  if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+  const fs::path target = fs::weakly_canonical(path, error);
+  return error || target.empty() ? path : target.string();
+}
+
+FileWriter::FileWriter(std::string path) : path_(replaceable(path)), part_(path_ + ".part") {
   fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd_ < 0) fail("open");
 }
@@ -82,8 +96,10 @@ void write_bytes(const std::string& path, const std::string& bytes) {
 
 std::string read_bytes(const std::string& path, std::size_t limit) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw InputError("cannot read " + path + ": no such file");
+  if (!std::filesystem::is_regular_file(path, error)) {
+    throw InputError("cannot read " + path +
+                     (std::filesystem::exists(path, error) ? ": not a file" : ": no such file"));
+  }
   const auto size = std::filesystem::file_size(path, error);
   if (error || size > limit)
     throw InputError(

@@ -6,6 +6,10 @@
 
 namespace papilla {
 
+// Where a file of this name is written beside and renamed to: a link's target. Throws InputError
+// for what a rename would destroy: a device, a pipe, a folder.
+std::string replaceable(const std::string& path);
+
 // Writes bytes atomically: temporary file beside it, flushed to disk, renamed. Throws InputError.
 void write_bytes(const std::string& path, const std::string& bytes);
 // Throws InputError when there is no such file or it is larger than the limit.

@@ -236,9 +236,11 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   if (!options.out.empty()) make_folder(options.out);
   const double target =
       options.accuracy.empty() ? design.accuracy.target : wanted_accuracy(options.accuracy);
-  Response response = target > 0 ? evaluate_to_target(scene_of(design), design.texture,
-                                                      {.target = target, .threads = options.jobs})
-                                 : evaluate(scene_of(design), design.texture, fidelity);
+  Response response =
+      target > 0
+          ? evaluate_to_target(scene_of(design), design.texture,
+                               {.target = target, .seed = fidelity.seed, .threads = options.jobs})
+          : evaluate(scene_of(design), design.texture, fidelity);
   for (const std::string& step : response.accuracy.steps) context.note(step);
   if (parameters)
     add_parameter_errors(response, scene_of(design), design.texture, response.fidelity);
@@ -297,7 +299,8 @@ void add_evaluate(CLI::App& app, Context& context) {
   command
       ->add_option("--accuracy", options->accuracy,
                    "Wanted standard error of the modulation: grid, samples and estimator follow")
-      ->type_name("SHARE");
+      ->type_name("SHARE")
+      ->check([](const std::string& text) { return text.empty() ? "expected a share: 5%" : ""; });
   command->add_flag("--parameters", options->parameters,
                     "Also the error that the finger's fitted numbers leave (its [[uncertainty]])");
   command->add_option("--jobs", options->jobs, "Threads; 0: all processors")

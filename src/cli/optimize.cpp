@@ -153,7 +153,11 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   if (options.jobs > 0) study.search.jobs = options.jobs;
   if (options.evaluations > 0) study.search.evaluations = options.evaluations;
   if (options.seed >= 0) study.search.seed = options.seed;
-  if (!options.time.empty()) study.search.time = parse_si(options.time, "min");
+  if (!options.time.empty()) {
+    study.search.time = parse_si(options.time, "min");
+    if (!(study.search.time > 0))
+      throw InputError("--time: expected more than 0 min, got " + options.time);
+  }
   if (!options.method.empty()) study.search.method = options.method;
 
   OptimiseOptions run;

@@ -156,7 +156,7 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
   for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins));
   controls.own = response(fidelity, first);
   controls.octaves =
-      std::max(0.0, std::log2(patches.plan.effective_cutoff / scene.finger.skin.cutoff));
+      std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
   Fidelity resolved = fidelity;
   if (load_law) {
     resolved.estimator = Estimator::Area;

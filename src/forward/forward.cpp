@@ -15,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "forward/scale_bridge.h"
+#include "geometry/measured.h"
 #include "geometry/roughness.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
@@ -50,6 +51,9 @@ double offset_share(int k, bool second) {
 Heightmap skin_patch(const Scene& scene, const Plan& plan, const Fidelity& fidelity, int index) {
   const Skin& skin = scene.finger.skin;
   const Grid& grid = plan.grid;
+  if (!skin.map.empty())
+    return measured_skin(skin.map, skin.map_width, grid, fidelity.seed,
+                         static_cast<std::uint64_t>(index));
   const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, plan.effective_cutoff};
   return random_surface(spectrum, grid, fidelity.seed, static_cast<std::uint64_t>(index),
                         offset_share(index, false) * grid.lx, offset_share(index, true) * grid.ly);
@@ -348,12 +352,13 @@ double ErrorParts::total() const {
 }
 
 std::string Response::trouble() const {
+  std::string out;
   for (const ResponsePoint& point : points) {
-    if (point.status != "ok") {
-      return fmt::format("{:.0f} % RH: {}", 100 * point.relative_humidity, point.status);
-    }
+    if (point.status == "ok") continue;
+    out += fmt::format("{}{:.0f} % RH: {}", out.empty() ? "" : "; ", 100 * point.relative_humidity,
+                       point.status);
   }
-  return {};
+  return out;
 }
 
 void PatchSet::add(const PatchSet& other) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "geometry/measured.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 
@@ -102,9 +103,12 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   Plan plan;
   plan.grid = simulated_patch(texture, fidelity.grid, fidelity.pixels_a_side());
   // The same for every texture, although its patch may have somewhat finer pixels.
-  plan.effective_cutoff = std::max({scene.finger.skin.cutoff, 2 * kWindow / fidelity.grid,
+  const Skin& skin = scene.finger.skin;
+  plan.skin_cutoff =
+      skin.map.empty() ? skin.cutoff : measured_skin_cutoff(skin.map, skin.map_width);
+  plan.effective_cutoff = std::max({plan.skin_cutoff, 2 * kWindow / fidelity.grid,
                                     2 * std::max(plan.grid.dx(), plan.grid.dy())});
-  plan.warning = unresolved_skin(plan, fidelity, scene.finger.skin.cutoff);
+  plan.warning = unresolved_skin(plan, fidelity, plan.skin_cutoff);
 
   double largest_volume = 0, droplet_error = 0;
   for (double rh : scene.environment.relative_humidity) {

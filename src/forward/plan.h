@@ -31,6 +31,7 @@ struct Plan {
   std::vector<PlanStep> steps;
   std::vector<PlanSkip> skipped;
   Grid grid;
+  double skin_cutoff = 0;       // shortest wavelength of the finger's skin [m]
   double effective_cutoff = 0;  // shortest skin wavelength on this grid [m]
   std::string warning;          // why this is not the finger's skin; empty: it is
 

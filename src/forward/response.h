@@ -168,7 +168,7 @@ struct Response : Resampled {
   double fft_pairs = 0;
   std::optional<Optics> appearance;  // where a metric of the texture's look is asked for
 
-  // Empty when every point is sound, else the first trouble.
+  // Empty when every point is sound, else the trouble of each that is not.
   std::string trouble() const;
 };
 

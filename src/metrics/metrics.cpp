@@ -295,6 +295,24 @@ std::optional<Measured ResponsePoint::*> quantity_of(const std::string& metric) 
   return std::nullopt;
 }
 
+// The samples behind a number of a metric.
+ErrorSamples samples_of(const std::string& metric, const Reading& number,
+                        const Response& response) {
+  ErrorSamples out;
+  const auto quantity = quantity_of(metric);
+  const auto value = quantity ? number(response.points) : std::nullopt;
+  if (!value) return out;
+  std::vector<double> without;
+  for (const auto& points : response.without) {
+    if (const auto v = number(points)) without.push_back(*v);
+  }
+  if (without.size() == response.without.size()) out.sampling = jackknife_samples(*value, without);
+  const ControlledChange change = controlled_change(response.controls, *quantity, number);
+  for (const double c : change.grid) out.grid.push_back(c * std::abs(*value));
+  for (const double c : change.method) out.method.push_back(c * std::abs(*value));
+  return out;
+}
+
 }  // namespace
 
 std::optional<StepSamples> step_samples(
@@ -383,20 +401,16 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
 }
 
 ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response) {
-  ErrorSamples out;
-  const auto quantity = quantity_of(metric);
-  const Reading number = reading(summary, metric);
-  const auto value = quantity ? number(response.points) : std::nullopt;
-  if (!value) return out;
-  std::vector<double> without;
-  for (const auto& points : response.without) {
-    if (const auto v = number(points)) without.push_back(*v);
-  }
-  if (without.size() == response.without.size()) out.sampling = jackknife_samples(*value, without);
-  const ControlledChange change = controlled_change(response.controls, *quantity, number);
-  for (const double c : change.grid) out.grid.push_back(c * std::abs(*value));
-  for (const double c : change.method) out.method.push_back(c * std::abs(*value));
-  return out;
+  return samples_of(metric, reading(summary, metric), response);
+}
+
+ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
+                              const Response& response) {
+  const auto number = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    const auto m = metric_at(metric, points[point]);
+    return m ? std::optional(m->value) : std::nullopt;
+  };
+  return samples_of(metric, number, response);
 }
 
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second) {

@@ -65,6 +65,8 @@ struct ErrorSamples {
   std::vector<double> grid, method;  // of the control skins: their mean is what would be added
 };
 ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response);
+ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
+                              const Response& response);
 // Of the first less the second, from samples of the same skins: sampling, grid and method part.
 // Nothing where one of them lacks the samples of the other. Eq. accuracy.14
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second);

@@ -27,6 +27,8 @@ void fields(FieldVisitor& v, Skin& s) {
             "model decision, set E"},
            s.cutoff);
   v.path({"map", "measured skin topography (.npy .gsf .exr .tif) instead of the spectrum"}, s.map);
+  v.number({"map_width", "um", 0, 1e6, "lateral size of the map where the file does not say"},
+           s.map_width);
   v.number({"layer_thickness", "um", 0, 1e6, "thickness of the stiff top layer", Source::Paper,
             "M3: 1 um corneocyte plate"},
            s.layer_thickness);

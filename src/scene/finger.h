@@ -17,6 +17,7 @@ struct Skin {
   double hurst = 0.8;
   double cutoff = 100e-9;  // wavelength
   std::string map;         // measured topography instead of the spectrum (a file), or ""
+  double map_width = 0;    // its lateral size where the file does not say
 
   double layer_thickness = 1e-6;
   double layer_modulus = 66e6;  // Young's modulus at 15 % RH

@@ -45,6 +45,10 @@ void fields(FieldVisitor& v, AccuracySettings& s) {
           "also the error that the finger's fitted numbers leave (its `uncertainty`); optimize "
           "states it of the best design, and with this of all confirmed ones"},
          s.parameters);
+  v.integer(
+      {"seed",
+       "which skins, offsets and droplets, the same for all designs; searches take search.seed"},
+      0, 1 << 30, s.seed);
   v.integer({"droplet_seeds", "placements of the droplets on each skin, averaged (M3: 6)"}, 1, 64,
             s.droplet_seeds);
 }
@@ -148,6 +152,11 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   if (design.finger.skin.map.empty() && design.finger.skin.cutoff >= design.finger.skin.roll_off) {
     problem("finger.skin.cutoff", "expected a shorter wavelength than roll_off");
   }
+  if (!design.finger.skin.map.empty() && design.model.closure == Closure::Persson) {
+    problem("finger.skin.map",
+            "the Persson closure takes the spectrum of the skin; use model.closure = \"uniform\" "
+            "with a map");
+  }
   const Drive& drive = design.drive;
   if (drive.control == DriveControl::Current) {
     problem("drive.control",
@@ -179,6 +188,7 @@ Scene scene_of(const Design& design) {
 Fidelity fidelity_of(const Design& design) {
   Fidelity out = fidelity_level(design.accuracy.level_name());
   if (design.accuracy.grid > 0) out.grid = design.accuracy.grid;
+  out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
   out.droplet_seeds = design.accuracy.droplet_seeds;
   return out;
 }

@@ -25,6 +25,7 @@ struct AccuracySettings {
   int grid = 0;       // pixels along the window; 0: by level
   double target = 0;  // wanted standard error of the modulation, as a share of it; 0: by level
   bool parameters = false;  // evaluate: also what the finger's fitted numbers leave open
+  int seed = 1;             // of skins, offsets and droplets, common to all designs
   int droplet_seeds = 1;    // placements of the droplets on each skin, averaged; the M3 paper: 6
 
   std::string level_name() const;

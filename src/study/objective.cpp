@@ -13,6 +13,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/statistics.h"
 #include "base/units.h"
 #include "config/describe.h"
 #include "config/writer.h"
@@ -26,7 +27,7 @@ namespace papilla {
 namespace {
 
 // What the numbers of a journal's records mean: raised when their order changes.
-constexpr int kRecords = 2;
+constexpr int kRecords = 3;
 
 // Steps of the parameters of confirmed designs: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
@@ -163,7 +164,9 @@ Risk parse_risk(const std::string& text) {
   if (compact == "worst") return {Risk::Kind::Worst, 0};
   if (compact.starts_with("mean-") && compact.ends_with("std")) {
     const std::string factor = compact.substr(5, compact.size() - 8);
-    return {Risk::Kind::MeanStd, factor.empty() ? 1 : parse_number(factor, text)};
+    const double k = factor.empty() ? 1 : parse_number(factor, text);
+    if (k < 0) throw InputError("objective.risk: \"" + text + "\": a factor below 0 seeks risk");
+    return {Risk::Kind::MeanStd, k};
   }
   if (compact.starts_with("cvar") && compact.ends_with("%")) {
     const double share = 0.01 * parse_number(compact.substr(4, compact.size() - 5), text);
@@ -679,17 +682,19 @@ Fidelity StudyProblem::steps_fidelity(Fidelity fidelity) const {
   return fidelity;
 }
 
-// An objective: of each of its lists of samples the number and they.
+// Of each number of a task that an objective is made of: of each list of samples the count and
+// they.
 std::vector<double> StudyProblem::sample_numbers(const Response& response) const {
   std::vector<double> out;
-  for (const StudyObjective& o : objectives_) {
-    const ErrorSamples samples =
-        o.aimed || o.expression.summary == Summary::Worst  // not linear in the tasks
-            ? ErrorSamples{}
-            : error_samples(o.expression.summary, o.expression.metric, response);
-    for (const auto list : kSampleLists) {
-      out.push_back(static_cast<double>((samples.*list).size()));
-      out.insert(out.end(), (samples.*list).begin(), (samples.*list).end());
+  for (std::size_t k = 0; k < objectives_.size(); ++k) {
+    const MetricExpression& e = objectives_[k].expression;
+    for (std::size_t i = 0; i < entries(k).size(); ++i) {
+      const ErrorSamples samples = by_points(k) ? error_samples_at(i, e.metric, response)
+                                                : error_samples(e.summary, e.metric, response);
+      for (const auto list : kSampleLists) {
+        out.push_back(static_cast<double>((samples.*list).size()));
+        out.insert(out.end(), (samples.*list).begin(), (samples.*list).end());
+      }
     }
   }
   return out;
@@ -734,59 +739,21 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
     if (t < nominal_) score.reports.push_back(tasks[t].reason);
   }
   const std::size_t m = objectives_.size();
-  const std::vector<double>& rh = study_.design.environment.relative_humidity;
-  std::vector<double> rh_weights = study_.design.environment.weights;
-  if (rh_weights.empty()) rh_weights.assign(rh.size(), 1.0);
+  const std::size_t humidities = study_.design.environment.relative_humidity.size();
+  std::vector<std::vector<double>> numbers, rest;  // of each task: the usual ones, what follows
+  for (const Outcome& task : tasks) {
+    PAPILLA_CHECK(task.info.size() >= task_numbers(), "numbers of a task");
+    const auto end = task.info.begin() + static_cast<std::ptrdiff_t>(task_numbers());
+    numbers.emplace_back(task.info.begin(), end);
+    rest.emplace_back(end, task.info.end());
+  }
   for (std::size_t k = 0; k < m; ++k) {
-    const StudyObjective& o = objectives_[k];
-    // A risk runs over humidity too where the objective is a mean over it.
-    const bool points =
-        o.aimed || (risk_.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean);
-    Risk risk = risk_;
-    if (!o.aimed && o.expression.summary == Summary::Worst) risk.kind = Risk::Kind::Worst;
-    std::vector<double> values, weights;
     double error = 0, total = 0;
-    const auto add = [&](std::size_t t, std::size_t entry, double weight) {
-      const auto value = [&](const std::vector<double>& info) {
-        return o.aimed ? square(info[entry] - o.target) : info[entry];
-      };
-      std::vector<double> lower, upper;
-      for (std::size_t s = 0; s < study_.scatter.size(); ++s) {
-        const std::size_t low = nominal_ + 2 * (t * study_.scatter.size() + s);
-        lower.push_back(value(tasks[low].info));
-        upper.push_back(value(tasks[low + 1].info));
-      }
-      const std::vector<double> all =
-          scattered_values(risk, o.maximise, value(tasks[t].info), lower, upper);
-      for (double v : all) {
-        values.push_back(v);
-        weights.push_back(weight / static_cast<double>(all.size()));
-      }
-    };
     for (std::size_t t = 0; t < nominal_; ++t) {
-      const std::vector<double>& info = tasks[t].info;
-      PAPILLA_CHECK(info.size() >= task_numbers(), "numbers of a task");
-      error += tasks_[t].weight * info[2 * k + 1];  // tasks share their skins: errors add linearly
+      error += tasks_[t].weight * numbers[t][2 * k + 1];  // tasks share skins: they add linearly
       total += tasks_[t].weight;
-      if (!points) add(t, 2 * k, tasks_[t].weight);
-      for (std::size_t i = 0; i < rh.size() && points; ++i)
-        add(t, 2 * m + 2 + k * rh.size() + i, tasks_[t].weight * rh_weights[i]);
     }
-    if (o.aimed && risk.kind == Risk::Kind::Mean) {
-      // Scatter is in the squares alone: each residual keeps the sign of its nominal distance.
-      const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-      std::size_t at = 0;
-      for (std::size_t t = 0; t < nominal_; ++t) {
-        for (std::size_t i = 0; i < rh.size(); ++i, ++at) {
-          const double nominal = tasks[t].info[2 * m + 2 + k * rh.size() + i] - o.target;
-          score.residuals.push_back(
-              std::copysign(std::sqrt(std::max(0.0, values[at]) * weights[at] / sum), nominal));
-        }
-      }
-    }
-    const double value = apply_risk(risk, o.maximise, values, weights);
-    // Eq. search.11
-    score.values.push_back(o.aimed ? std::sqrt(std::max(0.0, value)) : value);
+    score.values.push_back(combined(k, numbers, &score.residuals));
     score.errors.push_back(error / total);
   }
   score.worst = kInfinity;
@@ -806,7 +773,7 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
   if (needs_appearance()) {  // the same for every finger; a scenario may look otherwise: the worst
     for (std::size_t t = 0; t < tasks.size(); ++t) {
       if (tasks_[t].weight <= 0) continue;
-      const double* v = &tasks[t].info[2 * m + 2 + m * rh.size()];
+      const double* v = &tasks[t].info[2 * m + 2 + m * humidities];
       if (!score.appearance || v[0] > score.appearance->haze) {
         score.appearance.emplace();
         score.appearance->haze = v[0], score.appearance->transmittance = v[1];
@@ -814,12 +781,7 @@ Score StudyProblem::score(const std::vector<Outcome>& tasks) const {
       }
     }
   }
-  std::vector<std::vector<double>> rest;
-  for (std::size_t t = 0; t < nominal_; ++t) {
-    const auto end = tasks[t].info.begin() + static_cast<std::ptrdiff_t>(task_numbers());
-    rest.emplace_back(end, tasks[t].info.end());
-  }
-  add_samples(score, rest);
+  add_samples(score, numbers, rest);
   add_steps(score, rest);
   score.ok = true;
   return score;
@@ -831,34 +793,112 @@ std::size_t StudyProblem::task_numbers() const {
          (needs_appearance() ? 4 : 0) + limited_.size();
 }
 
-// Takes the samples off the front of what the tasks have left; all tasks share their skins.
-void StudyProblem::add_samples(Score& score, std::vector<std::vector<double>>& tasks) const {
-  double total = 0;
+bool StudyProblem::by_points(std::size_t objective) const {
+  const StudyObjective& o = objectives_[objective];
+  return o.aimed || (risk_.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean);
+}
+
+std::vector<std::size_t> StudyProblem::entries(std::size_t objective) const {
+  if (!by_points(objective)) return {2 * objective};
+  const std::size_t n = study_.design.environment.relative_humidity.size();
+  std::vector<std::size_t> out(n);
+  std::iota(out.begin(), out.end(), 2 * objectives_.size() + 2 + objective * n);
+  return out;
+}
+
+double StudyProblem::combined(std::size_t k, const std::vector<std::vector<double>>& numbers,
+                              std::vector<double>* residuals) const {
+  const StudyObjective& o = objectives_[k];
+  Risk risk = risk_;
+  if (!o.aimed && o.expression.summary == Summary::Worst) risk.kind = Risk::Kind::Worst;
+  const std::vector<double>& humidity_weights = study_.design.environment.weights;
+  const std::vector<std::size_t> own = entries(k);
+  std::vector<double> values, weights, nominal;
   for (std::size_t t = 0; t < nominal_; ++t) {
-    total += tasks_[t].weight;
-    if (tasks.at(t).empty()) return;  // not confirmed
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const auto value = [&](const std::vector<double>& info) {
+        return o.aimed ? square(info[own[i]] - o.target) : info[own[i]];
+      };
+      std::vector<double> lower, upper;
+      for (std::size_t s = 0; s < study_.scatter.size(); ++s) {
+        const std::size_t low = nominal_ + 2 * (t * study_.scatter.size() + s);
+        lower.push_back(value(numbers[low]));
+        upper.push_back(value(numbers[low + 1]));
+      }
+      const double weight =
+          tasks_[t].weight * (by_points(k) && !humidity_weights.empty() ? humidity_weights[i] : 1);
+      const std::vector<double> all =
+          scattered_values(risk, o.maximise, value(numbers[t]), lower, upper);
+      for (double v : all) {
+        values.push_back(v);
+        weights.push_back(weight / static_cast<double>(all.size()));
+      }
+      nominal.push_back(numbers[t][own[i]]);
+    }
+  }
+  if (o.aimed && risk.kind == Risk::Kind::Mean && residuals) {
+    // Scatter is in the squares alone: each residual keeps the sign of its nominal distance.
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t i = 0; i < nominal.size(); ++i) {
+      residuals->push_back(std::copysign(std::sqrt(std::max(0.0, values[i]) * weights[i] / sum),
+                                         nominal[i] - o.target));
+    }
+  }
+  const double value = apply_risk(risk, o.maximise, values, weights);
+  return o.aimed ? std::sqrt(std::max(0.0, value)) : value;  // Eq. search.11
+}
+
+// Takes the samples off the front of what the tasks have left, and follows the objectives through
+// them: all numbers of all tasks without one skin, with the change of grid or method. Eq.
+// accuracy.14
+void StudyProblem::add_samples(Score& score, const std::vector<std::vector<double>>& numbers,
+                               std::vector<std::vector<double>>& rest) const {
+  for (const auto& task : rest) {
+    if (task.empty()) return;  // not confirmed
   }
   score.samples.resize(objectives_.size());
-  std::vector<std::size_t> at(nominal_, 0);
-  bool common = risk_.kind == Risk::Kind::Mean && tasks_.size() == nominal_;
-  for (ErrorSamples& sums : score.samples) {
-    for (const auto list : kSampleLists) {
-      std::vector<double>& sum = sums.*list;
-      for (std::size_t t = 0; t < nominal_; ++t) {
-        const auto next = [&] { return tasks[t].at(at[t]++); };
-        const auto count = static_cast<std::size_t>(next());
-        if (t == 0) sum.resize(count, 0);
-        common = common && count == sum.size();
-        for (std::size_t k = 0; k < count; ++k) {
-          const double sample = next();
-          if (common) sum[k] += tasks_[t].weight / total * sample;
+  std::vector<std::size_t> at(rest.size(), 0);
+  for (std::size_t k = 0; k < objectives_.size(); ++k) {
+    const std::vector<std::size_t> own = entries(k);
+    std::vector<std::vector<ErrorSamples>> of(rest.size());  // [task][entry]
+    for (std::size_t t = 0; t < rest.size(); ++t) {
+      for (std::size_t i = 0; i < own.size(); ++i) {
+        ErrorSamples& samples = of[t].emplace_back();
+        for (const auto list : kSampleLists) {
+          (samples.*list).resize(static_cast<std::size_t>(rest[t].at(at[t]++)));
+          for (double& v : samples.*list) v = rest[t].at(at[t]++);
         }
       }
     }
+    for (const auto list : kSampleLists) {
+      const std::size_t n = (of[0][0].*list).size();
+      bool common = n > 1;
+      for (const auto& task : of) {
+        for (const ErrorSamples& samples : task) common = common && (samples.*list).size() == n;
+      }
+      if (!common) continue;
+      const bool changes = list != &ErrorSamples::sampling;
+      // Of all skins, or without one: the samples of a jackknife the other way round.
+      const auto objective = [&](std::optional<std::size_t> skin) {
+        std::vector<std::vector<double>> there = numbers;
+        for (std::size_t t = 0; t < there.size(); ++t) {
+          for (std::size_t i = 0; i < own.size(); ++i) {
+            const std::vector<double>& samples = of[t][i].*list;
+            const double mean = mean_estimate(samples).value;
+            const double rest_of =
+                skin ? mean - (samples[*skin] - mean) / static_cast<double>(n - 1) : mean;
+            there[t][own[i]] = (changes ? there[t][own[i]] : 0) + rest_of;
+          }
+        }
+        return combined(k, there, nullptr) - (changes ? score.values[k] : 0);
+      };
+      std::vector<double> without;
+      for (std::size_t skin = 0; skin < n; ++skin) without.push_back(objective(skin));
+      score.samples[k].*list = jackknife_samples(objective(std::nullopt), without);
+    }
   }
-  if (!common) score.samples.clear();
-  for (std::size_t t = 0; t < nominal_; ++t)
-    tasks[t].erase(tasks[t].begin(), tasks[t].begin() + static_cast<std::ptrdiff_t>(at[t]));
+  for (std::size_t t = 0; t < rest.size(); ++t)
+    rest[t].erase(rest[t].begin(), rest[t].begin() + static_cast<std::ptrdiff_t>(at[t]));
 }
 
 // Fingers of one uncertainty move together, others on their own; all share their skins.

@@ -62,8 +62,7 @@ struct Score {
   // the same for every design of a study. Empty where not known (of an objective: not defined at a
   // step); only of confirmed designs. Eq. accuracy.12
   std::vector<StepSamples> parameter_steps;
-  // Behind the errors, one an objective, over all tasks by weight; only of confirmed designs under
-  // no risk, else empty.
+  // Behind the errors, one an objective; only of confirmed designs. Eq. accuracy.14
   std::vector<ErrorSamples> samples;
   std::vector<double> residuals;     // of targets: weighted distances, one a task and humidity
   double worst = 0;                  // lowest modulation over tasks and humidities; 0: undriven
@@ -161,7 +160,15 @@ class StudyProblem {
   std::size_t task_numbers() const;  // of a task's info, before the steps of the parameters
   Fidelity steps_fidelity(Fidelity fidelity) const;
   std::vector<double> sample_numbers(const Response& response) const;
-  void add_samples(Score& score, std::vector<std::vector<double>>& tasks) const;
+  // Which numbers of a task an objective is made of: a summary over humidity, or the quantity at
+  // each where the objective or its risk takes those.
+  bool by_points(std::size_t objective) const;
+  std::vector<std::size_t> entries(std::size_t objective) const;
+  // An objective from the numbers of all tasks. residuals: of targets are appended; or null.
+  double combined(std::size_t objective, const std::vector<std::vector<double>>& numbers,
+                  std::vector<double>* residuals) const;
+  void add_samples(Score& score, const std::vector<std::vector<double>>& numbers,
+                   std::vector<std::vector<double>>& rest) const;
   std::vector<double> step_numbers(const Response& response) const;
   // The design of a task.
   Design task_design(Design design, const StudyTask& task) const;

@@ -19,6 +19,7 @@
 #include "base/files.h"
 #include "config/writer.h"
 #include "forward/plan.h"
+#include "geometry/io/files.h"
 #include "optim/journal.h"
 #include "optim/mpi.h"
 #include "optim/pareto.h"
@@ -299,7 +300,8 @@ class Run {
     if (go_on && !result_.interrupted) check();
     // Of a finished run that was to be written anew: what is there stays.
     if (result_.interrupted && fs::exists(folder_ + "/best/design.toml")) return std::move(result_);
-    ResultFiles files{folder_, study_, problem_, history_, result_, options_.pick};
+    const std::string rule = unmet_pick_.empty() ? options_.pick : "";
+    ResultFiles files{folder_, study_, problem_, history_, result_, rule};
     write_results(files);
     if (!result_.interrupted && result_.has_best())
       write_bytes(folder_ + "/report.html", report_page(folder_));
@@ -309,12 +311,17 @@ class Run {
                             "\"check_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
                             searched, narrowed - searched, confirmed - narrowed,
                             seconds() - confirmed, evaluation_seconds()));
+    if (!unmet_pick_.empty()) {
+      throw InputError(unmet_pick_ + "; " + folder_ +
+                       " is written with the usual choice: another with --resume --pick");
+    }
     return std::move(result_);
   }
 
  private:
   // What can be refused before anything is written.
   static std::string checked_folder(const OptimiseOptions& options, const StudyProblem& problem) {
+    require_images();
     check_pick_rule(options.pick, problem.objectives());
     if (options.resume && !fs::exists(options.folder + "/journal"))
       throw InputError(options.folder + ": no run to continue here (no journal)");
@@ -930,8 +937,16 @@ class Run {
       c.worst = f.confirmed.worst;
       front.push_back(std::move(c));
     }
-    if (!front.empty()) result_.best = pick_design(options_.pick, front);
     picked_ = true;
+    if (front.empty()) return;
+    try {
+      result_.best = pick_design(options_.pick, front);
+    } catch (const InputError& e) {
+      // Of a first run the results are worth more than the rule that fits none of them.
+      if (fs::exists(folder_ + "/best/design.toml")) throw;
+      result_.best = pick_design("", front);
+      unmet_pick_ = e.what();
+    }
   }
 
   const Study& study_;
@@ -945,6 +960,7 @@ class Run {
   Pool pool_;
   OptimiseResult result_;
   std::vector<Evaluation> history_, narrowed_;
+  std::string unmet_pick_;  // why the rule of options_.pick fits no design of the front
   std::size_t next_record_ = 0;
   bool picked_ = false, beside_journal_ = false;
   double spent_ = 0;

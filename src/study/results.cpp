@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kExportPixels = 512;  // across one patch
 constexpr const char* kNoBetter =
     "The best design is no better than its surface without texture: no objective gains more than "
-    "the error of either.";
+    "the error of the difference.";
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
@@ -320,9 +320,9 @@ class Writer {
       out += " |";
     }
     out +=
-        " |\n\n± of the difference is from both on the same skins, droplets and grid, pair by "
-        "pair: "
-        "what moves both alike is not in it.\n";
+        " |\n\n± of the difference is from both on the same skins, droplets and grid, skin by "
+        "skin: what moves both alike is not in it (the larger of both where their numbers of skins "
+        "differ).\n";
     if (r.flat_before) {
       out +=
           "\nFrom the first row to the second is the finish (and drive), from the second to the "

@@ -417,6 +417,14 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
            {"solve droplets --design " + kSample + " --hysteresis 5", "--hysteresis"},
            {"solve droplets --design " + kSample + " --placements 2 --spread 0", "--spread"},
            {"evaluate " + kSample + " --set accuracy.grid=7", "at least 16 pixels"},
+           {"evaluate " + kSample + " --accuracy ''", "--accuracy"},
+           {"evaluate " + kSample +
+                " --set finger.skin.map=" PAPILLA_TEST_DATA
+                "/../../designs/measured_surface/scan.gsf --set model.closure=persson",
+            "finger.skin.map"},
+           {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --time '-1 min'", "--time"},
+           {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --set objective.risk='mean - -2 std'",
+            "seeks risk"},
            {"evaluate " + kSample + " --set texture.type=stack", "at least one part"},
            {"export " + kSample + " --format dose --dose-curve semicolons.csv --out out",
             "the separator is a comma"}}) {

@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/io/files.h"
+#include "geometry/measured.h"
+#include "geometry/roughness.h"
 #include "metrics/metrics.h"
 #include "study/design.h"
 
@@ -328,6 +331,65 @@ TEST(Forward, WaterUnderASoftParticleSettles) {
     EXPECT_TRUE(std::isfinite(p.friction_off.value));
     EXPECT_GT(p.bridges.value, 0);
   }
+}
+
+// A map of 48 um of the spectrum's own surface: the skin is as rough either way.
+TEST(SkinMap, OfTheSpectrumGivesWhatTheSpectrumGives) {
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.15};
+  const Skin& skin = scene.finger.skin;
+  const std::string file = testing::TempDir() + "papilla_skin.gsf";
+  const Grid wide{512, 512, 48e-6, 48e-6};
+  write_gsf(file, random_surface({skin.rms, skin.roll_off, skin.hurst, skin.cutoff}, wide, 7, 0),
+            {});
+  const Fidelity f = small(16);
+  const Response spectrum = evaluate(scene, Texture{}, f);
+  scene.finger.skin.map = file;
+  const Response map = evaluate(scene, Texture{}, f);
+  EXPECT_EQ(map.plan.skin_cutoff, 2 * wide.dx());
+  const auto near = [&](Measured ResponsePoint::*quantity, double share) {
+    const double a = (map.points[0].*quantity).value, b = (spectrum.points[0].*quantity).value;
+    EXPECT_NE(a, b);  // it is the map's
+    EXPECT_NEAR(a, b, share * b);
+  };
+  near(&ResponsePoint::area_fraction_off, 0.25);
+  near(&ResponsePoint::modulation, 0.25);
+  near(&ResponsePoint::mean_gap, 0.25);
+  EXPECT_EQ(evaluate(scene, Texture{}, f).points[0], map.points[0]);
+}
+
+TEST(SkinMap, IsCutAnywhereAndRepeatsWithoutAStep) {
+  const std::string file = testing::TempDir() + "papilla_skin_cut.gsf";
+  Heightmap tilted = random_surface({256e-9, 3.7e-6, 0.8, 200e-9}, {256, 256, 30e-6, 30e-6}, 7, 0);
+  for (int iy = 0; iy < 256; ++iy) {
+    for (int ix = 0; ix < 256; ++ix) tilted(ix, iy) += 0.5 * tilted.grid.x(ix);
+  }
+  write_gsf(file, tilted, {});
+  const Grid grid{128, 128, 12e-6, 12e-6};
+  const auto steps = [](const Heightmap& h, int ix) {  // rms over the column's right border
+    double sum = 0;
+    for (int iy = 0; iy < h.grid.ny; ++iy)
+      sum += std::pow(h((ix + 1) % h.grid.nx, iy) - h(ix, iy), 2) / h.grid.ny;
+    return std::sqrt(sum);
+  };
+  const Heightmap a = measured_skin(file, 0, grid, 1, 0), b = measured_skin(file, 0, grid, 1, 1);
+  EXPECT_NE(a.z, b.z);
+  EXPECT_EQ(a.z, measured_skin(file, 0, grid, 1, 0).z);
+  double inside = 0;
+  for (int ix = 20; ix < 100; ++ix) inside += steps(a, ix) / 80;
+  EXPECT_LT(steps(a, 127), 2 * inside);
+  EXPECT_THROW(measured_skin(file, 0, {64, 64, 28e-6, 28e-6}, 1, 0), InputError);  // no seam left
+}
+
+TEST(Response, TheTroubleOfEveryHumidityIsTold) {
+  Response r;
+  r.points.resize(3);
+  r.points[0].relative_humidity = 0.15;
+  r.points[0].status = "full contact";
+  r.points[1].relative_humidity = 0.35;
+  r.points[2].relative_humidity = 0.75;
+  r.points[2].status = "pull-in: no equilibrium";
+  EXPECT_EQ(r.trouble(), "15 % RH: full contact; 75 % RH: pull-in: no equilibrium");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -142,6 +143,16 @@ TEST_F(Files, MaskPolarityIsWhatWasAskedFor) {
 TEST_F(Files, AFailedWriteLeavesTheOldFile) {
   write_bytes(path("x.txt"), "old");
   EXPECT_THROW(write_bytes(path("missing/x.txt"), "new"), InputError);
+  // What a rename would destroy is refused, a link is followed.
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  EXPECT_THROW(write_bytes(path("pipe"), "new"), InputError);
+  EXPECT_THROW(write_exr(path("pipe"), holes(), {}), InputError);
+  EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
+  EXPECT_THROW(write_bytes(folder_.string(), "new"), InputError);
+  std::filesystem::create_symlink(path("x.txt"), path("link.txt"));
+  write_bytes(path("link.txt"), "through");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link.txt")));
+  EXPECT_EQ(read_bytes(path("x.txt")), "through");
   Heightmap broken = holes();
   write_exr(path("x.exr"), holes(), {});
   const std::string before = read_bytes(path("x.exr"));

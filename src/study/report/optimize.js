@@ -296,10 +296,12 @@ function showDesign() {
   if (angle) rows.push(['contact angle of the surface', round(+angle[1], 3) + ' °']);
   table($('dimensions'), ['Dimension', 'Value'], rows, [1]);
   const flat = data.designs.best.flat;
-  table($('numbers'), ['Result', label(state.design), 'flat'],
-    Object.keys(d.objectives).map((name) => [name, withError(d.objectives[name]), flat ? withError(flat.objectives[name]) : '–'])
-      .concat([['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–'], ['oxide breakdown margin', round(d.oxide_breakdown_margin), '']])
-      .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '']] : []), [1, 2]);
+  // The difference has an error of its own: both met the same skins, droplets and grids.
+  const lead = (d.flat || {}).difference || {};
+  table($('numbers'), ['Result', label(state.design), 'flat', 'difference'],
+    Object.keys(d.objectives).map((name) => [name, withError(d.objectives[name]), flat ? withError(flat.objectives[name]) : '–', withError(lead[name])])
+      .concat([['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–', ''], ['oxide breakdown margin', round(d.oxide_breakdown_margin), '', '']])
+      .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '', '']] : []), [1, 2, 3]);
   $('toml').textContent = d.toml;
 }
 
