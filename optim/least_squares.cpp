@@ -366,7 +366,10 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
     Attempt other = attempt(kShortRegion);
     if (other.sum() < found.sum()) found = std::move(other);
   }
-  const auto& [best, at_bound, jacobian, has_jacobian] = found;
+  const auto& best = found.solution;  // not bound at once: clang 14 captures no such names
+  const auto& at_bound = found.at_bound;
+  const auto& jacobian = found.jacobian;
+  const bool has_jacobian = found.has_jacobian;
 
   LeastSquaresFit out;
   out.converged = best.converged;

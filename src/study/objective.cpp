@@ -896,6 +896,13 @@ void StudyProblem::add_samples(Score& score, const std::vector<std::vector<doubl
       for (std::size_t skin = 0; skin < n; ++skin) without.push_back(objective(skin));
       score.samples[k].*list = jackknife_samples(objective(std::nullopt), without);
     }
+    // The tasks state the error of their own summaries, not that of a risk over them.
+    const ErrorSamples& samples = score.samples[k];
+    if ((by_points(k) || risk_.kind != Risk::Kind::Mean) && samples.sampling.size() > 1) {
+      score.errors[k] =
+          std::sqrt(square(mean_estimate(samples.sampling).se) + square(grid_error(samples.grid)) +
+                    square(method_error(samples.method)));
+    }
   }
   for (std::size_t t = 0; t < rest.size(); ++t)
     rest[t].erase(rest[t].begin(), rest[t].begin() + static_cast<std::ptrdiff_t>(at[t]));

@@ -456,7 +456,8 @@ TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
     for (std::size_t k = 0; k < best.values.size(); ++k) {
       const double error = difference_error(best, *r.flat, k);
       EXPECT_GT(error, 0) << k;
-      EXPECT_LT(error, 0.3 * std::min(best.errors[k], r.flat->errors[k])) << k;
+      // A risk takes each humidity alone, where the droplets of a skin may settle otherwise.
+      EXPECT_LT(error, (*risk ? 0.8 : 0.3) * std::min(best.errors[k], r.flat->errors[k])) << k;
       EXPECT_EQ(difference_error(best, best, k), 0) << k;
     }
   }
