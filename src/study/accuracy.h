@@ -62,13 +62,14 @@ Scene random_scene(int index, Texture& texture);
 std::vector<CoverageRow> coverage(const CoverageOptions& options);
 Fidelity coverage_reference(const CoverageOptions& options);
 
-// Share of the scenes whose reference lies inside the 95 % interval, median half-width over the
+// Share of the scenes whose reference lies inside the 95 % interval, the same with the reference's
+// own standard error added to the interval in squares, median half-width over the
 // 95 % quantile of the errors, and the root mean square of error over stated standard error (1 for
 // bars that fit, whatever the spread of sizes among scenes); by fidelity and quantity.
 struct CoverageSummary {
   std::string fidelity, quantity;
   int scenes = 0;
-  double inside = 0, median_half_width = 0, error_quantile = 0, rms_ratio = 0;
+  double inside = 0, inside_both = 0, median_half_width = 0, error_quantile = 0, rms_ratio = 0;
 };
 std::vector<CoverageSummary> coverage_summary(const std::vector<CoverageRow>& rows);
 
