@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
@@ -99,6 +100,8 @@ Journal::Journal(const std::string& path, const std::string& key, bool resume) :
           sound = end + 1;
         }
       }
+      lost_ = static_cast<int>(
+          std::count(text.begin() + static_cast<std::ptrdiff_t>(sound), text.end(), '\n'));
       if (!records_.empty() && !resume) {
         throw InputError(path +
                          ": this folder holds an earlier run; continue it with --resume, or choose "

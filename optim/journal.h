@@ -21,11 +21,14 @@ class Journal {
   Journal& operator=(const Journal&) = delete;
 
   const std::vector<Evaluation>& records() const { return records_; }
+  // Whole lines behind the first damaged record, that one included: they are cut off. A torn last
+  // line is the trace of a kill and does not count.
+  int lost() const { return lost_; }
   void append(const Evaluation& evaluation);  // written and flushed to disk on return
 
  private:
   std::string path_;
-  int file_ = -1;
+  int file_ = -1, lost_ = 0;
   std::vector<Evaluation> records_;
 };
 

@@ -189,6 +189,10 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     }
     context.print(text);
   }
+  if (result.lost > 0) {
+    context.note(fmt::format("{} of {}/journal could not be read any more and was done again",
+                             counted(result.lost, "record"), run.folder));
+  }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result.interrupted) {

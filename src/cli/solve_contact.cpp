@@ -101,6 +101,12 @@ int solve(const ContactCommand& c) {
   }
   const double pressure = c.pressure.empty() ? 0 : parse_si(c.pressure, "kPa");
   if (pressure < 0) throw InputError("--pressure must not be negative");
+  // Far beyond what a linear solid stands for; at 1e12 of it round-off is all that is left.
+  constexpr double kMostStrain = 100;
+  if (pressure > kMostStrain * std::max(solid.layer_modulus, solid.bulk_modulus)) {
+    throw InputError(fmt::format("--pressure: {} is more than {:.0f} times the modulus", c.pressure,
+                                 kMostStrain));
+  }
   const double approach = c.approach.empty() ? 0 : positive(c.approach, "nm", "--approach");
   if (approach > 0 && c.method == ContactMethod::Sparse) {
     throw InputError("the sparse method needs a load: --pressure");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/units.h"
 #include "geometry/measured.h"
 #include "physics/capillary/droplets.h"
@@ -29,8 +30,10 @@ Prices prices(const Scene& scene, const Plan& plan, const Grid& grid, const Fide
   const auto digits = [](double tolerance) { return std::max(1.0, -std::log10(tolerance)); };
   const double contact = std::max(3.0, 3.3 * digits(fidelity.contact_tolerance) - 5) * pair;
   Prices out{contact, 0, 0, 0};
+  // More droplets on a longer patch: 100 um take 16 times the water of the window, not 69.
+  const double room = std::pow(std::max(1.0, grid.area() / square(kWindow)), 2.0 / 3);
   if (plan.water)
-    out.water = scene.model.water == WaterModel::Droplets ? 1e-5 * std::sqrt(n) : 9e-9 * n;
+    out.water = scene.model.water == WaterModel::Droplets ? 1e-5 * std::sqrt(n) * room : 9e-9 * n;
   if (plan.field) {
     switch (field_method(scene.model)) {
       case FieldMethod::Local:

@@ -327,7 +327,8 @@ std::string response_table(const Response& response) {
   } else {
     out += "undriven (0 V): no modulation\n";
     if (const auto friction = summarise(Summary::Mean, "friction", response))
-      out += "error of the mean friction: " + budget_text(*friction) + "\n";
+      out += fmt::format("mean friction {:.1f} ±{:.1f} mN; error: {}\n", 1e3 * friction->value,
+                         1e3 * friction->se, budget_text(*friction));
   }
   if (const auto& look = response.appearance) {
     if (look->regime == "refused") {

@@ -287,6 +287,7 @@ class Run {
 
   OptimiseResult run() {
     check_budget();
+    result_.lost = journal_.lost();
     result_.method = method_.name;
     result_.why = method_.why;
     write_bytes(folder_ + "/resolved.toml", resolved_toml(study_));

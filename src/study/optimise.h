@@ -53,6 +53,7 @@ struct VariableSensitivity {
 struct OptimiseResult {
   std::string method, why;
   int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
+  int lost = 0;  // damaged records of the resumed run, computed anew
   bool interrupted = false;
   bool any_feasible = false;
   std::vector<std::string> never_kept;  // constraints that no design of the search keeps

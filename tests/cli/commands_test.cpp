@@ -418,6 +418,9 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
            {"solve droplets --design " + kSample + " --placements 2 --spread 0", "--spread"},
            {"evaluate " + kSample + " --set accuracy.grid=7", "at least 16 pixels"},
            {"evaluate " + kSample + " --accuracy ''", "--accuracy"},
+           {"solve contact --height " PAPILLA_SOURCE_DIR
+            "/designs/measured_surface/scan.gsf --pressure 1e20MPa --modulus 53MPa",
+            "times the modulus"},
            {"evaluate " + kSample +
                 " --set finger.skin.map=" PAPILLA_TEST_DATA
                 "/../../designs/measured_surface/scan.gsf --set model.closure=persson",

@@ -80,6 +80,25 @@ TEST_F(JournalFile, ACutAtAnyByteLosesAtMostTheTornRecord) {
   }
 }
 
+TEST_F(JournalFile, DamagedRecordsAreCountedATornOneIsNot) {
+  {
+    Journal journal(path_, "key", false);
+    for (int i = 0; i < 5; ++i) journal.append(record(i));
+  }
+  std::string text = bytes();
+  text.pop_back();  // the trace of a kill
+  std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
+  EXPECT_EQ(Journal(path_, "key", true).lost(), 0);
+  text = bytes();  // four records
+  std::size_t begin = 0;
+  for (int line = 0; line < 2; ++line) begin = text.find('\n', begin) + 1;
+  text[begin + 5] = text[begin + 5] == 'x' ? 'y' : 'x';  // in the second
+  std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
+  Journal journal(path_, "key", true);
+  EXPECT_EQ(journal.records().size(), 1u);
+  EXPECT_EQ(journal.lost(), 3);
+}
+
 TEST_F(JournalFile, AnotherStudyOrAnUnaskedResumeIsRefused) {
   {
     Journal journal(path_, "key", false);
