@@ -11,6 +11,10 @@ const std::string kOptimize = "'" PAPILLA_PROGRAM "' --quiet optimize '" + kStud
 const std::string kLaunch =
     "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe ";
 
+// Until the run in the background has recorded something; a minute at most.
+const std::string kUntilJournal =
+    "for i in $(seq 600); do [ -s run/journal ] && break; sleep 0.1; done; ";
+
 void expect_same(const Workplace& place, const std::string& a, const std::string& b) {
   for (const char* file :
        {"journal", "pareto.csv", "history.csv", "summary.md", "best/metrics.json"}) {
@@ -54,9 +58,11 @@ TEST(Optimize, TheLossOfARankIsResumed) {
   if (!has_mpi(place)) GTEST_SKIP() << "no MPI here";
   ASSERT_EQ(place.shell(kOptimize + " --out whole").status, 0);
   const Outcome lost = place.shell(
-      "cp '" PAPILLA_PROGRAM "' papilla_here; " + kLaunch +
-      "-n 3 ./papilla_here --quiet optimize '" + kStudy +
-      "' --out run & launcher=$!; while [ ! -s run/journal ]; do sleep 0.1; done; sleep 0.5; "
+      "cp '" PAPILLA_PROGRAM "' papilla_here; cp \"$(dirname '" PAPILLA_PROGRAM
+      "')/papilla_images.so\" .; " +
+      kLaunch + "-n 3 ./papilla_here --quiet optimize '" + kStudy + "' --out run & launcher=$!; " +
+      kUntilJournal +
+      "sleep 0.5; "
       "for process in /proc/[0-9]*; do"
       "  [ \"$(readlink $process/exe)\" = \"$PWD/papilla_here\" ] &&"
       "  grep -qz '^OMPI_COMM_WORLD_RANK=2$' $process/environ && kill -9 ${process#/proc/};"
@@ -70,10 +76,8 @@ TEST(Optimize, TheLossOfARankIsResumed) {
 TEST(Optimize, ASecondRunInAFolderIsRefusedWhileTheFirstLives) {
   Workplace place;
   const Outcome second = place.shell(
-      kOptimize +
-      " --out run > first.txt 2>&1 & first=$!; while [ ! -s run/journal ]; do sleep "
-      "0.1; done; " +
-      kOptimize + " --out run --resume; status=$?; kill -INT $first; wait $first; exit $status");
+      kOptimize + " --out run > first.txt 2>&1 & first=$!; " + kUntilJournal + kOptimize +
+      " --out run --resume; status=$?; kill -INT $first; wait $first; exit $status");
   EXPECT_EQ(second.status, 2) << second.out;
   EXPECT_NE(second.err.find("another run is working in this folder"), std::string::npos)
       << second.err;
@@ -82,10 +86,9 @@ TEST(Optimize, ASecondRunInAFolderIsRefusedWhileTheFirstLives) {
 TEST(Optimize, AnInterruptEndsTidilyAndIsResumed) {
   Workplace place;
   ASSERT_EQ(place.shell(kOptimize + " --out whole").status, 0);
-  const Outcome ended =
-      place.shell(kOptimize +
-                  " --out run & run=$!; while [ ! -s run/journal ]; do sleep 0.1; done; sleep 0.4; "
-                  "kill -INT $run; wait $run");
+  const Outcome ended = place.shell(kOptimize + " --out run & run=$!; " + kUntilJournal +
+                                    "sleep 0.4; "
+                                    "kill -INT $run; wait $run");
   EXPECT_EQ(ended.status, 1) << ended.err;
   const std::string summary = file_text(place.path() / "run/summary.md");
   EXPECT_NE(summary.find("continue with --resume"), std::string::npos) << summary;
