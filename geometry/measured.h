@@ -12,10 +12,10 @@ namespace papilla {
 // middle. Throws InputError for a map smaller than its patch.
 Heightmap measured_heights(const Measured3d& map, const Grid& grid);
 
-// A patch of a measured skin: a cut of the map at a random place, mirrored at random, levelled and
-// made periodic. Independent patches are cuts of the same map: they know no more of the skin than
-// it does. width [m]: where the file does not say. Throws InputError for a map that is smaller than
-// the patch and a tenth.
+// A patch of a measured skin (Eq. geometry.5): a cut of the map at a random place, mirrored at
+// random, levelled and made periodic. Independent patches are cuts of the same map: they know no
+// more of the skin than it does. width [m]: where the file does not say. Throws InputError for a
+// map that is smaller than the patch and a tenth.
 Heightmap measured_skin(const std::string& file, double width, const Grid& grid, std::uint64_t seed,
                         std::uint64_t index);
 // The shortest wavelength that the map holds [m].
