@@ -16,27 +16,42 @@
 namespace papilla {
 namespace {
 
+// A plane a + b x + c y.
+struct Plane {
+  double a = 0, b = 0, c = 0;
+};
+
+// Least squares over the pixels of the map inside a rectangle with its lower corner at (x0, y0).
+Plane plane_of(const Heightmap& h, double x0, double y0, double lx, double ly) {
+  double n = 0, x = 0, y = 0, z = 0, xx = 0, yy = 0, xz = 0, yz = 0;
+  const auto each = [&](const auto& use) {
+    for (int iy = 0; iy < h.grid.ny; ++iy) {
+      if (h.grid.y(iy) < y0 || h.grid.y(iy) > y0 + ly) continue;
+      for (int ix = 0; ix < h.grid.nx; ++ix) {
+        if (h.grid.x(ix) >= x0 && h.grid.x(ix) <= x0 + lx)
+          use(h.grid.x(ix), h.grid.y(iy), h(ix, iy));
+      }
+    }
+  };
+  each([&](double px, double py, double pz) { n += 1, x += px, y += py, z += pz; });
+  if (n == 0) return {};
+  x /= n, y /= n, z /= n;
+  each([&](double px, double py, double pz) {
+    xx += (px - x) * (px - x), yy += (py - y) * (py - y);
+    xz += (px - x) * (pz - z), yz += (py - y) * (pz - z);
+  });
+  const double b = xx > 0 ? xz / xx : 0, c = yy > 0 ? yz / yy : 0;
+  return {z - b * x - c * y, b, c};
+}
+
 // Least-squares plane taken away; values further than 8 median absolute deviations from the median
 // count as outliers and get the mean of their neighbours.
 void level_and_mend(Heightmap& h) {
   const Grid& g = h.grid;
   const auto n = static_cast<double>(g.size());
-  double mean = 0, sx = 0, sy = 0, xx = 0, yy = 0;
+  const Plane plane = plane_of(h, 0, 0, g.lx, g.ly);
   for (int iy = 0; iy < g.ny; ++iy) {
-    for (int ix = 0; ix < g.nx; ++ix) {
-      const double x = g.x(ix) - 0.5 * g.lx, y = g.y(iy) - 0.5 * g.ly, z = h(ix, iy);
-      mean += z / n;
-      sx += x * z;
-      sy += y * z;
-      xx += x * x;
-      yy += y * y;
-    }
-  }
-  for (int iy = 0; iy < g.ny; ++iy) {
-    for (int ix = 0; ix < g.nx; ++ix) {
-      h(ix, iy) -= mean + (xx > 0 ? sx / xx * (g.x(ix) - 0.5 * g.lx) : 0) +
-                   (yy > 0 ? sy / yy * (g.y(iy) - 0.5 * g.ly) : 0);
-    }
+    for (int ix = 0; ix < g.nx; ++ix) h(ix, iy) -= plane.a + plane.b * g.x(ix) + plane.c * g.y(iy);
   }
   std::vector<double> sorted = h.z;
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
@@ -107,11 +122,6 @@ std::shared_ptr<const Heightmap> map_of(const std::string& file, double width) {
   return known;
 }
 
-// A plane a + b x + c y.
-struct Plane {
-  double a = 0, b = 0, c = 0;
-};
-
 // Cut with its lower corner at (x0, y0) [m], less a plane; the upper bands of width bx, by are
 // blended into what lies below the lower border, so that the patch repeats without a step (Eq.
 // geometry.4). Variance is kept. A pixel is the mean over its area.
@@ -149,29 +159,6 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
     }
   }
   return out;
-}
-
-// Least squares over the pixels of the map inside the cut.
-Plane plane_of(const Heightmap& h, double x0, double y0, double lx, double ly) {
-  double n = 0, x = 0, y = 0, z = 0, xx = 0, yy = 0, xz = 0, yz = 0;
-  const auto each = [&](const auto& use) {
-    for (int iy = 0; iy < h.grid.ny; ++iy) {
-      if (h.grid.y(iy) < y0 || h.grid.y(iy) > y0 + ly) continue;
-      for (int ix = 0; ix < h.grid.nx; ++ix) {
-        if (h.grid.x(ix) >= x0 && h.grid.x(ix) <= x0 + lx)
-          use(h.grid.x(ix), h.grid.y(iy), h(ix, iy));
-      }
-    }
-  };
-  each([&](double px, double py, double pz) { n += 1, x += px, y += py, z += pz; });
-  if (n == 0) return {};
-  x /= n, y /= n, z /= n;
-  each([&](double px, double py, double pz) {
-    xx += (px - x) * (px - x), yy += (py - y) * (py - y);
-    xz += (px - x) * (pz - z), yz += (py - y) * (pz - z);
-  });
-  const double b = xx > 0 ? xz / xx : 0, c = yy > 0 ? yz / yy : 0;
-  return {z - b * x - c * y, b, c};
 }
 
 constexpr double kSeam = 0.1;  // of a patch's side: the band that is blended
