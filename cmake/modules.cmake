@@ -1,30 +1,14 @@
-# papilla_module(NAME FOLDER... USES module... LIBS target...): every .cpp of the folders, one static library.
-# A folder that has no .cpp yet (headers only) becomes an interface library.
-function(papilla_module name)
-  cmake_parse_arguments(ARG "" "" "USES;LIBS" ${ARGN})
+# papilla_library(NAME FOLDER... LIBS target...): every .cpp of the folders, one library.
+function(papilla_library name)
+  cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   set(sources)
   foreach(folder ${ARG_UNPARSED_ARGUMENTS})
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
     list(APPEND sources ${found})
   endforeach()
-  list(TRANSFORM ARG_USES PREPEND papilla_)
-  if(sources)
-    add_library(papilla_${name} STATIC ${sources})
-    target_link_libraries(papilla_${name} PUBLIC papilla_options ${ARG_USES} ${ARG_LIBS})
-  else()
-    add_library(papilla_${name} INTERFACE)
-    target_link_libraries(papilla_${name} INTERFACE papilla_options ${ARG_USES} ${ARG_LIBS})
-  endif()
-endfunction()
-
-function(papilla_program name folder)
-  cmake_parse_arguments(ARG "" "" "USES;LIBS" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-  list(TRANSFORM ARG_USES PREPEND papilla_)
-  if(sources)
-    add_executable(${name} ${sources})
-    target_link_libraries(${name} PRIVATE papilla_options ${ARG_USES} ${ARG_LIBS})
-  endif()
+  add_library(${name} STATIC ${sources})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME papilla)
+  target_link_libraries(${name} PUBLIC papilla_options ${ARG_LIBS})
 endfunction()
 
 # papilla_embed(module OUT name file ...): each file becomes `extern const std::string_view name` in namespace papilla.
@@ -41,5 +25,5 @@ function(papilla_embed module out)
   add_custom_command(OUTPUT ${source} VERBATIM
     COMMAND ${CMAKE_COMMAND} -DOUT=${source} "-DSPEC=${spec}" -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
     DEPENDS ${files} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
-  target_sources(papilla_${module} PRIVATE ${source})
+  target_sources(${module} PRIVATE ${source})
 endfunction()

@@ -1,5 +1,5 @@
 // papilla accuracy [FILE]: speed against error.
-#include "study/accuracy.h"
+#include "measure/accuracy.h"
 
 #include <fmt/format.h>
 

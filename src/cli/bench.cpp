@@ -1,5 +1,5 @@
 // papilla bench: the performance targets, measured here.
-#include "study/bench.h"
+#include "measure/bench.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // papilla calibrate: fits the finger to measured friction or published numbers.
-#include "study/calibrate.h"
+#include "calibrate/calibrate.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
-#include "study/design.h"
-#include "study/report.h"
+#include "design/design.h"
+#include "report/page.h"
 
 namespace papilla {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/files.h"
 #include "cli/commands.h"
-#include "study/reference.h"
+#include "report/reference.h"
 
 namespace papilla {
 namespace {

@@ -14,14 +14,14 @@
 #include "cli/commands.h"
 #include "config/describe.h"
 #include "config/writer.h"
-#include "forward/voltage.h"
+#include "design/design.h"
+#include "estimate/parameters.h"
+#include "estimate/target.h"
+#include "estimate/voltage.h"
 #include "geometry/io/files.h"
+#include "measure/field_accuracy.h"
 #include "metrics/metrics.h"
-#include "study/design.h"
-#include "study/evaluation.h"
-#include "study/field_accuracy.h"
-#include "study/parameters.h"
-#include "study/target.h"
+#include "report/response.h"
 
 namespace papilla {
 namespace {

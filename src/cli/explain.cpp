@@ -6,11 +6,11 @@
 #include <memory>
 
 #include "cli/commands.h"
+#include "design/design.h"
+#include "estimate/target.h"
 #include "forward/skips.h"
-#include "study/design.h"
-#include "study/evaluation.h"
-#include "study/objective.h"
-#include "study/target.h"
+#include "report/response.h"
+#include "search/problem.h"
 
 namespace papilla {
 namespace {

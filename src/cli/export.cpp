@@ -1,5 +1,5 @@
 // papilla export DESIGN.toml: heightmap and mask files.
-#include "study/export.h"
+#include "fabricate/export.h"
 
 #include <fmt/format.h>
 
@@ -15,8 +15,8 @@
 #include "base/files.h"
 #include "base/units.h"
 #include "cli/commands.h"
-#include "study/pick.h"
-#include "study/verify.h"
+#include "fabricate/verify.h"
+#include "search/pick.h"
 
 namespace papilla {
 namespace {

@@ -15,7 +15,7 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "optim/mpi.h"
-#include "study/optimise.h"
+#include "search/run.h"
 
 namespace papilla {
 namespace {

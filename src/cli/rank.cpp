@@ -1,5 +1,5 @@
 // papilla rank: candidates in order, with intervals and the probability of being best.
-#include "study/rank.h"
+#include "rank/rank.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,7 +11,7 @@
 #include "base/files.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "study/report.h"
+#include "report/page.h"
 
 namespace papilla {
 namespace {

@@ -1,6 +1,4 @@
 // papilla report RESULT_DIR: one self-contained HTML page.
-#include "study/report.h"
-
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
@@ -8,6 +6,7 @@
 
 #include "base/files.h"
 #include "cli/commands.h"
+#include "report/page.h"
 
 namespace papilla {
 namespace {

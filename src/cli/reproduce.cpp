@@ -1,5 +1,5 @@
 // papilla reproduce: every published claim beside the model's number.
-#include "study/reproduce.h"
+#include "claims/reproduce.h"
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
-#include "study/design.h"
+#include "design/design.h"
 
 namespace papilla {
 namespace {

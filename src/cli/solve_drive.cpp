@@ -11,8 +11,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/units.h"
+#include "cases/drive_case.h"
 #include "cli/commands.h"
-#include "study/drive_case.h"
 
 namespace papilla {
 namespace {

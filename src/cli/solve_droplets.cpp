@@ -16,11 +16,11 @@
 #include "base/statistics.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "design/design.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
-#include "study/design.h"
 
 namespace papilla {
 namespace {

@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "design/design.h"
 #include "forward/appearance.h"
 #include "geometry/io/files.h"
-#include "study/design.h"
 
 namespace papilla {
 namespace {

@@ -10,8 +10,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cases/mean_field.h"
 #include "cli/commands.h"
-#include "study/mean_field.h"
 
 namespace papilla {
 namespace {

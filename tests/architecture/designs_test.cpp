@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "study/calibrate.h"
-#include "study/design.h"
-#include "study/reference.h"
+#include "calibrate/calibrate.h"
+#include "design/design.h"
+#include "report/reference.h"
 #include "tests/architecture/source_tree.h"
 
 namespace papilla {

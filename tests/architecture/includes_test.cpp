@@ -31,10 +31,23 @@ const std::map<std::string, std::set<std::string>>& allowed() {
     t["physics"] = {"base", "geometry", "scene", "fields"};
     t["forward"] = {"base", "config", "geometry", "scene", "fields", "physics"};
     t["metrics"] = {"base", "forward"};
-    t["study"] = {"base",    "config",  "geometry", "scene", "fields",
-                  "physics", "forward", "metrics",  "optim"};
-    t["cli"] = {"base",    "config",  "geometry", "scene", "fields",
-                "physics", "forward", "metrics",  "optim", "study"};
+    const auto add = [&](std::initializer_list<const char*> names, std::set<std::string> below) {
+      for (const char* name : names) t[name] = below;
+    };
+    std::set<std::string> below{"base",  "config",  "geometry", "scene",  "fields",
+                                "optim", "physics", "forward",  "metrics"};
+    add({"design"}, below);
+    below.insert("design");
+    add({"estimate"}, below);
+    below.insert("estimate");
+    // Side by side: none knows another.
+    const std::initializer_list<const char*> rooms{"search",  "rank",      "calibrate", "claims",
+                                                   "measure", "fabricate", "cases"};
+    add(rooms, below);
+    below.insert(rooms.begin(), rooms.end());
+    add({"report"}, below);
+    below.insert("report");
+    add({"cli"}, below);
     return t;
   }();
   return table;

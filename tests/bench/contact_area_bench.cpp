@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/memory.h"
-#include "study/area_error.h"
+#include "measure/area_error.h"
 
 int main() {
   papilla::keep_freed_memory();

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "study/field_accuracy.h"
+#include "measure/field_accuracy.h"
 
 int main(int argc, char** argv) {
   using namespace papilla;

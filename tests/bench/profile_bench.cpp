@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "base/memory.h"
+#include "design/design.h"
 #include "forward/forward.h"
-#include "study/design.h"
 
 int main() {
   using namespace papilla;

@@ -38,7 +38,7 @@
 #include "optim/algorithms/searchers.h"
 #include "optim/pareto.h"
 #include "optim/search.h"
-#include "study/objective.h"
+#include "search/problem.h"
 
 using namespace papilla;
 

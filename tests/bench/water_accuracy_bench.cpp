@@ -14,10 +14,10 @@
 #include "base/constants.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "design/design.h"
 #include "forward/forward.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
-#include "study/design.h"
 
 namespace {
 

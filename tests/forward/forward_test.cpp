@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "design/design.h"
 #include "geometry/io/files.h"
 #include "geometry/measured.h"
 #include "geometry/roughness.h"
 #include "metrics/metrics.h"
-#include "study/design.h"
 
 namespace papilla {
 namespace {

@@ -11,8 +11,8 @@
 #include "base/files.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "measure/accuracy.h"
 #include "physics/contact/contact.h"
-#include "study/accuracy.h"
 
 namespace papilla {
 namespace {

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "calibrate/calibrate.h"
 #include "config/describe.h"
+#include "design/design.h"
 #include "optim/journal.h"
-#include "study/calibrate.h"
-#include "study/design.h"
 #include "tests/fuzz/targets.h"
 
 namespace papilla {

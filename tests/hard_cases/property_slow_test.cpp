@@ -9,8 +9,8 @@
 #include "base/random.h"
 #include "forward/forward.h"
 #include "geometry/roughness.h"
+#include "measure/accuracy.h"
 #include "physics/contact/contact.h"
-#include "study/accuracy.h"
 
 namespace papilla {
 namespace {

@@ -10,9 +10,9 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/random.h"
+#include "fabricate/export.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
-#include "study/export.h"
 
 namespace papilla {
 namespace {

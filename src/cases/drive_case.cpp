@@ -1,0 +1,430 @@
+#include "cases/drive_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "config/reader.h"
+#include "design/design.h"
+#include "forward/forward.h"
+#include "physics/electrostatics/breakdown.h"
+
+namespace papilla {
+namespace {
+
+constexpr std::size_t kMostSamples = std::size_t{1} << 22;
+
+double insulating_if_zero(double resistivity) { return resistivity > 0 ? resistivity : kInfinity; }
+
+// Several layers as one: resistances and elastances add (exact for equal time constants).
+ImpedanceLayer stack(const std::vector<Dielectric>& layers, double area) {
+  ImpedanceLayer sum{0, 0};
+  double elastance = 0;
+  for (const Dielectric& layer : layers) {
+    if (layer.thickness == 0) continue;
+    const ImpedanceLayer one =
+        slab(layer.thickness, layer.permittivity, insulating_if_zero(layer.resistivity), area);
+    sum.resistance += one.resistance;
+    elastance += 1 / one.capacitance;
+  }
+  if (elastance > 0) sum.capacitance = 1 / elastance;
+  return sum;
+}
+
+Network given_network(const DriveCase& c) {
+  const double area = c.touch.area;
+  Network n;
+  n.dielectric = stack(c.surface.dielectric, area);
+  n.skin =
+      slab(c.skin.thickness, c.skin.permittivity, insulating_if_zero(c.skin.resistivity), area);
+  n.gap = plane_gap(c.gap.distance, c.gap.permittivity,
+                    insulating_if_zero(c.gap.resistivity) * c.gap.distance / area, area);
+  return n;
+}
+
+// The gap of the load-carrying patches of a design; water is left out.
+Network design_network(const DriveCase& c, double& area) {
+  const Design design = read_design(c.gap.design);
+  Fidelity fidelity = fidelity_of(design);
+  const Scene scene = scene_of(design);
+  const double rh = c.gap.relative_humidity;
+  const MacroContact& macro = scene.finger.macro;
+  area = macro.load_share * macro.gross_area(scene.finger.load, rh);
+  const double skin = scene.finger.electrical.equivalent_thickness(rh);
+  const double h0 = scene.surface.equivalent_thickness() + skin;
+  if (h0 <= 0) {
+    throw InputError(c.gap.design +
+                     ": a gap that touches a bare electrode has no voltage: give "
+                     "the surface a dielectric");
+  }
+  double inverse = 0, inverse_square = 0;
+  for (int k = 0; k < c.gap.skins; ++k) {
+    const PatchPicture picture = picture_patch(scene, design.texture, fidelity, rh, k);
+    const auto count = static_cast<double>(picture.fields.off.gap.size()) * c.gap.skins;
+    for (double g : picture.fields.off.gap) {
+      inverse += 1 / (std::max(g, 0.0) + h0) / count;
+      inverse_square += 1 / square(std::max(g, 0.0) + h0) / count;
+    }
+  }
+  Network n;
+  n.dielectric = stack(scene.surface.dielectric, area);
+  if (skin > 0) {
+    const double capacitance = kVacuumPermittivity * area / skin;
+    const double corner = scene.finger.electrical.corner_frequency;
+    n.skin = {corner > 0 ? 1 / (2 * kPi * corner * capacitance) : kInfinity, capacitance};
+  }
+  const double distance = 1 / inverse - h0;
+  n.gap = rough_gap(inverse, inverse_square, h0,
+                    insulating_if_zero(c.gap.resistivity) * distance / area, area);
+  return n;
+}
+
+Modulation modulation_of(const DriveCase& c) {
+  Modulation m;
+  if (c.drive.waveform != Waveform::Am) return m;
+  m.frequency = c.tones.frequency;
+  m.amplitude = c.tones.amplitude;
+  if (m.frequency.empty()) m = {{c.drive.modulation_frequency}, {1}};
+  if (m.amplitude.empty()) {
+    m.amplitude.assign(m.frequency.size(), 1 / static_cast<double>(m.frequency.size()));
+  }
+  return m;
+}
+
+double peak_amplitude(const Drive& drive) {
+  return drive.control == DriveControl::Current ? drive.current : drive.amplitude;
+}
+
+std::string polyline(const std::string& points, const char* color) {
+  return fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1\" points=\"{}\"/>\n",
+                     color, points);
+}
+
+std::string label(double x, double y, const std::string& text, const char* anchor = "middle") {
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
+                     text);
+}
+
+}  // namespace
+
+void fields(FieldVisitor& v, GapSettings& s) {
+  v.number({"distance", "um", 1e-4, 1e4, "plane gap", Source::Paper, "seed 004: 250 pF on 30 mm2"},
+           s.distance);
+  v.number({"resistivity", "ohm m", 0, 1e30, "of the gap; 0: an insulator", Source::Paper,
+            "seed 004: 17 Mohm"},
+           s.resistivity);
+  v.number({"permittivity", "", 1, 1e4, "of the gap"}, s.permittivity);
+  v.path({"design", "take gap, surface, skin and area from the solved patches of this design"},
+         s.design);
+  v.number({"relative_humidity", "%", 0, 100, "of that design"}, s.relative_humidity);
+  v.integer({"skins", "patches that are averaged"}, 1, 1000, s.skins);
+}
+
+void fields(FieldVisitor& v, CoatingSettings& s) {
+  v.list({"dielectric", "layers on the electrode"}, s.dielectric);
+}
+
+void fields(FieldVisitor& v, SkinLayerSettings& s) {
+  v.number({"thickness", "um", 0, 1e5, "stratum corneum", Source::Paper, "seed 001"}, s.thickness);
+  v.number({"permittivity", "", 1, 1e6, "its permittivity", Source::Paper, "seed 001"},
+           s.permittivity);
+  v.number({"resistivity", "ohm m", 0, 1e30, "its resistivity; 0: an insulator", Source::Paper,
+            "seed 001"},
+           s.resistivity);
+}
+
+void fields(FieldVisitor& v, DriveTouch& s) {
+  v.number({"load", "N", 0, 1e3, "normal force"}, s.load);
+  v.number({"area", "mm2", 1e-6, 1e6, "electrical contact area", Source::Paper, "seed 004"},
+           s.area);
+  v.number({"coefficient", "", 0, 10, "friction = coefficient (load + pull)", Source::Paper,
+            "seed 004: about 0.2"},
+           s.coefficient);
+  v.number(
+      {"real_area", "mm2", 0, 1e6, "area in true contact, for the onset of sliding; 0: not known"},
+      s.real_area);
+  v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength", Source::Paper,
+            "M3: 9 MPa"},
+           s.shear_strength);
+}
+
+void fields(FieldVisitor& v, Tones& s) {
+  v.numbers({"frequency", "Hz", 1e-3, 1e6, "am: tones; default: drive.modulation_frequency"},
+            s.frequency);
+  v.numbers({"amplitude", "", 0, 1, "am: depth of each; default: equal, together 1"}, s.amplitude);
+}
+
+void fields(FieldVisitor& v, SourceSettings& s) {
+  v.number({"shunt", "Mohm", 0, 1e12, "resistance across a current source; 0: none", Source::Paper,
+            "seed 004: keeps charge from building up"},
+           s.shunt);
+}
+
+void fields(FieldVisitor& v, ResponseSweep& s) {
+  v.numbers({"frequency", "Hz", 0, 1e9, "frequencies of a table for a plain sine"}, s.frequency);
+}
+
+void fields(FieldVisitor& v, DriveCase& s) {
+  v.integer(
+      {"schema_version", "version of the file format", Source::Choice, "", Presence::Required}, 1,
+      1, s.schema_version);
+  v.text({"title", "name of the case"}, s.title);
+  v.section({"drive", "the source"}, s.drive);
+  v.section({"source", "the amplifier"}, s.source);
+  v.section({"tones", "what modulates the carrier"}, s.tones);
+  v.section({"gap", "between surface and skin"}, s.gap);
+  v.section({"surface", "the coated electrode"}, s.surface);
+  v.section({"skin", "stratum corneum as an electrical layer"}, s.skin);
+  v.section({"touch", "finger"}, s.touch);
+  v.section({"sweep", "tables"}, s.sweep);
+}
+
+DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides) {
+  Document document = load_document(path, overrides, design_roots());
+  DriveCase c;
+  read_section(document, "", c);
+  const bool current = c.drive.control == DriveControl::Current;
+  if (peak_amplitude(c.drive) <= 0) {
+    document.problem_at(current ? "drive.current" : "drive.amplitude",
+                        current ? "expected a current above 0 mA under current control"
+                                : "expected a voltage above 0 V");
+  }
+  if (c.drive.waveform != Waveform::Dc && c.drive.frequency <= 0) {
+    document.problem_at("drive.frequency", "expected a frequency above 0 kHz, or waveform dc");
+  }
+  if (c.drive.waveform == Waveform::Am) {
+    if (c.tones.frequency.empty() && c.drive.modulation_frequency <= 0) {
+      document.problem_at("drive.modulation_frequency",
+                          "expected a frequency above 0 Hz, or tones.frequency, for am");
+    }
+    if (!c.tones.amplitude.empty() && c.tones.amplitude.size() != c.tones.frequency.size()) {
+      document.problem_at("tones.amplitude", "expected one amplitude for each tone");
+    }
+    double depth = 0;
+    for (double a : modulation_of(c).amplitude) depth += a;
+    if (depth > 1 + 1e-9) {
+      document.problem_at(
+          "tones.amplitude",
+          fmt::format("the amplitudes add to {:.3g}: the envelope would be negative, "
+                      "expected at most 1",
+                      depth));
+    }
+    for (double f : modulation_of(c).frequency) {
+      if (f >= c.drive.frequency) {
+        document.problem_at("tones.frequency", "expected tones below the carrier's frequency");
+      }
+    }
+  }
+  if (current && c.drive.waveform == Waveform::Dc && c.source.shunt == 0 &&
+      c.gap.resistivity == 0) {
+    document.problem_at("gap.resistivity",
+                        "a constant current through an insulating gap has no end: give the gap a "
+                        "resistivity or the source a shunt");
+  }
+  finish(document);
+  return c;
+}
+
+DriveResult solve_drive(const DriveCase& c) {
+  DriveResult r;
+  r.area = c.touch.area;
+  r.network = c.gap.design.empty() ? given_network(c) : design_network(c, r.area);
+  r.network.shunt = insulating_if_zero(c.source.shunt);
+  r.modulation = modulation_of(c);
+  const Drive& drive = c.drive;
+  const double frequency = drive.waveform == Waveform::Dc ? 0 : drive.frequency;
+  r.carrier = respond(r.network, drive.control, peak_amplitude(drive), frequency);
+
+  std::vector<double> frequencies = r.modulation.frequency;
+  frequencies.push_back(frequency);
+  const double period = common_period(frequencies);
+  // A plain sine needs few points a cycle; edges of a square many.
+  const double cycle = drive.waveform == Waveform::Square ? 4096 : 32;
+  const double samples = std::max(64.0, cycle * frequency * period);
+  if (period == 0 || samples > static_cast<double>(kMostSamples)) {
+    throw InputError({Problem{"", 0, 0, "tones.frequency",
+                              "carrier and tones have no short common period: choose frequencies "
+                              "that are multiples of one that is not too low"}});
+  }
+  r.series = force_series(
+      r.network, drive.control,
+      source_signal(drive.waveform, peak_amplitude(drive), frequency, r.modulation,
+                    drive.envelope_exponent, period, static_cast<std::size_t>(samples)));
+  r.friction = r.series.force;
+  for (double& f : r.friction.value) f = c.touch.coefficient * (c.touch.load + f);
+  r.lines = spectrum_lines(r.friction, std::max(4 * frequency, 1 / period));
+  if (drive.waveform == Waveform::Am) {
+    r.distortion = total_distortion(r.friction, r.modulation.frequency, 0.5 * frequency);
+  }
+  for (double f : c.sweep.frequency) {
+    r.response.push_back(respond(r.network, drive.control, peak_amplitude(drive), f));
+  }
+  r.checks.push_back({"body current", "mA", r.series.peak_current, drive.current_limit});
+  if (drive.source_compliance > 0) {
+    r.checks.push_back(
+        {"source voltage", "V", r.series.peak_source_voltage, drive.source_compliance});
+  }
+  r.checks.push_back({"gap voltage", "V", r.series.peak_gap_voltage,
+                      air_breakdown_voltage(r.network.gap.distance)});
+  if (const DriveTouch& t = c.touch; t.real_area > 0) {
+    const auto onset = [&](double pull, double still) {
+      return onset_friction(t.shear_strength, t.real_area, t.coefficient, t.load, pull, still);
+    };
+    r.onset_off = onset(0, 0);
+    r.onset_on = onset(r.series.mean_force, 0);
+    r.onset_static = onset(r.series.mean_force, 1);
+  }
+  return r;
+}
+
+std::string slip_state_name(SlipState state) {
+  switch (state) {
+    case SlipState::Idle:
+      return "idle";
+    case SlipState::Stuck:
+      return "stuck";
+    case SlipState::Partial:
+      return "partial slip";
+    case SlipState::Full:
+      return "full slip";
+  }
+  return "";
+}
+
+Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options) {
+  StictionMachine machine(options);
+  Swipe swipe;
+  std::istringstream lines(csv);
+  std::string line;
+  int number = 0, samples = 0;
+  while (std::getline(lines, line)) {
+    ++number;
+    const std::vector<std::string> cells = split(line, ',');
+    double force[2];
+    bool good = cells.size() == 2;
+    for (std::size_t i = 0; i < 2 && good; ++i) {
+      const char* end = cells[i].data() + cells[i].size();
+      const auto [stop, error] = std::from_chars(cells[i].data(), end, force[i]);
+      good = error == std::errc{} && stop == end && std::isfinite(force[i]);
+    }
+    if (!good) {
+      const bool head = number == 1 && cells.size() == 2 &&
+                        cells[0].find("lateral") != std::string::npos &&
+                        cells[1].find("normal") != std::string::npos;
+      if (head || line.empty()) continue;
+      throw InputError({Problem{name, number, 1, "",
+                                fmt::format("expected \"lateral,normal\" in N, got \"{}\"{}", line,
+                                            line.find(';') != std::string::npos
+                                                ? "; the separator is a comma, decimals a point"
+                                                : "")}});
+    }
+    const double time = samples++ * options.step;
+    const double current = machine.update(force[0], force[1]);
+    if (current > 0) swipe.driven += options.step;
+    if (swipe.steps.empty() || swipe.steps.back().state != machine.state())
+      swipe.steps.push_back({time, machine.state(), current});
+  }
+  swipe.duration = samples * options.step;
+  return swipe;
+}
+
+std::string drive_series_csv(const DriveResult& r) {
+  std::string out = "t [s],source voltage [V],current [A],gap voltage [V],pull [N],friction [N]\n";
+  for (std::size_t i = 0; i < r.friction.value.size(); ++i) {
+    out += fmt::format("{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
+                       static_cast<double>(i) * r.friction.step(), r.series.source_voltage.value[i],
+                       r.series.current.value[i], r.series.gap_voltage.value[i],
+                       r.series.force.value[i], r.friction.value[i]);
+  }
+  return out;
+}
+
+std::string drive_lines_csv(const DriveResult& r) {
+  std::string out = "frequency [Hz],friction amplitude [N]\n";
+  for (const SpectrumLine& line : r.lines) {
+    out += fmt::format("{:.9g},{:.6g}\n", line.frequency, line.amplitude);
+  }
+  return out;
+}
+
+std::string drive_svg(const DriveCase& c, const DriveResult& r) {
+  constexpr double kLeft = 70, kWidth = 680, kHeight = 200, kTop = 40, kGap = 70;
+  const std::vector<double>& y = r.friction.value;
+  const auto [least, most] = std::minmax_element(y.begin(), y.end());
+  const double low = *least, span = std::max(*most - low, 1e-12 * std::abs(*most) + 1e-300);
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"{:.0f}\" "
+      "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
+      "fill=\"white\"/>\n",
+      kTop + 2 * kHeight + kGap + 50);
+  std::string title = c.title;
+  for (const auto& [from, to] :
+       {std::pair{'&', "&amp;"}, std::pair{'<', "&lt;"}, std::pair{'>', "&gt;"}}) {
+    for (std::size_t i = 0; (i = title.find(from, i)) != std::string::npos; ++i) {
+      title.replace(i, 1, to);
+    }
+  }
+  out += label(400, 20, title);
+  const auto frame = [&](double top) {
+    return fmt::format(
+        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>\n",
+        kLeft, top, kWidth, kHeight);
+  };
+  // Friction over one period: least and largest value of each column.
+  out += frame(kTop);
+  std::string points;
+  const auto columns = static_cast<std::size_t>(kWidth);
+  for (std::size_t k = 0; k < columns; ++k) {
+    const std::size_t begin = k * y.size() / columns;
+    const std::size_t end = std::max(begin + 1, (k + 1) * y.size() / columns);
+    const auto [a, b] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(begin),
+                                            y.begin() + static_cast<std::ptrdiff_t>(end));
+    for (double v : {*a, *b}) {
+      points += fmt::format("{:.1f},{:.1f} ", kLeft + static_cast<double>(k),
+                            kTop + kHeight * (1 - (v - low) / span));
+    }
+  }
+  out += polyline(points, "#1f6fb4");
+  out += label(kLeft - 6, kTop + 10, fmt::format("{:.3g} mN", 1e3 * *most), "end");
+  out += label(kLeft - 6, kTop + kHeight, fmt::format("{:.3g}", 1e3 * low), "end");
+  out += label(kLeft + kWidth / 2, kTop + kHeight + 16,
+               fmt::format("friction over {:.4g} ms", 1e3 * r.friction.period));
+  // Lines of the spectrum, decades.
+  const double top = kTop + kHeight + kGap;
+  out += frame(top);
+  double first = kInfinity, last = 0, largest = 0;
+  for (const SpectrumLine& line : r.lines) {
+    if (line.frequency == 0) continue;
+    first = std::min(first, line.frequency);
+    last = std::max(last, line.frequency);
+    largest = std::max(largest, line.amplitude);
+  }
+  if (last > 0) {
+    const double from = std::floor(std::log10(first)), to = std::ceil(std::log10(last) + 1e-9);
+    const double width = std::max(1.0, to - from);
+    for (double decade = from; decade <= from + width; ++decade) {
+      const double x = kLeft + kWidth * (decade - from) / width;
+      out += label(x, top + kHeight + 16, fmt::format("{:g} Hz", std::pow(10, decade)));
+    }
+    for (const SpectrumLine& line : r.lines) {
+      if (line.frequency == 0) continue;
+      const double x = kLeft + kWidth * (std::log10(line.frequency) - from) / width;
+      const double height = kHeight * std::max(0.0, 1 + std::log10(line.amplitude / largest) / 6);
+      out += fmt::format(
+          "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#b4411f\"/>\n", x,
+          top + kHeight, x, top + kHeight - height);
+    }
+    out += label(kLeft - 6, top + 10, fmt::format("{:.3g} mN", 1e3 * largest), "end");
+    out += label(kLeft - 6, top + kHeight, "-120 dB", "end");
+  }
+  return out + "</svg>\n";
+}
+
+}  // namespace papilla

@@ -1,0 +1,196 @@
+#include "cases/mean_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "config/reader.h"
+#include "design/design.h"
+
+namespace papilla {
+
+PowerSpectrum SpectrumSettings::spectrum() const {
+  if (wave_number.empty()) {
+    return self_affine_spectrum(rms, lowest, roll_off, cutoff, hurst).scaled(scale);
+  }
+  return PowerSpectrum{wave_number, density}.scaled(scale);
+}
+
+void fields(FieldVisitor& v, SpectrumSettings& s) {
+  v.number({"rms", "um", 1e-6, 1e6, "rms height", Source::Fit, "skin of the wrist, seed 001"},
+           s.rms);
+  v.number({"lowest", "1/m", 1e-3, 1e12, "lowest wave number", Source::Paper, "seed 001"},
+           s.lowest);
+  v.number({"roll_off", "1/m", 1e-3, 1e12, "flat below this wave number", Source::Fit,
+            "to the printed numbers of seed 001"},
+           s.roll_off);
+  v.number({"cutoff", "1/m", 1e-3, 1e12, "highest wave number", Source::Fit,
+            "to the printed numbers of seed 001"},
+           s.cutoff);
+  v.number({"hurst", "", 0.01, 1, "Hurst exponent", Source::Paper, "seed 001"}, s.hurst);
+  v.number({"scale", "", 1e-12, 1e12, "factor of the whole spectrum"}, s.scale);
+  v.numbers({"wave_number", "1/m", 1e-3, 1e12, "knots of a measured spectrum instead"},
+            s.wave_number);
+  v.numbers({"density", "m4", 1e-60, 1e6, "C(q) at the knots, straight in log-log between"},
+            s.density);
+}
+
+void fields(FieldVisitor& v, SolidSettings& s) {
+  v.number({"modulus", "MPa", 1e-6, 1e7, "Young's modulus of the stratum corneum", Source::Paper,
+            "seed 001"},
+           s.solid.layer_modulus);
+  v.number({"poisson", "", 0, 0.5, "its Poisson ratio", Source::Paper, "seed 001"},
+           s.solid.layer_poisson);
+  v.number({"thickness", "um", 0, 1e6, "its thickness", Source::Paper, "seed 001"},
+           s.solid.layer_thickness);
+  v.number({"bulk_modulus", "kPa", 1e-6, 1e10, "Young's modulus below", Source::Paper, "seed 001"},
+           s.solid.bulk_modulus);
+  v.number({"bulk_poisson", "", 0, 0.5, "Poisson ratio below", Source::Paper, "seed 001"},
+           s.solid.bulk_poisson);
+  v.number({"hardness", "MPa", 0, 1e6, "yields at this pressure; 0: elastic"}, s.hardness);
+}
+
+std::complex<double> InterfaceSettings::thickness(double skin_thickness, double frequency) const {
+  double surface = 0;
+  for (const Dielectric& layer : dielectric) surface += layer.equivalent_thickness();
+  if (frequency <= 0) {
+    if (gap_resistivity > 0) return std::numeric_limits<double>::infinity();
+    return surface + (lossy_skin ? 0.0 : skin_equivalent);
+  }
+  if (lossy_skin) {
+    return series_thickness(surface, skin_thickness, SkinDielectric{}, frequency, gap_resistivity);
+  }
+  const std::complex<double> h0 = surface + skin_equivalent;
+  if (gap_resistivity == 0) return h0;
+  return h0 *
+         std::complex<double>(1, 1 / (2 * kPi * frequency * kVacuumPermittivity * gap_resistivity));
+}
+
+void fields(FieldVisitor& v, InterfaceSettings& s) {
+  v.list({"dielectric", "layers on the electrode"}, s.dielectric);
+  v.number({"skin_equivalent", "nm", 0, 1e7, "d/eps of the skin where it is lossless"},
+           s.skin_equivalent);
+  v.flag({"lossy_skin", "skin by frequency (printed anchors) with the layer's thickness",
+          Source::Paper, "seed 001"},
+         s.lossy_skin);
+  v.number({"gap_resistivity", "ohm m", 0, 1e30, "of the gap; 0: insulating"}, s.gap_resistivity);
+}
+
+void fields(FieldVisitor& v, TouchSettings& s) {
+  v.number({"load", "N", 0, 1e3, "normal force"}, s.load);
+  v.number({"area", "mm2", 1e-6, 1e6, "nominal contact area", Source::Estimate, "1 cm2"}, s.area);
+  v.number({"shear_strength", "MPa", 0, 1e4, "of true contact", Source::Paper, "seed 001"},
+           s.shear_strength);
+  v.number(
+      {"finite_size_pressure", "kPa", 0, 1e6,
+       "below it the gaps stay as they are there; 0: infinite body", Source::Paper, "seed 001"},
+      s.finite_size_pressure);
+}
+
+void fields(FieldVisitor& v, SweepSettings& s) {
+  v.numbers({"voltage", "V", 0, 1e5, "peak voltages of a table"}, s.voltage);
+  v.numbers({"load", "N", 0, 1e3, "normal forces of a table"}, s.load);
+  v.numbers({"frequency", "kHz", 0, 1e6, "frequencies of a table"}, s.frequency);
+}
+
+void fields(FieldVisitor& v, TheorySettings& s) {
+  v.number({"kappa", "", 0.1, 10, "area = kappa p/(slope E*) at small load; pure theory 1.596",
+            Source::Fit, "boundary elements"},
+           s.kappa);
+  v.number({"energy_factor", "", 0.01, 1, "elastic energy of partial contact over full contact's",
+            Source::Fit, "Yang and Persson 2008"},
+           s.energy_factor);
+}
+
+void fields(FieldVisitor& v, MeanFieldCase& s) {
+  v.integer(
+      {"schema_version", "version of the file format", Source::Choice, "", Presence::Required}, 1,
+      1, s.schema_version);
+  v.text({"title", "name of the case"}, s.title);
+  v.section({"roughness", "spectrum of the skin"}, s.roughness);
+  v.section({"skin", "elasticity of the skin"}, s.skin);
+  v.section({"interface", "dielectric layers"}, s.interface);
+  v.section({"touch", "load and friction"}, s.touch);
+  v.section({"drive", "electrical drive"}, s.drive);
+  v.section({"sweep", "tables"}, s.sweep);
+  v.section({"theory", "constants of the theory"}, s.theory);
+}
+
+MeanFieldCase read_mean_field(const std::string& path, const std::vector<std::string>& overrides) {
+  Document document = load_document(path, overrides, design_roots());
+  MeanFieldCase c;
+  c.drive.amplitude = 100;
+  c.drive.frequency = 1e3;
+  read_section(document, "", c);
+  const SpectrumSettings& r = c.roughness;
+  if (!(r.lowest <= r.roll_off && r.roll_off < r.cutoff)) {
+    document.problem_at("roughness.roll_off", "expected lowest <= roll_off < cutoff");
+  }
+  if (r.wave_number.size() != r.density.size() || r.wave_number.size() == 1) {
+    document.problem_at("roughness.density",
+                        "expected one density for each of at least two wave numbers");
+  } else if (!std::is_sorted(r.wave_number.begin(), r.wave_number.end(), std::less_equal<>())) {
+    document.problem_at("roughness.wave_number", "expected rising wave numbers");
+  }
+  if (c.drive.control == DriveControl::Current) {
+    document.problem_at("drive.control", "the mean field takes a voltage; see papilla solve drive");
+  }
+  if (c.touch.finite_size_pressure == 0 &&
+      (c.touch.load == 0 ||
+       std::find(c.sweep.load.begin(), c.sweep.load.end(), 0.0) != c.sweep.load.end())) {
+    document.problem_at("touch.load",
+                        "without load the gaps of an infinite body are infinite: give a load or a "
+                        "finite_size_pressure");
+  }
+  if (c.skin.hardness > 0 && c.touch.load / c.touch.area >= c.skin.hardness) {
+    document.problem_at("skin.hardness", "the nominal pressure reaches the hardness");
+  }
+  finish(document);
+  return c;
+}
+
+MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
+  const MeanFieldSolid& solid = c.skin.solid;
+  PowerSpectrum spectrum = c.roughness.spectrum();
+  if (c.skin.hardness > 0) {
+    const double pressure = std::max(c.touch.load / c.touch.area, c.touch.finite_size_pressure);
+    spectrum = plastic_smoothing(spectrum, solid, c.skin.hardness, pressure, c.theory.kappa);
+  }
+  const MeanField field(spectrum, solid,
+                        {.kappa = c.theory.kappa, .energy_factor = c.theory.energy_factor});
+  const auto solve = [&](double voltage, double load, double frequency) {
+    MeanFieldPoint point;
+    point.voltage = voltage;
+    point.load = load;
+    point.frequency = frequency;
+    point.thickness = c.interface.thickness(solid.layer_thickness, frequency);
+    Drive drive = c.drive;
+    drive.amplitude = voltage;
+    const bool pulls = std::isfinite(point.thickness.real());
+    const std::complex<double> h0 = pulls ? point.thickness : 1.0;
+    point.on = friction_at(field, load, c.touch.area, c.touch.shear_strength,
+                           pulls ? drive.v_rms() : 0, h0, c.touch.finite_size_pressure);
+    point.area_off = field.area(load / c.touch.area);
+    const double pressure = std::max(point.on.pull.pressure, c.touch.finite_size_pressure);
+    if (pulls) {
+      point.capacitance = kVacuumPermittivity * c.touch.area *
+                          field.gaps(pressure).inverse(std::abs(point.thickness));
+    }
+    return point;
+  };
+  MeanFieldResult result;
+  result.rms = spectrum.rms();
+  result.slope = spectrum.slope();
+  result.contact_modulus = effective_modulus(solid, spectrum.highest());
+  const double v = c.drive.amplitude, load = c.touch.load;
+  const double f = c.drive.waveform == Waveform::Dc ? 0 : c.drive.frequency;
+  result.point = solve(v, load, f);
+  for (double x : c.sweep.voltage) result.voltage.push_back(solve(x, load, f));
+  for (double x : c.sweep.load) result.load.push_back(solve(v, x, f));
+  for (double x : c.sweep.frequency) result.frequency.push_back(solve(v, load, x));
+  return result;
+}
+
+}  // namespace papilla

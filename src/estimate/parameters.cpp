@@ -1,0 +1,54 @@
+#include "estimate/parameters.h"
+
+#include <algorithm>
+
+#include "metrics/metrics.h"
+
+namespace papilla {
+namespace {
+
+// Differences on common skins scatter far less than values: a few skins on few pixels are enough.
+constexpr int kMostSkins = 8, kFinestGrid = 128;
+constexpr double kTolerance = 1e-3;
+
+}  // namespace
+
+Fidelity step_fidelity(const Fidelity& fidelity) {
+  Fidelity few = fidelity;
+  few.skins = std::min(fidelity.skins, kMostSkins);
+  few.grid = std::min(fidelity.grid, kFinestGrid);
+  few.contact_tolerance = std::max(fidelity.contact_tolerance, kTolerance);
+  few.estimator = Estimator::Load;
+  few.control_skins = 0;
+  return few;
+}
+
+void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
+                          const Fidelity& fidelity) {
+  const std::vector<FingerStep> steps = finger_steps(scene.finger);
+  const Fidelity few = step_fidelity(fidelity);
+  ParameterSteps& out = response.parameters;
+  out = {{}, few.skins, few.grid, ""};
+  const auto run = [&](const Finger& finger) -> Resampled {
+    Scene moved = scene;
+    moved.finger = finger;
+    const PatchSet patches = solve_patches(moved, texture, few);
+    Response there = respond(moved, few, patches);
+    if (out.trouble.empty()) out.trouble = there.trouble();
+    response.seconds += there.seconds;
+    response.contact_solves += there.contact_solves;
+    response.fft_pairs += there.fft_pairs;
+    return there;
+  };
+  for (const FingerStep& step : steps) out.steps.push_back({run(step.up), run(step.down)});
+  for (std::size_t i = 0; i < response.points.size(); ++i) {
+    for (const auto member : kMeasured) {
+      const auto value = [&](const std::vector<ResponsePoint>& points) {
+        return std::optional((points[i].*member).value);
+      };
+      (response.points[i].*member).parts.parameters = step_error(*step_samples(out.steps, value));
+    }
+  }
+}
+
+}  // namespace papilla

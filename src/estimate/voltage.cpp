@@ -1,0 +1,189 @@
+#include "estimate/voltage.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/units.h"
+#include "physics/electrostatics/breakdown.h"
+
+namespace papilla {
+namespace {
+
+constexpr double kLargestAmplitude = 1e5;  // [V] of the key drive.amplitude
+constexpr double kTolerance = 1e-3;        // of the amplitude
+constexpr int kMaxEvaluations = 40;
+
+// No equilibrium at that voltage, or none that friction is known for.
+bool beyond(const ResponsePoint& point) {
+  return point.status.starts_with("pull-in") || point.status.starts_with("full contact") ||
+         point.status.starts_with("coupling");
+}
+
+// Searches one target at one humidity.
+class VoltageSearch {
+ public:
+  VoltageSearch(const RestPatches& patches, double target, double limit, std::string limit_name)
+      : patches_(patches), limit_name_(std::move(limit_name)) {
+    answer_.target = target;
+    answer_.limit = limit;
+  }
+
+  VoltageAnswer run(double guess, bool areas) {
+    if (answer_.limit <= 0) {
+      answer_.status = "no dielectric: contact would short the drive";
+      return answer_;
+    }
+    double found = root(Estimator::Load, std::min(guess, answer_.limit));
+    if (areas && stopped_.empty()) found = root(Estimator::Area, found > 0 ? found : answer_.limit);
+    if (found > 0 && stopped_.empty()) {
+      answer_.amplitude = amplitude(found);
+      answer_.modulation = last_.modulation.value;
+    } else {
+      answer_.status = stopped_.empty() ? limit_status() : stopped_;
+    }
+    return answer_;
+  }
+
+ private:
+  struct Sample {
+    double amplitude, modulation;
+  };
+
+  // 0: below the target up to the limit.
+  double root(Estimator estimator, double guess) {
+    low_ = {0, 0};
+    high_ = {};
+    blocked_.clear();
+    double ceiling = answer_.limit, v = guess;
+    answer_.modulation = 0;
+    for (;;) {
+      if (++answer_.evaluations > kMaxEvaluations) {
+        stopped_ = "the search for the voltage has not converged";
+        return 0;
+      }
+      last_ = patches_.drive(v, estimator);
+      const double m = last_.modulation.value;
+      if (beyond(last_)) {
+        blocked_ = last_.status;
+        ceiling = v;
+        if (ceiling - low_.amplitude < 5 * kTolerance * ceiling) {
+          answer_.limit = ceiling;
+          return 0;
+        }
+        v = low_.amplitude > 0 ? std::sqrt(low_.amplitude * ceiling) : 0.5 * ceiling;
+        continue;
+      }
+      if (last_.status.starts_with("contact") || last_.status.starts_with("field")) {
+        stopped_ = last_.status;
+        return 0;
+      }
+      answer_.modulation = std::max(answer_.modulation, std::min(m, answer_.target));
+      const bool above = m >= answer_.target;
+      const Sample sample{v, m};
+      const Sample previous = above ? high_ : low_;
+      (above ? high_ : low_) = sample;
+      if (!above &&
+          (v >= ceiling || (!blocked_.empty() && ceiling - v < 5 * kTolerance * ceiling))) {
+        answer_.limit = ceiling;
+        return 0;
+      }
+      if (above && high_.amplitude < 1e-3 * answer_.limit) return v;  // at next to no voltage
+      const double next = propose(above, previous, ceiling);
+      if (std::abs(next - v) < kTolerance * v && (high_.amplitude > 0 || next < ceiling)) {
+        return v;
+      }
+      v = next;
+    }
+  }
+
+  // Modulation goes about with the square of the voltage.
+  double propose(bool above, const Sample& previous, double ceiling) const {
+    const Sample& here = above ? high_ : low_;
+    double power = 2;
+    const Sample other =
+        low_.amplitude > 0 && high_.amplitude > 0 ? (above ? low_ : high_) : previous;
+    if (other.amplitude > 0 && other.modulation > 0 && here.modulation > 0 &&
+        other.amplitude != here.amplitude) {
+      power = std::clamp(
+          std::log(here.modulation / other.modulation) / std::log(here.amplitude / other.amplitude),
+          0.25, 8.0);
+    }
+    double next = here.modulation > 0
+                      ? here.amplitude * std::pow(answer_.target / here.modulation, 1 / power)
+                      : 4 * here.amplitude;
+    next = std::clamp(next, 0.05 * here.amplitude, 20 * here.amplitude);
+    if (low_.amplitude > 0 && high_.amplitude > 0) {
+      // Keeps the bracket shrinking from both sides.
+      const double width = high_.amplitude - low_.amplitude;
+      next = std::clamp(next, low_.amplitude + 0.02 * width, high_.amplitude - 0.02 * width);
+    }
+    return std::min(next, ceiling == answer_.limit ? ceiling : 0.5 * (ceiling + here.amplitude));
+  }
+
+  // Errors of the modulation through the slope of the last two samples.
+  Measured amplitude(double v) const {
+    double power = 2;
+    if (low_.amplitude > 0 && low_.modulation > 0 && high_.amplitude > low_.amplitude &&
+        high_.modulation > low_.modulation) {
+      power =
+          std::log(high_.modulation / low_.modulation) / std::log(high_.amplitude / low_.amplitude);
+    }
+    const double scale = v / (std::max(power, 0.25) * answer_.target);
+    ErrorParts e = last_.modulation.parts;
+    e.sampling *= scale;
+    for (const ErrorOrigin& origin : kErrorOrigins) {
+      if (auto& part = e.*origin.part) *part *= scale;
+    }
+    e.solver = std::hypot(e.solver.value_or(0), kTolerance * v);
+    return {v, e};
+  }
+
+  std::string limit_status() const {
+    if (!blocked_.empty()) return fmt::format("{} at {:.3g} V", blocked_, answer_.limit);
+    return fmt::format("{} at {:.4g} V", limit_name_, answer_.limit);
+  }
+
+  const RestPatches& patches_;
+  std::string limit_name_;
+  VoltageAnswer answer_;
+  ResponsePoint last_;
+  Sample low_{}, high_{};
+  std::string blocked_;  // what the model said above the ceiling
+  std::string stopped_;  // a trouble at every voltage
+};
+
+}  // namespace
+
+double amplitude_limit(const Scene& scene, const Texture& texture) {
+  const double radius = scene.surface.electrode_edge_radius;
+  const bool edges = radius > 0 && texture_depth(texture) > 0;
+  const double oxide =
+      dielectric_margin(scene.surface.dielectric, 1, edges ? radius : kInfinity);  // 1 V
+  const double source = scene.drive.source_compliance;
+  return std::min({oxide, source > 0 ? source : kInfinity, kLargestAmplitude});
+}
+
+void add_voltages(Response& response, const Scene& scene, const Texture& texture,
+                  const Fidelity& fidelity, std::span<const double> targets) {
+  const double limit = amplitude_limit(scene, texture);
+  const bool source = limit == scene.drive.source_compliance;
+  for (ResponsePoint& point : response.points) {
+    Scene one = scene;
+    one.environment.relative_humidity = {point.relative_humidity};
+    one.environment.weights.clear();
+    const RestPatches patches(one, texture, fidelity);
+    double guess = scene.drive.driven() ? scene.drive.amplitude : 100;
+    for (double target : targets) {
+      PAPILLA_CHECK(target > 0, "a modulation above 0");
+      VoltageSearch search(patches, target, limit,
+                           source ? "the source ends" : "the dielectric breaks down");
+      point.voltages.push_back(search.run(guess, fidelity.estimator == Estimator::Area));
+      if (point.voltages.back().reached()) guess = point.voltages.back().amplitude.value;
+    }
+  }
+}
+
+}  // namespace papilla

@@ -1,0 +1,55 @@
+// A design as files for makers and for other programs.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/design.h"
+#include "geometry/io/files.h"
+
+namespace papilla {
+
+// "exr", "tiff" (16-bit heights), "tiff32" (float), "mask" (binary), "gsf", "npy", "png" (preview),
+// "png16", "x3p", "gds", "stl", "dose".
+const std::vector<std::string>& export_formats();
+
+// What the process moves: undone in the files, so that the made texture is the design.
+struct ProcessBias {
+  double shrink = 0;       // each wall moves into the hole by this (oxide growth) [m]
+  double edge_radius = 0;  // the process rounds rims by this: left out of the design's own [m]
+};
+// Throws InputError for textures without holes, pillars or grooves, and where nothing is left.
+Texture compensated(const Texture& texture, const ProcessBias& bias);
+
+struct ExportOptions {
+  std::vector<std::string> formats;  // empty: all that the texture and the polarity allow
+  double size =
+      0;  // wanted side [m], rounded to whole periods; 0: the window, two periods at least
+  int pixels = 1024;                 // along x
+  std::optional<Polarity> polarity;  // needed for tiff and mask
+  int repeat = 1;                    // EXR: times in x and y, streamed
+  int levels = 1;                    // GDSII of textures that are no arrays: masks
+  double facet_error = 2e-9;         // GDSII: of circles [m]
+  ProcessBias bias;
+  std::string dose_curve;  // CSV depth_nm,grey: needed for dose
+};
+
+struct ExportedFile {
+  std::string format, path;
+};
+
+struct Export {
+  std::vector<ExportedFile> files;
+  Heightmap heightmap;
+  int cells_x = 0, cells_y = 0;       // unit cells along either side; 0: nothing repeats within
+  std::vector<std::string> warnings;  // what the files hold otherwise than asked for
+};
+
+// Writes heightmap.exr, heightmap.tif, mask.tif, ... and export.json (sizes, polarity, margins)
+// into a folder, which it makes. With a GDSII layout of an array the period of all files is the
+// nearest whole nanometre, with a warning; so there is one where a pixel is more than a quarter of
+// the smallest hole or wall. Throws InputError; then files of the formats before stay.
+Export export_design(const Design& design, const ExportOptions& options, const std::string& folder);
+
+}  // namespace papilla

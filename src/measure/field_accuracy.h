@@ -1,0 +1,38 @@
+// What the field rules cost and how far each is from the 3-D potential, on solved patches.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "design/design.h"
+
+namespace papilla {
+
+// One method on one patch at one humidity. A patch is solved at `pixels`, its skin is then refined
+// as a smooth surface (Catmull-Rom), its texture generated anew: the same bodies on finer grids.
+struct FieldAccuracyRow {
+  std::string sample, method;  // "local", "screened" (local with screening), "spread", "full"
+  double relative_humidity = 0;
+  int pixels = 0, levels = 0;  // of the method's grid; levels of the 3-D potential
+  double pull = 0;             // [Pa] mean over the patch
+  double error = 0;            // pull / that of the finest full field, less 1
+  double seconds = 0;          // of the processor
+  std::string status;          // empty: sound
+};
+
+struct FieldAccuracyOptions {
+  int pixels = 128;                          // of the solved patch
+  int skin = 0;                              // index of the skin
+  int levels = 64;                           // heights of the full field
+  std::vector<int> refinements = {1, 2, 4};  // of the full field, the last is the reference
+};
+
+// Local rules and full field of one design at its humidities. Cost: of the finest 3-D solve, 64
+// nodes in height, 8 s at 512^2 a humidity.
+std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const Design& design,
+                                             const FieldAccuracyOptions& options);
+
+// Columns with units in the head, one row each; seconds to two digits.
+std::string field_accuracy_csv(const std::vector<FieldAccuracyRow>& rows);
+
+}  // namespace papilla

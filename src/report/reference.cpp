@@ -1,0 +1,226 @@
+#include "report/reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "cases/drive_case.h"
+#include "cases/mean_field.h"
+#include "config/describe.h"
+#include "design/design.h"
+#include "metrics/metrics.h"
+
+namespace papilla {
+namespace {
+
+// A table of a section; `plain`: keys and meanings alone.
+struct Part {
+  std::string heading;
+  std::vector<FieldRow> rows;
+  bool plain = false;
+};
+
+FieldRow key(std::string path, std::string doc) {
+  FieldRow row;
+  row.path = std::move(path);
+  row.doc = std::move(doc);
+  return row;
+}
+
+const char* about(const std::string& section) {
+  if (section == "texture") return "The shape of the surface: `type` chooses the kind.";
+  if (section == "surface") return "The finish: wetting, dielectric layers, optics, stiffness.";
+  if (section == "view") return "How the texture is looked at: haze, transmittance, gloss, colour.";
+  if (section == "finger") return "The finger; usually `base = \"../fingers/reference.toml\"`.";
+  if (section == "environment") return "The humidities at which a design is judged.";
+  if (section == "drive") return "The electrical drive; without an amplitude nothing is driven.";
+  if (section == "model") {
+    return "Model options. The default of each is what the finger was fitted with "
+           "(`finger.calibrated_for`).";
+  }
+  if (section == "accuracy") return "Speed against error.";
+  if (section == "metrics") {
+    return "What a design is judged by, at one humidity. Over humidity: mean, variation (standard "
+           "deviation / mean), range ((max - min) / mean), std, worst, best, first, last; written "
+           "`mean(modulation)`.";
+  }
+  if (section == "persson") return "A case of `papilla solve persson`.";
+  if (section == "circuit") return "A case of `papilla solve drive`.";
+  if (section == "study") return "The sections that only a study has.";
+  return "";
+}
+
+std::string render(const Part& part, ReferenceFormat format) {
+  const bool markdown = format == ReferenceFormat::Markdown;
+  std::string out;
+  if (!part.heading.empty())
+    out = markdown ? "\n## " + part.heading + "\n\n" : "\n" + part.heading + "\n";
+  if (!part.plain)
+    return out + (markdown ? reference_markdown(part.rows) : reference_text(part.rows));
+  if (markdown) out += "| key | meaning |\n|---|---|\n";
+  for (const FieldRow& row : part.rows) {
+    out += markdown ? fmt::format("| `{}` | {} |\n", row.path, row.doc)
+                    : fmt::format("{:<36} {}\n", row.path, row.doc);
+  }
+  return out;
+}
+
+std::vector<Part> texture_reference() {
+  std::vector<Part> out;
+  for (const std::string& kind : texture_kinds()) {
+    Document document = parse_document("type = \"" + kind + "\"", "reference");
+    Texture texture;
+    read_section(document, "", texture);
+    out.push_back({kind, field_rows(texture, "texture")});
+  }
+  return out;
+}
+
+std::vector<Part> study_reference() {
+  std::vector<FieldRow> rows{
+      key("base",
+          "another file that lies below this one; found beside it, then in the designs folder"),
+      key("design_space.\"PATH\" = [low, high]",
+          "the search may change this number; PATH is any number of the design, e.g. "
+          "texture.depth"),
+      key("design_space.\"PATH\" = { choice = [...] }", "the same, one of the listed values"),
+      key("objective.maximise, objective.minimise",
+          "a metric over humidity, e.g. \"mean(modulation)\", \"worst(modulation)\", "
+          "\"variation(modulation)\"; two in all make a Pareto front"),
+      key("design_space.\"texture.type\" = { choice = [...] }",
+          "which kinds of texture compete; the other variables act where a kind has them: a depth "
+          "is "
+          "a pillar's height, a diameter a groove's width"),
+      key("design_space.\"texture.levels\" = { choice = [...] }",
+          "how many parts of a stack there are, the first ones"),
+      key("objective.target",
+          "{ METRIC = value }: what a metric should be at every humidity, e.g. { modulation = 0.8 "
+          "}; "
+          "its root mean square distance is minimised"),
+      key("objective.risk",
+          "how fingers, scenarios and scatter are put together: \"mean\", \"mean - 2 std\", "
+          "\"cvar 20 %\", \"worst\""),
+      key("scatter.\"PATH\"",
+          "fabrication misses this number by up to so much either way; two more evaluations each"),
+      key("population.fingers",
+          "finger files; load and state of the study's [finger] hold for all"),
+      key("scenarios",
+          "states that count beside each other: name, weight, set = { \"PATH\" = value }"),
+  };
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    rows.push_back(key("constraints." + kind.name,
+                       fmt::format("{} ({}{})", kind.doc, kind.at_least ? "at least" : "at most",
+                                   kind.unit.empty() ? "" : ", in " + kind.unit)));
+  }
+  rows.push_back(
+      key("constraints.\"METRIC\"",
+          "a metric over humidity, limited on its bad side: \"worst(modulation)\" = 0.3 (at "
+          "least), \"worst(voltage_for(modulation = 0.5))\" = \"150 V\" (at most)"));
+  return {{"", rows, true}, {"search", field_rows(Search{}, "search")}};
+}
+
+std::vector<Part> metrics_reference() {
+  std::vector<FieldRow> rows;
+  for (const MetricInfo& metric : metric_list()) {
+    rows.push_back(
+        key(metric.name, fmt::format("{}{}{}{}", metric.doc,
+                                     metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit),
+                                     metric.better == Better::Higher  ? "; higher is better"
+                                     : metric.better == Better::Lower ? "; lower is better"
+                                                                      : "",
+                                     metric.needs_drive ? "; driven designs only" : "")));
+  }
+  return {{"", rows, true}};
+}
+
+// Throws InputError, with a "did you mean", for an unknown section.
+std::vector<Part> parts_of(const std::string& section) {
+  if (section == "texture") return texture_reference();
+  if (section == "surface") return {{"", field_rows(Surface{}, section)}};
+  if (section == "view") return {{"", field_rows(View{}, section)}};
+  if (section == "finger") return {{"", field_rows(Finger{}, section)}};
+  if (section == "environment") return {{"", field_rows(Environment{}, section)}};
+  if (section == "drive") return {{"", field_rows(Drive{}, section)}};
+  if (section == "model") return {{"", field_rows(ModelOptions{}, section)}};
+  if (section == "accuracy") return {{"", field_rows(AccuracySettings{}, section)}};
+  if (section == "persson") return {{"", field_rows(MeanFieldCase{}, "")}};
+  if (section == "circuit") return {{"", field_rows(DriveCase{}, "")}};
+  if (section == "metrics") return metrics_reference();
+  if (section == "study") return study_reference();
+  const std::string near = nearest_name(section, reference_sections());
+  throw InputError(
+      near.empty()
+          ? fmt::format("no section `{}`; known: {}", section, join_names(reference_sections()))
+          : fmt::format("no section `{}`, did you mean `{}`?", section, near));
+}
+
+// The parts of a section with the rows of one key, or of a section's section, alone.
+std::vector<Part> parts_of_key(const std::string& key) {
+  std::vector<Part> out;
+  std::vector<std::string> names;
+  const std::string section = key.substr(0, key.find('.'));
+  for (Part part : parts_of(section)) {
+    for (const FieldRow& row : part.rows) names.push_back(row.path);
+    std::erase_if(part.rows, [&](const FieldRow& row) {
+      return row.path != key && !row.path.starts_with(key + ".");
+    });
+    if (!part.rows.empty()) out.push_back(std::move(part));
+  }
+  if (!out.empty()) return out;
+  const std::string near = nearest_name(key, names);
+  throw InputError(near.empty()
+                       ? fmt::format("no key `{}`; `papilla describe {}` lists them", key, section)
+                       : fmt::format("no key `{}`, did you mean `{}`?", key, near));
+}
+
+}  // namespace
+
+std::vector<std::string> reference_sections() {
+  return {"texture", "surface",  "view",  "finger",  "environment", "drive",
+          "model",   "accuracy", "study", "metrics", "persson",     "circuit"};
+}
+
+std::string reference_section(const std::string& section, ReferenceFormat format) {
+  std::string out;
+  if (section.find('.') != std::string::npos) {
+    for (const Part& part : parts_of_key(section)) out += render(part, format);
+    return out;
+  }
+  for (const Part& part : parts_of(section)) out += render(part, format);
+  return (format == ReferenceFormat::Markdown
+              ? fmt::format("# {}\n\n{}\n\n", section, about(section))
+              : fmt::format("{}: {}\n\n", section, about(section))) +
+         out;
+}
+
+std::string reference_json(const std::vector<std::string>& sections) {
+  using Json = nlohmann::ordered_json;
+  Json list = Json::array();
+  for (const std::string& section : sections) {
+    Json tables = Json::array();
+    const bool key = section.find('.') != std::string::npos;
+    for (const Part& part : key ? parts_of_key(section) : parts_of(section)) {
+      Json keys = Json::array();
+      for (const FieldRow& row : part.rows) {
+        Json item{{"key", row.path}, {"meaning", row.doc}};
+        if (!part.plain) {
+          item["kind"] = row.kind;
+          item["range"] = row.range;
+          item["default"] = row.default_value;
+          item["source"] = row.source;
+          item["reference"] = row.reference;
+          item["required"] = row.required;
+        }
+        keys.push_back(std::move(item));
+      }
+      tables.push_back({{"name", part.heading}, {"keys", keys}});
+    }
+    list.push_back({{"section", section}, {"about", about(section)}, {"tables", tables}});
+  }
+  return Json{{"schema", 1}, {"sections", list}}.dump(2);
+}
+
+}  // namespace papilla

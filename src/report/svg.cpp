@@ -1,0 +1,149 @@
+#include "report/svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+
+namespace papilla {
+namespace {
+
+constexpr double kWidth = 460, kHeight = 380, kLeft = 64, kRight = 444, kTop = 76, kBottom = 330;
+
+double at(const std::vector<double>& values, std::size_t i) {
+  return i < values.size() ? values[i] : 0;
+}
+
+// A linear axis over the values with round ticks.
+struct Axis {
+  double low = 0, high = 1, step = 0.2;
+
+  Axis(double from, double to) {
+    if (!(from < to)) {  // one value, or none
+      const double middle = std::isfinite(from) ? from : 0;
+      from = middle - std::max(0.5 * std::abs(middle), 0.5);
+      to = middle + std::max(0.5 * std::abs(middle), 0.5);
+    }
+    const double power = std::pow(10, std::floor(std::log10((to - from) / 4)));
+    const double share = (to - from) / 4 / power;
+    step = power * (share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1);
+    low = step * std::floor(from / step + 1e-9);
+    high = step * std::ceil(to / step - 1e-9);
+  }
+  int ticks() const { return static_cast<int>(std::lround((high - low) / step)); }
+  double share(double v) const { return (v - low) / (high - low); }
+};
+
+bool drawable(const SvgSeries& s, std::size_t i) {
+  return std::isfinite(s.x[i]) && std::isfinite(s.y[i]);
+}
+
+Axis axis_of(const SvgPlot& plot, bool y) {
+  double low = y && plot.from_zero ? 0 : INFINITY, high = -INFINITY;
+  for (const SvgSeries& s : plot.series) {
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!drawable(s, i)) continue;
+      const double v = y ? s.y[i] : s.x[i], e = at(y ? s.ey : s.ex, i);
+      low = std::min(low, v - e);
+      high = std::max(high, v + e);
+    }
+  }
+  return {low, high};
+}
+
+std::string draw_plot(const SvgPlot& plot, double shift) {
+  const Axis ax = axis_of(plot, false), ay = axis_of(plot, true);
+  const auto px = [&](double v) { return shift + kLeft + (kRight - kLeft) * ax.share(v); };
+  const auto py = [&](double v) { return kBottom - (kBottom - kTop) * ay.share(v); };
+  std::string out =
+      fmt::format("<text x=\"{:.0f}\" y=\"22\" font-size=\"14\" font-weight=\"bold\">{}</text>\n",
+                  shift + 12, markup_text(plot.title));
+  for (int i = 0; i <= ax.ticks(); ++i) {
+    const double v = ax.low + i * ax.step;
+    out += fmt::format(
+        "<line x1=\"{0:.1f}\" y1=\"{1}\" x2=\"{0:.1f}\" y2=\"{2}\" stroke=\"#e3e6ea\"/>"
+        "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4:.4g}</text>\n",
+        px(v), kTop, kBottom, kBottom + 16, std::abs(v) < 1e-9 * ax.step ? 0 : v);
+  }
+  for (int i = 0; i <= ay.ticks(); ++i) {
+    const double v = ay.low + i * ay.step;
+    out += fmt::format(
+        "<line x1=\"{0:.0f}\" y1=\"{2:.1f}\" x2=\"{1:.0f}\" y2=\"{2:.1f}\" stroke=\"#e3e6ea\"/>"
+        "<text x=\"{3:.0f}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:.4g}</text>\n",
+        shift + kLeft, shift + kRight, py(v), shift + kLeft - 6, py(v) + 4,
+        std::abs(v) < 1e-9 * ay.step ? 0 : v);
+  }
+  out += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n",
+                     shift + (kLeft + kRight) / 2, kBottom + 38, markup_text(plot.x));
+  out += fmt::format(
+      "<text x=\"{0:.0f}\" y=\"{1:.0f}\" text-anchor=\"middle\" transform=\"rotate(-90 {0:.0f} "
+      "{1:.0f})\">{2}</text>\n",
+      shift + 16, (kTop + kBottom) / 2, markup_text(plot.y));
+  double legend = kLeft;
+  for (const SvgSeries& s : plot.series) {
+    std::string line, upper, lower, marks;
+    for (std::size_t i = 0; i < s.x.size(); ++i) {
+      if (!drawable(s, i)) continue;
+      const double x = px(s.x[i]), y = py(s.y[i]), ex = at(s.ex, i), ey = at(s.ey, i);
+      line += fmt::format("{:.1f},{:.1f} ", x, y);
+      if (s.band) {
+        upper += fmt::format("{:.1f},{:.1f} ", x, py(s.y[i] + ey));
+        lower = fmt::format("{:.1f},{:.1f} ", x, py(s.y[i] - ey)) + lower;
+      } else {
+        if (ex > 0)
+          marks += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\"/>", px(s.x[i] - ex), y,
+                               px(s.x[i] + ex));
+        if (ey > 0)
+          marks += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\"/>", x, py(s.y[i] - ey),
+                               py(s.y[i] + ey));
+      }
+      marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, s.radius);
+    }
+    if (s.band)
+      out += fmt::format("<polygon fill=\"{}\" fill-opacity=\"0.15\" points=\"{}{}\"/>\n", s.colour,
+                         upper, lower);
+    if (s.line)
+      out += fmt::format(
+          "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" points=\"{}\"/>\n", s.colour,
+          line);
+    out += fmt::format("<g fill=\"{0}\" stroke=\"{0}\">{1}</g>\n", s.colour, marks);
+    if (s.name.empty()) continue;
+    out += fmt::format(
+        "<circle cx=\"{:.0f}\" cy=\"50\" r=\"4\" fill=\"{}\"/><text x=\"{:.0f}\" y=\"54\">{}"
+        "</text>\n",
+        shift + legend, s.colour, shift + legend + 9, markup_text(s.name));
+    legend += 26 + 6.6 * static_cast<double>(s.name.size());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string markup_text(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string svg_picture(const std::vector<SvgPlot>& plots) {
+  const double width = kWidth * static_cast<double>(plots.size());
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0:.0f}\" "
+      "height=\"{1:.0f}\" fill=\"white\"/>\n",
+      width, kHeight);
+  for (std::size_t i = 0; i < plots.size(); ++i)
+    out += draw_plot(plots[i], kWidth * static_cast<double>(i));
+  return out + "</svg>\n";
+}
+
+}  // namespace papilla

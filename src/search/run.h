@@ -1,0 +1,89 @@
+// Runs a study: searches cheaply, confirms the finalists at the study's accuracy on fresh skins,
+// writes the folder of results. Resumable after a kill at any moment.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "search/problem.h"
+#include "search/stability.h"
+
+namespace papilla {
+
+struct Progress {
+  std::string stage;  // "draft", "search", "narrow", "confirm", "check"
+  int done = 0, total = 0;
+  std::string best;         // best values so far, for people
+  double seconds_left = 0;  // < 0: not known yet
+};
+
+struct OptimiseOptions {
+  std::string folder;
+  bool resume = false;
+  std::function<void(const Progress&)> progress;  // may be empty
+  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after the running evaluation
+  std::string pick{};  // which design of the front is the best: a rule of pick_design
+};
+
+struct FinalDesign {
+  Point unit;
+  Design design;
+  Score searched, confirmed;
+  bool feasible = false, on_front = false;
+  // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
+  // rest.
+  std::string folder;
+};
+
+// What a variable does at the best design, at search level. Eq. search.9
+struct VariableSensitivity {
+  std::size_t variable = 0;
+  std::vector<double> change;  // of each objective for +`step`, the user's sign
+  std::vector<double> share;   // of each objective's variance when all variables scatter by a step
+  double step = 0;             // SI
+  // Drift that costs no objective more than 5 % of its value, SI; beyond: even a whole step does
+  // not.
+  double down = 0, up = 0;
+  bool down_beyond = false, up_beyond = false;
+};
+
+struct OptimiseResult {
+  std::string method, why;
+  int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
+  int lost = 0;  // damaged records of the resumed run, computed anew
+  bool interrupted = false;
+  bool any_feasible = false;
+  std::vector<std::string> never_kept;  // constraints that no design of the search keeps
+  std::vector<FinalDesign> finalists;   // by first objective, best first
+  std::size_t best = 0;                 // of the finalists: highest worst modulation, or as picked
+  std::optional<Score> flat;            // the best surface without its texture, confirmed
+  std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
+  Stability stability;               // of the order of the finalists on the front, in their order
+  std::vector<VariableSensitivity> sensitivity;  // of the best design
+  std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
+
+  bool has_best() const { return !finalists.empty() && finalists[best].confirmed.ok; }
+};
+
+// Throws InputError for a folder that belongs to another study or is in use, for one without a run
+// to resume, and for a rule of `pick` that no front could meet; the folder is then as before.
+// Launched by mpirun as several processes, rank 0 does this and the others evaluate for it and
+// return an empty result.
+OptimiseResult optimise(const Study& study, const OptimiseOptions& options);
+
+// Evaluations that a study gets when nothing else is said.
+int default_evaluations(const Study& study);
+
+// The finalists as a table for people (Markdown).
+std::string result_table(const Study& study, const OptimiseResult& result);
+
+// Why nothing is feasible, as part of a sentence.
+std::string infeasible_text(const OptimiseResult& result);
+
+// What will run, for plan.txt and people.
+std::string search_plan(const Study& study);
+
+}  // namespace papilla

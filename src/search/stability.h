@@ -1,0 +1,43 @@
+// Does the order of the finalists survive other fingers and other choices of the model? The
+// choices that move results at first order are not known well enough to trust one of them alone.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "search/problem.h"
+
+namespace papilla {
+
+struct StabilityVariant {
+  std::string name;                         // "finger rough", "first droplet step 50 nm"
+  std::vector<std::vector<double>> values;  // [design][objective], the user's sign; empty: failed
+  std::vector<bool> on_front;               // of these designs, within the tolerance
+};
+
+struct Stability {
+  std::vector<StabilityVariant> variants;
+  std::vector<int> times_on_front;  // of a design, over the variants
+
+  // On the front in two thirds of the variants at least.
+  bool stable(std::size_t design) const {
+    return 3 * times_on_front[design] >= 2 * static_cast<int>(variants.size());
+  }
+};
+
+// Each design on each finger of the study alone, then on its first finger with one model choice
+// changed: droplet mobility, droplets per volume, the pull over droplets that do not bridge,
+// breakdown cap, self-consistent coupling.
+std::vector<std::string> stability_variants(const StudyProblem& problem);
+
+// One design in one variant: objectives in the user's sign. Cost: one finger at this fidelity.
+Outcome evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t variant,
+                         const Fidelity& fidelity);
+
+// From outcomes[design][variant]. Common random numbers throughout, so a design counts as beaten
+// only by one that is better by `tolerance` (relative) in every objective.
+Stability judge_stability(const StudyProblem& problem,
+                          const std::vector<std::vector<Outcome>>& outcomes,
+                          double tolerance = 0.01);
+
+}  // namespace papilla

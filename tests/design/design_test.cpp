@@ -1,0 +1,174 @@
+#include "design/design.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "base/error.h"
+#include "config/describe.h"
+#include "config/writer.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kDesigns = PAPILLA_SOURCE_DIR "/designs/";
+const std::string kStudy = kDesigns + "electroadhesive_glass/study.toml";
+
+std::string written(const std::string& name, const std::string& text) {
+  const fs::path folder = fs::path(testing::TempDir()) / "papilla_design_test";
+  fs::create_directories(folder);
+  const std::string path = (folder / name).string();
+  std::ofstream(path) << text;
+  return path;
+}
+
+std::string problems_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  const std::string path = written("study.toml", text);
+  try {
+    read_study(path, overrides);
+  } catch (const InputError& error) {
+    std::string out = error.what();
+    for (std::size_t at; (at = out.find(path)) != std::string::npos;) out.erase(at, path.size());
+    return out;
+  }
+  return "";
+}
+
+TEST(Design, TheReferenceFingerFileIsTheDefaultFinger) {
+  Finger reference = read_finger(kDesigns + "fingers/reference.toml");
+  EXPECT_FALSE(reference.uncertainty.empty());
+  reference.uncertainty.clear();  // known of the file's fit alone
+  EXPECT_EQ(reference, Finger{});
+}
+
+TEST(Design, TheRelativesDifferInOneThing) {
+  Finger expected = read_finger(kDesigns + "fingers/reference.toml");
+  expected.name = "smooth";
+  expected.skin.rms = 128e-9;
+  EXPECT_EQ(read_finger(kDesigns + "fingers/smooth.toml"), expected);
+  EXPECT_EQ(read_finger(kDesigns + "fingers/rough.toml").skin.rms, 512e-9);
+  EXPECT_EQ(read_finger(kDesigns + "fingers/moist.toml").water.volume[3], 17.6e-18);
+}
+
+TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
+  for (const auto& [name, diameter, depth] :
+       {std::tuple("a3h350", 3e-6, 350e-9), std::tuple("a3h600", 3e-6, 600e-9),
+        std::tuple("a3h900", 3e-6, 900e-9), std::tuple("a4h350", 4e-6, 350e-9),
+        std::tuple("a4h600", 4e-6, 600e-9)}) {
+    Design design = read_design(kDesigns + "m3_samples/" + name + ".toml");
+    EXPECT_EQ(get_number(design, "texture.diameter"), diameter);
+    EXPECT_EQ(get_number(design, "texture.depth"), depth);
+    EXPECT_EQ(get_number(design, "texture.period"), 6e-6);
+    EXPECT_EQ(design.drive.amplitude, 200);
+    EXPECT_NEAR(design.drive.v_rms(), 141.4, 0.1);
+    design.finger.uncertainty.clear();
+    EXPECT_EQ(design.finger, Finger{});
+  }
+}
+
+TEST(Study, TheMainStudyHasItsSpaceWishesLimitsAndFingers) {
+  const Study study = read_study(kStudy);
+  EXPECT_EQ(study.name, "electroadhesive_glass");
+  ASSERT_EQ(study.variables.size(), 4u);
+  EXPECT_EQ(study.variables[2].path, "texture.depth");
+  EXPECT_EQ(study.variables[2].low, 0);
+  EXPECT_EQ(study.variables[2].high, 1e-6);
+  EXPECT_EQ(study.variables[3].high, 80 * 3.14159265358979323846 / 180);
+  EXPECT_EQ(study.objective.maximise, std::vector<std::string>{"mean(modulation)"});
+  EXPECT_EQ(study.objective.minimise, std::vector<std::string>{"variation(modulation)"});
+  ASSERT_EQ(study.constraints.size(), 4u);
+  EXPECT_EQ(study.constraints[1], (Constraint{"min_wall", 0.4e-6, true}));
+  EXPECT_EQ(study.constraints[2], (Constraint{"aspect_ratio", 1.0, false}));
+  ASSERT_EQ(study.population.size(), 4u);
+  EXPECT_EQ(study.population[1].name, "smooth");
+  EXPECT_EQ(study.search.seed, 1);
+}
+
+TEST(Study, ScenariosSetNumbersOfTheDesign) {
+  const Study study = read_study(kDesigns + "hydrophobic_glass/study.toml");
+  ASSERT_EQ(study.scenarios.size(), 2u);
+  EXPECT_TRUE(study.scenarios[0].set.empty());
+  const Design worn = with_settings(study.design, study.scenarios[1].set);
+  EXPECT_NEAR(worn.surface.contact_angle, 1.3962634, 1e-7);
+  EXPECT_EQ(study.variables.size(), 4u);
+}
+
+TEST(Study, TheResolvedFileReadsBackToTheSameStudy) {
+  for (const char* name : {"electroadhesive_glass", "hydrophobic_glass"}) {
+    const Study study =
+        read_study(kDesigns + name + "/study.toml", {"texture.depth=123.456789 nm"});
+    const Study again = read_study(written("resolved.toml", resolved_toml(study)));
+    EXPECT_EQ(again.design, study.design);
+    EXPECT_EQ(again.variables, study.variables);
+    EXPECT_EQ(again.objective, study.objective);
+    EXPECT_EQ(again.constraints, study.constraints);
+    EXPECT_EQ(again.population, study.population);
+    EXPECT_EQ(again.scenarios, study.scenarios);
+    EXPECT_EQ(again.search, study.search);
+  }
+}
+
+TEST(Design, AWrittenDesignReadsBackToTheSameDesign) {
+  Design design = read_design(kStudy);
+  set_number(design, "texture.depth", 1e-6 / 7);
+  const std::string path = written("design.toml", "");
+  write_design(path, design);
+  EXPECT_EQ(read_design(path), design);
+}
+
+TEST(Design, ModelOptionsStartFromWhatTheFingerWasFittedWith) {
+  const std::string head = "schema_version = 1\n[finger.calibrated_for]\nbreakdown_cap = true\n";
+  EXPECT_TRUE(read_design(written("a.toml", head)).model.breakdown_cap);
+  EXPECT_FALSE(read_design(written("b.toml", head + "[model]\nbreakdown_cap = false\n"))
+                   .model.breakdown_cap);
+}
+
+TEST(Design, AKindFromTheCommandLineReplacesTheKeysOfTheOtherKind) {
+  const Design flat = read_design(kStudy, {"texture.type=flat", "design_space={}"});
+  EXPECT_EQ(flat.texture, Texture{});
+}
+
+TEST(Study, ProblemsAcrossFieldsAreLocated) {
+  const std::string head = "schema_version = 1\n";
+  EXPECT_EQ(problems_of("title = \"x\"\n"),
+            ":1:1: missing `schema_version` (version of the file format), a whole number");
+  EXPECT_EQ(problems_of(head + "[environment]\nrelative_humidity = [\"35 %\", \"15 %\"]\n"),
+            ":3:21: environment.relative_humidity: expected rising values");
+  EXPECT_EQ(problems_of(head + "[environment]\nweights = [1, 2]\n"),
+            ":3:11: environment.weights: expected 4 weights, one a humidity, got 2");
+  EXPECT_EQ(problems_of(head + "[finger]\nload = \"0 N\"\n"),
+            ":3:8: finger.load: expected a force above 0 N");
+  EXPECT_EQ(
+      problems_of(head + "[drive]\ncontrol = \"current\"\n"),
+      ":3:11: drive.control: a texture is judged at a voltage; what a current source makes of it: "
+      "`papilla solve drive` with gap.design");
+  EXPECT_EQ(
+      problems_of(head + "[design_space]\n\"surface.contact_agle\" = [\"1 deg\", \"2 deg\"]\n"),
+      ":3:1: design_space: `surface.contact_agle` is no number of this design, did you mean "
+      "`surface.contact_angle`?");
+  EXPECT_EQ(problems_of(head + "[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n"
+                               "\"surface.contact_angle\" = [\"2 deg\", \"1 deg\"]\n"),
+            ":5:27: design_space.surface.contact_angle: expected low < high");
+  EXPECT_EQ(problems_of(head + "[constraints]\nmin_hole = \"1 V\"\n"),
+            ":3:12: constraints.min_hole: expected a length, got \"1 V\"");
+  EXPECT_EQ(problems_of(head + "[constraints]\nmin_whole = \"1 um\"\n"),
+            ":3:1: constraints: unknown key `min_whole`, did you mean `min_hole`?");
+  EXPECT_EQ(problems_of(head + "[serach]\nseed = 1\n"),
+            ":2:2: unknown key `serach`, did you mean `search`?");
+  EXPECT_EQ(problems_of(head + "[population]\nfingers = [\"none.toml\"]\n"),
+            ":3:12: population.fingers: no file \"none.toml\" beside this file or in the designs "
+            "folder");
+}
+
+TEST(Design, AHoleLargerThanItsPeriodIsRefused) {
+  EXPECT_EQ(
+      problems_of("schema_version = 1\n[texture]\ntype = \"hole_array\"\nperiod = \"3 um\"\n"
+                  "diameter = \"4 um\"\ndepth = \"350 nm\"\n"),
+      ":5:12: texture.diameter: 4 um is not smaller than the period 3 um; features would overlap");
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,148 @@
+#include "estimate/parameters.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/random.h"
+#include "design/design.h"
+#include "metrics/metrics.h"
+
+namespace papilla {
+namespace {
+
+Response of_modulation(const std::vector<double>& values) {
+  Response r;
+  r.driven = true;
+  for (const double v : values) {
+    ResponsePoint point;
+    point.modulation.value = v;
+    r.points.push_back(point);
+  }
+  return r;
+}
+
+Scene small_scene() {
+  Scene scene;
+  scene.drive.amplitude = 200;
+  scene.environment.relative_humidity = {0.35, 0.65};
+  return scene;
+}
+
+Fidelity small_fidelity() {
+  Fidelity f = fidelity_level("draft");
+  f.grid = 64;
+  f.skins = 4;
+  f.control_skins = 0;
+  f.threads = 2;
+  return f;
+}
+
+TEST(Parameters, TheFactorOfTheCovarianceIsItsRoot) {
+  const std::vector<ParameterDeviation> list{
+      {"skin.rms", 0.1, {}}, {"skin.hurst", 0.2, {-0.5}}, {"load", 0.3, {0.6, 0.1}}};
+  const std::vector<double> l = covariance_factor(list);
+  const double r[3][3] = {{1, -0.5, 0.6}, {-0.5, 1, 0.1}, {0.6, 0.1, 1}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      double c = 0;
+      for (std::size_t k = 0; k < 3; ++k) c += l[3 * i + k] * l[3 * j + k];
+      EXPECT_NEAR(c, r[i][j] * list[i].deviation * list[j].deviation, 1e-15);
+    }
+  }
+}
+
+TEST(Parameters, CorrelationsThatContradictEachOtherAreRefused) {
+  EXPECT_THROW(covariance_factor({{"a", 1, {}}, {"b", 1, {0.9}}, {"c", 1, {0.9, -0.9}}}),
+               InputError);
+  EXPECT_THROW(covariance_factor({{"a", 1, {0.5}}}), InputError);
+  Finger finger;
+  finger.uncertainty = {{"skin.rsm", 0.1, {}}};
+  EXPECT_NE(uncertainty_problem(finger).find("skin.rms"), std::string::npos);
+  finger.uncertainty = {{"skin.rms", 0.1, {}}};
+  EXPECT_EQ(uncertainty_problem(finger), "");
+}
+
+TEST(Parameters, ValuesMoveByFactorsWithinTheirLimits) {
+  Finger finger;
+  finger.uncertainty = {{"skin.rms", 0.1, {}}, {"water.scale", 1, {}}, {"skin.hurst", 1, {}}};
+  const Finger moved = moved_finger(finger, {0.1, std::log(2.0), 3});
+  EXPECT_DOUBLE_EQ(moved.skin.rms, finger.skin.rms * std::exp(0.1));
+  for (std::size_t i = 0; i < finger.water.volume.size(); ++i)
+    EXPECT_DOUBLE_EQ(moved.water.volume[i], 2 * finger.water.volume[i]);
+  EXPECT_EQ(moved.skin.hurst, 1);
+}
+
+// x = (a + 2 b, 3 a - b) of two correlated numbers: mean 2 a + b/2, by hand.
+TEST(Parameters, OfALinearModelTheErrorOfTheMeanIsExact) {
+  const std::vector<ParameterDeviation> list{{"a", 0.1, {}}, {"b", 0.2, {0.5}}};
+  const std::vector<double> l = covariance_factor(list);
+  const auto model = [](double a, double b) {
+    return of_modulation({1 + a + 2 * b, 1 + 3 * a - b}).points;
+  };
+  Response r = of_modulation({1, 1});
+  for (std::size_t k = 0; k < 2; ++k)
+    r.parameters.steps.push_back({{model(l[k], l[2 + k]), {}}, {model(-l[k], -l[2 + k]), {}}});
+  const double variance = 4 * square(0.1) + 0.25 * square(0.2) + 2 * 2 * 0.5 * 0.5 * 0.1 * 0.2;
+  EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.parameters, std::sqrt(variance),
+              1e-15);
+  // The first humidity alone: a + 2 b.
+  const double first = square(0.1) + 4 * square(0.2) + 2 * 2 * 0.5 * 0.1 * 0.2;
+  EXPECT_NEAR(*summarise(Summary::First, "modulation", r)->parts.parameters, std::sqrt(first),
+              1e-15);
+}
+
+// Draws of a change of 0.3 that scatters by 0.2 from skin to skin: the scatter is no error.
+TEST(Parameters, WhatSkinsScatterIsTakenOff) {
+  RandomStream random(1, "steps", 0);
+  double square_mean = 0, raw = 0;
+  constexpr int kDraws = 2000, kSkins = 4;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    StepSamples samples(6, std::vector<double>(kSkins));
+    double all = 0;
+    for (auto& direction : samples) {
+      double mean = 0;
+      for (double& s : direction) {
+        s = 0.3 + 0.2 * random.normal();
+        mean += s / kSkins;
+      }
+      all += square(mean);
+    }
+    square_mean += square(step_error(samples)) / kDraws;
+    raw += all / kDraws;
+  }
+  EXPECT_NEAR(square_mean, 6 * square(0.3), 0.01);
+  EXPECT_GT(raw, 6 * square(0.3) + 0.05);
+}
+
+// Friction is proportional to the shear strength, and the modulation free of it.
+TEST(Parameters, TheShearStrengthMovesFrictionByItsShareAndNotTheModulation) {
+  Scene scene = small_scene();
+  scene.finger.water.hysteresis = 0;
+  scene.finger.uncertainty = {{"macro.shear_strength", 0.05, {}}};
+  const Texture flat;
+  Response r = evaluate(scene, flat, small_fidelity());
+  EXPECT_FALSE(r.points[0].friction_off.parts.parameters);
+  add_parameter_errors(r, scene, flat, small_fidelity());
+  const ParameterStep& step = r.parameters.steps.at(0);
+  for (std::size_t i = 0; i < r.points.size(); ++i) {
+    const ResponsePoint& p = r.points[i];
+    EXPECT_NEAR((step.up.points[i].friction_off.value - step.down.points[i].friction_off.value) /
+                    2 / p.friction_off.value,
+                std::sinh(0.05), 1e-9);
+    EXPECT_NEAR(*p.friction_off.parts.parameters / p.friction_off.value, std::sinh(0.05), 1e-4);
+    EXPECT_LT(*p.modulation.parts.parameters, 1e-12);
+  }
+  EXPECT_EQ(r.parameters.steps.size(), 1u);
+}
+
+TEST(Parameters, AFingerOfUnknownUncertaintySaysSo) {
+  const Scene scene = small_scene();
+  Response r;
+  EXPECT_THROW(add_parameter_errors(r, scene, Texture{}, small_fidelity()), InputError);
+}
+
+}  // namespace
+}  // namespace papilla

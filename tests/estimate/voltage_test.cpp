@@ -1,0 +1,136 @@
+#include "estimate/voltage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "metrics/metrics.h"
+
+namespace papilla {
+namespace {
+
+Scene scene_at(double humidity) {
+  Scene scene;
+  scene.drive.amplitude = 200;
+  scene.environment.relative_humidity = {humidity};
+  return scene;
+}
+
+Fidelity small(Estimator estimator) {
+  Fidelity f = fidelity_level("search");
+  f.grid = 64;
+  f.skins = 3;
+  f.estimator = estimator;
+  return f;
+}
+
+VoltageAnswer voltage(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                      double target) {
+  Response r = evaluate(scene, texture, fidelity);
+  add_voltages(r, scene, texture, fidelity, std::vector<double>{target});
+  return r.points.at(0).voltages.at(0);
+}
+
+TEST(VoltageFor, ReachesItsModulationWhenTheDesignIsDrivenSo) {
+  for (const Estimator estimator : {Estimator::Load, Estimator::Area}) {
+    const Fidelity f = small(estimator);
+    Scene scene = scene_at(0.35);
+    const VoltageAnswer a = voltage(scene, Texture{HoleArray{}}, f, 0.2);
+    ASSERT_TRUE(a.reached()) << a.status;
+    EXPECT_GT(a.amplitude.se(), 0);
+    EXPECT_LE(a.evaluations, 14);
+    scene.drive.amplitude = a.amplitude.value;
+    const double m = evaluate(scene, Texture{HoleArray{}}, f).points[0].modulation.value;
+    EXPECT_NEAR(m, 0.2, estimator == Estimator::Load ? 2e-3 : 6e-3);
+  }
+}
+
+TEST(VoltageFor, DoesNotDependOnTheAmplitudeOfTheDesign) {
+  Scene scene = scene_at(0.55);
+  const VoltageAnswer a = voltage(scene, Texture{Flat{}}, small(Estimator::Load), 0.3);
+  scene.drive.amplitude = 0;
+  const VoltageAnswer b = voltage(scene, Texture{Flat{}}, small(Estimator::Load), 0.3);
+  ASSERT_TRUE(a.reached() && b.reached()) << a.status << b.status;
+  EXPECT_NEAR(a.amplitude.value / b.amplitude.value, 1, 2e-3);
+}
+
+TEST(VoltageFor, RisesWithTheModulation) {
+  Response r = evaluate(scene_at(0.35), Texture{Flat{}}, small(Estimator::Load));
+  const std::vector<double> targets{0.05, 0.2, 0.4};
+  add_voltages(r, scene_at(0.35), Texture{Flat{}}, small(Estimator::Load), targets);
+  double before = 0;
+  for (const VoltageAnswer& a : r.points[0].voltages) {
+    ASSERT_TRUE(a.reached()) << a.status;
+    EXPECT_GT(a.amplitude.value, before);
+    before = a.amplitude.value;
+  }
+}
+
+TEST(VoltageFor, SaysThatTheDielectricBreaksDownFirst) {
+  const VoltageAnswer a = voltage(scene_at(0.35), Texture{Flat{}}, small(Estimator::Load), 1e3);
+  EXPECT_FALSE(a.reached());
+  EXPECT_EQ(a.status, "the dielectric breaks down at 500 V");  // 500 nm at 1 GV/m
+  EXPECT_DOUBLE_EQ(a.limit, 500);
+  EXPECT_GT(a.modulation, 0.5);
+}
+
+TEST(VoltageFor, SaysThatTheSourceEndsFirst) {
+  Scene scene = scene_at(0.35);
+  scene.drive.amplitude = 10;
+  scene.drive.source_compliance = 20;
+  const VoltageAnswer a = voltage(scene, Texture{Flat{}}, small(Estimator::Load), 0.5);
+  EXPECT_EQ(a.status, "the source ends at 20 V");
+}
+
+TEST(VoltageFor, SaysThatTheGapPullsInFirst) {
+  // A dielectric that never breaks down: the search runs into the collapse of the gap.
+  Scene scene = scene_at(0.15);
+  scene.model.coupling = Coupling::SelfConsistent;
+  scene.surface.dielectric[0].strength = 1e12;
+  scene.surface.dielectric[0].thickness = 20e-9;
+  const VoltageAnswer a = voltage(scene, Texture{Flat{}}, small(Estimator::Load), 1e3);
+  EXPECT_FALSE(a.reached());
+  EXPECT_TRUE(a.status.starts_with("pull-in") || a.status.starts_with("coupling") ||
+              a.status.starts_with("full contact"))
+      << a.status;
+  EXPECT_GT(a.limit, 0);
+  EXPECT_LT(a.limit, 20e3);
+}
+
+TEST(VoltageFor, NeedsADielectric) {
+  Scene scene = scene_at(0.35);
+  scene.drive.amplitude = 0;
+  scene.surface.dielectric.clear();
+  EXPECT_TRUE(voltage(scene, Texture{Flat{}}, small(Estimator::Load), 0.5)
+                  .status.starts_with("no dielectric"));
+}
+
+TEST(VoltageFor, TheStatedEdgeRadiusLowersTheLimit) {
+  Scene scene = scene_at(0.35);
+  EXPECT_DOUBLE_EQ(amplitude_limit(scene, Texture{HoleArray{}}), 500);
+  scene.surface.electrode_edge_radius = 500e-9;
+  EXPECT_NEAR(amplitude_limit(scene, Texture{HoleArray{}}), 500 * std::log(2), 1e-9);
+  EXPECT_DOUBLE_EQ(amplitude_limit(scene, Texture{Flat{}}), 500);
+}
+
+TEST(VoltageFor, IsAMetric) {
+  Response r = evaluate(scene_at(0.35), Texture{Flat{}}, small(Estimator::Load));
+  const MetricExpression e = parse_metric("worst(voltage_for(modulation=0.2))");
+  EXPECT_EQ(metric_text(e), "worst(voltage_for(modulation = 0.2))");
+  EXPECT_FALSE(summarise(e.summary, e.metric, r));
+  add_voltages(r, scene_at(0.35), Texture{Flat{}}, small(Estimator::Load),
+               std::vector<double>{*voltage_target(e.metric)});
+  EXPECT_DOUBLE_EQ(summarise(e.summary, e.metric, r)->value,
+                   r.points[0].voltages[0].amplitude.value);
+  EXPECT_EQ(metric_text(parse_metric("voltage_for(modulation=0.5)")),
+            "mean(voltage_for(modulation = 0.5))");
+  for (const char* wrong :
+       {"voltage_for", "voltage_for(friction = 1)", "voltage_for(modulation = 0)",
+        "worst(voltage_for)", "voltage_for(modulation = x)"}) {
+    EXPECT_THROW(parse_metric(wrong), InputError) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,254 @@
+#include "rank/rank.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/statistics.h"
+
+namespace papilla {
+namespace {
+
+Design sample(const std::string& name) {
+  Design d = read_design(std::string(PAPILLA_DESIGNS_DIR) + "/m3_samples/" + name + ".toml");
+  d.accuracy.level = AccuracyLevel::Draft;
+  return d;
+}
+
+RankOptions by(const std::string& criteria) {
+  RankOptions options;
+  options.criteria = parse_criteria(criteria);
+  options.states = {FingerState::Clean};
+  options.max_skins = 24;
+  return options;
+}
+
+TEST(Rank, OrdersTheSamplesAsThePaperDoes) {
+  // M11: a3h600 is stronger than a4h600 and than a3h900; flat is the strongest of all.
+  const std::vector<Design> designs{sample("a4h600"), sample("flat"), sample("a3h600")};
+  const Ranking r = rank(designs, by("modulation:high"));
+  const auto& c = r.states.front().candidates;
+  ASSERT_EQ(c.size(), 3u);
+  EXPECT_EQ(c[0].index, 1u);
+  EXPECT_EQ(c[1].index, 2u);
+  EXPECT_EQ(c[2].index, 0u);
+  for (const RankedCandidate& x : c) {
+    EXPECT_FALSE(x.tied_with_next);
+    EXPECT_EQ(x.skins, RankOptions{}.batch);  // decided at once: nobody needs more
+  }
+  EXPECT_GT(c[0].p_best, 0.99);
+  EXPECT_GT(c[0].ahead_of_next.low, 0);
+}
+
+// Skins beyond the first six happen to be of lower modulation: only the close pairs meet them.
+TEST(Rank, TheLuckOfFewSkinsDoesNotOrder) {
+  std::vector<Design> designs;
+  for (const char* name : {"a3h350", "a3h600", "a3h900", "a4h350", "a4h600"})
+    designs.push_back(sample(name));
+  for (const char* by_what : {"modulation:high", "modulation:low", "friction:low"}) {
+    const Ranking r = rank(designs, by(by_what));
+    const auto& c = r.states.front().candidates;
+    double p = 0;
+    for (const RankedCandidate& x : c) {
+      EXPECT_GE(x.ahead_of_next.value, 0) << by_what;
+      p += x.p_best;
+      if (&x != &c.back()) {
+        EXPECT_GE(x.p_ahead, 0.5) << by_what;
+      }
+    }
+    EXPECT_NEAR(p, 1, 1e-9);
+  }
+}
+
+TEST(Rank, CallsEqualDesignsATie) {
+  const std::vector<Design> designs{sample("flat"), sample("flat"), sample("a4h600")};
+  const Ranking r = rank(designs, by("modulation:high"));
+  const auto& c = r.states.front().candidates;
+  EXPECT_TRUE(c[0].tied_with_next);
+  EXPECT_EQ(c[0].rank, 1);
+  EXPECT_EQ(c[1].rank, 1);
+  EXPECT_EQ(c[2].rank, 3);
+  EXPECT_EQ(c[0].skins, 24);                   // the open pair used all it may
+  EXPECT_EQ(c[2].skins, RankOptions{}.batch);  // the clear one did not
+  EXPECT_EQ(c[0].ahead_of_next.value, 0);
+  EXPECT_NEAR(c[0].p_best, 0.5, 0.01);  // equal designs share the win
+  EXPECT_NEAR(c[1].p_best, 0.5, 0.01);
+}
+
+TEST(Rank, PairingNarrowsTheIntervalOfADifference) {
+  const std::vector<Design> designs{sample("flat"), sample("a3h350")};
+  const Ranking r = rank(designs, by("friction:low"));
+  const auto& c = r.states.front().candidates;
+  const auto width = [](const Interval& i) { return i.high - i.low; };
+  EXPECT_LT(width(c[0].ahead_of_next), 0.7 * std::hypot(width(c[0].score), width(c[1].score)));
+}
+
+// Friction is proportional to the shear strength, so the share is common and cancels in ratios.
+TEST(Rank, WhatTheFingerLeavesOpenMovesBothOfADifference) {
+  std::vector<Design> designs{sample("flat"), sample("a3h350")};
+  for (Design& d : designs) {
+    d.finger.water.hysteresis = 0;
+    d.finger.uncertainty = {{"macro.shear_strength", 0.3, {}}};
+  }
+  RankOptions options = by("friction:low");
+  options.max_skins = 6;
+  const Ranking without = rank(designs, options);
+  options.parameters = true;
+  const Ranking with = rank(designs, options);
+  const auto& a = without.states.front().candidates;
+  const auto& b = with.states.front().candidates;
+  EXPECT_EQ(with.directions, 1);
+  EXPECT_FALSE(a[0].score.parameters);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(a[i].index, b[i].index);
+    EXPECT_NEAR(*b[i].metrics[0].parameters / b[i].metrics[0].value, std::sinh(0.3), 0.03);
+    EXPECT_NEAR(b[i].score.high - b[i].score.low, 2 * 1.96 * std::sinh(0.3), 0.1);
+  }
+  const Interval &open = b[0].ahead_of_next, &own = a[0].ahead_of_next;
+  EXPECT_LT(*open.parameters, 1.2 * std::sinh(0.3) * std::abs(open.value));
+  EXPECT_NEAR(square(open.high - open.low) - square(own.high - own.low),
+              square(2 * normal_quantile(0.975) * *open.parameters), 1e-12);
+  EXPECT_LE(std::abs(b[0].p_ahead - 0.5), std::abs(a[0].p_ahead - 0.5));
+}
+
+TEST(Rank, FingersOfUnknownOrOtherUncertaintyAreRefused) {
+  std::vector<Design> designs{sample("flat"), sample("a3h350")};
+  RankOptions options = by("modulation:high");
+  options.parameters = true;
+  designs[1].finger.uncertainty = {{"skin.rms", 0.1, {}}};
+  EXPECT_THROW(rank(designs, options), InputError);
+  for (Design& d : designs) d.finger.uncertainty.clear();
+  EXPECT_THROW(rank(designs, options), InputError);
+}
+
+TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {
+  Finger f;
+  f.state = FingerState::Natural;
+  const Finger natural = f.applied();
+  EXPECT_DOUBLE_EQ(natural.water.volume[2], 8 * f.water.volume[2]);
+  EXPECT_DOUBLE_EQ(natural.macro.shear_strength, 0.75 * f.macro.shear_strength);
+  EXPECT_LT(natural.water.contact_angle, f.water.contact_angle);
+  EXPECT_EQ(natural.applied(), natural);  // nothing more to apply
+}
+
+TEST(Rank, EightCandidatesTakeLessThanHalfOfEqualSampling) {
+  // The films of designs/coatings by what packaging asks: neighbours in the order take the skins.
+  std::vector<Design> designs;
+  for (const char* name : {"hdpe_large_1", "hdpe_small_1", "sparse", "crowded", "hard", "fine",
+                           "shallow", "wettable"}) {
+    designs.push_back(read_design(find_design(fmt::format("coatings/{}.toml", name))));
+    designs.back().accuracy.level = AccuracyLevel::Draft;
+  }
+  RankOptions options = by("friction:low,adhesion:low,compliance:high");
+  options.max_skins = 48;
+  const StateRanking r = rank(designs, options).states.front();
+  EXPECT_LT(r.skins, r.equal_skins / 2);
+  for (const RankedCandidate& c : r.candidates) {
+    if (&c != &r.candidates.back() && !c.tied_with_next) {
+      EXPECT_GT(c.p_ahead, 0.97);
+    }
+  }
+}
+
+TEST(Rank, RegionsAreOneCandidate) {
+  Design large = read_design(find_design("coatings/hdpe_large_1.toml"));
+  Design small = read_design(find_design("coatings/hdpe_small_1.toml"));
+  std::vector<Regions> films(2);
+  for (int region = 1; region <= 3; ++region) {
+    for (Design* d : {&large, &small}) {
+      std::get<ParticleFilm>(d->texture.kind).seed = region;
+      d->accuracy.level = AccuracyLevel::Draft;
+      films[d == &large ? 0 : 1].push_back(*d);
+    }
+  }
+  RankOptions options = by("friction:low,adhesion:low");
+  options.batch = 6;
+  const StateRanking r = rank(films, options).states.front();
+  EXPECT_EQ(r.candidates.front().index, 1u);  // the smaller, stiffer particles rub less
+  EXPECT_GT(r.candidates.front().p_ahead, 0.99);
+  for (const RankedCandidate& c : r.candidates)
+    EXPECT_GE(c.metrics[1].low, -1e-12);  // no repulsion
+}
+
+TEST(Rank, OtherConditionsAreRefusedByTheirKeys) {
+  std::vector<Design> designs{sample("flat"), sample("a4h600")};
+  designs[1].surface.contact_angle = 1.5;  // a finish is a candidate
+  designs[1].finger.load = 0.3;
+  designs[1].environment.relative_humidity = {0.55};
+  designs[1].drive.amplitude = 150;
+  RankOptions options = by("friction:low");
+  options.max_skins = 6;
+  std::string message;
+  try {
+    rank(designs, options);
+  } catch (const InputError& e) {
+    message = e.what();
+  }
+  EXPECT_NE(message.find("finger.load"), std::string::npos) << message;
+  EXPECT_NE(message.find("--set 'finger.load=0.2 N'"), std::string::npos) << message;
+  EXPECT_NE(message.find("environment.relative_humidity"), std::string::npos);
+  EXPECT_EQ(message.find("drive"), std::string::npos);  // friction without voltage is another's
+  EXPECT_EQ(message.find("contact_angle"), std::string::npos);
+
+  options.any_conditions = true;
+  const Ranking all_the_same = rank(designs, options);
+  EXPECT_EQ(all_the_same.conditions.size(), 2u);
+  const std::vector<std::string> names{"flat", "a4h600"};
+  EXPECT_NE(ranking_table(names, options, all_the_same).find("warning: "), std::string::npos);
+  const auto json = nlohmann::json::parse(ranking_json(names, options, all_the_same));
+  EXPECT_EQ(json["conditions_differ"][0]["key"], "finger.load");
+
+  options = by("modulation:high");
+  designs[1].finger = designs[0].finger;
+  designs[1].finger.name = "the same, named otherwise";
+  designs[1].environment = designs[0].environment;
+  EXPECT_EQ(condition_differences({{designs[0]}, {designs[1]}}, options).at(0).key,
+            "drive.amplitude");
+  designs[1].drive = designs[0].drive;
+  designs[1].accuracy.level = AccuracyLevel::Design;  // its grid has another error
+  EXPECT_EQ(condition_differences({{designs[0]}, {designs[1]}}, options).at(0).key,
+            "accuracy.level");
+  EXPECT_TRUE(condition_differences({{designs[0]}, {designs[1]}}, by("haze:low")).empty());
+}
+
+TEST(Rank, SaysWhatIsOpenOnceAndThatTheValuesShareTheirSkins) {
+  const std::vector<Design> designs{sample("flat"), sample("flat")};
+  RankOptions options = by("friction:low");
+  std::vector<std::string> notes;
+  options.note = [&](const std::string& text) { notes.push_back(text); };
+  const Ranking r = rank(designs, options);
+  EXPECT_EQ(r.states.front().candidates.front().skins, 24);  // four batches
+  EXPECT_EQ(notes.size(), 1u);
+  EXPECT_NE(ranking_table({"a", "b"}, options, r).find("share the luck"), std::string::npos);
+}
+
+TEST(Rank, RefusesWhatHasNoMeaning) {
+  EXPECT_THROW(parse_criteria("frictoin:low"), InputError);
+  EXPECT_THROW(parse_criteria("friction:down"), InputError);
+  EXPECT_THROW(parse_criteria("compliance"), InputError);  // no better direction of its own
+  EXPECT_THROW(parse_criteria("friction:low,"), InputError);
+  EXPECT_FALSE(parse_criteria("variation(modulation)").front().high);
+  Design undriven = sample("flat");
+  undriven.drive.amplitude = 0;
+  EXPECT_THROW(rank({undriven, undriven}, by("modulation:high")), InputError);
+}
+
+TEST(Rank, JsonIsComplete) {
+  const std::vector<Design> designs{sample("flat"), sample("a4h600")};
+  const RankOptions options = by("modulation:high,friction:low");
+  const auto json =
+      nlohmann::json::parse(ranking_json({"flat", "a4h600"}, options, rank(designs, options)));
+  EXPECT_EQ(json["schema"], 1);
+  for (const auto& c : json["candidates"]) {
+    EXPECT_TRUE(c["score"]["low"].is_number());
+    EXPECT_TRUE(c["p_best"].is_number());
+    EXPECT_TRUE(c["metrics"]["mean(friction)"]["value"].is_number());
+  }
+}
+
+}  // namespace
+}  // namespace papilla

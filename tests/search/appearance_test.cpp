@@ -1,0 +1,89 @@
+// Haze and its kin as what a study wants and what it limits.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/response.h"
+#include "search/problem.h"
+
+namespace papilla {
+namespace {
+
+Study transparent_glass(const std::vector<std::string>& overrides = {}) {
+  return read_study(PAPILLA_SOURCE_DIR "/designs/transparent_glass/study.toml", overrides);
+}
+
+TEST(AppearanceInStudies, HazeIsAnObjectiveBesideFriction) {
+  const Study study = transparent_glass({"environment.relative_humidity=[\"35 %\"]"});
+  const StudyProblem problem(study);
+  ASSERT_EQ(problem.objectives().size(), 3u);
+  EXPECT_EQ(problem.objectives()[2].name, "mean(haze)");
+  Fidelity fidelity = fidelity_level("search");
+  fidelity.grid = 64;
+  fidelity.skins = 2;
+  const Outcome task = problem.evaluate_task(problem.unit_of_study(), 0, fidelity, true);
+  ASSERT_TRUE(task.ok) << task.reason;
+  const Score score = problem.score({task});
+  EXPECT_EQ(score.values[2], appearance_of(study.design).haze);
+  EXPECT_GT(score.values[2], 0.01);
+  EXPECT_EQ(score.errors[2], 0);
+  EXPECT_NE(score.reports[0].find("\"appearance\""), std::string::npos);
+}
+
+TEST(AppearanceInStudies, ALimitOnHazeHoldsBeforeAnEvaluation) {
+  const auto violation = [](const std::string& depth) {
+    const Study study = transparent_glass({"texture.depth=\"" + depth + "\""});
+    const StudyProblem problem(study);
+    EXPECT_EQ(problem.constraints(), 1u);  // only the breakdown margin needs a field
+    const Point unit = problem.unit_of_study();
+    const std::vector<double> g = problem.geometry(unit), look = problem.look(unit);
+    EXPECT_LT(*std::max_element(g.begin(), g.end()), 0);  // the shape can be made
+    EXPECT_EQ(look.size(), 1u);
+    return std::pair{look.front(), problem.geometry_reason(unit)};
+  };
+  EXPECT_LT(violation("80 nm").first, 0);
+  EXPECT_EQ(violation("80 nm").second, "");
+  EXPECT_GT(violation("550 nm").first, 0);
+  EXPECT_EQ(violation("550 nm").second.substr(0, 4), "haze");
+}
+
+TEST(AppearanceInStudies, APeriodThatNoTheoryCoversIsOutsideTheSpace) {
+  const Study study = transparent_glass({"texture.period=\"1 um\"", "texture.diameter=\"0.5 um\"",
+                                         "design_space.texture.period=[\"0.2 um\", \"10 um\"]"});
+  const StudyProblem problem(study);
+  const Point unit = problem.unit_of_study();
+  EXPECT_GT(problem.geometry(unit).front(), 0);
+  EXPECT_NE(problem.geometry_reason(unit).find("neither below"), std::string::npos);
+}
+
+TEST(AppearanceInStudies, NobodyPaysForALookThatIsNotAskedFor) {
+  const Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml",
+                                 {"population.fingers=[\"../fingers/reference.toml\"]",
+                                  "environment.relative_humidity=[\"35 %\"]"});
+  const StudyProblem problem(study);
+  EXPECT_FALSE(problem.needs_appearance());
+  Fidelity fidelity = fidelity_level("search");
+  fidelity.grid = 64;
+  fidelity.skins = 1;
+  const Outcome task = problem.evaluate_task(problem.unit_of_study(), 0, fidelity, true);
+  ASSERT_TRUE(task.ok) << task.reason;
+  EXPECT_EQ(task.reason.find("appearance"), std::string::npos);
+}
+
+TEST(AppearanceInStudies, AFilledTextureLosesItsHazeAndSaysThatTheFingerFeelsItOpen) {
+  Design design = transparent_glass().design;
+  const double open = appearance_of(design).haze;
+  design.view.fill_index = 1.33;
+  // The phase step shrinks by (1.46 - 1.33)/(1.46 - 1), haze about with its square.
+  const Optics wet = appearance_of(design);
+  EXPECT_NEAR(wet.haze / open, std::pow(0.13 / 0.46, 2), 0.01);
+  EXPECT_NE(wet.warning.find("feels it open"), std::string::npos);
+  design.view.fill_index = design.surface.refractive_index;
+  EXPECT_NEAR(appearance_of(design).haze, 0, 1e-12);
+  design.view.fill_index = 2;
+  EXPECT_EQ(design_problems(design).back().path, "view.fill_index");
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,151 @@
+// Robustness to fabrication: the distribution over the scatter, and a study that uses it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "search/problem.h"
+
+namespace papilla {
+namespace {
+
+const std::string kStudy = PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml";
+const std::vector<std::string> kSmall{"environment.relative_humidity=[\"55 %\"]",
+                                      "population.fingers=[\"../fingers/reference.toml\"]"};
+
+Study small_study(const std::vector<std::string>& more) {
+  std::vector<std::string> overrides = kSmall;
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return read_study(kStudy, overrides);
+}
+
+double mean_of(const std::vector<double>& v) {
+  return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
+double std_of(const std::vector<double>& v) {
+  const double mean = mean_of(v);
+  double sum = 0;
+  for (double x : v) sum += (x - mean) * (x - mean);
+  return std::sqrt(sum / static_cast<double>(v.size()));
+}
+
+// f = 3 + sum of a u + b u^2, each u uniform in [-1, 1].
+struct Quadratic {
+  std::vector<double> a{0.4, -0.2, 0.05}, b{0.1, -0.3, 0.2};
+
+  double at(const std::vector<double>& u) const {
+    double f = 3;
+    for (std::size_t k = 0; k < a.size(); ++k) f += a[k] * u[k] + b[k] * u[k] * u[k];
+    return f;
+  }
+  std::vector<double> ends(double sign) const {
+    std::vector<double> out;
+    for (std::size_t k = 0; k < a.size(); ++k) out.push_back(3 + sign * a[k] + b[k]);
+    return out;
+  }
+  std::vector<double> sample(int count) const {
+    RandomStream random(1, "scatter");
+    std::vector<double> out;
+    for (int i = 0; i < count; ++i) {
+      std::vector<double> u;
+      for (std::size_t k = 0; k < a.size(); ++k) u.push_back(random.uniform(-1.0, 1.0));
+      out.push_back(at(u));
+    }
+    return out;
+  }
+  std::vector<double> values(const char* risk, bool higher) const {
+    return scattered_values(parse_risk(risk), higher, 3, ends(-1), ends(1));
+  }
+};
+
+TEST(Scatter, HasTheMomentsOfTheQuadraticModel) {
+  const Quadratic q;
+  const std::vector<double> sample = q.sample(200000);
+  EXPECT_NEAR(mean_of(q.values("", true)), mean_of(sample), 2e-3);
+  EXPECT_NEAR(mean_of(q.values("mean - 2 std", true)), mean_of(sample), 2e-3);
+  EXPECT_NEAR(std_of(q.values("mean - 2 std", true)), std_of(sample), 2e-3);
+}
+
+TEST(Scatter, TheWorstIsTheLeastOverTheWholeBox) {
+  const Quadratic q;
+  std::vector<double> grid;
+  for (int i = 0; i <= 40; ++i) {
+    for (int j = 0; j <= 40; ++j) {
+      for (int k = 0; k <= 40; ++k) grid.push_back(q.at({i / 20. - 1, j / 20. - 1, k / 20. - 1}));
+    }
+  }
+  EXPECT_NEAR(q.values("worst", true)[0], *std::min_element(grid.begin(), grid.end()), 2e-3);
+  EXPECT_NEAR(q.values("worst", false)[0], *std::max_element(grid.begin(), grid.end()), 2e-3);
+}
+
+TEST(Scatter, TheCvarIsThatOfALargeSample) {
+  const Quadratic q;
+  std::vector<double> sample = q.sample(200000);
+  std::sort(sample.begin(), sample.end());
+  sample.resize(sample.size() / 5);
+  const std::vector<double> values = q.values("cvar 20 %", true);
+  const std::vector<double> weights(values.size(), 1.0);
+  EXPECT_NEAR(apply_risk(parse_risk("cvar 20 %"), true, values, weights), mean_of(sample), 0.02);
+}
+
+TEST(Scatter, WithoutScatterTheNominalValueStays) {
+  EXPECT_EQ(scattered_values(parse_risk("cvar 20 %"), true, 7, {}, {}), std::vector<double>{7});
+}
+
+TEST(Scatter, AStudyJudgesTheDesignWithinItsTolerances) {
+  const Study study = small_study({"scatter.texture.depth=60 nm", "objective.risk=worst"});
+  const StudyProblem problem(study);
+  ASSERT_EQ(problem.nominal_tasks(), 1u);
+  ASSERT_EQ(problem.tasks().size(), 3u);
+  Fidelity f = fidelity_level("search");
+  f.skins = 4;
+  const Design design = study.design;
+  std::vector<Outcome> tasks;
+  for (std::size_t t = 0; t < 3; ++t) tasks.push_back(problem.evaluate_task(design, t, f, false));
+  // The ends are designs of their own.
+  for (const auto& [t, depth] : {std::pair(1, 290e-9), std::pair(2, 410e-9)}) {
+    const Design moved = with_settings(design, {{"texture.depth", depth}});
+    EXPECT_NEAR(problem.evaluate_task(moved, 0, f, false).info[0],
+                tasks[static_cast<std::size_t>(t)].info[0], 1e-12);
+  }
+  const Score worst = problem.score(tasks);
+  ASSERT_TRUE(worst.ok) << worst.reason;
+  EXPECT_LE(worst.values[0],
+            std::min({tasks[0].info[0], tasks[1].info[0], tasks[2].info[0]}) + 1e-12);
+  EXPECT_LT(worst.values[0], tasks[0].info[0]);
+}
+
+TEST(Scatter, AShapeThatCannotExistWithinItsToleranceIsRefused) {
+  const Study study = small_study({"scatter.texture.diameter=300 nm"});
+  const StudyProblem problem(study);
+  // period 5 um: a hole of 4.8 um may come out as 5.1 um.
+  EXPECT_NE(problem.geometry_reason(problem.space().unit({5e-6, 4.8e-6, 350e-9, 0.87})), "");
+  EXPECT_EQ(problem.geometry_reason(problem.space().unit({5e-6, 4.0e-6, 350e-9, 0.87})), "");
+}
+
+TEST(Scatter, WrongTolerancesAreReported) {
+  EXPECT_THROW(small_study({"scatter.texture.depht=10 nm"}), InputError);
+  EXPECT_THROW(small_study({"scatter.texture.depth=0 nm"}), InputError);
+  EXPECT_THROW(small_study({"scatter.texture.depth=3 deg"}), InputError);
+}
+
+TEST(Target, TheDistanceIsTheRootMeanSquareOverHumidityAndFingers) {
+  const Study study = small_study({"objective={ target = { modulation = 0.8 } }",
+                                   "environment.relative_humidity=[\"15 %\", \"75 %\"]"});
+  const StudyProblem problem(study);
+  ASSERT_EQ(problem.objectives().size(), 1u);
+  EXPECT_EQ(problem.objectives()[0].name, "distance(modulation, 0.8)");
+  Fidelity f = fidelity_level("search");
+  f.skins = 4;
+  const Outcome task = problem.evaluate_task(study.design, 0, f, false);
+  ASSERT_TRUE(task.ok) << task.reason;
+  const double a = task.info[4] - 0.8, b = task.info[5] - 0.8;
+  EXPECT_NEAR(problem.score({task}).values[0], std::sqrt((a * a + b * b) / 2), 1e-12);
+  EXPECT_THROW(small_study({"objective={ target = { modulatoin = 0.8 } }"}), InputError);
+}
+
+}  // namespace
+}  // namespace papilla

@@ -1,0 +1,37 @@
+#include "search/stability.h"
+
+#include <gtest/gtest.h>
+
+namespace papilla {
+namespace {
+
+// A flat surface against the deepest holes of the samples, judged by the mean alone: texture never
+// raises the mean modulation, whatever finger or model choice, so
+// the flat design is alone on the front in every variant, and the other is unstable.
+TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
+  Study study = read_study(std::string(PAPILLA_DESIGNS_DIR) + "/electroadhesive_glass/study.toml");
+  study.objective.minimise.clear();
+  study.population.resize(1);
+  const StudyProblem problem(study);
+  Design holes = study.design, flat = study.design;
+  flat.texture = Texture{};
+  Fidelity fidelity = fidelity_level("search");
+  fidelity.grid = 64;
+  std::vector<std::vector<Outcome>> outcomes(2);
+  for (std::size_t v = 0; v < stability_variants(problem).size(); ++v) {
+    outcomes[0].push_back(evaluate_variant(problem, flat, v, fidelity));
+    outcomes[1].push_back(evaluate_variant(problem, holes, v, fidelity));
+  }
+  const Stability s = judge_stability(problem, outcomes);
+  EXPECT_EQ(s.variants.size(), 8u);
+  EXPECT_EQ(s.times_on_front[0], 8);
+  EXPECT_EQ(s.times_on_front[1], 0);
+  EXPECT_TRUE(s.stable(0));
+  EXPECT_FALSE(s.stable(1));
+  // The cap takes from the pull, self-consistency adds to it.
+  EXPECT_LT(s.variants[6].values[0][0], s.variants[0].values[0][0]);
+  EXPECT_GT(s.variants[7].values[0][0], s.variants[0].values[0][0]);
+}
+
+}  // namespace
+}  // namespace papilla
