@@ -125,26 +125,6 @@ ContactSolution solve_approach(const ContactKernel& kernel, std::span<const doub
                                double approach, const ContactOptions& options,
                                const ContactSolution* start = nullptr);
 
-// Derivative of a number J(pressure, gap) of a load-controlled solution by the heights, with the
-// contact set frozen. Eq. contact.17
-struct ContactAdjoint {
-  std::vector<double> by_height;  // dJ/dh of each pixel [unit of J / m]
-  bool converged = false;
-  int iterations = 0;
-  double fft_pairs = 0;
-};
-
-// by_pressure, by_gap: dJ/dp and dJ/dgap of each pixel, or empty. hardness: of the solution; pixels
-// at it stay there. Cost: one linear conjugate gradient, two transform pairs an iteration (10-40).
-ContactAdjoint contact_adjoint(const ContactKernel& kernel, const ContactSolution& solution,
-                               std::span<const double> by_pressure, std::span<const double> by_gap,
-                               double hardness = 0, double tolerance = 1e-8);
-
-// A contact area that can be differentiated: mean of exp(-gap/length), and what each gap changes
-// it by. Eq. contact.18
-double smoothed_area(const ContactSolution& solution, double length,
-                     std::vector<double>* by_gap = nullptr);
-
 // Contact area as fractions of the patch, by three estimators (Eq. contact.5-7).
 struct ContactArea {
   double raw = 0;        // pixels under pressure
