@@ -28,13 +28,13 @@ void add_parameter_errors(Response& response, const Scene& scene, const Texture&
   const std::vector<FingerStep> steps = finger_steps(scene.finger);
   const Fidelity few = step_fidelity(fidelity);
   ParameterSteps& out = response.parameters;
-  out = {{}, few.skins, few.grid, ""};
+  out = {{}, few.skins, few.grid, {}};
   const auto run = [&](const Finger& finger) -> Resampled {
     Scene moved = scene;
     moved.finger = finger;
     const PatchSet patches = solve_patches(moved, texture, few);
     Response there = respond(moved, few, patches);
-    if (out.trouble.empty()) out.trouble = there.trouble();
+    if (out.troubles.empty()) out.troubles = there.troubles();
     response.seconds += there.seconds;
     response.contact_solves += there.contact_solves;
     response.fft_pairs += there.fft_pairs;

@@ -1,7 +1,5 @@
 #include "forward/coupling.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -53,10 +51,8 @@ Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
   SettleReport report;
   Wetting wetting =
       settle_droplets(gap, volume, properties, options, seed, problem.droplet_index, &report);
-  if (!report.converged && out.status.empty()) {
-    out.status =
-        fmt::format("water: droplets not at rest after {} moves of one", options.max_moves);
-  }
+  if (!report.converged)
+    out.status.note({Trouble::WaterMoves, static_cast<double>(options.max_moves), ""});
   return wetting;
 }
 
@@ -186,7 +182,7 @@ class PatchSolver {
     ++out.contact_solves;
     out.fft_pairs += solution.fft_pairs;
     out.certificate = std::max(out.certificate, solution.certificate);
-    if (!solution.converged() && out.status.empty()) out.status = "contact: " + solution.reason;
+    if (!solution.converged()) out.status.note({Trouble::ContactUnsolved, 0, solution.reason});
     return solution;
   }
 
@@ -238,12 +234,7 @@ class PatchSolver {
     const FieldSolution next = solve_field_timed(problem_, {plan_.grid, state.gap}, wetting, field,
                                                  fidelity_.field_tolerance, out);
     const double ratio = next.mean_pressure * plan_.grid.area() / out.pull;
-    if (ratio >= kTwice && out.status.empty()) {
-      out.status = fmt::format(
-          "pull-in: the gap closes, a second pass would raise the pull by {:.0f} % (coupling = "
-          "\"self_consistent\" seeks an equilibrium)",
-          100 * (ratio - 1));
-    }
+    if (ratio >= kTwice) out.status.note({Trouble::SecondPassPullIn, ratio - 1, ""});
   }
 
   // Gap, water and field iterated to a fixed point. Eq. coupling.2: under-relaxed by a half in the
@@ -272,16 +263,16 @@ class PatchSolver {
         traction[i] = pass == 0 ? target[i] : 0.5 * (traction[i] + target[i]);
       }
       if (measure_area(*problem_.kernel, state).raw > 0.9) {
-        out.status = "pull-in: no equilibrium short of a closed gap";
+        out.status = {Trouble::ClosedPullIn, 0, ""};
         return state;
       }
       if (std::abs(change) < fidelity_.coupling_tolerance) return state;
       previous = out.pull;
     }
     if (change > 0 && out.pull > 2 * first) {
-      out.status = "pull-in: the pull grows from pass to pass";
-    } else if (out.status.empty()) {
-      out.status = fmt::format("coupling: not settled after {} passes", fidelity_.coupling_passes);
+      out.status = {Trouble::GrowingPullIn, 0, ""};
+    } else {
+      out.status.note({Trouble::PassesUsedUp, static_cast<double>(fidelity_.coupling_passes), ""});
     }
     return state;
   }
@@ -306,9 +297,7 @@ class PatchSolver {
     for (const Droplet& d : off.droplets) {
       if (d.film > 0 && d.film < 1) out.on_its_way += d.volume;
     }
-    if (off.status == WettingStatus::Flooded && out.status.empty()) {
-      out.status = "flooded: more water than gap, no meniscus and no capillary force";
-    }
+    if (off.status == WettingStatus::Flooded) out.status.note({Trouble::Flooded, 0, ""});
   }
 
   void note_field(const FieldSolution& pull, PatchResult& out) const {
@@ -320,7 +309,7 @@ class PatchSolver {
     const Surface& surface = problem_.scene->surface;
     out.oxide_margin = dielectric_margin(
         surface.dielectric, surface.dielectric_thickness() * pull.peak_oxide_field, kInfinity);
-    if (!pull.ok && out.status.empty()) out.status = "field: " + pull.reason;
+    if (!pull.ok) out.status.note({Trouble::FieldUnsolved, 0, pull.reason});
   }
 
   const PatchProblem& problem_;

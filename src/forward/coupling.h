@@ -43,7 +43,7 @@ struct PatchResult {
   double fft_pairs = 0;
   double certificate = 0;  // the worst of the contact solves
   PieceSeconds seconds;
-  std::string status;  // empty: sound
+  ModelStatus status;
 };
 
 // The states behind the numbers.

@@ -163,9 +163,9 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
     const PatchSet areas = run(resolved, method);
     controls.areas = response(resolved, areas);
     for (const auto& results : areas.results) {
-      std::string& status = method.pull_in.emplace_back();
+      ModelStatus& status = method.pull_in.emplace_back();
       for (const PatchResult& p : results) {
-        if (status.empty() && p.status.starts_with("pull-in")) status = p.status;
+        if (p.status.pull_in()) status.note(p.status);
       }
     }
   }

@@ -1,7 +1,5 @@
 #include "forward/forward.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -130,7 +128,7 @@ PatchResult mean_of(const std::vector<PatchResult>& members) {
     out.seconds.contact += m.seconds.contact;
     out.seconds.water += m.seconds.water;
     out.seconds.field += m.seconds.field;
-    if (out.status.empty()) out.status = m.status;
+    out.status.note(m.status);
   }
   return out;
 }
@@ -167,7 +165,7 @@ class PointBuilder {
         point.bridge_water_share +=
             p.bridge_volume / p.volume / static_cast<double>(patches.size());
       }
-      if (!p.status.empty() && point.status == "ok") point.status = p.status;
+      point.status.note(p.status);
     }
 
     if (fidelity_.estimator == Estimator::Load || !plan_.traction_solves) {
@@ -177,13 +175,7 @@ class PointBuilder {
     }
     for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
       // Resolved areas end at the patch, the load law does not.
-      if (area->value > 1 && point.status == "ok") {
-        point.status = fmt::format(
-            "full contact: the area estimate is {:.3g} times the patch, friction and modulation "
-            "mean "
-            "nothing physical",
-            area->value);
-      }
+      if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
     }
     const double strength = macro.shear_strength * carrying;
     point.retention_force = plan_.retention
@@ -343,24 +335,6 @@ class PointBuilder {
 
 }  // namespace
 
-double ErrorParts::total() const {
-  double sum = sampling * sampling;
-  for (const ErrorOrigin& origin : kErrorOrigins) {
-    if (origin.in_total) sum += square((this->*origin.part).value_or(0));
-  }
-  return std::sqrt(sum);
-}
-
-std::string Response::trouble() const {
-  std::string out;
-  for (const ResponsePoint& point : points) {
-    if (point.status == "ok") continue;
-    out += fmt::format("{}{:.0f} % RH: {}", out.empty() ? "" : "; ", 100 * point.relative_humidity,
-                       point.status);
-  }
-  return out;
-}
-
 void PatchSet::add(const PatchSet& other) {
   PAPILLA_CHECK(results.size() == other.results.size(), "the same humidities");
   for (std::size_t i = 0; i < results.size(); ++i) {
@@ -446,10 +420,7 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
       response.piece_seconds.field += patch.seconds.field;
     }
     for (const MeasuredError& error : set.errors) {
-      if (!error.pull_in.empty() && !error.pull_in[i].empty() &&
-          response.points.back().status == "ok") {
-        response.points.back().status = error.pull_in[i];
-      }
+      if (!error.pull_in.empty()) response.points.back().status.note(error.pull_in[i]);
       for (std::size_t m = 0; m < kMeasured.size(); ++m) {
         Measured& measured = response.points.back().*kMeasured[m];
         std::optional<double>& part = measured.parts.*error.origin;

@@ -19,8 +19,7 @@ struct MeasuredError {
   std::vector<std::array<double, kMeasured.size()>> size;  // [humidity][quantity], relative
   int contact_solves = 0;
   double fft_pairs = 0, seconds = 0;
-  std::vector<std::string> pull_in =
-      {};  // [humidity] of solved areas, where the load law sees none
+  std::vector<ModelStatus> pull_in{};  // [humidity] of solved areas, where the load law sees none
 };
 
 // The solved patches of a scene: what a Response is made of. More skins can be added later.

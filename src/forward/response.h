@@ -9,6 +9,7 @@
 
 #include "base/constants.h"
 #include "forward/plan.h"
+#include "forward/status.h"
 #include "physics/optics/optics.h"
 
 namespace papilla {
@@ -67,11 +68,14 @@ struct VoltageAnswer {
   double limit = 0;       // [V] largest amplitude allowed: breakdown, source, pull-in
   double modulation = 0;  // at the amplitude, or the highest reached
   int evaluations = 0;    // of the driven patches
-  std::string status;     // empty: reached; else what came first
+  VoltageEnd end = VoltageEnd::Reached;
+  ModelStatus model;  // of ModelEnds and Unsound: what the model said
 
-  bool reached() const { return status.empty(); }
+  bool reached() const { return end == VoltageEnd::Reached; }
   bool operator==(const VoltageAnswer&) const = default;
 };
+// What came first, of an answer that is not reached: "the dielectric breaks down at 500 V".
+std::string text(const VoltageAnswer& answer);
 
 struct ResponsePoint {
   double relative_humidity = 0;
@@ -96,7 +100,7 @@ struct ResponsePoint {
   // finger is fitted with that rule. Eq. electrostatics.15
   double field_error = 0;
   double bridge_water_share = 0;  // share of the water that sits in bridges
-  std::string status = "ok";      // else what went wrong: "flooded: ...", "pull-in: ..."
+  ModelStatus status;
   PatchSamples samples;
   std::vector<VoltageAnswer> voltages;  // one a target asked for
 
@@ -127,9 +131,14 @@ struct TargetReport {
   double target = 0;   // relative standard error of the quantity; 0: none was asked for
   double reached = 0;  // total of the parts that were measured
   std::string quantity;
-  std::string status;              // "reached", or what stopped it
-  std::vector<std::string> steps;  // what was run and why, one line each
+  TargetEnd end = TargetEnd::Reached;
+  const char* largest_part = "";         // of LimitsReached: the origin of the largest part
+  double largest_share = 0;              // that part, relative
+  int largest_grid = 0, most_skins = 0;  // the limits
+  std::vector<std::string> steps;        // what was run and why, one line each
 };
+// "reached", or what stopped it.
+std::string text(const TargetReport& report);
 
 // Points over humidity, and the same without each skin for the jackknife (none of one skin).
 struct Resampled {
@@ -152,7 +161,7 @@ struct ParameterStep {
 struct ParameterSteps {
   std::vector<ParameterStep> steps;  // empty: not asked for
   int skins = 0, grid = 0;
-  std::string trouble;  // the first step whose response is not sound
+  std::vector<PointTrouble> troubles;  // of the first step whose response is not sound
 };
 
 struct Response : Resampled {
@@ -168,8 +177,8 @@ struct Response : Resampled {
   double fft_pairs = 0;
   std::optional<Optics> appearance;  // where a metric of the texture's look is asked for
 
-  // Empty when every point is sound, else the trouble of each that is not.
-  std::string trouble() const;
+  // Of each point that is not sound.
+  std::vector<PointTrouble> troubles() const;
 };
 
 }  // namespace papilla

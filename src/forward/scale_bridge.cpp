@@ -89,7 +89,7 @@ ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Gri
     if (far_pull_ > 1e3 * nominal_) break;
   }
   if (!settled) {
-    status_ = "pull-in: the gaps between patches in contact close";
+    status_.note({Trouble::FarGapPullIn, 0, ""});
     far_pull_ = 0;
   }
   share_on_ = patches.share_at(nominal_ + far_pull_);
@@ -132,7 +132,7 @@ PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
     out.seconds.contact += p.seconds.contact;
     out.seconds.water += p.seconds.water;
     out.seconds.field += p.seconds.field;
-    if (out.status.empty()) out.status = p.status;
+    out.status.note(p.status);
   }
   if (out.pull > 0) out.over_limit_share = over_limit_pull / out.pull;
   return out;

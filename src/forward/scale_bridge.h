@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "forward/coupling.h"
@@ -28,7 +27,7 @@ class ScaleBridge {
     return carrying_share_;
   }                                              // of the gross area, that combine is of
   double far_pull() const { return far_pull_; }  // of the gaps of patches that do not touch [Pa]
-  const std::string& status() const { return status_; }
+  const ModelStatus& status() const { return status_; }
 
   // Results at pressures() to one result for a mean patch of the carrying area: forces and contact
   // areas are means over it, the rest over its patches in contact.
@@ -38,7 +37,7 @@ class ScaleBridge {
   Closure closure_;
   double patch_area_, carrying_share_, mean_pressure_ = 0, nominal_ = 0, far_pull_ = 0;
   std::vector<double> pressures_, share_off_, share_on_;
-  std::string status_;
+  ModelStatus status_;
 };
 
 // The gap [m] that a capacitance measurement reports under a finger whose ridges press with

@@ -351,7 +351,7 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
                                       const Response& response) {
   const MetricInfo* info = find_metric(metric);
   if (info && info->appearance) {
-    if (!response.appearance || response.appearance->regime == "refused") return std::nullopt;
+    if (!response.appearance || response.appearance->refused()) return std::nullopt;
     // One look at all humidities: no spread.
     if (is_spread(summary)) return SummaryValue{};
     for (const AppearanceEntry& entry : appearance_entries()) {
@@ -483,7 +483,7 @@ std::string why_undefined(const std::string& metric, const Response& response) {
     for (const VoltageAnswer& answer : point.voltages) {
       if (answer.target != *target || answer.reached()) continue;
       return fmt::format("{:.0f} % RH: {} (modulation {:.3g})", 100 * point.relative_humidity,
-                         answer.status, answer.modulation);
+                         text(answer), answer.modulation);
     }
   }
   return "";

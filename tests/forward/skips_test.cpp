@@ -56,7 +56,7 @@ TEST(SkipBounds, HoldForTheCouplingInOnePass) {
     bounds.push_back(skip_bounds(scene, texture, small()).self_consistency);
     scene.model.coupling = Coupling::SelfConsistent;
     const Response settled = evaluate(scene, texture, small());
-    if (settled.points[0].status != "ok") {
+    if (!settled.points[0].status.sound()) {
       bounds.pop_back();
       continue;
     }
