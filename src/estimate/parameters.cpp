@@ -42,11 +42,12 @@ void add_parameter_errors(Response& response, const Scene& scene, const Texture&
   };
   for (const FingerStep& step : steps) out.steps.push_back({run(step.up), run(step.down)});
   for (std::size_t i = 0; i < response.points.size(); ++i) {
-    for (const auto member : kMeasured) {
+    for (const PointQuantity& quantity : kQuantities) {
       const auto value = [&](const std::vector<ResponsePoint>& points) {
-        return std::optional((points[i].*member).value);
+        return std::optional((points[i].*quantity.value).value);
       };
-      (response.points[i].*member).parts.parameters = step_error(*step_samples(out.steps, value));
+      (response.points[i].*quantity.value).parts.parameters =
+          step_error(*step_samples(out.steps, value));
     }
   }
 }

@@ -71,8 +71,8 @@ class TargetRun {
     report_.reached = parts_.total();
     response.accuracy = report_;
     response.seconds = seconds_;
-    response.fft_pairs = pairs_;
-    response.contact_solves = solves_;
+    response.fft_pairs = costs_.fft_pairs;
+    response.contact_solves = costs_.contact_solves;
     return response;
   }
 
@@ -115,16 +115,10 @@ class TargetRun {
                 mean->parts.method.value_or(0) / value_, mean->parts.solver.value_or(0) / value_};
     }
     seconds_ += seconds;
-    for (const auto& results : patches_.results) {
-      for (std::size_t k = static_cast<std::size_t>(before); k < results.size(); ++k) {
-        pairs_ += results[k].fft_pairs;
-        solves_ += results[k].contact_solves;
-      }
-    }
+    costs_ += patches_.costs(before);
     if (before == 0) {
       for (const MeasuredError& e : patches_.errors) {
-        pairs_ += e.fft_pairs;
-        solves_ += e.contact_solves;
+        costs_ += e.costs;
         seconds_ += e.seconds;
       }
     }
@@ -225,8 +219,8 @@ class TargetRun {
   Parts parts_;
   double value_ = 0;
   TargetReport report_;
-  double seconds_ = 0, pairs_ = 0;
-  int solves_ = 0;
+  PatchCosts costs_;
+  double seconds_ = 0;
 };
 
 }  // namespace

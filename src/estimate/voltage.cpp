@@ -23,7 +23,7 @@ bool beyond(const ResponsePoint& point) {
 // Searches one target at one humidity.
 class VoltageSearch {
  public:
-  VoltageSearch(const RestPatches& patches, double target, double limit, VoltageEnd limited_by)
+  VoltageSearch(const UndrivenPatches& patches, double target, double limit, VoltageEnd limited_by)
       : patches_(patches), limited_by_(limited_by) {
     answer_.target = target;
     answer_.limit = limit;
@@ -144,7 +144,7 @@ class VoltageSearch {
     return {v, e};
   }
 
-  const RestPatches& patches_;
+  const UndrivenPatches& patches_;
   VoltageEnd limited_by_;
   VoltageAnswer answer_;
   ResponsePoint last_;
@@ -171,7 +171,7 @@ void add_voltages(Response& response, const Scene& scene, const Texture& texture
     Scene one = scene;
     one.environment.relative_humidity = {point.relative_humidity};
     one.environment.weights.clear();
-    const RestPatches patches(one, texture, fidelity);
+    const UndrivenPatches patches(one, texture, fidelity);
     double guess = scene.drive.driven() ? scene.drive.amplitude : 100;
     for (double target : targets) {
       PAPILLA_CHECK(target > 0, "a modulation above 0");

@@ -16,6 +16,14 @@ double ErrorParts::total() const {
   return std::sqrt(sum);
 }
 
+GridLaw grid_law(Measured PointQuantities::*quantity) {
+  for (const PointQuantity& q : kQuantities) {
+    if (q.value == quantity) return q.grid;
+  }
+  PAPILLA_CHECK(false, "every quantity is in the table");
+  return GridLaw::Other;
+}
+
 std::vector<PointTrouble> Response::troubles() const {
   std::vector<PointTrouble> out;
   for (const ResponsePoint& point : points) {

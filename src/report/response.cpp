@@ -53,14 +53,14 @@ Json summary_json(const Response& response) {
 Json plan_json(const Plan& plan) {
   Json steps = Json::array(), skipped = Json::array();
   for (const PlanStep& s : plan.steps) {
-    steps.push_back({{"piece", s.piece},
+    steps.push_back({{"piece", s.name()},
                      {"method", s.method},
                      {"reason", s.reason},
                      {"seconds", s.seconds},
                      {"error", s.error}});
   }
   for (const PlanSkip& s : plan.skipped) {
-    skipped.push_back({{"piece", s.piece},
+    skipped.push_back({{"piece", s.name()},
                        {"reason", s.reason},
                        {"bound", number(s.bound)},
                        {"estimate", s.estimate}});

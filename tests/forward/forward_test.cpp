@@ -250,8 +250,8 @@ TEST(Plan, SaysWhatIsSkippedAndWhy) {
   const Plan plan = make_plan(scene, Texture{}, fidelity_level("design"));
   bool field = false, water = false;
   for (const PlanSkip& skip : plan.skipped) {
-    field = field || (skip.piece == "field" && skip.reason.find("0 V") != std::string::npos);
-    water = water || skip.piece == "water";
+    field = field || (skip.piece == Piece::Field && skip.reason.find("0 V") != std::string::npos);
+    water = water || skip.piece == Piece::Water;
   }
   EXPECT_TRUE(field);
   EXPECT_TRUE(water);
