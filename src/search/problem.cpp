@@ -611,15 +611,16 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
                           : evaluate(scene, d.texture, fidelity);
   if (needs_appearance()) {
     response.appearance = appearance_of(d);
-    if (response.appearance->regime == "refused") {
+    if (response.appearance->refused()) {
       out.reason = response.appearance->warning;
       return out;
     }
   }
   // No equilibrium: no friction to judge.
-  if (const std::string trouble = response.trouble();
-      trouble.find(": pull-in") != std::string::npos) {
-    out.reason = task.name + ", " + trouble;
+  const std::vector<PointTrouble> troubles = response.troubles();
+  if (std::any_of(troubles.begin(), troubles.end(),
+                  [](const PointTrouble& t) { return t.status.pull_in(); })) {
+    out.reason = task.name + ", " + text(troubles);
     return out;
   }
   if (!voltage_targets_.empty())
