@@ -15,7 +15,7 @@
 #include "base/parallel.h"
 #include "base/statistics.h"
 #include "forward/scale_bridge.h"
-#include "geometry/measured.h"
+#include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"

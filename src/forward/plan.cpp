@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 #include "base/units.h"
-#include "geometry/measured.h"
+#include "geometry/measured_map.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 
