@@ -16,6 +16,8 @@ namespace {
 constexpr double kRandomPatch = 100e-6;  // orders 0.3 deg apart
 constexpr int kPeriodPixels = 96, kRandomPixels = 1024;
 constexpr double kTrusted = 2e-6;  // narrower features: compare with a rigorous method
+// A shorter patch has no order that parts what leaves within 2.5 deg from haze.
+const double kLeastPatch = 2 * visible_wavelengths().back() / std::sin(kHazeAngle);
 constexpr double kTrustedSlope = 20 * kPi / 180;
 
 void warn(Optics& o, const std::string& text) {
@@ -62,9 +64,16 @@ Optics screen(const Texture& texture, const OpticalMedia& media, const Light& li
     } else if (known.relief.height() > 0.5 * feature) {
       warn(out, "deep against its width: a thin screen is rough");
     }
-  } else if (const double slope = std::atan(roughness_parameters(h).sdq); slope > kTrustedSlope) {
+    return out;
+  }
+  if (const double slope = std::atan(roughness_parameters(h).sdq); slope > kTrustedSlope) {
     warn(out, fmt::format("slopes of {:.0f} deg (root mean square) are too steep for a thin screen",
                           slope * 180 / kPi));
+  }
+  if (const double side = std::min(grid.lx, grid.ly); side < kLeastPatch) {
+    warn(out, fmt::format("a patch of {:.3g} um is short: what leaves within 2.5 deg counts as "
+                          "haze, a patch of {:.3g} um and more parts it",
+                          1e6 * side, 1e6 * kLeastPatch));
   }
   return out;
 }

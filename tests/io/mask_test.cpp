@@ -184,5 +184,36 @@ TEST(ProcessBias, IsUndoneInTheFile) {
   EXPECT_THROW(compensated(Texture{RandomRough{}}, {1e-9, 0}), InputError);
 }
 
+std::string refusal(const Texture& texture, const char* format) {
+  Design design;
+  design.texture = texture;
+  ExportOptions options;
+  options.formats = {format};
+  options.polarity = Polarity::WhiteDeep;
+  options.pixels = 32;
+  try {
+    export_design(design, options, temporary("drawn"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Outlines, OfARoughSurfaceThereAreNoneAndTheRefusalSaysWhatToTake) {
+  for (const Texture& texture : {Texture{RandomRough{}}, Texture{ParticleFilm{}}}) {
+    for (const char* format : {"gds", "mask"}) {
+      const std::string why = refusal(texture, format);
+      EXPECT_NE(why.find("has no outline"), std::string::npos) << why;
+      EXPECT_NE(why.find("take its heights"), std::string::npos) << why;
+    }
+    EXPECT_EQ(refusal(texture, "npy"), "");
+  }
+  EXPECT_NE(refusal(Texture{HoleArray{.depth = 0}}, "gds").find("flat, there are no outlines"),
+            std::string::npos);
+  Stack stack;
+  stack.parts = {Texture{HoleArray{}}, Texture{RandomRough{.rms = 5e-9}}};
+  EXPECT_EQ(refusal(Texture{stack}, "gds"), "");
+}
+
 }  // namespace
 }  // namespace papilla
