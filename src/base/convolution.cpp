@@ -21,7 +21,7 @@ constexpr int kLanes = 4;
 constexpr int kLanes = 2;
 #endif
 using Vector = double __attribute__((vector_size(kLanes * sizeof(double))));
-// A complex number a lane; an array of them is a transform of kLanes lanes side by side.
+// A complex number per lane; an array of them is a transform of kLanes lanes side by side.
 struct Complex {
   Vector re, im;
 };

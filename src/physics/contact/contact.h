@@ -113,8 +113,8 @@ struct ContactSolution {
 };
 
 // height: rigid counter-body plus skin topography [m], grid.size() values, high touches first.
-// mean_pressure: external load over the patch area [Pa]. traction: attractive pressure [Pa] a
-// pixel, or empty. start: a nearby solution. Cost: 1-3 transform pairs (sparse), 5-25 (dense).
+// mean_pressure: external load over the patch area [Pa]. traction: attractive pressure per pixel
+// [Pa], or empty. start: a nearby solution. Cost: 1-3 transform pairs (sparse), 5-25 (dense).
 // Status NoLoad: nothing presses (the patch hangs free or lifts off); Invalid: NaN input, or a mean
 // load beyond the hardness.
 ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,

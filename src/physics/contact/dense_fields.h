@@ -48,7 +48,7 @@ struct DenseFields {
   double load;             // sum of p [Pa]; found where the approach is given
   std::vector<double>& p;  // of the state
   RealArray gap;           // gap function [m]: height difference under p, the rigid shift in it
-  // Of the step taken: p's change, and the gap function's, both before the step is shortened.
+  // The change of p by the step taken, and of the gap function, both before it is shortened.
   RealArray step, change;
   RealArray field;  // of the whole grid, for one part at a time: residual, then direction
   double shift = 0, low = 0, work = 0;  // low: the lowest gap; work: sum of p times gap function

@@ -8,6 +8,41 @@
 
 namespace papilla {
 
+namespace {
+
+struct Bracket {  // pressures [Pa] and what load and pull give beyond them there: > 0 low, <= 0
+                  // high
+  double low, high, excess_low, excess_high;
+};
+struct Equilibrium {
+  double pressure, pull;  // [Pa]
+};
+
+// The pressure without excess, by regula falsi (Illinois).
+template <class PullAt>
+Equilibrium between(Bracket b, double external_pressure, const PullAt& pull_at) {
+  for (int i = 0; i < 60 && b.high - b.low > 1e-9 * b.high; ++i) {
+    double p = b.low + (b.high - b.low) * b.excess_low / (b.excess_low - b.excess_high);
+    p = std::clamp(p, b.low, b.high);
+    const double pull = pull_at(p);
+    const double excess = external_pressure + pull - p;
+    if (std::abs(excess) < 1e-8 * p) return {p, pull};
+    if (excess > 0) {
+      b.low = p;
+      b.excess_low = excess;
+      b.excess_high *= 0.5;
+    } else {
+      b.high = p;
+      b.excess_high = excess;
+      b.excess_low *= 0.5;
+    }
+  }
+  const double middle = 0.5 * (b.low + b.high);
+  return {middle, middle - external_pressure};
+}
+
+}  // namespace
+
 PullState solve_pull(const MeanField& field, double external_pressure, double v_rms,
                      std::complex<double> h0, double finite_size_pressure) {
   PullState state;
@@ -53,25 +88,8 @@ PullState solve_pull(const MeanField& field, double external_pressure, double v_
     pull = next;
     excess_low = excess_high;
   }
-  for (int i = 0; i < 60 && high - low > 1e-9 * high; ++i) {  // regula falsi, Illinois
-    double p = low + (high - low) * excess_low / (excess_low - excess_high);
-    p = std::clamp(p, low, high);
-    pull = pull_at(p);
-    const double excess = external_pressure + pull - p;
-    if (std::abs(excess) < 1e-8 * p) {
-      return finish(p, pull);
-    }
-    if (excess > 0) {
-      low = p;
-      excess_low = excess;
-      excess_high *= 0.5;
-    } else {
-      high = p;
-      excess_high = excess;
-      excess_low *= 0.5;
-    }
-  }
-  return finish(0.5 * (low + high), 0.5 * (low + high) - external_pressure);
+  const Equilibrium e = between({low, high, excess_low, excess_high}, external_pressure, pull_at);
+  return finish(e.pressure, e.pull);
 }
 
 FrictionPoint friction_at(const MeanField& field, double normal_force, double nominal_area,
