@@ -17,7 +17,7 @@ constexpr int kSmallestGrid = 64, kFewestSkins = 8, kBatch = 8, kMostPlans = 5;
 // Share of the target's square that grid, method and solver may take in a plan: the rest is left to
 // sampling, whose error is known only within a third.
 constexpr double kSystematicShare = 0.6;
-// Of a target out of reach: how near to the least error that the limits allow is near enough.
+// Where a target is out of reach: how near to the least error within the limits is near enough.
 constexpr double kNearEnough = 1.1;
 
 struct Parts {

@@ -29,7 +29,7 @@ struct PatchSet {
   double seconds = 0;  // wall time
 
   int skins() const { return results.empty() ? 0 : static_cast<int>(results.front().size()); }
-  // Of the skins from `first` on.
+  // What the skins from `first` on have cost.
   PatchCosts costs(int first = 0) const;
   void add(const PatchSet& other);  // the same scene, other skins
 };

@@ -105,7 +105,7 @@ void add_solver_errors(ResponsePoint& point, Patches patches) {
   const double relative = contact_error(certificate);
   for (const PointQuantity& q : kQuantities) {
     Measured& m = point.*q.value;
-    m.parts.solver = relative * std::abs(m.value);
+    m.parts.solver.emplace(relative * std::abs(m.value));
   }
   point.modulation.parts.solver = relative * (1 + std::abs(point.modulation.value));
 }

@@ -86,7 +86,7 @@ struct PointQuantities {
   Measured capillary_force;                      // [N], whole finger, off
   Measured electrostatic_force;                  // [N], whole finger
   Measured retention_force;                      // [N], whole finger
-  Measured bridges;                              // a patch
+  Measured bridges;                              // per patch
   Measured wetted_fraction;
   Measured mean_gap;     // [m]
   Measured indentation;  // approach since first touch [m]
@@ -109,7 +109,7 @@ struct ResponsePoint : PointQuantities {
   double bridge_water_share = 0;  // share of the water that sits in bridges
   ModelStatus status;
   PatchSamples samples;
-  std::vector<VoltageAnswer> voltages;  // one a target asked for
+  std::vector<VoltageAnswer> voltages;  // one per target asked for
 
   bool operator==(const ResponsePoint&) const = default;
 };
@@ -206,7 +206,7 @@ struct Response : Resampled {
   double fft_pairs = 0;
   std::optional<Optics> appearance;  // where a metric of the texture's look is asked for
 
-  // Of each point that is not sound.
+  // The points that are not sound.
   std::vector<PointTrouble> troubles() const;
 };
 

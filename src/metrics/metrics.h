@@ -58,8 +58,8 @@ struct SummaryValue {
 std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
                                       const Response& response);
 
-// Half the change of a number over each step of the finger's parameters, a sample a skin whose mean
-// it is; nothing where the number is not defined at a step. Eq. accuracy.11
+// Half the change of a number over each step of the finger's parameters, one sample per skin whose
+// mean it is; nothing where the number is not defined at a step. Eq. accuracy.11
 using StepSamples = std::vector<std::vector<double>>;  // [direction][skin]
 std::optional<StepSamples> step_samples(
     const std::vector<ParameterStep>& steps,
@@ -76,8 +76,8 @@ struct ErrorSamples {
 ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response);
 ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
                               const Response& response);
-// Of the first less the second, from samples of the same skins: sampling, grid and method part.
-// Nothing where one of them lacks the samples of the other. Eq. accuracy.14
+// The error of the first less the second, from samples of the same skins: sampling, grid and method
+// part. Nothing where one of them lacks the samples of the other. Eq. accuracy.14
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second);
 
 // "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name).

@@ -11,7 +11,7 @@ namespace papilla {
 
 struct Environment {
   std::vector<double> relative_humidity = {0.15, 0.35, 0.55, 0.75};
-  std::vector<double> weights;  // one a humidity; empty: equal
+  std::vector<double> weights;  // one per humidity; empty: equal
 
   bool operator==(const Environment&) const = default;
 };
