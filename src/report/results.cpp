@@ -1,23 +1,19 @@
 #include "report/results.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "config/writer.h"
 #include "geometry/io/files.h"
-#include "optim/pareto.h"
+#include "report/page.h"
+#include "report/response.h"
 
 namespace papilla {
 namespace {
@@ -80,7 +76,7 @@ class Writer {
   }
   std::string variable_values(const Point& unit) const {
     std::string out;
-    const std::vector<double> values = f_.problem.values(unit);
+    const std::vector<double> values = f_.problem.space().value(unit);
     for (std::size_t i = 0; i < values.size(); ++i)
       out.append(",").append(variable_text(f_.study.variables[i], values[i], true));
     return out;
@@ -91,23 +87,8 @@ class Writer {
     std::string out = "evaluation" + variable_header();
     for (const StudyObjective& o : objectives) out += "," + o.name;
     out += ",worst modulation,feasible,hypervolume,status\n";
-    // Hypervolume to the worst feasible values of the run, as a share of the box to the best.
-    std::vector<double> worst, best;
-    for (const Evaluation& e : f_.history) {
-      if (!e.outcome.feasible()) continue;
-      if (worst.empty()) worst = best = e.outcome.objectives;
-      for (std::size_t k = 0; k < worst.size(); ++k) {
-        worst[k] = std::max(worst[k], e.outcome.objectives[k]);
-        best[k] = std::min(best[k], e.outcome.objectives[k]);
-      }
-    }
-    double box = 1;
-    for (std::size_t k = 0; k < worst.size(); ++k)
-      box *= worst[k] > best[k] ? worst[k] - best[k] : 1;
-    std::vector<std::vector<double>> points;
-    f_.result.hypervolumes.clear();
     for (std::size_t i = 0; i < f_.history.size(); ++i) {
-      const Evaluation& e = f_.history[i];
+      const Evaluation& e = f_.history.evaluations[i];
       out += std::to_string(i + 1) + variable_values(e.unit);
       for (std::size_t k = 0; k < objectives.size(); ++k) {
         out += e.outcome.ok
@@ -115,11 +96,9 @@ class Writer {
                                                                    : e.outcome.objectives[k])
                    : std::string(",");
       }
-      out += e.outcome.ok ? fmt::format(",{:.6g}", e.outcome.info.back()) : std::string(",");
-      if (e.outcome.feasible()) points.push_back(e.outcome.objectives);
-      const double volume = points.empty() ? 0 : hypervolume(points, worst) / box;
-      f_.result.hypervolumes.push_back(volume);
-      out += fmt::format(",{},{:.6g},{}\n", e.outcome.feasible() ? "yes" : "no", volume,
+      out += e.outcome.ok ? fmt::format(",{:.6g}", f_.history.worst[i]) : std::string(",");
+      out += fmt::format(",{},{:.6g},{}\n", e.outcome.feasible() ? "yes" : "no",
+                         f_.result.hypervolumes[i],
                          e.outcome.ok ? "ok" : csv_text(e.outcome.reason));
     }
     return out;
@@ -183,7 +162,7 @@ class Writer {
   std::string metrics(const FinalDesign& d) const {
     Json out{{"schema", 1}, {"title", d.design.title}};
     Json variables = Json::object();
-    const std::vector<double> values = f_.problem.values(d.unit);
+    const std::vector<double> values = f_.problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i)
       variables[f_.study.variables[i].path] = variable_json(f_.study.variables[i], values[i]);
     out["variables"] = variables;
@@ -440,7 +419,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   for (const FinalDesign& d : result.finalists) {
     out += "| " + (!d.folder.empty() ? d.folder : d.feasible ? "(dominated)" : "(infeasible)");
     if (!d.folder.empty() && !d.feasible) out += " (infeasible)";
-    const std::vector<double> values = problem.values(d.unit);
+    const std::vector<double> values = problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       out.append(" | ").append(variable_text(study.variables[i], values[i]));
     }
@@ -483,22 +462,21 @@ std::string infeasible_text(const OptimiseResult& result) {
                        : "no design of the space that was tried keeps " + names;
 }
 
-FolderLock::FolderLock(const std::string& folder) {
-  const std::string path = folder + "/.lock";
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file_ < 0)
-    throw InputError(fmt::format("cannot write in {}: {}", folder, std::strerror(errno)));
-  // A record lock belongs to this process alone: workers that outlive it do not hold it.
-  struct flock lock {};
-  lock.l_type = F_WRLCK;
-  lock.l_whence = SEEK_SET;
-  if (::fcntl(file_, F_SETLK, &lock) != 0) {
-    ::close(file_);
-    throw InputError(folder + ": another run is working in this folder");
-  }
+std::string FolderWriter::text(const Response& response) const {
+  return response_json(response, false);
 }
 
-FolderLock::~FolderLock() { ::close(file_); }
+void FolderWriter::write(const ResultFiles& files) const {
+  write_results(files);
+  if (!files.result.interrupted && files.result.has_best())
+    write_bytes(files.folder + "/report.html", report_page(files.folder));
+}
+
+OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options) {
+  const FolderWriter writer;
+  options.writer = &writer;
+  return optimise(study, options);
+}
 
 void write_results(const ResultFiles& files) { Writer(files).write(); }
 
