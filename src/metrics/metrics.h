@@ -24,7 +24,9 @@ struct MetricInfo {
 const std::vector<MetricInfo>& metric_list();
 const MetricInfo* find_metric(const std::string& name);
 
-// Of "voltage_for(modulation = 0.5)" the modulation; nothing for another metric. Throws InputError
+// The one metric with a target of its own: the amplitude at which the modulation reaches a value.
+inline constexpr const char* kVoltageFor = "voltage_for";
+// The modulation of "voltage_for(modulation = 0.5)"; nothing for another metric. Throws InputError
 // where the target is no number above 0.
 std::optional<double> voltage_target(const std::string& metric);
 
@@ -32,8 +34,15 @@ std::optional<double> voltage_target(const std::string& metric);
 // not reach its modulation).
 std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point);
 
+// The quantity that carries the errors of a metric; nothing for a voltage, which has its own.
+std::optional<Measured PointQuantities::*> metric_quantity(const std::string& metric);
+
+// Value of a metric of the look, in a regime that has one.
+double appearance_value(const std::string& metric, const Optics& look);
+
 // How a quantity is summarised over humidity with the points' weights. Eq. metrics.1-5
 enum class Summary { Mean, Variation, Range, Std, Worst, Best, First, Last };
+bool is_spread(Summary summary);  // Variation, Range, Std: lower is better
 
 struct SummaryValue {
   double value = 0;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "config/fields.h"
 
 namespace papilla {
@@ -40,6 +41,7 @@ struct Surface {
 
   double equivalent_thickness() const;  // sum of d/eps [m]
   double dielectric_thickness() const;  // of all layers [m]
+  bool repels_water() const { return contact_angle > kPi / 2; }
 
   bool operator==(const Surface&) const = default;
 };

@@ -106,7 +106,7 @@ bool check(Run& run) {
   };
   if (!check_stability(run, [&] { step(); }) || run.stopped()) return false;
   pick(run);
-  if (texture_depth(run.study.design.texture) > 0) compare_with_flat(run);
+  if (facts(run.study.design.texture).relief.present) compare_with_flat(run);
   step();
   find_sensitivity(run);
   step(2);

@@ -35,7 +35,7 @@ double look_value(const std::string& name, const Look& look) {
 
 // What a constraint of shape limits.
 double shape_value(const std::string& name, const Design& d) {
-  const FabricationMargins m = fabrication_margins(d.texture);
+  const FabricationMargins m = facts(d.texture).margins;
   if (name == "min_hole") return m.min_hole;
   if (name == "min_wall") return m.min_wall;
   return m.aspect_ratio;
@@ -62,12 +62,11 @@ std::string look_refusal(const Design& d) {
 
 // A look that is not calculated in a millisecond, of some kind of texture.
 bool slow_look(const Study& study) {
-  if (!quick_appearance(study.design.texture)) return true;
+  if (!facts(study.design.texture).quick_look) return true;
   for (const Variable& v : study.variables) {
     if (!v.is_kind()) continue;
     for (double kind : v.choices) {
-      const std::string& name = texture_kinds()[static_cast<std::size_t>(kind)];
-      if (!quick_appearance(of_kind(study.design.texture, name))) return true;
+      if (!facts(default_texture(static_cast<std::size_t>(kind))).quick_look) return true;
     }
   }
   return false;

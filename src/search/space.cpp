@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <string_view>
 
 #include "design/families.h"
 
@@ -71,15 +69,16 @@ Point DesignSpace::unit_of_study() const {
 }
 
 bool DesignSpace::has_features() const {
-  const auto varies = [&](const char* path) {
-    return std::any_of(study_.variables.begin(), study_.variables.end(),
-                       [&](const Variable& v) { return v.path == path; });
+  const auto varies = [&](Measure measure) {
+    return std::any_of(study_.variables.begin(), study_.variables.end(), [&](const Variable& v) {
+      return std::count(v.path.begin(), v.path.end(), '.') == 1 && measure_of(v.path) == measure;
+    });
   };
-  return varies("texture.period") && (varies("texture.diameter") || varies("texture.width"));
+  return varies(Measure::Period) && varies(Measure::Width);
 }
 
 std::vector<double> DesignSpace::features(const Point& unit) const {
-  return {std::sqrt(open_fraction(design(unit).texture))};
+  return {std::sqrt(facts(design(unit).texture).open_share.value_or(0))};
 }
 
 Point DesignSpace::collapsed(const Point& unit) const {
@@ -87,10 +86,7 @@ Point DesignSpace::collapsed(const Point& unit) const {
       std::any_of(study_.variables.begin(), study_.variables.end(),
                   [](const Variable& v) { return v.path.starts_with("texture."); });
   if (!textured) return unit;
-  const auto is_depth = [](const Variable& v) {
-    return v.path.starts_with("texture.") &&
-           (v.path.ends_with(".depth") || v.path.ends_with(".height"));
-  };
+  const auto is_depth = [](const Variable& v) { return measure_of(v.path) == Measure::Depth; };
   Point value = cube_.value(unit);
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
@@ -104,30 +100,28 @@ Point DesignSpace::collapsed(const Point& unit) const {
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
     if (v.is_levels()) {  // a last part of no depth is one level less
-      while (const auto* stack = std::get_if<Stack>(&d.texture.kind)) {
-        const int levels = static_cast<int>(stack->parts.size());
-        if (levels < 2 || texture_depth(stack->parts.back()) > 0 || !offered(v, levels - 1)) break;
+      for (int levels = texture_levels(d.texture);
+           levels >= 2 && !last_level_has_relief(d.texture) && offered(v, levels - 1);
+           levels = texture_levels(d.texture)) {
         d.texture = with_levels(d.texture, levels - 1);
         value[i] = levels - 1;
       }
     }
-    if (v.is_kind() && texture_depth(d.texture) <= 0) {
-      value[i] = v.low;  // "flat" is the first of all kinds
-      d.texture = of_kind(d.texture, texture_kinds()[static_cast<std::size_t>(v.low)]);
+    if (v.is_kind() && !facts(d.texture).relief.present) {  // all flat textures are one
+      const Texture first = of_kind(d.texture, texture_kinds()[static_cast<std::size_t>(v.low)]);
+      if (facts(first).relief.present) continue;  // none of its measures is this one's
+      value[i] = v.low;
+      d.texture = first;
     }
   }
-  const auto texture_of = [&](const std::string& path) -> const Texture& {
-    constexpr std::string_view kPart = "texture.parts.";
-    const auto* stack = std::get_if<Stack>(&d.texture.kind);
-    if (!stack || !path.starts_with(kPart)) return d.texture;
-    const auto part = static_cast<std::size_t>(std::atoi(path.c_str() + kPart.size()));
-    return part < stack->parts.size() ? stack->parts[part] : d.texture;
+  const auto has_relief = [&](const std::string& path) {
+    return facts(part_at(d.texture, path)).relief.present;
   };
   const std::vector<NumberField> known = number_fields(d);
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
     if (!v.path.starts_with("texture.") || v.is_kind() || v.is_levels()) continue;
-    if (!acts(known, i) || (!is_depth(v) && texture_depth(texture_of(path_in(known, v.path))) <= 0))
+    if (!acts(known, i) || (!decides_relief(v.path) && !has_relief(path_in(known, v.path))))
       value[i] = own[i];
   }
   return cube_.unit(value);
@@ -158,11 +152,14 @@ std::optional<Point> DesignSpace::flat_by(std::size_t variable, const Point& uni
   flat[variable] = 0;
   if (study_.variables[variable].is_kind()) {
     Point value = cube_.value(unit);
-    value[variable] = study_.variables[variable].low;  // "flat" is the first of all kinds
+    value[variable] =
+        study_.variables[variable].low;  // flat, where it is offered: the first of all kinds
     flat = cube_.unit(value);
   }
-  if (texture_depth(design(unit).texture) <= 0 || texture_depth(design(flat).texture) > 0)
-    return std::nullopt;
+  const auto has_relief = [this](const Point& p) {
+    return facts(design(p).texture).relief.present;
+  };
+  if (!has_relief(unit) || has_relief(flat)) return std::nullopt;
   return cube_.snapped(flat);
 }
 

@@ -47,11 +47,9 @@ StepSamples steps_of(const StudyObjective& o, const Response& response) {
 Texture without_relief(const Design& textured) {
   constexpr double kNone = 1e-12;  // [m]
   Design flat = textured;
-  for (const NumberField& field : number_fields(flat)) {
-    if (field.path == "texture.depth" || field.path == "texture.height")
-      *field.value = std::min(*field.value, kNone);
-  }
-  return texture_depth(flat.texture) > kNone ? Texture{} : flat.texture;
+  double* depth = roles(flat.texture).depth;
+  if (depth) *depth = std::min(*depth, kNone);
+  return depth || !facts(flat.texture).relief.present ? flat.texture : Texture{};
 }
 
 // Skins are shared out over the population, as in the search.
@@ -82,12 +80,6 @@ std::vector<std::vector<ErrorSamples>> samples_of(const StudyGoals& goals,
       of.push_back(error_samples_at(i, e.metric, response));
   }
   return out;
-}
-
-// The states of a response that leave nothing to judge.
-bool look_refused(const Response& response) { return response.appearance->regime == "refused"; }
-bool no_equilibrium(const Response& response) {
-  return response.trouble().find(": pull-in") != std::string::npos;
 }
 
 // Finalists are worth the target of the study; the search is not.
@@ -163,11 +155,13 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
   Response response = respond(scene, d, work);
   if (goals.looks) {
     response.appearance = appearance_of(d);
-    if (look_refused(response))
+    if (response.appearance->refused())
       return TaskAnswer::refused(Kind::LookRefused, response.appearance->warning);
   }
-  if (no_equilibrium(response))
-    return TaskAnswer::refused(Kind::NoEquilibrium, task.name + ", " + response.trouble());
+  const std::vector<PointTrouble> troubles = response.troubles();
+  if (std::any_of(troubles.begin(), troubles.end(),
+                  [](const PointTrouble& t) { return t.status.pull_in(); }))
+    return TaskAnswer::refused(Kind::NoEquilibrium, task.name + ", " + papilla::text(troubles));
   if (!goals.voltage_targets.empty())
     add_voltages(response, scene, d.texture, work.fidelity, goals.voltage_targets);
   if (work.confirmed && task.nominal() && d.accuracy.parameters &&
