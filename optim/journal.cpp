@@ -34,8 +34,8 @@ constexpr std::array<std::pair<char, char>, 4> kEscapes{
 std::string escaped(const std::string& bytes) {
   std::string out;
   for (char c : bytes) {
-    const auto* special = std::find_if(kEscapes.begin(), kEscapes.end(),
-                                       [c](const auto& e) { return e.first == c; });
+    const auto* special =
+        std::find_if(kEscapes.begin(), kEscapes.end(), [c](const auto& e) { return e.first == c; });
     if (special == kEscapes.end()) {
       out += c;
     } else {
@@ -78,7 +78,8 @@ bool parse_journal_line(const std::string& line, JournalRecord& record) {
   if (fmt::format("{:016x}", checksum(body)) != line.substr(0, 16)) return false;
   const std::size_t between = body.find(kBetween);
   if (between == std::string::npos) return false;
-  const auto key = unescaped(body.substr(0, between)), payload = unescaped(body.substr(between + 1));
+  const auto key = unescaped(body.substr(0, between)),
+             payload = unescaped(body.substr(between + 1));
   if (!key || !payload) return false;
   record = {*key, *payload};
   return journal_line(record) == line + "\n";
@@ -101,7 +102,8 @@ Journal::Journal(const std::string& path, const std::string& key, bool resume) :
         while (sound < text.size()) {
           const std::size_t end = text.find('\n', sound);
           JournalRecord record;
-          if (end == std::string::npos || !parse_journal_line(text.substr(sound, end - sound), record))
+          if (end == std::string::npos ||
+              !parse_journal_line(text.substr(sound, end - sound), record))
             break;
           records_.push_back(std::move(record));
           sound = end + 1;

@@ -78,8 +78,7 @@ class MpiTeam : public Team {
     for (int rank = 1; rank < ranks_; ++rank) give(rank);
     for (std::size_t done = 0; done < requests.size(); ++done) {
       const MPI_Status status = wait_for_message(MPI_ANY_SOURCE, kAnswer);
-      out[task[static_cast<std::size_t>(status.MPI_SOURCE)]] =
-          unpack_answer(receive_bytes(status));
+      out[task[static_cast<std::size_t>(status.MPI_SOURCE)]] = unpack_answer(receive_bytes(status));
       give(status.MPI_SOURCE);
     }
     return out;

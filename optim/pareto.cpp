@@ -118,8 +118,7 @@ std::vector<double> hypervolume_shares(const std::vector<Evaluation>& evaluation
     }
   }
   double box = 1;
-  for (std::size_t k = 0; k < worst.size(); ++k)
-    box *= worst[k] > best[k] ? worst[k] - best[k] : 1;
+  for (std::size_t k = 0; k < worst.size(); ++k) box *= worst[k] > best[k] ? worst[k] - best[k] : 1;
   std::vector<std::vector<double>> points;
   std::vector<double> out;
   for (const Evaluation& e : evaluations) {

@@ -62,8 +62,9 @@ SearchMethod best_method(const SearchProblem& problem) {
                    : "few, noisy evaluations: Gaussian process with expected improvement"};
   }
   if (m >= 2) return {"nsga2", "a large budget for several objectives: NSGA-II"};
-  return {"cmaes",
-          "a large budget for one noisy objective: CMA-ES, the local method that noise hurts least"};
+  return {
+      "cmaes",
+      "a large budget for one noisy objective: CMA-ES, the local method that noise hurts least"};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Work in a process of its own: a crash, a hang or too much memory becomes a failure that is told. A
-// team works on lists of requests in several processes.
+// Work in a process of its own: a crash, a hang or too much memory becomes a failure that is told.
+// A team works on lists of requests in several processes.
 #pragma once
 
 #include <functional>

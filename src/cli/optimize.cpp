@@ -17,6 +17,7 @@
 #include "optim/mpi.h"
 #include "optim/search.h"
 #include "report/results.h"
+#include "report/summary.h"
 
 namespace papilla {
 namespace {

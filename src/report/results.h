@@ -19,10 +19,4 @@ OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options);
 // All files of the folder but its page.
 void write_results(const ResultFiles& files);
 
-// The finalists as a table for people (Markdown).
-std::string result_table(const Study& study, const OptimiseResult& result);
-
-// Why nothing is feasible, as part of a sentence.
-std::string infeasible_text(const OptimiseResult& result);
-
 }  // namespace papilla

@@ -63,8 +63,8 @@ void compare_with_flat(Run& run) {
   keep(run.result.flat, best);
   bool finish_differs = false;
   for (std::size_t k = 0; k < own.size(); ++k) {
-    finish_differs = finish_differs || (!run.study.variables[k].path.starts_with("texture.") &&
-                                        own[k] != best[k]);
+    finish_differs = finish_differs ||
+                     (!run.study.variables[k].path.starts_with("texture.") && own[k] != best[k]);
   }
   if (finish_differs) keep(run.result.flat_before, own);
 }

@@ -12,9 +12,9 @@ namespace papilla {
 
 class Encoder {
  public:
-  void number(double& value);        // hexadecimal
-  void whole(std::int64_t& value);   // decimal
-  void bytes(std::string& value);    // "5:as is"
+  void number(double& value);       // hexadecimal
+  void whole(std::int64_t& value);  // decimal
+  void bytes(std::string& value);   // "5:as is"
   std::string done() && { return std::move(out_); }
 
  private:

@@ -76,11 +76,7 @@ bool slow_look(const Study& study) {
 
 StudyConstraints::StudyConstraints(const Study& study, const DesignSpace& space,
                                    const std::vector<StudyTask>& tasks, const StudyGoals& goals)
-    : study_(study),
-      space_(space),
-      tasks_(tasks),
-      goals_(goals),
-      slow_look_(slow_look(study)) {}
+    : study_(study), space_(space), tasks_(tasks), goals_(goals), slow_look_(slow_look(study)) {}
 
 // Why a design cannot be judged at all; "" where it can.
 std::string StudyConstraints::refusal(const Design& design) const {

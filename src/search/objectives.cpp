@@ -15,9 +15,8 @@ bool always_driven(const Study& study, const std::vector<StudyTask>& tasks) {
                      [&](const StudyTask& t) {
                        return with_settings(study.design, t.settings).drive.driven();
                      }) ||
-         std::any_of(study.variables.begin(), study.variables.end(), [](const Variable& v) {
-           return v.path == "drive.amplitude" && v.low > 0;
-         });
+         std::any_of(study.variables.begin(), study.variables.end(),
+                     [](const Variable& v) { return v.path == "drive.amplitude" && v.low > 0; });
 }
 
 StudyObjective aimed_at(const Target& target) {

@@ -18,9 +18,8 @@ StudyProblem::StudyProblem(const Study& study)
       goals_(study_goals(study, tasks_)),
       constraints_(study, space_, tasks_, goals_),
       scoring_{goals_, tasks_,
-               static_cast<std::size_t>(
-                   std::count_if(tasks_.begin(), tasks_.end(),
-                                 [](const StudyTask& t) { return t.nominal(); })),
+               static_cast<std::size_t>(std::count_if(
+                   tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.nominal(); })),
                study.scatter.size(), study.design.environment.weights} {}
 
 std::string StudyProblem::parameters_unknown() const {
@@ -31,8 +30,8 @@ std::string StudyProblem::parameters_unknown() const {
 }
 
 std::size_t StudyProblem::residuals() const {
-  const bool squares = objectives().size() == 1 && objectives()[0].aimed &&
-                       goals_.risk.kind == Risk::Kind::Mean;
+  const bool squares =
+      objectives().size() == 1 && objectives()[0].aimed && goals_.risk.kind == Risk::Kind::Mean;
   return squares ? nominal_tasks() * study_.design.environment.relative_humidity.size() : 0;
 }
 
@@ -66,7 +65,8 @@ std::string StudyProblem::identity() const {
     for (double c : v.choices) out += fmt::format(" {:a}", c);
     out += '\n';
   }
-  for (const StudyObjective& o : goals_.objectives) out += (o.maximise ? "max " : "min ") + o.name + "\n";
+  for (const StudyObjective& o : goals_.objectives)
+    out += (o.maximise ? "max " : "min ") + o.name + "\n";
   for (const Scatter& s : study_.scatter) out += fmt::format("{} +- {:a}\n", s.path, s.tolerance);
   out += study_.objective.risk + "\n";
   for (const Constraint& c : study_.constraints) out += fmt::format("{} {:a}\n", c.name, c.limit);
@@ -106,8 +106,7 @@ SearchProblem search_problem(const StudyProblem& problem) {
       return it->second;
     };
   }
-  if (space.has_features())
-    p.features = [&space](const Point& u) { return space.features(u); };
+  if (space.has_features()) p.features = [&space](const Point& u) { return space.features(u); };
   p.starts = space.starts();
   p.evaluations =
       study.search.evaluations > 0 ? study.search.evaluations : default_evaluations(study);

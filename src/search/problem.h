@@ -1,5 +1,5 @@
-// What a study wants, as numbers for a search: its space, tasks, goals and constraints, and scores of
-// designs as outcomes.
+// What a study wants, as numbers for a search: its space, tasks, goals and constraints, and scores
+// of designs as outcomes.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Answers to what a run asks: from its journal while there are records, else from a team of workers,
-// and then recorded.
+// Answers to what a run asks: from its journal while there are records, else from a team of
+// workers, and then recorded.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,8 @@ namespace papilla {
 // other stage has one per task: its answer.
 class Replay {
  public:
-  // Opens or starts folder/journal. Throws InputError for one of another study, by the keys in which
-  // the studies differ. Refers to both problems.
+  // Opens or starts folder/journal. Throws InputError for one of another study, by the keys in
+  // which the studies differ. Refers to both problems.
   Replay(const StudyProblem& problem, const SearchProblem& search, const std::string& folder,
          bool resume, std::unique_ptr<Team> team);
 

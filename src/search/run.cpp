@@ -49,9 +49,9 @@ std::unique_ptr<Team> make_team(const StudyProblem& problem, const OptimiseOptio
   const int wanted = problem.study().search.jobs;
   const int jobs = wanted > 0 ? wanted : omp_get_num_procs();
   const int count = std::max(1, std::min(jobs, static_cast<int>(problem.tasks().size())));
-  return make_local_team(
-      static_cast<std::size_t>(count),
-      work_function(problem, std::max(1, jobs / count), response_text(options)), WorkerLimits{});
+  return make_local_team(static_cast<std::size_t>(count),
+                         work_function(problem, std::max(1, jobs / count), response_text(options)),
+                         WorkerLimits{});
 }
 
 // Best values of a search so far, for people.
@@ -104,8 +104,7 @@ void write_files(Run& run, const StageSeconds& at) {
   run.result.hypervolumes = hypervolume_shares(run.history.evaluations);
   const std::string rule = run.unmet_pick.empty() ? run.options.pick : "";
   if (run.options.writer)
-    run.options.writer->write(
-        {run.folder, run.study, run.problem, run.history, run.result, rule});
+    run.options.writer->write({run.folder, run.study, run.problem, run.history, run.result, rule});
   write_bytes(run.folder + "/timing.json",
               fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
                           "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "

@@ -77,7 +77,8 @@ struct OptimiseOptions {
   std::function<void(const Progress&)> progress;  // may be empty
   const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after the running evaluation
   std::string pick{};  // which design of the front is the best: a rule of pick_design
-  const ResultWriter* writer = nullptr;  // none: the folder has the journal, the plan and no results
+  const ResultWriter* writer =
+      nullptr;  // none: the folder has the journal, the plan and no results
 };
 
 // Throws InputError for a folder that belongs to another study or is in use, for one without a run

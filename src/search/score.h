@@ -37,8 +37,8 @@ struct Score {
 struct Scoring {
   const StudyGoals& goals;
   const std::vector<StudyTask>& tasks;
-  std::size_t nominal = 0;                     // the first tasks are as designed
-  std::size_t scatter = 0;                     // numbers that scatter
+  std::size_t nominal = 0;                      // the first tasks are as designed
+  std::size_t scatter = 0;                      // numbers that scatter
   const std::vector<double>& humidity_weights;  // empty: all alike
 };
 

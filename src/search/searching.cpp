@@ -34,8 +34,7 @@ class Searching {
     while (batch.size() < units.size()) {
       if (run_.stopped_before_next()) return End::Interrupted;
       const auto begin = units.begin() + static_cast<std::ptrdiff_t>(batch.size());
-      const std::size_t count =
-          std::min(units.size() - batch.size(), 4 * run_.replay.workers());
+      const std::size_t count = std::min(units.size() - batch.size(), 4 * run_.replay.workers());
       const std::vector<Point> some(begin, begin + static_cast<std::ptrdiff_t>(count));
       for (Evaluation& e : run_.replay.judged(some, Stage::Draft).evaluations)
         batch.push_back(std::move(e));
@@ -64,8 +63,8 @@ class Searching {
     return End::Told;
   }
 
-  // Those to evaluate together. One at a time from the journal, which may end or change stage within
-  // the batch.
+  // Those to evaluate together. One at a time from the journal, which may end or change stage
+  // within the batch.
   std::vector<Point> next_of(const std::vector<Point>& asked, std::size_t from) const {
     std::vector<Point> out;
     std::size_t counted = evaluated_;
@@ -106,7 +105,8 @@ bool search_designs(Run& run) {
   if (!run.replay.finished(Stage::Search)) return Searching(run).run();
   const JudgedDesigns before = run.replay.searched_before();
   for (std::size_t i = 0; i < before.size(); ++i)
-    run.add_to_history(before.evaluations[i].unit, {before.evaluations[i].outcome, before.worst[i]});
+    run.add_to_history(before.evaluations[i].unit,
+                       {before.evaluations[i].outcome, before.worst[i]});
   return true;
 }
 

@@ -98,9 +98,9 @@ std::optional<SummaryValue> defined(const StudyObjective& o, const std::string& 
   auto value = summarise(o.expression.summary, o.expression.metric, response);
   if (value && std::isfinite(value->value)) return value;
   const std::string why = why_undefined(o.expression.metric, response);
-  answer = TaskAnswer::refused(
-      TaskStatus::Kind::NotDefined,
-      o.name + " is not defined for " + task + (why.empty() ? "" : ": " + why));
+  answer =
+      TaskAnswer::refused(TaskStatus::Kind::NotDefined,
+                          o.name + " is not defined for " + task + (why.empty() ? "" : ": " + why));
   return std::nullopt;
 }
 
@@ -150,7 +150,8 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
   const StudyTask& task = problem.tasks().at(index);
   const Design d = task_design(problem.study(), design, task);
   if (const auto wrong = design_problems(d); !wrong.empty())
-    return TaskAnswer::refused(Kind::ShapeRefused, wrong.front().path + ": " + wrong.front().message);
+    return TaskAnswer::refused(Kind::ShapeRefused,
+                               wrong.front().path + ": " + wrong.front().message);
   const Scene scene = scene_of(d);
   Response response = respond(scene, d, work);
   if (goals.looks) {

@@ -41,7 +41,7 @@ std::vector<StudyTask> study_tasks(const Study& study) {
   for (const Scenario& scenario : scenarios) {
     for (const Finger& finger : fingers) {
       tasks.push_back({scenario.name.empty() ? finger.name : finger.name + ", " + scenario.name,
-                        scenario.weight, finger, scenario.set});
+                       scenario.weight, finger, scenario.set});
     }
   }
   const std::size_t nominal = tasks.size();

@@ -381,6 +381,18 @@ TEST(Team, AHangHoldsUpNobodyElse) {
   for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(out[i].bytes, std::to_string(i));
 }
 
+// Of the one list of methods, each as studies name it.
+TEST(Method, EveryNameMakesASearcherThatAsks) {
+  SearchProblem p = box(2, 1, 10);
+  p.residuals = 2;
+  for (const std::string& name : searcher_names()) {
+    p.objectives = name == "nsga2" ? 2 : 1;
+    const std::vector<Point> asked = make_searcher(choose_method(name, p), p)->ask();
+    ASSERT_FALSE(asked.empty()) << name;
+    EXPECT_EQ(asked[0].size(), 2u) << name;
+  }
+}
+
 TEST(Method, WhatCannotDoTheProblemIsRefused) {
   EXPECT_THROW(choose_method("bobyqa", box(2, 2, 10)), InputError);
   EXPECT_THROW(choose_method("annealing", box(2, 1, 10)), InputError);

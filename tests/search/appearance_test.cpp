@@ -44,7 +44,8 @@ TEST(AppearanceInStudies, ALimitOnHazeHoldsBeforeAnEvaluation) {
     const StudyProblem problem(study);
     EXPECT_EQ(problem.constraints().evaluated(), 1u);  // only the breakdown margin needs a field
     const Point unit = problem.space().unit_of_study();
-    const std::vector<double> g = problem.constraints().geometry(unit), look = problem.constraints().look(unit);
+    const std::vector<double> g = problem.constraints().geometry(unit),
+                              look = problem.constraints().look(unit);
     EXPECT_LT(*std::max_element(g.begin(), g.end()), 0);  // the shape can be made
     EXPECT_EQ(look.size(), 1u);
     return std::pair{look.front(), problem.constraints().geometry_reason(unit)};

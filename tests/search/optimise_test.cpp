@@ -11,6 +11,7 @@
 #include "base/statistics.h"
 #include "report/response.h"
 #include "report/results.h"
+#include "report/summary.h"
 #include "search/pick.h"
 #include "search/run.h"
 #include "search/task.h"
@@ -141,8 +142,8 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
     const StudyProblem problem(study);  // the steps alone
     const Design design = problem.space().design(problem.space().unit_of_study());
     Score alone;
-    problem.add_steps(alone, {evaluate_steps(problem, design, 0, f),
-                              evaluate_steps(problem, design, 1, f)});
+    problem.add_steps(
+        alone, {evaluate_steps(problem, design, 0, f), evaluate_steps(problem, design, 1, f)});
     EXPECT_EQ(alone.parameter_steps, same.parameter_steps);
   }
 
@@ -194,7 +195,8 @@ TEST(Optimise, WritesItsResultsAndResumesToTheSameBytes) {
                InputError);  // an earlier run's folder
   Study other = study;
   other.search.seed = 2;
-  EXPECT_THROW(optimise_to_folder(other, {whole, true, {}, nullptr}), InputError);  // of another study
+  EXPECT_THROW(optimise_to_folder(other, {whole, true, {}, nullptr}),
+               InputError);  // of another study
 }
 
 TEST(Optimise, AnInterruptLeavesAResumableFolder) {
@@ -249,7 +251,8 @@ TEST(Optimise, AnEmptyFeasibleSetNamesTheLeastViolatingDesign) {
   study.search.evaluations = 3;
   study.constraints = {{"min_wall", 20e-6, true}, {"min_hole", 20e-6, true}};
   study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}}};
-  const OptimiseResult result = optimise_to_folder(study, {fresh_folder("empty"), false, {}, nullptr});
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("empty"), false, {}, nullptr});
   EXPECT_FALSE(result.any_feasible);
   ASSERT_EQ(result.finalists.size(), 1u);
   EXPECT_FALSE(result.finalists[0].feasible);
@@ -331,7 +334,8 @@ TEST(Optimise, AFewEvaluationsHaveFinalists) {
 TEST(Optimise, ARefusedStartLeavesNothingBehind) {
   const Study study = small_study();
   const std::string folder = fresh_folder("refused");
-  EXPECT_THROW(optimise_to_folder(study, {folder, true, {}, nullptr}), InputError);  // nothing to continue
+  EXPECT_THROW(optimise_to_folder(study, {folder, true, {}, nullptr}),
+               InputError);  // nothing to continue
   EXPECT_THROW(optimise_to_folder(study, {folder, false, {}, nullptr, "bestest"}), InputError);
   EXPECT_FALSE(fs::exists(folder));
 }
@@ -357,7 +361,8 @@ TEST(Optimise, AResumedRunIsNotShortened) {
 TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
   Study study = small_study();
   study.variables = {{"texture.diameter", "um", 3e-6, 3e-6, {3e-6}}};
-  const OptimiseResult result = optimise_to_folder(study, {fresh_folder("point"), false, {}, nullptr});
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("point"), false, {}, nullptr});
   EXPECT_EQ(result.evaluations, 1);
   EXPECT_TRUE(result.any_feasible);
 }
@@ -369,7 +374,8 @@ TEST(Optimise, ATargetIsMetByLeastSquares) {
   study.constraints.clear();
   study.variables = {{"texture.depth", "nm", 0, 1e-6, {}}, {"drive.amplitude", "V", 100, 220, {}}};
   study.search.evaluations = 12;
-  const OptimiseResult result = optimise_to_folder(study, {fresh_folder("target"), false, {}, nullptr});
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("target"), false, {}, nullptr});
   EXPECT_EQ(result.method, "least_squares");
   ASSERT_FALSE(result.finalists.empty());
   const StudyProblem problem(study);
@@ -451,7 +457,8 @@ TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
   // Under a risk, over humidities and fingers, as without.
   for (const char* risk : {"", "mean - 2 std"}) {
     study.objective.risk = risk;
-    const OptimiseResult r = optimise_to_folder(study, {fresh_folder("relief"), false, {}, nullptr});
+    const OptimiseResult r =
+        optimise_to_folder(study, {fresh_folder("relief"), false, {}, nullptr});
     ASSERT_TRUE(r.flat && r.has_best());
     const Score& best = r.finalists[r.best].confirmed;
     for (std::size_t k = 0; k < best.values.size(); ++k)

@@ -123,8 +123,12 @@ TEST(Scatter, AShapeThatCannotExistWithinItsToleranceIsRefused) {
   const Study study = small_study({"scatter.texture.diameter=300 nm"});
   const StudyProblem problem(study);
   // period 5 um: a hole of 4.8 um may come out as 5.1 um.
-  EXPECT_NE(problem.constraints().geometry_reason(problem.space().unit({5e-6, 4.8e-6, 350e-9, 0.87})), "");
-  EXPECT_EQ(problem.constraints().geometry_reason(problem.space().unit({5e-6, 4.0e-6, 350e-9, 0.87})), "");
+  EXPECT_NE(
+      problem.constraints().geometry_reason(problem.space().unit({5e-6, 4.8e-6, 350e-9, 0.87})),
+      "");
+  EXPECT_EQ(
+      problem.constraints().geometry_reason(problem.space().unit({5e-6, 4.0e-6, 350e-9, 0.87})),
+      "");
 }
 
 TEST(Scatter, WrongTolerancesAreReported) {
