@@ -10,7 +10,7 @@
 #include "estimate/target.h"
 #include "forward/skips.h"
 #include "report/response.h"
-#include "search/problem.h"
+#include "search/tasks.h"
 
 namespace papilla {
 namespace {

@@ -16,6 +16,7 @@
 #include "config/writer.h"
 #include "design/families.h"
 #include "metrics/metrics.h"
+#include "optim/search.h"
 #include "scene/uncertainty.h"
 
 namespace papilla {
@@ -70,23 +71,16 @@ void fields(FieldVisitor& v, Design& s) {
 }
 
 void fields(FieldVisitor& v, Search& s) {
-  int method =
-      static_cast<int>(std::find(search_methods().begin(), search_methods().end(), s.method) -
-                       search_methods().begin());
-  v.choice({"method", "search method"}, search_methods(), method);
-  s.method = search_methods()[static_cast<std::size_t>(method)];
+  const std::vector<std::string>& names = searcher_names();
+  int method = static_cast<int>(std::find(names.begin(), names.end(), s.method) - names.begin());
+  v.choice({"method", "search method"}, names, method);
+  s.method = names[static_cast<std::size_t>(method)];
   v.integer({"seed", "of the search's random numbers"}, 0, 1 << 30, s.seed);
   v.integer({"evaluations", "largest number of evaluated designs; 0: the method's default"}, 0,
             100000000, s.evaluations);
   v.integer({"drafts", "cheap evaluations that steer the bayesian search"}, 0, 10000, s.drafts);
   v.number({"time", "min", 0, 1e6, "largest wall-clock time; 0: no limit"}, s.time);
   v.integer({"jobs", "evaluations at a time; 0: one a processor"}, 0, 4096, s.jobs);
-}
-
-const std::vector<std::string>& search_methods() {
-  static const std::vector<std::string> names{"auto",   "bayesian", "nsga2",  "cmaes",
-                                              "bobyqa", "sbplx",    "direct", "least_squares"};
-  return names;
 }
 
 const std::vector<ConstraintKind>& constraint_kinds() {

@@ -8,6 +8,7 @@
 #include "config/describe.h"
 #include "design/design.h"
 #include "optim/journal.h"
+#include "search/protocol.h"
 #include "tests/fuzz/targets.h"
 
 namespace papilla {
@@ -41,14 +42,15 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
          }
        })});
 
-  Evaluation e{{1.0 / 7, 0.1}, {true, "", {1.0 / 3, 2}, {-0.5}, {7}}};
-  std::string good = journal_line(e);
-  e.outcome = {false, "crashed", {}, {}, {}};
-  std::string failed = journal_line(e);
+  const Bytes key = encode(TaskRequest{Stage::Search, 0, false, {1.0 / 7, 0.1}});
+  std::string good =
+      journal_line({key, encode(Judgement{{true, "", {1.0 / 3, 2}, {-0.5}, {7}}, 0.2})});
+  std::string failed =
+      journal_line({key, encode(TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed"))});
   good.pop_back();
   failed.pop_back();
   out.push_back({"journal", 0.27, {good, failed}, [](const std::string& bytes) {
-                   Evaluation back;
+                   JournalRecord back;
                    // The checksum: no changed record is taken for a sound one.
                    if (parse_journal_line(bytes, back) && journal_line(back) != bytes + "\n")
                      throw NotFinite{"a changed record is taken for a sound one"};
