@@ -1,7 +1,6 @@
 // papilla evaluate DESIGN.toml: the forward model over humidity.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -267,18 +266,18 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
 
 }  // namespace
 
-void add_evaluate(CLI::App& app, Context& context) {
-  CLI::App* command =
-      app.add_subcommand("evaluate", "Friction over humidity, drive off and on, with error bars");
+void add_evaluate(Command app, Context& context) {
+  Command command =
+      app.add_command("evaluate", "Friction over humidity, drive off and on, with error bars");
   auto options = std::make_shared<EvaluateOptions>();
-  add_design_options(*command, options->design);
-  command->add_option("--sweep", options->sweep, "Evaluate over a number of the design")
-      ->type_name("PATH=LOW..HIGH[:COUNT]");
+  add_design_options(command, options->design);
+  command.add_option("--sweep", options->sweep, "Evaluate over a number of the design")
+      .type_name("PATH=LOW..HIGH[:COUNT]");
   command
-      ->add_option("--voltage-for", options->voltage_for,
-                   "Also the amplitude at which the modulation reaches this value")
-      ->type_name("MODULATION")
-      ->check([](const std::string& text) {
+      .add_option("--voltage-for", options->voltage_for,
+                  "Also the amplitude at which the modulation reaches this value")
+      .type_name("MODULATION")
+      .check([](const std::string& text) {
         double value = 0;
         const char* end = text.data() + text.size();
         const auto [last, error] = std::from_chars(text.data(), end, value);
@@ -289,25 +288,24 @@ void add_evaluate(CLI::App& app, Context& context) {
                "for 50 %, got " +
                text;
       });
-  command->add_flag(
+  command.add_flag(
       "--check-field", options->check_field,
       "Also solve the 3-D field on one skin and say how far the cheaper rules are off");
-  command->add_option("--out", options->out, "Also write the numbers and pictures of the fields")
-      ->type_name("DIR");
-  command->add_flag("--appearance", options->appearance,
-                    "Also haze, transmittance, gloss and colour");
+  command.add_option("--out", options->out, "Also write the numbers and pictures of the fields")
+      .type_name("DIR");
+  command.add_flag("--appearance", options->appearance,
+                   "Also haze, transmittance, gloss and colour");
   command
-      ->add_option("--accuracy", options->accuracy,
-                   "Wanted standard error of the modulation: grid, samples and estimator follow")
-      ->type_name("SHARE")
-      ->check([](const std::string& text) { return text.empty() ? "expected a share: 5%" : ""; });
-  command->add_flag("--parameters", options->parameters,
-                    "Also the error that the finger's fitted numbers leave (its [[uncertainty]])");
-  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
-      ->check(CLI::Range(0, 4096));
-  command->add_flag("--force", options->force,
-                    "Run with model options that the finger was not fitted with");
-  command->callback([&context, options] {
+      .add_option("--accuracy", options->accuracy,
+                  "Wanted standard error of the modulation: grid, samples and estimator follow")
+      .type_name("SHARE")
+      .check([](const std::string& text) { return text.empty() ? "expected a share: 5%" : ""; });
+  command.add_flag("--parameters", options->parameters,
+                   "Also the error that the finger's fitted numbers leave (its [[uncertainty]])");
+  command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
+  command.add_flag("--force", options->force,
+                   "Run with model options that the finger was not fitted with");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return evaluate_file(context, *options); };
   });
 }
