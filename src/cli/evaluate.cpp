@@ -14,8 +14,8 @@
 #include "config/describe.h"
 #include "config/writer.h"
 #include "design/design.h"
+#include "estimate/evaluation.h"
 #include "estimate/parameters.h"
-#include "estimate/target.h"
 #include "estimate/voltage.h"
 #include "geometry/io/files.h"
 #include "measure/field_accuracy.h"
@@ -215,15 +215,7 @@ double wanted_accuracy(const std::string& text) {
 int evaluate_file(const Context& context, const EvaluateOptions& options) {
   const Study study = read_study(options.design.file, options.design.overrides);
   const Design& design = study.design;
-  if (const auto mismatch = calibration_mismatch(design); !mismatch.empty() && !options.force) {
-    std::vector<Problem> problems;
-    for (const std::string& line : mismatch)
-      problems.push_back({options.design.file, 0, 0, "", line});
-    problems.push_back({"", 0, 0, "",
-                        "such a change moves the modulation by tens of percent; fit the finger "
-                        "again, or run with --force"});
-    throw InputError(problems);
-  }
+  if (!options.force) require_fitted_model(design, options.design.file, "run with --force");
   Fidelity fidelity = fidelity_of(design);
   fidelity.threads = options.jobs;
   const bool parameters = options.parameters || design.accuracy.parameters;
@@ -233,19 +225,13 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   }
 
   if (!options.out.empty()) make_folder(options.out);
-  const double target =
-      options.accuracy.empty() ? design.accuracy.target : wanted_accuracy(options.accuracy);
-  Response response =
-      target > 0
-          ? evaluate_to_target(scene_of(design), design.texture,
-                               {.target = target, .seed = fidelity.seed, .threads = options.jobs})
-          : evaluate(scene_of(design), design.texture, fidelity);
+  const Response response = evaluate_design(
+      design, {.target = options.accuracy.empty() ? 0 : wanted_accuracy(options.accuracy),
+               .parameters = options.parameters,
+               .appearance = options.appearance,
+               .voltage_for = options.voltage_for,
+               .threads = options.jobs});
   for (const std::string& step : response.accuracy.steps) context.note(step);
-  if (parameters)
-    add_parameter_errors(response, scene_of(design), design.texture, response.fidelity);
-  if (options.appearance) response.appearance = appearance_of(design);
-  if (!options.voltage_for.empty())
-    add_voltages(response, scene_of(design), design.texture, fidelity, options.voltage_for);
   if (!options.out.empty()) {
     remove_pictures(options.out);
     write_bytes(options.out + "/resolved.toml", resolved_toml(study));
