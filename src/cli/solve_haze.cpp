@@ -51,12 +51,12 @@ int solve(const HazeOptions& options) {
     if (!angles.empty()) light.angles = angles;
     o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media, light);
   }
-  const bool refused = o.regime == "refused";
+  const bool refused = o.refused();
   if (options.design.json) {
     using Json = nlohmann::ordered_json;
     const auto number = [&](double v) { return refused ? Json(nullptr) : Json(v); };
     Json out{{"schema", 1},
-             {"regime", o.regime},
+             {"regime", text(o.regime)},
              {"warning", o.warning},
              {"haze", number(o.haze)},
              {"transmittance", number(o.transmittance)},
@@ -73,7 +73,7 @@ int solve(const HazeOptions& options) {
     }
     std::cout << out.dump(2) << '\n';
   } else {
-    std::cout << "regime         " << o.regime << '\n';
+    std::cout << "regime         " << text(o.regime) << '\n';
     if (!refused) {
       std::cout << fmt::format(
           "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"
