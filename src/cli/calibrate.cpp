@@ -1,7 +1,6 @@
 // papilla calibrate: fits the finger to measured friction or published numbers.
 #include "calibrate/calibrate.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -55,17 +54,16 @@ int run(const Context& context, const CalibrateCommand& command) {
 
 }  // namespace
 
-void add_calibrate(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand(
+void add_calibrate(Command app, Context& context) {
+  Command command = app.add_command(
       "calibrate", "Fit the finger to measured friction or published numbers, with uncertainties");
   auto options = std::make_shared<CalibrateCommand>();
-  command->add_option("file", options->file, "CALIBRATION.toml")->required();
-  command->add_option("--out", options->out, "Folder of finger.toml, fit.md, fit.json, report.html")
-      ->type_name("DIR");
-  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
-      ->check(CLI::Range(0, 4096));
-  command->add_flag("--json", options->json, "One JSON object on standard output");
-  command->callback([&context, options] {
+  command.add_option("file", options->file, "CALIBRATION.toml").required();
+  command.add_option("--out", options->out, "Folder of finger.toml, fit.md, fit.json, report.html")
+      .type_name("DIR");
+  command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
+  command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return run(context, *options); };
   });
 }

@@ -3,7 +3,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -218,28 +217,28 @@ int optimize(const OptimizeOptions& options, const Context& context) {
 
 }  // namespace
 
-void add_optimize(CLI::App& app, Context& context) {
-  CLI::App* command =
-      app.add_subcommand("optimize", "Search the design space of a study; write results/<study>/");
+void add_optimize(Command app, Context& context) {
+  Command command =
+      app.add_command("optimize", "Search the design space of a study; write results/<study>/");
   auto options = std::make_shared<OptimizeOptions>();
-  command->add_option("study", options->study, "STUDY.toml, a design with a [design_space]")
-      ->required();
-  command->add_option("--out", options->out, "Folder of results; default results/<study>")
-      ->type_name("DIR");
-  command->add_flag("--resume", options->resume, "Continue an interrupted run of the same study");
-  command->add_option("--jobs", options->jobs, "Evaluations at a time; default: one per processor")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--evaluations", options->evaluations, "Largest number of evaluated designs")
-      ->check(CLI::Range(1, 100000000));
-  command->add_option("--time", options->time, "Largest wall-clock time, e.g. \"5 min\"");
-  command->add_option("--seed", options->seed, "Seed of the search and of the skins")
-      ->check(CLI::Range(0, 1 << 30));
-  command->add_option("--method", options->method,
-                      fmt::format("{}", fmt::join(searcher_names(), ", ")));
-  add_pick_option(*command, options->pick);
-  add_set_option(*command, options->overrides);
-  command->add_flag("--json", options->json, "The result as one JSON object on standard output");
-  command->callback([&context, options] {
+  command.add_option("study", options->study, "STUDY.toml, a design with a [design_space]")
+      .required();
+  command.add_option("--out", options->out, "Folder of results; default results/<study>")
+      .type_name("DIR");
+  command.add_flag("--resume", options->resume, "Continue an interrupted run of the same study");
+  command.add_option("--jobs", options->jobs, "Evaluations at a time; default: one per processor")
+      .range(1, 4096);
+  command.add_option("--evaluations", options->evaluations, "Largest number of evaluated designs")
+      .range(1, 100000000);
+  command.add_option("--time", options->time, "Largest wall-clock time, e.g. \"5 min\"");
+  command.add_option("--seed", options->seed, "Seed of the search and of the skins")
+      .range(0, 1 << 30);
+  command.add_option("--method", options->method,
+                     "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct, least_squares");
+  add_pick_option(command, options->pick);
+  add_set_option(command, options->overrides);
+  command.add_flag("--json", options->json, "The result as one JSON object on standard output");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return optimize(*options, context); };
   });
 }

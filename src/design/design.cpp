@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/files.h"
+#include "base/installation.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "config/describe.h"
@@ -225,9 +226,8 @@ std::vector<std::string> design_roots() {
   std::vector<std::string> roots;
   std::error_code error;
   const char* named = std::getenv("PAPILLA_DESIGNS");
-  for (const char* folder : {named, PAPILLA_DESIGNS_DIR, PAPILLA_INSTALLED_DESIGNS_DIR}) {
-    if (folder && fs::is_directory(folder, error)) roots.emplace_back(folder);
-  }
+  if (named && fs::is_directory(named, error)) roots.emplace_back(named);
+  for (const std::string& folder : own_designs()) roots.push_back(folder);
   return roots;
 }
 
@@ -656,8 +656,9 @@ std::string study_name(const std::string& path) {
 
 }  // namespace
 
-Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
-  Document document = load_document(path, overrides, design_roots());
+namespace {
+
+Study study_of(Document document, const std::string& path) {
   Study study;
   study.file = path;
   study.name = study_name(path);
@@ -666,6 +667,17 @@ Study read_study(const std::string& path, const std::vector<std::string>& overri
   finish(document);
   study.origins = document.origins();
   return study;
+}
+
+}  // namespace
+
+Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
+  return study_of(load_document(path, overrides, design_roots()), path);
+}
+
+Study parse_study(const std::string& text, const std::string& name,
+                  const std::vector<std::string>& overrides) {
+  return study_of(parse_document(text, name, overrides, design_roots()), name);
 }
 
 Design read_design(const std::string& path, const std::vector<std::string>& overrides) {

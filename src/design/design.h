@@ -173,6 +173,10 @@ std::string find_design(const std::string& name);
 // Throws InputError with every problem. A study file is a design too.
 Design read_design(const std::string& path, const std::vector<std::string>& overrides = {});
 Study read_study(const std::string& path, const std::vector<std::string>& overrides = {});
+// From text in place of a file; `name` stands for it in problems. Files that it names are looked
+// for in the folder where the program runs, and bases in the designs folders too.
+Study parse_study(const std::string& text, const std::string& name,
+                  const std::vector<std::string>& overrides = {});
 Finger read_finger(const std::string& path);
 
 void write_design(const std::string& path, const Design& design);
