@@ -166,8 +166,9 @@ class Finder:
         text = self.text[start:end]
         if not NUMBER.match(text):
             return
-        if kind == K.INTEGER_LITERAL:
-            self.add("constant", start, end, [(start, end), " + 1"])
+        if kind == K.INTEGER_LITERAL:  # an index or a count, else a number as large as others
+            small = len(text) == 1
+            self.add("constant", start, end, [(start, end), " + 1"] if small else ["2 * ", (start, end)])
         elif float(text.rstrip(b"fFlL").replace(b"'", b"")) == 0:
             self.add("constant", start, end, ["1.0"])
         else:

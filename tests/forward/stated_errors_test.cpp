@@ -60,6 +60,28 @@ TEST(StatedErrors, PartsAddInSquaresAndTheWatersBandIsNone) {
   EXPECT_NEAR(parts.total(), 0.13, 1e-12);
 }
 
+TEST(StatedErrors, TheScatterBetweenSkinsIsTheSamplingPart) {
+  Scene scene;
+  scene.drive.amplitude = 100;
+  scene.environment.relative_humidity = {0.5};
+  Fidelity fidelity = fidelity_level("search");
+  fidelity.grid = 32;
+  fidelity.skins = 5;
+  fidelity.control_skins = 0;
+  fidelity.threads = 1;
+  PatchSet set = solve_patches(scene, Texture{}, fidelity);
+  ASSERT_EQ(set.skins(), 5);
+  const std::vector<double> scatter = planted(1, 0.03);
+  for (std::size_t k = 0; k < 5; ++k) {
+    set.results[0][k].pull = 2e-6 * scatter[k];
+    set.results[0][k].mean_gap = 50e-9 * scatter[k];
+  }
+  const ResponsePoint p = respond(scene, fidelity, set).points.front();
+  EXPECT_NEAR(p.mean_gap.value, 50e-9, 1e-18);
+  EXPECT_NEAR(p.mean_gap.parts.sampling, 0.03 * 50e-9, 1e-18);
+  EXPECT_NEAR(p.electrostatic_force.parts.sampling / p.electrostatic_force.value, 0.03, 1e-9);
+}
+
 // Half the pixels see 10 % more: what is left to the limit is a known share of that, by the order
 // of convergence of each quantity (Eq. accuracy.2).
 TEST(StatedErrors, AStepBetweenGridsGivesItsRestToTheLimit) {
