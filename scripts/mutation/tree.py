@@ -170,6 +170,14 @@ class Tree:
         return [m for m in mutants if m["id"] not in bad]
 
     def _refused_in(self, file, mutants, commands):
+        """Kept from run to run by the planted text."""
+        known = self.work / "refused" / f"{digest(self.planted_texts(mutants)[file])}.json"
+        if not known.is_file():
+            known.parent.mkdir(exist_ok=True)
+            known.write_text(json.dumps(sorted(self._search_refused(file, mutants, commands))))
+        return set(json.loads(known.read_text()))
+
+    def _search_refused(self, file, mutants, commands):
         bad = set()
         while True:
             left = [m for m in mutants if m["id"] not in bad]
