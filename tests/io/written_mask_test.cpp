@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <map>
 #include <vector>
 
 #include "base/constants.h"
-#include "base/files.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
+#include "tests/io/gds_file.h"
 
 namespace papilla {
 namespace {
@@ -30,57 +30,6 @@ HoleArray one_hole() {
   return holes;
 }
 
-// GDSII as its definition has it: records of length, type and big-endian data.
-struct GdsFile {
-  double user_unit = 0, metre = 0;  // of a database unit
-  double area = 0;                  // [m^2], of all polygons
-  double least = 0, most = 0;       // [m], of all coordinates
-
-  explicit GdsFile(const std::string& path) {
-    const std::string bytes = read_bytes(path);
-    for (std::size_t at = 0; at + 4 <= bytes.size();) {
-      const std::size_t length = number(bytes, at, 2);
-      const std::size_t type = number(bytes, at + 2, 2);
-      if (type == 0x0305) {
-        user_unit = real(bytes, at + 4);
-        metre = real(bytes, at + 12);
-      }
-      if (type == 0x1003) polygon(bytes, at + 4, (length - 4) / 8);
-      if (length < 4) break;
-      at += length;
-    }
-  }
-
- private:
-  static std::uint64_t number(const std::string& bytes, std::size_t at, std::size_t size) {
-    std::uint64_t out = 0;
-    for (std::size_t i = 0; i < size; ++i)
-      out = out << 8 | static_cast<unsigned char>(bytes.at(at + i));
-    return out;
-  }
-  // Excess-64 exponent of 16 and a mantissa of 56 bits.
-  static double real(const std::string& bytes, std::size_t at) {
-    const std::uint64_t word = number(bytes, at, 8);
-    return std::ldexp(static_cast<double>(word & 0x00ffffffffffffff),
-                      4 * (static_cast<int>(word >> 56 & 0x7f) - 64) - 56);
-  }
-  void polygon(const std::string& bytes, std::size_t at, std::size_t points) {
-    std::vector<double> x, y;
-    for (std::size_t i = 0; i < points; ++i) {
-      for (auto* to : {&x, &y}) {
-        const auto value = static_cast<std::int32_t>(number(bytes, at, 4));
-        to->push_back(metre * value);
-        least = std::min(least, to->back());
-        most = std::max(most, to->back());
-        at += 4;
-      }
-    }
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < points; ++i) sum += x[i] * y[i + 1] - x[i + 1] * y[i];
-    area += 0.5 * std::abs(sum);
-  }
-};
-
 TEST(WrittenGds, AMaskOfAMapHasTheHoleInMetres) {
   const HoleArray holes = one_hole();
   const Heightmap h = generate(Texture{holes}, patch_grid(Texture{holes}, 128, 12e-6));
@@ -90,10 +39,11 @@ TEST(WrittenGds, AMaskOfAMapHasTheHoleInMetres) {
   EXPECT_DOUBLE_EQ(file.metre, 1e-9);
   EXPECT_DOUBLE_EQ(file.user_unit, 1e-3);  // micrometres
   const double count = h.grid.area() / square(holes.period);
-  EXPECT_NEAR(file.area / count, kPi / 4 * square(holes.diameter), 0.02 * square(holes.diameter));
-  EXPECT_GE(file.least, 0);
-  EXPECT_LE(file.most, h.grid.lx + 1e-9);
-  EXPECT_GT(file.most, 0.5 * h.grid.lx);
+  EXPECT_NEAR(file.area() / count, kPi / 4 * square(holes.diameter), 0.02 * square(holes.diameter));
+  for (const GdsPolygon& p : file.polygons) {
+    EXPECT_GE(*std::min_element(p.x.begin(), p.x.end()), 0);
+    EXPECT_LE(*std::max_element(p.y.begin(), p.y.end()), h.grid.ly + 1e-9);
+  }
 }
 
 TEST(WrittenGds, LevelsAreLayersOfWhatIsDeeper) {
@@ -104,10 +54,49 @@ TEST(WrittenGds, LevelsAreLayersOfWhatIsDeeper) {
     for (int x = 0; x < grid.nx; ++x) ramp(x, y) = -1e-6 * x / (grid.nx - 1);
   const std::string path = temporary("ramp.gds");
   write_gds_mask(path, ramp, 2);
-  // Three quarters of the area on layer 1, one quarter on layer 2.
-  EXPECT_NEAR(GdsFile(path).area, 1.0 * grid.area(), 0.01 * grid.area());
+  std::map<int, double> area;
+  for (const GdsPolygon& p : GdsFile(path).polygons) area[p.layer] += p.area() / grid.area();
+  EXPECT_NEAR(area[1], 0.75, 0.01);
+  EXPECT_NEAR(area[2], 0.25, 0.01);
   write_gds_mask(path, ramp, 1);
-  EXPECT_NEAR(GdsFile(path).area, 0.5 * grid.area(), 0.01 * grid.area());
+  EXPECT_NEAR(GdsFile(path).area(), 0.5 * grid.area(), 0.01 * grid.area());
+}
+
+// Seen from above the layout and the map are one: pixels inside a polygon are deep, or high where
+// pillars are drawn.
+TEST(WrittenGds, ALayoutLiesOnTheMapOfItsTexture) {
+  HoleArray hexagons = one_hole();
+  hexagons.lattice = Lattice::Hexagonal;
+  PillarArray pillars;
+  pillars.period = 6e-6, pillars.diameter = 2.5e-6, pillars.height = 200e-9;
+  pillars.wall_angle = kPi / 2;
+  Grating grooves;
+  grooves.period = 6e-6, grooves.width = 2e-6, grooves.depth = 200e-9;
+  grooves.wall_angle = kPi / 2;
+  for (const Texture& texture :
+       {Texture{one_hole()}, Texture{hexagons}, Texture{pillars}, Texture{grooves}}) {
+    const Heightmap h = generate(texture, patch_grid(texture, 96, 18e-6));
+    const std::string path = temporary("layout.gds");
+    write_gds(path, texture, h.grid.lx, h.grid.ly);
+    const GdsFile file(path);
+    const bool drawn_high = std::holds_alternative<PillarArray>(texture.kind);
+    int other = 0, inside = 0;
+    for (int iy = 0; iy < h.grid.ny; ++iy) {
+      for (int ix = 0; ix < h.grid.nx; ++ix) {
+        bool in = false;
+        for (const GdsPolygon& p : file.polygons) in = in || p.holds(h.grid.x(ix), h.grid.y(iy));
+        const bool low = h(ix, iy) < (drawn_high ? 100e-9 : -100e-9);
+        inside += in;
+        other += in != (low != drawn_high);
+      }
+    }
+    EXPECT_GT(inside, 0) << texture_name(texture);
+    // Pixels that the outline cuts.
+    EXPECT_LT(other, 0.005 * static_cast<double>(h.grid.size())) << texture_name(texture);
+    const double share =
+        drawn_high ? kPi / 4 * square(pillars.diameter / pillars.period) : open_fraction(texture);
+    EXPECT_NEAR(file.area() / h.grid.area(), share, 0.01 * share) << texture_name(texture);
+  }
 }
 
 // Grey of 16 bits at a place, as a program sees it that knows nothing of our descriptions.
