@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "config/describe.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "forward/fidelity.h"
 #include "metrics/metrics.h"
 #include "optim/problem.h"
