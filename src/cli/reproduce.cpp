@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "design/design.h"
+#include "report/claims.h"
 
 namespace papilla {
 namespace {
