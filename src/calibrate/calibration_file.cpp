@@ -19,8 +19,8 @@ namespace papilla {
 namespace {
 
 constexpr const char* kWaterScale = "water.scale";
-// Of the differences, relative: droplets jump from hollow to hollow, so that a friction has ripples
-// of a few tenths of a per cent, which a step has to stand above.
+// Step of the differences, relative: residuals jump a little where droplets merge or not, and the
+// step has to stand above that (docs/theory/calibration.md).
 constexpr double kStep = 0.04;
 
 class CalibrationReader {

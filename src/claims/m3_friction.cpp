@@ -37,7 +37,7 @@ Judgement real_area(FingerModel& model) {
     });
   };
   const SkinEstimate patch = rise(s), without = rise(dry);
-  const double growth = s.strength[kWet] / s.strength[kDry];
+  const double growth = s.point(kWet).strength / s.point(kDry).strength;
   return agrees_if(
       std::abs(patch.value - 45.5) <= 8, patch.value, patch.se,
       fmt::format("+{:.1f} ± {:.1f} %", patch.value, patch.se),

@@ -189,6 +189,7 @@ class PointBuilder {
     point.retention_force = plan_.retention
                                 ? sampled_mean(patches, &PatchResult::retention, patches_per_finger)
                                 : Measured{};
+    point.strength = strength;
     point.friction_off = friction(strength, point.area_fraction_off, point.retention_force);
     point.friction_on = friction(strength, point.area_fraction_on, point.retention_force);
     if (plan_.field) {
@@ -295,18 +296,18 @@ class PointBuilder {
 
   // Eq. friction.3: F ~ L^beta on the dry contact area.
   void load_based(ResponsePoint& point, const std::vector<PatchResult>& patches) const {
-    const double beta = fidelity_.load_exponent;
     const Measured dry = sampled_mean(patches, &PatchResult::area_dry);
     std::vector<double> loads;
     for (const PatchResult& p : patches) loads.push_back(p.load);
     const Estimate off = ratio_estimate(point.samples.load_off, loads);
     const Estimate on = ratio_estimate(point.samples.load_on, loads);
     const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
-    point.area_fraction_off = scaled(dry, off, beta);
-    point.area_fraction_on = scaled(dry, on, beta);
-    const double ratio = std::pow(std::max(gain.value, 0.0), beta);
+    point.area_fraction_off = scaled(dry, off);
+    point.area_fraction_on = scaled(dry, on);
+    const double ratio = fidelity_.area_by_load(gain.value);
     point.modulation.value = ratio - 1;
-    point.modulation.parts.sampling = beta * ratio * gain.se / std::max(gain.value, 1e-12);
+    point.modulation.parts.sampling =
+        fidelity_.load_exponent * ratio * gain.se / std::max(gain.value, 1e-12);
   }
 
   // Eq. friction.1, friction.2: resolved areas, ratio of sums over the skins.
@@ -321,10 +322,10 @@ class PointBuilder {
     }
   }
 
-  static Measured scaled(const Measured& dry, const Estimate& load_ratio, double beta) {
-    const double base = std::max(load_ratio.value, 0.0);
-    const double factor = std::pow(base, beta);
-    const double relative = base > 0 ? beta * load_ratio.se / base : 0;
+  Measured scaled(const Measured& dry, const Estimate& load_ratio) const {
+    const double factor = fidelity_.area_by_load(load_ratio.value);
+    const double relative =
+        load_ratio.value > 0 ? fidelity_.load_exponent * load_ratio.se / load_ratio.value : 0;
     return {dry.value * factor,
             {.sampling = std::hypot(dry.parts.sampling * factor, dry.value * factor * relative)}};
   }

@@ -12,22 +12,15 @@ namespace papilla {
 namespace {
 
 Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
-  Sample out;
-  out.response = evaluate(scene, texture, fidelity);
-  const MacroContact& macro = scene.finger.macro;
-  for (const ResponsePoint& p : out.response.points) {
-    out.strength.push_back(macro.shear_strength * macro.load_share *
-                           macro.gross_area(scene.finger.load, p.relative_humidity));
+  Sample out{evaluate(scene, texture, fidelity), {}};
+  for (const ResponsePoint& p : out.response.points)
     out.preload.push_back(p.patch_pressure * out.response.plan.grid.area());
-  }
-  if (fidelity.estimator == Estimator::Load) {  // Eq. friction.3: areas from loads, a skin
-    for (std::size_t i = 0; i < out.response.points.size(); ++i) {
-      PatchSamples& p = out.response.points[i].samples;
-      for (std::size_t k = 0; k < p.area_off.size(); ++k) {
-        const double beta = fidelity.load_exponent;
-        p.area_off[k] *= std::pow(std::max(0.0, p.load_off[k] / out.preload[i]), beta);
-        p.area_on[k] *= std::pow(std::max(0.0, p.load_on[k] / out.preload[i]), beta);
-      }
+  if (fidelity.estimator == Estimator::Area) return out;
+  for (std::size_t i = 0; i < out.response.points.size(); ++i) {  // areas from loads, of each skin
+    PatchSamples& p = out.response.points[i].samples;
+    for (std::size_t k = 0; k < p.area_off.size(); ++k) {
+      p.area_off[k] *= fidelity.area_by_load(p.load_off[k] / out.preload[i]);
+      p.area_on[k] *= fidelity.area_by_load(p.load_on[k] / out.preload[i]);
     }
   }
   return out;
@@ -92,10 +85,10 @@ double mean_without(const std::vector<double>& v, int skip) {
 }
 
 double friction_off(const Sample& s, int rh, int skip) {
-  return s.strength[static_cast<std::size_t>(rh)] * mean_without(s.at(rh).area_off, skip);
+  return s.point(rh).strength * mean_without(s.at(rh).area_off, skip);
 }
 double friction_on(const Sample& s, int rh, int skip) {
-  return s.strength[static_cast<std::size_t>(rh)] * mean_without(s.at(rh).area_on, skip);
+  return s.point(rh).strength * mean_without(s.at(rh).area_on, skip);
 }
 double effect(const Sample& s, int rh, int skip) {  // Delta F [N]
   return friction_on(s, rh, skip) - friction_off(s, rh, skip);

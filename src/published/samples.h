@@ -28,13 +28,11 @@ Design read_case(const SampleCase& c);
 Scene scene_of(const FingerModel& model, const SampleCase& c, const Design& design);
 
 struct Sample {
-  Response response;
-  std::vector<double> strength;  // tau x carrying area at each humidity [N]: F = strength x area
-  std::vector<double> preload;   // of a patch [N]
+  Response response;            // by the load law too, with the contact areas of each skin
+  std::vector<double> preload;  // of a patch [N]
 
-  const PatchSamples& at(int rh) const {
-    return response.points[static_cast<std::size_t>(rh)].samples;
-  }
+  const ResponsePoint& point(int rh) const { return response.points[static_cast<std::size_t>(rh)]; }
+  const PatchSamples& at(int rh) const { return point(rh).samples; }
 };
 
 // Each is run once per model.
