@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "estimate/target.h"
 #include "forward/skips.h"
 #include "report/response.h"

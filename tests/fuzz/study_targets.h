@@ -5,8 +5,9 @@
 #include <vector>
 
 #include "calibrate/calibrate.h"
+#include "claims/claim.h"
 #include "config/describe.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "optim/journal.h"
 #include "search/protocol.h"
 #include "tests/fuzz/targets.h"
@@ -35,7 +36,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
        0.03,
        {design_text("fingers/reference.calibration.toml")},
        from_file(folder + "/calibration.toml", [](const std::string& path) {
-         const Calibration calibration = read_calibration(path);
+         const Calibration calibration = read_calibration(path, m3_claim_ids());
          for (const CalibrationParameter& p : calibration.parameters) {
            for (double v : {p.fit.start, p.fit.low, p.fit.high, p.fit.prior, p.fit.prior_sd})
              require_finite(v, p.path.c_str());
