@@ -145,7 +145,6 @@ struct Search {
   bool operator==(const Search&) const = default;
 };
 void fields(FieldVisitor& v, Search& s);
-const std::vector<std::string>& search_methods();
 
 struct Study {
   Design design;
