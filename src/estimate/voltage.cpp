@@ -156,7 +156,7 @@ class VoltageSearch {
 
 double amplitude_limit(const Scene& scene, const Texture& texture) {
   const double radius = scene.surface.electrode_edge_radius;
-  const bool edges = radius > 0 && texture_depth(texture) > 0;
+  const bool edges = radius > 0 && facts(texture).relief.present;
   const double oxide =
       dielectric_margin(scene.surface.dielectric, 1, edges ? radius : kInfinity);  // 1 V
   const double source = scene.drive.source_compliance;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "geometry/measured.h"
+#include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 
 namespace papilla {

@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 #include "forward/scene_terms.h"
-#include "geometry/measured.h"
+#include "geometry/measured_map.h"
 #include "physics/capillary/facts.h"
 #include "physics/contact/facts.h"
 #include "physics/electrostatics/rules.h"

@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "design/design.h"
 #include "geometry/io/files.h"
-#include "geometry/measured.h"
+#include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 #include "metrics/metrics.h"
 
