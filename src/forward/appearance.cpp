@@ -87,9 +87,9 @@ Optics computed(const Texture& texture, double index, const View& view) {
   if (!known.relief.present) {
     const Heightmap flat{{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)};
     out = phase_screen(flat, PixelEdges::Sloped, media, light);
-    out.regime = "flat";
+    out.regime = OpticsRegime::Flat;
   } else if (const std::string why = optics_refusal(texture, index, view); !why.empty()) {
-    out.regime = "refused";
+    out.regime = OpticsRegime::Refused;
     out.warning = why;
     return out;
   } else if (array && array->period < finest_period(index, view)) {

@@ -114,8 +114,10 @@ TEST(Appearance, IsTheMeanOverTheAnglesOfView) {
   EXPECT_NEAR(haze({0.0, 1.0}), 0.5 * (haze({0.0}) + haze({1.0})), 1e-12);
   EXPECT_GT(haze({1.0}), haze({0.0}));  // the path through the glass grows
   // Oblique light is diffracted by finer arrays.
-  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {}).regime, "effective medium");
-  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {.angles = {1.0}}).regime, "refused");
+  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {}).regime,
+            OpticsRegime::EffectiveMedium);
+  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {.angles = {1.0}}).regime,
+            OpticsRegime::Refused);
 }
 
 TEST(PhaseScreen, MatchedFillRemovesHaze) {
@@ -238,13 +240,14 @@ TEST(EffectiveMedium, HazeOfDisorderIsTheSumOverRandomHoles) {
 
 TEST(Appearance, ChoosesTheTheoryAndRefusesTheBandBetween) {
   const double glass = 1.5;
-  EXPECT_EQ(appearance(holes(6e-6, 3e-6, 0), glass, {}).regime, "flat");
+  EXPECT_EQ(appearance(holes(6e-6, 3e-6, 0), glass, {}).regime, OpticsRegime::Flat);
   EXPECT_NEAR(appearance(holes(6e-6, 3e-6, 0), glass, {}).transmittance, 0.96 / 1.04, 1e-12);
-  EXPECT_EQ(appearance(holes(0.2e-6, 0.1e-6, 0.1e-6), glass, {}).regime, "effective medium");
-  EXPECT_EQ(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass, {}).regime, "refused");
+  EXPECT_EQ(appearance(holes(0.2e-6, 0.1e-6, 0.1e-6), glass, {}).regime,
+            OpticsRegime::EffectiveMedium);
+  EXPECT_EQ(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass, {}).regime, OpticsRegime::Refused);
   EXPECT_FALSE(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass, {}).warning.empty());
   const Optics wide = appearance(holes(6e-6, 3e-6, 100e-9), glass, {});
-  EXPECT_EQ(wide.regime, "phase screen");
+  EXPECT_EQ(wide.regime, OpticsRegime::PhaseScreen);
   EXPECT_TRUE(wide.warning.empty());
   EXPECT_FALSE(appearance(holes(3e-6, 1.5e-6, 100e-9), glass, {}).warning.empty());
 }
