@@ -77,9 +77,10 @@ TEST(WrittenGds, ALayoutLiesOnTheMapOfItsTexture) {
        {Texture{one_hole()}, Texture{hexagons}, Texture{pillars}, Texture{grooves}}) {
     const Heightmap h = generate(texture, patch_grid(texture, 96, 18e-6));
     const std::string path = temporary("layout.gds");
-    write_gds(path, texture, h.grid.lx, h.grid.ly);
+    const auto outline = std::get<FeatureArray>(facts(texture).outline);
+    write_gds(path, outline, h.grid.lx, h.grid.ly);
     const GdsFile file(path);
-    const bool drawn_high = std::holds_alternative<PillarArray>(texture.kind);
+    const bool drawn_high = !outline.deep;
     int other = 0, inside = 0;
     for (int iy = 0; iy < h.grid.ny; ++iy) {
       for (int ix = 0; ix < h.grid.nx; ++ix) {
@@ -93,8 +94,8 @@ TEST(WrittenGds, ALayoutLiesOnTheMapOfItsTexture) {
     EXPECT_GT(inside, 0) << texture_name(texture);
     // Pixels that the outline cuts.
     EXPECT_LT(other, 0.02 * static_cast<double>(h.grid.size())) << texture_name(texture);
-    const double share =
-        drawn_high ? kPi / 4 * square(pillars.diameter / pillars.period) : open_fraction(texture);
+    const double share = drawn_high ? kPi / 4 * square(pillars.diameter / pillars.period)
+                                    : facts(texture).open_share.value();
     EXPECT_NEAR(file.area() / h.grid.area(), share, 0.01 * share) << texture_name(texture);
   }
 }
