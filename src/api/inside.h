@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/watch.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "forward/response.h"
 #include "papilla/design.h"
 #include "papilla/error.h"
