@@ -7,8 +7,11 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "claims/reproduce.h"
 #include "cli/commands.h"
 #include "design/design.h"
+#include "published/targets.h"
+#include "report/fit.h"
 #include "report/page.h"
 
 namespace papilla {
@@ -20,14 +23,38 @@ struct CalibrateCommand {
   bool json = false;
 };
 
+// The claims of both lists, before the fit and after it.
+JudgedFit judged(const Calibration& calibration, const CalibrationResult& result, int jobs,
+                 const Context& context) {
+  ReproduceOptions options;
+  for (const auto* list : {&calibration.fit, &calibration.hold_out}) {
+    for (const std::string& id : *list) {
+      if (id != kGapTarget) options.ids.push_back(id);
+    }
+  }
+  if (options.ids.empty()) return {};
+  context.note("claims on other skins");
+  options.threads = jobs;
+  options.sampling = calibration.check;
+  options.one_preset = true;
+  JudgedFit out;
+  options.finger = result.start;
+  options.finger.fitted_to = result.finger.fitted_to;
+  out.before = reproduce(options);
+  options.finger = result.finger;
+  out.after = reproduce(options);
+  return out;
+}
+
 int run(const Context& context, const CalibrateCommand& command) {
-  Calibration calibration = read_calibration(command.file);
+  const Calibration calibration = read_calibration(command.file, m3_claim_ids());
   CalibrationOptions options;
   options.threads = command.jobs;
   options.note = [&](const std::string& text) { context.note(text); };
   const CalibrationResult result = calibrate(calibration, options);
-  const std::string markdown = calibration_markdown(calibration, result);
-  const std::string json = calibration_json(calibration, result) + "\n";
+  const JudgedFit claims = judged(calibration, result, command.jobs, context);
+  const std::string markdown = calibration_markdown(calibration, result, claims);
+  const std::string json = calibration_json(calibration, result, claims) + "\n";
   const std::string out = !command.out.empty()
                               ? command.out
                               : "results/" + std::filesystem::path(command.file).stem().string();
@@ -49,7 +76,7 @@ int run(const Context& context, const CalibrateCommand& command) {
     std::cout << json;
   else
     context.print(markdown);
-  return result.fit.converged && warning.empty() ? kSuccess : kWorkFailed;
+  return result.fit.converged && explains_data(result) ? kSuccess : kWorkFailed;
 }
 
 }  // namespace

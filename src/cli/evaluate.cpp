@@ -13,7 +13,7 @@
 #include "cli/commands.h"
 #include "config/describe.h"
 #include "config/writer.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "estimate/evaluation.h"
 #include "estimate/parameters.h"
 #include "estimate/voltage.h"

@@ -5,11 +5,11 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "estimate/target.h"
 #include "forward/skips.h"
 #include "report/response.h"
-#include "search/problem.h"
+#include "search/tasks.h"
 
 namespace papilla {
 namespace {

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "design/design.h"
+#include "report/claims.h"
 
 namespace papilla {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "forward/appearance.h"
 #include "geometry/io/files.h"
 

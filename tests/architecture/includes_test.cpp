@@ -40,6 +40,8 @@ const std::map<std::string, std::set<std::string>>& allowed() {
     below.insert("design");
     add({"estimate"}, below);
     below.insert("estimate");
+    add({"published"}, below);
+    below.insert("published");
     // Side by side: none knows another.
     const std::initializer_list<const char*> rooms{"search",  "rank",      "calibrate", "claims",
                                                    "measure", "fabricate", "cases"};
