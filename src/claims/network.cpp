@@ -49,8 +49,6 @@ Signal carrier(const Modulation& modulation, double exponent, double period = 0.
 }
 }  // namespace printed
 
-double off_by(double a, double b) { return std::abs(a / b - 1); }
-
 Judgement plate_pressure(FingerModel&) {
   const double area = 1e-4;
   const double force = plane_gap(1e-6, 1, 1e6, area).force_factor * square(100);

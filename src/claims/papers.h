@@ -1,11 +1,15 @@
 // The claims by paper and subject: what the .cpp files of this folder give to the one list.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "claims/claim.h"
 
 namespace papilla {
+
+// Relative difference.
+inline double off_by(double a, double b) { return std::abs(a / b - 1); }
 
 // M: the M3 model (Ma et al. 2025).
 Claim m3_claim(const char* id, const char* statement, const char* band,

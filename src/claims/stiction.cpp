@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "claims/papers.h"
+#include "physics/drive/network.h"
 
 namespace papilla {
 namespace {

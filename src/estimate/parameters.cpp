@@ -42,7 +42,7 @@ void add_parameter_errors(Response& response, const Scene& scene, const Texture&
   };
   for (const FingerStep& step : steps) out.steps.push_back({run(step.up), run(step.down)});
   for (std::size_t i = 0; i < response.points.size(); ++i) {
-    for (const PointQuantity& quantity : kQuantities) {
+    for (const PointQuantity& quantity : kPointQuantities) {
       const auto value = [&](const std::vector<ResponsePoint>& points) {
         return std::optional((points[i].*quantity.value).value);
       };

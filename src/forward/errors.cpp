@@ -177,7 +177,7 @@ void state_errors(const ControlRuns& controls, std::size_t m, double resolved, M
                   MeasuredError& method) {
   const std::vector<ResponsePoint>& own = controls.own.points;
   const bool load_law = !controls.areas.points.empty();
-  const PointQuantity& quantity = kQuantities[m];
+  const PointQuantity& quantity = kPointQuantities[m];
   std::vector<double> of_grid, of_method, fine, law;
   for (std::size_t i = 0; i < own.size(); ++i) {
     const auto number = [&](const std::vector<ResponsePoint>& points) {
@@ -217,7 +217,7 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
       resolved_area_error(patches.plan.effective_cutoff / std::max(pixels.dx(), pixels.dy()));
   again.grid.size.resize(controls.own.points.size());
   again.method.size.resize(controls.own.points.size());
-  for (std::size_t m = 0; m < kQuantities.size(); ++m)
+  for (std::size_t m = 0; m < kPointQuantities.size(); ++m)
     state_errors(controls, m, resolved, again.grid, again.method);
   if (!controls.coarse.points.empty()) patches.errors.push_back(std::move(again.grid));
   if (!controls.areas.points.empty()) patches.errors.push_back(std::move(again.method));

@@ -54,8 +54,8 @@ class SkinRun {
 // What grid and method add to the last point, which is that of all skins.
 void add_measured_error(const MeasuredError& error, std::size_t humidity, ResponsePoint& point) {
   if (!error.pull_in.empty()) point.status.note(error.pull_in[humidity]);
-  for (std::size_t m = 0; m < kQuantities.size(); ++m) {
-    Measured& measured = point.*kQuantities[m].value;
+  for (std::size_t m = 0; m < kPointQuantities.size(); ++m) {
+    Measured& measured = point.*kPointQuantities[m].value;
     std::optional<double>& part = measured.parts.*error.origin;
     part = std::hypot(part.value_or(0), error.size[humidity][m] * std::abs(measured.value));
   }

@@ -13,7 +13,7 @@ namespace papilla {
 // Errors of every quantity at each humidity by one origin, measured on the control skins.
 struct MeasuredError {
   std::optional<double> ErrorParts::*origin = nullptr;
-  std::vector<std::array<double, kQuantities.size()>> size;  // [humidity][quantity], relative
+  std::vector<std::array<double, kPointQuantities.size()>> size;  // [humidity][quantity], relative
   PatchCosts costs{};
   double seconds = 0;                  // wall time
   std::vector<ModelStatus> pull_in{};  // [humidity] of solved areas, where the load law sees none

@@ -105,7 +105,7 @@ void add_solver_errors(ResponsePoint& point, Patches patches) {
   double certificate = 0;
   for (const PatchResult& p : patches) certificate = std::max(certificate, p.certificate);
   const double relative = contact_error(certificate);
-  for (const PointQuantity& q : kQuantities) {
+  for (const PointQuantity& q : kPointQuantities) {
     Measured& m = point.*q.value;
     m.parts.solver.emplace(relative * std::abs(m.value));
   }
@@ -127,7 +127,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
       bridge.carrying_share() * macro.gross_area(scene.finger.load, relative_humidity);  // [m^2]
   const double patches_per_finger = carrying / plan.grid.area();
   gather(point, patches);
-  for (const PointQuantity& q : kQuantities) {
+  for (const PointQuantity& q : kPointQuantities) {
     if (q.mean_of)
       point.*q.value = sampled_mean(patches, q.mean_of, q.whole_finger ? patches_per_finger : 1);
   }

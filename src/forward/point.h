@@ -18,8 +18,8 @@ struct PointSetting {
 };
 
 // Means over the patches (one per skin) with what sampling, the solver's tolerance and the choices
-// of the water leave open (kQuantities); Eq. friction.1-3. The status is that of the first patch in
-// trouble, or full contact. Cost: linear in the patches.
+// of the water leave open (kPointQuantities); Eq. friction.1-3. The status is that of the first
+// patch in trouble, or full contact. Cost: linear in the patches.
 ResponsePoint response_point(const PointSetting& setting, double relative_humidity, double weight,
                              const ScaleBridge& bridge, std::span<const PatchResult> patches);
 

@@ -17,7 +17,7 @@ double ErrorParts::total() const {
 }
 
 GridLaw grid_law(Measured PointQuantities::*quantity) {
-  for (const PointQuantity& q : kQuantities) {
+  for (const PointQuantity& q : kPointQuantities) {
     if (q.value == quantity) return q.grid;
   }
   PAPILLA_CHECK(false, "every quantity is in the table");

@@ -129,7 +129,7 @@ struct PointQuantity {
   WaterBand water;
 };
 // Every quantity of a humidity: where it comes from and how its errors do.
-inline constexpr std::array kQuantities{
+inline constexpr std::array kPointQuantities{
     PointQuantity{&PointQuantities::friction_off, nullptr, true, GridLaw::Area, WaterBand::LoadOff},
     PointQuantity{&PointQuantities::friction_on, nullptr, true, GridLaw::Area, WaterBand::LoadOn},
     PointQuantity{&PointQuantities::modulation, nullptr, false, GridLaw::Modulation,
@@ -153,7 +153,7 @@ inline constexpr std::array kQuantities{
     PointQuantity{&PointQuantities::indentation, &PatchResult::indentation, false, GridLaw::Other,
                   WaterBand::None}};
 GridLaw grid_law(Measured PointQuantities::*quantity);
-static_assert(sizeof(PointQuantities) == kQuantities.size() * sizeof(Measured),
+static_assert(sizeof(PointQuantities) == kPointQuantities.size() * sizeof(Measured),
               "every quantity says where it comes from");
 
 // What was asked for by [accuracy] target, and what came of it.

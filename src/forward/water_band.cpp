@@ -80,7 +80,7 @@ void add_water_band(ResponsePoint& point, std::span<const PatchResult> patches, 
   DropletBand band =
       droplet_band(loads.volume / grid.area(), point.mean_gap.value, point.bridge_water_share);
   add_hand_over(band, patches, loads);
-  for (const PointQuantity& q : kQuantities) {
+  for (const PointQuantity& q : kPointQuantities) {
     if (q.water == WaterBand::None) continue;
     Measured& m = point.*q.value;
     m.parts.water = reach(q.water, band, loads, load_exponent) * std::abs(m.value);

@@ -7,8 +7,9 @@
 
 namespace papilla {
 
-// Fills the water part of each error (WaterBand of kQuantities) from means over the patches: Eq.
-// capillary.19, 20, 23 for droplets, capillary.21 for the threshold. load_exponent: Eq. friction.3
+// Fills the water part of each error (WaterBand of kPointQuantities) from means over the patches:
+// Eq. capillary.19, 20, 23 for droplets, capillary.21 for the threshold. load_exponent: Eq.
+// friction.3
 void add_water_band(ResponsePoint& point, std::span<const PatchResult> patches, WaterModel model,
                     const Grid& grid, double load_exponent);
 

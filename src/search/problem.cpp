@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "config/writer.h"
+#include "scene/uncertainty.h"
 #include "search/protocol.h"
 
 namespace papilla {

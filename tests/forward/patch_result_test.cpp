@@ -21,8 +21,9 @@ TEST(PatchMembers, EveryMemberHasOneRow) {
   for (std::size_t i = 0; i < kPatchMembers.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) EXPECT_NE(kPatchMembers[i].value, kPatchMembers[k].value);
   }
-  for (std::size_t i = 0; i < kQuantities.size(); ++i) {
-    for (std::size_t k = 0; k < i; ++k) EXPECT_NE(kQuantities[i].value, kQuantities[k].value);
+  for (std::size_t i = 0; i < kPointQuantities.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k)
+      EXPECT_NE(kPointQuantities[i].value, kPointQuantities[k].value);
   }
 }
 

@@ -99,7 +99,7 @@ TEST(Facts, AnArrayHasTheMembersThatItsOutlineIsDrawnFrom) {
     EXPECT_EQ(known.period(), array->period);
     ++arrays;
   }
-  EXPECT_EQ(arrays, 3);
+  EXPECT_GE(arrays, 3);
 }
 
 TEST(Facts, TheOpenShareIsTheShareOfHeightsBelowTheMiddle) {

@@ -12,6 +12,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "geometry/texture.h"
 
 namespace papilla {
 namespace {

@@ -51,7 +51,7 @@ TEST(Property, EverySceneIsFiniteAndHomogeneousAndMonotone) {
     Scene scene = random_scene(i, texture);
     const Response r = run(scene, texture);
     for (const ResponsePoint& p : r.points) {
-      for (const PointQuantity& q : kQuantities) {
+      for (const PointQuantity& q : kPointQuantities) {
         const Measured& m = p.*q.value;
         ASSERT_TRUE(std::isfinite(m.value) && std::isfinite(m.se()) && m.se() >= 0) << i;
       }

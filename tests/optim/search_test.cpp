@@ -296,8 +296,7 @@ TEST(Worker, ACrashAHangAndAnExceptionBecomeFailures) {
   const auto work = [](const Bytes& request) -> Bytes {
     if (request == "crash") ::abort();
     if (request == "throw") throw std::runtime_error("no water left\nfor the droplets");
-    while (request == "hang") {
-    }
+    while (request == "hang") ::pause();
     return request + "\n\t" + Bytes(1, '\0');
   };
   using Reason = WorkFailure::Reason;
@@ -372,8 +371,7 @@ TEST(Team, AnyNumberGivesTheSameAnswers) {
 
 TEST(Team, AHangHoldsUpNobodyElse) {
   const auto work = [](const Bytes& request) {
-    while (request == "hang") {
-    }
+    while (request == "hang") ::pause();
     return request;
   };
   const auto out = make_local_team(2, work, {.seconds = 1})->answer({"hang", "1", "2", "3"});

@@ -18,7 +18,7 @@ rms = "60 nm"
 // A study of this texture and these variables at one humidity.
 Study study_of(const std::string& texture, const std::string& variables) {
   const std::string path = testing::TempDir() + "papilla_rough_study.toml";
-  write_bytes(path, "schema_version = 1\n[texture]\n" + texture + R"(
+  write_bytes(path, "schema_version = 1\n[texture]\n" + texture + R"toml(
 [surface]
 contact_angle = "50 deg"
 dielectric = [{ material = "SiO2", thickness = "500 nm", permittivity = 3.9, strength = "1 GV/m" }]
@@ -35,8 +35,13 @@ frequency = "5 kHz"
 [accuracy]
 level = "draft"
 [objective]
-maximise = "mean(modulation)"[search] evaluations = 5 jobs = 1 [design_space]) " + variables);
-      return read_study(path);
+maximise = "mean(modulation)"
+[search]
+evaluations = 5
+jobs = 1
+[design_space]
+)toml" + variables);
+  return read_study(path);
 }
 
 // How many different designs `count` values of one variable make.
