@@ -7,6 +7,7 @@
 #include "papilla/files.h"
 #include "papilla/physics.h"
 #include "papilla/rank.h"
+#include "papilla/study.h"
 
 namespace papilla::api {
 

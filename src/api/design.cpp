@@ -72,7 +72,7 @@ Heights Design::heights(int pixels) const {
 Look Design::look() const {
   return across([&] {
     const Optics o = appearance_of(inside_->design());
-    return Look{o.haze, o.transmittance, o.gloss, o.colour_shift, o.regime, o.warning};
+    return Look{o.haze, o.transmittance, o.gloss, o.colour_shift, text(o.regime), o.warning};
   });
 }
 

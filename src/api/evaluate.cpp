@@ -29,8 +29,8 @@ Point point_of(const ResponsePoint& p) {
   out.wetted_fraction = quantity_of(p.wetted_fraction);
   out.mean_gap = quantity_of(p.mean_gap);
   out.indentation = quantity_of(p.indentation);
-  out.sound = p.status == "ok";
-  out.status = p.status;
+  out.sound = p.status.sound();
+  out.status = text(p.status);
   return out;
 }
 
@@ -52,7 +52,7 @@ const std::vector<Point>& Response::points() const { return inside_->points; }
 
 bool Response::driven() const { return inside_->response.driven; }
 
-std::string Response::trouble() const { return inside_->response.trouble(); }
+std::string Response::trouble() const { return text(inside_->response.troubles()); }
 
 std::string Response::json(bool with_time) const {
   return response_json(inside_->response, with_time);

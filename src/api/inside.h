@@ -16,7 +16,7 @@ namespace papilla::api {
 struct Design::Inside {
   std::string file, text;  // where it was read from: a file, else a text
   Values values;           // replaced
-  Study study;
+  papilla::Study study;
 
   const papilla::Design& design() const { return study.design; }
 };
@@ -38,7 +38,7 @@ Heightmap heightmap_of(const Heights& heights);  // throws papilla::InputError
 
 // Calls work() and hands its exceptions on as public ones.
 template <class Work>
-auto across(Work&& work) {
+auto across(Work&& work) -> decltype(work()) {
   try {
     return work();
   } catch (const papilla::InputError& error) {

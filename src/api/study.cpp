@@ -1,0 +1,157 @@
+#include "papilla/study.h"
+
+#include <optional>
+
+#include "api/inside.h"
+#include "optim/search.h"
+#include "report/results.h"
+#include "report/summary.h"
+#include "search/levels.h"
+#include "search/task.h"
+
+namespace papilla::api {
+
+struct Study::Inside {
+  papilla::Study study;
+  std::optional<StudyProblem> problem;  // refers to the study
+  std::vector<Variable> variables;
+  std::vector<Objective> objectives;
+};
+
+namespace {
+
+std::shared_ptr<const Study::Inside> judged_by(const papilla::Study& study) {
+  if (!study.is_study()) throw papilla::InputError("expected a study: it has no [design_space]");
+  auto inside = std::make_shared<Study::Inside>();
+  inside->study = study;
+  inside->problem.emplace(inside->study);
+  for (const papilla::Variable& v : inside->study.variables)
+    inside->variables.push_back({v.path, v.unit, v.low, v.high, v.choices});
+  for (const StudyObjective& o : inside->problem->objectives())
+    inside->objectives.push_back({o.name, o.maximise});
+  return inside;
+}
+
+Judgement judgement_of(const StudyProblem& problem, const Score& score) {
+  Judgement out{score.ok, score.reason, score.values, score.errors, {}};
+  if (score.ok) out.violations = problem.constraints().violations(score);
+  return out;
+}
+
+// As searchers are told: minimised.
+Outcome outcome_of(const StudyProblem& problem, const Judgement& judgement) {
+  Outcome out;
+  out.ok = judgement.ok;
+  out.reason = judgement.reason;
+  for (std::size_t k = 0; k < judgement.values.size(); ++k) {
+    const bool maximise = k < problem.objectives().size() && problem.objectives()[k].maximise;
+    out.objectives.push_back(maximise ? -judgement.values[k] : judgement.values[k]);
+  }
+  out.constraints = judgement.violations;
+  return guarded(std::move(out), problem.objectives().size(), problem.constraints().evaluated());
+}
+
+}  // namespace
+
+Study Study::read(const std::string& file, const Design::Values& values) {
+  return across([&] { return Study(judged_by(Design::read(file, values).inside().study)); });
+}
+
+Study Study::parse(const std::string& toml, const Design::Values& values) {
+  return across([&] { return Study(judged_by(Design::parse(toml, values).inside().study)); });
+}
+
+const std::vector<Variable>& Study::variables() const { return inside_->variables; }
+
+const std::vector<Objective>& Study::objectives() const { return inside_->objectives; }
+
+std::size_t Study::violations() const { return inside_->problem->constraints().evaluated(); }
+
+Judgement Study::judge(const std::vector<double>& values, int threads) const {
+  return across([&] {
+    const StudyProblem& problem = *inside_->problem;
+    if (values.size() != problem.space().size())
+      throw papilla::InputError("expected one value per variable");
+    const papilla::Point unit = problem.space().snapped(problem.space().unit(values));
+    if (const std::string refused = problem.constraints().geometry_reason(unit); !refused.empty())
+      return Judgement{false, refused, {}, {}, {}};
+    TaskWork work{stage_fidelity(problem, Stage::Search)};
+    work.fidelity.threads = threads;
+    std::vector<TaskAnswer> answers;
+    for (std::size_t task = 0; task < problem.tasks().size(); ++task)
+      answers.push_back(evaluate_task(problem, problem.space().design(unit), task, work));
+    return judgement_of(problem, problem.score(answers));
+  });
+}
+
+RunResult Study::run(const std::string& folder, const RunOptions& options) const {
+  return across([&] {
+    OptimiseOptions inside;
+    inside.folder = folder;
+    inside.resume = options.resume;
+    inside.pick = options.pick;
+    inside.stop = options.stop;
+    if (options.progress) {
+      inside.progress = [&](const Progress& p) {
+        options.progress({p.stage, p.done, p.total, p.seconds_left});
+      };
+    }
+    const StudyProblem& problem = *inside_->problem;
+    const OptimiseResult result = optimise_to_folder(inside_->study, inside);
+    RunResult out;
+    out.interrupted = result.interrupted;
+    out.any_feasible = result.any_feasible;
+    out.evaluations = result.evaluations;
+    for (const FinalDesign& f : result.finalists)
+      out.finalists.push_back({problem.space().value(f.unit), judgement_of(problem, f.searched),
+                               judgement_of(problem, f.confirmed), f.folder});
+    out.best = result.best;
+    if (!result.interrupted) out.table = result_table(inside_->study, result);
+    return out;
+  });
+}
+
+struct Search::Inside {
+  Study study;  // keeps what the searcher refers to
+  std::unique_ptr<Searcher> searcher;
+  std::vector<papilla::Point> asked;
+
+  const StudyProblem& problem() const { return *study.inside().problem; }
+};
+
+Search::Search(const Study& study) : inside_(new Inside{study, nullptr, {}}) {
+  across([&] {
+    SearchProblem search = search_problem(inside_->problem());
+    search.residuals = 0;  // a judgement has none
+    search.drafts = 0;
+    inside_->searcher =
+        make_searcher(choose_method(study.inside().study.search.method, search), search);
+  });
+}
+
+Search::Search(Search&&) noexcept = default;
+Search& Search::operator=(Search&&) noexcept = default;
+Search::~Search() = default;
+
+std::vector<std::vector<double>> Search::ask() {
+  return across([&] {
+    inside_->asked = inside_->searcher->ask();
+    std::vector<std::vector<double>> out;
+    for (const papilla::Point& unit : inside_->asked)
+      out.push_back(inside_->problem().space().value(unit));
+    return out;
+  });
+}
+
+void Search::tell(const std::vector<Judgement>& judgements) {
+  across([&] {
+    if (judgements.size() != inside_->asked.size())
+      throw papilla::InputError("expected one judgement per design that was asked for");
+    std::vector<Evaluation> told;
+    for (std::size_t i = 0; i < judgements.size(); ++i)
+      told.push_back({inside_->asked[i], outcome_of(inside_->problem(), judgements[i])});
+    inside_->searcher->tell(told);
+  });
+}
+
+}  // namespace papilla::api
