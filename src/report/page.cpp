@@ -18,7 +18,7 @@
 #include "design/design.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
-#include "rank/rank.h"
+#include "report/ranking.h"
 #include "report/svg.h"
 #include "search/pick.h"
 

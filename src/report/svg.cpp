@@ -134,6 +134,14 @@ std::string markup_text(const std::string& text) {
   return out;
 }
 
+std::string svg_sheet(int width, int height, int font_size) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+      "font-family=\"sans-serif\" font-size=\"{2}\">\n<rect width=\"{0}\" height=\"{1}\" "
+      "fill=\"white\"/>\n",
+      width, height, font_size);
+}
+
 std::string svg_picture(const std::vector<SvgPlot>& plots) {
   const double width = kWidth * static_cast<double>(plots.size());
   std::string out = fmt::format(
