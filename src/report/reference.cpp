@@ -7,8 +7,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cases/drive_case.h"
-#include "cases/mean_field.h"
+#include "cases/drive.h"
+#include "cases/persson.h"
 #include "config/describe.h"
 #include "design/design.h"
 #include "metrics/metrics.h"
