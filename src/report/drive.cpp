@@ -12,7 +12,7 @@
 #include "base/constants.h"
 #include "base/units.h"
 #include "report/json.h"
-#include "report/svg.h"
+#include "report/markup.h"
 
 namespace papilla {
 namespace {

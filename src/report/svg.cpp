@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/units.h"
+#include "report/markup.h"
 
 namespace papilla {
 namespace {
@@ -120,19 +120,6 @@ std::string draw_plot(const SvgPlot& plot, double shift) {
 }
 
 }  // namespace
-
-std::string markup_text(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 std::string svg_sheet(int width, int height, int font_size) {
   return fmt::format(

@@ -22,9 +22,6 @@ struct SvgPlot {
   bool from_zero = false;  // the y axis begins at 0
 };
 
-// Text as it stands inside an element of SVG or HTML.
-std::string markup_text(const std::string& text);
-
 // The opening element of a picture and its white ground.
 std::string svg_sheet(int width, int height, int font_size);
 
