@@ -16,7 +16,7 @@ namespace {
 // Why a format cannot be written; empty: it can.
 std::string refusal(const ExportFormat& format, const Design& design,
                     const ExportOptions& options) {
-  const std::string subject = "format \"" + format.name + "\"";
+  const std::string subject = fmt::format("format \"{}\"", format.name);
   if (format.needs_outline && texture_depth(design.texture) <= 0)
     return subject + ": the surface is flat, there are no outlines to write";
   if (format.needs_dose_curve && options.dose_curve.empty())

@@ -69,83 +69,82 @@ void dose(const ExportSource& s, const std::string& path, Export& out) {
       share(map.deep), share(map.shallow)));
 }
 
+constexpr ExportFormat kFormats[]{
+    {.name = "exr",
+     .file = "heightmap.exr",
+     .holds = "heights in um, 32-bit float, high is bright",
+     .judged = 1,
+     .write = exr},
+    {.name = "tiff",
+     .file = "heightmap.tif",
+     .holds = "heights in 16 bits between the lowest and the highest",
+     .needs_polarity = true,
+     .judged = 4,
+     .write = tiff},
+    {.name = "tiff32",
+     .file = "heightmap_float.tif",
+     .holds = "heights in um, 32-bit float",
+     .asked_only = true,
+     .judged = 3,
+     .write = tiff32},
+    {.name = "mask",
+     .file = "mask.tif",
+     .holds = "black and white: where the surface is below half its depth",
+     .needs_polarity = true,
+     .write = mask},
+    {.name = "gsf",
+     .file = "heightmap.gsf",
+     .holds = "heights in m, 32-bit float, for Gwyddion",
+     .judged = 2,
+     .write = gsf},
+    {.name = "npy", .file = "heightmap.npy", .holds = "heights in m, double", .write = npy},
+    {.name = "png",
+     .file = "preview.png",
+     .holds = "a picture with a colour scale and a scale bar",
+     .write = png},
+    {.name = "png16",
+     .file = "heightmap.png",
+     .holds = "heights in 16 bits of grey, with size and height for Gwyddion",
+     .asked_only = true,
+     .write = png16},
+    {.name = "x3p",
+     .file = "heightmap.x3p",
+     .holds = "heights in m, double, as ISO 25178-72 has it",
+     .asked_only = true,
+     .write = x3p},
+    {.name = "gds",
+     .file = "texture.gds",
+     .holds = "polygons: one cell and an array reference of holes, pillars and grooves, contours "
+              "of any other relief",
+     .needs_outline = true,
+     .write = gds},
+    {.name = "stl",
+     .file = "texture.stl",
+     .holds = "triangles in um, one period on a closed block",
+     .asked_only = true,
+     .write = stl},
+    {.name = "dose",
+     .file = "dose.png",
+     .holds = "dose in 8 bits of grey, by the curve of --dose-curve",
+     .needs_dose_curve = true,
+     .write = dose},
+};
+
 }  // namespace
 
-const std::vector<ExportFormat>& export_format_table() {
-  static const std::vector<ExportFormat> table{
-      {.name = "exr",
-       .file = "heightmap.exr",
-       .holds = "heights in um, 32-bit float, high is bright",
-       .judged = 1,
-       .write = exr},
-      {.name = "tiff",
-       .file = "heightmap.tif",
-       .holds = "heights in 16 bits between the lowest and the highest",
-       .needs_polarity = true,
-       .judged = 4,
-       .write = tiff},
-      {.name = "tiff32",
-       .file = "heightmap_float.tif",
-       .holds = "heights in um, 32-bit float",
-       .asked_only = true,
-       .judged = 3,
-       .write = tiff32},
-      {.name = "mask",
-       .file = "mask.tif",
-       .holds = "black and white: where the surface is below half its depth",
-       .needs_polarity = true,
-       .write = mask},
-      {.name = "gsf",
-       .file = "heightmap.gsf",
-       .holds = "heights in m, 32-bit float, for Gwyddion",
-       .judged = 2,
-       .write = gsf},
-      {.name = "npy", .file = "heightmap.npy", .holds = "heights in m, double", .write = npy},
-      {.name = "png",
-       .file = "preview.png",
-       .holds = "a picture with a colour scale and a scale bar",
-       .write = png},
-      {.name = "png16",
-       .file = "heightmap.png",
-       .holds = "heights in 16 bits of grey, with size and height for Gwyddion",
-       .asked_only = true,
-       .write = png16},
-      {.name = "x3p",
-       .file = "heightmap.x3p",
-       .holds = "heights in m, double, as ISO 25178-72 has it",
-       .asked_only = true,
-       .write = x3p},
-      {.name = "gds",
-       .file = "texture.gds",
-       .holds = "polygons: one cell and an array reference of holes, pillars and grooves, contours "
-                "of any other relief",
-       .needs_outline = true,
-       .write = gds},
-      {.name = "stl",
-       .file = "texture.stl",
-       .holds = "triangles in um, one period on a closed block",
-       .asked_only = true,
-       .write = stl},
-      {.name = "dose",
-       .file = "dose.png",
-       .holds = "dose in 8 bits of grey, by the curve of --dose-curve",
-       .needs_dose_curve = true,
-       .write = dose},
-  };
-  return table;
-}
+std::span<const ExportFormat> export_format_table() { return kFormats; }
 
 const std::vector<std::string>& export_formats() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> out;
-    for (const ExportFormat& format : export_format_table()) out.push_back(format.name);
+    for (const ExportFormat& format : kFormats) out.push_back(format.name);
     return out;
   }();
   return names;
 }
 
 const ExportFormat& find_export_format(const std::string& name) {
-  for (const ExportFormat& format : export_format_table()) {
+  for (const ExportFormat& format : kFormats) {
     if (format.name == name) return format;
   }
   throw InputError(
@@ -154,19 +153,20 @@ const ExportFormat& find_export_format(const std::string& name) {
 
 std::string heights_file(const Export& result) {
   std::vector<ExportFormat> judged;
-  for (const ExportFormat& format : export_format_table()) {
+  for (const ExportFormat& format : kFormats) {
     if (format.judged > 0) judged.push_back(format);
   }
   std::sort(judged.begin(), judged.end(),
             [](const ExportFormat& a, const ExportFormat& b) { return a.judged < b.judged; });
-  std::vector<std::string> names;
+  std::string names;
   for (const ExportFormat& format : judged) {
     for (const ExportedFile& file : result.files) {
       if (file.format == format.name) return file.path;
     }
-    names.push_back(format.name);
+    names += (names.empty() ? "" : &format == &judged.back() ? " or " : ", ");
+    names += format.name;
   }
-  throw InputError("--verify needs a file of heights: " + join_names(names));
+  throw InputError("--verify needs a file of heights: " + names);
 }
 
 }  // namespace papilla

@@ -2,6 +2,7 @@
 // messages and the reference read.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,9 +19,9 @@ struct ExportSource {
 };
 
 struct ExportFormat {
-  std::string name;   // as --format has it: "exr"
-  std::string file;   // in the folder of the export: "heightmap.exr"
-  std::string holds;  // for people: "heights in um, float"
+  const char* name;   // as --format has it: "exr"
+  const char* file;   // in the folder of the export: "heightmap.exr"
+  const char* holds;  // for people: "heights in um, 32-bit float"
   // What it cannot be written without.
   bool needs_polarity = false;    // which grey is deep
   bool needs_outline = false;     // edges that polygons follow: a relief
@@ -32,7 +33,7 @@ struct ExportFormat {
   bool has_pixels() const { return !needs_outline; }
 };
 
-const std::vector<ExportFormat>& export_format_table();
+std::span<const ExportFormat> export_format_table();
 // Throws InputError, with the names that are known.
 const ExportFormat& find_export_format(const std::string& name);
 
