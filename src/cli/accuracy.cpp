@@ -1,15 +1,15 @@
 // papilla accuracy [FILE]: speed against error.
-#include "measure/accuracy.h"
+#include "report/accuracy.h"
 
 #include <fmt/format.h>
 
-#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <memory>
 
-#include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
+#include "design/study.h"
 
 namespace papilla {
 namespace {
@@ -21,12 +21,29 @@ struct AccuracyCommand {
   bool no_levels = false, json = false, tight = false;
 };
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError({Problem{folder, 0, 0, "", "no such folder can be made: " + error.message()}});
+// Error bars on random scenes.
+int run_coverage(const AccuracyCommand& c, const std::function<void(const std::string&)>& note) {
+  const CoverageOptions options{.scenes = c.scenes,
+                                .first = c.first_scene,
+                                .tight = c.tight,
+                                .threads = c.jobs,
+                                .note = note};
+  const std::vector<CoverageRow> rows = coverage(options);
+  if (!c.out.empty()) {
+    make_folder(c.out);
+    const Fidelity reference = coverage_reference(options);
+    write_bytes(
+        c.out + (c.tight ? "/coverage_tight.csv" : "/coverage.csv"),
+        coverage_csv(
+            rows,
+            fmt::format("# papilla {} accuracy --scenes {}{}{}: random scenes; "
+                        "reference of {} pixels and {} fresh skins\n",
+                        PAPILLA_VERSION, c.scenes, c.tight ? " --tight" : "",
+                        c.first_scene > 0 ? fmt::format(" --first-scene {}", c.first_scene) : "",
+                        reference.grid, reference.skins)));
   }
+  std::cout << (c.json ? coverage_json(rows) + '\n' : coverage_text(rows));
+  return kSuccess;
 }
 
 int run(const Context& context, const AccuracyCommand& c) {
@@ -35,54 +52,19 @@ int run(const Context& context, const AccuracyCommand& c) {
     return kSuccess;
   }
   const auto note = [&](const std::string& text) { context.note(text); };
-  if (c.scenes > 0) {
-    const CoverageOptions options{.scenes = c.scenes,
-                                  .first = c.first_scene,
-                                  .tight = c.tight,
-                                  .threads = c.jobs,
-                                  .note = note};
-    const std::vector<CoverageRow> rows = coverage(options);
-    if (!c.out.empty()) {
-      make_folder(c.out);
-      const Fidelity reference = coverage_reference(options);
-      write_bytes(
-          c.out + (c.tight ? "/coverage_tight.csv" : "/coverage.csv"),
-          coverage_csv(
-              rows,
-              fmt::format("# papilla {} accuracy --scenes {}{}{}: random scenes; "
-                          "reference of {} pixels and {} fresh skins\n",
-                          PAPILLA_VERSION, c.scenes, c.tight ? " --tight" : "",
-                          c.first_scene > 0 ? fmt::format(" --first-scene {}", c.first_scene) : "",
-                          reference.grid, reference.skins)));
-    }
-    if (c.json) {
-      std::cout << coverage_json(rows) << '\n';
-      return kSuccess;
-    }
-    std::cout << fmt::format("{:<34} {:<16} {:>6} {:>8} {:>11} {:>13} {:>6} {:>15}\n", "fidelity",
-                             "quantity", "scenes", "inside", "half-width", "95 % of error", "ratio",
-                             "error/stated");
-    for (const CoverageSummary& s : coverage_summary(rows)) {
-      std::cout << fmt::format(
-          "{:<34} {:<16} {:>6} {:>6.0f} % {:>11.4g} {:>13.4g} {:>6.2f} {:>15.2f}\n", s.fidelity,
-          s.quantity, s.scenes, 100 * s.inside, s.median_half_width, s.error_quantile,
-          s.median_half_width / s.error_quantile, s.rms_ratio);
-    }
-    return kSuccess;
-  }
+  if (c.scenes > 0) return run_coverage(c, note);
   const std::string file = c.file.empty() ? find_design("m3_samples/a3h350.toml") : c.file;
   const Study study = read_study(file, c.overrides);
   const std::vector<AccuracyRow> rows =
       accuracy_sweeps(study.design, {c.grid, c.skins, c.finest, !c.no_levels, c.jobs, note});
-  const std::string csv = accuracy_csv(
-      rows,
-      fmt::format("# papilla {} accuracy {}: base {} pixels, {} skins, solved areas, tolerance "
-                  "1e-4\n# seconds are of this machine under other load; pairs and work are "
-                  "exact\n",
-                  PAPILLA_VERSION, study.name, c.grid, c.skins));
   if (!c.out.empty()) {
     make_folder(c.out);
-    write_bytes(c.out + "/sweeps.csv", csv);
+    write_bytes(
+        c.out + "/sweeps.csv",
+        accuracy_csv(rows, fmt::format("# papilla {} accuracy {}: base {} pixels, {} skins, solved "
+                                       "areas, tolerance 1e-4\n# seconds are of this machine under "
+                                       "other load; pairs and work are exact\n",
+                                       PAPILLA_VERSION, study.name, c.grid, c.skins)));
     std::string last;
     for (const AccuracyRow& row : rows) {
       if (row.sweep != last)
@@ -91,18 +73,7 @@ int run(const Context& context, const AccuracyCommand& c) {
     }
     context.note("wrote " + c.out);
   }
-  if (c.json) {
-    std::cout << accuracy_json(rows) << '\n';
-    return kSuccess;
-  }
-  std::cout << fmt::format("{:<10} {:<26}", "sweep", "setting");
-  for (const std::string& name : accuracy_quantities()) std::cout << fmt::format(" {:>15}", name);
-  std::cout << fmt::format(" {:>9} {:>9} {:>8}\n", "pairs", "work", "seconds");
-  for (const AccuracyRow& row : rows) {
-    std::cout << fmt::format("{:<10} {:<26}", row.sweep, row.setting);
-    for (double e : row.error) std::cout << fmt::format(" {:>+13.2f} %", 100 * e);
-    std::cout << fmt::format(" {:>9.0f} {:>9.1f} {:>8.2f}\n", row.fft_pairs, row.work, row.seconds);
-  }
+  std::cout << (c.json ? accuracy_json(rows) + '\n' : accuracy_text(rows));
   return kSuccess;
 }
 

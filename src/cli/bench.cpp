@@ -1,7 +1,5 @@
 // papilla bench: the performance targets, measured here.
-#include "measure/bench.h"
-
-#include <fmt/format.h>
+#include "report/bench.h"
 
 #include <iostream>
 #include <memory>
@@ -26,10 +24,7 @@ int run(const Context& context, const BenchCommand& c) {
     std::cout << (c.json ? bench_json(rows) + "\n" : bench_page(rows, provenance));
     return kSuccess;
   }
-  for (const BenchRow& r : rows) {
-    std::cout << fmt::format("{:<58} {:>9.3g} {:<14} {} {:<6g} {}\n", r.what, r.measured, r.unit,
-                             r.at_most ? "<=" : ">=", r.target, r.met() ? "met" : "not met");
-  }
+  std::cout << bench_text(rows);
   return kSuccess;
 }
 

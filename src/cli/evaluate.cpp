@@ -1,11 +1,10 @@
 // papilla evaluate DESIGN.toml: the forward model over humidity.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -17,10 +16,10 @@
 #include "estimate/evaluation.h"
 #include "estimate/parameters.h"
 #include "estimate/voltage.h"
-#include "geometry/io/files.h"
 #include "measure/field_accuracy.h"
-#include "metrics/metrics.h"
+#include "report/fields.h"
 #include "report/response.h"
+#include "report/sweep.h"
 
 namespace papilla {
 namespace {
@@ -83,21 +82,8 @@ Sweep parse_sweep(const std::string& text, const Design& design) {
   return sweep;
 }
 
-const char* breakdown(const Response& response) {
-  for (const ResponsePoint& p : response.points) {
-    if (response.driven && p.oxide_margin < 1) return "  the dielectric breaks down";
-  }
-  return "";
-}
-
-std::string haze_column(const Optics& look) {
-  return look.refused() ? fmt::format(" {:>8}", "refused")
-                        : fmt::format(" {:>8.2f}", 100 * look.haze);
-}
-
-int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
-                   const Fidelity& fidelity, bool json, bool look, bool parameters) {
-  std::string documents;
+// Throws InputError for each value that makes no design.
+void check(const Sweep& sweep, const Design& design) {
   std::vector<Problem> problems;
   for (const double value : sweep.values) {
     Design changed = design;
@@ -108,39 +94,28 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
     }
   }
   if (!problems.empty()) throw InputError(problems);
-  if (!json) {
-    std::cout << fmt::format("{:>16} {:>12} {:>18} {:>14} {:>14}{}\n", sweep.path, "F_off mN",
-                             "mean modulation", "variation", "worst", look ? "   haze %" : "");
-  }
+}
+
+int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
+                   const Fidelity& fidelity, bool json, bool look, bool parameters) {
+  check(sweep, design);
+  std::vector<SweepRun> runs;
+  if (!json) std::cout << sweep_head(sweep.path, look);
   for (const double value : sweep.values) {
     Design changed = design;
     set_number(changed, sweep.path, value);
     Response response = evaluate(scene_of(changed), changed.texture, fidelity);
     if (parameters) add_parameter_errors(response, scene_of(changed), changed.texture, fidelity);
     if (look) response.appearance = appearance_of(changed);
+    const std::string shown = format_quantity(value, sweep.unit);
     if (json) {
-      documents +=
-          fmt::format("{}{{\"value\": {}, \"response\": {}}}", documents.empty() ? "" : ",\n",
-                      format_number(value), response_json(response));
-      context.note(fmt::format("{} = {}", sweep.path, format_quantity(value, sweep.unit)));
-      continue;
+      context.note(fmt::format("{} = {}", sweep.path, shown));
+      runs.push_back({value, std::move(response)});
+    } else {
+      std::cout << sweep_line(shown, response) << std::flush;
     }
-    const auto column = [&](Summary summary, const char* metric, double scale) {
-      const auto v = summarise(summary, metric, response);
-      return v ? fmt::format("{:.3f} ±{:.3f}", v->value * scale, v->se * scale) : std::string("-");
-    };
-    std::cout << fmt::format(
-                     "{:>16} {:>12} {:>18} {:>14} {:>14}", format_quantity(value, sweep.unit),
-                     column(Summary::Mean, "friction", 1e3), column(Summary::Mean, "modulation", 1),
-                     response.points.size() > 1 ? column(Summary::Variation, "modulation", 1) : "-",
-                     column(Summary::Worst, "modulation", 1))
-              << (look ? haze_column(*response.appearance) : "") << breakdown(response)
-              << std::endl;
   }
-  if (json) {
-    std::cout << fmt::format("{{\"schema\": 1, \"sweep\": \"{}\", \"runs\": [\n{}\n]}}\n",
-                             sweep.path, documents);
-  }
+  if (json) std::cout << sweep_json(sweep.path, runs) << '\n';
   return kSuccess;
 }
 
@@ -156,48 +131,6 @@ void print_field_check(const Context& context, const Design& design, const Fidel
           "pull at {:.0f} % RH {}: {:+.1f} % of the 3-D field's", 100 * row.relative_humidity,
           row.method == "spread" ? "with spreading flux" : "by local columns", 100 * row.error));
     }
-  }
-}
-
-constexpr const char* kPictures[] = {"gap", "pressure_off", "pressure_on", "pull", "water"};
-
-// Those of an earlier run, at humidities or of a drive that this one may not have.
-void remove_pictures(const std::string& folder) {
-  if (!std::filesystem::exists(folder + "/response.json")) return;  // not a folder of results
-  std::vector<std::filesystem::path> old;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const std::string extension = entry.path().extension(), stem = entry.path().stem();
-    const std::size_t bar = stem.rfind('_');
-    if ((extension != ".png" && extension != ".npy") || bar == std::string::npos) continue;
-    const bool numbered =
-        bar + 1 < stem.size() && stem.find_first_not_of("0123456789", bar + 1) == std::string::npos;
-    if (numbered && std::find(std::begin(kPictures), std::end(kPictures), stem.substr(0, bar)) !=
-                        std::end(kPictures))
-      old.push_back(entry.path());
-  }
-  for (const auto& path : old) std::filesystem::remove(path);
-}
-
-// Gap, pressure, water and pull of the first skin at each humidity, as pictures and arrays.
-void write_pictures(const std::string& folder, const Design& design, const Fidelity& fidelity) {
-  for (const double humidity : design.environment.relative_humidity) {
-    const PatchPicture picture =
-        picture_patch(scene_of(design), design.texture, fidelity, humidity);
-    const Grid& grid = picture.texture.grid;
-    const auto write = [&](const char* name, const std::vector<double>& values) {
-      if (values.size() != grid.size()) return;
-      const std::string path = fmt::format("{}/{}_{:.0f}", folder, name, 100 * humidity);
-      int width = 0, height = 0;
-      const auto rgb = render_field(grid, values, width, height);
-      write_png_rgb(path + ".png", width, height, rgb);
-      write_npy(path + ".npy", Heightmap{grid, values});
-    };
-    write("gap", picture.fields.off.gap);
-    write("pressure_off", picture.fields.off.pressure);
-    write("pressure_on", picture.fields.on.pressure);
-    write("pull", picture.fields.pull.value);
-    const auto& bridged = picture.fields.wetting_off.bridged;
-    write("water", std::vector<double>(bridged.begin(), bridged.end()));
   }
 }
 
@@ -233,13 +166,13 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
                .threads = options.jobs});
   for (const std::string& step : response.accuracy.steps) context.note(step);
   if (!options.out.empty()) {
-    remove_pictures(options.out);
+    remove_field_pictures(options.out);
     write_bytes(options.out + "/resolved.toml", resolved_toml(study));
     write_bytes(options.out + "/response.json", response_json(response, false) + "\n");
     write_bytes(options.out + "/response.txt", response_table(response));
     write_bytes(options.out + "/humidity.svg",
                 response_svg(response, design.title.empty() ? study.name : design.title));
-    write_pictures(options.out, design, fidelity);
+    write_field_pictures(options.out, design, fidelity);
     context.note("wrote " + options.out);
   }
   if (options.design.json)

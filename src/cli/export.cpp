@@ -1,19 +1,16 @@
 // papilla export DESIGN.toml: heightmap and mask files.
-#include "fabricate/export.h"
+#include "report/export.h"
 
-#include <fmt/format.h>
-
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "fabricate/formats.h"
 #include "fabricate/verify.h"
 #include "search/pick.h"
 
@@ -29,61 +26,27 @@ struct ExportCommand {
   bool verify = false;
 };
 
-// The first of the files that holds heights to be read back.
-std::string heights_file(const Export& result) {
-  for (const char* format : {"exr", "gsf", "tiff32", "tiff"}) {
-    for (const ExportedFile& file : result.files)
-      if (file.format == format) return file.path;
-  }
-  throw InputError("--verify needs a file of heights: exr, gsf, tiff32 or tiff");
-}
+// What is exported, and where its files go by default: beside a folder of results.
+struct ExportSourceFile {
+  std::string design, beside;
+};
 
-// export.json of the folder, and the judgement where there is one.
-void print_json(const std::string& folder, const std::optional<Verification>& v) {
-  using Json = nlohmann::ordered_json;
-  const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); };
-  Json out = Json::parse(read_bytes(folder + "/export.json"));
-  out["folder"] = folder;
-  if (v) {
-    out["verification"] = {{"min_hole", number(v->pixels.min_hole)},
-                           {"min_wall", number(v->pixels.min_wall)},
-                           {"pixel", v->pixels.pixel},
-                           {"merit", v->merit},
-                           {"design", number(v->design)},
-                           {"file", number(v->file)},
-                           {"loss", number(v->loss)},
-                           {"faults", v->faults}};
-  }
-  std::cout << out.dump(2) << '\n';
-}
-
-std::string size_line(const Export& result) {
-  const Grid& grid = result.heightmap.grid;
-  std::string out =
-      fmt::format("size {:.6g} x {:.6g} um, {} x {} pixels of {:.4g} x {:.4g} nm", 1e6 * grid.lx,
-                  1e6 * grid.ly, grid.nx, grid.ny, 1e9 * grid.dx(), 1e9 * grid.dy());
-  if (result.cells_x > 0) {
-    out += fmt::format(", {} x {} periods of {:.6g} x {:.6g} um", result.cells_x, result.cells_y,
-                       1e6 * grid.lx / result.cells_x, 1e6 * grid.ly / result.cells_y);
-  }
-  return out + '\n';
-}
-
-int export_files(const ExportCommand& command) {
+ExportSourceFile source_of(const ExportCommand& command) {
   namespace fs = std::filesystem;
-  std::string source = command.design.file, beside;  // beside: where the files go by default
-  if (command.pick.empty() && fs::exists(fs::path(source) / "design.toml")) {  // front/02
-    beside = (fs::path(source) / "export").string();
-    source = (fs::path(source) / "design.toml").string();
-  } else if (fs::is_directory(source)) {
-    const fs::path picked(picked_design_file(source, command.pick));
-    beside =
-        (fs::path(source) / "export" / picked.parent_path().lexically_relative(source)).string();
-    source = picked.string();
-  } else if (!command.pick.empty()) {
-    throw InputError("--pick chooses from a folder of results; " + source + " is a file");
+  const fs::path named(command.design.file);
+  if (command.pick.empty() && fs::exists(named / "design.toml"))  // front/02
+    return {(named / "design.toml").string(), (named / "export").string()};
+  if (fs::is_directory(named)) {
+    const fs::path picked(picked_design_file(named.string(), command.pick));
+    return {picked.string(),
+            (named / "export" / picked.parent_path().lexically_relative(named)).string()};
   }
-  const Study study = read_study(source, command.design.overrides);
+  if (!command.pick.empty())
+    throw InputError("--pick chooses from a folder of results; " + named.string() + " is a file");
+  return {named.string(), ""};
+}
+
+ExportOptions options_of(const ExportCommand& command) {
   ExportOptions options;
   options.formats = command.formats;
   options.pixels = command.pixels;
@@ -103,11 +66,18 @@ int export_files(const ExportCommand& command) {
     options.bias.edge_radius = parse_si(command.edge_rounding, "nm");
   if (!command.facet_error.empty()) options.facet_error = parse_si(command.facet_error, "nm");
   if (!(options.facet_error > 0)) throw InputError("--facet-error: expected a length above 0");
+  return options;
+}
+
+int export_files(const ExportCommand& command) {
+  const ExportSourceFile source = source_of(command);
+  const Study study = read_study(source.design, command.design.overrides);
+  const ExportOptions options = options_of(command);
   const double tolerance = parse_si(command.tolerance, "%");
-  const std::string folder = !command.out.empty() ? command.out
-                             : !beside.empty()    ? beside
-                                                  : "results/" + study.name + "/export";
-  const Export result = export_design(study.design, options, folder);
+  const std::string folder = !command.out.empty()     ? command.out
+                             : !source.beside.empty() ? source.beside
+                                                      : "results/" + study.name + "/export";
+  const Export result = export_with_record(study.design, options, folder);
   for (const std::string& warning : result.warnings) std::cerr << "warning: " << warning << '\n';
   std::optional<Verification> v;
   if (command.verify) {
@@ -115,19 +85,8 @@ int export_files(const ExportCommand& command) {
     judged.design.texture = compensated(study.design.texture, options.bias);
     v = verify_export(judged, heights_file(result), tolerance);
   }
-  if (command.design.json) {
-    print_json(folder, v);
-  } else {
-    for (const ExportedFile& file : result.files) std::cout << file.path << '\n';
-    std::cout << folder << "/export.json\n" << size_line(result);
-    if (v) {
-      std::cout << fmt::format(
-          "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, of the "
-          "design {:.4g}: {:.2g} % off\n",
-          1e6 * v->pixels.min_hole, 1e6 * v->pixels.min_wall, 1e6 * v->pixels.pixel, v->merit,
-          v->file, v->design, 100 * v->loss);
-    }
-  }
+  std::cout << (command.design.json ? export_json(study.design, options, result, folder, v) + '\n'
+                                    : export_text(result, folder, v));
   if (!v) return kSuccess;
   for (const std::string& fault : v->faults) std::cerr << "not sound: " << fault << '\n';
   return v->faults.empty() ? kSuccess : kWorkFailed;
@@ -144,10 +103,8 @@ void add_export(Command app, Context& context) {
   add_set_option(command, options->design.overrides);
   command.add_flag("--json", options->design.json, "One JSON object on standard output");
   command
-      .add_option(
-          "--format", options->formats,
-          "exr, tiff, tiff32, mask, gsf, npy, png, png16, x3p, gds, stl, dose; default: what the "
-          "texture allows")
+      .add_option("--format", options->formats,
+                  join_names(export_formats()) + "; default: what the texture allows")
       .separator(',');
   command.add_option("--size", options->size,
                      "Side, rounded to whole periods, e.g. \"1 mm\"; default: about 12 um");

@@ -7,10 +7,9 @@
 #include <memory>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "cli/commands.h"
-#include "report/page.h"
+#include "report/ranking.h"
 
 namespace papilla {
 namespace {
@@ -92,26 +91,7 @@ int run(const Context& context, const RankCommand& command) {
   const std::vector<std::string> names = options.names = short_names(command.files);
   const Ranking ranking = rank(candidates, options);
   if (!command.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(command.out + "/designs", error);
-    if (error) {
-      throw InputError(
-          {Problem{command.out, 0, 0, "", "no such folder can be made: " + error.message()}});
-    }
-    write_bytes(command.out + "/ranking.txt", ranking_table(names, options, ranking));
-    write_bytes(command.out + "/ranking.json", ranking_json(names, options, ranking) + "\n");
-    if (options.criteria.size() > 2) {
-      for (const StateRanking& state : ranking.states) {
-        write_bytes(command.out + "/radar_" +
-                        finger_state_names()[static_cast<std::size_t>(state.state)] + ".svg",
-                    radar_svg(names, options, state));
-      }
-    }
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-      for (std::size_t k = 0; k < candidates[i].size(); ++k)
-        write_design(command.out + "/" + ranked_design_file(i, k), candidates[i][k]);
-    }
-    write_bytes(command.out + "/report.html", report_page(command.out));
+    write_ranking(command.out, candidates, names, options, ranking);
     context.note("wrote " + command.out);
   }
   if (command.json)

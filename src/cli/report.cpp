@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "cli/commands.h"
+#include "report/front.h"
 #include "report/page.h"
 
 namespace papilla {

@@ -1,15 +1,13 @@
 // papilla solve bridge: the exact liquid bridge between two plates.
-#include <fmt/format.h>
-
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "physics/capillary/bridge.h"
+#include "report/pieces.h"
 
 namespace papilla {
 namespace {
@@ -31,44 +29,8 @@ int solve(const BridgeOptions& options) {
   }
   const BridgeLimits limits = bridge_limits(theta1, theta2);
   const double size = std::cbrt(volume);
-  const bool exists = bridge.status == BridgeStatus::Converged;
-  const bool known = limits.status == BridgeStatus::Converged;
-  if (options.json) {
-    const auto number = [](bool there, double value) {
-      return there ? nlohmann::json(value) : nlohmann::json(nullptr);
-    };
-    nlohmann::ordered_json out;
-    out["schema"] = 1;
-    out["exists"] = exists;
-    out["reason"] = text(bridge.status);
-    out["energy"] = number(exists, bridge.energy);
-    out["force"] = number(exists, bridge.force);
-    out["laplace_pressure"] = number(exists, bridge.pressure);
-    out["radius1"] = number(exists, bridge.radius1);
-    out["radius2"] = number(exists, bridge.radius2);
-    out["rupture_gap"] = number(known, limits.rupture * size);
-    out["equilibrium_gap"] = number(known && limits.switching > 0, limits.switching * size);
-    out["snap_in_gap"] = number(known, limits.snap_in * size);
-    out["zero_force_gap"] = number(known && limits.zero_force > 0, limits.zero_force * size);
-    std::cout << out.dump(2) << '\n';
-  } else {
-    if (exists) {
-      std::cout << fmt::format(
-          "energy            {:.6g} fJ\nforce             {:.6g} nN ({})\n"
-          "Laplace pressure  {:.6g} kPa\nradii             {:.6g} and {:.6g} nm\n",
-          bridge.energy * 1e15, bridge.force * 1e9, bridge.force >= 0 ? "attracts" : "repels",
-          bridge.pressure * 1e-3, bridge.radius1 * 1e9, bridge.radius2 * 1e9);
-    } else {
-      std::cout << "no bridge: " << text(bridge.status) << '\n';
-    }
-    if (known) {
-      std::cout << fmt::format("ruptures at       {:.6g} nm\n", limits.rupture * size * 1e9);
-      if (limits.switching > 0) {
-        std::cout << fmt::format("a droplet above   {:.6g} nm (lower energy)\n",
-                                 limits.switching * size * 1e9);
-      }
-    }
-  }
+  std::cout << (options.json ? bridge_json(bridge, limits, size) + '\n'
+                             : bridge_text(bridge, limits, size));
   return bridge.status == BridgeStatus::NotConverged ? kWorkFailed : kSuccess;
 }
 

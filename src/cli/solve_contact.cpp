@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <iostream>
 #include <map>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -15,6 +13,7 @@
 #include "cli/commands.h"
 #include "geometry/io/files.h"
 #include "physics/contact/contact.h"
+#include "report/pieces.h"
 
 namespace papilla {
 namespace {
@@ -68,31 +67,6 @@ LayeredSolid solid_of(const ContactCommand& c) {
   return solid;
 }
 
-const char* status_name(ContactStatus status) {
-  switch (status) {
-    case ContactStatus::Converged:
-      return "converged";
-    case ContactStatus::NoLoad:
-      return "no load";
-    case ContactStatus::Stagnated:
-      return "stagnated";
-    case ContactStatus::IterationLimit:
-      return "iteration limit";
-    case ContactStatus::Invalid:
-      return "invalid";
-    case ContactStatus::NotRun:
-      return "not run";
-  }
-  return "";
-}
-
-std::string method_name(ContactMethod method) {
-  for (const auto& [name, value] : kMethods) {
-    if (value == method) return name;
-  }
-  return "";
-}
-
 int solve(const ContactCommand& c) {
   const LayeredSolid solid = solid_of(c);
   if (c.pressure.empty() == c.approach.empty()) {
@@ -126,46 +100,10 @@ int solve(const ContactCommand& c) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (s.status == ContactStatus::Invalid) throw InputError(s.reason);
   const ContactArea area = measure_area(*kernel, s, options.hardness);
-  const auto n = static_cast<double>(h.z.size());
-  double mean_gap = 0, load = 0;
-  for (double g : s.gap) mean_gap += g / n;
-  for (double p : s.pressure) load += p / n;
-  // Of the mean planes since first touch.
-  const double approached = s.shift + *std::max_element(h.z.begin(), h.z.end());
-  const std::string method = method_name(s.method);
-  const double peak = *std::max_element(s.pressure.begin(), s.pressure.end());
   if (!c.out_pressure.empty()) write_npy(c.out_pressure, {h.grid, s.pressure});
   if (!c.out_gap.empty()) write_npy(c.out_gap, {h.grid, s.gap});
-  const std::string reason = s.reason.empty() ? status_name(s.status) : s.reason;
-  if (c.json) {
-    nlohmann::ordered_json out{{"schema", 1},
-                               {"converged", s.converged()},
-                               {"reason", reason},
-                               {"method", method},
-                               {"certificate", s.certificate},
-                               {"iterations", s.iterations},
-                               {"fft_pairs", s.fft_pairs},
-                               {"seconds", seconds},
-                               {"area_fraction_raw", area.raw},
-                               {"area_fraction", area.near_edge},
-                               {"area_fraction_se", area.se},
-                               {"area_fraction_perimeter", area.perimeter},
-                               {"mean_pressure", load},
-                               {"approach", approached},
-                               {"mean_gap", mean_gap},
-                               {"max_pressure", peak},
-                               {"elastic_energy", s.elastic_energy}};
-    std::cout << out.dump(2) << '\n';
-  } else {
-    std::cout << fmt::format(
-        "{}: certificate {:.2g} after {} iterations ({}), {:.1f} transform pairs, {:.3g} s\n"
-        "contact area      {:.4f} ±{:.4f} %  ({:.4f} % of pixels)\nmean gap          {:.5g} nm\n"
-        "mean pressure     {:.5g} kPa\napproach          {:.5g} nm\nlargest pressure  {:.5g} "
-        "MPa\nelastic energy    {:.5g} fJ\n",
-        reason, s.certificate, s.iterations, method, s.fft_pairs, seconds, 100 * area.near_edge,
-        100 * area.se, 100 * area.raw, 1e9 * mean_gap, 1e-3 * load, 1e9 * approached, 1e-6 * peak,
-        1e15 * s.elastic_energy);
-  }
+  std::cout << (c.json ? contact_json(s, area, h, seconds) + '\n'
+                       : contact_text(s, area, h, seconds));
   return s.converged() ? kSuccess : kWorkFailed;
 }
 

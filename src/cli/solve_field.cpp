@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/error.h"
@@ -15,6 +14,7 @@
 #include "cli/commands.h"
 #include "geometry/io/files.h"
 #include "physics/electrostatics/full_field.h"
+#include "report/pieces.h"
 
 namespace papilla {
 namespace {
@@ -58,7 +58,6 @@ int solve(const FieldCommand& c) {
   const Gap given{gap.grid, gap.z};
   Wetting dry;
   dry.grid = gap.grid;
-  const bool local = c.method == "local";
   if (c.method == "full")
     require_memory(80.0 * 64 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
 
@@ -66,46 +65,14 @@ int solve(const FieldCommand& c) {
   std::optional<CoveredSurface> covered;
   if (texture) covered.emplace(*texture, p.dielectric_thickness);
   const CoveredSurface* surface = covered ? &*covered : nullptr;
-  const FieldSolution s = local                  ? solve_local_field(given, surface, dry, p)
+  const FieldSolution s = c.method == "local"    ? solve_local_field(given, surface, dry, p)
                           : c.method == "spread" ? solve_spread_field(given, surface, dry, p)
                                                  : solve_full_field(given, surface, dry, p);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  const double margin = s.peak_oxide_field > 0 ? strength / s.peak_oxide_field : 0;
   if (!c.out_pressure.empty() && s.ok) write_npy(c.out_pressure, {gap.grid, s.traction.value});
-  if (c.json) {
-    nlohmann::ordered_json out{{"schema", 1},
-                               {"converged", s.ok},
-                               {"reason", s.ok ? "converged" : s.reason},
-                               {"method", c.method},
-                               {"mean_pressure", s.mean_pressure},
-                               {"force", s.mean_pressure * gap.grid.area()},
-                               {"peak_air_field", s.peak_air_field},
-                               {"peak_oxide_field", s.peak_oxide_field},
-                               {"oxide_margin", margin > 0 ? nlohmann::ordered_json(margin)
-                                                           : nlohmann::ordered_json(nullptr)},
-                               {"over_limit_area", s.over_limit_area},
-                               {"over_limit_share", s.over_limit_share},
-                               {"seconds", seconds}};
-    if (!local) {
-      out["residual"] = s.residual;
-      out["iterations"] = s.iterations;
-    }
-    std::cout << out.dump(2) << '\n';
-  } else {
-    std::cout << fmt::format(
-        "{}: {}{}, {:.3g} s\nmean pressure     {:.6g} kPa\nlargest field     {:.4g} MV/m in air, "
-        "{:.4g} MV/m in the dielectric ({:.3g} of its strength)\nair beyond limit  {:.1f} % of the "
-        "area, {:.1f} % of the "
-        "pull\n",
-        c.method, s.ok ? "converged" : s.reason,
-        local || !s.ok
-            ? ""
-            : fmt::format(" to residual {:.1g} in {} iterations", s.residual, s.iterations),
-        seconds, 1e-3 * s.mean_pressure, 1e-6 * s.peak_air_field, 1e-6 * s.peak_oxide_field,
-        strength > 0 ? s.peak_oxide_field / strength : 0.0, 100 * s.over_limit_area,
-        100 * s.over_limit_share);
-  }
+  const FieldRun run{c.method, gap.grid.area(), strength, seconds};
+  std::cout << (c.json ? field_json(s, run) + '\n' : field_text(s, run));
   return s.ok ? kSuccess : kWorkFailed;
 }
 

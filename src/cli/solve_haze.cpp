@@ -1,9 +1,6 @@
 // papilla solve haze: how a design or a heightmap looks on glass.
-#include <fmt/format.h>
-
 #include <iostream>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -12,6 +9,7 @@
 #include "design/study.h"
 #include "forward/appearance.h"
 #include "geometry/io/files.h"
+#include "report/pieces.h"
 
 namespace papilla {
 namespace {
@@ -51,44 +49,8 @@ int solve(const HazeOptions& options) {
     if (!angles.empty()) light.angles = angles;
     o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media, light);
   }
-  const bool refused = o.refused();
-  if (options.design.json) {
-    using Json = nlohmann::ordered_json;
-    const auto number = [&](double v) { return refused ? Json(nullptr) : Json(v); };
-    Json out{{"schema", 1},
-             {"regime", text(o.regime)},
-             {"warning", o.warning},
-             {"haze", number(o.haze)},
-             {"transmittance", number(o.transmittance)},
-             {"gloss", number(o.gloss)},
-             {"colour_shift", number(o.colour_shift)},
-             {"spectrum", Json::array()}};
-    for (const SpectrumPoint& p : o.spectrum) {
-      out["spectrum"].push_back({{"wavelength", p.wavelength},
-                                 {"angle", p.angle},
-                                 {"specular", p.specular},
-                                 {"haze", p.haze},
-                                 {"transmitted", p.transmitted},
-                                 {"gloss", p.gloss}});
-    }
-    std::cout << out.dump(2) << '\n';
-  } else {
-    std::cout << "regime         " << text(o.regime) << '\n';
-    if (!refused) {
-      std::cout << fmt::format(
-          "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"
-          "colour shift   {:.4f} (u'v')\n\n{:>8} {:>8} {:>8} {:>8} {:>8}\n",
-          100 * o.haze, 100 * o.transmittance, 100 * o.gloss, o.colour_shift, "deg", "nm", "haze %",
-          "trans. %", "gloss %");
-      for (const SpectrumPoint& p : o.spectrum) {
-        std::cout << fmt::format("{:>8.0f} {:>8.0f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
-                                 p.angle * 180 / kPi, 1e9 * p.wavelength, 100 * p.haze,
-                                 100 * p.transmitted, 100 * p.gloss);
-      }
-    }
-    if (!o.warning.empty()) std::cout << "note: " << o.warning << '\n';
-  }
-  return refused ? kWorkFailed : kSuccess;
+  std::cout << (options.design.json ? optics_json(o) + '\n' : optics_text(o));
+  return o.refused() ? kWorkFailed : kSuccess;
 }
 
 }  // namespace

@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/text.h"
-#include "geometry/io/layout.h"
+#include "fabricate/formats.h"
 
 namespace papilla {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Equal features that a layout repeats; null: none.
 const FeatureArray* array_of(const TextureFacts& known) {
@@ -30,42 +26,39 @@ std::string undrawable(const TextureFacts& known) {
   return none->reason + "; take its heights, exr, tiff, gsf, npy, x3p or stl, or a dose map";
 }
 
-bool needs_polarity(const std::string& format) { return format == "tiff" || format == "mask"; }
-
-std::vector<std::string> chosen_formats(const Design& design, const ExportOptions& options) {
+// Why a format cannot be written; empty: it can.
+std::string refusal(const ExportFormat& format, const Design& design,
+                    const ExportOptions& options) {
+  const std::string subject = fmt::format("format \"{}\"", format.name);
   const TextureFacts known = facts(design.texture);
-  const std::string reason = undrawable(known);
+  if (format.needs_outline || (format.two_levels && known.relief.present)) {
+    if (const std::string why = undrawable(known); !why.empty()) return subject + ": " + why;
+  }
+  if (format.needs_dose_curve && options.dose_curve.empty())
+    return subject + " needs --dose-curve, a CSV of depth_nm,grey";
+  if (format.needs_polarity && !options.polarity)
+    return subject +
+           " needs a polarity: white-high (bright is high) or white-deep (bright is deep)";
+  return {};
+}
+
+std::vector<ExportFormat> chosen_formats(const Design& design, const ExportOptions& options) {
+  std::vector<ExportFormat> out;
   if (options.formats.empty()) {
-    std::vector<std::string> out;
-    for (const std::string& format : export_formats()) {
-      if (needs_polarity(format) && !options.polarity) continue;
-      if (format == "gds" && (!reason.empty() || !array_of(known))) continue;
-      if (format == "mask" && known.relief.present && !reason.empty()) continue;
-      if (format == "stl" || format == "x3p" || format == "png16" || format == "tiff32")
-        continue;  // on request
-      if (format == "dose" && options.dose_curve.empty()) continue;
+    for (const ExportFormat& format : export_format_table()) {
+      if (format.asked_only || !refusal(format, design, options).empty()) continue;
+      if (format.needs_outline && !array_of(facts(design.texture)))
+        continue;  // contours are on request
       out.push_back(format);
     }
     return out;
   }
-  for (const std::string& format : options.formats) {
-    const auto& names = export_formats();
-    if (std::find(names.begin(), names.end(), format) == names.end()) {
-      throw InputError(fmt::format("unknown format \"{}\"; known: {}", format, join_names(names)));
-    }
-    const bool drawn = format == "gds" || (format == "mask" && known.relief.present);
-    if (drawn && !reason.empty())
-      throw InputError(fmt::format("format \"{}\": {}", format, reason));
-    if (format == "dose" && options.dose_curve.empty())
-      throw InputError("format \"dose\" needs --dose-curve, a CSV of depth_nm,grey");
-    if (needs_polarity(format) && !options.polarity) {
-      throw InputError(
-          fmt::format("format \"{}\" needs a polarity: white-high (bright is high) or white-deep "
-                      "(bright is deep)",
-                      format));
-    }
+  for (const std::string& name : options.formats) {
+    out.push_back(find_export_format(name));
+    if (const std::string why = refusal(out.back(), design, options); !why.empty())
+      throw InputError(why);
   }
-  return options.formats;
+  return out;
 }
 
 // One cell of the lattice; sides of 0 where nothing repeats. Two periods along x hold two rows of a
@@ -126,15 +119,34 @@ void judge_pixels(const Texture& texture, const Grid& grid, std::vector<std::str
                 pixels)));
 }
 
-Json margin(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+// The grid of the heights. Throws InputError above 2^28 pixels and for more than the memory holds.
+Grid export_grid(const Texture& texture, const Grid& cell, const ExportOptions& options) {
+  Grid grid = patch_grid(texture, options.pixels, options.size > 0 ? options.size : kWindow);
+  if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
+  constexpr double kLargest = 1 << 28;
+  if (static_cast<double>(grid.nx) * grid.ny > kLargest) {
+    throw InputError(
+        fmt::format("{} x {} pixels are more than 2^28; ask for fewer", grid.nx, grid.ny));
+  }
+  // The heights, the encoded file, and both again when the file is read back.
+  require_memory(32.0 * static_cast<double>(grid.size()),
+                 fmt::format("a heightmap of {} x {} pixels", grid.nx, grid.ny));
+  return grid;
+}
+
+// Another side than asked for.
+void judge_size(Export& out, const ExportOptions& options) {
+  const Grid& grid = out.heightmap.grid;
+  if (!(options.size > 0) || std::abs(grid.lx - options.size) <= 1e-6 * options.size) return;
+  out.warnings.push_back(fmt::format(
+      "{:.6g} um were asked for, {:.6g} um are written: {}", 1e6 * options.size, 1e6 * grid.lx,
+      out.cells_x > 0 ? "a whole number of periods"
+      : facts(out.texture).free_patch.exact
+          ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
+          : "the smallest patch that holds the texture"));
+}
 
 }  // namespace
-
-const std::vector<std::string>& export_formats() {
-  static const std::vector<std::string> names{"exr", "tiff",  "tiff32", "mask", "gsf", "npy",
-                                              "png", "png16", "x3p",    "gds",  "stl", "dose"};
-  return names;
-}
 
 Texture compensated(const Texture& texture, const ProcessBias& bias) {
   Texture out = texture;
@@ -161,141 +173,35 @@ Export export_design(const Design& wanted, const ExportOptions& options,
                      const std::string& folder) {
   Design design = wanted;
   design.texture = compensated(wanted.texture, options.bias);
-  const std::vector<std::string> formats = chosen_formats(design, options);
-  Json gds_json, dose_json;
+  const std::vector<ExportFormat> formats = chosen_formats(design, options);
   Export out;
-  const bool layout = std::find(formats.begin(), formats.end(), "gds") != formats.end();
-  if (layout && array_of(facts(design.texture))) snap_period(design.texture, out.warnings);
-  const TextureFacts known = facts(design.texture);
-  const FeatureArray* array = array_of(known);
-  const Grid cell = unit_cell(design.texture, options.pixels);
-  Grid grid = patch_grid(design.texture, options.pixels, options.size > 0 ? options.size : kWindow);
-  if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
-  constexpr double kLargest = 1 << 28;
-  if (static_cast<double>(grid.nx) * grid.ny > kLargest) {
-    throw InputError(
-        fmt::format("{} x {} pixels are more than 2^28; ask for fewer", grid.nx, grid.ny));
-  }
-  // The heights, the encoded file, and both again when the file is read back.
-  require_memory(32.0 * static_cast<double>(grid.size()),
-                 fmt::format("a heightmap of {} x {} pixels", grid.nx, grid.ny));
-  out.heightmap = generate(design.texture, grid);
+  out.texture = design.texture;
+  const bool array = array_of(facts(out.texture)) != nullptr;
+  const bool layout =
+      std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f.needs_outline; });
+  if (layout && array) snap_period(out.texture, out.warnings);
+  const Grid cell = unit_cell(out.texture, options.pixels);
+  const Grid grid = export_grid(out.texture, cell, options);
+  out.heightmap = generate(out.texture, grid);
   if (cell.lx > 0) {
     out.cells_x = static_cast<int>(std::lround(grid.lx / cell.lx));
     out.cells_y = static_cast<int>(std::lround(grid.ly / cell.ly));
   }
-  if (options.size > 0 && std::abs(grid.lx - options.size) > 1e-6 * options.size) {
-    out.warnings.push_back(fmt::format(
-        "{:.6g} um were asked for, {:.6g} um are written: {}", 1e6 * options.size, 1e6 * grid.lx,
-        out.cells_x > 0 ? "a whole number of periods"
-        : known.free_patch.exact
-            ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
-            : "the smallest patch that holds the texture"));
-  }
-  if (std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f != "gds"; }) ||
-      (layout && !array))
-    judge_pixels(design.texture, grid, out.warnings);
+  judge_size(out, options);
+  const bool pixels =
+      std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f.has_pixels(); });
+  if (pixels || (layout && !array)) judge_pixels(out.texture, grid, out.warnings);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     throw InputError(fmt::format("cannot make the folder {}: {}", folder, error.message()));
-
   const FileInfo info{design.title.empty() ? "papilla heightmap" : design.title,
-                      texture_name(design.texture)};
-  const Heightmap& h = out.heightmap;
-  for (const std::string& format : formats) {
-    std::string path = folder + "/heightmap." + format;
-    if (format == "exr") {
-      if (options.repeat > 1) {
-        write_exr_repeated(path, h, options.repeat, info);
-      } else {
-        write_exr(path, h, info);
-      }
-    } else if (format == "tiff32") {
-      path = folder + "/heightmap_float.tif";
-      write_tiff_float(path, h, info);
-    } else if (format == "png16") {
-      path = folder + "/heightmap.png";
-      write_png16(path, h);
-    } else if (format == "x3p") {
-      write_x3p(path, h);
-    } else if (format == "dose") {
-      path = folder + "/dose.png";
-      const DoseMap dose = write_dose(path, h, read_dose_curve(options.dose_curve));
-      dose_json = {{"lowest_grey", dose.lowest},
-                   {"highest_grey", dose.highest},
-                   {"clipped_shallow", dose.shallow},
-                   {"clipped_deep", dose.deep}};
-      const auto share = [&](std::size_t pixels) {
-        return 100 * static_cast<double>(pixels) / static_cast<double>(grid.size());
-      };
-      if (dose.deep > 0 || dose.shallow > 0) {
-        out.warnings.push_back(fmt::format(
-            "the dose curve does not reach all depths: {:.3g} % of the pixels are deeper than its "
-            "end, {:.3g} % shallower than its start; they get the dose of that end",
-            share(dose.deep), share(dose.shallow)));
-      }
-    } else if (format == "tiff") {
-      path = folder + "/heightmap.tif";
-      write_tiff16(path, h, *options.polarity, info);
-    } else if (format == "mask") {
-      path = folder + "/mask.tif";
-      write_mask_tiff(path, h, *options.polarity, info);
-    } else if (format == "gsf") {
-      write_gsf(path, h, info);
-    } else if (format == "npy") {
-      write_npy(path, h);
-    } else if (format == "png") {
-      path = folder + "/preview.png";
-      write_png(path, h);
-    } else if (format == "gds") {
-      path = folder + "/texture.gds";
-      if (array) {
-        const GdsArray a = write_gds(path, *array, grid.lx, grid.ly, options.facet_error);
-        gds_json = {{"columns", a.columns}, {"rows", a.rows},   {"pitch", {a.pitch_x, a.pitch_y}},
-                    {"drift", a.drift},     {"sides", a.sides}, {"drawn", a.drawn}};
-      } else {
-        gds_json = {{"polygons", write_gds_mask(path, h, options.levels)},
-                    {"levels", options.levels},
-                    {"drawn", "deep"}};
-      }
-    } else if (format == "stl") {
-      path = folder + "/texture.stl";
-      write_stl(path, h);
-    }
-    out.files.push_back({format, path});
+                      texture_name(out.texture)};
+  for (const ExportFormat& format : formats) {
+    const std::string path = folder + "/" + format.file;
+    format.write({out.heightmap, out.texture, options, info}, path, out);
+    out.files.push_back({format.name, path});
   }
-
-  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-  const FabricationMargins& margins = known.margins;
-  Json files = Json::array();
-  for (const ExportedFile& file : out.files) {
-    files.push_back(
-        {{"format", file.format}, {"file", std::filesystem::path(file.path).filename().string()}});
-  }
-  const Json json{
-      {"schema", 1},
-      {"title", design.title},
-      {"texture", texture_name(design.texture)},
-      {"pixels", {grid.nx, grid.ny}},
-      {"size", {grid.lx, grid.ly}},
-      {"cells", {out.cells_x, out.cells_y}},
-      {"lowest", *low},
-      {"highest", *high},
-      {"polarity", !options.polarity                          ? Json(nullptr)
-                   : *options.polarity == Polarity::WhiteHigh ? Json("white-high")
-                                                              : Json("white-deep")},
-      {"min_hole", margin(margins.min_hole)},
-      {"min_wall", margin(margins.min_wall)},
-      {"aspect_ratio", margin(margins.aspect_ratio)},
-      {"process_shrink", options.bias.shrink},
-      {"exr_repeat", options.repeat},
-      {"gds", gds_json},
-      {"dose", dose_json},
-      {"files", files},
-      {"warnings", out.warnings},
-  };
-  write_bytes(folder + "/export.json", json.dump(2) + "\n");
   return out;
 }
 

@@ -7,12 +7,9 @@
 
 #include "design/design.h"
 #include "geometry/io/files.h"
+#include "geometry/io/layout.h"
 
 namespace papilla {
-
-// "exr", "tiff" (16-bit heights), "tiff32" (float), "mask" (binary), "gsf", "npy", "png" (preview),
-// "png16", "x3p", "gds", "stl", "dose".
-const std::vector<std::string>& export_formats();
 
 // What the process moves: undone in the files, so that the made texture is the design.
 struct ProcessBias {
@@ -23,9 +20,10 @@ struct ProcessBias {
 Texture compensated(const Texture& texture, const ProcessBias& bias);
 
 struct ExportOptions {
-  std::vector<std::string> formats;  // empty: all that the texture and the polarity allow
-  double size =
-      0;  // wanted side [m], rounded to whole periods; 0: the window, two periods at least
+  // Names of fabricate/formats.h; empty: all that the texture and the polarity allow.
+  std::vector<std::string> formats;
+  // Wanted side [m], rounded to whole periods; 0: the window, two periods at least.
+  double size = 0;
   int pixels = 1024;                 // along x
   std::optional<Polarity> polarity;  // needed for tiff and mask
   int repeat = 1;                    // EXR: times in x and y, streamed
@@ -39,17 +37,28 @@ struct ExportedFile {
   std::string format, path;
 };
 
+// What a texture that is no array became in a layout: polygons, one layer per level.
+struct GdsContours {
+  std::size_t polygons = 0;
+  int levels = 1;
+};
+
 struct Export {
   std::vector<ExportedFile> files;
+  Texture texture;  // as drawn: the process undone, with a layout the period on its grid
   Heightmap heightmap;
-  int cells_x = 0, cells_y = 0;       // unit cells along either side; 0: nothing repeats within
+  int cells_x = 0, cells_y = 0;  // unit cells along either side; 0: nothing repeats within
+  // Of a GDSII layout, one of both; of a dose map.
+  std::optional<GdsArray> array;
+  std::optional<GdsContours> contours;
+  std::optional<DoseMap> dose;
   std::vector<std::string> warnings;  // what the files hold otherwise than asked for
 };
 
-// Writes heightmap.exr, heightmap.tif, mask.tif, ... and export.json (sizes, polarity, margins)
-// into a folder, which it makes. With a GDSII layout of an array the period of all files is the
-// nearest whole nanometre, with a warning; so there is one where a pixel is more than a quarter of
-// the smallest hole or wall. Throws InputError; then files of the formats before stay.
+// Writes heightmap.exr, heightmap.tif, mask.tif and so on into a folder, which it makes. With a
+// GDSII layout of an array the period of all files is the nearest whole nanometre, with a warning;
+// so there is one where a pixel is more than a quarter of the smallest hole or wall. Throws
+// InputError; then files of the formats before stay.
 Export export_design(const Design& design, const ExportOptions& options, const std::string& folder);
 
 }  // namespace papilla

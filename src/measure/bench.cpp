@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <nlohmann/json.hpp>
+#include <memory>
 
 #include "base/constants.h"
 #include "base/parallel.h"
@@ -209,46 +209,5 @@ class Bench {
 }  // namespace
 
 std::vector<BenchRow> bench(const BenchOptions& options) { return Bench(options).run(); }
-
-std::string bench_csv(const std::vector<BenchRow>& rows, const std::string& provenance) {
-  std::string out = "# " + provenance + "\nwhat,unit,measured,bound,target,exact,met\n";
-  for (const BenchRow& r : rows) {
-    std::string what = r.what;
-    std::replace(what.begin(), what.end(), ',', ';');
-    out +=
-        fmt::format("{},{},{:.4g},{},{:g},{},{}\n", what, r.unit, r.measured,
-                    r.at_most ? "at most" : "at least", r.target, r.exact ? 1 : 0, r.met() ? 1 : 0);
-  }
-  return out;
-}
-
-std::string bench_page(const std::vector<BenchRow>& rows, const std::string& provenance) {
-  std::string out = fmt::format(
-      "# Performance\n\nMade by `papilla bench --page` ({}). Counts are the same on every machine; "
-      "times "
-      "are upper bounds where the machine has other work.\n\n| what | measured | target | met "
-      "|\n|---|---|---|---|\n",
-      provenance);
-  for (const BenchRow& r : rows) {
-    const std::string unit = r.unit.empty() ? "" : " " + r.unit;
-    out += fmt::format("| {} | {:.3g}{} | {} {:g}{} | {} |\n", r.what, r.measured, unit,
-                       r.at_most ? "≤" : "≥", r.target, unit, r.met() ? "yes" : "no");
-  }
-  return out;
-}
-
-std::string bench_json(const std::vector<BenchRow>& rows) {
-  nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (const BenchRow& r : rows) {
-    list.push_back({{"what", r.what},
-                    {"unit", r.unit},
-                    {"measured", r.measured},
-                    {"bound", r.at_most ? "at most" : "at least"},
-                    {"target", r.target},
-                    {"exact", r.exact},
-                    {"met", r.met()}});
-  }
-  return nlohmann::ordered_json{{"schema", 1}, {"rows", list}}.dump(2);
-}
 
 }  // namespace papilla

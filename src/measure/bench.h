@@ -11,7 +11,7 @@ struct BenchRow {
   std::string what, unit;
   double measured = 0, target = 0;
   bool at_most = true;  // else at least
-  bool exact = false;   // a count, the same on every machine; else a time or what hangs on one
+  bool exact = false;   // a count, the same on every machine; else a time or what depends on one
 
   bool met() const { return at_most ? measured <= target : measured >= target; }
 };
@@ -23,9 +23,5 @@ struct BenchOptions {
 
 // A minute. Times on a machine with other load are upper bounds, ratios less so.
 std::vector<BenchRow> bench(const BenchOptions& options);
-
-std::string bench_csv(const std::vector<BenchRow>& rows, const std::string& provenance);
-std::string bench_page(const std::vector<BenchRow>& rows, const std::string& provenance);
-std::string bench_json(const std::vector<BenchRow>& rows);
 
 }  // namespace papilla

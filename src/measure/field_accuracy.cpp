@@ -1,7 +1,5 @@
 #include "measure/field_accuracy.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <ctime>
@@ -139,18 +137,6 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
       rows[i].error = exact > 0 ? rows[i].pull / exact - 1 : 0;
   }
   return rows;
-}
-
-std::string field_accuracy_csv(const std::vector<FieldAccuracyRow>& rows) {
-  std::string out =
-      "sample,relative_humidity [%],method,pixels,levels,pull [kPa],error to the finest full field "
-      "[%],seconds,status\n";
-  for (const FieldAccuracyRow& r : rows) {
-    out += fmt::format("{},{:.0f},{},{},{},{:.4g},{:.2f},{:.2g},{}\n", r.sample,
-                       100 * r.relative_humidity, r.method, r.pixels, r.levels, 1e-3 * r.pull,
-                       100 * r.error, r.seconds, r.status.empty() ? "ok" : r.status);
-  }
-  return out;
 }
 
 }  // namespace papilla

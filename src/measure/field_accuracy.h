@@ -32,7 +32,4 @@ struct FieldAccuracyOptions {
 std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const Design& design,
                                              const FieldAccuracyOptions& options);
 
-// Columns with units in the head, one row each; seconds to two digits.
-std::string field_accuracy_csv(const std::vector<FieldAccuracyRow>& rows);
-
 }  // namespace papilla

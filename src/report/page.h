@@ -11,8 +11,4 @@ namespace papilla {
 // is about (empty: best/). Throws InputError where the folder is no finished run.
 std::string report_page(const std::string& folder, const std::string& pick = "");
 
-// The same folder's pareto.csv as an SVG picture: each further objective over the first, searched
-// and confirmed designs. Throws InputError where there is no front of two objectives.
-std::string front_svg(const std::string& folder);
-
 }  // namespace papilla

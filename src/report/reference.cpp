@@ -7,10 +7,11 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cases/drive_case.h"
-#include "cases/mean_field.h"
+#include "cases/drive.h"
+#include "cases/persson.h"
 #include "config/describe.h"
 #include "design/study.h"
+#include "fabricate/formats.h"
 #include "metrics/metrics.h"
 
 namespace papilla {
@@ -50,6 +51,10 @@ const char* about(const std::string& section) {
   if (section == "persson") return "A case of `papilla solve persson`.";
   if (section == "circuit") return "A case of `papilla solve drive`.";
   if (section == "study") return "The sections that only a study has.";
+  if (section == "export") {
+    return "The files of `papilla export`, by the names that `--format` takes. Without it: those "
+           "that need nothing that is missing.";
+  }
   return "";
 }
 
@@ -136,6 +141,21 @@ std::vector<Part> metrics_reference() {
   return {{"", rows, true}};
 }
 
+std::vector<Part> export_reference() {
+  std::vector<FieldRow> rows;
+  for (const ExportFormat& format : export_format_table()) {
+    std::vector<std::string> needs;
+    if (format.needs_polarity) needs.push_back("a polarity (`--polarity`)");
+    if (format.needs_outline) needs.push_back("a relief");
+    if (format.needs_dose_curve) needs.push_back("a dose curve (`--dose-curve`)");
+    rows.push_back(
+        key(format.name, fmt::format("`{}`: {}{}{}", format.file, format.holds,
+                                     needs.empty() ? "" : "; needs " + join_names(needs, " and "),
+                                     format.asked_only ? "; only where it is asked for" : "")));
+  }
+  return {{"", rows, true}};
+}
+
 // Throws InputError, with a "did you mean", for an unknown section.
 std::vector<Part> parts_of(const std::string& section) {
   if (section == "texture") return texture_reference();
@@ -150,6 +170,7 @@ std::vector<Part> parts_of(const std::string& section) {
   if (section == "circuit") return {{"", field_rows(DriveCase{}, "")}};
   if (section == "metrics") return metrics_reference();
   if (section == "study") return study_reference();
+  if (section == "export") return export_reference();
   const std::string near = nearest_name(section, reference_sections());
   throw InputError(
       near.empty()
@@ -179,8 +200,8 @@ std::vector<Part> parts_of_key(const std::string& key) {
 }  // namespace
 
 std::vector<std::string> reference_sections() {
-  return {"texture", "surface",  "view",  "finger",  "environment", "drive",
-          "model",   "accuracy", "study", "metrics", "persson",     "circuit"};
+  return {"texture",  "surface", "view",    "finger",  "environment", "drive", "model",
+          "accuracy", "study",   "metrics", "persson", "circuit",     "export"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {

@@ -8,7 +8,7 @@
 namespace papilla {
 
 // "texture", "surface", "finger", "environment", "drive", "model", "accuracy", "study", "metrics",
-// "persson", "circuit".
+// "persson", "circuit", "export".
 std::vector<std::string> reference_sections();
 
 enum class ReferenceFormat { Text, Markdown };

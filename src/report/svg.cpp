@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/units.h"
+#include "report/markup.h"
 
 namespace papilla {
 namespace {
@@ -53,62 +53,82 @@ Axis axis_of(const SvgPlot& plot, bool y) {
   return {low, high};
 }
 
-std::string draw_plot(const SvgPlot& plot, double shift) {
-  const Axis ax = axis_of(plot, false), ay = axis_of(plot, true);
-  const auto px = [&](double v) { return shift + kLeft + (kRight - kLeft) * ax.share(v); };
-  const auto py = [&](double v) { return kBottom - (kBottom - kTop) * ay.share(v); };
-  std::string out =
-      fmt::format("<text x=\"{:.0f}\" y=\"22\" font-size=\"14\" font-weight=\"bold\">{}</text>\n",
-                  shift + 12, markup_text(plot.title));
+// Where numbers are in the picture.
+struct Frame {
+  Axis x, y;
+  double shift;  // of the plot to the right [px]
+
+  double px(double v) const { return shift + kLeft + (kRight - kLeft) * x.share(v); }
+  double py(double v) const { return kBottom - (kBottom - kTop) * y.share(v); }
+};
+
+std::string draw_axes(const SvgPlot& plot, const Frame& f) {
+  const Axis &ax = f.x, &ay = f.y;
+  std::string out;
   for (int i = 0; i <= ax.ticks(); ++i) {
     const double v = ax.low + i * ax.step;
     out += fmt::format(
         "<line x1=\"{0:.1f}\" y1=\"{1}\" x2=\"{0:.1f}\" y2=\"{2}\" stroke=\"#e3e6ea\"/>"
         "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4:.4g}</text>\n",
-        px(v), kTop, kBottom, kBottom + 16, std::abs(v) < 1e-9 * ax.step ? 0 : v);
+        f.px(v), kTop, kBottom, kBottom + 16, std::abs(v) < 1e-9 * ax.step ? 0 : v);
   }
   for (int i = 0; i <= ay.ticks(); ++i) {
     const double v = ay.low + i * ay.step;
     out += fmt::format(
         "<line x1=\"{0:.0f}\" y1=\"{2:.1f}\" x2=\"{1:.0f}\" y2=\"{2:.1f}\" stroke=\"#e3e6ea\"/>"
         "<text x=\"{3:.0f}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:.4g}</text>\n",
-        shift + kLeft, shift + kRight, py(v), shift + kLeft - 6, py(v) + 4,
+        f.shift + kLeft, f.shift + kRight, f.py(v), f.shift + kLeft - 6, f.py(v) + 4,
         std::abs(v) < 1e-9 * ay.step ? 0 : v);
   }
   out += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n",
-                     shift + (kLeft + kRight) / 2, kBottom + 38, markup_text(plot.x));
+                     f.shift + (kLeft + kRight) / 2, kBottom + 38, markup_text(plot.x));
   out += fmt::format(
       "<text x=\"{0:.0f}\" y=\"{1:.0f}\" text-anchor=\"middle\" transform=\"rotate(-90 {0:.0f} "
       "{1:.0f})\">{2}</text>\n",
-      shift + 16, (kTop + kBottom) / 2, markup_text(plot.y));
+      f.shift + 16, (kTop + kBottom) / 2, markup_text(plot.y));
+  return out;
+}
+
+std::string draw_series(const SvgSeries& s, const Frame& f) {
+  std::string out;
+  std::string line, upper, lower, marks;
+  for (std::size_t i = 0; i < s.x.size(); ++i) {
+    if (!drawable(s, i)) continue;
+    const double x = f.px(s.x[i]), y = f.py(s.y[i]), ex = at(s.ex, i), ey = at(s.ey, i);
+    line += fmt::format("{:.1f},{:.1f} ", x, y);
+    if (s.band) {
+      upper += fmt::format("{:.1f},{:.1f} ", x, f.py(s.y[i] + ey));
+      lower = fmt::format("{:.1f},{:.1f} ", x, f.py(s.y[i] - ey)) + lower;
+    } else {
+      if (ex > 0)
+        marks += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\"/>", f.px(s.x[i] - ex), y,
+                             f.px(s.x[i] + ex));
+      if (ey > 0)
+        marks += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\"/>", x, f.py(s.y[i] - ey),
+                             f.py(s.y[i] + ey));
+    }
+    marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, s.radius);
+  }
+  if (s.band)
+    out += fmt::format("<polygon fill=\"{}\" fill-opacity=\"0.15\" points=\"{}{}\"/>\n", s.colour,
+                       upper, lower);
+  if (s.line)
+    out +=
+        fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" points=\"{}\"/>\n",
+                    s.colour, line);
+  out += fmt::format("<g fill=\"{0}\" stroke=\"{0}\">{1}</g>\n", s.colour, marks);
+  return out;
+}
+
+std::string draw_plot(const SvgPlot& plot, double shift) {
+  const Frame frame{axis_of(plot, false), axis_of(plot, true), shift};
+  std::string out =
+      fmt::format("<text x=\"{:.0f}\" y=\"22\" font-size=\"14\" font-weight=\"bold\">{}</text>\n",
+                  shift + 12, markup_text(plot.title));
+  out += draw_axes(plot, frame);
   double legend = kLeft;
   for (const SvgSeries& s : plot.series) {
-    std::string line, upper, lower, marks;
-    for (std::size_t i = 0; i < s.x.size(); ++i) {
-      if (!drawable(s, i)) continue;
-      const double x = px(s.x[i]), y = py(s.y[i]), ex = at(s.ex, i), ey = at(s.ey, i);
-      line += fmt::format("{:.1f},{:.1f} ", x, y);
-      if (s.band) {
-        upper += fmt::format("{:.1f},{:.1f} ", x, py(s.y[i] + ey));
-        lower = fmt::format("{:.1f},{:.1f} ", x, py(s.y[i] - ey)) + lower;
-      } else {
-        if (ex > 0)
-          marks += fmt::format("<path d=\"M{:.1f} {:.1f}H{:.1f}\"/>", px(s.x[i] - ex), y,
-                               px(s.x[i] + ex));
-        if (ey > 0)
-          marks += fmt::format("<path d=\"M{:.1f} {:.1f}V{:.1f}\"/>", x, py(s.y[i] - ey),
-                               py(s.y[i] + ey));
-      }
-      marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\"/>", x, y, s.radius);
-    }
-    if (s.band)
-      out += fmt::format("<polygon fill=\"{}\" fill-opacity=\"0.15\" points=\"{}{}\"/>\n", s.colour,
-                         upper, lower);
-    if (s.line)
-      out += fmt::format(
-          "<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1.8\" points=\"{}\"/>\n", s.colour,
-          line);
-    out += fmt::format("<g fill=\"{0}\" stroke=\"{0}\">{1}</g>\n", s.colour, marks);
+    out += draw_series(s, frame);
     if (s.name.empty()) continue;
     out += fmt::format(
         "<circle cx=\"{:.0f}\" cy=\"50\" r=\"4\" fill=\"{}\"/><text x=\"{:.0f}\" y=\"54\">{}"
@@ -121,17 +141,12 @@ std::string draw_plot(const SvgPlot& plot, double shift) {
 
 }  // namespace
 
-std::string markup_text(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
+std::string svg_sheet(int width, int height, int font_size) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+      "font-family=\"sans-serif\" font-size=\"{2}\">\n<rect width=\"{0}\" height=\"{1}\" "
+      "fill=\"white\"/>\n",
+      width, height, font_size);
 }
 
 std::string svg_picture(const std::vector<SvgPlot>& plots) {

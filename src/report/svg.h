@@ -22,8 +22,8 @@ struct SvgPlot {
   bool from_zero = false;  // the y axis begins at 0
 };
 
-// Text as it stands inside an element of SVG or HTML.
-std::string markup_text(const std::string& text);
+// The opening element of a picture and its white ground.
+std::string svg_sheet(int width, int height, int font_size);
 
 // The plots side by side, 460 x 380 each. Values that are not finite are left out.
 std::string svg_picture(const std::vector<SvgPlot>& plots);

@@ -228,10 +228,15 @@ Finger Finger::applied() const {
   return out;
 }
 
+const std::vector<std::string>& finger_state_names() {
+  static const std::vector<std::string> names{"clean", "natural", "wet"};
+  return names;
+}
+
 void fields(FieldVisitor& v, Finger& s) {
   v.text({"name", "name of the finger"}, s.name);
-  v.choice({"state", "clean (degreased), natural (sebum and sweat), wet"},
-           {"clean", "natural", "wet"}, s.state);
+  v.choice({"state", "clean (degreased), natural (sebum and sweat), wet"}, finger_state_names(),
+           s.state);
   v.number({"load", "N", 0, 100, "normal force", Source::Paper, "M3: 0.2 N"}, s.load);
   v.section({"skin", "micro-topography and elasticity"}, s.skin);
   v.section({"macro", "gross contact and load-carrying share"}, s.macro);

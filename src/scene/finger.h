@@ -118,6 +118,7 @@ struct ModelOptions {
 void fields(FieldVisitor& v, ModelOptions& s);
 
 enum class FingerState { Clean, Natural, Wet };
+const std::vector<std::string>& finger_state_names();  // "clean", "natural", "wet"
 
 // How sebum and sweat change the clean finger.
 struct SkinState {

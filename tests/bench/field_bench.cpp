@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "measure/field_accuracy.h"
+#include "report/accuracy.h"
 
 int main(int argc, char** argv) {
   using namespace papilla;

@@ -11,7 +11,7 @@
 #include "base/files.h"
 #include "base/statistics.h"
 #include "base/text.h"
-#include "measure/accuracy.h"
+#include "measure/coverage.h"
 #include "physics/contact/contact.h"
 
 namespace papilla {

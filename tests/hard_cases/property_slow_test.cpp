@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "forward/forward.h"
 #include "geometry/roughness.h"
-#include "measure/accuracy.h"
+#include "measure/coverage.h"
 #include "physics/contact/contact.h"
 
 namespace papilla {

@@ -13,6 +13,7 @@
 #include "fabricate/export.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
+#include "report/export.h"
 
 namespace papilla {
 namespace {
@@ -106,7 +107,7 @@ TEST(ExportedFiles, AllHaveThePeriodThatALayoutCanHold) {
   ExportOptions options;
   options.pixels = 256;
   const std::string folder = temporary("snapped");
-  const Export out = export_design(design, options, folder);  // the default formats
+  const Export out = export_with_record(design, options, folder);  // the default formats
   EXPECT_TRUE(std::filesystem::exists(folder + "/texture.gds"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/export.json"));
   EXPECT_NEAR(out.heightmap.grid.lx / out.cells_x, 7997e-9, 1e-15);

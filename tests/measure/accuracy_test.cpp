@@ -1,4 +1,4 @@
-#include "measure/accuracy.h"
+#include "report/accuracy.h"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/statistics.h"
+#include "report/ranking.h"
 
 namespace papilla {
 namespace {

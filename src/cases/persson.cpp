@@ -1,4 +1,4 @@
-#include "cases/mean_field.h"
+#include "cases/persson.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,12 @@
-#include "cases/drive_case.h"
+#include "cases/drive.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "base/constants.h"
@@ -102,14 +104,28 @@ double peak_amplitude(const Drive& drive) {
   return drive.control == DriveControl::Current ? drive.current : drive.amplitude;
 }
 
-std::string polyline(const std::string& points, const char* color) {
-  return fmt::format("<polyline fill=\"none\" stroke=\"{}\" stroke-width=\"1\" points=\"{}\"/>\n",
-                     color, points);
+std::vector<DriveCheck> checks_of(const DriveResult& r, const Drive& drive) {
+  std::vector<DriveCheck> out{
+      {DriveLimit::BodyCurrent, r.series.peak_current, drive.current_limit}};
+  if (drive.source_compliance > 0) {
+    out.push_back(
+        {DriveLimit::SourceVoltage, r.series.peak_source_voltage, drive.source_compliance});
+  }
+  out.push_back({DriveLimit::GapVoltage, r.series.peak_gap_voltage,
+                 air_breakdown_voltage(r.network.gap.distance)});
+  return out;
 }
 
-std::string label(double x, double y, const std::string& text, const char* anchor = "middle") {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
-                     text);
+// "lateral,normal" of one line; nothing where it is no two numbers.
+std::optional<std::array<double, 2>> forces_of(const std::vector<std::string>& cells) {
+  if (cells.size() != 2) return std::nullopt;
+  std::array<double, 2> force;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const char* end = cells[i].data() + cells[i].size();
+    const auto [stop, error] = std::from_chars(cells[i].data(), end, force[i]);
+    if (error != std::errc{} || stop != end || !std::isfinite(force[i])) return std::nullopt;
+  }
+  return force;
 }
 
 }  // namespace
@@ -266,13 +282,7 @@ DriveResult solve_drive(const DriveCase& c) {
   for (double f : c.sweep.frequency) {
     r.response.push_back(respond(r.network, drive.control, peak_amplitude(drive), f));
   }
-  r.checks.push_back({"body current", "mA", r.series.peak_current, drive.current_limit});
-  if (drive.source_compliance > 0) {
-    r.checks.push_back(
-        {"source voltage", "V", r.series.peak_source_voltage, drive.source_compliance});
-  }
-  r.checks.push_back({"gap voltage", "V", r.series.peak_gap_voltage,
-                      air_breakdown_voltage(r.network.gap.distance)});
+  r.checks = checks_of(r, drive);
   if (const DriveTouch& t = c.touch; t.real_area > 0) {
     const auto onset = [&](double pull, double still) {
       return onset_friction(t.shear_strength, t.real_area, t.coefficient, t.load, pull, still);
@@ -284,20 +294,6 @@ DriveResult solve_drive(const DriveCase& c) {
   return r;
 }
 
-std::string slip_state_name(SlipState state) {
-  switch (state) {
-    case SlipState::Idle:
-      return "idle";
-    case SlipState::Stuck:
-      return "stuck";
-    case SlipState::Partial:
-      return "partial slip";
-    case SlipState::Full:
-      return "full slip";
-  }
-  return "";
-}
-
 Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options) {
   StictionMachine machine(options);
   Swipe swipe;
@@ -307,14 +303,8 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
   while (std::getline(lines, line)) {
     ++number;
     const std::vector<std::string> cells = split(line, ',');
-    double force[2];
-    bool good = cells.size() == 2;
-    for (std::size_t i = 0; i < 2 && good; ++i) {
-      const char* end = cells[i].data() + cells[i].size();
-      const auto [stop, error] = std::from_chars(cells[i].data(), end, force[i]);
-      good = error == std::errc{} && stop == end && std::isfinite(force[i]);
-    }
-    if (!good) {
+    const auto force = forces_of(cells);
+    if (!force) {
       const bool head = number == 1 && cells.size() == 2 &&
                         cells[0].find("lateral") != std::string::npos &&
                         cells[1].find("normal") != std::string::npos;
@@ -326,105 +316,13 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
                                                 : "")}});
     }
     const double time = samples++ * options.step;
-    const double current = machine.update(force[0], force[1]);
+    const double current = machine.update((*force)[0], (*force)[1]);
     if (current > 0) swipe.driven += options.step;
     if (swipe.steps.empty() || swipe.steps.back().state != machine.state())
       swipe.steps.push_back({time, machine.state(), current});
   }
   swipe.duration = samples * options.step;
   return swipe;
-}
-
-std::string drive_series_csv(const DriveResult& r) {
-  std::string out = "t [s],source voltage [V],current [A],gap voltage [V],pull [N],friction [N]\n";
-  for (std::size_t i = 0; i < r.friction.value.size(); ++i) {
-    out += fmt::format("{:.9g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n",
-                       static_cast<double>(i) * r.friction.step(), r.series.source_voltage.value[i],
-                       r.series.current.value[i], r.series.gap_voltage.value[i],
-                       r.series.force.value[i], r.friction.value[i]);
-  }
-  return out;
-}
-
-std::string drive_lines_csv(const DriveResult& r) {
-  std::string out = "frequency [Hz],friction amplitude [N]\n";
-  for (const SpectrumLine& line : r.lines) {
-    out += fmt::format("{:.9g},{:.6g}\n", line.frequency, line.amplitude);
-  }
-  return out;
-}
-
-std::string drive_svg(const DriveCase& c, const DriveResult& r) {
-  constexpr double kLeft = 70, kWidth = 680, kHeight = 200, kTop = 40, kGap = 70;
-  const std::vector<double>& y = r.friction.value;
-  const auto [least, most] = std::minmax_element(y.begin(), y.end());
-  const double low = *least, span = std::max(*most - low, 1e-12 * std::abs(*most) + 1e-300);
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"{:.0f}\" "
-      "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"white\"/>\n",
-      kTop + 2 * kHeight + kGap + 50);
-  std::string title = c.title;
-  for (const auto& [from, to] :
-       {std::pair{'&', "&amp;"}, std::pair{'<', "&lt;"}, std::pair{'>', "&gt;"}}) {
-    for (std::size_t i = 0; (i = title.find(from, i)) != std::string::npos; ++i) {
-      title.replace(i, 1, to);
-    }
-  }
-  out += label(400, 20, title);
-  const auto frame = [&](double top) {
-    return fmt::format(
-        "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>\n",
-        kLeft, top, kWidth, kHeight);
-  };
-  // Friction over one period: least and largest value of each column.
-  out += frame(kTop);
-  std::string points;
-  const auto columns = static_cast<std::size_t>(kWidth);
-  for (std::size_t k = 0; k < columns; ++k) {
-    const std::size_t begin = k * y.size() / columns;
-    const std::size_t end = std::max(begin + 1, (k + 1) * y.size() / columns);
-    const auto [a, b] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(begin),
-                                            y.begin() + static_cast<std::ptrdiff_t>(end));
-    for (double v : {*a, *b}) {
-      points += fmt::format("{:.1f},{:.1f} ", kLeft + static_cast<double>(k),
-                            kTop + kHeight * (1 - (v - low) / span));
-    }
-  }
-  out += polyline(points, "#1f6fb4");
-  out += label(kLeft - 6, kTop + 10, fmt::format("{:.3g} mN", 1e3 * *most), "end");
-  out += label(kLeft - 6, kTop + kHeight, fmt::format("{:.3g}", 1e3 * low), "end");
-  out += label(kLeft + kWidth / 2, kTop + kHeight + 16,
-               fmt::format("friction over {:.4g} ms", 1e3 * r.friction.period));
-  // Lines of the spectrum, decades.
-  const double top = kTop + kHeight + kGap;
-  out += frame(top);
-  double first = kInfinity, last = 0, largest = 0;
-  for (const SpectrumLine& line : r.lines) {
-    if (line.frequency == 0) continue;
-    first = std::min(first, line.frequency);
-    last = std::max(last, line.frequency);
-    largest = std::max(largest, line.amplitude);
-  }
-  if (last > 0) {
-    const double from = std::floor(std::log10(first)), to = std::ceil(std::log10(last) + 1e-9);
-    const double width = std::max(1.0, to - from);
-    for (double decade = from; decade <= from + width; ++decade) {
-      const double x = kLeft + kWidth * (decade - from) / width;
-      out += label(x, top + kHeight + 16, fmt::format("{:g} Hz", std::pow(10, decade)));
-    }
-    for (const SpectrumLine& line : r.lines) {
-      if (line.frequency == 0) continue;
-      const double x = kLeft + kWidth * (std::log10(line.frequency) - from) / width;
-      const double height = kHeight * std::max(0.0, 1 + std::log10(line.amplitude / largest) / 6);
-      out += fmt::format(
-          "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#b4411f\"/>\n", x,
-          top + kHeight, x, top + kHeight - height);
-    }
-    out += label(kLeft - 6, top + 10, fmt::format("{:.3g} mN", 1e3 * largest), "end");
-    out += label(kLeft - 6, top + kHeight, "-120 dB", "end");
-  }
-  return out + "</svg>\n";
 }
 
 }  // namespace papilla

@@ -1,4 +1,4 @@
-#include "cases/drive_case.h"
+#include "cases/drive.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "report/drive.h"
 
 namespace papilla {
 namespace {
@@ -20,7 +21,8 @@ TEST(DriveFile, GivesThePublishedVoltagesOfTheExample) {
   EXPECT_LT(r.carrier.source_voltage, 150);
   EXPECT_NEAR(r.carrier.gap_voltage, 101.9, 2);
   EXPECT_NEAR(r.network.gap.layer.corner_frequency(), 37.45, 0.1);
-  for (const DriveCheck& check : r.checks) EXPECT_TRUE(check.passes()) << check.name;
+  for (const DriveCheck& check : r.checks)
+    EXPECT_TRUE(check.passes()) << static_cast<int>(check.what);
   EXPECT_LT(r.distortion, 1e-3);
   EXPECT_EQ(r.response.size(), 5u);
   // The square law at exponent 1.

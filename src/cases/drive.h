@@ -75,8 +75,10 @@ void fields(FieldVisitor& v, DriveCase& s);
 // Throws InputError with every problem.
 DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides = {});
 
+enum class DriveLimit { BodyCurrent, SourceVoltage, GapVoltage };
+
 struct DriveCheck {
-  std::string name, unit;
+  DriveLimit what;
   double value = 0, limit = 0;  // SI; passes while value <= limit
   bool passes() const { return value <= limit; }
 };
@@ -90,7 +92,7 @@ struct DriveResult {
   Signal friction;                      // coefficient (load + pull) [N]
   double distortion = 0;                // of the friction below half the carrier; am only
   std::vector<SpectrumLine> lines;      // of the friction, 1e-6 of the largest and above
-  std::vector<DriveResponse> response;  // one a frequency of the sweep
+  std::vector<DriveResponse> response;  // one per frequency of the sweep
   std::vector<DriveCheck> checks;       // body current, source compliance, air in the gap
   // Onset of sliding [N], Eq. drive.6: undriven, driven, driven with all of the patch in static
   // contact; 0 without touch.real_area.
@@ -99,12 +101,6 @@ struct DriveResult {
 // Milliseconds with a given gap, seconds with a design's. Throws InputError for frequencies without
 // a common period.
 DriveResult solve_drive(const DriveCase& c);
-
-// Columns t, source voltage, current, gap voltage, pull, friction; frequency, amplitude.
-std::string drive_series_csv(const DriveResult& result);
-std::string drive_lines_csv(const DriveResult& result);
-// Friction over time and its spectrum as a picture.
-std::string drive_svg(const DriveCase& c, const DriveResult& result);
 
 // A swipe through the state machine of rendered stickiness: Eq. drive.10.
 struct SwipeStep {
@@ -116,9 +112,8 @@ struct Swipe {
   std::vector<SwipeStep> steps;
   double duration = 0, driven = 0;  // [s]; driven: with current
 };
-// Lines "lateral,normal" [N], one a step of the options, low-passed at 150 Hz; a head is skipped.
+// Lines "lateral,normal" [N], one per step of the options, low-passed at 150 Hz; a head is skipped.
 // Throws InputError naming `name` and the line.
 Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options);
-std::string slip_state_name(SlipState state);
 
 }  // namespace papilla

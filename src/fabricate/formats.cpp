@@ -1,0 +1,174 @@
+#include "fabricate/formats.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace papilla {
+namespace {
+
+void exr(const ExportSource& s, const std::string& path, Export&) {
+  if (s.options.repeat > 1) {
+    write_exr_repeated(path, s.heightmap, s.options.repeat, s.info);
+  } else {
+    write_exr(path, s.heightmap, s.info);
+  }
+}
+
+void tiff(const ExportSource& s, const std::string& path, Export&) {
+  write_tiff16(path, s.heightmap, *s.options.polarity, s.info);
+}
+
+void tiff32(const ExportSource& s, const std::string& path, Export&) {
+  write_tiff_float(path, s.heightmap, s.info);
+}
+
+void mask(const ExportSource& s, const std::string& path, Export&) {
+  write_mask_tiff(path, s.heightmap, *s.options.polarity, s.info);
+}
+
+void gsf(const ExportSource& s, const std::string& path, Export&) {
+  write_gsf(path, s.heightmap, s.info);
+}
+
+void npy(const ExportSource& s, const std::string& path, Export&) { write_npy(path, s.heightmap); }
+
+void png(const ExportSource& s, const std::string& path, Export&) { write_png(path, s.heightmap); }
+
+void png16(const ExportSource& s, const std::string& path, Export&) {
+  write_png16(path, s.heightmap);
+}
+
+void x3p(const ExportSource& s, const std::string& path, Export&) { write_x3p(path, s.heightmap); }
+
+// An array as cell and array reference, anything else as contours of its heights.
+void gds(const ExportSource& s, const std::string& path, Export& out) {
+  const Grid& grid = s.heightmap.grid;
+  const TextureFacts known = facts(s.texture);
+  if (const auto* array = std::get_if<FeatureArray>(&known.outline)) {
+    out.array = write_gds(path, *array, grid.lx, grid.ly, s.options.facet_error);
+  } else {
+    out.contours = {write_gds_mask(path, s.heightmap, s.options.levels), s.options.levels};
+  }
+}
+
+void stl(const ExportSource& s, const std::string& path, Export&) { write_stl(path, s.heightmap); }
+
+void dose(const ExportSource& s, const std::string& path, Export& out) {
+  const DoseMap map = write_dose(path, s.heightmap, read_dose_curve(s.options.dose_curve));
+  out.dose = map;
+  if (map.deep == 0 && map.shallow == 0) return;
+  const auto share = [&](std::size_t pixels) {
+    return 100 * static_cast<double>(pixels) / static_cast<double>(s.heightmap.grid.size());
+  };
+  out.warnings.push_back(fmt::format(
+      "the dose curve does not reach all depths: {:.3g} % of the pixels are deeper than its end, "
+      "{:.3g} % shallower than its start; they get the dose of that end",
+      share(map.deep), share(map.shallow)));
+}
+
+constexpr ExportFormat kFormats[]{
+    {.name = "exr",
+     .file = "heightmap.exr",
+     .holds = "heights in um, 32-bit float, high is bright",
+     .judged = 1,
+     .write = exr},
+    {.name = "tiff",
+     .file = "heightmap.tif",
+     .holds = "heights in 16 bits between the lowest and the highest",
+     .needs_polarity = true,
+     .judged = 4,
+     .write = tiff},
+    {.name = "tiff32",
+     .file = "heightmap_float.tif",
+     .holds = "heights in um, 32-bit float",
+     .asked_only = true,
+     .judged = 3,
+     .write = tiff32},
+    {.name = "mask",
+     .file = "mask.tif",
+     .holds = "black and white: where the surface is below half its depth",
+     .needs_polarity = true,
+     .two_levels = true,
+     .write = mask},
+    {.name = "gsf",
+     .file = "heightmap.gsf",
+     .holds = "heights in m, 32-bit float, for Gwyddion",
+     .judged = 2,
+     .write = gsf},
+    {.name = "npy", .file = "heightmap.npy", .holds = "heights in m, double", .write = npy},
+    {.name = "png",
+     .file = "preview.png",
+     .holds = "a picture with a colour scale and a scale bar",
+     .write = png},
+    {.name = "png16",
+     .file = "heightmap.png",
+     .holds = "heights in 16 bits of grey, with size and height for Gwyddion",
+     .asked_only = true,
+     .write = png16},
+    {.name = "x3p",
+     .file = "heightmap.x3p",
+     .holds = "heights in m, double, as ISO 25178-72 has it",
+     .asked_only = true,
+     .write = x3p},
+    {.name = "gds",
+     .file = "texture.gds",
+     .holds = "polygons: one cell and an array reference of holes, pillars and grooves, contours "
+              "of any other relief",
+     .needs_outline = true,
+     .write = gds},
+    {.name = "stl",
+     .file = "texture.stl",
+     .holds = "triangles in um, one period on a closed block",
+     .asked_only = true,
+     .write = stl},
+    {.name = "dose",
+     .file = "dose.png",
+     .holds = "dose in 8 bits of grey, by the curve of --dose-curve",
+     .needs_dose_curve = true,
+     .write = dose},
+};
+
+}  // namespace
+
+std::span<const ExportFormat> export_format_table() { return kFormats; }
+
+const std::vector<std::string>& export_formats() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out;
+    for (const ExportFormat& format : kFormats) out.push_back(format.name);
+    return out;
+  }();
+  return names;
+}
+
+const ExportFormat& find_export_format(const std::string& name) {
+  for (const ExportFormat& format : kFormats) {
+    if (format.name == name) return format;
+  }
+  throw InputError(
+      fmt::format("unknown format \"{}\"; known: {}", name, join_names(export_formats())));
+}
+
+std::string heights_file(const Export& result) {
+  std::vector<ExportFormat> judged;
+  for (const ExportFormat& format : kFormats) {
+    if (format.judged > 0) judged.push_back(format);
+  }
+  std::sort(judged.begin(), judged.end(),
+            [](const ExportFormat& a, const ExportFormat& b) { return a.judged < b.judged; });
+  std::string names;
+  for (const ExportFormat& format : judged) {
+    for (const ExportedFile& file : result.files) {
+      if (file.format == format.name) return file.path;
+    }
+    names += (names.empty() ? "" : &format == &judged.back() ? " or " : ", ");
+    names += format.name;
+  }
+  throw InputError("--verify needs a file of heights: " + names);
+}
+
+}  // namespace papilla

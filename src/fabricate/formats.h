@@ -1,0 +1,46 @@
+// The kinds of files that an export writes: the one table that the writer, the command's help, its
+// messages and the reference read.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fabricate/export.h"
+
+namespace papilla {
+
+// What a writer gets.
+struct ExportSource {
+  const Heightmap& heightmap;
+  const Texture& texture;  // as drawn
+  const ExportOptions& options;
+  const FileInfo& info;
+};
+
+struct ExportFormat {
+  const char* name;   // as --format has it: "exr"
+  const char* file;   // in the folder of the export: "heightmap.exr"
+  const char* holds;  // for people: "heights in um, 32-bit float"
+  // What it cannot be written without.
+  bool needs_polarity = false;    // which grey is deep
+  bool needs_outline = false;     // edges that polygons follow: a relief
+  bool two_levels = false;        // deep and high: nothing of a relief without outlines
+  bool needs_dose_curve = false;  // depth over grey
+  bool asked_only = false;        // not among the files of an export that names no formats
+  int judged = 0;                 // when --verify takes its heights, 1 first; 0: never
+  void (*write)(const ExportSource& source, const std::string& path, Export& out) = nullptr;
+
+  bool has_pixels() const { return !needs_outline; }
+};
+
+std::span<const ExportFormat> export_format_table();
+// Throws InputError, with the names that are known.
+const ExportFormat& find_export_format(const std::string& name);
+
+// "exr", "tiff" and so on, in the order of the table.
+const std::vector<std::string>& export_formats();
+// The first file that holds heights to be read back. Throws InputError where there is none.
+std::string heights_file(const Export& result);
+
+}  // namespace papilla

@@ -1,0 +1,45 @@
+// One candidate in one finger state: its criteria on the skins of the common sequence.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "forward/forward.h"
+#include "rank/options.h"
+
+namespace papilla {
+
+class Candidate {
+ public:
+  // Keeps references to both.
+  Candidate(const Regions& regions, FingerState state, const RankOptions& options);
+
+  int skins() const { return patches_.skins(); }
+  // Solves a batch more: the next skins of the common sequence, shared out over the regions. Throws
+  // InputError for a criterion that is not defined here.
+  void extend();
+  // A sample per skin of each criterion: jackknife pseudo-values, Eq. ranking.2
+  const std::vector<double>& samples(std::size_t criterion) const { return pseudo_[criterion]; }
+
+  // What each step of the finger's parameters does to each criterion. Eq. ranking.5
+  void step();
+  const StepSamples& steps(std::size_t criterion) const { return steps_[criterion]; }
+
+ private:
+  void solve(const std::function<Finger(const Finger&)>& move, Fidelity fidelity,
+             PatchSet& patches) const;
+  double value(const Criterion& c, Response& response) const;
+
+  const Regions& regions_;
+  const Design& design_;  // the first region: what all share
+  const RankOptions& options_;
+  Scene scene_;
+  Fidelity fidelity_;
+  std::optional<Optics> look_;  // where a criterion asks for it
+  PatchSet patches_;
+  std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
+  std::vector<StepSamples> steps_;           // one per criterion
+};
+
+}  // namespace papilla

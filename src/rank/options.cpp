@@ -1,0 +1,48 @@
+#include "rank/options.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace papilla {
+namespace {
+
+// "METRIC", "METRIC:low" or "METRIC:high".
+Criterion parse_criterion(std::string word) {
+  Criterion c;
+  std::string direction;
+  if (const std::size_t colon = word.rfind(':'); colon != std::string::npos) {
+    direction = word.substr(colon + 1);
+    word.resize(colon);
+  }
+  c.expression = parse_metric(word);
+  if (voltage_target(c.expression.metric))
+    throw InputError(fmt::format("\"{}\": a ranking is by forces at the designs' own drive", word));
+  const Better better = better_direction(c.expression);
+  if (direction.empty() && better == Better::Neither) {
+    throw InputError(
+        fmt::format("{0} has no better direction of its own; say {0}:low or {0}:high", word));
+  }
+  if (!direction.empty() && direction != "low" && direction != "high")
+    throw InputError(fmt::format("\"{}\" is no direction; use low or high", direction));
+  c.high = direction.empty() ? better == Better::Higher : direction == "high";
+  return c;
+}
+
+}  // namespace
+
+const MetricInfo& Criterion::info() const { return *find_metric(expression.metric); }
+
+std::string Criterion::text() const { return metric_text(expression) + (high ? ":high" : ":low"); }
+
+std::vector<Criterion> parse_criteria(const std::string& text) {
+  std::vector<Criterion> out;
+  for (const std::string& word : split(text, ',')) {
+    if (word.empty()) throw InputError("\"" + text + "\": expected METRIC:low or METRIC:high");
+    out.push_back(parse_criterion(word));
+  }
+  return out;
+}
+
+}  // namespace papilla

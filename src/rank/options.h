@@ -1,0 +1,40 @@
+// What a ranking is asked for: candidates, criteria, finger states, cost.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "design/design.h"
+#include "metrics/metrics.h"
+
+namespace papilla {
+
+// One criterion: a metric over humidity and which direction is better.
+struct Criterion {
+  MetricExpression expression;
+  bool high = false;
+
+  const MetricInfo& info() const;
+  std::string text() const;  // "mean(friction):low"
+};
+// "friction:low,adhesion:low"; a metric with a better direction of its own may stand alone.
+// Throws InputError.
+std::vector<Criterion> parse_criteria(const std::string& text);
+
+// A candidate: a design, or several regions of one that its skins take in turn.
+using Regions = std::vector<Design>;
+
+struct RankOptions {
+  std::vector<Criterion> criteria;
+  std::vector<FingerState> states;
+  int batch = 6;       // skins per step
+  int max_skins = 96;  // per candidate and state
+  int threads = 0;
+  bool parameters = false;      // also what the finger's fitted numbers leave open, Eq. ranking.5
+  bool any_conditions = false;  // candidates under other conditions are compared all the same
+  std::vector<std::string> names;  // of the candidates in messages; empty: their titles
+  std::function<void(const std::string&)> note;  // progress for people; may be empty
+};
+
+}  // namespace papilla

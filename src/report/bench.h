@@ -1,0 +1,16 @@
+// The performance targets as tables and as the page docs/performance.md.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/bench.h"
+
+namespace papilla {
+
+std::string bench_text(const std::vector<BenchRow>& rows);
+std::string bench_csv(const std::vector<BenchRow>& rows, const std::string& provenance);
+std::string bench_page(const std::vector<BenchRow>& rows, const std::string& provenance);
+std::string bench_json(const std::vector<BenchRow>& rows);  // schema 1
+
+}  // namespace papilla

@@ -1,0 +1,57 @@
+#include "report/fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "geometry/io/files.h"
+
+namespace papilla {
+namespace {
+
+constexpr const char* kPictures[] = {"gap", "pressure_off", "pressure_on", "pull", "water"};
+
+}  // namespace
+
+void write_field_pictures(const std::string& folder, const Design& design,
+                          const Fidelity& fidelity) {
+  for (const double humidity : design.environment.relative_humidity) {
+    const PatchPicture picture =
+        picture_patch(scene_of(design), design.texture, fidelity, humidity);
+    const Grid& grid = picture.texture.grid;
+    const auto write = [&](const char* name, const std::vector<double>& values) {
+      if (values.size() != grid.size()) return;
+      const std::string path = fmt::format("{}/{}_{:.0f}", folder, name, 100 * humidity);
+      int width = 0, height = 0;
+      const auto rgb = render_field(grid, values, width, height);
+      write_png_rgb(path + ".png", width, height, rgb);
+      write_npy(path + ".npy", Heightmap{grid, values});
+    };
+    write("gap", picture.fields.off.gap);
+    write("pressure_off", picture.fields.off.pressure);
+    write("pressure_on", picture.fields.on.pressure);
+    write("pull", picture.fields.pull.value);
+    const auto& bridged = picture.fields.wetting_off.bridged;
+    write("water", std::vector<double>(bridged.begin(), bridged.end()));
+  }
+}
+
+void remove_field_pictures(const std::string& folder) {
+  if (!std::filesystem::exists(folder + "/response.json")) return;  // not a folder of results
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension(), stem = entry.path().stem();
+    const std::size_t bar = stem.rfind('_');
+    if ((extension != ".png" && extension != ".npy") || bar == std::string::npos) continue;
+    const bool numbered =
+        bar + 1 < stem.size() && stem.find_first_not_of("0123456789", bar + 1) == std::string::npos;
+    if (numbered && std::find(std::begin(kPictures), std::end(kPictures), stem.substr(0, bar)) !=
+                        std::end(kPictures))
+      old.push_back(entry.path());
+  }
+  for (const auto& path : old) std::filesystem::remove(path);
+}
+
+}  // namespace papilla

@@ -1,0 +1,20 @@
+// Pictures and arrays of the fields of one patch, beside the numbers of an evaluation.
+#pragma once
+
+#include <string>
+
+#include "design/design.h"
+#include "forward/forward.h"
+
+namespace papilla {
+
+// Gap, pressure, water and pull of the first skin at each humidity: gap_75.png, gap_75.npy, ...
+// Cost: one patch per humidity.
+void write_field_pictures(const std::string& folder, const Design& design,
+                          const Fidelity& fidelity);
+
+// Those of an earlier run, at humidities or of a drive that this one may not have; of a folder
+// without response.json nothing.
+void remove_field_pictures(const std::string& folder);
+
+}  // namespace papilla

@@ -1,0 +1,144 @@
+#include "report/page_data.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/files.h"
+#include "base/sha256.h"
+#include "forward/forward.h"
+#include "geometry/io/files.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned v = 0;
+    for (std::size_t k = 0; k < 3; ++k) v = v << 8 | (k < left ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) out += k <= left ? kDigits[v >> (18 - 6 * k) & 63] : '=';
+  }
+  return out;
+}
+
+// What the charts need of a response.
+Json trimmed(const Json& response) {
+  Json points = Json::array();
+  for (const Json& p : response.at("points")) {
+    Json point;
+    for (const char* key : {"relative_humidity", "weight", "F_off", "F_on", "modulation",
+                            "capillary_force", "electrostatic_force", "status"}) {
+      point[key] = p.at(key);
+    }
+    points.push_back(std::move(point));
+  }
+  return points;
+}
+
+}  // namespace
+
+Json picture_json(const Grid& grid, const std::vector<double>& values) {
+  const int step = std::max(1, (std::max(grid.nx, grid.ny) + kPicturePixels - 1) / kPicturePixels);
+  const int nx = grid.nx / step, ny = grid.ny / step;
+  std::vector<double> mean;
+  for (int y = 0; y < ny; ++y) {
+    for (int x = 0; x < nx; ++x) {
+      double sum = 0;
+      for (int k = 0; k < step * step; ++k)
+        sum += values[grid.index(x * step + k % step, y * step + k / step)];
+      mean.push_back(sum / (step * step));
+    }
+  }
+  const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
+  const double span = *high - *low;
+  std::vector<std::uint8_t> bytes;
+  for (double v : mean) {
+    bytes.push_back(span > 0 ? static_cast<std::uint8_t>(std::lround(255 * (v - *low) / span)) : 0);
+  }
+  return {
+      {"nx", nx},    {"ny", ny},      {"lx", nx * step * grid.dx()}, {"ly", ny * step * grid.dy()},
+      {"low", *low}, {"high", *high}, {"bytes", base64(bytes)}};
+}
+
+Json design_json(const fs::path& folder, bool with_flat) {
+  const Json metrics = Json::parse(read_bytes(folder / "metrics.json"));
+  Json out;
+  for (const char* key : {"variables", "objectives", "worst_modulation", "oxide_breakdown_margin",
+                          "feasible", "stability", "flat", "parameters"}) {
+    if (metrics.contains(key)) out[key] = metrics[key];
+  }
+  out["tasks"] = Json::array();
+  for (const Json& task : metrics.at("tasks")) {
+    Json t{{"name", task.at("name")}, {"points", trimmed(task.at("response"))}};
+    if (with_flat && task.contains("flat")) t["flat"] = trimmed(task["flat"]);
+    out["tasks"].push_back(std::move(t));
+  }
+  if (with_flat) {
+    const Json& response = metrics["tasks"][0]["response"];
+    out["plan"] = response.at("plan");
+  }
+  out["toml"] = read_bytes(folder / "design.toml");
+  const Heightmap h = read_heightmap(folder / "heightmap.gsf");
+  out["heights"] = picture_json(h.grid, h.z);
+  return out;
+}
+
+Json field_json(const Design& design) {
+  Json out = Json::array();
+  for (const double humidity : design.environment.relative_humidity) {
+    const PatchPicture patch =
+        picture_patch(scene_of(design), design.texture, fidelity_of(design), humidity);
+    const Grid& grid = patch.texture.grid;
+    Json maps = Json::array();
+    const auto add = [&](const char* name, const char* unit, double scale,
+                         std::vector<double> values) {
+      if (values.size() != grid.size()) return;
+      for (double& v : values) v *= scale;
+      Json map = picture_json(grid, values);
+      map["name"] = name;
+      map["unit"] = unit;
+      maps.push_back(std::move(map));
+    };
+    add("gap, drive off", "nm", 1e9, patch.fields.off.gap);
+    add("contact pressure, drive off", "MPa", 1e-6, patch.fields.off.pressure);
+    if (design.drive.driven()) {
+      add("contact pressure, drive on", "MPa", 1e-6, patch.fields.on.pressure);
+      add("pull of the field", "MPa", 1e-6, patch.fields.pull.value);
+    }
+    const auto& water = patch.fields.wetting_off.bridged;
+    add("water that bridges the gap", "", 1, std::vector<double>(water.begin(), water.end()));
+    out.push_back({{"relative_humidity", humidity}, {"maps", maps}});
+  }
+  return out;
+}
+
+Json file_list(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    const std::string name = fs::relative(entry.path(), folder).generic_string();
+    // The page itself, the lock, and what holds clock times.
+    if (!entry.is_regular_file() || name == "report.html" || name == "timing.json" ||
+        name.front() == '.') {
+      continue;
+    }
+    names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  Json out = Json::array();
+  for (const std::string& name : names) {
+    const std::string bytes = read_bytes(folder / name);
+    out.push_back({{"name", name}, {"bytes", bytes.size()}, {"sha256", sha256(bytes)}});
+  }
+  return out;
+}
+
+}  // namespace papilla

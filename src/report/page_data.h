@@ -1,0 +1,27 @@
+// What the pages hold of designs, fields and files, as JSON.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <vector>
+
+#include "design/design.h"
+
+namespace papilla {
+
+constexpr int kPicturePixels = 128;  // across one picture, at most
+
+// Values as bytes between low and high, averaged down to kPicturePixels.
+nlohmann::ordered_json picture_json(const Grid& grid, const std::vector<double>& values);
+
+// The folder of one design of a run: its numbers, its file, its heights; with_flat: also the plan
+// and the surface without texture.
+nlohmann::ordered_json design_json(const std::filesystem::path& folder, bool with_flat);
+
+// Gap, pressure, pull and water of one patch at each humidity. Cost: these patches.
+nlohmann::ordered_json field_json(const Design& design);
+
+// Name, size and digest of every file of a folder but the page itself, the lock, and clock times.
+nlohmann::ordered_json file_list(const std::filesystem::path& folder);
+
+}  // namespace papilla

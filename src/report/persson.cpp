@@ -1,0 +1,125 @@
+#include "report/persson.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/constants.h"
+#include "report/json.h"
+
+namespace papilla {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double ratio(const MeanFieldPoint& p) {
+  return p.area_off > 0 ? p.on.pull.area / p.area_off : kInfinity;
+}
+
+// "-" where there is none: the ratio to no area, the coefficient without a load.
+std::string or_none(double value, int digits) {
+  return std::isfinite(value) ? fmt::format("{:.{}g}", value, digits) : "-";
+}
+
+double coefficient(const MeanFieldPoint& p) { return p.load > 0 ? p.on.coefficient : kInfinity; }
+
+// The gaps stay as they are at the pressure below which the body is finite.
+bool held(const MeanFieldPoint& p, const MeanFieldCase& c) {
+  return p.on.pull.pressure < c.touch.finite_size_pressure;
+}
+
+Json point_json(const MeanFieldPoint& p, const MeanFieldCase& c) {
+  return {{"voltage", p.voltage},
+          {"load", p.load},
+          {"frequency", p.frequency},
+          {"equivalent_thickness", json_number(std::abs(p.thickness))},
+          {"collapsed", p.on.pull.status == PullStatus::Collapsed},
+          {"pressure", p.on.pull.pressure},
+          {"pull", p.on.pull.pull},
+          {"area_off", p.area_off},
+          {"area_on", p.on.pull.area},
+          {"area_ratio", json_number(ratio(p))},
+          {"mean_gap", p.on.pull.mean_gap},
+          {"gap_held", held(p, c)},
+          {"friction", p.on.friction},
+          {"coefficient", json_number(coefficient(p))},
+          {"capacitance", p.capacitance}};
+}
+
+std::string table(const std::vector<MeanFieldPoint>& points, const char* name,
+                  const MeanFieldCase& c) {
+  std::string out =
+      fmt::format("\nover {}\n{:>8} {:>8} {:>10} {:>11} {:>11} {:>9} {:>9} {:>10} {:>7}\n", name,
+                  "V", "N", "Hz", "pull Pa", "A/A0", "on/off", "gap um", "friction N", "mu");
+  for (const MeanFieldPoint& p : points) {
+    out += fmt::format(
+        "{:>8.4g} {:>8.4g} {:>10.5g} {:>11.5g} {:>11.5g} {:>9} {:>9.4g} {:>10.4g} "
+        "{:>7}{}{}\n",
+        p.voltage, p.load, p.frequency, p.on.pull.pull, p.on.pull.area, or_none(ratio(p), 5),
+        1e6 * p.on.pull.mean_gap, p.on.friction, or_none(coefficient(p), 4),
+        held(p, c) ? "  gap held" : "",
+        p.on.pull.status == PullStatus::Collapsed ? "  pulled in" : "");
+  }
+  return out;
+}
+
+Json points_json(const std::vector<MeanFieldPoint>& points, const MeanFieldCase& c) {
+  Json out = Json::array();
+  for (const MeanFieldPoint& p : points) out.push_back(point_json(p, c));
+  return out;
+}
+
+// At the case's own point or anywhere in its sweeps.
+bool held_anywhere(const MeanFieldResult& r, const MeanFieldCase& c) {
+  for (const auto* points : {&r.voltage, &r.load, &r.frequency}) {
+    if (std::any_of(points->begin(), points->end(), [&](const auto& p) { return held(p, c); }))
+      return true;
+  }
+  return held(r.point, c);
+}
+
+}  // namespace
+
+std::string mean_field_text(const MeanFieldCase& c, const MeanFieldResult& r, double seconds) {
+  const MeanFieldPoint& p = r.point;
+  std::string out = fmt::format(
+      "{}{}roughness        rms {:.4g} um, slope {:.4g}{}\npressure         {:.5g} kPa, of it pull "
+      "{:.5g} kPa\ncontact area     {:.5g} % of the nominal area; off {:.5g} %, ratio {}\n"
+      "mean gap         {:.5g} um{}\nfriction         {:.5g} N (coefficient {})\n"
+      "capacitance      {:.5g} pF\n",
+      c.title, c.title.empty() ? "" : "\n", 1e6 * r.rms, r.slope,
+      c.skin.hardness > 0 ? " after plastic smoothing" : "", 1e-3 * p.on.pull.pressure,
+      1e-3 * p.on.pull.pull, 100 * p.on.pull.area, 100 * p.area_off, or_none(ratio(p), 5),
+      1e6 * p.on.pull.mean_gap, held(p, c) ? ", held" : "", p.on.friction,
+      or_none(coefficient(p), 4), 1e12 * p.capacitance);
+  if (p.on.pull.status == PullStatus::Collapsed) out += "pulled in: no equilibrium below 1 GPa\n";
+  if (!r.voltage.empty()) out += table(r.voltage, "voltage", c);
+  if (!r.load.empty()) out += table(r.load, "load", c);
+  if (!r.frequency.empty()) out += table(r.frequency, "frequency", c);
+  if (held_anywhere(r, c)) {
+    out += fmt::format(
+        "gap held: limited by the finite body; below {:.4g} kPa (touch.finite_size_pressure) the "
+        "gaps stay as they are there\n",
+        1e-3 * c.touch.finite_size_pressure);
+  }
+  return out + fmt::format("{:.3g} s\n", seconds);
+}
+
+std::string mean_field_json(const MeanFieldCase& c, const MeanFieldResult& r, double seconds) {
+  return Json{{"schema", 1},
+              {"title", c.title},
+              {"rms", r.rms},
+              {"slope", r.slope},
+              {"contact_modulus", r.contact_modulus},
+              {"point", point_json(r.point, c)},
+              {"over_voltage", points_json(r.voltage, c)},
+              {"over_load", points_json(r.load, c)},
+              {"over_frequency", points_json(r.frequency, c)},
+              {"seconds", seconds}}
+      .dump(2);
+}
+
+}  // namespace papilla

@@ -1,0 +1,171 @@
+// A Response for programs.
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "metrics/metrics.h"
+#include "report/json.h"
+#include "report/response.h"
+
+namespace papilla {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Error by origin; null where it was not measured.
+Json with_parts(double value, double se, const ErrorParts& parts) {
+  Json list{{"sampling", json_number(parts.sampling)}};
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    list[origin.name] = json_number(parts.*origin.part);
+  }
+  return {{"value", json_number(value)}, {"se", json_number(se)}, {"parts", list}};
+}
+
+Json measured(const Measured& m) { return with_parts(m.value, m.se(), m.parts); }
+
+Json summarised(Summary kind, const char* metric, const Response& response) {
+  const auto value = summarise(kind, metric, response);
+  return value ? with_parts(value->value, value->se, value->parts) : Json(nullptr);
+}
+
+Json summary_json(const Response& response) {
+  Json out = Json::object();
+  const std::array<std::pair<const char*, Summary>, 5> kinds{{{"mean_modulation", Summary::Mean},
+                                                              {"variation", Summary::Variation},
+                                                              {"range", Summary::Range},
+                                                              {"worst", Summary::Worst},
+                                                              {"std", Summary::Std}}};
+  for (const auto& [name, kind] : kinds) {
+    out[name] = summarised(kind, "modulation", response);
+  }
+  for (const char* metric : {"friction", "adhesion", "compliance"}) {
+    out[std::string("mean_") + metric] = summarised(Summary::Mean, metric, response);
+  }
+  return out;
+}
+
+Json plan_json(const Plan& plan) {
+  Json steps = Json::array(), skipped = Json::array();
+  for (const PlanStep& s : plan.steps) {
+    steps.push_back({{"piece", s.name()},
+                     {"method", s.method},
+                     {"reason", s.reason},
+                     {"seconds", s.seconds},
+                     {"error", s.error}});
+  }
+  for (const PlanSkip& s : plan.skipped) {
+    skipped.push_back({{"piece", s.name()},
+                       {"reason", s.reason},
+                       {"bound", json_number(s.bound)},
+                       {"estimate", s.estimate}});
+  }
+  return {
+      {"grid",
+       {{"nx", plan.grid.nx}, {"ny", plan.grid.ny}, {"lx", plan.grid.lx}, {"ly", plan.grid.ly}}},
+      {"effective_cutoff", plan.effective_cutoff},
+      {"warning", plan.warning},
+      {"seconds", plan.seconds()},
+      {"steps", steps},
+      {"skipped", skipped}};
+}
+
+Json voltage_json(const VoltageAnswer& v) {
+  return {{"modulation", v.target},
+          {"amplitude", v.reached() ? measured(v.amplitude) : Json(nullptr)},
+          {"highest_modulation", json_number(v.modulation)},
+          {"limit", json_number(v.limit)},
+          {"evaluations", v.evaluations},
+          {"status", v.reached() ? "ok" : text(v)}};
+}
+
+Json point_json(const ResponsePoint& p, bool driven) {
+  Json point;
+  point["relative_humidity"] = p.relative_humidity;
+  point["weight"] = p.weight;
+  point["patch_pressure"] = json_number(p.patch_pressure);
+  point["F_off"] = measured(p.friction_off);
+  point["F_on"] = driven ? measured(p.friction_on) : Json(nullptr);
+  point["modulation"] = driven ? measured(p.modulation) : Json(nullptr);
+  point["area_fraction_off"] = measured(p.area_fraction_off);
+  point["area_fraction_on"] = driven ? measured(p.area_fraction_on) : Json(nullptr);
+  point["capillary_force"] = measured(p.capillary_force);
+  point["electrostatic_force"] = measured(p.electrostatic_force);
+  point["retention_force"] = measured(p.retention_force);
+  point["bridges"] = measured(p.bridges);
+  point["wetted_fraction"] = measured(p.wetted_fraction);
+  point["mean_gap"] = measured(p.mean_gap);
+  point["indentation"] = measured(p.indentation);
+  point["bridge_water_share"] = json_number(p.bridge_water_share);
+  point["over_limit_area"] = json_number(p.over_limit_area);
+  point["over_limit_share"] = json_number(p.over_limit_share);
+  point["peak_air_field"] = json_number(p.peak_air_field);
+  point["peak_oxide_field"] = json_number(p.peak_oxide_field);
+  point["field_error"] = json_number(p.field_error);
+  point["oxide_margin"] = json_number(p.oxide_margin);
+  for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
+  point["status"] = p.status.sound() && driven && p.oxide_margin < 1
+                        ? "breakdown: the dielectric does not hold this field, the numbers under "
+                          "voltage mean nothing physical"
+                        : text(p.status);
+  return point;
+}
+
+// Null where the theory does not reach.
+Json appearance_json(const Optics& look) {
+  const bool refused = look.refused();
+  const auto value = [&](double v) { return refused ? Json(nullptr) : json_number(v); };
+  return {{"regime", text(look.regime)}, {"warning", look.warning},
+          {"haze", value(look.haze)},    {"transmittance", value(look.transmittance)},
+          {"gloss", value(look.gloss)},  {"colour_shift", value(look.colour_shift)}};
+}
+
+Json steps_json(const ParameterSteps& p) {
+  return {{"directions", p.steps.size()},
+          {"skins", p.skins},
+          {"grid", p.grid},
+          {"status", p.troubles.empty() ? "ok" : text(p.troubles)}};
+}
+
+Json target_json(const TargetReport& a) {
+  return {{"target", a.target},     {"reached", json_number(a.reached)},
+          {"quantity", a.quantity}, {"parts", {"sampling", "grid", "method", "solver"}},
+          {"status", text(a)},      {"steps", a.steps}};
+}
+
+Json fidelity_json(const Fidelity& f) {
+  return {{"level", f.level},
+          {"grid", f.grid},
+          {"window", kWindow},
+          {"skins", f.skins},
+          {"estimator", f.estimator == Estimator::Load ? "load" : "area"},
+          {"contact_tolerance", f.contact_tolerance}};
+}
+
+}  // namespace
+
+std::string response_json(const Response& response, bool with_time) {
+  Json points = Json::array();
+  for (const ResponsePoint& p : response.points) points.push_back(point_json(p, response.driven));
+  Json out{{"schema", 1},
+           {"points", points},
+           {"summary", summary_json(response)},
+           {"plan", plan_json(response.plan)}};
+  if (response.appearance) out["appearance"] = appearance_json(*response.appearance);
+  if (!response.parameters.steps.empty()) out["parameters"] = steps_json(response.parameters);
+  if (with_time) {
+    out["seconds"] = response.seconds;
+    const PieceSeconds& pieces = response.piece_seconds;
+    out["processor_seconds"] = {
+        {"contact", pieces.contact}, {"water", pieces.water}, {"field", pieces.field}};
+  }
+  if (response.accuracy.target > 0) out["accuracy"] = target_json(response.accuracy);
+  out["fidelity"] = fidelity_json(response.fidelity);
+  out["contact_solves"] = response.contact_solves;
+  out["fft_pairs"] = json_number(response.fft_pairs);
+  return out.dump(2);
+}
+
+std::string plan_document(const Plan& plan) {
+  return Json{{"schema", 1}, {"plan", plan_json(plan)}}.dump(2);
+}
+
+}  // namespace papilla
