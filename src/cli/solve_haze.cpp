@@ -1,7 +1,6 @@
 // papilla solve haze: how a design or a heightmap looks on glass.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -10,7 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "forward/appearance.h"
 #include "geometry/io/files.h"
 
@@ -52,12 +51,12 @@ int solve(const HazeOptions& options) {
     if (!angles.empty()) light.angles = angles;
     o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media, light);
   }
-  const bool refused = o.regime == "refused";
+  const bool refused = o.refused();
   if (options.design.json) {
     using Json = nlohmann::ordered_json;
     const auto number = [&](double v) { return refused ? Json(nullptr) : Json(v); };
     Json out{{"schema", 1},
-             {"regime", o.regime},
+             {"regime", text(o.regime)},
              {"warning", o.warning},
              {"haze", number(o.haze)},
              {"transmittance", number(o.transmittance)},
@@ -74,7 +73,7 @@ int solve(const HazeOptions& options) {
     }
     std::cout << out.dump(2) << '\n';
   } else {
-    std::cout << "regime         " << o.regime << '\n';
+    std::cout << "regime         " << text(o.regime) << '\n';
     if (!refused) {
       std::cout << fmt::format(
           "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"
@@ -94,26 +93,26 @@ int solve(const HazeOptions& options) {
 
 }  // namespace
 
-void add_solve_haze(CLI::App& solve_command, Context& context) {
-  CLI::App* command = solve_command.add_subcommand(
+void add_solve_haze(Command solve_command, Context& context) {
+  Command command = solve_command.add_command(
       "haze", "Haze, transmittance, gloss and colour of a texture on glass");
   auto options = std::make_shared<HazeOptions>();
-  command->add_option("file", options->design.file, "Design or study file")->type_name("FILE");
-  add_set_option(*command, options->design.overrides);
-  command->add_option("--height", options->height, "Heightmap instead: .npy .gsf .exr .tif")
-      ->type_name("FILE");
-  command->add_option("--size", options->size, "Its width where the file does not say");
-  command->add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
-      ->check(CLI::Range(1.0, 5.0));
+  command.add_option("file", options->design.file, "Design or study file").type_name("FILE");
+  add_set_option(command, options->design.overrides);
+  command.add_option("--height", options->height, "Heightmap instead: .npy .gsf .exr .tif")
+      .type_name("FILE");
+  command.add_option("--size", options->size, "Its width where the file does not say");
+  command.add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
+      .range(1.0, 5.0);
   command
-      ->add_option("--fill-index", options->fill,
-                   "Index of what fills the texture; default: the design's, or 1, air")
-      ->check(CLI::Range(1.0, 5.0));
-  command->add_option("--angle", options->angles,
-                      "From the normal, e.g. \"45 deg\"; several: their mean; default: the "
-                      "design's, or 0");
-  command->add_flag("--json", options->design.json, "One JSON object, SI units");
-  command->callback(
+      .add_option("--fill-index", options->fill,
+                  "Index of what fills the texture; default: the design's, or 1, air")
+      .range(1.0, 5.0);
+  command.add_option("--angle", options->angles,
+                     "From the normal, e.g. \"45 deg\"; several: their mean; default: the "
+                     "design's, or 0");
+  command.add_flag("--json", options->design.json, "One JSON object, SI units");
+  command.on_chosen(
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 

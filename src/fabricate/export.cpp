@@ -17,21 +17,30 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool is_array(const Texture& texture) {
-  return std::holds_alternative<HoleArray>(texture.kind) ||
-         std::holds_alternative<PillarArray>(texture.kind) ||
-         std::holds_alternative<Grating>(texture.kind);
+// Equal features that a layout repeats; null: none.
+const FeatureArray* array_of(const TextureFacts& known) {
+  return std::get_if<FeatureArray>(&known.outline);
+}
+
+// Why a layout or a mask cannot draw the texture; empty: it can.
+std::string undrawable(const TextureFacts& known) {
+  if (!known.relief.present) return std::get<NoOutline>(facts(Texture{}).outline).reason;
+  const auto* none = std::get_if<NoOutline>(&known.outline);
+  if (!none) return {};
+  return none->reason + "; take its heights, exr, tiff, gsf, npy, x3p or stl, or a dose map";
 }
 
 bool needs_polarity(const std::string& format) { return format == "tiff" || format == "mask"; }
 
 std::vector<std::string> chosen_formats(const Design& design, const ExportOptions& options) {
-  const bool flat = texture_depth(design.texture) <= 0;
+  const TextureFacts known = facts(design.texture);
+  const std::string reason = undrawable(known);
   if (options.formats.empty()) {
     std::vector<std::string> out;
     for (const std::string& format : export_formats()) {
       if (needs_polarity(format) && !options.polarity) continue;
-      if (format == "gds" && (flat || !is_array(design.texture))) continue;
+      if (format == "gds" && (!reason.empty() || !array_of(known))) continue;
+      if (format == "mask" && known.relief.present && !reason.empty()) continue;
       if (format == "stl" || format == "x3p" || format == "png16" || format == "tiff32")
         continue;  // on request
       if (format == "dose" && options.dose_curve.empty()) continue;
@@ -40,12 +49,13 @@ std::vector<std::string> chosen_formats(const Design& design, const ExportOption
     return out;
   }
   for (const std::string& format : options.formats) {
-    const auto& known = export_formats();
-    if (std::find(known.begin(), known.end(), format) == known.end()) {
-      throw InputError(fmt::format("unknown format \"{}\"; known: {}", format, join_names(known)));
+    const auto& names = export_formats();
+    if (std::find(names.begin(), names.end(), format) == names.end()) {
+      throw InputError(fmt::format("unknown format \"{}\"; known: {}", format, join_names(names)));
     }
-    if (format == "gds" && flat)
-      throw InputError("format \"gds\": the surface is flat, there are no outlines to write");
+    const bool drawn = format == "gds" || (format == "mask" && known.relief.present);
+    if (drawn && !reason.empty())
+      throw InputError(fmt::format("format \"{}\": {}", format, reason));
     if (format == "dose" && options.dose_curve.empty())
       throw InputError("format \"dose\" needs --dose-curve, a CSV of depth_nm,grey");
     if (needs_polarity(format) && !options.polarity) {
@@ -61,7 +71,7 @@ std::vector<std::string> chosen_formats(const Design& design, const ExportOption
 // One cell of the lattice; sides of 0 where nothing repeats. Two periods along x hold two rows of a
 // square lattice, one of a hexagonal.
 Grid unit_cell(const Texture& texture, int pixels) {
-  const double period = texture_period(texture);
+  const double period = facts(texture).period();
   if (!(period > 0)) return {};
   Grid cell = patch_grid(texture, 2 * (pixels + pixels % 2), 2 * period);
   cell.lx = period;
@@ -76,14 +86,10 @@ Grid unit_cell(const Texture& texture, int pixels) {
 // GDSII places whole cells on a grid of 1 nm, where a period that a search found never lies. All
 // files of an export are of one texture, so that a map and a layout of it lie on each other.
 void snap_period(Texture& texture, std::vector<std::string>& warnings) {
-  const double period = texture_period(texture), nm = 1e9 * period;
+  const double period = facts(texture).period(), nm = 1e9 * period;
   const auto with = [&](double whole) {
     Texture out = texture;
-    std::visit(
-        [&](auto& kind) {
-          if constexpr (requires { kind.period; }) kind.period = 1e-9 * whole;
-        },
-        out.kind);
+    if (double* own = roles(out).period) *own = 1e-9 * whole;
     return out;
   };
   if (std::abs(nm - std::round(nm)) <= 1e-4) return;
@@ -91,7 +97,7 @@ void snap_period(Texture& texture, std::vector<std::string>& warnings) {
   if (!problems(snapped).empty()) snapped = with(std::ceil(nm));  // walls may be that thin
   for (const auto& [key, message] : problems(snapped))
     throw InputError("on the 1 nm grid of GDSII: texture." + key + ": " + message);
-  const double after = 1e9 * texture_period(snapped);
+  const double after = 1e9 * facts(snapped).period();
   warnings.push_back(fmt::format(
       "the period of {:.8g} nm is not on the 1 nm grid of GDSII: all files of this export, maps "
       "and layout, have {:.0f} nm, {:.2g} nm ({:.2g} %) {}",
@@ -103,8 +109,7 @@ void snap_period(Texture& texture, std::vector<std::string>& warnings) {
 // Heights and masks of too few pixels move and round every edge.
 void judge_pixels(const Texture& texture, const Grid& grid, std::vector<std::string>& warnings) {
   constexpr double kPixelsAcross = 4;
-  const FabricationMargins margins = fabrication_margins(texture);
-  const double smallest = std::min(margins.min_hole, margins.min_wall);
+  const double smallest = facts(texture).margins.smallest();
   const double pixel = std::max(grid.dx(), grid.dy());
   if (!std::isfinite(smallest) || !(smallest > 0) || pixel <= smallest / kPixelsAcross) return;
   const double pixels = 2 * std::ceil(0.5 * std::max(grid.lx, grid.ly) * kPixelsAcross / smallest);
@@ -138,15 +143,11 @@ Texture compensated(const Texture& texture, const ProcessBias& bias) {
     if (w <= 0) throw InputError("process bias: nothing is left of the features");
     return w;
   };
-  if (auto* holes = std::get_if<HoleArray>(&out.kind)) {
-    holes->diameter = width(holes->diameter + 2 * bias.shrink);
-    rim(holes->edge_radius);
-  } else if (auto* pillars = std::get_if<PillarArray>(&out.kind)) {
-    pillars->diameter = width(pillars->diameter - 2 * bias.shrink);
-    rim(pillars->edge_radius);
-  } else if (auto* grooves = std::get_if<Grating>(&out.kind)) {
-    grooves->width = width(grooves->width + 2 * bias.shrink);
-    rim(grooves->edge_radius);
+  const TextureFacts known = facts(texture);
+  if (const FeatureArray* array = array_of(known)) {
+    const Roles role = roles(out);
+    *role.width = width(*role.width + (array->deep ? 2 : -2) * bias.shrink);
+    rim(*role.edge_radius);
   } else if (bias.shrink != 0 || bias.edge_radius != 0) {
     throw InputError(fmt::format("process bias is for holes, pillars and grooves, not \"{}\"",
                                  texture_name(texture)));
@@ -164,7 +165,9 @@ Export export_design(const Design& wanted, const ExportOptions& options,
   Json gds_json, dose_json;
   Export out;
   const bool layout = std::find(formats.begin(), formats.end(), "gds") != formats.end();
-  if (layout && is_array(design.texture)) snap_period(design.texture, out.warnings);
+  if (layout && array_of(facts(design.texture))) snap_period(design.texture, out.warnings);
+  const TextureFacts known = facts(design.texture);
+  const FeatureArray* array = array_of(known);
   const Grid cell = unit_cell(design.texture, options.pixels);
   Grid grid = patch_grid(design.texture, options.pixels, options.size > 0 ? options.size : kWindow);
   if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
@@ -185,12 +188,12 @@ Export export_design(const Design& wanted, const ExportOptions& options,
     out.warnings.push_back(fmt::format(
         "{:.6g} um were asked for, {:.6g} um are written: {}", 1e6 * options.size, 1e6 * grid.lx,
         out.cells_x > 0 ? "a whole number of periods"
-        : std::holds_alternative<Measured3d>(design.texture.kind)
+        : known.free_patch.exact
             ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
             : "the smallest patch that holds the texture"));
   }
   if (std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f != "gds"; }) ||
-      (layout && !is_array(design.texture)))
+      (layout && !array))
     judge_pixels(design.texture, grid, out.warnings);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -247,8 +250,8 @@ Export export_design(const Design& wanted, const ExportOptions& options,
       write_png(path, h);
     } else if (format == "gds") {
       path = folder + "/texture.gds";
-      if (is_array(design.texture)) {
-        const GdsArray a = write_gds(path, design.texture, grid.lx, grid.ly, options.facet_error);
+      if (array) {
+        const GdsArray a = write_gds(path, *array, grid.lx, grid.ly, options.facet_error);
         gds_json = {{"columns", a.columns}, {"rows", a.rows},   {"pitch", {a.pitch_x, a.pitch_y}},
                     {"drift", a.drift},     {"sides", a.sides}, {"drawn", a.drawn}};
       } else {
@@ -264,7 +267,7 @@ Export export_design(const Design& wanted, const ExportOptions& options,
   }
 
   const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-  const FabricationMargins margins = fabrication_margins(design.texture);
+  const FabricationMargins& margins = known.margins;
   Json files = Json::array();
   for (const ExportedFile& file : out.files) {
     files.push_back(

@@ -15,7 +15,7 @@
 #include "base/files.h"
 #include "base/sha256.h"
 #include "base/text.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "rank/rank.h"

@@ -10,7 +10,7 @@
 #include "cases/drive_case.h"
 #include "cases/mean_field.h"
 #include "config/describe.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "metrics/metrics.h"
 
 namespace papilla {

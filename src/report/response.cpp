@@ -53,14 +53,14 @@ Json summary_json(const Response& response) {
 Json plan_json(const Plan& plan) {
   Json steps = Json::array(), skipped = Json::array();
   for (const PlanStep& s : plan.steps) {
-    steps.push_back({{"piece", s.piece},
+    steps.push_back({{"piece", s.name()},
                      {"method", s.method},
                      {"reason", s.reason},
                      {"seconds", s.seconds},
                      {"error", s.error}});
   }
   for (const PlanSkip& s : plan.skipped) {
-    skipped.push_back({{"piece", s.piece},
+    skipped.push_back({{"piece", s.name()},
                        {"reason", s.reason},
                        {"bound", number(s.bound)},
                        {"estimate", s.estimate}});
@@ -169,12 +169,12 @@ std::string response_json(const Response& response, bool with_time) {
            {"highest_modulation", number(v.modulation)},
            {"limit", number(v.limit)},
            {"evaluations", v.evaluations},
-           {"status", v.reached() ? "ok" : v.status}});
+           {"status", v.reached() ? "ok" : text(v)}});
     }
-    point["status"] = p.status == "ok" && response.driven && p.oxide_margin < 1
+    point["status"] = p.status.sound() && response.driven && p.oxide_margin < 1
                           ? "breakdown: the dielectric does not hold this field, the numbers under "
                             "voltage mean nothing physical"
-                          : p.status;
+                          : text(p.status);
     points.push_back(std::move(point));
   }
   Json out{{"schema", 1},
@@ -182,18 +182,18 @@ std::string response_json(const Response& response, bool with_time) {
            {"summary", summary_json(response)},
            {"plan", plan_json(response.plan)}};
   if (const auto& look = response.appearance) {
-    const bool refused = look->regime == "refused";
+    const bool refused = look->refused();
     const auto value = [&](double v) { return refused ? Json(nullptr) : number(v); };
     out["appearance"] = {
-        {"regime", look->regime},      {"warning", look->warning},
-        {"haze", value(look->haze)},   {"transmittance", value(look->transmittance)},
-        {"gloss", value(look->gloss)}, {"colour_shift", value(look->colour_shift)}};
+        {"regime", text(look->regime)}, {"warning", look->warning},
+        {"haze", value(look->haze)},    {"transmittance", value(look->transmittance)},
+        {"gloss", value(look->gloss)},  {"colour_shift", value(look->colour_shift)}};
   }
   if (const ParameterSteps& p = response.parameters; !p.steps.empty()) {
     out["parameters"] = {{"directions", p.steps.size()},
                          {"skins", p.skins},
                          {"grid", p.grid},
-                         {"status", p.trouble.empty() ? "ok" : p.trouble}};
+                         {"status", p.troubles.empty() ? "ok" : text(p.troubles)}};
   }
   if (with_time) {
     out["seconds"] = response.seconds;
@@ -205,7 +205,7 @@ std::string response_json(const Response& response, bool with_time) {
     out["accuracy"] = {
         {"target", a.target},     {"reached", number(a.reached)},
         {"quantity", a.quantity}, {"parts", {"sampling", "grid", "method", "solver"}},
-        {"status", a.status},     {"steps", a.steps}};
+        {"status", text(a)},      {"steps", a.steps}};
   }
   out["fidelity"] = {
       {"level", response.fidelity.level},
@@ -331,13 +331,13 @@ std::string response_table(const Response& response) {
                          1e3 * friction->se, budget_text(*friction));
   }
   if (const auto& look = response.appearance) {
-    if (look->regime == "refused") {
+    if (look->refused()) {
       out += "appearance: " + look->warning + "\n";
     } else {
       out += fmt::format(
           "haze {:.2f} %  transmittance {:.1f} %  gloss {:.1f} %  colour shift {:.4f}  ({}{}{})\n",
           100 * look->haze, 100 * look->transmittance, 100 * look->gloss, look->colour_shift,
-          look->regime, look->warning.empty() ? "" : ": ", look->warning);
+          text(look->regime), look->warning.empty() ? "" : ": ", look->warning);
     }
   }
   for (const ResponsePoint& p : response.points) {
@@ -345,13 +345,13 @@ std::string response_table(const Response& response) {
       out += fmt::format("modulation {:.3g} at {:.0f} % RH: ", v.target, 100 * p.relative_humidity);
       out += v.reached() ? with_error(v.amplitude, 1, 1) +
                                " V (±: " + voltage_parts(v.amplitude.parts) + ")\n"
-                         : fmt::format("{} first (modulation {:.3g})\n", v.status, v.modulation);
+                         : fmt::format("{} first (modulation {:.3g})\n", text(v), v.modulation);
     }
   }
   if (const TargetReport& a = response.accuracy; a.target > 0) {
     out +=
         fmt::format("accuracy {:.2g} % asked for, {:.2g} % of {}: {} ({} pixels, {} skins, {})\n",
-                    100 * a.target, 100 * a.reached, a.quantity, a.status, response.fidelity.grid,
+                    100 * a.target, 100 * a.reached, a.quantity, text(a), response.fidelity.grid,
                     response.fidelity.skins,
                     response.fidelity.estimator == Estimator::Load ? "load law" : "solved areas");
     if (const std::string apart = beside_target(response); !apart.empty())
@@ -362,12 +362,11 @@ std::string response_table(const Response& response) {
         "parameters: {} directions of the finger's covariance, one standard deviation up and down, "
         "{} skins, {} pixels{}\n",
         p.steps.size(), p.skins, p.grid,
-        p.trouble.empty() ? "" : "; a step is not sound: " + p.trouble);
+        p.troubles.empty() ? "" : "; a step is not sound: " + text(p.troubles));
   }
   if (!response.plan.warning.empty()) out += "warning: " + response.plan.warning + "\n";
-  if (const std::string trouble = response.trouble(); !trouble.empty()) {
-    out += "note: " + trouble + "\n";
-  }
+  if (const auto troubles = response.troubles(); !troubles.empty())
+    out += "note: " + text(troubles) + "\n";
   return out;
 }
 

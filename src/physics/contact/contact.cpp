@@ -10,7 +10,7 @@
 namespace papilla {
 namespace {
 
-// About the mean; NaN or infinite where a value is.
+// Mean square about the mean; NaN or infinite where a value is.
 double variance(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
   const double origin = values[0];  // near enough to the mean against cancellation
@@ -55,14 +55,38 @@ void finish(const StandardProblem& problem, StandardState state, const ContactOp
 }
 
 // First touch without load: gaps above the lowest point.
-void hang(std::span<const double> g0, double level, const std::string& reason,
-          ContactSolution& out) {
+void leave_untouched(std::span<const double> g0, double level, const std::string& reason,
+                     ContactSolution& out) {
   out.pressure.assign(g0.size(), 0);
   out.gap.resize(g0.size());
   for (std::size_t i = 0; i < g0.size(); ++i) out.gap[i] = g0[i] - level;
   out.shift = level;
   out.status = ContactStatus::NoLoad;
   out.reason = reason;
+}
+
+// A load-controlled problem by the sparse solver where that is allowed and able, else by the dense
+// one, which goes on from what the other found. start: a usable one, or null.
+void press(const StandardProblem& problem, const ContactOptions& options,
+           const ContactSolution* start, ContactSolution& out) {
+  const bool demand = options.method == ContactMethod::Sparse;
+  std::span<const double> first;
+  if (start) first = start->pressure;
+  StandardState state;
+  if (options.method != ContactMethod::Dense && options.hardness <= 0) {
+    if (solve_sparse(problem, options.tolerance, start, demand, state)) {
+      out.method = ContactMethod::Sparse;
+      finish(problem, std::move(state), options, out);
+      return;
+    }
+    out.fft_pairs += state.pairs;
+    if (std::any_of(state.p.begin(), state.p.end(), [](double p) { return p > 0; })) {
+      first = state.p;
+    }
+  }
+  out.method = ContactMethod::Dense;
+  finish(problem, solve_dense(problem, options.tolerance, options.max_iterations, first), options,
+         out);
 }
 
 }  // namespace
@@ -107,8 +131,9 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
     SpectrumArray scratch;
     out.fft_pairs += problem.rise_unpressed(g0, scratch);
     for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i] - g0[i];
-    hang(g0, *std::min_element(g0.begin(), g0.end()),
-         mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch", out);
+    leave_untouched(g0, *std::min_element(g0.begin(), g0.end()),
+                    mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch",
+                    out);
     return out;
   }
   if (options.hardness > 0 && mean >= options.hardness) {
@@ -120,25 +145,7 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   }
   if (options.hardness > 0) problem.cap = options.hardness;
 
-  if (!usable(start, n)) start = nullptr;
-  const bool demand = options.method == ContactMethod::Sparse;
-  std::span<const double> first;
-  if (start) first = start->pressure;
-  StandardState state;
-  if (options.method != ContactMethod::Dense && options.hardness <= 0) {
-    if (solve_sparse(problem, options.tolerance, start, demand, state)) {
-      out.method = ContactMethod::Sparse;
-      finish(problem, std::move(state), options, out);
-      return out;
-    }
-    out.fft_pairs += state.pairs;
-    if (std::any_of(state.p.begin(), state.p.end(), [](double p) { return p > 0; })) {
-      first = state.p;
-    }
-  }
-  out.method = ContactMethod::Dense;
-  finish(problem, solve_dense(problem, options.tolerance, options.max_iterations, first), options,
-         out);
+  press(problem, options, usable(start, n) ? start : nullptr, out);
   return out;
 }
 
@@ -163,7 +170,7 @@ ContactSolution solve_approach(const ContactKernel& kernel, std::span<const doub
   if (approach <= 0) {
     RealArray g0(n);
     for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i];
-    hang(g0, level, "the surfaces do not touch yet", out);
+    leave_untouched(g0, level, "the surfaces do not touch yet", out);
     return out;
   }
   if (level >= mean) {  // the mean surface cannot be passed: every load closes the gap there

@@ -1,0 +1,141 @@
+#include "geometry/textures/particle_film.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/random.h"
+
+namespace papilla {
+namespace {
+
+// Radius of the disc that a particle covers: the whole sphere, or its cap when it sits deep.
+double disc_radius(const Particle& p, double embedding) {
+  const double above = 2 * p.radius * (1 - embedding);  // height of the cap
+  return above >= p.radius ? p.radius : std::sqrt(above * (2 * p.radius - above));
+}
+
+double periodic(double d, double length) { return d - length * std::round(d / length); }
+
+}  // namespace
+
+void fields(FieldVisitor& v, ParticleFilm& t) {
+  v.number({"radius", "um", 0.01, 100, "mean particle radius", Source::Paper, "M3: 1.5 and 3 um"},
+           t.radius);
+  v.number({"radius_spread", "%", 0, 50, "standard deviation of the radius over its mean",
+            Source::Estimate, "none published"},
+           t.radius_spread);
+  v.number({"coverage", "%", 0, 80, "projected share covered by particles", Source::Estimate,
+            "none published"},
+           t.coverage);
+  v.number({"embedding", "%", 0, 95, "share of the diameter below the film", Source::Estimate,
+            "none published"},
+           t.embedding);
+  v.number({"clustering", "", 0, 1, "share of particles placed against another one"}, t.clustering);
+  v.integer({"seed", "which random arrangement"}, 0, 1000000000, t.seed);
+}
+
+std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid) {
+  RandomStream random(static_cast<std::uint64_t>(film.seed), "particles");
+  std::vector<Particle> particles;
+  double covered = 0;
+  const double wanted = film.coverage * grid.area();
+  while (covered < wanted) {
+    const double r = film.radius * std::clamp(1 + film.radius_spread * random.normal(), 0.3, 1.7);
+    const Particle p{0, 0, r};
+    const double area = kPi * square(disc_radius(p, film.embedding));
+    // The last particle is placed when that brings the coverage nearer.
+    if (covered + area - wanted > wanted - covered && !particles.empty()) break;
+    particles.push_back(p);
+    covered += area;
+  }
+  std::stable_sort(particles.begin(), particles.end(),
+                   [](const Particle& a, const Particle& b) { return a.radius > b.radius; });
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    Particle& p = particles[i];
+    const double own = disc_radius(p, film.embedding);
+    bool placed = false;
+    constexpr int kTries = 100000;
+    for (int attempt = 0; attempt < kTries && !placed; ++attempt) {
+      if (i > 0 && random.uniform() < film.clustering) {
+        const Particle& other =
+            particles[static_cast<std::size_t>(random.below(static_cast<int>(i)))];
+        const double angle = random.uniform(0, 2 * kPi);
+        const double reach = (own + disc_radius(other, film.embedding)) * (1 + 1e-9);
+        p.x = other.x + reach * std::cos(angle);
+        p.y = other.y + reach * std::sin(angle);
+        p.x -= grid.lx * std::floor(p.x / grid.lx);
+        p.y -= grid.ly * std::floor(p.y / grid.ly);
+      } else {
+        p.x = random.uniform(0, grid.lx);
+        p.y = random.uniform(0, grid.ly);
+      }
+      placed = 2 * own < std::min(grid.lx, grid.ly);
+      for (std::size_t j = 0; j < i && placed; ++j) {
+        const double reach = own + disc_radius(particles[j], film.embedding);
+        placed = square(periodic(p.x - particles[j].x, grid.lx)) +
+                     square(periodic(p.y - particles[j].y, grid.ly)) >=
+                 square(reach);
+      }
+    }
+    if (!placed) {
+      throw InputError(
+          fmt::format("a coverage of {:.0f} % with particles of {:.3g} um radius cannot be reached "
+                      "on a patch of "
+                      "{:.3g} um; lower the coverage or the spread of the radius",
+                      100 * film.coverage, 1e6 * film.radius, 1e6 * grid.lx));
+    }
+  }
+  return particles;
+}
+
+Heightmap heights(const ParticleFilm& film, const Grid& grid) {
+  Heightmap out{grid, std::vector<double>(grid.size(), 0)};
+  for (const Particle& p : place_particles(film, grid)) {
+    const double centre = p.radius * (1 - 2 * film.embedding);  // height of the sphere's centre
+    const double reach = disc_radius(p, film.embedding);
+    const int nx = static_cast<int>(reach / grid.dx()) + 1,
+              ny = static_cast<int>(reach / grid.dy()) + 1;
+    const int cx = static_cast<int>(p.x / grid.dx()), cy = static_cast<int>(p.y / grid.dy());
+    for (int iy = cy - ny; iy <= cy + ny; ++iy) {
+      for (int ix = cx - nx; ix <= cx + nx; ++ix) {
+        const double dx = (ix + 0.5) * grid.dx() - p.x, dy = (iy + 0.5) * grid.dy() - p.y;
+        const double rest = p.radius * p.radius - dx * dx - dy * dy;
+        if (rest <= 0) continue;
+        double& z = out(wrap(ix, grid.nx), wrap(iy, grid.ny));
+        z = std::max(z, centre + std::sqrt(rest));
+      }
+    }
+  }
+  return out;
+}
+
+TextureProblems problems(const ParticleFilm& t) {
+  // Random sequential placement of discs jams at 0.547 (Feder 1980).
+  if (t.coverage <= 0.52) return {};
+  return {{"coverage", "random non-overlapping particles jam near 55 %; use at most 52 %"}};
+}
+
+TextureFacts facts(const ParticleFilm& t) {
+  const double top = t.coverage > 0 ? 2 * t.radius * (1 - t.embedding) : 0;
+  return {.relief = Relief::between(0, top),
+          .cell = std::nullopt,
+          .free_patch = FreePatch{8 * t.radius, std::nullopt},
+          .margins = FabricationMargins::none(),
+          .open_share = std::nullopt,
+          .rim_radius = std::nullopt,
+          .outline = NoOutline{"a film of particles has no outline: its caps rise gradually from "
+                               "the film, and nothing is etched"},
+          .quick_look = false};
+}
+
+Roles roles(ParticleFilm& t) {
+  Roles out = Roles::none();
+  out.relief = &t.coverage;
+  return out;
+}
+
+}  // namespace papilla
