@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 // Distance to the nearest lattice point [m].
@@ -113,4 +113,4 @@ void add_wall_problem(const WallSection& wall, double width, TextureProblems& ou
                                wall.wall_angle * 180 / kPi, 1e9 * wall.depth));
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

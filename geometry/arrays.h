@@ -3,9 +3,10 @@
 
 #include <functional>
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // Section of every edge: height of the step [m], angle of the wall from the land [rad], radius of
 // its convex rim [m].
@@ -31,4 +32,4 @@ TextureFacts array_facts(const FeatureArray& array, const WallSection& wall);
 TextureProblems array_problems(double period, double width, const char* width_key);
 void add_wall_problem(const WallSection& wall, double width, TextureProblems& out);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -13,10 +13,11 @@
 #include <variant>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/fields.h"
 #include "geometry/heightmap.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 struct Texture;
 
@@ -148,4 +149,4 @@ concept TextureKind = std::default_initializable<K> && std::equality_comparable<
   { roles(kind) } -> std::same_as<Roles>;
 };
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::geometry {
 
 struct Grid {
   int nx = 0, ny = 0;
@@ -30,4 +32,4 @@ constexpr int wrap(int i, int n) {
   return r < 0 ? r + n : r;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

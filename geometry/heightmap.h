@@ -5,9 +5,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 struct Heightmap {
   Grid grid;
@@ -19,4 +20,4 @@ struct Heightmap {
   bool operator==(const Heightmap&) const = default;
 };
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -13,7 +13,7 @@
 #include "base/random.h"
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 // A plane a + b x + c y.
@@ -210,4 +210,4 @@ Heightmap measured_skin(const std::string& file, double width, const Grid& grid,
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

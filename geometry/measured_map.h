@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <string>
 
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // The map of the file, levelled, mended and made periodic, resampled on the grid: cut from the
 // middle. width [m]: where the file does not say. Throws InputError for a map smaller than `patch`
@@ -22,4 +23,4 @@ Heightmap measured_skin(const std::string& file, double width, const Grid& grid,
 // The shortest wavelength that the map holds [m].
 double measured_skin_cutoff(const std::string& file, double width);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 WallProfile::WallProfile(double depth, double wall_angle, double rim_radius)
     : depth_(depth), slope_(std::tan(std::min(wall_angle, kPi / 2 - 1e-9))), rim_(rim_radius) {
@@ -44,4 +44,4 @@ double WallProfile::mean_drop(double s, double pixel) const {
   return (integral(s + 0.5 * pixel) - integral(s - 0.5 * pixel)) / pixel;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

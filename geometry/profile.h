@@ -1,7 +1,9 @@
 // Cross-section of an etched wall: land, convex rim, straight wall, floor.
 #pragma once
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::geometry {
 
 class WallProfile {
  public:
@@ -21,4 +23,4 @@ class WallProfile {
   double floor_;               // where the floor begins, from start_
 };
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -7,7 +7,7 @@
 #include "base/fft.h"
 #include "base/random.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 // Shape of C(q), 1 at the plateau.
@@ -114,4 +114,4 @@ RoughnessParameters roughness_parameters(const Heightmap& h) {
   return r;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

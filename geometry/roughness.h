@@ -3,9 +3,10 @@
 
 #include <cstdint>
 
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // Isotropic spectrum: flat from the patch size to the roll-off wavelength, C(q) ~ q^-2(1+H) down to
 // the cut-off wavelength; rms over a square patch of reference_length. Eq. geometry.3
@@ -29,4 +30,4 @@ struct RoughnessParameters {
 };
 RoughnessParameters roughness_parameters(const Heightmap& heightmap);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 template <class Variant>
@@ -130,4 +130,4 @@ Grid simulated_patch(const Texture& texture, int pixels, int most) {
   return {even_count(lx / pixel), even_count(ly / pixel), lx, ly};
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

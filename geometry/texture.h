@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 #include "geometry/textures/flat.h"
 #include "geometry/textures/grating.h"
@@ -16,7 +17,7 @@
 #include "geometry/textures/random_rough.h"
 #include "geometry/textures/stack.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // The one list of kinds. The first has no relief: searches take it as the flat end of the list.
 struct Texture {
@@ -55,4 +56,4 @@ Grid simulated_patch(const Texture& texture, int pixels, int most = 1024);
 // InputError for what cannot be made (impossible coverage, unreadable file).
 Heightmap generate(const Texture& texture, const Grid& grid);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 constexpr double kPrecision = 1e-3;  // of an end, relative to its distance; of the rise
@@ -76,4 +76,4 @@ double FitProfile::root(Bracket b) {
   return 0.5 * (b.inside + b.outside);
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

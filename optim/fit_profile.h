@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/trust_region.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 // Where the sum of squares with parameter i held and the others fitted again has risen by `rise`.
 // Eq. calibration.3
@@ -39,4 +40,4 @@ class FitProfile {
   std::vector<double> start_;  // of the next refit
 };
 
-}  // namespace papilla
+}  // namespace papilla::optim

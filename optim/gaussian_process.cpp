@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 double matern(double r) {
@@ -203,4 +203,4 @@ Prediction DraftedProcess::predict(const Point& x) const {
           std::sqrt(square(ratio_ * d.sd) + square(left.sd))};
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

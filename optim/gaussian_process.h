@@ -5,9 +5,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/problem.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 struct Prediction {
   double mean = 0, sd = 0;  // of the function, without the noise
@@ -54,4 +55,4 @@ class DraftedProcess {
   std::unique_ptr<GaussianProcess> plain_, left_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -16,7 +16,7 @@
 
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 std::uint64_t checksum(const std::string& text) {  // FNV-1a, 64 bits
@@ -149,4 +149,4 @@ void Journal::append(const JournalRecord& record) {
   records_.push_back(record);
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

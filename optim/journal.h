@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::optim {
 
 // What was asked and what came of it: bytes of any kind, best such as a person can read.
 struct JournalRecord {
@@ -45,4 +47,4 @@ std::string text_hash(const std::string& text);
 std::string journal_line(const JournalRecord& record);
 bool parse_journal_line(const std::string& line, JournalRecord& record);
 
-}  // namespace papilla
+}  // namespace papilla::optim

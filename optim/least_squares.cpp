@@ -10,7 +10,7 @@
 #include "optim/fit_profile.h"
 #include "optim/trust_region.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -238,4 +238,4 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

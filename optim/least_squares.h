@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::optim {
 
 struct FitParameter {
   std::string name;
@@ -83,4 +85,4 @@ LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int r
                               const ResidualFunction& function,
                               const LeastSquaresOptions& options = {});
 
-}  // namespace papilla
+}  // namespace papilla::optim

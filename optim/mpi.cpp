@@ -12,7 +12,7 @@
 #include <thread>
 #endif
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 // Open MPI, MPICH and Slurm's launcher, PMIx.
@@ -131,4 +131,4 @@ std::unique_ptr<Team> MpiSession::team() const { return nullptr; }
 
 #endif
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -4,9 +4,10 @@
 
 #include <memory>
 
+#include "base/rooms.h"
 #include "optim/worker.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 // Rank of this process as its launcher names it in the environment, without starting MPI; 0 when
 // there is no launcher.
@@ -34,4 +35,4 @@ class MpiSession {
   int rank_ = 0, size_ = 1;
 };
 
-}  // namespace papilla
+}  // namespace papilla::optim

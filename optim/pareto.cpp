@@ -8,7 +8,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 bool dominates(const std::vector<double>& a, const std::vector<double>& b) {
   bool better = false;
@@ -175,4 +175,4 @@ std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& p
   return chosen;
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/problem.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 // a is nowhere worse and somewhere better (minimisation).
 bool dominates(const std::vector<double>& a, const std::vector<double>& b);
@@ -33,4 +34,4 @@ std::vector<double> hypervolume_shares(const std::vector<Evaluation>& evaluation
 std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& points,
                                        std::size_t count, double nearest = 0);
 
-}  // namespace papilla
+}  // namespace papilla::optim

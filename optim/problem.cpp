@@ -6,7 +6,7 @@
 #include "base/check.h"
 #include "base/random.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i) {
   // Roberts' generalised golden ratio: phi solves x^(d+1) = x + 1; a random shift scrambles.
@@ -92,4 +92,4 @@ Outcome guarded(Outcome outcome, std::size_t objectives, std::size_t constraints
   return outcome;
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::optim {
 
 using Point = std::vector<double>;
 
@@ -55,4 +57,4 @@ struct Evaluation {
 // reason.
 Outcome guarded(Outcome outcome, std::size_t objectives, std::size_t constraints);
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -6,7 +6,7 @@
 #include "optim/pareto.h"
 #include "optim/search.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 constexpr double kLeastGain = 0.01;  // of the hypervolume so far
@@ -84,4 +84,4 @@ std::vector<std::size_t> promising(const SearchProblem& problem,
   return chosen;
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

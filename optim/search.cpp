@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "optim/algorithms/searchers.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 bool kept(const std::function<std::vector<double>(const Point&)>& constraints, const Point& unit) {
@@ -99,4 +99,4 @@ std::unique_ptr<Searcher> make_searcher(const SearchMethod& method, const Search
                                       : method_kind(method.name).make(problem);
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -8,9 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/problem.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 struct SearchProblem {
   Space space;
@@ -78,4 +79,4 @@ std::unique_ptr<Searcher> make_searcher(const SearchMethod& method, const Search
 // "auto" and the methods of the one list, optim/algorithms/methods.cpp.
 const std::vector<std::string>& searcher_names();
 
-}  // namespace papilla
+}  // namespace papilla::optim

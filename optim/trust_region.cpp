@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 // The smallest |x| that a step is relative to: x is in prior widths, so a thousandth of one.
@@ -219,4 +219,4 @@ bool TrustRegion::jacobian(const std::vector<double>& x, const std::vector<std::
   return model.differences(x, out);
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/least_squares.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 // Parameters as the solver sees them: x = p or ln p, in units of each one's prior width, or of a
 // quarter of its range without a prior.
@@ -76,4 +77,4 @@ class TrustRegion {
   int evaluations_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -21,7 +21,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 bool write_all(int fd, const std::string& bytes) {
@@ -242,4 +242,4 @@ std::unique_ptr<Team> make_local_team(std::size_t workers, Work work, const Work
   return std::make_unique<LocalTeam>(std::max<std::size_t>(1, workers), std::move(work), limits);
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::optim {
 
 // What is asked and answered: only the two ends understand it.
 using Bytes = std::string;
@@ -79,4 +81,4 @@ class Team {
 // Workers on this machine; each takes the next request when it is free.
 std::unique_ptr<Team> make_local_team(std::size_t workers, Work work, const WorkerLimits& limits);
 
-}  // namespace papilla
+}  // namespace papilla::optim

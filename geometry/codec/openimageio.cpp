@@ -3,7 +3,7 @@
 
 #include "geometry/io/codec.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 OIIO::TypeDesc type_of(Sample sample) {
@@ -127,10 +127,10 @@ class Codec : public ImageCodec {
 };
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::geometry
 
 // interface: of the program that asks; null: another one.
-extern "C" const papilla::ImageCodec* papilla_image_codec(int interface) {
-  static const papilla::Codec codec;
-  return interface == papilla::kCodecInterface ? &codec : nullptr;
+extern "C" const papilla::geometry::ImageCodec* papilla_image_codec(int interface) {
+  static const papilla::geometry::Codec codec;
+  return interface == papilla::geometry::kCodecInterface ? &codec : nullptr;
 }

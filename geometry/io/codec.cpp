@@ -8,7 +8,7 @@
 #include "base/installation.h"
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::geometry {
 void require_images() { image_codec(); }
 
 const ImageCodec& image_codec() {
@@ -31,4 +31,4 @@ const ImageCodec& image_codec() {
   return *codec;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

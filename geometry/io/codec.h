@@ -10,7 +10,9 @@
 #include <variant>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::geometry {
 
 enum class Sample { U8, U16, F32, Other };
 
@@ -64,4 +66,4 @@ constexpr int kCodecInterface = 1;
 // Loads the module on the first call. Throws std::runtime_error where it does not load.
 const ImageCodec& image_codec();
 
-}  // namespace papilla
+}  // namespace papilla::geometry

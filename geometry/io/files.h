@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // Which grey is deep; masks and 16-bit images need the user's word, there is no usual choice.
 enum class Polarity { WhiteHigh, WhiteDeep };
@@ -55,4 +56,4 @@ void write_png_rgb(const std::string& path, int width, int height,
 std::vector<std::uint8_t> render_field(const Grid& grid, const std::vector<double>& values,
                                        int& width, int& height);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

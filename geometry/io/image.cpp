@@ -25,7 +25,7 @@
 #include "geometry/io/layout.h"
 #include "geometry/io/raw.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 namespace fs = std::filesystem;
@@ -492,4 +492,4 @@ Heightmap read_heightmap(const std::string& path, double width) {
   return h;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

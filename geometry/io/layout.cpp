@@ -17,7 +17,7 @@
 #include "base/files.h"
 #include "geometry/io/mask.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 // --- GDSII stream: big-endian records [length, type, data] ---
@@ -393,4 +393,4 @@ void write_stl(const std::string& path, const Heightmap& h, double base) {
   write_bytes(path, out);
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 #include "geometry/heightmap.h"
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // What an array became in the file.
 struct GdsArray {
@@ -62,4 +63,4 @@ DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve&
 // Throws InputError above 4 million pixels.
 void write_stl(const std::string& path, const Heightmap& h, double base = 1e-6);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

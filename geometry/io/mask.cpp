@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 // Lower envelope of parabolas over one periodic line: d[i] = min_j f[j] + (step (i - j))^2, j over
@@ -260,4 +260,4 @@ std::vector<Polygon> polygons_below(const Heightmap& h, double level) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

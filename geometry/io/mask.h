@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // Smallest width of what is deep (holes) and of what is not (walls): by the distance between
 // opposite borders across the middle line, and up to six pixels by opening with growing discs, the
@@ -31,4 +32,4 @@ struct Polygon {
 };
 std::vector<Polygon> polygons_below(const Heightmap& h, double level);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

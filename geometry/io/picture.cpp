@@ -4,7 +4,7 @@
 
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 // Five anchors of a perceptually even map from dark blue to yellow.
@@ -72,4 +72,4 @@ void write_png(const std::string& path, const Heightmap& h) {
   write_png_rgb(path, width, height, rgb);
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -16,7 +16,7 @@
 #include "base/units.h"
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "files are little endian");
@@ -181,4 +181,4 @@ Heightmap read_npy(const std::string& path, double width) {
   return h;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

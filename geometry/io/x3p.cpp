@@ -13,7 +13,7 @@
 #include "base/file_writer.h"
 #include "geometry/io/layout.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 std::string little(std::uint64_t value, int bytes) {
@@ -195,4 +195,4 @@ void write_x3p(const std::string& path, const Heightmap& h) {
   out.commit();
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

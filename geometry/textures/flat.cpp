@@ -1,6 +1,6 @@
 #include "geometry/textures/flat.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 void fields(FieldVisitor&, Flat&) {}
 
@@ -23,4 +23,4 @@ TextureFacts facts(const Flat&) {
 
 Roles roles(Flat&) { return Roles::none(); }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -1,9 +1,10 @@
 // A surface without relief.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 struct Flat {
   static constexpr std::string_view kName = "flat";
@@ -18,4 +19,4 @@ TextureProblems problems(const Flat& t);
 TextureFacts facts(const Flat& t);
 Roles roles(Flat& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -4,7 +4,7 @@
 
 #include "geometry/profile.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 FeatureArray array(const Grating& t) {
@@ -52,4 +52,4 @@ Roles roles(Grating& t) {
           .parts = nullptr};
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -1,9 +1,10 @@
 // Straight grooves along y.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/arrays.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // Width at the top. Lengths in metres, angles in radians.
 struct Grating {
@@ -23,4 +24,4 @@ TextureProblems problems(const Grating& t);
 TextureFacts facts(const Grating& t);
 Roles roles(Grating& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

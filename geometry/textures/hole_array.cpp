@@ -2,7 +2,7 @@
 
 #include "geometry/profile.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 FeatureArray array(const HoleArray& t) {
@@ -50,4 +50,4 @@ Roles roles(HoleArray& t) {
           .parts = nullptr};
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -1,9 +1,10 @@
 // Round holes in a flat land.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/arrays.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // The diameter is where wall and land would meet without the edge radius. Lengths in metres, angles
 // in radians.
@@ -25,4 +26,4 @@ TextureProblems problems(const HoleArray& t);
 TextureFacts facts(const HoleArray& t);
 Roles roles(HoleArray& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

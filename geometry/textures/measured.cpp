@@ -2,7 +2,7 @@
 
 #include "geometry/measured_map.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 void fields(FieldVisitor& v, Measured3d& t) {
   v.path(
@@ -32,4 +32,4 @@ TextureFacts facts(const Measured3d& t) {
 
 Roles roles(Measured3d&) { return Roles::none(); }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

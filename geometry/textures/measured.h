@@ -1,9 +1,10 @@
 // A measured heightmap as a texture.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 struct Measured3d {
   static constexpr std::string_view kName = "measured";
@@ -22,4 +23,4 @@ TextureProblems problems(const Measured3d& t);
 TextureFacts facts(const Measured3d& t);
 Roles roles(Measured3d& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

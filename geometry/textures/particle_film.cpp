@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/random.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 // Radius of the disc that a particle covers: the whole sphere, or its cap when it sits deep.
@@ -138,4 +138,4 @@ Roles roles(ParticleFilm& t) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -1,9 +1,10 @@
 // Random non-overlapping spherical caps on a flat film.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 struct ParticleFilm {
   static constexpr std::string_view kName = "particle_film";
@@ -33,4 +34,4 @@ TextureProblems problems(const ParticleFilm& t);
 TextureFacts facts(const ParticleFilm& t);
 Roles roles(ParticleFilm& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -2,7 +2,7 @@
 
 #include "geometry/profile.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 FeatureArray array(const PillarArray& t) {
@@ -45,4 +45,4 @@ Roles roles(PillarArray& t) {
           .parts = nullptr};
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

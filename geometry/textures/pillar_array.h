@@ -1,9 +1,10 @@
 // Round pillars on a flat floor.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/arrays.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // The floor is z = 0; diameter at the top. Lengths in metres, angles in radians.
 struct PillarArray {
@@ -24,4 +25,4 @@ TextureProblems problems(const PillarArray& t);
 TextureFacts facts(const PillarArray& t);
 Roles roles(PillarArray& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

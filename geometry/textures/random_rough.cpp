@@ -4,7 +4,7 @@
 
 #include "geometry/roughness.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 void fields(FieldVisitor& v, RandomRough& t) {
   v.number({"rms", "nm", 0, 1e5, "rms height over 12 um"}, t.rms);
@@ -42,4 +42,4 @@ Roles roles(RandomRough& t) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

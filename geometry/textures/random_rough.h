@@ -1,9 +1,10 @@
 // A self-affine random surface.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 // rms height over 12 um; wavelengths of the roll-off and of the cut-off. Lengths in metres.
 struct RandomRough {
@@ -22,4 +23,4 @@ TextureProblems problems(const RandomRough& t);
 TextureFacts facts(const RandomRough& t);
 Roles roles(RandomRough& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "geometry/texture.h"
 
-namespace papilla {
+namespace papilla::geometry {
 namespace {
 
 std::vector<TextureFacts> part_facts(const Stack& t) {
@@ -144,4 +144,4 @@ Roles roles(Stack& t) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -1,9 +1,10 @@
 // Several textures as one surface.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/facts.h"
 
-namespace papilla {
+namespace papilla::geometry {
 
 enum class Combine { Sum, Maximum };
 
@@ -23,4 +24,4 @@ TextureProblems problems(const Stack& t);
 TextureFacts facts(const Stack& t);
 Roles roles(Stack& t);
 
-}  // namespace papilla
+}  // namespace papilla::geometry

@@ -9,7 +9,7 @@
 #include "optim/gaussian_process.h"
 #include "optim/pareto.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 constexpr std::size_t kCandidatesAPoint = 50;  // of the first design
@@ -426,4 +426,4 @@ std::unique_ptr<Searcher> make_bayesian(const SearchProblem& problem) {
   return std::make_unique<Bayesian>(problem);
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

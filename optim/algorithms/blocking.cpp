@@ -20,7 +20,7 @@
 #include "optim/algorithms/searchers.h"
 #include "optim/least_squares.h"
 
-namespace papilla {
+namespace papilla::optim {
 namespace {
 
 struct SearchEnded {};
@@ -308,4 +308,4 @@ std::unique_ptr<Searcher> make_direct(const SearchProblem& problem) {
   return make_nlopt(nlopt::GN_DIRECT_L, problem);
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

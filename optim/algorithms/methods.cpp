@@ -2,7 +2,7 @@
 
 #include "optim/algorithms/searchers.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 const std::vector<MethodKind>& method_kinds() {
   constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
@@ -18,4 +18,4 @@ const std::vector<MethodKind>& method_kinds() {
   return kinds;
 }
 
-}  // namespace papilla
+}  // namespace papilla::optim

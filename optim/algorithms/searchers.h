@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/search.h"
 
-namespace papilla {
+namespace papilla::optim {
 
 using MakeSearcher = std::unique_ptr<Searcher>(const SearchProblem& problem);
 
@@ -51,4 +52,4 @@ class Penalty {
   std::vector<double> worst_, best_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::optim

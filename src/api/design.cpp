@@ -30,7 +30,7 @@ Heights heights_of(const Heightmap& map) {
 Heightmap heightmap_of(const Heights& h) {
   Heightmap map{{h.nx, h.ny, h.nx * h.dx, h.ny * h.dy}, h.z};
   if (h.nx < 1 || h.ny < 1 || !(h.dx > 0 && h.dy > 0) || h.z.size() != map.grid.size())
-    throw papilla::InputError("heights: expected nx times ny values and pixels above 0 m");
+    throw rooms::InputError("heights: expected nx times ny values and pixels above 0 m");
   return map;
 }
 
@@ -64,7 +64,7 @@ Heights Design::heights(int pixels) const {
   return across([&] {
     const Texture& texture = inside_->design().texture;
     if (pixels < 8 || pixels > 65536)
-      throw papilla::InputError("heights: expected 8 to 65536 pixels");
+      throw rooms::InputError("heights: expected 8 to 65536 pixels");
     return heights_of(generate(texture, patch_grid(texture, pixels)));
   });
 }

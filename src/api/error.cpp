@@ -5,7 +5,7 @@
 namespace papilla::api {
 namespace {
 
-papilla::Problem inner(const Problem& p) { return {p.file, p.line, p.column, p.key, p.message}; }
+rooms::Problem inner(const Problem& p) { return {p.file, p.line, p.column, p.key, p.message}; }
 
 std::string joined(const std::vector<Problem>& problems) {
   std::string out;

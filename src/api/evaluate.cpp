@@ -34,11 +34,11 @@ Point point_of(const ResponsePoint& p) {
   return out;
 }
 
-papilla::Design at_level(papilla::Design design, const std::string& level) {
+rooms::Design at_level(rooms::Design design, const std::string& level) {
   const std::vector<std::string>& names = accuracy_level_names();
   const auto found = std::find(names.begin(), names.end(), level);
   if (found == names.end())
-    throw papilla::InputError("level: expected draft, design or reference, got " + level);
+    throw rooms::InputError("level: expected draft, design or reference, got " + level);
   design.accuracy.level = static_cast<AccuracyLevel>(found - names.begin());
   design.accuracy.target = 0;
   return design;
@@ -62,10 +62,10 @@ std::string Response::table() const { return response_table(inside_->response); 
 
 Response evaluate(const Design& design, const EvaluateOptions& options) {
   return across([&] {
-    const papilla::Design& own = design.inside().design();
+    const rooms::Design& own = design.inside().design();
     if (!options.force) require_fitted_model(own, design.inside().file, "set `force`");
     if (options.target < 0 || options.target >= 1)
-      throw papilla::InputError("target: expected a share from 0 to 1");
+      throw rooms::InputError("target: expected a share from 0 to 1");
     Watch watch(options.progress, options.stop);
     Response::Inside inside;
     inside.response = evaluate_design(options.level.empty() ? own : at_level(own, options.level),

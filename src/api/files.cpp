@@ -9,7 +9,7 @@ namespace papilla::api {
 Exported export_files(const Design& design, const std::string& folder,
                       const ExportOptions& options) {
   return across([&] {
-    papilla::ExportOptions inside;
+    rooms::ExportOptions inside;
     inside.formats = options.formats;
     inside.size = options.size;
     inside.pixels = options.pixels;
@@ -17,8 +17,8 @@ Exported export_files(const Design& design, const std::string& folder,
       inside.polarity =
           options.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
     } else if (!options.polarity.empty()) {
-      throw papilla::InputError("polarity: expected white-high or white-deep, got " +
-                                options.polarity);
+      throw rooms::InputError("polarity: expected white-high or white-deep, got " +
+                              options.polarity);
     }
     const Export done = export_design(design.inside().design(), inside, folder);
     Exported out;

@@ -13,25 +13,27 @@
 
 namespace papilla::api {
 
+using namespace rooms;
+
 struct Design::Inside {
   std::string file, text;  // where it was read from: a file, else a text
   Values values;           // replaced
-  papilla::Study study;
+  rooms::Study study;
 
-  const papilla::Design& design() const { return study.design; }
+  const rooms::Design& design() const { return study.design; }
 };
 
 struct Response::Inside {
-  papilla::Response response;
+  rooms::Response response;
   std::vector<Point> points;
 };
 
 Heights heights_of(const Heightmap& map);
-Heightmap heightmap_of(const Heights& heights);  // throws papilla::InputError
+Heightmap heightmap_of(const Heights& heights);  // throws rooms::InputError
 
-[[noreturn]] inline void rethrow(const papilla::InputError& error) {
+[[noreturn]] inline void rethrow(const rooms::InputError& error) {
   std::vector<Problem> problems;
-  for (const papilla::Problem& p : error.problems())
+  for (const rooms::Problem& p : error.problems())
     problems.push_back({p.file, p.line, p.column, p.key, p.message});
   throw InputError(std::move(problems));
 }
@@ -41,7 +43,7 @@ template <class Work>
 auto across(Work&& work) -> decltype(work()) {
   try {
     return work();
-  } catch (const papilla::InputError& error) {
+  } catch (const rooms::InputError& error) {
     rethrow(error);
   } catch (const WorkStopped&) {
     throw Stopped();

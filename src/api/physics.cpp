@@ -23,7 +23,7 @@ ContactResult contact(const Heights& heights, const Solid& solid, double mean_pr
                    solid.bulk_modulus, solid.bulk_poisson});
     ContactSolution s = solve_contact(*kernel, map.z, mean_pressure, {},
                                       {.tolerance = tolerance, .hardness = hardness});
-    if (s.status == ContactStatus::Invalid) throw papilla::InputError(s.reason);
+    if (s.status == ContactStatus::Invalid) throw rooms::InputError(s.reason);
     const ContactArea area = measure_area(*kernel, s, hardness);
     ContactResult r;
     r.converged = s.converged();
@@ -46,7 +46,7 @@ BridgeResult bridge(double volume, double gap, double theta1, double theta2,
   return across([&] {
     const Bridge b = solve_bridge(volume, gap, theta1, theta2, surface_tension);
     if (b.status == BridgeStatus::Invalid)
-      throw papilla::InputError(
+      throw rooms::InputError(
           "volume, gap and surface tension must be positive, the contact angles 0 to 180 deg");
     const BridgeLimits limits = bridge_limits(theta1, theta2);
     const bool known = limits.status == BridgeStatus::Converged;

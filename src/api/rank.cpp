@@ -5,15 +5,15 @@
 #include "api/inside.h"
 #include "base/text.h"
 #include "papilla/rank.h"
+#include "report/ranking.h"
 
 namespace papilla::api {
 namespace {
 
-papilla::RankOptions inner(const std::vector<papilla::Design>& designs,
-                           const RankOptions& options) {
-  papilla::RankOptions out;
+rooms::RankOptions inner(const std::vector<rooms::Design>& designs, const RankOptions& options) {
+  rooms::RankOptions out;
   const bool driven = std::all_of(designs.begin(), designs.end(),
-                                  [](const papilla::Design& d) { return d.drive.driven(); });
+                                  [](const rooms::Design& d) { return d.drive.driven(); });
   out.criteria = parse_criteria(!options.by.empty() ? options.by
                                 : driven            ? "modulation:high"
                                                     : "friction:low,adhesion:low");
@@ -21,7 +21,7 @@ papilla::RankOptions inner(const std::vector<papilla::Design>& designs,
   for (const std::string& name : split(options.states, ',')) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw papilla::InputError("states: expected some of " + join_names(names) + ", got " + name);
+      throw rooms::InputError("states: expected some of " + join_names(names) + ", got " + name);
     out.states.push_back(static_cast<FingerState>(found - names.begin()));
   }
   out.max_skins = options.max_skins;
@@ -37,15 +37,15 @@ papilla::RankOptions inner(const std::vector<papilla::Design>& designs,
 
 Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
   return across([&] {
-    if (designs.size() < 2) throw papilla::InputError("name two designs at least");
-    std::vector<papilla::Design> candidates;
+    if (designs.size() < 2) throw rooms::InputError("name two designs at least");
+    std::vector<rooms::Design> candidates;
     for (const Design& design : designs) candidates.push_back(design.inside().design());
-    papilla::RankOptions inside = inner(candidates, options);
+    rooms::RankOptions inside = inner(candidates, options);
     if (inside.names.empty()) {
-      for (const papilla::Design& design : candidates) inside.names.push_back(design.title);
+      for (const rooms::Design& design : candidates) inside.names.push_back(design.title);
     }
     if (inside.states.empty()) inside.states = {candidates.front().finger.state};
-    const papilla::Ranking ranking = papilla::rank(candidates, inside);
+    const rooms::Ranking ranking = rooms::ranking_of(candidates, inside);
     Ranking out;
     for (const StateRanking& state : ranking.states) {
       out.states.emplace_back();

@@ -12,7 +12,7 @@
 namespace papilla::api {
 
 struct Study::Inside {
-  papilla::Study study;
+  rooms::Study study;
   std::optional<StudyProblem> problem;  // refers to the study
   std::vector<Variable> variables;
   std::vector<Objective> objectives;
@@ -20,12 +20,12 @@ struct Study::Inside {
 
 namespace {
 
-std::shared_ptr<const Study::Inside> judged_by(const papilla::Study& study) {
-  if (!study.is_study()) throw papilla::InputError("expected a study: it has no [design_space]");
+std::shared_ptr<const Study::Inside> judged_by(const rooms::Study& study) {
+  if (!study.is_study()) throw rooms::InputError("expected a study: it has no [design_space]");
   auto inside = std::make_shared<Study::Inside>();
   inside->study = study;
   inside->problem.emplace(inside->study);
-  for (const papilla::Variable& v : inside->study.variables)
+  for (const rooms::Variable& v : inside->study.variables)
     inside->variables.push_back({v.path, v.unit, v.low, v.high, v.choices});
   for (const StudyObjective& o : inside->problem->objectives())
     inside->objectives.push_back({o.name, o.maximise});
@@ -71,8 +71,8 @@ Judgement Study::judge(const std::vector<double>& values, int threads) const {
   return across([&] {
     const StudyProblem& problem = *inside_->problem;
     if (values.size() != problem.space().size())
-      throw papilla::InputError("expected one value per variable");
-    const papilla::Point unit = problem.space().snapped(problem.space().unit(values));
+      throw rooms::InputError("expected one value per variable");
+    const rooms::Point unit = problem.space().snapped(problem.space().unit(values));
     if (const std::string refused = problem.constraints().geometry_reason(unit); !refused.empty())
       return Judgement{false, refused, {}, {}, {}};
     TaskWork work{stage_fidelity(problem, Stage::Search)};
@@ -114,7 +114,7 @@ RunResult Study::run(const std::string& folder, const RunOptions& options) const
 struct Search::Inside {
   Study study;  // keeps what the searcher refers to
   std::unique_ptr<Searcher> searcher;
-  std::vector<papilla::Point> asked;
+  std::vector<rooms::Point> asked;
 
   const StudyProblem& problem() const { return *study.inside().problem; }
 };
@@ -137,7 +137,7 @@ std::vector<std::vector<double>> Search::ask() {
   return across([&] {
     inside_->asked = inside_->searcher->ask();
     std::vector<std::vector<double>> out;
-    for (const papilla::Point& unit : inside_->asked)
+    for (const rooms::Point& unit : inside_->asked)
       out.push_back(inside_->problem().space().value(unit));
     return out;
   });
@@ -146,7 +146,7 @@ std::vector<std::vector<double>> Search::ask() {
 void Search::tell(const std::vector<Judgement>& judgements) {
   across([&] {
     if (judgements.size() != inside_->asked.size())
-      throw papilla::InputError("expected one judgement per design that was asked for");
+      throw rooms::InputError("expected one judgement per design that was asked for");
     std::vector<Evaluation> told;
     for (std::size_t i = 0; i < judgements.size(); ++i)
       told.push_back({inside_->asked[i], outcome_of(inside_->problem(), judgements[i])});

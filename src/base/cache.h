@@ -7,7 +7,9 @@
 #include <mutex>
 #include <utility>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // Keeps the values used last: at most `most` of them and, the newest apart, at most `most_weight`
 // together. Whether a value comes from here shows in nothing but time and memory. Thread safe; a
@@ -72,4 +74,4 @@ class Cache {
   double weight_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::base

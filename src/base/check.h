@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 struct InternalError : std::logic_error {
   using std::logic_error::logic_error;
@@ -16,7 +18,7 @@ struct InternalError : std::logic_error {
                       expression + (message.empty() ? "" : " (" + message + ")"));
 }
 
-}  // namespace papilla
+}  // namespace papilla::base
 
 #define PAPILLA_CHECK(condition, message) \
-  ((condition) ? void(0) : ::papilla::check_failed(#condition, __FILE__, __LINE__, (message)))
+  ((condition) ? void(0) : ::papilla::base::check_failed(#condition, __FILE__, __LINE__, (message)))

@@ -4,7 +4,9 @@
 #include <limits>
 #include <numbers>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -17,4 +19,4 @@ inline constexpr double kWaterPermittivity = 80.0;               // relative, be
 constexpr double square(double x) { return x * x; }
 constexpr double cube(double x) { return x * x * x; }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -9,7 +9,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::base {
 namespace {
 
 // As many numbers as a vector register holds: compilers split longer vectors through memory.
@@ -497,4 +497,4 @@ void Convolution::restore_columns(std::complex<double>* scratch, double* out) co
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "base/fft.h"
+#include "base/rooms.h"
 
-namespace papilla {
+namespace papilla::base {
 
 class Convolution {
  public:
@@ -51,4 +52,4 @@ class Convolution {
   Butterflies along_x_, along_y_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -1,6 +1,6 @@
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::base {
 
 std::string Problem::text() const {
   std::string out;
@@ -30,4 +30,4 @@ InputError::InputError(std::vector<Problem> problems)
 InputError::InputError(const std::string& message)
     : InputError(std::vector<Problem>{Problem{{}, 0, 0, {}, message}}) {}
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 struct Problem {
   std::string file;  // empty: the command line
@@ -28,4 +30,4 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -6,7 +6,7 @@
 #include <mutex>
 #include <utility>
 
-namespace papilla {
+namespace papilla::base {
 namespace {
 std::mutex& planner_mutex() {  // FFTW's planner is not thread safe; execution is
   static std::mutex mutex;
@@ -50,4 +50,4 @@ std::shared_ptr<const Fft2d> Fft2d::shared(int nx, int ny) {
   return plan;
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -6,7 +6,9 @@
 #include <new>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // SIMD-aligned allocation: the plans are made for aligned arrays.
 template <class T>
@@ -58,4 +60,4 @@ class Fft2d {
 // Signed integer mode of index i in a transform of length n: 0, 1, ..., -1.
 constexpr int signed_mode(int i, int n) { return i <= n / 2 ? i : i - n; }
 
-}  // namespace papilla
+}  // namespace papilla::base

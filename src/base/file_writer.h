@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // Writes beside the final name; commit() reads the file back, compares it with what was appended,
 // flushes it to disk and gives it its name. Without commit() the old file stays. Throws InputError.
@@ -28,4 +30,4 @@ class FileWriter {
   std::uint64_t size_ = 0, sum_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include "base/file_writer.h"
 
-namespace papilla {
+namespace papilla::base {
 
 namespace {
 
@@ -111,4 +111,4 @@ std::string read_bytes(const std::string& path, std::size_t limit) {
   return bytes;
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

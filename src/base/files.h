@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // Where a file of this name is written beside and renamed to: a link's target. Throws InputError
 // for what a rename would destroy: a device, a pipe, a folder.
@@ -15,4 +17,4 @@ void write_bytes(const std::string& path, const std::string& bytes);
 // Throws InputError when there is no such file or it is larger than the limit.
 std::string read_bytes(const std::string& path, std::size_t limit = std::size_t{1} << 31);
 
-}  // namespace papilla
+}  // namespace papilla::base

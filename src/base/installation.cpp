@@ -2,7 +2,7 @@
 
 #include <dlfcn.h>
 
-namespace papilla {
+namespace papilla::base {
 namespace {
 
 namespace fs = std::filesystem;
@@ -54,4 +54,4 @@ std::vector<std::string> own_designs() {
   return found;
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // The file of a module that is loaded when it is needed; the bare name where it is not found beside
 // the library, so that the system looks for it.
@@ -16,4 +18,4 @@ std::filesystem::path find_module(const std::string& name);
 // that exist.
 std::vector<std::string> own_designs();
 
-}  // namespace papilla
+}  // namespace papilla::base

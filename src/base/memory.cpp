@@ -13,7 +13,7 @@
 #include <malloc.h>
 #endif
 
-namespace papilla {
+namespace papilla::base {
 
 void keep_freed_memory() {
 #ifdef __GLIBC__
@@ -44,4 +44,4 @@ void require_memory(double bytes, const std::string& what) {
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

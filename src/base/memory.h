@@ -3,7 +3,9 @@
 
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // Freed memory stays with the process instead of going back to the system after every solve: fields
 // of a few megabytes are made and dropped thousands of times, and fresh pages cost more than their
@@ -17,4 +19,4 @@ double memory_limit();
 // Throws InputError, before anything is allocated, when `what` needs more than memory_limit().
 void require_memory(double bytes, const std::string& what);
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -7,9 +7,10 @@
 #include <exception>
 #include <utility>
 
+#include "base/rooms.h"
 #include "base/watch.h"
 
-namespace papilla {
+namespace papilla::base {
 
 // Calls work(i) for i in [0, n), each exactly once. The exception of the lowest failing index is
 // rethrown. threads = 0: all that OpenMP offers. A Watch of the calling thread counts the calls and
@@ -37,4 +38,4 @@ void parallel_for(int n, Work&& work, int threads = 0) {
   if (error) std::rethrow_exception(error);
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

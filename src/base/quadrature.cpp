@@ -5,7 +5,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::base {
 
 Quadrature gauss_legendre(int n, double a, double b) {
   PAPILLA_CHECK(n >= 1, "nodes");
@@ -30,4 +30,4 @@ Quadrature gauss_legendre(int n, double a, double b) {
   return rule;
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -4,7 +4,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::base {
 namespace {
 // splitmix64 finaliser (Steele, Lea, Flood 2014): a bijection that scatters every bit.
 std::uint64_t mix(std::uint64_t x) {
@@ -44,4 +44,4 @@ double hash_uniform(std::uint64_t seed, std::uint64_t a, std::uint64_t b) {
   return to_unit(mix(mix(mix(seed + kGolden) + kGolden * (a + 1)) + kGolden * (b + 1)));
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <string_view>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 class RandomStream {
  public:
@@ -28,4 +30,4 @@ class RandomStream {
 // One uniform [0,1) number from a key, without a stream: for modes keyed by integer index.
 double hash_uniform(std::uint64_t seed, std::uint64_t a, std::uint64_t b);
 
-}  // namespace papilla
+}  // namespace papilla::base

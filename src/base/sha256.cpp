@@ -4,7 +4,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace papilla {
+namespace papilla::base {
 namespace {
 
 // The standard defines the constants by the fractional parts of the cube roots of the primes.
@@ -64,4 +64,4 @@ std::string sha256(const std::string& bytes) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

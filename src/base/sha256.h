@@ -3,9 +3,11 @@
 
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // 64 hexadecimal digits (FIPS 180-4).
 std::string sha256(const std::string& bytes);
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -7,7 +7,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::base {
 
 Estimate mean_estimate(std::span<const double> samples) {
   const auto n = static_cast<double>(samples.size());
@@ -77,4 +77,4 @@ double student_t_quantile(double p, int degrees_of_freedom) {
          x * ((((79 * x2 + 776) * x2 + 1482) * x2 - 1920) * x2 - 945) / (92160 * n * n * n * n);
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -4,7 +4,9 @@
 #include <span>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 struct Estimate {
   double value = 0;
@@ -24,4 +26,4 @@ double normal_cdf(double x);
 double normal_quantile(double p);
 double student_t_quantile(double p, int degrees_of_freedom);  // two-sided intervals: p = 0.975
 
-}  // namespace papilla
+}  // namespace papilla::base

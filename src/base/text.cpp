@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace papilla {
+namespace papilla::base {
 namespace {
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -122,4 +122,4 @@ std::string aligned_markdown(const std::string& text) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // The known name nearest to `name` by edit distance, or "" when none is near.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& known);
@@ -23,4 +25,4 @@ std::string aligned_table(const std::vector<std::vector<std::string>>& rows, std
 // A Markdown text with the columns of its tables aligned.
 std::string aligned_markdown(const std::string& text);
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::base {
 namespace {
 
 struct NamedUnit {
@@ -269,4 +269,4 @@ std::string format_quantity(double si, std::string_view unit) {
   return fmt::format("{} {}", format_number(value), unit);
 }
 
-}  // namespace papilla
+}  // namespace papilla::base

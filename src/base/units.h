@@ -5,7 +5,9 @@
 #include <string>
 #include <string_view>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // A unit is a factor to SI and the exponents of (m, kg, s, A, rad); equal exponents = same
 // dimension.
@@ -44,4 +46,4 @@ std::string format_quantity(double si, std::string_view unit);
 // Shortest decimal text that reads back exactly.
 std::string format_number(double value);
 
-}  // namespace papilla
+}  // namespace papilla::base

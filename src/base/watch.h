@@ -6,7 +6,9 @@
 #include <stdexcept>
 #include <utility>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::base {
 
 // Thrown out of work whose Watch wished it to end.
 class WorkStopped : public std::runtime_error {
@@ -46,4 +48,4 @@ class Watch {
   int done_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::base

@@ -9,7 +9,7 @@
 #include "forward/forward.h"
 #include "published/targets.h"
 
-namespace papilla {
+namespace papilla::calibrate {
 namespace {
 
 // Fits with the correction to the fine level taken anew, and the change of a friction below which
@@ -151,7 +151,7 @@ class Fit {
 
 }  // namespace
 
-CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options) {
+CalibrationResult fit_finger(const Calibration& calibration, const CalibrationOptions& options) {
   return Fit(calibration, options).run();
 }
 
@@ -161,4 +161,4 @@ double misfit(const CalibrationResult& result) {
 
 bool explains_data(const CalibrationResult& result) { return !(misfit(result) > kPoorFit); }
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

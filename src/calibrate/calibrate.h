@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "calibrate/calibration_file.h"
 #include "calibrate/residuals.h"
 #include "optim/least_squares.h"
 
-namespace papilla {
+namespace papilla::calibrate {
 
 struct CalibrationResult {
   Finger start, finger;  // before, and fitted; fitted_to of the fitted one names the claims
@@ -29,7 +30,8 @@ struct CalibrationOptions {
   std::function<void(const std::string&)> note;
 };
 
-CalibrationResult calibrate(const Calibration& calibration, const CalibrationOptions& options = {});
+CalibrationResult fit_finger(const Calibration& calibration,
+                             const CalibrationOptions& options = {});
 
 // Chi squared per degree of freedom: 1 where the stated deviations are right.
 double misfit(const CalibrationResult& result);
@@ -37,4 +39,4 @@ double misfit(const CalibrationResult& result);
 // used, whether or not the fit converged.
 bool explains_data(const CalibrationResult& result);
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

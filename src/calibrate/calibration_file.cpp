@@ -15,7 +15,7 @@
 #include "design/design.h"
 #include "published/targets.h"
 
-namespace papilla {
+namespace papilla::calibrate {
 namespace {
 
 constexpr const char* kWaterScale = "water.scale";
@@ -317,4 +317,4 @@ Finger with_parameters(const Calibration& calibration, std::span<const double> v
   return finger;
 }
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

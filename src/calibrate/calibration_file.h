@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "calibrate/friction_table.h"
 #include "optim/least_squares.h"
 #include "published/finger_model.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::calibrate {
 
 struct CalibrationParameter {
   std::string path;  // into the finger: "skin.rms"; "water.scale" multiplies every volume
@@ -38,4 +39,4 @@ Calibration read_calibration(const std::string& path, const std::vector<std::str
 // The starting finger with parameters set: the order of `calibration.parameters`.
 Finger with_parameters(const Calibration& calibration, std::span<const double> values);
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

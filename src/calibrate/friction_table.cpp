@@ -13,7 +13,7 @@
 #include "config/reader.h"
 #include "design/design.h"
 
-namespace papilla {
+namespace papilla::calibrate {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,4 +184,4 @@ std::vector<FrictionDatum> read_friction(const std::string& path) {
   return FrictionReader(path).read();
 }
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::calibrate {
 
 // One row of measured friction; a line of the user's table.
 struct FrictionDatum {
@@ -19,4 +21,4 @@ struct FrictionDatum {
 // InputError with every bad cell, each with its line; a friction over ten times the load is one.
 std::vector<FrictionDatum> read_friction(const std::string& path);
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

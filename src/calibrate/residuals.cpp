@@ -11,7 +11,7 @@
 
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::calibrate {
 
 Residuals::Residuals(const Calibration& calibration, int threads)
     : calibration_(calibration), threads_(threads), factors_(calibration.data.size()) {
@@ -132,4 +132,4 @@ void Residuals::group_data() {
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

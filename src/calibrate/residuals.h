@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "base/statistics.h"
 #include "calibrate/calibration_file.h"
 #include "design/design.h"
 #include "published/targets.h"
 
-namespace papilla {
+namespace papilla::calibrate {
 
 // One residual before and after.
 struct FitRow {
@@ -69,4 +70,4 @@ class Residuals {
   std::vector<FitRow> rows_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::calibrate

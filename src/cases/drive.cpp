@@ -18,7 +18,7 @@
 #include "forward/forward.h"
 #include "physics/electrostatics/breakdown.h"
 
-namespace papilla {
+namespace papilla::cases {
 namespace {
 
 constexpr std::size_t kMostSamples = std::size_t{1} << 22;
@@ -325,4 +325,4 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
   return swipe;
 }
 
-}  // namespace papilla
+}  // namespace papilla::cases

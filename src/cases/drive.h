@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/drive/network.h"
 #include "physics/drive/signal.h"
 #include "physics/drive/stiction.h"
 #include "scene/environment.h"
 
-namespace papilla {
+namespace papilla::cases {
 
 // The gap: given, or that of a design's solved patches.
 struct GapSettings {
@@ -116,4 +117,4 @@ struct Swipe {
 // Throws InputError naming `name` and the line.
 Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::cases

@@ -9,7 +9,7 @@
 #include "geometry/io/files.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla {
+namespace papilla::cases {
 
 DropletCase droplets_of_design(const std::string& file, double relative_humidity, int skin,
                                bool rim_pinning, bool corner_wicking) {
@@ -85,4 +85,4 @@ DropletEnsemble solve_droplet_ensemble(const DropletCase& c, double spread, int 
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::cases

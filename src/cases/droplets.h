@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "base/statistics.h"
 #include "fields/gap.h"
 #include "physics/capillary/droplets.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::cases {
 
 struct DropletCase {
   Gap gap;
@@ -49,4 +50,4 @@ struct DropletEnsemble {
 DropletEnsemble solve_droplet_ensemble(const DropletCase& c, double spread, int placements,
                                        std::uint64_t seed, std::uint64_t index);
 
-}  // namespace papilla
+}  // namespace papilla::cases

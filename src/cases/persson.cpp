@@ -9,7 +9,7 @@
 #include "config/reader.h"
 #include "design/design.h"
 
-namespace papilla {
+namespace papilla::cases {
 
 PowerSpectrum SpectrumSettings::spectrum() const {
   if (wave_number.empty()) {
@@ -193,4 +193,4 @@ MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
   return result;
 }
 
-}  // namespace papilla
+}  // namespace papilla::cases

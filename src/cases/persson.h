@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/persson/persson.h"
 #include "scene/environment.h"
 
-namespace papilla {
+namespace papilla::cases {
 
 // Self-affine by four numbers, or a measured spectrum by its knots (then the numbers are ignored).
 struct SpectrumSettings {
@@ -90,4 +91,4 @@ struct MeanFieldResult {
 // Milliseconds a point. Throws InputError for what has no answer (no load and no finite size).
 MeanFieldResult solve_mean_field(const MeanFieldCase& c);
 
-}  // namespace papilla
+}  // namespace papilla::cases

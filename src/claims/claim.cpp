@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "claims/papers.h"
 
-namespace papilla {
+namespace papilla::claims {
 
 std::string verdict_name(Verdict verdict) {
   switch (verdict) {
@@ -105,4 +105,4 @@ const std::vector<Claim>& claims() {
   return list;
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

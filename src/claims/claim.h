@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "base/statistics.h"
 #include "published/finger_model.h"
 
-namespace papilla {
+namespace papilla::claims {
 
 enum class Verdict {
   Agrees,
@@ -64,4 +65,4 @@ Judgement all_of(const std::vector<Part>& parts, const std::string& why_not = ""
 // Values that must rise (or fall) along a list.
 Judgement trend(const std::vector<double>& values, bool rises, std::string reason);
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -8,7 +8,7 @@
 #include "forward/forward.h"
 #include "published/samples.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 Judgement van_der_waals(FingerModel& model) {
@@ -77,4 +77,4 @@ std::vector<Claim> m3_field_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

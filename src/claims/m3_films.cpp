@@ -6,7 +6,7 @@
 #include "claims/papers.h"
 #include "published/samples.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 // Friction on the small particles against that on the large ones, in percent, in three regions of
@@ -84,4 +84,4 @@ std::vector<Claim> m3_film_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -6,7 +6,7 @@
 #include "claims/papers.h"
 #include "published/samples.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 Judgement friction_rise(FingerModel& model, double (*friction)(const Sample&, int, int)) {
@@ -77,4 +77,4 @@ std::vector<Claim> m3_friction_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -8,7 +8,7 @@
 #include "claims/papers.h"
 #include "published/samples.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 Judgement effect_rises_and_falls(FingerModel& model) {
@@ -151,4 +151,4 @@ std::vector<Claim> m3_modulation_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -9,7 +9,7 @@
 #include "forward/forward.h"
 #include "published/samples.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 Judgement capillary_area(FingerModel& model) {
@@ -160,4 +160,4 @@ std::vector<Claim> m3_water_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -13,7 +13,7 @@
 #include "physics/drive/signal.h"
 #include "physics/persson/persson.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 // What the paper prints. The spectrum is fitted to its four numbers (claim P18).
@@ -353,4 +353,4 @@ std::vector<Claim> mean_field_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

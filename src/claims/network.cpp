@@ -11,7 +11,7 @@
 #include "claims/papers.h"
 #include "physics/drive/signal.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 // What the papers print.
@@ -273,4 +273,4 @@ std::vector<Claim> network_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

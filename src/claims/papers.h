@@ -4,9 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "base/rooms.h"
 #include "claims/claim.h"
 
-namespace papilla {
+namespace papilla::claims {
 
 // Relative difference.
 inline double off_by(double a, double b) { return std::abs(a / b - 1); }
@@ -24,4 +25,4 @@ std::vector<Claim> mean_field_claims();  // P: mean-field electroadhesion
 std::vector<Claim> network_claims();     // J, B: Johnsen-Rahbek, broadband drive
 std::vector<Claim> stiction_claims();    // S: stiction rendering
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 std::set<std::string> words(const std::string& text) {
@@ -60,4 +60,4 @@ std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
   return results;
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "claims/claim.h"
 #include "published/finger_model.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::claims {
 
 struct ClaimResult {
   const Claim* claim = nullptr;
@@ -29,4 +30,4 @@ struct ReproduceOptions {
 // In the order of the list. Throws InputError for an id that is not there.
 std::vector<ClaimResult> reproduce(const ReproduceOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::claims

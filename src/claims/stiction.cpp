@@ -10,7 +10,7 @@
 #include "claims/papers.h"
 #include "physics/drive/network.h"
 
-namespace papilla {
+namespace papilla::claims {
 namespace {
 
 Judgement onset(FingerModel&) {
@@ -87,4 +87,4 @@ std::vector<Claim> stiction_claims() {
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::claims

@@ -11,7 +11,7 @@
 #include "cli/commands.h"
 #include "design/study.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct AccuracyCommand {
@@ -105,4 +105,4 @@ void add_accuracy(Command app, Context& context) {
   command.on_chosen([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

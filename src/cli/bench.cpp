@@ -7,7 +7,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct BenchCommand {
@@ -40,4 +40,4 @@ void add_bench(Command app, Context& context) {
   command.on_chosen([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

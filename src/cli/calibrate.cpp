@@ -14,7 +14,7 @@
 #include "report/fit.h"
 #include "report/page.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct CalibrateCommand {
@@ -51,7 +51,7 @@ int run(const Context& context, const CalibrateCommand& command) {
   CalibrationOptions options;
   options.threads = command.jobs;
   options.note = [&](const std::string& text) { context.note(text); };
-  const CalibrationResult result = calibrate(calibration, options);
+  const CalibrationResult result = fit_finger(calibration, options);
   const JudgedFit claims = judged(calibration, result, command.jobs, context);
   const std::string markdown = calibration_markdown(calibration, result, claims);
   const std::string json = calibration_json(calibration, result, claims) + "\n";
@@ -95,4 +95,4 @@ void add_calibrate(Command app, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -3,9 +3,10 @@
 
 #include <array>
 
+#include "base/rooms.h"
 #include "cli/context.h"
 
-namespace papilla {
+namespace papilla::cli {
 
 void add_optimize(Command app, Context& context);
 void add_evaluate(Command app, Context& context);
@@ -59,4 +60,4 @@ inline constexpr std::array kPieces{
 };
 // clang-format on
 
-}  // namespace papilla
+}  // namespace papilla::cli

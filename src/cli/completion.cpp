@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 // Works in bash, and in zsh through bashcompinit.
@@ -52,4 +52,4 @@ void add_completion(Command app, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 // The first line of each block is its heading.
@@ -85,4 +85,4 @@ void add_pick_option(Command command, std::string& rule) {
       .type_name("RULE");
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "cli/options.h"
 
-namespace papilla {
+namespace papilla::cli {
 
 // Exit status of the program.
 enum ExitStatus { kSuccess = 0, kWorkFailed = 1, kWrongInput = 2 };
@@ -43,4 +44,4 @@ void add_set_option(Command command, std::vector<std::string>& overrides);
 // --pick RULE, for every command that shows one design of a front.
 void add_pick_option(Command command, std::string& rule);
 
-}  // namespace papilla
+}  // namespace papilla::cli

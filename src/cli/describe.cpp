@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "report/reference.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct DescribeOptions {
@@ -57,4 +57,4 @@ void add_describe(Command app, Context& context) {
       [&context, options] { context.action = [options] { return describe(*options); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

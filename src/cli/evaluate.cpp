@@ -21,7 +21,7 @@
 #include "report/response.h"
 #include "report/sweep.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct EvaluateOptions {
@@ -229,4 +229,4 @@ void add_evaluate(Command app, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -11,7 +11,7 @@
 #include "report/response.h"
 #include "search/tasks.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 int explain(const Context& context, const DesignOptions& options, bool measure) {
@@ -58,4 +58,4 @@ void add_explain(Command app, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -14,7 +14,7 @@
 #include "fabricate/verify.h"
 #include "search/pick.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct ExportCommand {
@@ -137,4 +137,4 @@ void add_export(Command app, Context& context) {
       [&context, options] { context.action = [options] { return export_files(*options); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "cli/commands.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 void print_error(const Context& context, const std::string& text) {
@@ -93,9 +93,9 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::cli
 
 int main(int argc, char** argv) {
-  papilla::keep_freed_memory();
-  return papilla::run(argc, argv);
+  papilla::base::keep_freed_memory();
+  return papilla::cli::run(argc, argv);
 }

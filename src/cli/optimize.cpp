@@ -18,7 +18,7 @@
 #include "report/results.h"
 #include "report/summary.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct OptimizeOptions {
@@ -243,4 +243,4 @@ void add_optimize(Command app, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 
-namespace papilla {
+namespace papilla::cli {
 
 Option Option::required() const { return Option(option_->required()); }
 
@@ -118,4 +118,4 @@ bool CommandLine::parse(int argc, const char* const* argv) const {
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -10,12 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/rooms.h"
+
 namespace CLI {
 class App;
 class Option;
 }  // namespace CLI
 
-namespace papilla {
+namespace papilla::cli {
 
 // An option or an argument of a command; each call adds to what it asks for.
 class Option {
@@ -100,4 +102,4 @@ class CommandLine {
   std::unique_ptr<CLI::App> app_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::cli

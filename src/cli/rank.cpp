@@ -11,7 +11,7 @@
 #include "cli/commands.h"
 #include "report/ranking.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct RankCommand {
@@ -89,7 +89,7 @@ int run(const Context& context, const RankCommand& command) {
   options.note = [&](const std::string& text) { context.note(text); };
   options.any_conditions = command.any_conditions;
   const std::vector<std::string> names = options.names = short_names(command.files);
-  const Ranking ranking = rank(candidates, options);
+  const Ranking ranking = ranking_of(candidates, options);
   if (!command.out.empty()) {
     write_ranking(command.out, candidates, names, options, ranking);
     context.note("wrote " + command.out);
@@ -136,4 +136,4 @@ void add_rank(Command app, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -8,7 +8,7 @@
 #include "report/front.h"
 #include "report/page.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct ReportOptions {
@@ -54,4 +54,4 @@ void add_report(Command app, Context& context) {
       [&context, options] { context.action = [options] { return report(*options); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

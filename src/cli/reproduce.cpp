@@ -11,7 +11,7 @@
 #include "design/design.h"
 #include "report/claims.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct ReproduceCommand {
@@ -68,4 +68,4 @@ void add_reproduce(Command app, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

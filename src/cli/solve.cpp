@@ -2,7 +2,7 @@
 
 #include "cli/commands.h"
 
-namespace papilla {
+namespace papilla::cli {
 
 void add_solve(Command app, Context& context) {
   Command command = app.add_command("solve", "One piece of physics alone");
@@ -10,4 +10,4 @@ void add_solve(Command app, Context& context) {
   for (const auto& add : kPieces) add(command, context);
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

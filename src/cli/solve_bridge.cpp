@@ -9,7 +9,7 @@
 #include "physics/capillary/bridge.h"
 #include "report/pieces.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct BridgeOptions {
@@ -51,4 +51,4 @@ void add_solve_bridge(Command solve_command, Context& context) {
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -15,7 +15,7 @@
 #include "physics/contact/contact.h"
 #include "report/pieces.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct ContactCommand {
@@ -145,4 +145,4 @@ void add_solve_contact(Command solve_command, Context& context) {
   command.on_chosen([c, &context] { context.action = [c] { return solve(*c); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

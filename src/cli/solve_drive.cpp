@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "report/drive.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct DriveCommand {
@@ -60,4 +60,4 @@ void add_solve_drive(Command solve_command, Context& context) {
   });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

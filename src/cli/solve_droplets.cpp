@@ -11,7 +11,7 @@
 #include "cli/commands.h"
 #include "report/droplets.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct DropletsOptions {
@@ -145,4 +145,4 @@ void add_solve_droplets(Command solve_command, Context& context) {
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -16,7 +16,7 @@
 #include "physics/electrostatics/full_field.h"
 #include "report/pieces.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct FieldCommand {
@@ -109,4 +109,4 @@ void add_solve_field(Command solve_command, Context& context) {
   command.on_chosen([c, &context] { context.action = [c] { return solve(*c); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -11,7 +11,7 @@
 #include "geometry/io/files.h"
 #include "report/pieces.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 struct HazeOptions {
@@ -78,4 +78,4 @@ void add_solve_haze(Command solve_command, Context& context) {
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

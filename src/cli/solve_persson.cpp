@@ -7,7 +7,7 @@
 #include "cli/commands.h"
 #include "report/persson.h"
 
-namespace papilla {
+namespace papilla::cli {
 namespace {
 
 int solve(const DesignOptions& options) {
@@ -36,4 +36,4 @@ void add_solve_persson(Command solve_command, Context& context) {
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::cli

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "base/units.h"
 
-namespace papilla {
+namespace papilla::config {
 
 std::string PathVisitor::join(const char* key) const {
   return paths_.back().empty() ? key : paths_.back() + "." + key;
@@ -163,4 +163,4 @@ std::string reference_markdown(const std::vector<FieldRow>& rows) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::config

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/fields.h"
 
-namespace papilla {
+namespace papilla::config {
 
 struct FieldRow {
   std::string path;
@@ -122,4 +123,4 @@ void set_number(S& s, const std::string& path, double si) {
 std::string reference_text(const std::vector<FieldRow>& rows);      // for a terminal
 std::string reference_markdown(const std::vector<FieldRow>& rows);  // one table
 
-}  // namespace papilla
+}  // namespace papilla::config

@@ -1,6 +1,6 @@
 #include "config/fields.h"
 
-namespace papilla {
+namespace papilla::config {
 
 std::string_view source_name(Source source) {
   switch (source) {
@@ -18,4 +18,4 @@ std::string_view source_name(Source source) {
   return "";
 }
 
-}  // namespace papilla
+}  // namespace papilla::config

@@ -9,7 +9,9 @@
 #include <type_traits>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::config {
 
 // Where a default comes from (shown in resolved.toml and `papilla describe`).
 enum class Source { Measured, Paper, Fit, Estimate, Choice };
@@ -92,4 +94,4 @@ class FieldVisitor {
   virtual void end_list() = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::config

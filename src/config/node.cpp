@@ -7,7 +7,7 @@
 
 #include "base/units.h"
 
-namespace papilla {
+namespace papilla::config {
 
 const Node* Node::find(std::string_view name) const {
   if (kind != Kind::Table) return nullptr;
@@ -185,4 +185,4 @@ std::string write_toml(const Node& table) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::config

@@ -5,7 +5,9 @@
 #include <string_view>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::config {
 
 struct Place {
   std::string file;  // "--set KEY=VALUE" for the command line; empty: made by the program
@@ -53,4 +55,4 @@ Node parse_toml(std::string_view text, const std::string& file);
 // A tree to TOML text: members before sections, comments behind values.
 std::string write_toml(const Node& table);
 
-}  // namespace papilla
+}  // namespace papilla::config

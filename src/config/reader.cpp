@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "base/units.h"
 
-namespace papilla {
+namespace papilla::config {
 namespace {
 
 namespace fs = std::filesystem;
@@ -675,4 +675,4 @@ void Document::finish() {
   throw InputError(problems);
 }
 
-}  // namespace papilla
+}  // namespace papilla::config

@@ -16,10 +16,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/rooms.h"
 #include "config/fields.h"
 #include "config/node.h"
 
-namespace papilla {
+namespace papilla::config {
 
 // Where each value that was read came from; a path that is absent has its default.
 using Origins = std::map<std::string, Place>;
@@ -80,4 +81,4 @@ void read_section(Document& document, const std::string& path, S& s) {
 
 inline void finish(Document& document) { document.finish(); }
 
-}  // namespace papilla
+}  // namespace papilla::config

@@ -22,7 +22,7 @@
 #include "base/error.h"
 #include "config/node.h"
 
-namespace papilla {
+namespace papilla::config {
 namespace {
 
 Place place_of(const toml::source_region& source, const std::string& file) {
@@ -96,4 +96,4 @@ Node parse_toml(std::string_view text, const std::string& file) {
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::config

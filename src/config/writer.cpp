@@ -6,7 +6,7 @@
 
 #include "base/units.h"
 
-namespace papilla {
+namespace papilla::config {
 
 TableWriter::TableWriter(const Origins* origins, std::string path) : origins_(origins) {
   stack_.push_back(table_node());
@@ -105,4 +105,4 @@ bool TableWriter::begin_item(int index) {
 void TableWriter::end_item() { pop_into_parent(); }
 void TableWriter::end_list() { pop_into_parent(); }
 
-}  // namespace papilla
+}  // namespace papilla::config

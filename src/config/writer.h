@@ -3,11 +3,12 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "config/fields.h"
 #include "config/node.h"
 #include "config/reader.h"
 
-namespace papilla {
+namespace papilla::config {
 
 // Visits a struct and keeps it as a table. With `origins`, each value says where it came from:
 // `study.toml:8:10`, the command line, or `default (paper: M3)`.
@@ -60,4 +61,4 @@ std::string to_toml(const S& s, const Origins* origins = nullptr) {
 // "study.toml:8:10", "--set texture.depth=1 um".
 std::string place_text(const Place& place);
 
-}  // namespace papilla
+}  // namespace papilla::config

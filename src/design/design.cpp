@@ -13,7 +13,7 @@
 #include "config/writer.h"
 #include "scene/uncertainty.h"
 
-namespace papilla {
+namespace papilla::design {
 namespace {
 
 namespace fs = std::filesystem;
@@ -228,4 +228,4 @@ void write_finger(const std::string& path, const Finger& finger, const std::stri
                         to_toml(finger));
 }
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/fields.h"
 #include "forward/appearance.h"
 #include "forward/fidelity.h"
@@ -13,7 +14,7 @@
 #include "scene/scene.h"
 #include "scene/view.h"
 
-namespace papilla {
+namespace papilla::design {
 
 enum class AccuracyLevel { Draft, Design, Reference };
 const std::vector<std::string>& accuracy_level_names();
@@ -75,4 +76,4 @@ Finger read_finger(const std::string& path);
 void write_design(const std::string& path, const Design& design);
 void write_finger(const std::string& path, const Finger& finger, const std::string& comment = "");
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -5,7 +5,7 @@
 #include "design/families.h"
 #include "design/study_file.h"
 
-namespace papilla {
+namespace papilla::design {
 namespace {
 
 // The texture's kind and number of parts; then the numbers of every kind may be varied.
@@ -158,4 +158,4 @@ void read_scenarios(StudyFile& file) {
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::design

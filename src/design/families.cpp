@@ -8,7 +8,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::design {
 namespace {
 
 // In the order of Measure.
@@ -122,4 +122,4 @@ std::string path_in(const std::vector<NumberField>& known, const std::string& pa
   return {};
 }
 
-}  // namespace papilla
+}  // namespace papilla::design

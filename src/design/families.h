@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/describe.h"
 #include "geometry/texture.h"
 
-namespace papilla {
+namespace papilla::design {
 
 // A texture of another kind (one of texture_kinds()) with the lattice and the measures of this one
 // as far as that kind has them, defaults elsewhere.
@@ -35,4 +36,4 @@ bool decides_relief(const std::string& path);
 // when there is none.
 std::string path_in(const std::vector<NumberField>& known, const std::string& path);
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -6,7 +6,7 @@
 #include "design/study_file.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::design {
 namespace {
 
 // A text or a list of texts.
@@ -124,4 +124,4 @@ void read_constraints(StudyFile& file) {
   file.only(*section, "constraints", keys);
 }
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "design/families.h"
 
-namespace papilla {
+namespace papilla::design {
 namespace {
 
 void flatten(const Node& table, const std::string& path, bool stop_at_choice, PathMembers& out) {
@@ -73,4 +73,4 @@ bool KnownNumbers::read(const NumberField& field, const Node& node, const std::s
                           si);
 }
 
-}  // namespace papilla
+}  // namespace papilla::design

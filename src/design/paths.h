@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/describe.h"
 #include "config/reader.h"
 #include "design/design.h"
 
-namespace papilla {
+namespace papilla::design {
 
 struct Setting {
   std::string path;
@@ -45,4 +46,4 @@ class KnownNumbers {
   std::vector<NumberField> numbers_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -8,7 +8,7 @@
 #include "config/writer.h"
 #include "optim/search.h"
 
-namespace papilla {
+namespace papilla::design {
 
 void fields(FieldVisitor& v, Search& s) {
   const std::vector<std::string>& names = searcher_names();
@@ -51,4 +51,4 @@ std::string resolved_toml(const Study& study) {
   return write_toml(table);
 }
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/node.h"
 #include "config/reader.h"
 #include "design/design.h"
 #include "design/paths.h"
 
-namespace papilla {
+namespace papilla::design {
 
 // One number that the search may change; or the texture's kind ("texture.type", by its place in
 // texture_kinds()) or how many parts of a stack there are ("texture.levels").
@@ -117,4 +118,4 @@ std::string resolved_toml(const Study& study);
 // A variable's value as people write it: "3.2 um", "hole_array"; plain: without the unit.
 std::string variable_text(const Variable& variable, double value, bool plain = false);
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -9,7 +9,7 @@
 #include "config/writer.h"
 #include "scene/uncertainty.h"
 
-namespace papilla {
+namespace papilla::design {
 namespace {
 
 namespace fs = std::filesystem;
@@ -155,4 +155,4 @@ Design read_design(const std::string& path, const std::vector<std::string>& over
   return read_study(path, overrides).design;
 }
 
-}  // namespace papilla
+}  // namespace papilla::design

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/reader.h"
 #include "design/paths.h"
 #include "design/study.h"
 
-namespace papilla {
+namespace papilla::design {
 
 struct StudyFile {
   Document& document;
@@ -32,4 +33,4 @@ void read_scenarios(StudyFile& file);
 void read_objective(StudyFile& file);
 void read_constraints(StudyFile& file);
 
-}  // namespace papilla
+}  // namespace papilla::design

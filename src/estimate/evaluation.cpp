@@ -5,7 +5,7 @@
 #include "estimate/target.h"
 #include "estimate/voltage.h"
 
-namespace papilla {
+namespace papilla::estimate {
 
 Response evaluate_design(const Design& design, const EvaluationOptions& options) {
   const Scene scene = scene_of(design);
@@ -38,4 +38,4 @@ void require_fitted_model(const Design& design, const std::string& file,
   throw InputError(problems);
 }
 
-}  // namespace papilla
+}  // namespace papilla::estimate

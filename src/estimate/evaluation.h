@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/design.h"
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::estimate {
 
 struct EvaluationOptions {
   double target = 0;        // relative standard error; 0: the design's target, or its level
@@ -23,4 +24,4 @@ Response evaluate_design(const Design& design, const EvaluationOptions& options 
 void require_fitted_model(const Design& design, const std::string& file,
                           const std::string& way_out);
 
-}  // namespace papilla
+}  // namespace papilla::estimate

@@ -4,7 +4,7 @@
 
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::estimate {
 namespace {
 
 // Differences on common skins scatter far less than values: a few skins on few pixels are enough.
@@ -52,4 +52,4 @@ void add_parameter_errors(Response& response, const Scene& scene, const Texture&
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::estimate

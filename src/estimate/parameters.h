@@ -1,10 +1,11 @@
 // What the fit of the finger leaves open: its covariance carried to every number of a response.
 #pragma once
 
+#include "base/rooms.h"
 #include "forward/forward.h"
 #include "scene/uncertainty.h"
 
-namespace papilla {
+namespace papilla::estimate {
 
 // What the steps are run with: the load law, at most 8 skins and 128 pixels.
 Fidelity step_fidelity(const Fidelity& fidelity);
@@ -15,4 +16,4 @@ Fidelity step_fidelity(const Fidelity& fidelity);
 void add_parameter_errors(Response& response, const Scene& scene, const Texture& texture,
                           const Fidelity& fidelity);
 
-}  // namespace papilla
+}  // namespace papilla::estimate

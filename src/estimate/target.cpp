@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::estimate {
 namespace {
 
 constexpr int kSmallestGrid = 64, kFewestSkins = 8, kBatch = 8, kMostPlans = 5;
@@ -242,4 +242,4 @@ Response evaluate_to_target(const Scene& scene, const Texture& texture,
   return TargetRun(scene, texture, options).run();
 }
 
-}  // namespace papilla
+}  // namespace papilla::estimate

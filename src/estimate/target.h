@@ -1,9 +1,10 @@
 // Accuracy by request: grid, estimator and skins chosen from measured errors while running.
 #pragma once
 
+#include "base/rooms.h"
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::estimate {
 
 struct TargetOptions {
   double target = 0.05;  // relative standard error of the mean modulation; of the mean friction
@@ -26,4 +27,4 @@ Fidelity pilot_fidelity(const TargetOptions& options);
 Response evaluate_to_target(const Scene& scene, const Texture& texture,
                             const TargetOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::estimate

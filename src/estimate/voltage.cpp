@@ -7,7 +7,7 @@
 #include "base/units.h"
 #include "physics/electrostatics/breakdown.h"
 
-namespace papilla {
+namespace papilla::estimate {
 namespace {
 
 constexpr double kLargestAmplitude = 1e5;  // [V] of the key drive.amplitude
@@ -183,4 +183,4 @@ void add_voltages(Response& response, const Scene& scene, const Texture& texture
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::estimate

@@ -3,9 +3,10 @@
 
 #include <span>
 
+#include "base/rooms.h"
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::estimate {
 
 // Largest amplitude a design may be driven with [V]: its dielectric breaks down, edges of the
 // electrode's stated radius included (Eq. electrostatics.9), or the source ends; 0 without a
@@ -23,4 +24,4 @@ double amplitude_limit(const Scene& scene, const Texture& texture);
 void add_voltages(Response& response, const Scene& scene, const Texture& texture,
                   const Fidelity& fidelity, std::span<const double> targets);
 
-}  // namespace papilla
+}  // namespace papilla::estimate

@@ -10,7 +10,7 @@
 #include "base/memory.h"
 #include "fabricate/formats.h"
 
-namespace papilla {
+namespace papilla::fabricate {
 namespace {
 
 // Equal features that a layout repeats; null: none.
@@ -205,4 +205,4 @@ Export export_design(const Design& wanted, const ExportOptions& options,
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::fabricate

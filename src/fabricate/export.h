@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/design.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
 
-namespace papilla {
+namespace papilla::fabricate {
 
 // What the process moves: undone in the files, so that the made texture is the design.
 struct ProcessBias {
@@ -61,4 +62,4 @@ struct Export {
 // InputError; then files of the formats before stay.
 Export export_design(const Design& design, const ExportOptions& options, const std::string& folder);
 
-}  // namespace papilla
+}  // namespace papilla::fabricate

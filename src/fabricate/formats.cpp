@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace papilla {
+namespace papilla::fabricate {
 namespace {
 
 void exr(const ExportSource& s, const std::string& path, Export&) {
@@ -171,4 +171,4 @@ std::string heights_file(const Export& result) {
   throw InputError("--verify needs a file of heights: " + names);
 }
 
-}  // namespace papilla
+}  // namespace papilla::fabricate

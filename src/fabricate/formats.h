@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "fabricate/export.h"
 
-namespace papilla {
+namespace papilla::fabricate {
 
 // What a writer gets.
 struct ExportSource {
@@ -43,4 +44,4 @@ const std::vector<std::string>& export_formats();
 // The first file that holds heights to be read back. Throws InputError where there is none.
 std::string heights_file(const Export& result);
 
-}  // namespace papilla
+}  // namespace papilla::fabricate

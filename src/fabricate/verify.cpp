@@ -11,7 +11,7 @@
 #include "geometry/io/files.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::fabricate {
 namespace {
 
 double mean_of(const std::string& metric, const Response& response) {
@@ -60,4 +60,4 @@ Verification verify_export(const Study& study, const std::string& file, double t
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::fabricate

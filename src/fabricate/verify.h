@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/study.h"
 #include "geometry/io/mask.h"
 
-namespace papilla {
+namespace papilla::fabricate {
 
 struct Verification {
   PixelMargins pixels;              // smallest hole and wall of the file
@@ -22,4 +23,4 @@ struct Verification {
 // evaluations at draft level. Throws InputError for a file that cannot be read.
 Verification verify_export(const Study& study, const std::string& file, double tolerance);
 
-}  // namespace papilla
+}  // namespace papilla::fabricate

@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::maps {
 
 struct Gap {
   Grid grid;
@@ -26,4 +27,4 @@ struct Traction {
   }
 };
 
-}  // namespace papilla
+}  // namespace papilla::maps

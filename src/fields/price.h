@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::maps {
 
 // One transform forth and back over the pixels.
 inline double fft_pair_seconds(const Grid& grid) {
@@ -18,4 +19,4 @@ inline double fft_pair_seconds(const Grid& grid) {
 // Decimal digits that a tolerance asks for, one at least: work is linear in them.
 inline double digits(double tolerance) { return std::max(1.0, -std::log10(tolerance)); }
 
-}  // namespace papilla
+}  // namespace papilla::maps

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::maps {
 
 enum class DropletState : std::uint8_t { OnSkin, OnSubstrate, Bridge };
 
@@ -44,4 +45,4 @@ struct Wetting {
   double retention = 0;  // lateral hysteresis force [N]
 };
 
-}  // namespace papilla
+}  // namespace papilla::maps

@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "geometry/roughness.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 constexpr double kRandomPatch = 100e-6;  // orders 0.3 deg apart
@@ -141,4 +141,4 @@ Optics appearance(const Texture& texture, double index, const View& view) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

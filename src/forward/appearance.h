@@ -1,11 +1,12 @@
 // Which optical theory fits a texture, and its answer.
 #pragma once
 
+#include "base/rooms.h"
 #include "geometry/texture.h"
 #include "physics/optics/optics.h"
 #include "scene/view.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Why no theory here can say how a texture looks; empty: one can. Free.
 std::string optics_refusal(const Texture& texture, double index, const View& view);
@@ -15,4 +16,4 @@ std::string optics_refusal(const Texture& texture, double index, const View& vie
 // kept. Takes about a millisecond where facts(texture).quick_look, else a second at most.
 Optics appearance(const Texture& texture, double index, const View& view);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -11,7 +11,7 @@
 #include "physics/capillary/threshold.h"
 #include "physics/electrostatics/breakdown.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 // Adds the time until the end of its scope.
@@ -334,4 +334,4 @@ PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fid
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "forward/fidelity.h"
@@ -12,7 +13,7 @@
 #include "physics/electrostatics/electrode.h"
 #include "scene/scene.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 struct PatchProblem {
   const Scene* scene = nullptr;
@@ -56,4 +57,4 @@ PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fid
 PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         PatchStates& states, PatchFields* fields = nullptr);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "base/statistics.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 constexpr int kSmallestGrid = 16;
@@ -223,4 +223,4 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
   if (!controls.areas.points.empty()) patches.errors.push_back(std::move(again.method));
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

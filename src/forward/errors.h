@@ -5,9 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/patch_set.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Fills patches.errors and patches.controls, the grid and method parts of the error, from
 // fidelity.control_skins of the patches run again: on half the pixels (Eq. accuracy.2), and with
@@ -32,4 +33,4 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
 double grid_error(const std::vector<double>& samples);
 double method_error(const std::vector<double>& samples);
 
-}  // namespace papilla
+}  // namespace papilla::forward

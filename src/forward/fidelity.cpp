@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 Fidelity fidelity_level(const std::string& name) {
   Fidelity f;
@@ -33,4 +33,4 @@ Fidelity fidelity_level(const std::string& name) {
   return f;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

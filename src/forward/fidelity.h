@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::forward {
 
 // How the modulation is measured.
 enum class Estimator {
@@ -48,4 +50,4 @@ struct Fidelity {
 // "search", "draft", "design" or "reference"; throws InputError for another name.
 Fidelity fidelity_level(const std::string& name);
 
-}  // namespace papilla
+}  // namespace papilla::forward

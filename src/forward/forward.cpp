@@ -1,6 +1,6 @@
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   PatchSet patches = solve_patches(scene, texture, fidelity);
@@ -8,4 +8,4 @@ Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fi
   return respond(scene, fidelity, patches);
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

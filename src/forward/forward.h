@@ -1,11 +1,12 @@
 // The forward model: friction of a finger on a texture, off and on, over humidity.
 #pragma once
 
+#include "base/rooms.h"
 #include "forward/errors.h"
 #include "forward/patch_set.h"
 #include "forward/undriven.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Friction with the drive off and on [N, whole finger], modulation and their causes at each
 // humidity of the scene, with the parts of each error that the fidelity measures: solve_patches,
@@ -16,4 +17,4 @@ namespace papilla {
 // `Plan::seconds` estimates it, 0.5 to 5 min on one core at level design.
 Response evaluate(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace papilla {
+namespace papilla::forward {
 
 PatchCosts& PatchCosts::operator+=(const PatchCosts& other) {
   contact_solves += other.contact_solves;
@@ -82,4 +82,4 @@ void add_over_pressures(std::span<const PatchResult> patches, const PressureShar
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -5,9 +5,10 @@
 #include <span>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "forward/status.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Processor time by piece of physics [s], summed over threads; in no reproducible file.
 struct PieceSeconds {
@@ -91,4 +92,4 @@ struct PressureShares {
 void add_over_pressures(std::span<const PatchResult> patches, const PressureShares& shares,
                         PatchResult& out);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -10,7 +10,7 @@
 #include "forward/point.h"
 #include "forward/scene_terms.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 // One skin at every humidity: contact starts from that of the humidity before.
@@ -163,4 +163,4 @@ PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fid
   return picture;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

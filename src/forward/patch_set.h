@@ -4,11 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/coupling.h"
 #include "forward/response.h"
 #include "forward/scale_bridge.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Errors of every quantity at each humidity by one origin, measured on the control skins.
 struct MeasuredError {
@@ -50,4 +51,4 @@ struct PatchPicture {
 PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                            double relative_humidity, int index = 0);
 
-}  // namespace papilla
+}  // namespace papilla::forward

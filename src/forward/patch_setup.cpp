@@ -5,7 +5,7 @@
 #include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 // The finger in its state, with nothing more to apply.
@@ -72,4 +72,4 @@ PatchProblem PatchSetup::problem(std::span<const double> height, const ContactKe
           relative_humidity, pressure,  water.index, water.factor};
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

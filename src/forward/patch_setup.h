@@ -5,9 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/coupling.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // A volume and a placement of the water on one skin.
 struct WaterMember {
@@ -44,4 +45,4 @@ class PatchSetup {
   CoveredSurface surface_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::forward

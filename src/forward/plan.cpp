@@ -14,7 +14,7 @@
 #include "physics/contact/facts.h"
 #include "physics/electrostatics/rules.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 // A patch so much longer than the window that its pixels, limited in number, drop waves of the skin
@@ -311,4 +311,4 @@ std::string Plan::text() const {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

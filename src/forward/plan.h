@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/fidelity.h"
 #include "geometry/texture.h"
 #include "scene/scene.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // In the order of plans.
 enum class Piece {
@@ -69,4 +70,4 @@ struct Plan {
 
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -10,7 +10,7 @@
 #include "physics/contact/facts.h"
 #include "physics/electrostatics/rules.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 using Patches = std::span<const PatchResult>;
@@ -150,4 +150,4 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   return point;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -3,11 +3,12 @@
 
 #include <span>
 
+#include "base/rooms.h"
 #include "forward/response.h"
 #include "forward/scale_bridge.h"
 #include "scene/scene.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Everything that the patches of a humidity are solved and judged by; scene: the finger in its
 // state.
@@ -23,4 +24,4 @@ struct PointSetting {
 ResponsePoint response_point(const PointSetting& setting, double relative_humidity, double weight,
                              const ScaleBridge& bridge, std::span<const PatchResult> patches);
 
-}  // namespace papilla
+}  // namespace papilla::forward

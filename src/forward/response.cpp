@@ -6,7 +6,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 double ErrorParts::total() const {
   double sum = sampling * sampling;
@@ -70,4 +70,4 @@ std::string text(const TargetReport& report) {
   return {};
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

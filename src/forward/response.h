@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "forward/patch_result.h"
 #include "forward/plan.h"
 #include "forward/status.h"
 #include "physics/optics/optics.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // One standard error by origin, in the unit of the value; nothing where it was not measured.
 // Independent: they add in squares. docs/theory/accuracy.md
@@ -211,4 +212,4 @@ struct Response : Resampled {
   std::vector<PointTrouble> troubles() const;
 };
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -11,7 +11,7 @@
 #include "physics/macro/fingertip.h"
 #include "physics/persson/persson.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 // Spectrum of the ridge above the patch size, then that of the skin within patches.
@@ -107,4 +107,4 @@ PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -6,10 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/coupling.h"
 #include "physics/persson/patches.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // One humidity of one scene; patches of the grid's size.
 //   uniform: every load-carrying patch has the pressure F_N / (phi A_gross).
@@ -44,4 +45,4 @@ class ScaleBridge {
 double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
                       double relative_humidity);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -7,7 +7,7 @@
 #include "physics/electrostatics/electrowetting.h"
 #include "physics/electrostatics/rules.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const Grid& grid,
                                                     double relative_humidity) {
@@ -77,4 +77,4 @@ double driven_contact_angle(const Scene& scene, double relative_humidity) {
       electrowetted_cosine(std::cos(undriven), std::cos(saturated), eta, sine), -1.0, 1.0));
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

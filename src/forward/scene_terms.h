@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "physics/capillary/water.h"
@@ -10,7 +11,7 @@
 #include "physics/electrostatics/field.h"
 #include "scene/scene.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // The contact kernel of a humidity. Skin on a rigid surface softens as a whole, so the kernel at
 // 15 % RH serves all humidities (see the softness in forward/coupling.cpp); a compliant surface
@@ -41,4 +42,4 @@ FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurfa
 // Contact angle of the surface under the scene's drive (electrowetting) [rad].
 double driven_contact_angle(const Scene& scene, double relative_humidity);
 
-}  // namespace papilla
+}  // namespace papilla::forward

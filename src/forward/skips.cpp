@@ -7,7 +7,7 @@
 #include "base/constants.h"
 #include "forward/scene_terms.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 constexpr double kHamaker = 5e-20;          // [J] water, glass, keratin: 3.7e-20 to 9e-20
@@ -113,4 +113,4 @@ Plan measured_plan(const Scene& scene, const Texture& texture, const Fidelity& f
   return plan;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

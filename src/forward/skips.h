@@ -1,9 +1,10 @@
 // What skipping a piece of physics can cost, computed on the patches of the scene itself.
 #pragma once
 
+#include "base/rooms.h"
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Bounds on the relative change of friction by pieces that the plan skips, from `skins` patches per
 // humidity with all their fields; the largest over humidity. Eq. accuracy.7-10
@@ -23,4 +24,4 @@ Plan measured_plan(const Scene& scene, const Texture& texture, const Fidelity& f
 Traction van_der_waals_traction(const Gap& gap);
 Traction kelvin_traction(const Gap& gap, const Scene& scene, double relative_humidity);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -4,7 +4,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 bool ModelStatus::pull_in() const {
   return trouble == Trouble::SecondPassPullIn || trouble == Trouble::ClosedPullIn ||
@@ -55,4 +55,4 @@ std::string text(const std::vector<PointTrouble>& troubles) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::forward {
 
 enum class Trouble {
   None,
@@ -68,4 +70,4 @@ enum class TargetEnd {
   LimitsReached,    // of pixels and skins
 };
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -6,7 +6,7 @@
 #include "forward/scale_bridge.h"
 #include "forward/scene_terms.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 // Any voltage: the plan is that of a driven scene.
@@ -75,4 +75,4 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   return response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

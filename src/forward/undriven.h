@@ -4,10 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/patch_setup.h"
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Contact and water before the drive are solved once. Memory: 32 bytes per pixel, skin and patch
 // pressure.
@@ -30,4 +31,4 @@ class UndrivenPatches {
   std::vector<std::vector<UndrivenPatch>> patches_;  // [skin][pressure x water member]
 };
 
-}  // namespace papilla
+}  // namespace papilla::forward

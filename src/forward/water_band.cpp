@@ -7,7 +7,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla {
+namespace papilla::forward {
 namespace {
 
 // Sums over the patches, but for the mean volume.
@@ -87,4 +87,4 @@ void add_water_band(ResponsePoint& point, std::span<const PatchResult> patches, 
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -3,9 +3,10 @@
 
 #include <span>
 
+#include "base/rooms.h"
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::forward {
 
 // Fills the water part of each error (WaterBand of kPointQuantities) from means over the patches:
 // Eq. capillary.19, 20, 23 for droplets, capillary.21 for the threshold. load_exponent: Eq.
@@ -13,4 +14,4 @@ namespace papilla {
 void add_water_band(ResponsePoint& point, std::span<const PatchResult> patches, WaterModel model,
                     const Grid& grid, double load_exponent);
 
-}  // namespace papilla
+}  // namespace papilla::forward

@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "estimate/target.h"
 
-namespace papilla {
+namespace papilla::measure {
 namespace {
 
 double pair_work(const Fidelity& f) {
@@ -194,4 +194,4 @@ std::vector<AccuracyRow> accuracy_sweeps(const Design& design, const AccuracyOpt
   return Sweeper(design, options).run();
 }
 
-}  // namespace papilla
+}  // namespace papilla::measure

@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/design.h"
 #include "forward/forward.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::measure {
 
 // What accuracy is judged by, each a mean over humidity but for the variation.
 struct AccuracyQuantity {
@@ -41,4 +42,4 @@ struct AccuracyOptions {
 // "level".
 std::vector<AccuracyRow> accuracy_sweeps(const Design& design, const AccuracyOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::measure

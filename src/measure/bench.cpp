@@ -17,7 +17,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::measure {
 namespace {
 
 // Of the calling thread, or of all: other work on the machine does not count.
@@ -210,4 +210,4 @@ class Bench {
 
 std::vector<BenchRow> bench(const BenchOptions& options) { return Bench(options).run(); }
 
-}  // namespace papilla
+}  // namespace papilla::measure

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::measure {
 
 struct BenchRow {
   std::string what, unit;
@@ -24,4 +26,4 @@ struct BenchOptions {
 // A minute. Times on a machine with other load are upper bounds, ratios less so.
 std::vector<BenchRow> bench(const BenchOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::measure

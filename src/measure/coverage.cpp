@@ -11,7 +11,7 @@
 #include "estimate/target.h"
 #include "measure/accuracy.h"
 
-namespace papilla {
+namespace papilla::measure {
 namespace {
 
 // One random scene: its reference, and what is judged against it.
@@ -171,4 +171,4 @@ std::vector<CoverageSummary> coverage_summary(const std::vector<CoverageRow>& ro
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::measure

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::measure {
 
 // One quantity of a random scene judged at a small fidelity, and by a finer one on fresh skins.
 struct CoverageRow {
@@ -46,4 +47,4 @@ struct CoverageSummary {
 };
 std::vector<CoverageSummary> coverage_summary(const std::vector<CoverageRow>& rows);
 
-}  // namespace papilla
+}  // namespace papilla::measure

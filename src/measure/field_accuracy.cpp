@@ -10,7 +10,7 @@
 #include "forward/scene_terms.h"
 #include "physics/electrostatics/full_field.h"
 
-namespace papilla {
+namespace papilla::measure {
 namespace {
 
 // Weights of the four neighbours of a point at share t between the middle two.
@@ -139,4 +139,4 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
   return rows;
 }
 
-}  // namespace papilla
+}  // namespace papilla::measure

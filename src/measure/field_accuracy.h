@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/design.h"
 
-namespace papilla {
+namespace papilla::measure {
 
 // One method on one patch at one humidity. A patch is solved at `pixels`, its skin is then refined
 // as a smooth surface (Catmull-Rom), its texture generated anew: the same bodies on finer grids.
@@ -32,4 +33,4 @@ struct FieldAccuracyOptions {
 std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const Design& design,
                                              const FieldAccuracyOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::measure

@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::metrics {
 namespace {
 
 constexpr std::array<std::pair<const char*, Summary>, 8> kSummaries{
@@ -90,4 +90,4 @@ Better better_direction(const MetricExpression& expression) {
   return find_metric(expression.metric)->better;
 }
 
-}  // namespace papilla
+}  // namespace papilla::metrics

@@ -6,7 +6,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::metrics {
 namespace {
 
 struct Entry {
@@ -157,4 +157,4 @@ std::string why_undefined(const std::string& metric, const Response& response) {
   return "";
 }
 
-}  // namespace papilla
+}  // namespace papilla::metrics

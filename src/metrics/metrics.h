@@ -7,9 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::metrics {
 
 enum class Better { Higher, Lower, Neither };
 
@@ -93,4 +94,4 @@ Better better_direction(const MetricExpression& expression);
 // Why a metric of a response has no value, for people; "" when nothing is known.
 std::string why_undefined(const std::string& metric, const Response& response);
 
-}  // namespace papilla
+}  // namespace papilla::metrics

@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::metrics {
 
 Series::Series(std::vector<double> values, std::vector<double> weights, Better better)
     : values_(std::move(values)), weights_(std::move(weights)), better_(better) {
@@ -70,4 +70,4 @@ std::size_t Series::index(Summary summary) const {
   return (summary == Summary::Worst) == low_is_better ? high_ : low_;
 }
 
-}  // namespace papilla
+}  // namespace papilla::metrics

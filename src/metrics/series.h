@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::metrics {
 
 class Series {
  public:
@@ -28,4 +29,4 @@ class Series {
   std::size_t low_ = 0, high_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::metrics

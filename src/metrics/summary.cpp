@@ -8,7 +8,7 @@
 #include "metrics/metrics.h"
 #include "metrics/series.h"
 
-namespace papilla {
+namespace papilla::metrics {
 namespace {
 
 // A summary of a metric of any points of a response.
@@ -184,4 +184,4 @@ std::optional<double> difference_error(const ErrorSamples& first, const ErrorSam
   return std::sqrt(square(sampling) + square(grid) + square(method));
 }
 
-}  // namespace papilla
+}  // namespace papilla::metrics

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace papilla {
+namespace papilla::published {
 
 Fidelity SkinSampling::fidelity(int threads) const {
   Fidelity f = fidelity_level(level);
@@ -16,4 +16,4 @@ Fidelity SkinSampling::fidelity(int threads) const {
   return f;
 }
 
-}  // namespace papilla
+}  // namespace papilla::published

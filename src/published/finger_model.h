@@ -8,10 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "base/rooms.h"
 #include "forward/fidelity.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::published {
 
 // Where the skins come from: by default 40 that no fit has seen.
 struct SkinSampling {
@@ -51,4 +52,4 @@ class FingerModel {
   std::map<std::string, std::any> shared_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::published

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::published {
 namespace {
 
 Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
@@ -127,4 +127,4 @@ SkinEstimate effect_ratio(const Sample& s, int from, int to) {
   return jackknife(s, [&](int k) { return effect(s, to, k) / effect(s, from, k) - 1; });
 }
 
-}  // namespace papilla
+}  // namespace papilla::published

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "base/statistics.h"
 #include "design/design.h"
 #include "forward/response.h"
 #include "published/finger_model.h"
 
-namespace papilla {
+namespace papilla::published {
 
 // The humidities of designs/m3_samples, places in the list of points.
 inline constexpr int kHumidities = 4;
@@ -94,4 +95,4 @@ SkinEstimate paired_percent(const Sample& a, const Sample& b, F&& quantity) {
 // Change of the effect from one humidity to another, relative.
 SkinEstimate effect_ratio(const Sample& s, int from, int to);
 
-}  // namespace papilla
+}  // namespace papilla::published

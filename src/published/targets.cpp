@@ -6,7 +6,7 @@
 #include "forward/scale_bridge.h"
 #include "published/samples.h"
 
-namespace papilla {
+namespace papilla::published {
 namespace {
 
 using Model = std::function<Estimate(FingerModel&)>;
@@ -109,4 +109,4 @@ double capacitance_gap(const Finger& finger) {
   return capacitive_gap(finger, kLoad / kArea, kOxide, kHumidity);
 }
 
-}  // namespace papilla
+}  // namespace papilla::published

@@ -6,10 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "base/statistics.h"
 #include "published/finger_model.h"
 
-namespace papilla {
+namespace papilla::published {
 
 // Its residual is the distance from [low, high] over sd, the width that the paper's words leave.
 struct PublishedTarget {
@@ -27,4 +28,4 @@ inline constexpr const char* kGapTarget = "C_gap";
 inline constexpr double kPublishedGap = 1.06e-6;
 double capacitance_gap(const Finger& finger);
 
-}  // namespace papilla
+}  // namespace papilla::published

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "estimate/parameters.h"
 
-namespace papilla {
+namespace papilla::rank {
 
 Candidate::Candidate(const Regions& regions, FingerState state, const RankOptions& options)
     : regions_(regions),
@@ -109,4 +109,4 @@ double Candidate::value(const Criterion& c, Response& response) const {
   return v->value;
 }
 
-}  // namespace papilla
+}  // namespace papilla::rank

@@ -5,10 +5,11 @@
 #include <optional>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/forward.h"
 #include "rank/options.h"
 
-namespace papilla {
+namespace papilla::rank {
 
 class Candidate {
  public:
@@ -42,4 +43,4 @@ class Candidate {
   std::vector<StepSamples> steps_;           // one per criterion
 };
 
-}  // namespace papilla
+}  // namespace papilla::rank

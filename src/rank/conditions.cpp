@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "config/writer.h"
 
-namespace papilla {
+namespace papilla::rank {
 namespace {
 
 using KeyValues = std::vector<std::pair<std::string, std::string>>;
@@ -126,4 +126,4 @@ void require_same_conditions(const std::vector<ConditionDifference>& differences
           : join_names(sets, " ")));
 }
 
-}  // namespace papilla
+}  // namespace papilla::rank

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "rank/options.h"
 
-namespace papilla {
+namespace papilla::rank {
 
 // A key that is no part of a candidate but of what it is judged under, and that differs.
 struct ConditionDifference {
@@ -27,4 +28,4 @@ std::vector<ConditionDifference> condition_differences(const std::vector<Regions
 // Throws InputError, with what would make them equal, unless there are none.
 void require_same_conditions(const std::vector<ConditionDifference>& differences);
 
-}  // namespace papilla
+}  // namespace papilla::rank

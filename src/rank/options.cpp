@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace papilla {
+namespace papilla::rank {
 namespace {
 
 // "METRIC", "METRIC:low" or "METRIC:high".
@@ -45,4 +45,4 @@ std::vector<Criterion> parse_criteria(const std::string& text) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::rank

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/design.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::rank {
 
 // One criterion: a metric over humidity and which direction is better.
 struct Criterion {
@@ -37,4 +38,4 @@ struct RankOptions {
   std::function<void(const std::string&)> note;  // progress for people; may be empty
 };
 
-}  // namespace papilla
+}  // namespace papilla::rank

@@ -12,7 +12,7 @@
 #include "estimate/parameters.h"
 #include "rank/candidate.h"
 
-namespace papilla {
+namespace papilla::rank {
 namespace {
 
 // The race in one finger state.
@@ -186,7 +186,7 @@ void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
 
 }  // namespace
 
-Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options) {
+Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Ranking out;
   out.conditions = condition_differences(candidates, options);
@@ -200,10 +200,10 @@ Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options)
   return out;
 }
 
-Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
+Ranking ranking_of(const std::vector<Design>& designs, const RankOptions& options) {
   std::vector<Regions> candidates;
   for (const Design& d : designs) candidates.push_back({d});
-  return rank(candidates, options);
+  return ranking_of(candidates, options);
 }
 
-}  // namespace papilla
+}  // namespace papilla::rank

@@ -4,11 +4,12 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "rank/conditions.h"
 #include "rank/options.h"
 #include "rank/scores.h"
 
-namespace papilla {
+namespace papilla::rank {
 
 struct RankedCandidate {
   std::size_t index = 0;  // into the designs as given
@@ -43,7 +44,7 @@ struct Ranking {
 // criterion is not defined for a design (modulation without a drive), and for parameters of fingers
 // that have no `uncertainty` or not the same. Cost: a batch of skins per candidate and state, and
 // more of those whose order is open, to max_skins.
-Ranking rank(const std::vector<Regions>& candidates, const RankOptions& options);
-Ranking rank(const std::vector<Design>& designs, const RankOptions& options);
+Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& options);
+Ranking ranking_of(const std::vector<Design>& designs, const RankOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::rank

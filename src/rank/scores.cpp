@@ -9,7 +9,7 @@
 #include "base/random.h"
 #include "base/statistics.h"
 
-namespace papilla {
+namespace papilla::rank {
 namespace {
 
 constexpr int kDraws = 4000;  // of the orders
@@ -186,4 +186,4 @@ std::vector<std::vector<double>> Scores::skin_moves() const {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::rank

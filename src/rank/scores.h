@@ -5,9 +5,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/rooms.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::rank {
 
 struct Interval {
   double value = 0, low = 0, high = 0;  // 95 %
@@ -47,4 +48,4 @@ struct Scores {
   std::vector<std::vector<double>> skin_moves() const;
 };
 
-}  // namespace papilla
+}  // namespace papilla::rank

@@ -9,7 +9,7 @@
 #include "report/json.h"
 #include "report/tables.h"
 
-namespace papilla {
+namespace papilla::report {
 
 using Json = nlohmann::ordered_json;
 
@@ -138,4 +138,4 @@ std::string field_accuracy_csv(const std::vector<FieldAccuracyRow>& rows) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "measure/accuracy.h"
 #include "measure/coverage.h"
 #include "measure/field_accuracy.h"
 
-namespace papilla {
+namespace papilla::report {
 
 std::string accuracy_text(const std::vector<AccuracyRow>& rows);
 std::string coverage_text(const std::vector<CoverageRow>& rows);
@@ -29,4 +30,4 @@ std::string accuracy_page(const std::string& folder);
 // Columns with units in the head, one row each; seconds to two digits.
 std::string field_accuracy_csv(const std::vector<FieldAccuracyRow>& rows);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -7,7 +7,7 @@
 #include "report/accuracy.h"
 #include "report/tables.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 std::string shown(const std::string& cell, double scale, const char* format) {
@@ -144,4 +144,4 @@ std::string accuracy_page(const std::string& folder) {
          comment_list(sweeps) + sweep_sections(sweeps) + coverage_section(folder);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

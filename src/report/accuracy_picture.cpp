@@ -8,7 +8,7 @@
 #include "report/accuracy.h"
 #include "report/svg.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 constexpr const char* kColours[] = {"#1b6ca8", "#d1495b", "#555555",
@@ -85,4 +85,4 @@ std::string accuracy_svg(const std::vector<AccuracyRow>& all, const std::string&
   return out + "</svg>\n";
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

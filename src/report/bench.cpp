@@ -6,7 +6,7 @@
 
 #include "report/tables.h"
 
-namespace papilla {
+namespace papilla::report {
 
 using Json = nlohmann::ordered_json;
 
@@ -57,4 +57,4 @@ std::string bench_json(const std::vector<BenchRow>& rows) {
   return Json{{"schema", 1}, {"rows", list}}.dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -124,4 +124,4 @@ std::string claims_json(const std::vector<ClaimResult>& results) {
   return Json{{"schema", 1}, {"claims", list}, {"counts", counts}}.dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

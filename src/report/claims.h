@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "claims/reproduce.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // One line per claim and the counts by verdict; for people, Markdown, CSV; JSON as
 // {"schema": 1, "claims": [{"id", "paper", "model", "se", "verdict", "reason", ...}], "counts"}.
@@ -15,4 +16,4 @@ std::string claims_markdown(const std::vector<ClaimResult>& results, const std::
 std::string claims_csv(const std::vector<ClaimResult>& results);
 std::string claims_json(const std::vector<ClaimResult>& results);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -14,7 +14,7 @@
 #include "report/json.h"
 #include "report/markup.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -307,4 +307,4 @@ std::string drive_svg(const DriveCase& c, const DriveResult& r) {
          "</svg>\n";
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "cases/drive.h"
 
-namespace papilla {
+namespace papilla::report {
 
 std::string drive_text(const DriveCase& c, const DriveResult& result);
 std::string drive_json(const DriveCase& c, const DriveResult& result);  // schema 1, SI
@@ -17,4 +18,4 @@ std::string drive_lines_csv(const DriveResult& result);
 // Friction over time and its spectrum as a picture.
 std::string drive_svg(const DriveCase& c, const DriveResult& result);
 
-}  // namespace papilla
+}  // namespace papilla::report

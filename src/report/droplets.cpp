@@ -11,7 +11,7 @@
 
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -233,4 +233,4 @@ void write_droplet_picture(const std::string& path, const Gap& gap, const Wettin
   write_png_rgb(path, width, left.height(), rgb);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "cases/droplets.h"
 
-namespace papilla {
+namespace papilla::report {
 
 std::string droplets_text(const DropletCase& c, const DropletResult& result);
 // Schema 1, SI; seconds: what the solution took.
@@ -19,4 +20,4 @@ std::string droplet_ensemble_json(const DropletEnsemble& ensemble);
 void write_droplet_picture(const std::string& path, const Gap& gap, const Wetting& initial,
                            const Wetting& final);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -9,7 +9,7 @@
 #include "base/files.h"
 #include "report/json.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -119,4 +119,4 @@ std::string export_json(const Design& design, const ExportOptions& options, cons
   return out.dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

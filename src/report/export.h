@@ -4,10 +4,11 @@
 #include <optional>
 #include <string>
 
+#include "base/rooms.h"
 #include "fabricate/export.h"
 #include "fabricate/verify.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // export_design, and export.json beside its files: sizes, polarity, margins, what the layout is.
 Export export_with_record(const Design& design, const ExportOptions& options,
@@ -20,4 +21,4 @@ std::string export_text(const Export& result, const std::string& folder,
 std::string export_json(const Design& design, const ExportOptions& options, const Export& result,
                         const std::string& folder, const std::optional<Verification>& verification);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -8,7 +8,7 @@
 
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 constexpr const char* kPictures[] = {"gap", "pressure_off", "pressure_on", "pull", "water"};
@@ -54,4 +54,4 @@ void remove_field_pictures(const std::string& folder) {
   for (const auto& path : old) std::filesystem::remove(path);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "design/design.h"
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // Gap, pressure, water and pull of the first skin at each humidity: gap_75.png, gap_75.npy, ...
 // Cost: one patch per humidity.
@@ -17,4 +18,4 @@ void write_field_pictures(const std::string& folder, const Design& design,
 // without response.json nothing.
 void remove_field_pictures(const std::string& folder);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "base/units.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -285,4 +285,4 @@ std::string calibration_json(const Calibration& c, const CalibrationResult& r,
       .dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

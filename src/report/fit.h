@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "calibrate/calibrate.h"
 #include "claims/reproduce.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // The claims of the calibration's lists by the starting and by the fitted finger, on skins that the
 // fit has not seen: the same claims in the same order.
@@ -24,4 +25,4 @@ std::string calibration_markdown(const Calibration& calibration, const Calibrati
 std::string calibration_json(const Calibration& calibration, const CalibrationResult& result,
                              const JudgedFit& claims = {});
 
-}  // namespace papilla
+}  // namespace papilla::report

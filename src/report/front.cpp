@@ -9,7 +9,7 @@
 #include "report/svg.h"
 #include "report/tables.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 SvgSeries points(const char* name, const char* colour, double radius) {
@@ -70,4 +70,4 @@ std::string front_svg(const std::string& folder) {
   return svg_picture(plots);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace papilla {
+namespace papilla::report {
 
 nlohmann::ordered_json json_number(double value) {
   if (!std::isfinite(value)) return nullptr;
@@ -15,4 +15,4 @@ nlohmann::ordered_json json_number(const std::optional<double>& value) {
   return json_number(*value);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -4,10 +4,12 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::report {
 
 // null for what JSON cannot say: infinity and NaN; and for what there is not.
 nlohmann::ordered_json json_number(double value);
 nlohmann::ordered_json json_number(const std::optional<double>& value);
 
-}  // namespace papilla
+}  // namespace papilla::report

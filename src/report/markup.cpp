@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 // "| a | b |" as a row.
@@ -68,4 +68,4 @@ std::string markdown_html(const std::string& markdown) {
   return out + (in_table ? "</table></div>\n" : "");
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -3,7 +3,9 @@
 
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::report {
 
 // Text as it stands inside an element of SVG or HTML.
 std::string markup_text(const std::string& text);
@@ -12,4 +14,4 @@ std::string script_text(std::string text);
 // The headings, paragraphs and tables of Markdown as this program writes it.
 std::string markdown_html(const std::string& markdown);
 
-}  // namespace papilla
+}  // namespace papilla::report

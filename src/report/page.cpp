@@ -17,7 +17,7 @@
 #include "report/ranking.h"
 #include "search/pick.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // The files of src/report/page and the two libraries, embedded at build time.
 extern const std::string_view kPageHtml, kPageStyle, kPageScript, kChartScript, kThreeScript;
@@ -157,4 +157,4 @@ std::string report_page(const std::string& folder, const std::string& pick) {
   return ranked ? rank_page(root) : calibrate_page(root);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -3,7 +3,9 @@
 
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::report {
 
 // Reads a folder that `papilla optimize`, `papilla rank --out` or `papilla calibrate` wrote;
 // nothing in the page depends on the clock. For `optimize` the field pictures solve one patch of
@@ -11,4 +13,4 @@ namespace papilla {
 // is about (empty: best/). Throws InputError where the folder is no finished run.
 std::string report_page(const std::string& folder, const std::string& pick = "");
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -11,7 +11,7 @@
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,4 +141,4 @@ Json file_list(const fs::path& folder) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

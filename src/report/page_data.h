@@ -5,9 +5,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/design.h"
 
-namespace papilla {
+namespace papilla::report {
 
 constexpr int kPicturePixels = 128;  // across one picture, at most
 
@@ -24,4 +25,4 @@ nlohmann::ordered_json field_json(const Design& design);
 // Name, size and digest of every file of a folder but the page itself, the lock, and clock times.
 nlohmann::ordered_json file_list(const std::filesystem::path& folder);
 
-}  // namespace papilla
+}  // namespace papilla::report

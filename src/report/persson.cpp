@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "report/json.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -122,4 +122,4 @@ std::string mean_field_json(const MeanFieldCase& c, const MeanFieldResult& r, do
       .dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "report/json.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -218,4 +218,4 @@ std::string optics_json(const Optics& look) {
       .dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -4,13 +4,14 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 #include "physics/capillary/bridge.h"
 #include "physics/contact/contact.h"
 #include "physics/electrostatics/field.h"
 #include "physics/optics/optics.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // h: the surface that was pressed.
 std::string contact_text(const ContactSolution& s, const ContactArea& area, const Heightmap& h,
@@ -37,4 +38,4 @@ std::string field_json(const FieldSolution& s, const FieldRun& run);
 std::string optics_text(const Optics& look);
 std::string optics_json(const Optics& look);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -18,7 +18,7 @@
 #include "report/page.h"
 #include "report/svg.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -276,4 +276,4 @@ std::string ranked_design_file(std::size_t candidate, std::size_t region) {
                      : fmt::format("designs/{:02d}_{}.toml", candidate + 1, region + 1);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

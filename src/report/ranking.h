@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "rank/rank.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // `names`: of the candidates, in the order in which they were given.
 std::string ranking_table(const std::vector<std::string>& names, const RankOptions& options,
@@ -25,4 +26,4 @@ void write_ranking(const std::string& folder, const std::vector<Regions>& candid
 // Where write_ranking leaves a design of a candidate, from 0, in its folder.
 std::string ranked_design_file(std::size_t candidate, std::size_t region);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -14,7 +14,7 @@
 #include "fabricate/formats.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 // A table of a section; `plain`: keys and meanings alone.
@@ -244,4 +244,4 @@ std::string reference_json(const std::vector<std::string>& sections) {
   return Json{{"schema", 1}, {"sections", list}}.dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

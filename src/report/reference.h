@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::report {
 
 // "texture", "surface", "finger", "environment", "drive", "model", "accuracy", "study", "metrics",
 // "persson", "circuit", "export".
@@ -20,4 +22,4 @@ std::string reference_section(const std::string& section, ReferenceFormat format
 // {"schema": 1, "sections": [{"section", "about", "tables": [{"name", "keys": [...]}]}]}
 std::string reference_json(const std::vector<std::string>& sections);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -12,7 +12,7 @@
 #include "metrics/metrics.h"
 #include "report/svg.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 // "sampling 3.1 %, grid 0.8 %, ...": of the value; then what ± leaves out, and what was not
@@ -256,4 +256,4 @@ std::string response_table(const Response& response) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

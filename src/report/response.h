@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // Humidity table with error bars, summary lines, and what limits trust in it.
 std::string response_table(const Response& response);
@@ -25,4 +26,4 @@ std::string plan_document(const Plan& plan);
 // Unicode bars of the modulation over humidity; "" when undriven.
 std::string modulation_sparkline(const Response& response);
 
-}  // namespace papilla
+}  // namespace papilla::report

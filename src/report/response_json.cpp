@@ -6,7 +6,7 @@
 #include "report/json.h"
 #include "report/response.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -168,4 +168,4 @@ std::string plan_document(const Plan& plan) {
   return Json{{"schema", 1}, {"plan", plan_json(plan)}}.dump(2);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

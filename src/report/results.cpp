@@ -13,7 +13,7 @@
 #include "report/response.h"
 #include "report/summary.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -244,4 +244,4 @@ OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options) {
 
 void write_results(const ResultFiles& files) { Writer(files).write(); }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "search/run.h"
 
-namespace papilla {
+namespace papilla::report {
 
 class FolderWriter : public ResultWriter {
  public:
@@ -19,4 +20,4 @@ OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options);
 // All files of the folder but its page.
 void write_results(const ResultFiles& files);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "base/units.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 // "0.612 ± 0.014 (0.051)": its own error, in brackets the one that parameters leave.
@@ -242,4 +242,4 @@ std::string infeasible_text(const OptimiseResult& result) {
                        : "no design of the space that was tried keeps " + names;
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

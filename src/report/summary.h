@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "search/run.h"
 
-namespace papilla {
+namespace papilla::report {
 
 inline constexpr const char* kNoBetter =
     "The best design is no better than its surface without texture: no objective gains more than "
@@ -20,4 +21,4 @@ std::string result_table(const Study& study, const OptimiseResult& result);
 // Why nothing is feasible, as part of a sentence.
 std::string infeasible_text(const OptimiseResult& result);
 
-}  // namespace papilla
+}  // namespace papilla::report

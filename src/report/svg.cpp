@@ -7,7 +7,7 @@
 
 #include "report/markup.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 constexpr double kWidth = 460, kHeight = 380, kLeft = 64, kRight = 444, kTop = 76, kBottom = 330;
@@ -161,4 +161,4 @@ std::string svg_picture(const std::vector<SvgPlot>& plots) {
   return out + "</svg>\n";
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::report {
 
 struct SvgSeries {
   std::string name;            // in the legend; empty: not there
@@ -28,4 +30,4 @@ std::string svg_sheet(int width, int height, int font_size);
 // The plots side by side, 460 x 380 each. Values that are not finite are left out.
 std::string svg_picture(const std::vector<SvgPlot>& plots);
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -6,7 +6,7 @@
 #include "metrics/metrics.h"
 #include "report/response.h"
 
-namespace papilla {
+namespace papilla::report {
 namespace {
 
 const char* breakdown(const Response& response) {
@@ -51,4 +51,4 @@ std::string sweep_json(const std::string& path, const std::vector<SweepRun>& run
   return fmt::format("{{\"schema\": 1, \"sweep\": \"{}\", \"runs\": [\n{}\n]}}", path, documents);
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

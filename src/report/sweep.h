@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::report {
 
 // What the lines show of the appearance, where it was asked for.
 std::string sweep_head(const std::string& path, bool appearance);
@@ -19,4 +20,4 @@ struct SweepRun {
 };
 std::string sweep_json(const std::string& path, const std::vector<SweepRun>& runs);  // schema 1
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -8,7 +8,7 @@
 #include "base/files.h"
 #include "base/text.h"
 
-namespace papilla {
+namespace papilla::report {
 
 bool CsvTable::has(const std::string& name) const {
   return std::find(header.begin(), header.end(), name) != header.end();
@@ -74,4 +74,4 @@ std::string markdown_head(const std::vector<std::string>& names) {
   return markdown_row(names) + dashes + "|\n";
 }
 
-}  // namespace papilla
+}  // namespace papilla::report

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::report {
 
 // One line per row, no quotes; lines of '#' before or between them are comments.
 struct CsvTable {
@@ -27,4 +29,4 @@ std::string csv_cell(std::string text);
 std::string markdown_row(const std::vector<std::string>& cells);
 std::string markdown_head(const std::vector<std::string>& names);
 
-}  // namespace papilla
+}  // namespace papilla::report

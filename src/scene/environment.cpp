@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace papilla {
+namespace papilla::scene {
 
 void fields(FieldVisitor& v, Environment& s) {
   v.numbers({"relative_humidity", "%", 0, 100, "humidities at which the design is judged",
@@ -98,4 +98,4 @@ void fields(FieldVisitor& v, Drive& s) {
            s.current_limit);
 }
 
-}  // namespace papilla
+}  // namespace papilla::scene

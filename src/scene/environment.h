@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "config/fields.h"
 
-namespace papilla {
+namespace papilla::scene {
 
 struct Environment {
   std::vector<double> relative_humidity = {0.15, 0.35, 0.55, 0.75};
@@ -68,4 +69,4 @@ struct Drive {
 };
 void fields(FieldVisitor& v, Drive& s);
 
-}  // namespace papilla
+}  // namespace papilla::scene

@@ -5,7 +5,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::scene {
 
 double Skin::modulus_factor(double relative_humidity) const {
   // Linear in RH through 1 at 15 % and 1/softening at 75 %; kept positive beyond the data.
@@ -254,4 +254,4 @@ void fields(FieldVisitor& v, Finger& s) {
   v.section({"calibrated_for", "model options the finger was fitted with"}, s.calibrated_for);
 }
 
-}  // namespace papilla
+}  // namespace papilla::scene

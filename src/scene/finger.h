@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/fields.h"
 
-namespace papilla {
+namespace papilla::scene {
 
 // Micro-topography and elasticity of the stratum corneum within one patch.
 struct Skin {
@@ -163,4 +164,4 @@ struct Finger {
 };
 void fields(FieldVisitor& v, Finger& s);
 
-}  // namespace papilla
+}  // namespace papilla::scene

@@ -1,10 +1,11 @@
 // Everything the forward model needs to know besides the texture and the fidelity.
 #pragma once
 
+#include "base/rooms.h"
 #include "scene/environment.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::scene {
 
 struct Scene {
   Surface surface;
@@ -16,4 +17,4 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-}  // namespace papilla
+}  // namespace papilla::scene

@@ -10,7 +10,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 
-namespace papilla {
+namespace papilla::scene {
 namespace {
 
 constexpr const char* kWaterScale = "water.scale";
@@ -95,4 +95,4 @@ std::vector<FingerStep> finger_steps(const Finger& finger) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::scene

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::scene {
 
 // The finger with the logarithm of each parameter of its `uncertainty` moved; values stay inside
 // the limits of their keys. Throws InputError for a parameter that the finger has not.
@@ -29,4 +30,4 @@ std::vector<FingerStep> finger_steps(const Finger& finger);
 // What is said of a finger without `uncertainty`.
 std::string unknown_parameters(const Finger& finger);
 
-}  // namespace papilla
+}  // namespace papilla::scene

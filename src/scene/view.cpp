@@ -1,6 +1,6 @@
 #include "scene/view.h"
 
-namespace papilla {
+namespace papilla::scene {
 
 void fields(FieldVisitor& v, View& s) {
   v.numbers(
@@ -21,4 +21,4 @@ void fields(FieldVisitor& v, View& s) {
            s.diameter_scatter);
 }
 
-}  // namespace papilla
+}  // namespace papilla::scene

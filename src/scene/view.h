@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/fields.h"
 
-namespace papilla {
+namespace papilla::scene {
 
 struct View {
   std::vector<double> angles{0};   // of view, from the normal [rad]; what is judged is their mean
@@ -17,4 +18,4 @@ struct View {
 };
 void fields(FieldVisitor& v, View& s);
 
-}  // namespace papilla
+}  // namespace papilla::scene

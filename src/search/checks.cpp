@@ -7,7 +7,7 @@
 #include "search/pick.h"
 #include "search/stages.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // step: after each design; false: interrupted.
@@ -117,4 +117,4 @@ bool check(Run& run) {
   return true;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

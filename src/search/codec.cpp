@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cstdlib>
 
-namespace papilla {
+namespace papilla::search {
 
 void Encoder::word(const std::string& text) {
   if (!out_.empty()) out_ += ' ';
@@ -50,4 +50,4 @@ void Decoder::bytes(std::string& value) {
   at_ = std::min(begin + size + 1, text_.size());
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -8,7 +8,9 @@
 #include <type_traits>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::search {
 
 class Encoder {
  public:
@@ -107,4 +109,4 @@ std::optional<T> decoded(const std::string& text) {
   return value;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -7,7 +7,7 @@
 #include "base/constants.h"
 #include "design/families.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // Bounded by -1 and 11, yet larger for more: the least of large violations stays the least.
@@ -171,4 +171,4 @@ std::vector<double> StudyConstraints::violations(const Score& score) const {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "search/score.h"
 #include "search/space.h"
 
-namespace papilla {
+namespace papilla::search {
 
 // Violations are <= 0 where a constraint is kept, relative to its limit.
 class StudyConstraints {
@@ -39,4 +40,4 @@ class StudyConstraints {
   bool slow_look_ = false;  // the appearance of some kind of texture takes as long as an evaluation
 };
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -7,7 +7,7 @@
 #include "search/levels.h"
 #include "search/stages.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // Of designs at one level, those to judge at the next.
@@ -168,4 +168,4 @@ bool confirm(Run& run) {
   return true;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -15,7 +15,7 @@
 
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // The values of a resolved file by their path, as it is written there.
@@ -82,4 +82,4 @@ std::string differing_keys(const std::string& there, const std::string& here) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -3,7 +3,9 @@
 
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::search {
 
 // Refuses a second run in the same folder while this one lives (released by the system when the
 // process ends, however it ends). Throws InputError.
@@ -22,4 +24,4 @@ class FolderLock {
 // Without the keys that a run may be continued with.
 std::string differing_keys(const std::string& there, const std::string& here);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -6,7 +6,7 @@
 
 #include "forward/plan.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 constexpr int kNarrowSkins = 500;  // skins of the level between start here
@@ -120,4 +120,4 @@ std::string search_plan(const Study& study) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

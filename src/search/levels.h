@@ -3,10 +3,11 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "search/problem.h"
 #include "search/protocol.h"
 
-namespace papilla {
+namespace papilla::search {
 
 inline constexpr std::size_t kFinalists = 8;
 // Flat surface, sensitivity and parameters cost about as much as confirming so many designs; the
@@ -25,4 +26,4 @@ double relative_cost(const StudyProblem& problem, Stage stage);
 // What will run, for plan.txt and people.
 std::string search_plan(const Study& study);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // The drive is given, or searched above 0 V.
@@ -82,4 +82,4 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
   return goals;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "metrics/metrics.h"
 #include "search/risk.h"
 #include "search/tasks.h"
 
-namespace papilla {
+namespace papilla::search {
 
 struct StudyObjective {
   MetricExpression expression;
@@ -37,4 +38,4 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks);
 bool on_metric(const Constraint& constraint);
 bool of_appearance(const Constraint& constraint);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ std::string picked_design_file(const std::string& results, const std::string& ru
   return files[pick_design(rule, front)];
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::search {
 
 struct PickCandidate {
   std::vector<std::string> names;  // of the objectives: "mean(modulation)"
@@ -22,4 +24,4 @@ std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate
 // an empty rule, else one of its front/. Throws InputError.
 std::string picked_design_file(const std::string& results, const std::string& rule);
 
-}  // namespace papilla
+}  // namespace papilla::search

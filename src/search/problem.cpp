@@ -10,7 +10,7 @@
 #include "scene/uncertainty.h"
 #include "search/protocol.h"
 
-namespace papilla {
+namespace papilla::search {
 
 StudyProblem::StudyProblem(const Study& study)
     : study_(study),
@@ -116,4 +116,4 @@ SearchProblem search_problem(const StudyProblem& problem) {
   return p;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

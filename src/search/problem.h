@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/search.h"
 #include "search/constraints.h"
 #include "search/objectives.h"
@@ -12,7 +13,7 @@
 #include "search/space.h"
 #include "search/tasks.h"
 
-namespace papilla {
+namespace papilla::search {
 
 class StudyProblem {
  public:
@@ -33,7 +34,7 @@ class StudyProblem {
   // From one answer per task.
   Score score(const std::vector<TaskAnswer>& answers) const { return score_of(scoring_, answers); }
   void add_steps(Score& score, const std::vector<TaskAnswer>& answers) const {
-    papilla::add_steps(score, scoring_, answers);
+    search::add_steps(score, scoring_, answers);
   }
 
   std::size_t residuals() const;              // of an outcome; 0: the objective is no target
@@ -58,4 +59,4 @@ int default_evaluations(const Study& study);
 // As its searcher sees it. Refers to the problem.
 SearchProblem search_problem(const StudyProblem& problem);
 
-}  // namespace papilla
+}  // namespace papilla::search

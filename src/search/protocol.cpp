@@ -2,7 +2,7 @@
 
 #include "search/codec.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // Enums end here.
@@ -90,4 +90,4 @@ TaskAnswer task_answer(const WorkAnswer& answer) {
   return TaskAnswer::refused(kind, answer.failure->text);
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

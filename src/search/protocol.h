@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "metrics/metrics.h"
 #include "optim/problem.h"
 #include "optim/worker.h"
 
-namespace papilla {
+namespace papilla::search {
 
 // Raised when the meaning or the order of what is encoded changes: part of the journal's key.
 constexpr int kProtocol = 4;
@@ -120,4 +121,4 @@ std::optional<Judgement> decode_judgement(const Bytes& bytes);
 // The answer of a worker, or why there is none.
 TaskAnswer task_answer(const WorkAnswer& answer);
 
-}  // namespace papilla
+}  // namespace papilla::search

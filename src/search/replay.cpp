@@ -9,7 +9,7 @@
 #include "base/files.h"
 #include "search/folder.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 TaskRequest search_key(const Point& unit) { return {Stage::Search, 0, false, unit}; }
@@ -188,4 +188,4 @@ JudgedDesigns Replay::judged(const std::vector<Point>& units, Stage stage) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

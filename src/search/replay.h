@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "optim/journal.h"
 #include "optim/worker.h"
 #include "search/problem.h"
 #include "search/protocol.h"
 
-namespace papilla {
+namespace papilla::search {
 
 // The search has one record per design, under the request of its first task: its judgement. Every
 // other stage has one per task: its answer.
@@ -85,4 +86,4 @@ class Replay {
   int fresh_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "optim/problem.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 double parse_number(const std::string& text, const std::string& whole) {
@@ -133,4 +133,4 @@ std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, do
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

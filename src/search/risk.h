@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::search {
 
 // Eq. search.4-6
 struct Risk {
@@ -26,4 +28,4 @@ std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, do
                                      const std::vector<double>& lower,
                                      const std::vector<double>& upper);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -16,7 +16,7 @@
 #include "search/stages.h"
 #include "search/task.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // A rule that no front could meet is refused before the search.
@@ -184,4 +184,4 @@ OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
   return std::move(run.result);
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -8,13 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "forward/response.h"
 #include "search/problem.h"
 #include "search/protocol.h"
 #include "search/sensitivity.h"
 #include "search/stability.h"
 
-namespace papilla {
+namespace papilla::search {
 
 struct Progress {
   std::string stage;  // "draft", "search", "narrow", "confirm", "check"
@@ -87,4 +88,4 @@ struct OptimiseOptions {
 // return an empty result.
 OptimiseResult optimise(const Study& study, const OptimiseOptions& options);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -10,7 +10,7 @@
 #include "base/statistics.h"
 #include "estimate/parameters.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 using Numbers = std::vector<std::vector<double>>;  // [task][number that an objective is made of]
@@ -246,4 +246,4 @@ bool no_better(const std::vector<StudyObjective>& objectives, const Score& desig
   return true;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "search/objectives.h"
 #include "search/protocol.h"
 
-namespace papilla {
+namespace papilla::search {
 
 // A design judged: objectives in the user's sign, over all tasks.
 struct Score {
@@ -62,4 +63,4 @@ double difference_error(const Score& score, const Score& other, std::size_t obje
 bool no_better(const std::vector<StudyObjective>& objectives, const Score& design,
                const Score& other);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -5,7 +5,7 @@
 #include "search/levels.h"
 #include "search/stages.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 class Searching {
@@ -110,4 +110,4 @@ bool search_designs(Run& run) {
   return true;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 constexpr double kStep = 0.05;           // of a variable's range
@@ -79,4 +79,4 @@ std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const 
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

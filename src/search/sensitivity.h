@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "search/problem.h"
 
-namespace papilla {
+namespace papilla::search {
 
 struct VariableSensitivity {
   std::size_t variable = 0;
@@ -34,4 +35,4 @@ std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const 
                                              const Score& at_centre,
                                              const std::vector<Score>& moved);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -5,7 +5,7 @@
 
 #include "design/families.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // Shallower relief is none: polished glass is as rough, and no process holds such a depth [m].
@@ -170,4 +170,4 @@ std::optional<Point> DesignSpace::flattened(const Point& unit) const {
   return std::nullopt;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -4,11 +4,12 @@
 #include <optional>
 #include <vector>
 
+#include "base/rooms.h"
 #include "config/describe.h"
 #include "design/study.h"
 #include "optim/problem.h"
 
-namespace papilla {
+namespace papilla::search {
 
 class DesignSpace {
  public:
@@ -48,4 +49,4 @@ class DesignSpace {
   Point own_value_;  // of the study's own design
 };
 
-}  // namespace papilla
+}  // namespace papilla::search

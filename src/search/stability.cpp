@@ -5,7 +5,7 @@
 
 #include "estimate/voltage.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 struct Variant {
@@ -109,4 +109,4 @@ Stability judge_stability(const StudyProblem& problem,
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

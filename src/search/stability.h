@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "search/problem.h"
 #include "search/protocol.h"
 
-namespace papilla {
+namespace papilla::search {
 
 struct StabilityVariant {
   std::string name;                         // "finger rough", "first droplet step 50 nm"
@@ -41,4 +42,4 @@ Stability judge_stability(const StudyProblem& problem,
                           const std::vector<std::vector<TaskAnswer>>& answers,
                           double tolerance = 0.01);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -4,12 +4,13 @@
 #include <chrono>
 #include <string>
 
+#include "base/rooms.h"
 #include "optim/mpi.h"
 #include "search/folder.h"
 #include "search/replay.h"
 #include "search/run.h"
 
-namespace papilla {
+namespace papilla::search {
 
 struct Run {
   // Refuses what can be refused before anything is written. Throws InputError.
@@ -59,4 +60,4 @@ bool confirm(Run& run);
 // models, what is the texture's, what the variables and the fit of the finger do.
 bool check(Run& run);
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -12,7 +12,7 @@
 #include "search/levels.h"
 #include "search/stability.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // Steps of the parameters of confirmed designs: skins over all fingers, pixels.
@@ -162,7 +162,7 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
   const std::vector<PointTrouble> troubles = response.troubles();
   if (std::any_of(troubles.begin(), troubles.end(),
                   [](const PointTrouble& t) { return t.status.pull_in(); }))
-    return TaskAnswer::refused(Kind::NoEquilibrium, task.name + ", " + papilla::text(troubles));
+    return TaskAnswer::refused(Kind::NoEquilibrium, task.name + ", " + forward::text(troubles));
   if (!goals.voltage_targets.empty())
     add_voltages(response, scene, d.texture, work.fidelity, goals.voltage_targets);
   if (work.confirmed && task.nominal() && d.accuracy.parameters &&
@@ -212,4 +212,4 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
   };
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

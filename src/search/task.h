@@ -4,11 +4,12 @@
 #include <functional>
 #include <string>
 
+#include "base/rooms.h"
 #include "forward/fidelity.h"
 #include "search/problem.h"
 #include "search/protocol.h"
 
-namespace papilla {
+namespace papilla::search {
 
 // A response as the text that reports of confirmed designs are made of.
 using ResponseText = std::function<std::string(const Response&)>;
@@ -32,4 +33,4 @@ TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std
 // What a worker does: a request in, an answer out. Refers to the problem.
 Work work_function(const StudyProblem& problem, int threads, const ResponseText& text);
 
-}  // namespace papilla
+}  // namespace papilla::search

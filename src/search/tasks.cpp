@@ -9,7 +9,7 @@
 #include "config/describe.h"
 #include "design/families.h"
 
-namespace papilla {
+namespace papilla::search {
 namespace {
 
 // A frequency that no task feels is no variable.
@@ -99,4 +99,4 @@ std::string frequency_not_felt(const Design& design) {
          "(finger.electrical.corner_frequency is 0)";
 }
 
-}  // namespace papilla
+}  // namespace papilla::search

@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "design/study.h"
 
-namespace papilla {
+namespace papilla::search {
 
 // One finger in one scenario, as designed or with one number at an end of its scatter: the unit of
 // work.
@@ -36,4 +37,4 @@ std::string shape_trouble(const Study& study, const std::vector<StudyTask>& task
 // Why drive.frequency changes nothing on this design; "" where it may.
 std::string frequency_not_felt(const Design& design);
 
-}  // namespace papilla
+}  // namespace papilla::search

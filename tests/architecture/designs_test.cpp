@@ -7,7 +7,7 @@
 #include "report/reference.h"
 #include "tests/architecture/source_tree.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Designs, AllRead) {
@@ -43,4 +43,4 @@ TEST(Reference, PagesAreUpToDate) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

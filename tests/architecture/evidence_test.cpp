@@ -8,7 +8,7 @@
 #include "config/node.h"
 #include "tests/architecture/source_tree.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -86,4 +86,4 @@ TEST(Evidence, EveryEntrySaysHowFromWhatAndWhenItWasMade) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -4,7 +4,7 @@
 
 #include "tests/architecture/source_tree.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Sources, AreFormattedByClangFormat) {
@@ -35,4 +35,4 @@ TEST(Sources, HaveNoUnfinishedMarks) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::tests {
 
 inline std::string read_source(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -38,4 +40,4 @@ inline std::vector<std::string> source_files(const std::vector<std::string>& fol
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::shared_ptr<const int> value_of(Cache<int, int>& cache, int key, double weight = 1) {
@@ -33,4 +33,4 @@ TEST(Cache, KeepsWhatItsWeightAllowsAndTheNewestAlways) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

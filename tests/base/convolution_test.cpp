@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Convolution, EqualsItsTransformsToRounding) {
@@ -53,4 +53,4 @@ TEST(Convolution, EqualsItsTransformsToRounding) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -8,7 +8,7 @@
 #include "base/random.h"
 #include "base/statistics.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Quadrature, GaussLegendreIsExactForDegree2nMinus1) {
@@ -65,4 +65,4 @@ TEST(ParallelFor, RethrowsTheLowestFailure) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -5,7 +5,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Units, KnowTheUnitsOfTheField) {
@@ -43,4 +43,4 @@ TEST(Units, WrittenQuantitiesReadBackToTheSameDouble) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

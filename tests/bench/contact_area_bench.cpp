@@ -16,7 +16,7 @@
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 struct AreaErrorRow {
@@ -200,13 +200,13 @@ std::string area_error_csv(const std::vector<AreaErrorRow>& rows) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests
 
 int main() {
-  papilla::keep_freed_memory();
-  std::vector<papilla::AreaErrorRow> rows;
+  papilla::tests::keep_freed_memory();
+  std::vector<papilla::tests::AreaErrorRow> rows;
   for (const char* scene : {"loaded", "light"}) {
-    for (const auto& row : papilla::area_error_against_time(scene, {.skins = 4})) {
+    for (const auto& row : papilla::tests::area_error_against_time(scene, {.skins = 4})) {
       rows.push_back(row);
     }
   }

@@ -19,7 +19,7 @@
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // Of this process alone: other work on the machine does not count.
@@ -287,17 +287,17 @@ void sequence(int n) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests
 
 int main(int argc, char** argv) {
-  papilla::keep_freed_memory();
+  papilla::tests::keep_freed_memory();
   const std::string part = argc > 1 ? argv[1] : "all";
   const int smallest = argc > 2 ? std::atoi(argv[2]) : 256;
   const int largest = argc > 3 ? std::atoi(argv[3]) : 512;
   fmt::print("scene,n,method,tolerance,contact,pairs,pair_times,seconds,certificate\n");
   for (int n = smallest; n <= largest; n *= 2) {
-    if (part == "finger" || part == "all") papilla::finger_scenes(n);
-    if (part == "rough" || part == "all") papilla::dense_scenes(n);
-    if (part == "sequence" || part == "all") papilla::sequence(n);
+    if (part == "finger" || part == "all") papilla::tests::finger_scenes(n);
+    if (part == "rough" || part == "all") papilla::tests::dense_scenes(n);
+    if (part == "sequence" || part == "all") papilla::tests::sequence(n);
   }
 }

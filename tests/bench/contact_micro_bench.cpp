@@ -10,7 +10,7 @@
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 struct Scene {
@@ -99,10 +99,10 @@ void area(benchmark::State& state) {
 BENCHMARK(area)->RangeMultiplier(2)->Range(128, 512)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests
 
 int main(int argc, char** argv) {
-  papilla::keep_freed_memory();
+  papilla::tests::keep_freed_memory();
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

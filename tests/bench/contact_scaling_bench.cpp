@@ -20,7 +20,7 @@
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 double wall() {
@@ -124,10 +124,10 @@ void threads() {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests
 
 int main(int argc, char** argv) {
-  papilla::grids(argc > 1 ? std::atoi(argv[1]) : 4096);
-  papilla::keep_freed_memory();
-  papilla::threads();
+  papilla::tests::grids(argc > 1 ? std::atoi(argv[1]) : 4096);
+  papilla::tests::keep_freed_memory();
+  papilla::tests::threads();
 }

@@ -11,7 +11,7 @@
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 class Pairs {
@@ -98,15 +98,15 @@ void light(int n, std::uint64_t seed, Pairs& pairs) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests
 
 int main() {
-  papilla::Pairs pairs;
+  papilla::tests::Pairs pairs;
   for (int n : {64, 128, 256}) {
-    papilla::rough(n, pairs);
+    papilla::tests::rough(n, pairs);
     for (std::uint64_t seed : {1, 2, 3}) {
-      papilla::finger(n, seed, pairs);
-      papilla::light(n, seed, pairs);
+      papilla::tests::finger(n, seed, pairs);
+      papilla::tests::light(n, seed, pairs);
     }
   }
   pairs.print();

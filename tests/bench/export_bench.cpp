@@ -45,17 +45,17 @@ double median(std::vector<double> values) {
 int main(int argc, char** argv) {
   const int pixels = argc > 1 ? std::atoi(argv[1]) : 8192;
   const int pairs = argc > 2 ? std::atoi(argv[2]) : 7;
-  papilla::HoleArray holes;
+  papilla::tests::HoleArray holes;
   holes.wall_angle = 1.2;
-  const papilla::Texture texture{holes};
-  const papilla::Heightmap h =
-      papilla::generate(texture, papilla::patch_grid(texture, pixels, 240e-6));
+  const papilla::tests::Texture texture{holes};
+  const papilla::tests::Heightmap h =
+      papilla::tests::generate(texture, papilla::tests::patch_grid(texture, pixels, 240e-6));
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / "papilla-export-bench";
   std::filesystem::create_directories(folder);
   const std::string ours = folder / "ours.exr", theirs = folder / "theirs.exr";
 
-  papilla::write_exr(ours, h, {});
+  papilla::tests::write_exr(ours, h, {});
   std::vector<float> floats(h.z.size());
   const auto in = OIIO::ImageInput::open(ours);
   if (!in || !in->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, floats.data()))
@@ -72,9 +72,9 @@ int main(int argc, char** argv) {
   std::vector<double> walls, processors;
   for (int pair = 0; pair < pairs; ++pair) {
     Cost a, b;
-    if (pair % 2 == 0) a = cost_of([&] { papilla::write_exr(ours, h, {}); });
+    if (pair % 2 == 0) a = cost_of([&] { papilla::tests::write_exr(ours, h, {}); });
     b = cost_of(write_theirs);
-    if (pair % 2 == 1) a = cost_of([&] { papilla::write_exr(ours, h, {}); });
+    if (pair % 2 == 1) a = cost_of([&] { papilla::tests::write_exr(ours, h, {}); });
     std::printf("exporter %.2f s (processor %.2f s), OpenImageIO's write %.2f s (%.2f s)\n", a.wall,
                 a.processor, b.wall, b.processor);
     walls.push_back(a.wall / b.wall);

@@ -11,7 +11,7 @@
 #include "report/accuracy.h"
 
 int main(int argc, char** argv) {
-  using namespace papilla;
+  using namespace papilla::tests;
   FieldAccuracyOptions options;
   if (argc > 3) {
     options.pixels = std::atoi(argv[1]);

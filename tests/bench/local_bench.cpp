@@ -14,7 +14,7 @@
 #include "base/random.h"
 #include "optim/search.h"
 
-using namespace papilla;
+using namespace papilla::tests;
 
 namespace {
 

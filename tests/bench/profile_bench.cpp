@@ -8,7 +8,7 @@
 #include "forward/forward.h"
 
 int main() {
-  using namespace papilla;
+  using namespace papilla::tests;
   keep_freed_memory();
   const Study study = read_study(design_roots().front() + "/electroadhesive_glass/study.toml");
   fmt::print(

@@ -41,7 +41,7 @@
 #include "search/problem.h"
 #include "search/task.h"
 
-using namespace papilla;
+using namespace papilla::tests;
 
 namespace {
 

@@ -22,7 +22,7 @@
 
 namespace {
 
-using namespace papilla;
+using namespace papilla::tests;
 
 constexpr int kSkins = 16;
 

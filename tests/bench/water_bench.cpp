@@ -14,7 +14,7 @@
 
 namespace {
 
-using namespace papilla;
+using namespace papilla::tests;
 
 // Of the processor, on one thread: waiting for it does not count.
 template <class Work>

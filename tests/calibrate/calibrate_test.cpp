@@ -15,7 +15,7 @@
 #include "forward/forward.h"
 #include "report/fit.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr const char* kHeader =
@@ -104,7 +104,7 @@ TEST_F(Calibrate, PlantedParametersAreFoundWithinTheirIntervals) {
   CalibrationOptions options;
   options.check = false;
   options.threads = 1;
-  const CalibrationResult r = calibrate(calibration, options);
+  const CalibrationResult r = fit_finger(calibration, options);
   EXPECT_TRUE(r.fit.converged) << r.fit.message;
   EXPECT_GT(r.chi2_before, 100);
   // Not zero as at the planted values (below): droplets jump from hollow to hollow, so that the sum
@@ -133,7 +133,7 @@ TEST_F(Calibrate, AtThePlantedValuesNothingIsLeft) {
     CalibrationOptions options;
     options.check = false;
     options.threads = 1;
-    const CalibrationResult r = calibrate(calibration, options);
+    const CalibrationResult r = fit_finger(calibration, options);
     EXPECT_LT(r.chi2_before, 1e-9) << level;  // eight digits in the table
     EXPECT_NEAR(r.fit.parameters[0].value, 0.009, 1e-8) << level;
   }
@@ -160,7 +160,7 @@ skins = 4
   CalibrationOptions options;
   options.check = false;
   options.threads = 1;
-  const CalibrationResult r = calibrate(read(file), options);
+  const CalibrationResult r = fit_finger(read(file), options);
   ASSERT_EQ(r.fit.directions.size(), 2u);
   EXPECT_GT(r.fit.directions[0].singular_value, 3);
   EXPECT_LT(r.fit.directions[1].singular_value, 1);
@@ -248,7 +248,7 @@ skins = 4
   const Calibration calibration = read(file);
   CalibrationOptions options;
   options.check = false;
-  const CalibrationResult r = calibrate(calibration, options);
+  const CalibrationResult r = fit_finger(calibration, options);
   EXPECT_NE(calibration_warning(r).find("does not explain the data"), std::string::npos);
   EXPECT_NE(calibration_markdown(calibration, r).find("Warning: "), std::string::npos);
   EXPECT_NE(calibration_json(calibration, r).find("does not explain"), std::string::npos);
@@ -284,4 +284,4 @@ TEST_F(Calibrate, TheReferenceFitReadsAndHoldsOutMoreThanItFits) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

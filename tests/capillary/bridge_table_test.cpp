@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr double kDegree = kPi / 180;
@@ -57,4 +57,4 @@ TEST(BridgeTable, ScalesWithVolumeAndTension) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -14,7 +14,7 @@
 #include "physics/capillary/bridge_table.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr double kDegree = kPi / 180;
@@ -172,4 +172,4 @@ TEST(SphereBridge, AgreesWithTheReferenceTable) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

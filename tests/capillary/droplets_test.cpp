@@ -13,7 +13,7 @@
 #include "physics/capillary/bridge.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr double kPatch = 12e-6;
@@ -382,4 +382,4 @@ TEST(Threshold, FillsTheStatedVolumeInAWedge) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "physics/capillary/droplets.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr double kPatch = 12e-6, kDegree = kPi / 180;
@@ -164,4 +164,4 @@ TEST(Rims, DropsAtTheFootOfAWallCreepAwayBelow45Degrees) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -7,7 +7,7 @@
 
 #include "geometry/io/files.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::string output(const std::string& arguments, int& status) {
@@ -96,4 +96,4 @@ TEST(SolveDroplets, TakesGapAndWaterFromADesign) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

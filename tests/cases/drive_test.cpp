@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "report/drive.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const std::string kFingertip = PAPILLA_SOURCE_DIR "/designs/physics/fingertip_drive.toml";
@@ -117,4 +117,4 @@ TEST(DriveFile, WritesTablesAndAPicture) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

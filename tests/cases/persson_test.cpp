@@ -5,7 +5,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const std::string kWrist = PAPILLA_SOURCE_DIR "/designs/physics/wrist_on_glass.toml";
@@ -57,4 +57,4 @@ TEST(MeanFieldFile, MistakesAreNamedWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "report/claims.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Reproduce, TheoryClaimsEndInTheirKnownVerdicts) {
@@ -68,4 +68,4 @@ TEST(Reproduce, TablesHaveARowAClaim) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

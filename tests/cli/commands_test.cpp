@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const std::string kSample = PAPILLA_SOURCE_DIR "/designs/m3_samples/a3h600.toml";
@@ -452,4 +452,4 @@ TEST(Reproduce, GivesTheDocumentedJsonAndTables) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -3,7 +3,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const std::string kStudy = PAPILLA_TEST_DATA "/study/tiny.toml";
@@ -97,4 +97,4 @@ TEST(Optimize, AnInterruptEndsTidilyAndIsResumed) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -10,7 +10,9 @@
 #include <sstream>
 #include <string>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::tests {
 
 struct Outcome {
   int status = 0;
@@ -70,4 +72,4 @@ class Workplace {
   std::filesystem::path path_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(AlignedTables, AreAsWideAsTheirCells) {
@@ -74,4 +74,4 @@ TEST(Colours, AreForTerminalsAndStopAtNoColor) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -7,7 +7,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // A fenced block: ```toml NAME is a file, ```sh are commands, ```sh exit=2 ones that fail so, a
@@ -58,4 +58,4 @@ TEST(Tutorial, EveryBlockWorksAsWritten) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

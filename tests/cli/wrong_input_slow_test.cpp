@@ -5,7 +5,7 @@
 
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 struct WrongFile {
@@ -143,4 +143,4 @@ TEST(WrongCommandLine, IsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -10,7 +10,7 @@
 #include "scene/environment.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -305,4 +305,4 @@ TEST(Describe, EveryRowHasUnitRangeDefaultAndSource) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -13,7 +13,7 @@
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Area, OfASphereIsHertzsWhereverItLiesBetweenThePixels) {
@@ -168,4 +168,4 @@ TEST(Area, RefinementOfMuchContactSaysNo) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

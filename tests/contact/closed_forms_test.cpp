@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const LayeredSolid kHalfSpace{1e6, 0, 0, 1e6, 0};
@@ -134,4 +134,4 @@ TEST(ClosedForms, AdhesiveSpheresPullOffWhereTheirForceIsLeast) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

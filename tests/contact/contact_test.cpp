@@ -11,7 +11,7 @@
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const LayeredSolid kHalfSpace{1e6, 0, 0, 1e6, 0};
@@ -270,4 +270,4 @@ TEST(Contact, AWarmStartGivesTheSameAnswer) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

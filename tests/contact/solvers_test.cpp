@@ -8,7 +8,7 @@
 #include "geometry/roughness.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // The paper's uniform preload: light contact, 2-4e-4 of the patch.
@@ -244,4 +244,4 @@ TEST(Hardness, ASoftSurfaceFlowsUntilItsAreaCarriesTheLoad) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

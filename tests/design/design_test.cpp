@@ -8,7 +8,7 @@
 #include "config/writer.h"
 #include "design/study.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -170,4 +170,4 @@ TEST(Design, AHoleLargerThanItsPeriodIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

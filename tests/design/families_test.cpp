@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "search/problem.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Study family_study() {
@@ -47,13 +47,15 @@ TEST(Family, OneVariableActsOnEveryKindThatHasTheMeasure) {
   const Study study = family_study();
   const StudyProblem problem(study);
   ASSERT_EQ(problem.space().size(), 5u);
-  const Design pillars = problem.space().design(unit_of(problem, "pillar_array", 5e-6, 2e-6, 800e-9));
+  const Design pillars =
+      problem.space().design(unit_of(problem, "pillar_array", 5e-6, 2e-6, 800e-9));
   ASSERT_EQ(texture_name(pillars.texture), "pillar_array");
   EXPECT_NEAR(std::get<PillarArray>(pillars.texture.kind).height, 800e-9, 1e-15);
   const Design grating = problem.space().design(unit_of(problem, "grating", 5e-6, 2e-6, 800e-9));
   EXPECT_NEAR(std::get<Grating>(grating.texture.kind).width, 2e-6, 1e-15);
-  EXPECT_EQ(texture_name(problem.space().design(unit_of(problem, "flat", 5e-6, 2e-6, 8e-7)).texture),
-            "flat");
+  EXPECT_EQ(
+      texture_name(problem.space().design(unit_of(problem, "flat", 5e-6, 2e-6, 8e-7)).texture),
+      "flat");
   // The study's own design, each other kind; the flat surface is one of them.
   EXPECT_EQ(problem.space().starts().size(), 4u);
 }
@@ -83,8 +85,8 @@ TEST(Family, AtDepthZeroPeriodAndDiameterCollapseWithoutKindsToo) {
     return problem.space().snapped(problem.space().unit({period, diameter, 0, 0.9}));
   };
   EXPECT_EQ(flat(4e-6, 1e-6), flat(9e-6, 5e-6));
-  EXPECT_NEAR(problem.space().value(flat(4e-6, 1e-6))[0], study.design.texture == Texture{} ? 0 : 6e-6,
-              1e-15);
+  EXPECT_NEAR(problem.space().value(flat(4e-6, 1e-6))[0],
+              study.design.texture == Texture{} ? 0 : 6e-6, 1e-15);
 }
 
 TEST(Family, LevelsCutAStackAndUnusedLevelsCollapse) {
@@ -121,4 +123,4 @@ TEST(Family, WrongKindsAndLevelsAreReported) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -12,7 +12,7 @@
 #include "physics/drive/signal.h"
 #include "physics/drive/stiction.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::vector<std::vector<double>> table(const std::string& name) {
@@ -270,4 +270,4 @@ TEST(Onset, FrictionOfAPatchInStaticContactIsItsAdhesionAlone) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -12,7 +12,7 @@
 #include "physics/electrostatics/screening.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 FieldProblem oxide(double v_peak, double thickness = 500e-9) {
@@ -409,4 +409,4 @@ TEST(Electrowetting, TheCycleMeanOfTheSaturatedLawIsBelowTheLawAtTheRmsVoltage) 
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

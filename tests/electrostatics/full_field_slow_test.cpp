@@ -6,7 +6,7 @@
 #include "physics/electrostatics/full_field.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // Mean of the squared field on the skin [1/m^2].
@@ -76,4 +76,4 @@ TEST(FullField, HoleArraysMatchFiniteVolumes) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

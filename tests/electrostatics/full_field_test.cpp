@@ -8,7 +8,7 @@
 #include "physics/electrostatics/field.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // Mean of the squared field on the skin [1/m^2].
@@ -219,4 +219,4 @@ TEST(FullField, TheStatedEdgeRadiusRaisesTheFieldInTheDielectricBehindWalls) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -7,7 +7,7 @@
 #include "base/constants.h"
 #include "tests/electrostatics/table.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const LossyLayer kSkin{200e-6, 2000, 2e4};
@@ -63,4 +63,4 @@ TEST(LossyLayers, TheSkinRelaxesInTheStatedTime) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -7,7 +7,7 @@
 #include "geometry/io/files.h"
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(SolveField, AFlatGapIsTheSeriesCapacitor) {
@@ -28,4 +28,4 @@ TEST(SolveField, AFlatGapIsTheSeriesCapacitor) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

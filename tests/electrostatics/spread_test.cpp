@@ -8,7 +8,7 @@
 #include "physics/electrostatics/full_field.h"
 #include "physics/electrostatics/screening.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 FieldProblem glass() {
@@ -169,4 +169,4 @@ TEST(SpreadField, ABareElectrodeInContactIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

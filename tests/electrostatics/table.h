@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::tests {
 
 using Row = std::map<std::string, std::string>;
 
@@ -39,4 +41,4 @@ inline std::vector<Row> read_table(const std::string& name) {
   return rows;
 }
 
-}  // namespace papilla
+}  // namespace papilla::tests

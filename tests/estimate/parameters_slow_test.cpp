@@ -10,7 +10,7 @@
 #include "estimate/parameters.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
@@ -58,4 +58,4 @@ TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

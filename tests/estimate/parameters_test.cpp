@@ -10,7 +10,7 @@
 #include "design/design.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Response of_modulation(const std::vector<double>& values) {
@@ -145,4 +145,4 @@ TEST(Parameters, AFingerOfUnknownUncertaintySaysSo) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

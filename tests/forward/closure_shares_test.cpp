@@ -9,7 +9,7 @@
 #include "forward/scale_bridge.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const Grid kGrid{64, 64, 12e-6, 12e-6};
@@ -95,4 +95,4 @@ TEST(ClosureShares, TheOverLimitShareIsOfThePullOfAllPatches) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -11,7 +11,7 @@
 #include "geometry/roughness.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Scene driven_scene() {
@@ -395,4 +395,4 @@ TEST(Response, TheTroubleOfEveryHumidityIsTold) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

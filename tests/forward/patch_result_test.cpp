@@ -5,7 +5,7 @@
 
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // Every member another number, by its place in the table.
@@ -59,4 +59,4 @@ TEST(PatchMembers, OfPatchPressuresAreWeightedByTheirShares) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

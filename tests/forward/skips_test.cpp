@@ -14,7 +14,7 @@
 #include "measure/coverage.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Fidelity small() {
@@ -167,4 +167,4 @@ TEST(SkipBounds, HoldForKelvinCondensation) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

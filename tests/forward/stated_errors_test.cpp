@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "forward/forward.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 using Member = Measured PointQuantities::*;
@@ -141,4 +141,4 @@ TEST(StatedErrors, TheLoadLawOfTheModulationIsJudgedInTheLimit) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -6,7 +6,7 @@
 
 #include "forward/response.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr int kTroubles = static_cast<int>(Trouble::FullContact) + 1;
@@ -50,4 +50,4 @@ TEST(Status, AVoltageThatIsNotReachedNamesWhatCameFirst) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -18,7 +18,7 @@
 #include "base/random.h"
 #include "tests/fuzz/study_targets.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr unsigned kHangSeconds = 20;
@@ -156,4 +156,4 @@ TEST(Fuzz, ReadersReturnOrRefuse) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

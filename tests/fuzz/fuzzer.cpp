@@ -15,17 +15,17 @@
 
 namespace {
 
-const papilla::FuzzTarget& target() {
-  static const papilla::FuzzTarget chosen = [] {
+const papilla::tests::FuzzTarget& target() {
+  static const papilla::tests::FuzzTarget chosen = [] {
     std::string folder =
         std::filesystem::temp_directory_path() / ("papilla-fuzzer-" + std::string(6, 'X'));
     if (mkdtemp(folder.data()) == nullptr) std::abort();
 #ifdef PAPILLA_FUZZ_STUDY
-    std::vector<papilla::FuzzTarget> targets = papilla::study_targets(folder);
+    std::vector<papilla::tests::FuzzTarget> targets = papilla::tests::study_targets(folder);
 #else
-    std::vector<papilla::FuzzTarget> targets = papilla::file_targets(folder);
+    std::vector<papilla::tests::FuzzTarget> targets = papilla::tests::file_targets(folder);
 #endif
-    for (papilla::FuzzTarget& t : targets) {
+    for (papilla::tests::FuzzTarget& t : targets) {
       if (t.name == PAPILLA_FUZZ_TARGET) return t;
     }
     std::abort();
@@ -40,7 +40,7 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
   if (const char* folder = std::getenv("PAPILLA_FUZZ_SEEDS")) {
     int number = 0;
     for (const std::string& seed : target().seeds)
-      papilla::write_bytes(std::string(folder) + "/seed" + std::to_string(number++), seed);
+      papilla::tests::write_bytes(std::string(folder) + "/seed" + std::to_string(number++), seed);
   }
   return 0;
 }
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerInitialize(int*, char***) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     target().read(std::string(reinterpret_cast<const char*>(data), size));
-  } catch (const papilla::InputError&) {  // anything else ends the run
+  } catch (const papilla::tests::InputError&) {  // anything else ends the run
   }
   return 0;
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "calibrate/calibrate.h"
 #include "claims/claim.h"
 #include "config/describe.h"
@@ -12,7 +13,7 @@
 #include "search/protocol.h"
 #include "tests/fuzz/targets.h"
 
-namespace papilla {
+namespace papilla::tests {
 
 inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
   std::vector<FuzzTarget> out;
@@ -74,4 +75,4 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -12,12 +12,13 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/rooms.h"
 #include "config/node.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
 
-namespace papilla {
+namespace papilla::tests {
 
 struct FuzzTarget {
   std::string name;
@@ -87,4 +88,4 @@ inline std::vector<FuzzTarget> file_targets(const std::string& folder) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::tests

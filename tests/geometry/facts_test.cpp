@@ -9,7 +9,7 @@
 #include "geometry/io/files.h"
 #include "geometry/texture.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::pair<double, double> extent(const Texture& t) {
@@ -152,4 +152,4 @@ TEST(Facts, OutlinesAreThoseThatALayoutCanDraw) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -14,7 +14,7 @@
 #include "base/files.h"
 #include "geometry/texture.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 struct GdsRecord {
@@ -187,4 +187,4 @@ TEST(Stl, IsAClosedBodyOfTheRightVolume) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -11,7 +11,7 @@
 #include "geometry/io/files.h"
 #include "geometry/texture.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr double kWidth = 20e-6, kHeight = 16e-6, kPatch = 12e-6;
@@ -87,4 +87,4 @@ TEST(MeasuredMap, RepeatsWithoutAStep) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -8,7 +8,7 @@
 #include "geometry/texture.h"
 #include "geometry/textures/particle_film.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 ParticleFilm equal_spheres(double embedding) {
@@ -47,4 +47,4 @@ TEST(Particles, HaveTheVolumeOfTheirCaps) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -12,7 +12,7 @@
 #include "geometry/roughness.h"
 #include "geometry/textures/particle_film.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 double mean(const Heightmap& h) {
@@ -220,4 +220,4 @@ TEST(Measured, HeightsInAnotherUnitAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -7,7 +7,7 @@
 
 #include "base/files.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::set<std::string> test_names() {
@@ -41,4 +41,4 @@ TEST(HardCaseMap, NamesTestsThatExist) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

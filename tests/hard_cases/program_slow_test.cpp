@@ -7,7 +7,7 @@
 #include "geometry/texture.h"
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const std::string kHead = "schema_version = 1\n";
@@ -242,4 +242,4 @@ TEST(HostileToml, DeepNestingAndLongLinesEnd) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -12,7 +12,7 @@
 #include "measure/coverage.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr int kScenes = 10000;
@@ -124,4 +124,4 @@ TEST(Property, AMirroredOrTransposedContactIsTheSameContact) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

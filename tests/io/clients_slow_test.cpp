@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 using Facts = std::map<std::string, std::string>;
@@ -207,4 +207,4 @@ TEST(Verify, JudgesTheFileAndFailsAboveTheTolerance) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

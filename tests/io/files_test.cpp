@@ -15,7 +15,7 @@
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 class Files : public ::testing::Test {
@@ -189,4 +189,4 @@ TEST_F(Files, HostileFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

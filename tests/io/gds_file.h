@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "base/files.h"
+#include "base/rooms.h"
 
-namespace papilla {
+namespace papilla::tests {
 
 struct GdsPolygon {
   int layer = 0;
@@ -122,4 +123,4 @@ class GdsFile {
   std::string bytes_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -15,7 +15,7 @@
 #include "geometry/texture.h"
 #include "report/export.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::string temporary(const std::string& name) {
@@ -217,4 +217,4 @@ TEST(Outlines, OfARoughSurfaceThereAreNoneAndTheRefusalSaysWhatToTake) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

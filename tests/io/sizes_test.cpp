@@ -8,7 +8,7 @@
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::string temporary(const std::string& name) {
@@ -66,4 +66,4 @@ TEST(Sizes, AnImageInOtherUnitsIsReadInMetres) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -15,7 +15,7 @@
 #include "geometry/texture.h"
 #include "tests/io/gds_file.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::string temporary(const std::string& name) {
@@ -157,4 +157,4 @@ TEST(WrittenMask, DeeperIsWhiteFromHalfTheDepthOn) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 TEST(Fingertip, ASphereOfOneMaterialIsHertz) {
@@ -105,4 +105,4 @@ TEST(Fingertip, RidgesCarryTheWholeLoad) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

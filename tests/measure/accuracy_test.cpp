@@ -13,7 +13,7 @@
 #include "estimate/target.h"
 #include "metrics/metrics.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Scene driven() {
@@ -186,4 +186,4 @@ TEST(AccuracyPage, TheErrorBarsCoverHeldOutScenes) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

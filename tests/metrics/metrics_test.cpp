@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Response response_of(std::vector<double> modulation, std::vector<double> weights = {}) {
@@ -104,4 +104,4 @@ TEST(Metrics, ExpressionsAreReadAndMisspellingsAreNamed) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

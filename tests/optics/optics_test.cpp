@@ -12,7 +12,7 @@
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Texture holes(double period, double diameter, double depth) {
@@ -306,4 +306,4 @@ TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 class JournalFile : public ::testing::Test {
@@ -108,4 +108,4 @@ TEST_F(JournalFile, AnotherStudyOrAnUnaskedResumeIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/random.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 using Values = std::vector<double>;
@@ -116,4 +116,4 @@ TEST(LeastSquares, SenselessParametersAreRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -18,7 +18,7 @@
 
 #include "optim/least_squares.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -196,4 +196,4 @@ TEST(Nist, CertifiedValuesAndStandardErrorsOfAllProblemsFromBothStarts) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

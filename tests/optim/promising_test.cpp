@@ -8,7 +8,7 @@
 #include "optim/pareto.h"
 #include "optim/search.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 SearchProblem box(std::size_t n) {
@@ -162,4 +162,4 @@ TEST(Promising, AFeatureLetsAModelSeeARatio) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -17,7 +17,7 @@
 #include "optim/pareto.h"
 #include "optim/worker.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 SearchProblem box(std::size_t n, std::size_t objectives, int evaluations, double low = 0,
@@ -399,4 +399,4 @@ TEST(Method, WhatCannotDoTheProblemIsRefused) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -11,7 +11,7 @@
 #include "base/quadrature.h"
 #include "tests/persson/table.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 constexpr MeanFieldOptions kPure{.kappa = kPurePersson};
@@ -413,4 +413,4 @@ TEST(GfmdSimulation, AreaIsWithinTenPercent) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

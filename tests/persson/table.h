@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::tests {
 
 struct TableRow {
   std::string name;            // first column as text
@@ -40,4 +42,4 @@ inline std::vector<TableRow> read_table(const std::string& name, bool header) {
   return rows;
 }
 
-}  // namespace papilla
+}  // namespace papilla::tests

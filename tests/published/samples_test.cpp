@@ -6,7 +6,7 @@
 #include "design/design.h"
 #include "published/targets.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 FingerModel small_model() {
@@ -39,4 +39,4 @@ TEST(PublishedTargets, TheGapIsThatOfTheSameCapacitanceBetweenPlates) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

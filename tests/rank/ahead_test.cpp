@@ -6,7 +6,7 @@
 #include "base/statistics.h"
 #include "rank/rank.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // Two samples whose lead the finger's roughness leaves as open as the skins do.
@@ -22,9 +22,9 @@ TEST(Ahead, WhatTheFingerLeavesOpenIsInTheProbability) {
   options.criteria = parse_criteria("friction:low");
   options.states = {FingerState::Clean};
   options.max_skins = 6;
-  const RankedCandidate own = rank(designs, options).states.front().candidates.front();
+  const RankedCandidate own = ranking_of(designs, options).states.front().candidates.front();
   options.parameters = true;
-  const RankedCandidate open = rank(designs, options).states.front().candidates.front();
+  const RankedCandidate open = ranking_of(designs, options).states.front().candidates.front();
   const double lead = open.ahead_of_next.value, finger = *open.ahead_of_next.parameters;
   EXPECT_EQ(lead, own.ahead_of_next.value);
   EXPECT_GT(finger, 0.5 * lead);
@@ -35,4 +35,4 @@ TEST(Ahead, WhatTheFingerLeavesOpenIsInTheProbability) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

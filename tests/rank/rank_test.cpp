@@ -11,7 +11,7 @@
 #include "base/statistics.h"
 #include "report/ranking.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Design sample(const std::string& name) {
@@ -31,7 +31,7 @@ RankOptions by(const std::string& criteria) {
 TEST(Rank, OrdersTheSamplesAsThePaperDoes) {
   // M11: a3h600 is stronger than a4h600 and than a3h900; flat is the strongest of all.
   const std::vector<Design> designs{sample("a4h600"), sample("flat"), sample("a3h600")};
-  const Ranking r = rank(designs, by("modulation:high"));
+  const Ranking r = ranking_of(designs, by("modulation:high"));
   const auto& c = r.states.front().candidates;
   ASSERT_EQ(c.size(), 3u);
   EXPECT_EQ(c[0].index, 1u);
@@ -51,7 +51,7 @@ TEST(Rank, TheLuckOfFewSkinsDoesNotOrder) {
   for (const char* name : {"a3h350", "a3h600", "a3h900", "a4h350", "a4h600"})
     designs.push_back(sample(name));
   for (const char* by_what : {"modulation:high", "modulation:low", "friction:low"}) {
-    const Ranking r = rank(designs, by(by_what));
+    const Ranking r = ranking_of(designs, by(by_what));
     const auto& c = r.states.front().candidates;
     double p = 0;
     for (const RankedCandidate& x : c) {
@@ -67,7 +67,7 @@ TEST(Rank, TheLuckOfFewSkinsDoesNotOrder) {
 
 TEST(Rank, CallsEqualDesignsATie) {
   const std::vector<Design> designs{sample("flat"), sample("flat"), sample("a4h600")};
-  const Ranking r = rank(designs, by("modulation:high"));
+  const Ranking r = ranking_of(designs, by("modulation:high"));
   const auto& c = r.states.front().candidates;
   EXPECT_TRUE(c[0].tied_with_next);
   EXPECT_EQ(c[0].rank, 1);
@@ -82,7 +82,7 @@ TEST(Rank, CallsEqualDesignsATie) {
 
 TEST(Rank, PairingNarrowsTheIntervalOfADifference) {
   const std::vector<Design> designs{sample("flat"), sample("a3h350")};
-  const Ranking r = rank(designs, by("friction:low"));
+  const Ranking r = ranking_of(designs, by("friction:low"));
   const auto& c = r.states.front().candidates;
   const auto width = [](const Interval& i) { return i.high - i.low; };
   EXPECT_LT(width(c[0].ahead_of_next), 0.7 * std::hypot(width(c[0].score), width(c[1].score)));
@@ -97,9 +97,9 @@ TEST(Rank, WhatTheFingerLeavesOpenMovesBothOfADifference) {
   }
   RankOptions options = by("friction:low");
   options.max_skins = 6;
-  const Ranking without = rank(designs, options);
+  const Ranking without = ranking_of(designs, options);
   options.parameters = true;
-  const Ranking with = rank(designs, options);
+  const Ranking with = ranking_of(designs, options);
   const auto& a = without.states.front().candidates;
   const auto& b = with.states.front().candidates;
   EXPECT_EQ(with.directions, 1);
@@ -121,9 +121,9 @@ TEST(Rank, FingersOfUnknownOrOtherUncertaintyAreRefused) {
   RankOptions options = by("modulation:high");
   options.parameters = true;
   designs[1].finger.uncertainty = {{"skin.rms", 0.1, {}}};
-  EXPECT_THROW(rank(designs, options), InputError);
+  EXPECT_THROW(ranking_of(designs, options), InputError);
   for (Design& d : designs) d.finger.uncertainty.clear();
-  EXPECT_THROW(rank(designs, options), InputError);
+  EXPECT_THROW(ranking_of(designs, options), InputError);
 }
 
 TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {
@@ -146,7 +146,7 @@ TEST(Rank, EightCandidatesTakeLessThanHalfOfEqualSampling) {
   }
   RankOptions options = by("friction:low,adhesion:low,compliance:high");
   options.max_skins = 48;
-  const StateRanking r = rank(designs, options).states.front();
+  const StateRanking r = ranking_of(designs, options).states.front();
   EXPECT_LT(r.skins, r.equal_skins / 2);
   for (const RankedCandidate& c : r.candidates) {
     if (&c != &r.candidates.back() && !c.tied_with_next) {
@@ -168,7 +168,7 @@ TEST(Rank, RegionsAreOneCandidate) {
   }
   RankOptions options = by("friction:low,adhesion:low");
   options.batch = 6;
-  const StateRanking r = rank(films, options).states.front();
+  const StateRanking r = ranking_of(films, options).states.front();
   EXPECT_EQ(r.candidates.front().index, 1u);  // the smaller, stiffer particles rub less
   EXPECT_GT(r.candidates.front().p_ahead, 0.99);
   for (const RankedCandidate& c : r.candidates)
@@ -185,7 +185,7 @@ TEST(Rank, OtherConditionsAreRefusedByTheirKeys) {
   options.max_skins = 6;
   std::string message;
   try {
-    rank(designs, options);
+    ranking_of(designs, options);
   } catch (const InputError& e) {
     message = e.what();
   }
@@ -196,7 +196,7 @@ TEST(Rank, OtherConditionsAreRefusedByTheirKeys) {
   EXPECT_EQ(message.find("contact_angle"), std::string::npos);
 
   options.any_conditions = true;
-  const Ranking all_the_same = rank(designs, options);
+  const Ranking all_the_same = ranking_of(designs, options);
   EXPECT_EQ(all_the_same.conditions.size(), 2u);
   const std::vector<std::string> names{"flat", "a4h600"};
   EXPECT_NE(ranking_table(names, options, all_the_same).find("warning: "), std::string::npos);
@@ -221,7 +221,7 @@ TEST(Rank, SaysWhatIsOpenOnceAndThatTheValuesShareTheirSkins) {
   RankOptions options = by("friction:low");
   std::vector<std::string> notes;
   options.note = [&](const std::string& text) { notes.push_back(text); };
-  const Ranking r = rank(designs, options);
+  const Ranking r = ranking_of(designs, options);
   EXPECT_EQ(r.states.front().candidates.front().skins, 24);  // four batches
   EXPECT_EQ(notes.size(), 1u);
   EXPECT_NE(ranking_table({"a", "b"}, options, r).find("share the luck"), std::string::npos);
@@ -235,14 +235,14 @@ TEST(Rank, RefusesWhatHasNoMeaning) {
   EXPECT_FALSE(parse_criteria("variation(modulation)").front().high);
   Design undriven = sample("flat");
   undriven.drive.amplitude = 0;
-  EXPECT_THROW(rank({undriven, undriven}, by("modulation:high")), InputError);
+  EXPECT_THROW(ranking_of({undriven, undriven}, by("modulation:high")), InputError);
 }
 
 TEST(Rank, JsonIsComplete) {
   const std::vector<Design> designs{sample("flat"), sample("a4h600")};
   const RankOptions options = by("modulation:high,friction:low");
-  const auto json =
-      nlohmann::json::parse(ranking_json({"flat", "a4h600"}, options, rank(designs, options)));
+  const auto json = nlohmann::json::parse(
+      ranking_json({"flat", "a4h600"}, options, ranking_of(designs, options)));
   EXPECT_EQ(json["schema"], 1);
   for (const auto& c : json["candidates"]) {
     EXPECT_TRUE(c["score"]["low"].is_number());
@@ -252,4 +252,4 @@ TEST(Rank, JsonIsComplete) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

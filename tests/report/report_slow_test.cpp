@@ -8,7 +8,7 @@
 #include "base/sha256.h"
 #include "tests/cli/program.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // A run that one test of this program makes and all of them read.
@@ -149,4 +149,4 @@ first_skin = 70
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -15,7 +15,7 @@
 #include "report/json.h"
 #include "report/reference.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 std::string written(const std::string& text) {
@@ -80,4 +80,4 @@ TEST(ExportFormats, AreJudgedByTheMostExactFileThereIs) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -8,7 +8,7 @@
 #include "search/problem.h"
 #include "search/task.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 Study transparent_glass(const std::vector<std::string>& overrides = {}) {
@@ -95,4 +95,4 @@ TEST(AppearanceInStudies, AFilledTextureLosesItsHazeAndSaysThatTheFingerFeelsItO
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -12,7 +12,7 @@
 #include "search/run.h"
 #include "search/task.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -127,4 +127,4 @@ TEST(FieldStudy, AConstraintOnAnUnknownMetricIsAMistakeAtItsPlace) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

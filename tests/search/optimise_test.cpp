@@ -16,7 +16,7 @@
 #include "search/run.h"
 #include "search/task.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -530,4 +530,4 @@ TEST(Results, DifferencesAreSaidToBeBetterKnownWhereTheyAre) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

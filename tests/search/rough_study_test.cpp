@@ -9,7 +9,7 @@
 #include "search/problem.h"
 #include "search/run.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const std::string kRough = R"(type = "random_rough"
@@ -114,4 +114,4 @@ TEST(RoughStudy, ASearchMakesAllEvaluationsThatItWasAskedFor) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

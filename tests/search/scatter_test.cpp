@@ -10,7 +10,7 @@
 #include "search/problem.h"
 #include "search/task.h"
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 const std::string kStudy = PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml";
@@ -154,4 +154,4 @@ TEST(Target, TheDistanceIsTheRootMeanSquareOverHumidityAndFingers) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace papilla {
+namespace papilla::tests {
 namespace {
 
 // A flat surface against the deepest holes of the samples, judged by the mean alone: texture never
@@ -34,4 +34,4 @@ TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
 }
 
 }  // namespace
-}  // namespace papilla
+}  // namespace papilla::tests

@@ -9,7 +9,7 @@
 #include "physics/capillary/bridge_system.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 using namespace bridge_branch;
@@ -198,4 +198,4 @@ BridgeLimits bridge_limits(double theta1, double theta2) {
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

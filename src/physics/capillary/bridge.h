@@ -3,7 +3,9 @@
 
 #include <string_view>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::capillary {
 
 enum class BridgeStatus {
   Converged,
@@ -48,4 +50,4 @@ struct BridgeLimits {
 // Cost: about 3 ms.
 BridgeLimits bridge_limits(double theta1, double theta2);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

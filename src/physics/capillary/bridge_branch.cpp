@@ -8,7 +8,7 @@
 #include "physics/capillary/bridge_system.h"
 #include "physics/capillary/water.h"
 
-namespace papilla::bridge_branch {
+namespace papilla::capillary::bridge_branch {
 namespace {
 
 double sinc(double x) {
@@ -215,4 +215,4 @@ bool Branch::accept(const Unknowns& x, double height) {
   return true;
 }
 
-}  // namespace papilla::bridge_branch
+}  // namespace papilla::capillary::bridge_branch

@@ -5,7 +5,9 @@
 #include <array>
 #include <optional>
 
-namespace papilla::bridge_branch {
+#include "base/rooms.h"
+
+namespace papilla::capillary::bridge_branch {
 
 struct Unknowns {
   double r1 = 0;   // contact radius on plate 1
@@ -57,4 +59,4 @@ class Branch {
   Unknowns at_, previous_;
 };
 
-}  // namespace papilla::bridge_branch
+}  // namespace papilla::capillary::bridge_branch

@@ -6,7 +6,7 @@
 #include "physics/capillary/bridge_branch.h"
 #include "physics/capillary/bridge_system.h"
 
-namespace papilla::bridge_branch {
+namespace papilla::capillary::bridge_branch {
 namespace {
 
 using Vector = std::array<double, 4>;  // log r1, p, log arc, log height
@@ -157,4 +157,4 @@ Limit Branch::limit() {
   return LimitSearch(theta1_, theta2_, sign_).from(at_, height_);
 }
 
-}  // namespace papilla::bridge_branch
+}  // namespace papilla::capillary::bridge_branch

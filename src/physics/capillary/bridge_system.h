@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <utility>
 
+#include "base/rooms.h"
 #include "physics/capillary/bridge_branch.h"
 
-namespace papilla::bridge_branch {
+namespace papilla::capillary::bridge_branch {
 
 // Gaussian elimination with partial pivoting; returns the determinant.
 template <std::size_t N>
@@ -50,4 +51,4 @@ System plate_system(const Profile& q, double theta2, double height);
 // Whether unknowns can be those of a surface: finite, lengths positive.
 bool usable(const Unknowns& x);
 
-}  // namespace papilla::bridge_branch
+}  // namespace papilla::capillary::bridge_branch

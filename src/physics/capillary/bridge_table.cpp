@@ -10,7 +10,7 @@
 #include "physics/capillary/bridge_branch.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 BridgeTable::BridgeTable(double theta1, double theta2, int nodes)
     : limits_(bridge_limits(theta1, theta2)) {
@@ -79,4 +79,4 @@ std::shared_ptr<const BridgeTable> bridge_table(double theta1, double theta2) {
   return table;
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -4,9 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/capillary/bridge.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 // Eq. capillary.13: G = h E over u = 1 - sqrt(1 - (h/h_crit)^1.5) is analytic from the slab (u = 0,
 // known in closed form) to the rupture (u = 1), where h is the gap per volume^(1/3): cubic Hermite
@@ -36,4 +37,4 @@ class BridgeTable {
 // The table of an angle pair; each is built once and kept.
 std::shared_ptr<const BridgeTable> bridge_table(double theta1, double theta2);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -5,9 +5,10 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 struct Drop {
   double x = 0, y = 0;                  // centre [m], inside the patch
@@ -67,4 +68,4 @@ void for_pixels(const Grid& g, const Disc& d, Visit&& visit) {
 
 inline Disc disc_of(const Drop& d) { return {d.x, d.y, d.radius}; }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

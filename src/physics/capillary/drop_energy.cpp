@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "physics/capillary/footprint.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 // Slopes of the gap beyond this are walls, not bowls: they are taken as this [rad].
@@ -168,4 +168,4 @@ Drop DropEnergy::placed(double x, double y, double volume, double guess, bool wa
   return d;
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "physics/capillary/bridge_table.h"
@@ -11,7 +12,7 @@
 #include "physics/capillary/gap_table.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 // Eqs. capillary.4-6. Counts how often it was asked for a bridge: one object a solve and thread.
 class DropEnergy {
@@ -61,4 +62,4 @@ class DropEnergy {
   long evaluations_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 void DropHash::build(const std::vector<Drop>& drops) {
   // Cells hold about one drop, and are wide enough for all but a few drops of the end to count as
@@ -73,4 +73,4 @@ void DropHash::collect_overlaps(const std::vector<Drop>& drops, const Drop& d,
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

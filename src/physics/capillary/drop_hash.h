@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/grid.h"
 #include "physics/capillary/drop.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 // Knows drops by their index in a list that the caller keeps; a drop is taken out before it changes
 // and put back after. A search costs the drops of the cells around, about one.
@@ -32,4 +33,4 @@ class DropHash {
   std::vector<int> head_, next_, large_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::capillary

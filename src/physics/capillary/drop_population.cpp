@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 // Members at whose centres a merged drop is tried, the mover among them.
@@ -112,4 +112,4 @@ void DropPopulation::adopt(int i, const Drop& merged) {
   hash_.link(i, merged);
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -3,12 +3,13 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "physics/capillary/drop.h"
 #include "physics/capillary/drop_energy.h"
 #include "physics/capillary/drop_hash.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 class DropPopulation {
  public:
@@ -43,4 +44,4 @@ class DropPopulation {
   int merges_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -5,7 +5,7 @@
 
 #include "physics/capillary/film.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 // From disc to film between these times the limit (Eq. capillary.22).
@@ -213,4 +213,4 @@ Wetting wetting_of(const Gap& gap, const WaterProperties& water, const DropletOp
   return WettingBuilder(gap, water, options, energy, drops).build(volume, wicked);
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -1,10 +1,11 @@
 // Settled drops as the wetting that other physics sees.
 #pragma once
 
+#include "base/rooms.h"
 #include "physics/capillary/drop_population.h"
 #include "physics/capillary/droplets.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 // What there is now, as discs; wide bridges (or all, above the wetted area's limit) as film, Eqs.
 // capillary.15, 22. volume, wicked: all water and that in corners [m^3]. Marks in `drops` what is
@@ -13,4 +14,4 @@ Wetting wetting_of(const Gap& gap, const WaterProperties& water, const DropletOp
                    const DropEnergy& energy, std::vector<Drop>& drops, double volume,
                    double wicked);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -11,7 +11,7 @@
 #include "physics/capillary/settling.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 namespace {
 
@@ -146,4 +146,4 @@ Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterP
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

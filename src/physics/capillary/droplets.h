@@ -6,12 +6,13 @@
 #include <memory>
 #include <vector>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "physics/capillary/rims.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 struct DropletOptions {
   double drops_per_volume = 100e18;  // initial droplets per water volume [1/m^3]
@@ -83,4 +84,4 @@ DropletBand droplet_band(double water_per_area, double mean_gap, double bridge_s
 // sum times the pixel area is capillary_force. A bridge smaller than a pixel acts on the nearest.
 Traction capillary_traction(const Wetting& wetting, const Gap& gap, const WaterProperties& water);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -9,7 +9,7 @@
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 double droplet_error(std::span<const double> water_per_area) {
@@ -58,4 +58,4 @@ const WaterFacts& water_facts(WaterModel model) {
   return kDroplets;
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

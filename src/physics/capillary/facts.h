@@ -3,10 +3,11 @@
 
 #include <span>
 
+#include "base/rooms.h"
 #include "geometry/grid.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 struct WaterFacts {
   const char* method;  // for people: what is computed
@@ -17,4 +18,4 @@ struct WaterFacts {
 };
 const WaterFacts& water_facts(WaterModel model);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -8,7 +8,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 // Length of the zero line of a field in the cell between four pixel centres (marching squares):
@@ -288,4 +288,4 @@ FilmRegions grow_films(const Gap& gap, const std::vector<FilmSource>& sources,
   return Growth(gap, sources, seeds, joins).run(water);
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -5,10 +5,11 @@
 #include <functional>
 #include <vector>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 struct Film {
   std::vector<std::uint8_t> wet;  // per pixel
@@ -63,4 +64,4 @@ FilmRegions grow_films(const Gap& gap, const std::vector<FilmSource>& sources,
 // Labels 1, 2, ... of 4-connected periodic regions of a mask, 0 outside; returns how many.
 int label_regions(const Grid& grid, const std::vector<std::uint8_t>& mask, std::vector<int>& label);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

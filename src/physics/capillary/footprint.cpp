@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 // Changes of the sampling rule in one solve, after which only finer ones count.
@@ -106,4 +106,4 @@ Footprint solve_footprint(const GapTable& table, double x, double y, double volu
   return FootprintSolver(table, x, y, volume).solve(guess);
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

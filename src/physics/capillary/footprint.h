@@ -1,9 +1,10 @@
 // The disc of the gap that holds a bridge's volume.
 #pragma once
 
+#include "base/rooms.h"
 #include "physics/capillary/gap_table.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 struct Footprint {
   double radius;      // [m]
@@ -15,4 +16,4 @@ struct Footprint {
 // the guess was. Cost: 3-6 integrals over discs.
 Footprint solve_footprint(const GapTable& table, double x, double y, double volume, double guess);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

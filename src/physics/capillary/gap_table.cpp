@@ -7,7 +7,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 constexpr std::array<int, 16> kCounts = {8,   12,  16,  24,  32,  48,  64,   96,
@@ -200,4 +200,4 @@ GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule)
   return {sum * inverse, (slope_x * inverse_dx_ + slope_y * inverse_dy_) * inverse};
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 class GapTable {
  public:
@@ -49,4 +50,4 @@ class GapTable {
   std::vector<Node> node_;  // rows of nx + 1 (first column repeated)
 };
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -7,7 +7,7 @@
 #include "physics/capillary/film.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 AngleRange gibbs_range(double theta, double turn) { return {theta, std::min(theta + turn, kPi)}; }
 
@@ -72,4 +72,4 @@ double RimMap::capacity(const Hole& hole, double theta) const {
   return hole.perimeter * fillet.area * square(radius);
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -5,9 +5,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 // Gibbs, Eq. capillary.16: at an edge where the surface turns down by `turn` [rad] a line stays put
 // for every angle against the level it lies on from theta to theta + turn (at most 180 deg).
@@ -60,4 +61,4 @@ class RimMap {
   std::vector<int> label_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 constexpr double kDiagonal = 0.7071067811865476;  // cos 45 deg
@@ -175,4 +175,4 @@ void settle(const Gap& gap, const WaterProperties& water, const DropletOptions& 
   report.final_energy = last;
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -1,10 +1,11 @@
 // Drops walk downhill in energy, merge where they meet, and creep into corners.
 #pragma once
 
+#include "base/rooms.h"
 #include "physics/capillary/drop_population.h"
 #include "physics/capillary/droplets.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 // Eqs. capillary.17, 18: drops on the texture that meet the foot of a wall give their water to its
 // corner, up to what that holds. Returns the water that went there [m^3].
@@ -17,4 +18,4 @@ double wick_into_corners(const Grid& grid, const RimMap& rims, const WaterProper
 void settle(const Gap& gap, const WaterProperties& water, const DropletOptions& options,
             DropEnergy& energy, DropPopulation& drops, SettleReport& report);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

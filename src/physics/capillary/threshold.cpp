@@ -8,7 +8,7 @@
 #include "base/check.h"
 #include "physics/capillary/film.h"
 
-namespace papilla {
+namespace papilla::capillary {
 namespace {
 
 // The smallest gaps that hold `wanted` (sum of gaps); the last pixel counts as a fraction.
@@ -94,4 +94,4 @@ double threshold_shortfall(double water_per_area) {
   return std::clamp(0.60 + 0.05 * std::log(water_per_area / 0.5e-9), 0.0, 0.9);
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -3,11 +3,12 @@
 // bridges.
 #pragma once
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "physics/capillary/water.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 // Eq. capillary.9: the height h_c with volume(gap < h_c) = bridge_volume [m^3];
 // force = gamma C A/h_c + gamma f P with wetted area A and perimeter P (marching squares at h_c).
@@ -21,4 +22,4 @@ Wetting fill_threshold(const Gap& gap, double bridge_volume, const WaterProperti
 // water_per_area [m].
 double threshold_shortfall(double water_per_area);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

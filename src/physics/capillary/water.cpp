@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::capillary {
 
 double wetting_gain(double theta1, double theta2) {
   const double u = kPi / 2 - 0.5 * (theta1 + theta2), d = 0.5 * (theta1 - theta2);
@@ -29,4 +29,4 @@ CapShape cap_shape(double theta) {
   return {radius, radius * rise, foot, theta > kPi / 2 ? radius : foot, 3 / radius};
 }
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -1,7 +1,9 @@
 // Water between two surfaces: surface tension, contact angles, and the closed forms of a drop.
 #pragma once
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::capillary {
 
 struct WaterProperties {
   double surface_tension = 0.072126;            // [N/m]
@@ -27,4 +29,4 @@ struct CapShape {
 };
 CapShape cap_shape(double theta);
 
-}  // namespace papilla
+}  // namespace papilla::capillary

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace papilla {
+namespace papilla::contact {
 
 void ActiveSet::sort(std::vector<std::pair<int, bool>>& members) {
   std::sort(members.begin(), members.end());
@@ -126,4 +126,4 @@ void ActiveSet::substitute(std::size_t m, std::vector<double>& x) const {
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 class ActiveSet {
  public:
@@ -53,4 +54,4 @@ class ActiveSet {
   std::vector<double> matrix_, a_, b_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::contact

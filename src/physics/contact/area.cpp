@@ -3,7 +3,7 @@
 
 #include "physics/contact/area_of_pixels.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 double edge_position(double p, double g, double modulus, double pixel) {
   // (1-d)^1.5 = r sqrt(d) with x = 1-d: x^3 + r^2 x - r^2 = 0, one real root (Cardano), in (0, 1).
@@ -78,4 +78,4 @@ ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& sol
   return AreaOfPixels(kernel, pressure, gap, hardness).measure(contact);
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 // What the estimators sum up over the contact's pixels.
 struct AreaSums {
@@ -112,4 +113,4 @@ class AreaOfPixels {
   double modulus_, cap_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 constexpr std::size_t kLeastWatched = 16;
@@ -109,4 +109,4 @@ std::optional<Watched> watch_near(const StandardProblem& problem, const ContactS
   return watch(std::move(low), wanted, start.pressure);
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -5,9 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 // Pixels, and whether each is taken to touch at first.
 using Watched = std::vector<std::pair<int, bool>>;
@@ -28,4 +29,4 @@ std::optional<Watched> watch_lowest(const StandardProblem& problem, std::span<co
 std::optional<Watched> watch_near(const StandardProblem& problem, const ContactSolution& start,
                                   const WatchLimits& limits);
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -6,7 +6,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 double Westergaard::full_pressure() const { return kPi * modulus * amplitude / period; }
 
@@ -106,4 +106,4 @@ double AdhesiveSphere::tabor(double range) const {
   return std::cbrt(radius * square(work) / (square(modulus) * cube(range)));
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -2,7 +2,9 @@
 // E* in Pa: 1/E* = sum (1 - nu^2)/E over the two surfaces; lengths in m, forces in N.
 #pragma once
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::contact {
 
 // One-dimensional wave h = D cos(2 pi x / l) under a mean pressure p. Eq. contact.11
 struct Westergaard {
@@ -50,4 +52,4 @@ struct AdhesiveSphere {
   double tabor(double range) const;  // below 0.1: DMT, above 5: JKR; range z0 of the attraction
 };
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -7,7 +7,7 @@
 
 #include "physics/contact/solvers.h"
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 // Mean square about the mean; NaN or infinite where a value is.
@@ -190,4 +190,4 @@ ContactSolution solve_approach(const ContactKernel& kernel, std::span<const doub
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

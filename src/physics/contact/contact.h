@@ -14,9 +14,10 @@
 
 #include "base/convolution.h"
 #include "base/fft.h"
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 // A layer bonded on a half-space. Young's moduli [Pa], Poisson ratios in [0, 0.5], thickness [m]
 // from 0 (half-space of the bulk alone) to infinity (of the layer alone). A compliant counter-body
@@ -167,4 +168,4 @@ struct CoarseContact {
 RefinedContact refine_contact(const CoarseContact& coarse, const ContactKernel& fine,
                               std::span<const double> fine_height);
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -5,9 +5,10 @@
 #include <span>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 // Coordinate of fine pixel i on a grid ratio times coarser: the pixel left of it and cubic weights
 // (Catmull-Rom) of four pixels from the one before.
@@ -36,4 +37,4 @@ inline double interpolate(std::span<const double> field, const Grid& grid, const
   return sum;
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

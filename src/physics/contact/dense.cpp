@@ -8,7 +8,7 @@
 #include "physics/contact/dense_listed.h"
 #include "physics/contact/dense_whole.h"
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 // Shares of the pixels that may carry pressure, one in so many: above the first whole fields are
@@ -184,4 +184,4 @@ StandardState solve_dense(const StandardProblem& problem, double tolerance, int 
   return state;
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <utility>
 
-namespace papilla {
+namespace papilla::contact {
 
 DenseFields::DenseFields(const StandardProblem& standard, StandardState& state_of)
     : problem(standard),
@@ -178,4 +178,4 @@ double load_level(std::span<const double> raw, std::span<const double> ones, dou
   return level;
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 // Slope of the energy along a step at its start, and its curvature; the step's end is at 1.
 struct StepSlopes {
@@ -72,4 +73,4 @@ inline double room_of(double step, double p, double cap) {
   return step != 0 ? length : kInfinity;
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -4,7 +4,7 @@
 
 #include "physics/contact/dense_whole.h"
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 // Where more than one in so many pixels is free the whole plane's inverse is the preconditioner: at
@@ -227,4 +227,4 @@ void ListedPixels::add_joining(double t) {
   f_.low = lowest < shift ? lowest : *std::min_element(f_.gap.begin(), f_.gap.end());
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

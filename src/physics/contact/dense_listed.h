@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/contact/dense_fields.h"
 #include "physics/contact/dense_stencil.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 class WholePixels;
 
@@ -52,4 +53,4 @@ class ListedPixels {
   std::vector<double> r_, z_, ones_, raw_;  // of free_: residual, direction, its constant, raw p
 };
 
-}  // namespace papilla
+}  // namespace papilla::contact

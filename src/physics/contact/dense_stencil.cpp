@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 // One row of the stencil in vector registers.
@@ -75,4 +75,4 @@ void StencilPreconditioner::spread(int i, float value, float one) {
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 class StencilPreconditioner {
  public:
@@ -31,4 +32,4 @@ class StencilPreconditioner {
   std::vector<float> residual_, inside_;  // of the free pixels; zero between uses
 };
 
-}  // namespace papilla
+}  // namespace papilla::contact

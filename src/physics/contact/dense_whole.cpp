@@ -4,7 +4,7 @@
 
 #include "physics/contact/dense_listed.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 void WholePixels::take_over(const ListedPixels& from) {
   f_.field.assign(f_.grid.size(), 0);
@@ -126,4 +126,4 @@ void WholePixels::advance(double t) {
   free_count_ = static_cast<std::size_t>(free_count);
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/contact/dense_fields.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 class ListedPixels;
 
@@ -34,4 +35,4 @@ class WholePixels {
   std::size_t free_count_ = 0;
 };
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -6,7 +6,7 @@
 
 #include "fields/price.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 std::string contact_method(double tolerance) {
   return fmt::format("layered half-space, certified to {:g}", tolerance);
@@ -21,4 +21,4 @@ double contact_error(double certificate) {
   return kSolverError * certificate;
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

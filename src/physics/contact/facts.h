@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include "base/rooms.h"
 #include "geometry/grid.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 std::string contact_method(double tolerance);  // for people
 // Of one solve on one core of a usual machine [s], to a certificate.
@@ -14,4 +15,4 @@ double contact_seconds(const Grid& grid, double tolerance);
 // Worst relative error of friction from a contact solve with this certificate: Eq. accuracy.1
 double contact_error(double certificate);
 
-}  // namespace papilla
+}  // namespace papilla::contact

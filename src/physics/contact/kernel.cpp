@@ -6,7 +6,7 @@
 #include "base/constants.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 namespace {
 
@@ -152,4 +152,4 @@ std::shared_ptr<const ContactKernel> make_contact_kernel(const Grid& grid, const
                      [&] { return std::make_shared<const ContactKernel>(grid, s); });
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

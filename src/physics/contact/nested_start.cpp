@@ -3,7 +3,7 @@
 
 #include "physics/contact/solvers.h"
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 // A start is worth this certificate, and no more steps than these.
@@ -67,4 +67,4 @@ std::vector<double> nested_start(const StandardProblem& fine_problem, const Real
   return to_children(state.p, coarse.grid(), kernel, g0);
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

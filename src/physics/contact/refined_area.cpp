@@ -7,7 +7,7 @@
 #include "physics/contact/area_of_pixels.h"
 #include "physics/contact/cubic.h"
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 // More fine contact pixels than this are cheaper on the whole fine grid.
@@ -193,4 +193,4 @@ RefinedContact refine_contact(const CoarseContact& coarse, const ContactKernel& 
   return Refinement(coarse, fine, fine_height).run();
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

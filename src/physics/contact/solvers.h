@@ -5,9 +5,10 @@
 
 #include "base/constants.h"
 #include "base/fft.h"
+#include "base/rooms.h"
 #include "physics/contact/contact.h"
 
-namespace papilla {
+namespace papilla::contact {
 
 // Minimise 1/2 pSp + p.g0 over 0 <= p <= cap, g0 = -height - S traction (Eq. contact.3): with the
 // sum of p given (load control), or with the rigid level given (approach control: minimise
@@ -52,4 +53,4 @@ std::vector<double> nested_start(const StandardProblem& fine, const RealArray& g
 bool solve_sparse(const StandardProblem& problem, double tolerance, const ContactSolution* start,
                   bool demand, StandardState& state);
 
-}  // namespace papilla
+}  // namespace papilla::contact

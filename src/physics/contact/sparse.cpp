@@ -10,7 +10,7 @@
 #include "physics/contact/cubic.h"
 #include "physics/contact/solvers.h"
 
-namespace papilla {
+namespace papilla::contact {
 namespace {
 
 // Share of the height spread up to which the field of a small change of pressure is left out far
@@ -291,4 +291,4 @@ bool solve_sparse(const StandardProblem& problem, double tolerance, const Contac
   return CandidateSolver(problem, tolerance, state).run(start, demand);
 }
 
-}  // namespace papilla
+}  // namespace papilla::contact

@@ -5,7 +5,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::drive {
 
 std::complex<double> ImpedanceLayer::impedance(double frequency) const {
   const double omega = 2 * kPi * frequency;
@@ -94,4 +94,4 @@ double onset_friction(double shear_strength, double real_area, double beta, doub
   return shear_strength * real_area + beta * (load + pull) * (1 - static_share);
 }
 
-}  // namespace papilla
+}  // namespace papilla::drive

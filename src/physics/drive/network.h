@@ -5,9 +5,10 @@
 #include <complex>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "scene/environment.h"
 
-namespace papilla {
+namespace papilla::drive {
 
 // A resistance may be infinite, a capacitance 0; not both.
 struct ImpedanceLayer {
@@ -65,4 +66,4 @@ DriveResponse respond(const Network& network, DriveControl control, double ampli
 double onset_friction(double shear_strength, double real_area, double beta, double load,
                       double pull, double static_share);
 
-}  // namespace papilla
+}  // namespace papilla::drive

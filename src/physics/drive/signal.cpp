@@ -10,7 +10,7 @@
 #include "base/constants.h"
 #include "base/fft.h"
 
-namespace papilla {
+namespace papilla::drive {
 namespace {
 
 // Spectrum scaled so that value = sum over k of c_k e^(2 pi i k t / T), half kept.
@@ -157,4 +157,4 @@ double total_distortion(const Signal& signal, const std::vector<double>& wanted,
   return good > 0 ? std::sqrt(bad / good) : 0;
 }
 
-}  // namespace papilla
+}  // namespace papilla::drive

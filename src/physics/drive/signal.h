@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/drive/network.h"
 
-namespace papilla {
+namespace papilla::drive {
 
 // m(t) = sum of amplitude sin(2 pi frequency t); full depth where the amplitudes sum to 1.
 struct Modulation {
@@ -56,4 +57,4 @@ double line_amplitude(const Signal& signal, double frequency);
 // wanted. Eq. drive.9
 double total_distortion(const Signal& signal, const std::vector<double>& wanted, double highest);
 
-}  // namespace papilla
+}  // namespace papilla::drive

@@ -4,7 +4,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::drive {
 namespace {
 
 double correlation(std::span<const double> friction, std::span<const double> load,
@@ -82,4 +82,4 @@ double stickiness_exponent(std::span<const double> friction, std::span<const dou
   return 0.5 * (low + high);
 }
 
-}  // namespace papilla
+}  // namespace papilla::drive

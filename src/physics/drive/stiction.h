@@ -4,7 +4,9 @@
 
 #include <span>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::drive {
 
 enum class SlipState { Idle, Stuck, Partial, Full };  // Idle: too light a touch, or not yet known
 
@@ -39,4 +41,4 @@ class StictionMachine {
 double stickiness_exponent(std::span<const double> friction, std::span<const double> load,
                            std::span<const double> stimulus, double low = -2, double high = 1);
 
-}  // namespace papilla
+}  // namespace papilla::drive

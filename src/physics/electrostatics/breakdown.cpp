@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 double air_breakdown_voltage(double gap) {
   constexpr double kMinimumGap = 7.5e-6;
@@ -40,4 +40,4 @@ double dielectric_margin(std::span<const Dielectric> layers, double v_peak, doub
   return margin;
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

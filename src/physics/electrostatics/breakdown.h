@@ -3,9 +3,10 @@
 
 #include <span>
 
+#include "base/rooms.h"
 #include "scene/environment.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 inline constexpr double kAirStrength = 350e6;   // V/m, average field in gaps below 1 um
 inline constexpr double kPaschenMinimum = 327;  // V, air at atmospheric pressure
@@ -25,4 +26,4 @@ double corner_factor(double thickness, double edge_radius);
 // Eq. electrostatics.9
 double dielectric_margin(std::span<const Dielectric> layers, double v_peak, double edge_radius);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -6,7 +6,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 // The foot of a wall: a neighbour stands higher by more than the distance to it.
@@ -61,4 +61,4 @@ CoveredSurface::CoveredSurface(Heightmap surface, double thickness) : height(std
   if (!any) behind_walls.clear();
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -3,9 +3,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 // Height of an electrode that a dielectric of a thickness [m] covers conformally with square
 // corners, below the finished surface: z - thickness on flats; behind a wall (a drop steeper than
@@ -25,4 +26,4 @@ struct CoveredSurface {
   std::vector<double> behind_walls;
 };
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 double electrowetting_number(double v, double dielectric_equivalent, double surface_tension) {
   if (v == 0) return 0;
@@ -27,4 +27,4 @@ double electrowetted_cosine(double cos_rest, double cos_saturated, double eta_pe
   return cos_rest + room * sum / kSteps;
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -1,7 +1,9 @@
 // Contact angle of water under voltage, with saturation.
 #pragma once
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::electrostatics {
 
 // eta = eps0 V^2 / (2 gamma sum d/eps). v [V], dielectric_equivalent = sum of d/eps [m], gamma
 // [N/m]. Infinite for a bare electrode under voltage. Eq. electrostatics.5
@@ -13,4 +15,4 @@ double electrowetting_number(double v, double dielectric_equivalent, double surf
 // electrostatics.6
 double electrowetted_cosine(double cos_rest, double cos_saturated, double eta_peak, bool sine);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -8,7 +8,7 @@
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 double spread_rule_error(double wetted) { return 0.09 - 0.26 * std::clamp(wetted, 0.0, 0.23); }
 
@@ -159,4 +159,4 @@ FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
   return pull(gap, surface, p, columns_above(gap, wetting, p), {.open = open, .gain = {}});
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -4,11 +4,12 @@
 #include <complex>
 #include <string>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "physics/electrostatics/electrode.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 struct FieldProblem {
   double v_rms = 0, v_peak = 0;         // [V] across electrode and body
@@ -66,4 +67,4 @@ double spread_rule_error(double wetted);
 // Height of the water of droplets that do not bridge, per pixel [m]: spherical caps on either side.
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

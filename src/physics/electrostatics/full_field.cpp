@@ -7,7 +7,7 @@
 #include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/electrode.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 // Share of a gap that droplets fill at most: as in the local rule a tenth of it stays air.
@@ -120,4 +120,4 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "geometry/heightmap.h"
 #include "physics/electrostatics/field.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 struct PotentialOptions {
   int levels = 64;          // nodes in height
@@ -60,4 +61,4 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
                                const Wetting& wetting, const FieldProblem& problem,
                                const PotentialOptions& options = {});
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

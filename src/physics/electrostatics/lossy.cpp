@@ -5,7 +5,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 double LossyLayer::relaxation_time() const {
   return kVacuumPermittivity * permittivity * resistivity;
@@ -48,4 +48,4 @@ std::complex<double> gap_field(double gap, double gap_resistivity,
   return 1.0 / sum;
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -4,7 +4,9 @@
 #include <complex>
 #include <span>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::electrostatics {
 
 // Permittivity and resistivity [ohm m] at the frequency asked for; infinite resistivity: an
 // insulator.
@@ -28,4 +30,4 @@ std::complex<double> equivalent_thickness(const LossyLayer& layer, double freque
 std::complex<double> gap_field(double gap, double gap_resistivity,
                                std::span<const LossyLayer> layers, double frequency);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 constexpr float kDamping = 0.8F;    // of the line relaxation
@@ -205,4 +205,4 @@ void Multigrid::cycle(std::size_t l) {
   f.relax(f.r, true);
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

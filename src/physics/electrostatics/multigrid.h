@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::electrostatics {
 
 // One grid: conductances between nodes and to bodies [m, over eps0 dx]. Row (iy, k) is contiguous
 // in ix; periodic in x and y.
@@ -41,4 +43,4 @@ class Multigrid {
   std::vector<FieldLevel> levels_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -11,7 +11,7 @@
 #include "physics/electrostatics/multigrid.h"
 #include "physics/electrostatics/potential_grid.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
@@ -221,4 +221,4 @@ PotentialSolution solve_potential(const PotentialProblem& problem,
   return PotentialSolver(problem, options, std::move(columns)).run(std::move(out));
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <utility>
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 constexpr double kWallSlope = 3;         // steeper jumps between pixels are walls between them
@@ -220,4 +220,4 @@ void PotentialGrid::reach(std::size_t a, int ax, int ay, std::size_t b, double s
   }
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/rooms.h"
 #include "physics/electrostatics/full_field.h"
 #include "physics/electrostatics/multigrid.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 // The media over one pixel.
 struct FieldColumn {
@@ -71,4 +72,4 @@ class PotentialGrid {
 // The media over every pixel.
 std::vector<FieldColumn> columns_of(const PotentialProblem& problem);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

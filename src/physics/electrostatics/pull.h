@@ -4,9 +4,10 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "physics/electrostatics/field.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 constexpr double kNoPull = -1;  // marks a column of air without pull
 
@@ -28,4 +29,4 @@ struct FluxFactors {
 FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldProblem& p,
                    const AirColumns& columns, const FluxFactors& factors);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

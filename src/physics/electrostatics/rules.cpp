@@ -6,7 +6,7 @@
 #include "fields/price.h"
 #include "physics/electrostatics/full_field.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 // Of the 3-D potential on the pixels of a patch (docs/theory/electrostatics.md).
@@ -57,4 +57,4 @@ const FieldRule& field_rule(FieldMethod method) {
   return kLocal;
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

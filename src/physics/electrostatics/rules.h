@@ -1,10 +1,11 @@
 // The rules for the pull of the field, and what is known of each: its words, its error, its price.
 #pragma once
 
+#include "base/rooms.h"
 #include "physics/electrostatics/field.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 struct FieldRule {
   const char* method;    // for people: what is computed
@@ -19,4 +20,4 @@ struct FieldRule {
 };
 const FieldRule& field_rule(FieldMethod method);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

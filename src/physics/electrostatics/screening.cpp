@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 constexpr double kReach = 4;        // tanh^2(4) = 0.9987
@@ -216,4 +216,4 @@ std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting,
   return factor;
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

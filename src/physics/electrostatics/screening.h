@@ -3,10 +3,11 @@
 
 #include <vector>
 
+#include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 
 // Planar deficit length of the pull beside a straight water wall [m]: the lost pull is p_inf times
 // a strip of this width. gap, dielectric_thickness [m]; fitted for permittivity 3.9 and thickness
@@ -31,4 +32,4 @@ std::vector<double> screening_factor(const Gap& gap, const Wetting& wetting,
 // O(pixels). Eq. electrostatics.16
 std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting, bool fade);
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -11,7 +11,7 @@
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
 
-namespace papilla {
+namespace papilla::electrostatics {
 namespace {
 
 constexpr int kMaxIterations = 60;
@@ -194,4 +194,4 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::electrostatics

@@ -7,7 +7,7 @@
 #include "base/constants.h"
 #include "base/quadrature.h"
 
-namespace papilla {
+namespace papilla::macro {
 namespace {
 
 constexpr double kReferenceLoad = 0.2;  // of the finger file's area [N]
@@ -102,4 +102,4 @@ double ridge_share_at(double share, double pressure_ratio) {
   return std::min(1.0, share * std::sqrt(std::max(0.0, pressure_ratio)));
 }
 
-}  // namespace papilla
+}  // namespace papilla::macro

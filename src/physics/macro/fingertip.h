@@ -3,9 +3,10 @@
 // Equations macro.N: docs/theory/macro.md.
 #pragma once
 
+#include "base/rooms.h"
 #include "scene/finger.h"
 
-namespace papilla {
+namespace papilla::macro {
 
 // Height of the fingertip over the flat before loading: z = coefficient r^power [m]. power 2 is a
 // sphere of radius 1/(2 coefficient); a pad that is flatter in the middle and steeper at its sides
@@ -59,4 +60,4 @@ RidgeLoad ridge_load(const MacroContact& macro, double load, double relative_hum
 // which they touch `share`: Hertz' line contact. Eq. macro.5
 double ridge_share_at(double share, double pressure_ratio);
 
-}  // namespace papilla
+}  // namespace papilla::macro

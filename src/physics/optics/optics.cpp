@@ -8,7 +8,7 @@
 
 #include "base/constants.h"
 
-namespace papilla {
+namespace papilla::optics {
 namespace {
 
 using Complex = std::complex<double>;
@@ -380,4 +380,4 @@ Optics effective_medium(double open, double depth, Features features, const Opti
   return out;
 }
 
-}  // namespace papilla
+}  // namespace papilla::optics

@@ -5,10 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "base/rooms.h"
 #include "geometry/heightmap.h"
 #include "physics/optics/regime.h"
 
-namespace papilla {
+namespace papilla::optics {
 
 inline constexpr double kHazeAngle = 0.04363323129985824;  // 2.5 deg: light beyond it is haze
 
@@ -72,4 +73,4 @@ enum class Features { Holes, Pillars, Lines };
 Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,
                         const Disorder& disorder = {}, const Light& light = {});
 
-}  // namespace papilla
+}  // namespace papilla::optics

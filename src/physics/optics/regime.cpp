@@ -2,7 +2,7 @@
 
 #include "base/check.h"
 
-namespace papilla {
+namespace papilla::optics {
 
 const char* text(OpticsRegime regime) {
   switch (regime) {
@@ -19,4 +19,4 @@ const char* text(OpticsRegime regime) {
   return "";
 }
 
-}  // namespace papilla
+}  // namespace papilla::optics

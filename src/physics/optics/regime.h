@@ -1,11 +1,13 @@
 // Which theory says how a texture looks.
 #pragma once
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::optics {
 
 enum class OpticsRegime { Flat, PhaseScreen, EffectiveMedium, Refused };  // Refused: no numbers
 
 // "flat", "phase screen", "effective medium", "refused"
 const char* text(OpticsRegime regime);
 
-}  // namespace papilla
+}  // namespace papilla::optics

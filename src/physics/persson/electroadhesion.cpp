@@ -6,7 +6,7 @@
 #include "physics/persson/persson.h"
 #include "physics/persson/power_law.h"
 
-namespace papilla {
+namespace papilla::persson {
 
 namespace {
 
@@ -123,4 +123,4 @@ std::complex<double> series_thickness(double dielectric_equivalent, double skin_
   return h0 * std::complex<double>(1, 1 / (2 * kPi * f * kVacuumPermittivity * gap_resistivity));
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

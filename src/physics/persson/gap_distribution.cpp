@@ -5,7 +5,7 @@
 #include "base/quadrature.h"
 #include "physics/persson/persson.h"
 
-namespace papilla {
+namespace papilla::persson {
 namespace {
 
 double folded_density(double u, double offset, double width) {
@@ -139,4 +139,4 @@ std::vector<StressPoint> stress_distribution(const GapDistribution& gaps, double
   return points;
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -5,7 +5,7 @@
 #include "base/constants.h"
 #include "base/quadrature.h"
 
-namespace papilla {
+namespace papilla::persson {
 namespace {
 
 double table_node(int i) {
@@ -52,4 +52,4 @@ std::vector<double> gap_integral_table(double energy_factor) {
   return table;
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::persson {
 
 // Nodes at 2^k (1 + j/128): the cell of y is read off its bits.
 inline constexpr int kLowExponent = -6;  // y below 2^-6: x > 8, F = 0
@@ -29,4 +31,4 @@ inline double look_up(const std::vector<double>& table, double y) {
   return table[cell] + fraction * (table[cell + 1] - table[cell]);
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -10,7 +10,7 @@
 #include "physics/persson/persson.h"
 #include "physics/persson/power_law.h"
 
-namespace papilla {
+namespace papilla::persson {
 namespace {
 
 // A spectrum in short intervals of ln q: nodes, and C = scale (q/unit)^exponent between them.
@@ -206,4 +206,4 @@ GapDistribution MeanField::gaps(double pressure) const {
   return result;
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -8,7 +8,7 @@
 #include "base/constants.h"
 #include "base/quadrature.h"
 
-namespace papilla {
+namespace papilla::persson {
 
 PatchPressures::PatchPressures(double stress_measure, double pressure, int nodes)
     : measure_(stress_measure), nominal_(pressure) {
@@ -72,4 +72,4 @@ std::vector<double> PatchPressures::share_at(double p) const {
   return share;
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -5,7 +5,9 @@
 
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::persson {
 
 // Gauss rule of P(s, q_patch), Eq. persson.5, over s > 0: sum of share times value(pressure) is the
 // mean over the whole nominal area of what patches in contact give. Exact for values polynomial in
@@ -27,4 +29,4 @@ class PatchPressures {
   std::vector<double> pressure_, share_;
 };
 
-}  // namespace papilla
+}  // namespace papilla::persson

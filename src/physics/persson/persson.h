@@ -9,7 +9,9 @@
 #include <span>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::persson {
 
 // Isotropic two-dimensional roughness spectrum C(q) [m^4], <h^2> = 2 pi int q C dq: straight in
 // log-log between knots, nothing outside. Knots ascend; at least two.
@@ -195,4 +197,4 @@ struct StressPoint {
 std::vector<StressPoint> stress_distribution(const GapDistribution& gaps, double v_rms, double h0,
                                              std::span<const double> at_gaps);
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -5,7 +5,7 @@
 #include "base/constants.h"
 #include "physics/persson/persson.h"
 
-namespace papilla {
+namespace papilla::persson {
 
 ContactShares plastic_shares(double pressure, double stress_measure, double yield) {
   ContactShares shares;
@@ -62,4 +62,4 @@ PowerSpectrum plastic_smoothing(const PowerSpectrum& spectrum, const MeanFieldSo
   return result;
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <vector>
 
-namespace papilla {
+#include "base/rooms.h"
+
+namespace papilla::persson {
 
 // int_a^b q^n dq, exact also near n = -1.
 inline double power_integral(double n, double a, double b) {
@@ -22,4 +24,4 @@ inline double log_log(const std::vector<double>& x, const std::vector<double>& y
   return y[i - 1] * std::pow(at / x[i - 1], slope);
 }
 
-}  // namespace papilla
+}  // namespace papilla::persson

@@ -6,7 +6,7 @@
 #include "physics/persson/persson.h"
 #include "physics/persson/power_law.h"
 
-namespace papilla {
+namespace papilla::persson {
 
 double PowerSpectrum::at(double q) const {
   if (q < lowest() || q > highest()) return 0;
@@ -68,4 +68,4 @@ PowerSpectrum self_affine_spectrum(double rms, double q_low, double q_roll_off, 
 
 PowerSpectrum wrist_spectrum() { return self_affine_spectrum(22e-6, 800, 5998.2, 1e8, 0.86); }
 
-}  // namespace papilla
+}  // namespace papilla::persson
