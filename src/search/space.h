@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "config/describe.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "optim/problem.h"
 
 namespace papilla {

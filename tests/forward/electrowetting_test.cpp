@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "forward/coupling.h"
+#include "forward/scene_terms.h"
 
 namespace papilla {
 namespace {

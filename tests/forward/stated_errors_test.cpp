@@ -11,7 +11,7 @@
 namespace papilla {
 namespace {
 
-using Member = Measured ResponsePoint::*;
+using Member = Measured PointQuantities::*;
 
 // The same number in a run and in all of its parts without a skin.
 Resampled steady(Member quantity, double value, int skins = 4) {
@@ -30,7 +30,7 @@ Reading of(Member quantity) {
 }
 
 double grid_part(const ControlRuns& runs, Member quantity) {
-  return grid_error(controlled_change(runs, quantity, of(quantity)).grid);
+  return grid_error(controlled_change(runs, grid_law(quantity), of(quantity)).grid);
 }
 
 // Means 0.03 and scatter with a standard error of 0.04: five numbers whose deviations are known.
@@ -121,7 +121,7 @@ TEST(StatedErrors, TheLoadLawIsJudgedBySolvedAreas) {
   ControlRuns runs;
   runs.own = steady(friction, 1.0);
   runs.areas = steady(friction, 0.8);
-  const ControlledChange change = controlled_change(runs, friction, of(friction));
+  const ControlledChange change = controlled_change(runs, grid_law(friction), of(friction));
   EXPECT_NEAR(method_error(change.method), 0.2, 1e-12);
   for (double sample : change.method) EXPECT_NEAR(sample, -0.2, 1e-12);
   EXPECT_TRUE(change.grid.empty());
@@ -135,7 +135,7 @@ TEST(StatedErrors, TheLoadLawOfTheModulationIsJudgedInTheLimit) {
   runs.own = steady(modulation, 1.0);
   runs.areas = steady(modulation, 1.0);
   runs.coarse = steady(modulation, 1.1);
-  const ControlledChange change = controlled_change(runs, modulation, of(modulation));
+  const ControlledChange change = controlled_change(runs, grid_law(modulation), of(modulation));
   EXPECT_NEAR(method_error(change.method), 0.055, 0.002);
   EXPECT_NEAR(grid_error(change.grid), 0.5 * 0.055, 0.002);  // half of that is not known
 }

@@ -1,6 +1,4 @@
 // Particles sit as deep as they are said to.
-#include "geometry/particles.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 
 #include "base/constants.h"
 #include "geometry/texture.h"
+#include "geometry/textures/particle_film.h"
 
 namespace papilla {
 namespace {
@@ -26,7 +25,7 @@ TEST(Particles, StandOutOfTheFilmByWhatIsNotEmbedded) {
   const Grid grid{512, 512, 12e-6, 12e-6};
   for (double embedding : {0.0, 0.2, 0.5, 0.8}) {
     const ParticleFilm film = equal_spheres(embedding);
-    const Heightmap h = particle_heights(film, grid);
+    const Heightmap h = generate(Texture{film}, grid);
     const double top = 2 * film.radius * (1 - embedding);
     EXPECT_NEAR(*std::max_element(h.z.begin(), h.z.end()), top, 2e-3 * film.radius) << embedding;
     EXPECT_EQ(*std::min_element(h.z.begin(), h.z.end()), 0) << embedding;
@@ -40,7 +39,7 @@ TEST(Particles, HaveTheVolumeOfTheirCaps) {
     const double count = static_cast<double>(place_particles(film, grid).size());
     ASSERT_GT(count, 1);
     double volume = 0;
-    for (double z : particle_heights(film, grid).z) volume += z * grid.pixel_area();
+    for (double z : generate(Texture{film}, grid).z) volume += z * grid.pixel_area();
     const double cap = 2 * film.radius * (1 - embedding);  // its height
     const double expected = count * kPi / 3 * cap * cap * (3 * film.radius - cap);
     EXPECT_NEAR(volume, expected, 0.01 * expected) << embedding;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "fabricate/export.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
@@ -75,10 +76,14 @@ TEST(WrittenGds, ALayoutLiesOnTheMapOfItsTexture) {
   grooves.wall_angle = kPi / 2;
   for (const Texture& texture :
        {Texture{one_hole()}, Texture{hexagons}, Texture{pillars}, Texture{grooves}}) {
-    const Heightmap h = generate(texture, patch_grid(texture, 96, 18e-6));
-    const std::string path = temporary("layout.gds");
-    write_gds(path, texture, h.grid.lx, h.grid.ly);
-    const GdsFile file(path);
+    Design design;
+    design.texture = texture;
+    ExportOptions options;
+    options.formats = {"gds"};
+    options.size = 18e-6;
+    options.pixels = 96;
+    const Heightmap h = export_design(design, options, temporary("layout")).heightmap;
+    const GdsFile file(temporary("layout") + "/texture.gds");
     const bool drawn_high = std::holds_alternative<PillarArray>(texture.kind);
     int other = 0, inside = 0;
     for (int iy = 0; iy < h.grid.ny; ++iy) {
@@ -93,8 +98,10 @@ TEST(WrittenGds, ALayoutLiesOnTheMapOfItsTexture) {
     EXPECT_GT(inside, 0) << texture_name(texture);
     // Pixels that the outline cuts.
     EXPECT_LT(other, 0.02 * static_cast<double>(h.grid.size())) << texture_name(texture);
-    const double share =
-        drawn_high ? kPi / 4 * square(pillars.diameter / pillars.period) : open_fraction(texture);
+    const double share = drawn_high                                      ? kPi / 4 * square(2.5 / 6)
+                         : std::holds_alternative<Grating>(texture.kind) ? 2.0 / 6
+                         : h.grid.nx == h.grid.ny                        ? kPi / 4 * square(4.0 / 6)
+                                                  : kPi / 4 * square(4.0 / 6) * 2 / std::sqrt(3.0);
     EXPECT_NEAR(file.area() / h.grid.area(), share, 0.01 * share) << texture_name(texture);
   }
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/files.h"
+#include "design/study.h"
 #include "search/problem.h"
 #include "search/run.h"
 
