@@ -9,7 +9,10 @@ rooms::Problem inner(const Problem& p) { return {p.file, p.line, p.column, p.key
 
 std::string joined(const std::vector<Problem>& problems) {
   std::string out;
-  for (const Problem& problem : problems) out += (out.empty() ? "" : "\n") + problem.text();
+  for (const Problem& problem : problems) {
+    if (!out.empty()) out += '\n';
+    out += problem.text();
+  }
   return out;
 }
 
