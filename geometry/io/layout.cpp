@@ -168,31 +168,16 @@ ArrayCell round_cell(Lattice lattice, double period, double diameter, int sides,
   return cell;
 }
 
-ArrayCell array_cell(const Texture& texture, double size_y, double facet_error, GdsArray& out) {
-  if (const auto* t = std::get_if<HoleArray>(&texture.kind)) {
-    out.drawn = "holes";
-    out.sides = circle_sides(t->diameter, facet_error);
-    return round_cell(t->lattice, t->period, t->diameter, out.sides, size_y);
-  }
-  if (const auto* t = std::get_if<PillarArray>(&texture.kind)) {
-    out.drawn = "pillars";
-    out.sides = circle_sides(t->diameter, facet_error);
-    return round_cell(t->lattice, t->period, t->diameter, out.sides, size_y);
-  }
-  if (const auto* t = std::get_if<Grating>(&texture.kind)) {
-    out.drawn = "grooves";
-    const std::int32_t left = nanometres(0.5 * (t->period - t->width));
-    const std::int32_t right = nanometres(0.5 * (t->period + t->width));
-    const std::int32_t top = nanometres(size_y);
-    ArrayCell cell;
-    cell.x = nanometres(on_grid(t->period));
-    cell.y = top;
-    cell.polygon = {{left, 0}, {right, 0}, {right, top}, {left, top}};
-    return cell;
-  }
-  throw InputError(fmt::format(
-      "GDSII holds arrays of holes, pillars or grooves, not \"{}\"; use exr, tiff or stl",
-      texture_name(texture)));
+// Lines run over the whole height.
+ArrayCell line_cell(double period, double width, double size_y) {
+  const std::int32_t left = nanometres(0.5 * (period - width));
+  const std::int32_t right = nanometres(0.5 * (period + width));
+  const std::int32_t top = nanometres(size_y);
+  ArrayCell cell;
+  cell.x = nanometres(on_grid(period));
+  cell.y = top;
+  cell.polygon = {{left, 0}, {right, 0}, {right, top}, {left, top}};
+  return cell;
 }
 
 // References to CELL, one a row of a block, in a structure of their own.
@@ -238,10 +223,15 @@ void triangle(std::string& out, const Vertex& a, const Vertex& b, const Vertex& 
 
 }  // namespace
 
-GdsArray write_gds(const std::string& path, const Texture& texture, double size_x, double size_y,
+GdsArray write_gds(const std::string& path, const FeatureArray& array, double size_x, double size_y,
                    double facet_error) {
   GdsArray out;
-  const ArrayCell cell = array_cell(texture, size_y, facet_error, out);
+  out.drawn = array.drawn;
+  const bool lines = array.shape == FeatureArray::Shape::Line;
+  if (!lines) out.sides = circle_sides(array.width, facet_error);
+  const ArrayCell cell =
+      lines ? line_cell(array.period, array.width, size_y)
+            : round_cell(array.lattice, array.period, array.width, out.sides, size_y);
   out.columns = std::max(1L, std::lround(1e9 * size_x / cell.x));
   out.rows = std::max(1L, std::lround(1e9 * size_y / cell.y));
   if (out.columns > 32767 || out.rows > 32767 || size_x > 2.1 || size_y > 2.1) {

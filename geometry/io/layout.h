@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "geometry/facts.h"
 #include "geometry/heightmap.h"
 #include "geometry/io/files.h"
-#include "geometry/texture.h"
 
 namespace papilla {
 
@@ -20,13 +20,13 @@ struct GdsArray {
   std::string drawn;  // "holes", "pillars", "grooves": what the polygons are
 };
 
-// GDSII of an array (holes, pillars, grooves): one polygon cell and one array reference over
+// GDSII of an array (facts(texture).outline): one polygon cell and one array reference over
 // size_x x size_y [m], layer 1, database unit 1 nm, fixed date. Circles are polygons with the area
 // of the circle, at most facet_error [m] off it, rounded to the database unit. The row pitch of
 // hexagons is on no grid: a block of rows, each rounded alone, is repeated, so that over the whole
-// array no hole is more than 1 nm off its place along y. Throws InputError for a texture that is no
-// array, a period that is not whole nanometres, or an array of more than 32767 cells a side.
-GdsArray write_gds(const std::string& path, const Texture& texture, double size_x, double size_y,
+// array no hole is more than 1 nm off its place along y. Throws InputError for a period
+// that is not whole nanometres, or an array of more than 32767 cells a side.
+GdsArray write_gds(const std::string& path, const FeatureArray& array, double size_x, double size_y,
                    double facet_error = 2e-9);
 
 // GDSII of any heightmap as masks: layer k of `levels` holds the contour polygons of what is deeper

@@ -21,7 +21,7 @@ constexpr int kLanes = 4;
 constexpr int kLanes = 2;
 #endif
 using Vector = double __attribute__((vector_size(kLanes * sizeof(double))));
-// A complex number a lane; an array of them is a transform of kLanes lanes side by side.
+// A complex number per lane; an array of them is a transform of kLanes lanes side by side.
 struct Complex {
   Vector re, im;
 };
@@ -272,6 +272,79 @@ void transpose(const Vector (&a)[kLanes], Vector (&t)[kLanes]) {
 #endif
 }
 
+// A block of frequencies of 2 kLanes real columns, from the transform of their strip: the columns
+// of the real parts, then those of the imaginary parts, lanes: ky.
+inline void take_apart(const Complex* strip, const int* slot, int ny, int block, Complex* to) {
+  Vector a_re[kLanes], a_im[kLanes], b_re[kLanes], b_im[kLanes], t[kLanes];
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const int ky = block * kLanes + lane;
+    if (ky == 0) {
+      const Complex low = strip[0], high = strip[slot[ny / 2]];
+      a_re[0] = low.re;
+      a_im[0] = high.re;
+      b_re[0] = low.im;
+      b_im[0] = high.im;
+      continue;
+    }
+    const Complex z = strip[slot[ky]], y = strip[slot[ny - ky]];
+    a_re[lane] = z.re + y.re;
+    a_im[lane] = z.im - y.im;
+    b_re[lane] = z.im + y.im;
+    b_im[lane] = y.re - z.re;
+  }
+  transpose(a_re, t);
+  for (int x = 0; x < kLanes; ++x) to[x].re = t[x];
+  transpose(a_im, t);
+  for (int x = 0; x < kLanes; ++x) to[x].im = t[x];
+  transpose(b_re, t);
+  for (int x = 0; x < kLanes; ++x) to[kLanes + x].re = t[x];
+  transpose(b_im, t);
+  for (int x = 0; x < kLanes; ++x) to[kLanes + x].im = t[x];
+}
+
+// The same undone.
+inline void put_together(const Complex* from, const int* slot, int ny, int block, Complex* strip) {
+  Vector a_re[kLanes], a_im[kLanes], b_re[kLanes], b_im[kLanes], t[kLanes];
+  for (int x = 0; x < kLanes; ++x) t[x] = from[x].re;
+  transpose(t, a_re);
+  for (int x = 0; x < kLanes; ++x) t[x] = from[x].im;
+  transpose(t, a_im);
+  for (int x = 0; x < kLanes; ++x) t[x] = from[kLanes + x].re;
+  transpose(t, b_re);
+  for (int x = 0; x < kLanes; ++x) t[x] = from[kLanes + x].im;
+  transpose(t, b_im);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    const int ky = block * kLanes + lane;
+    if (ky == 0) {
+      strip[0] = {a_re[0], b_re[0]};
+      strip[slot[ny / 2]] = {a_im[0], b_im[0]};
+      continue;
+    }
+    strip[slot[ky]] = {a_re[lane] - b_im[lane], a_im[lane] + b_re[lane]};
+    strip[slot[ny - ky]] = {a_re[lane] + b_im[lane], b_re[lane] - a_im[lane]};
+  }
+}
+
+// The block whose first lane holds two rows, ky = 0 and ny/2: they come apart by a share of the
+// conjugate at -kx.
+inline void scale_first_block(Complex* z, const int* slot, int nx, const Vector* factor,
+                              const double* difference) {
+  for (int kx = 0; kx <= nx / 2; ++kx) {
+    const int i = slot[kx], j = slot[(nx - kx) % nx];
+    const double i_re = z[i].re[0], i_im = z[i].im[0], j_re = z[j].re[0], j_im = z[j].im[0];
+    const double d = difference[i], mean = factor[i][0];  // equal at i and j
+    z[i].re = z[i].re * factor[i];
+    z[i].im = z[i].im * factor[i];
+    z[i].re[0] = mean * i_re + d * j_re;
+    z[i].im[0] = mean * i_im - d * j_im;
+    if (i == j) continue;
+    z[j].re = z[j].re * factor[j];
+    z[j].im = z[j].im * factor[j];
+    z[j].re[0] = mean * j_re + d * i_re;
+    z[j].im[0] = mean * j_im - d * i_im;
+  }
+}
+
 }  // namespace
 
 Convolution::Butterflies::Butterflies(int length) : n(length), slot(length) {
@@ -352,14 +425,19 @@ RealArray Convolution::arrange(std::span<const double> symbol) const {
 
 void Convolution::apply(const double* in, const RealArray& symbol, std::complex<double>* scratch,
                         double* out) const {
-  const int blocks = ny_ / 2 / kLanes, strips = nx_ / (2 * kLanes);
-  auto* spectrum = reinterpret_cast<Complex*>(scratch);  // [block of ky][x], lanes: ky
-  Complex* strip = spectrum + static_cast<std::size_t>(blocks) * nx_;  // [y], lanes: x
-  const int* slot = along_y_.slot.data();
-  const std::size_t row = static_cast<std::size_t>(nx_) / kLanes;
+  transform_columns(in, scratch);
+  multiply_rows(symbol, scratch);
+  restore_columns(scratch, out);
+}
 
-  // Along y: 2 kLanes columns as the real and imaginary parts of kLanes, told apart by the symmetry
-  // of a real column's transform, without the half in it.
+// The scratch holds the spectrum, [block of ky][x] with lanes of ky, and after it one strip of
+// columns, [y] with lanes of x. Along y 2 kLanes columns go together, as the real and imaginary
+// parts of kLanes, told apart by the symmetry of a real column's transform, without the half in it.
+void Convolution::transform_columns(const double* in, std::complex<double>* scratch) const {
+  const int blocks = ny_ / 2 / kLanes, strips = nx_ / (2 * kLanes);
+  auto* spectrum = reinterpret_cast<Complex*>(scratch);
+  Complex* strip = spectrum + static_cast<std::size_t>(blocks) * nx_;
+  const std::size_t row = static_cast<std::size_t>(nx_) / kLanes;
   for (int s = 0; s < strips; ++s) {
     const auto* column = reinterpret_cast<const Vector*>(in) + 2 * s;
     forward(
@@ -370,90 +448,43 @@ void Convolution::apply(const double* in, const RealArray& symbol, std::complex<
         strip, ny_, along_y_.radices, along_y_.twiddle.data());
     finish_forward(strip, ny_, along_y_.radices.back());
     for (int block = 0; block < blocks; ++block) {
-      Vector a_re[kLanes], a_im[kLanes], b_re[kLanes], b_im[kLanes], t[kLanes];
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int ky = block * kLanes + lane;
-        if (ky == 0) {
-          const Complex low = strip[0], high = strip[slot[ny_ / 2]];
-          a_re[0] = low.re;
-          a_im[0] = high.re;
-          b_re[0] = low.im;
-          b_im[0] = high.im;
-          continue;
-        }
-        const Complex z = strip[slot[ky]], y = strip[slot[ny_ - ky]];
-        a_re[lane] = z.re + y.re;
-        a_im[lane] = z.im - y.im;
-        b_re[lane] = z.im + y.im;
-        b_im[lane] = y.re - z.re;
-      }
-      Complex* to = spectrum + static_cast<std::size_t>(block) * nx_ + 2 * kLanes * s;
-      transpose(a_re, t);
-      for (int x = 0; x < kLanes; ++x) to[x].re = t[x];
-      transpose(a_im, t);
-      for (int x = 0; x < kLanes; ++x) to[x].im = t[x];
-      transpose(b_re, t);
-      for (int x = 0; x < kLanes; ++x) to[kLanes + x].re = t[x];
-      transpose(b_im, t);
-      for (int x = 0; x < kLanes; ++x) to[kLanes + x].im = t[x];
+      take_apart(strip, along_y_.slot.data(), ny_, block,
+                 spectrum + static_cast<std::size_t>(block) * nx_ + 2 * kLanes * s);
     }
   }
+}
 
-  // Along x, the symbol, and back.
-  const std::size_t twiddles = along_x_.twiddle.size();
+// Along x, the symbol, and back.
+void Convolution::multiply_rows(const RealArray& symbol, std::complex<double>* scratch) const {
+  const int blocks = ny_ / 2 / kLanes, last = along_x_.radices.back();
+  const double* difference = symbol.data() + static_cast<std::size_t>(nx_) * (ny_ / 2);
   for (int block = 0; block < blocks; ++block) {
-    Complex* z = spectrum + static_cast<std::size_t>(block) * nx_;
+    Complex* z = reinterpret_cast<Complex*>(scratch) + static_cast<std::size_t>(block) * nx_;
     forward([&](int x) { return z[x]; }, z, nx_, along_x_.radices, along_x_.twiddle.data());
     const auto* factor =
         reinterpret_cast<const Vector*>(symbol.data()) + static_cast<std::size_t>(block) * nx_;
     if (block > 0) {
-      scale_spectrum(z, nx_, along_x_.radices.back(), factor);
-    } else {  // the first lane's two rows apart: a share of the conjugate at -kx
-      finish_forward(z, nx_, along_x_.radices.back());
-      const double* difference = symbol.data() + static_cast<std::size_t>(nx_) * (ny_ / 2);
-      for (int kx = 0; kx <= nx_ / 2; ++kx) {
-        const int i = along_x_.slot[kx], j = along_x_.slot[(nx_ - kx) % nx_];
-        const double i_re = z[i].re[0], i_im = z[i].im[0], j_re = z[j].re[0], j_im = z[j].im[0];
-        const double d = difference[i], mean = factor[i][0];  // equal at i and j
-        z[i].re = z[i].re * factor[i];
-        z[i].im = z[i].im * factor[i];
-        z[i].re[0] = mean * i_re + d * j_re;
-        z[i].im[0] = mean * i_im - d * j_im;
-        if (i == j) continue;
-        z[j].re = z[j].re * factor[j];
-        z[j].im = z[j].im * factor[j];
-        z[j].re[0] = mean * j_re + d * i_re;
-        z[j].im[0] = mean * j_im - d * i_im;
-      }
-      start_inverse(z, nx_, along_x_.radices.back());
+      scale_spectrum(z, nx_, last, factor);
+    } else {
+      finish_forward(z, nx_, last);
+      scale_first_block(z, along_x_.slot.data(), nx_, factor, difference);
+      start_inverse(z, nx_, last);
     }
-    inverse(z, nx_, along_x_.radices, along_x_.twiddle.data() + twiddles,
+    inverse(z, nx_, along_x_.radices, along_x_.twiddle.data() + along_x_.twiddle.size(),
             [&](int x, const Complex& value) { z[x] = value; });
   }
+}
 
-  // Back along y.
+// Back along y.
+void Convolution::restore_columns(std::complex<double>* scratch, double* out) const {
+  const int blocks = ny_ / 2 / kLanes, strips = nx_ / (2 * kLanes);
+  auto* spectrum = reinterpret_cast<Complex*>(scratch);
+  Complex* strip = spectrum + static_cast<std::size_t>(blocks) * nx_;
+  const std::size_t row = static_cast<std::size_t>(nx_) / kLanes;
   for (int s = 0; s < strips; ++s) {
     for (int block = 0; block < blocks; ++block) {
-      Vector a_re[kLanes], a_im[kLanes], b_re[kLanes], b_im[kLanes], t[kLanes];
-      const Complex* from = spectrum + static_cast<std::size_t>(block) * nx_ + 2 * kLanes * s;
-      for (int x = 0; x < kLanes; ++x) t[x] = from[x].re;
-      transpose(t, a_re);
-      for (int x = 0; x < kLanes; ++x) t[x] = from[x].im;
-      transpose(t, a_im);
-      for (int x = 0; x < kLanes; ++x) t[x] = from[kLanes + x].re;
-      transpose(t, b_re);
-      for (int x = 0; x < kLanes; ++x) t[x] = from[kLanes + x].im;
-      transpose(t, b_im);
-      for (int lane = 0; lane < kLanes; ++lane) {
-        const int ky = block * kLanes + lane;
-        if (ky == 0) {
-          strip[0] = {a_re[0], b_re[0]};
-          strip[slot[ny_ / 2]] = {a_im[0], b_im[0]};
-          continue;
-        }
-        strip[slot[ky]] = {a_re[lane] - b_im[lane], a_im[lane] + b_re[lane]};
-        strip[slot[ny_ - ky]] = {a_re[lane] + b_im[lane], b_re[lane] - a_im[lane]};
-      }
+      put_together(spectrum + static_cast<std::size_t>(block) * nx_ + 2 * kLanes * s,
+                   along_y_.slot.data(), ny_, block, strip);
     }
     start_inverse(strip, ny_, along_y_.radices.back());
     auto* column = reinterpret_cast<Vector*>(out) + 2 * s;

@@ -18,7 +18,8 @@ class Convolution {
   // through Fft2d.
   static bool suits(int nx, int ny);
   Convolution(int nx, int ny);
-  static std::shared_ptr<const Convolution> shared(int nx, int ny);  // by size, thread safe
+  static std::shared_ptr<const Convolution> shared(
+      int nx, int ny);  // by size, each made once and kept; thread safe
 
   // The kernel's transform as apply() wants it, from that on the half spectrum of Fft2d: value
   // (kx, ky) at ky * (nx/2 + 1) + kx, real and equal at (kx, ky) and (kx, -ky).
@@ -41,6 +42,10 @@ class Convolution {
     std::vector<double> twiddle;  // w^j, w^2j, ... of each stage but the last
     std::vector<int> slot;
   };
+
+  void transform_columns(const double* in, std::complex<double>* scratch) const;
+  void multiply_rows(const RealArray& symbol, std::complex<double>* scratch) const;
+  void restore_columns(std::complex<double>* scratch, double* out) const;
 
   int nx_, ny_;
   Butterflies along_x_, along_y_;

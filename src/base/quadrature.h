@@ -1,4 +1,4 @@
-// Nodes and weights.
+// Nodes and weights of rules for integrals.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@ struct Quadrature {
   std::vector<double> nodes, weights;
 };
 
+// Gauss and Legendre's rule of n >= 1 nodes for the integral from a to b: exact for polynomials of
+// degree 2n - 1. The nodes ascend. Cost: about 10 n^2 operations.
 Quadrature gauss_legendre(int n, double a = -1, double b = 1);
-Quadrature gauss_laguerre(int n);  // integral over [0, inf) with weight e^-t
-std::vector<double> trapezoid_weights(const std::vector<double>& nodes);  // sum = range
 
 }  // namespace papilla

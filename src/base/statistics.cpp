@@ -44,16 +44,6 @@ std::vector<double> jackknife_samples(double all, std::span<const double> withou
   return out;
 }
 
-double weighted_mean(std::span<const double> values, std::span<const double> weights) {
-  PAPILLA_CHECK(values.size() == weights.size(), "one weight a value");
-  double sum = 0, total = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    sum += weights[i] * values[i];
-    total += weights[i];
-  }
-  return sum / total;
-}
-
 double quantile(std::vector<double> values, double p) {
   PAPILLA_CHECK(!values.empty(), "quantile of nothing");
   std::sort(values.begin(), values.end());

@@ -19,7 +19,6 @@ Estimate ratio_estimate(std::span<const double> a, std::span<const double> b);
 // A number as the mean of samples, from its values without each of them: samples whose standard
 // error is the jackknife error of the number (Tukey 1958). One sample, the number, without those.
 std::vector<double> jackknife_samples(double all, std::span<const double> without_each);
-double weighted_mean(std::span<const double> values, std::span<const double> weights);
 double quantile(std::vector<double> values, double p);  // linear interpolation, p in [0, 1]
 double normal_cdf(double x);
 double normal_quantile(double p);

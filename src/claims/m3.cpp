@@ -537,6 +537,7 @@ Judgement bridges_in_holes(ClaimInputs& in) {
   const Case c{.design = "m3_samples/a3h350.toml"};
   const Design d = read_case(c);
   const Scene s = scene_of(in, c, d);
+  const double depth = facts(d.texture).relief.height().value();
   double spanning = 0, all = 0;
   for (int k = 0; k < 8; ++k) {
     const PatchPicture p = picture_patch(s, d.texture, fidelity_of(in), 0.75, k);
@@ -547,7 +548,7 @@ Judgement bridges_in_holes(ClaimInputs& in) {
       const int iy = wrap(static_cast<int>(drop.y / grid.dy()), grid.ny);
       const double high = *std::max_element(p.texture.z.begin(), p.texture.z.end());
       all += 1;
-      spanning += p.texture.z[grid.index(ix, iy)] < high - 0.5 * texture_depth(d.texture);
+      spanning += p.texture.z[grid.index(ix, iy)] < high - 0.5 * depth;
     }
   }
   const double share = all > 0 ? 100 * spanning / all : 0;

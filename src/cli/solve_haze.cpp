@@ -51,7 +51,7 @@ int solve(const HazeOptions& options) {
     o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media, light);
   }
   std::cout << (options.design.json ? optics_json(o) + '\n' : optics_text(o));
-  return o.regime == "refused" ? kWorkFailed : kSuccess;
+  return o.refused() ? kWorkFailed : kSuccess;
 }
 
 }  // namespace

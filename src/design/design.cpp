@@ -387,7 +387,8 @@ class StudyReader {
       for (const Node& item : choice->children) {
         const auto found =
             std::find(kinds.begin(), kinds.end(), item.is_text() ? item.text : std::string());
-        if (kind && found != kinds.end() && item.text != "stack" && item.text != "measured") {
+        if (kind && found != kinds.end() &&
+            numbers_alone(static_cast<std::size_t>(found - kinds.begin()))) {
           variable.choices.push_back(static_cast<double>(found - kinds.begin()));
           for (const NumberField& field :
                number_fields(kind_copies_.emplace_back(of_kind(study_.design.texture, item.text)),

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <set>
 #include <utility>
 
 #include "base/check.h"
@@ -9,17 +11,40 @@
 namespace papilla {
 namespace {
 
-template <std::size_t... I>
-Texture make_kind(std::size_t index, std::index_sequence<I...>) {
-  Texture out;
-  ((I == index ? void(out.kind.emplace<I>()) : void()), ...);
-  return out;
+// In the order of Measure.
+constexpr std::array<Stated<double*> Roles::*, 5> kMeasures{
+    &Roles::period, &Roles::width, &Roles::depth, &Roles::wall_angle, &Roles::edge_radius};
+
+// Which keys of all kinds stand for a measure, and of which a zero means flat.
+struct Keys {
+  std::set<std::pair<std::string, Measure>> measures;
+  std::set<std::string> relief;
+};
+
+const Keys& keys() {
+  static const Keys all = [] {
+    Keys out;
+    for (std::size_t kind = 0; kind < texture_kinds().size(); ++kind) {
+      Texture texture = default_texture(kind);
+      const Roles role = roles(texture);
+      for (const NumberField& field : number_fields(texture)) {
+        if (field.value == role.relief) out.relief.insert(field.path);
+        for (std::size_t m = 0; m < kMeasures.size(); ++m) {
+          if (field.value == role.*kMeasures[m])
+            out.measures.emplace(field.path, static_cast<Measure>(m));
+        }
+      }
+    }
+    return out;
+  }();
+  return all;
 }
 
-const Lattice* lattice_of(const Texture& t) {
-  if (const auto* holes = std::get_if<HoleArray>(&t.kind)) return &holes->lattice;
-  if (const auto* pillars = std::get_if<PillarArray>(&t.kind)) return &pillars->lattice;
-  return nullptr;
+// "texture.parts.1." and "depth"; two empty texts where the path is no texture's.
+std::pair<std::string, std::string> split(const std::string& path) {
+  if (!path.starts_with("texture.")) return {};
+  const std::size_t end = path.rfind('.') + 1;
+  return {path.substr(0, end), path.substr(end)};
 }
 
 bool has(const std::vector<NumberField>& known, const std::string& path) {
@@ -35,45 +60,64 @@ Texture of_kind(const Texture& texture, const std::string& kind) {
       static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin());
   PAPILLA_CHECK(index < kinds.size(), "a texture kind");
   if (texture.kind.index() == index) return texture;
-  Texture out =
-      make_kind(index, std::make_index_sequence<std::variant_size_v<decltype(Texture::kind)>>());
-  Texture own = texture;
-  const std::vector<NumberField> from = number_fields(own, "texture");
-  const std::vector<NumberField> to = number_fields(out, "texture");
-  for (const NumberField& field : from) {
-    const std::string path = path_in(to, field.path);
-    if (!path.empty()) *find_number_field(to, path).value = *field.value;
+  Texture own = texture, out = default_texture(index);
+  const Roles from = roles(own), to = roles(out);
+  for (const auto& measure : kMeasures) {
+    if (from.*measure && to.*measure) *(to.*measure) = *(from.*measure);
   }
-  if (const Lattice* lattice = lattice_of(texture)) {
-    if (auto* holes = std::get_if<HoleArray>(&out.kind)) holes->lattice = *lattice;
-    if (auto* pillars = std::get_if<PillarArray>(&out.kind)) pillars->lattice = *lattice;
-  }
+  if (from.lattice && to.lattice) *to.lattice = *from.lattice;
   return out;
 }
 
 int texture_levels(const Texture& texture) {
-  const auto* stack = std::get_if<Stack>(&texture.kind);
-  return stack ? static_cast<int>(stack->parts.size()) : 1;
+  Texture copy = texture;
+  const std::vector<Texture>* parts = roles(copy).parts;
+  return parts ? static_cast<int>(parts->size()) : 1;
 }
 
 Texture with_levels(Texture texture, int levels) {
-  auto* stack = std::get_if<Stack>(&texture.kind);
-  if (stack && static_cast<int>(stack->parts.size()) > levels)
-    stack->parts.resize(static_cast<std::size_t>(levels));
+  std::vector<Texture>* parts = roles(texture).parts;
+  if (parts && static_cast<int>(parts->size()) > levels)
+    parts->resize(static_cast<std::size_t>(levels));
   return texture;
 }
 
+bool last_level_has_relief(const Texture& texture) {
+  Texture copy = texture;
+  const std::vector<Texture>* parts = roles(copy).parts;
+  return facts(parts && !parts->empty() ? parts->back() : texture).relief.present;
+}
+
+Texture part_at(const Texture& texture, const std::string& path) {
+  const std::string part = "texture.parts.";
+  Texture copy = texture;
+  const std::vector<Texture>* parts = roles(copy).parts;
+  if (!parts || !path.starts_with(part)) return texture;
+  std::size_t index = 0;
+  const auto [end, error] =
+      std::from_chars(path.data() + part.size(), path.data() + path.size(), index);
+  if (error != std::errc() || index >= parts->size()) return texture;
+  return part_at((*parts)[index],
+                 "texture" + path.substr(static_cast<std::size_t>(end - path.data())));
+}
+
+std::optional<Measure> measure_of(const std::string& path) {
+  const std::string key = split(path).second;
+  for (const auto& [name, measure] : keys().measures) {
+    if (name == key) return measure;
+  }
+  return std::nullopt;
+}
+
+bool decides_relief(const std::string& path) { return keys().relief.contains(split(path).second); }
+
 std::string path_in(const std::vector<NumberField>& known, const std::string& path) {
   if (has(known, path)) return path;
-  constexpr std::array<std::pair<const char*, const char*>, 2> kSame{
-      {{".depth", ".height"}, {".diameter", ".width"}}};
-  if (!path.starts_with("texture.")) return {};
-  for (const auto& [a, b] : kSame) {
-    for (const auto& [mine, other] : {std::pair(a, b), std::pair(b, a)}) {
-      if (!path.ends_with(mine)) continue;
-      const std::string there = path.substr(0, path.size() - std::string(mine).size()) + other;
-      if (has(known, there)) return there;
-    }
+  const std::optional<Measure> wanted = measure_of(path);
+  if (!wanted) return {};
+  for (const auto& [key, measure] : keys().measures) {
+    const std::string there = split(path).first + key;
+    if (measure == *wanted && has(known, there)) return there;
   }
   return {};
 }

@@ -28,13 +28,13 @@ void add_parameter_errors(Response& response, const Scene& scene, const Texture&
   const std::vector<FingerStep> steps = finger_steps(scene.finger);
   const Fidelity few = step_fidelity(fidelity);
   ParameterSteps& out = response.parameters;
-  out = {{}, few.skins, few.grid, ""};
+  out = {{}, few.skins, few.grid, {}};
   const auto run = [&](const Finger& finger) -> Resampled {
     Scene moved = scene;
     moved.finger = finger;
     const PatchSet patches = solve_patches(moved, texture, few);
     Response there = respond(moved, few, patches);
-    if (out.trouble.empty()) out.trouble = there.trouble();
+    if (out.troubles.empty()) out.troubles = there.troubles();
     response.seconds += there.seconds;
     response.contact_solves += there.contact_solves;
     response.fft_pairs += there.fft_pairs;
@@ -42,11 +42,12 @@ void add_parameter_errors(Response& response, const Scene& scene, const Texture&
   };
   for (const FingerStep& step : steps) out.steps.push_back({run(step.up), run(step.down)});
   for (std::size_t i = 0; i < response.points.size(); ++i) {
-    for (const auto member : kMeasured) {
+    for (const PointQuantity& quantity : kQuantities) {
       const auto value = [&](const std::vector<ResponsePoint>& points) {
-        return std::optional((points[i].*member).value);
+        return std::optional((points[i].*quantity.value).value);
       };
-      (response.points[i].*member).parts.parameters = step_error(*step_samples(out.steps, value));
+      (response.points[i].*quantity.value).parts.parameters =
+          step_error(*step_samples(out.steps, value));
     }
   }
 }

@@ -17,7 +17,7 @@ constexpr int kSmallestGrid = 64, kFewestSkins = 8, kBatch = 8, kMostPlans = 5;
 // Share of the target's square that grid, method and solver may take in a plan: the rest is left to
 // sampling, whose error is known only within a third.
 constexpr double kSystematicShare = 0.6;
-// Of a target out of reach: how near to the least error that the limits allow is near enough.
+// Where a target is out of reach: how near to the least error within the limits is near enough.
 constexpr double kNearEnough = 1.1;
 
 struct Parts {
@@ -36,23 +36,23 @@ class TargetRun {
     fidelity_ = pilot_fidelity(options_);
     Response response = fresh(kFewestSkins, "pilot"), best = response;
     Parts best_parts = parts_;
-    std::string status = "reached";
+    report_.target = options_.target;
     for (int plans = 0; !(parts_.total() <= options_.target);) {
       if (!(value_ > 0)) {
-        status = quantity_ + " is zero: no relative error";
+        report_.end = TargetEnd::NoRelativeError;
         break;
       }
       const Choice choice = cheapest();
       if (choice.grid != fidelity_.grid || choice.estimator != fidelity_.estimator) {
         if (++plans > kMostPlans) {
-          status = "not reached: the plan does not settle";
+          report_.end = TargetEnd::PlanUnsettled;
           break;
         }
         fidelity_.grid = choice.grid;
         fidelity_.estimator = choice.estimator;
         response = fresh(choice.skins, "planned");
       } else if (patches_.skins() >= choice.skins) {
-        status = limit(best_parts.total() < parts_.total() ? best_parts : parts_);
+        limits_reached(best_parts.total() < parts_.total() ? best_parts : parts_);
         break;
       } else {
         const int most = std::min(kBatch, options_.most_skins - patches_.skins());
@@ -68,10 +68,11 @@ class TargetRun {
       response = best;
       parts_ = best_parts;
     }
-    response.accuracy = {options_.target, parts_.total(), quantity_, status, steps_};
+    report_.reached = parts_.total();
+    response.accuracy = report_;
     response.seconds = seconds_;
-    response.fft_pairs = pairs_;
-    response.contact_solves = solves_;
+    response.fft_pairs = costs_.fft_pairs;
+    response.contact_solves = costs_.contact_solves;
     return response;
   }
 
@@ -106,7 +107,7 @@ class TargetRun {
     Response response = respond(scene_, fidelity_, patches_);
     const auto mean =
         summarise(Summary::Mean, response.driven ? "modulation" : "friction", response);
-    quantity_ = response.driven ? "mean(modulation)" : "mean(friction)";
+    report_.quantity = response.driven ? "mean(modulation)" : "mean(friction)";
     value_ = mean ? std::abs(mean->value) : 0;
     parts_ = {};
     if (mean && value_ > 0) {
@@ -114,20 +115,14 @@ class TargetRun {
                 mean->parts.method.value_or(0) / value_, mean->parts.solver.value_or(0) / value_};
     }
     seconds_ += seconds;
-    for (const auto& results : patches_.results) {
-      for (std::size_t k = static_cast<std::size_t>(before); k < results.size(); ++k) {
-        pairs_ += results[k].fft_pairs;
-        solves_ += results[k].contact_solves;
-      }
-    }
+    costs_ += patches_.costs(before);
     if (before == 0) {
       for (const MeasuredError& e : patches_.errors) {
-        pairs_ += e.fft_pairs;
-        solves_ += e.contact_solves;
+        costs_ += e.costs;
         seconds_ += e.seconds;
       }
     }
-    steps_.push_back(fmt::format(
+    report_.steps.push_back(fmt::format(
         "{}: {} pixels, {}, {} skins: sampling {:.2f} %, grid {:.2f} %, method {:.2f} %, solver "
         "{:.2f} %",
         why, fidelity_.grid, fidelity_.estimator == Estimator::Load ? "load law" : "solved areas",
@@ -202,16 +197,18 @@ class TargetRun {
     return inside(std::max(reachable, options_.target), 1);
   }
 
-  std::string limit(const Parts& parts) const {
+  void limits_reached(const Parts& parts) {
     const std::array<std::pair<const char*, double>, 4> all{{{"sampling", parts.sampling},
                                                              {"grid", parts.grid},
                                                              {"method", parts.method},
                                                              {"solver", parts.solver}}};
     const auto largest = std::max_element(
         all.begin(), all.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    return fmt::format("not reached: {} {:.2g} % is the largest part; at most {} pixels, {} skins",
-                       largest->first, 100 * largest->second, options_.largest_grid,
-                       options_.most_skins);
+    report_.end = TargetEnd::LimitsReached;
+    report_.largest_part = largest->first;
+    report_.largest_share = largest->second;
+    report_.largest_grid = options_.largest_grid;
+    report_.most_skins = options_.most_skins;
   }
 
   const Scene& scene_;
@@ -221,10 +218,9 @@ class TargetRun {
   PatchSet patches_;
   Parts parts_;
   double value_ = 0;
-  std::string quantity_;
-  std::vector<std::string> steps_;
-  double seconds_ = 0, pairs_ = 0;
-  int solves_ = 0;
+  TargetReport report_;
+  PatchCosts costs_;
+  double seconds_ = 0;
 };
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "estimate/voltage.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -18,31 +16,34 @@ constexpr int kMaxEvaluations = 40;
 
 // No equilibrium at that voltage, or none that friction is known for.
 bool beyond(const ResponsePoint& point) {
-  return point.status.starts_with("pull-in") || point.status.starts_with("full contact") ||
-         point.status.starts_with("coupling");
+  return point.status.pull_in() || point.status.trouble == Trouble::FullContact ||
+         point.status.trouble == Trouble::PassesUsedUp;
 }
 
 // Searches one target at one humidity.
 class VoltageSearch {
  public:
-  VoltageSearch(const RestPatches& patches, double target, double limit, std::string limit_name)
-      : patches_(patches), limit_name_(std::move(limit_name)) {
+  VoltageSearch(const UndrivenPatches& patches, double target, double limit, VoltageEnd limited_by)
+      : patches_(patches), limited_by_(limited_by) {
     answer_.target = target;
     answer_.limit = limit;
   }
 
   VoltageAnswer run(double guess, bool areas) {
     if (answer_.limit <= 0) {
-      answer_.status = "no dielectric: contact would short the drive";
+      answer_.end = VoltageEnd::NoDielectric;
       return answer_;
     }
     double found = root(Estimator::Load, std::min(guess, answer_.limit));
-    if (areas && stopped_.empty()) found = root(Estimator::Area, found > 0 ? found : answer_.limit);
-    if (found > 0 && stopped_.empty()) {
+    if (areas && answer_.reached())
+      found = root(Estimator::Area, found > 0 ? found : answer_.limit);
+    if (!answer_.reached()) return answer_;
+    if (found > 0) {
       answer_.amplitude = amplitude(found);
       answer_.modulation = last_.modulation.value;
     } else {
-      answer_.status = stopped_.empty() ? limit_status() : stopped_;
+      answer_.end = blocked_.sound() ? limited_by_ : VoltageEnd::ModelEnds;
+      answer_.model = blocked_;
     }
     return answer_;
   }
@@ -56,12 +57,12 @@ class VoltageSearch {
   double root(Estimator estimator, double guess) {
     low_ = {0, 0};
     high_ = {};
-    blocked_.clear();
+    blocked_ = {};
     double ceiling = answer_.limit, v = guess;
     answer_.modulation = 0;
     for (;;) {
       if (++answer_.evaluations > kMaxEvaluations) {
-        stopped_ = "the search for the voltage has not converged";
+        answer_.end = VoltageEnd::NotConverged;
         return 0;
       }
       last_ = patches_.drive(v, estimator);
@@ -76,8 +77,10 @@ class VoltageSearch {
         v = low_.amplitude > 0 ? std::sqrt(low_.amplitude * ceiling) : 0.5 * ceiling;
         continue;
       }
-      if (last_.status.starts_with("contact") || last_.status.starts_with("field")) {
-        stopped_ = last_.status;
+      if (last_.status.trouble == Trouble::ContactUnsolved ||
+          last_.status.trouble == Trouble::FieldUnsolved) {
+        answer_.end = VoltageEnd::Unsound;
+        answer_.model = last_.status;
         return 0;
       }
       answer_.modulation = std::max(answer_.modulation, std::min(m, answer_.target));
@@ -86,7 +89,7 @@ class VoltageSearch {
       const Sample previous = above ? high_ : low_;
       (above ? high_ : low_) = sample;
       if (!above &&
-          (v >= ceiling || (!blocked_.empty() && ceiling - v < 5 * kTolerance * ceiling))) {
+          (v >= ceiling || (!blocked_.sound() && ceiling - v < 5 * kTolerance * ceiling))) {
         answer_.limit = ceiling;
         return 0;
       }
@@ -141,25 +144,19 @@ class VoltageSearch {
     return {v, e};
   }
 
-  std::string limit_status() const {
-    if (!blocked_.empty()) return fmt::format("{} at {:.3g} V", blocked_, answer_.limit);
-    return fmt::format("{} at {:.4g} V", limit_name_, answer_.limit);
-  }
-
-  const RestPatches& patches_;
-  std::string limit_name_;
+  const UndrivenPatches& patches_;
+  VoltageEnd limited_by_;
   VoltageAnswer answer_;
   ResponsePoint last_;
   Sample low_{}, high_{};
-  std::string blocked_;  // what the model said above the ceiling
-  std::string stopped_;  // a trouble at every voltage
+  ModelStatus blocked_;  // what the model said above the ceiling
 };
 
 }  // namespace
 
 double amplitude_limit(const Scene& scene, const Texture& texture) {
   const double radius = scene.surface.electrode_edge_radius;
-  const bool edges = radius > 0 && texture_depth(texture) > 0;
+  const bool edges = radius > 0 && facts(texture).relief.present;
   const double oxide =
       dielectric_margin(scene.surface.dielectric, 1, edges ? radius : kInfinity);  // 1 V
   const double source = scene.drive.source_compliance;
@@ -174,12 +171,12 @@ void add_voltages(Response& response, const Scene& scene, const Texture& texture
     Scene one = scene;
     one.environment.relative_humidity = {point.relative_humidity};
     one.environment.weights.clear();
-    const RestPatches patches(one, texture, fidelity);
+    const UndrivenPatches patches(one, texture, fidelity);
     double guess = scene.drive.driven() ? scene.drive.amplitude : 100;
     for (double target : targets) {
       PAPILLA_CHECK(target > 0, "a modulation above 0");
       VoltageSearch search(patches, target, limit,
-                           source ? "the source ends" : "the dielectric breaks down");
+                           source ? VoltageEnd::SourceEnds : VoltageEnd::Breakdown);
       point.voltages.push_back(search.run(guess, fidelity.estimator == Estimator::Area));
       if (point.voltages.back().reached()) guess = point.voltages.back().amplitude.value;
     }

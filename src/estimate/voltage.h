@@ -18,7 +18,7 @@ double amplitude_limit(const Scene& scene, const Texture& texture);
 // the load estimator on the gap at rest, then, where the fidelity measures areas, with contact
 // solved under the drive. Not reached: the status names what came first (breakdown, the source,
 // pull-in, a bare electrode, a trouble of the model) and the highest modulation. Cost: contact at
-// rest once more, and 5 to 10 times field and water; areas: 3 to 5 more solves a patch. Eq.
+// rest once more, and 5 to 10 times field and water; areas: 3 to 5 more solves per patch. Eq.
 // metrics.6
 void add_voltages(Response& response, const Scene& scene, const Texture& texture,
                   const Fidelity& fidelity, std::span<const double> targets);

@@ -13,33 +13,45 @@
 namespace papilla {
 namespace {
 
+// Why a layout or a mask cannot draw the texture; empty: it can.
+std::string undrawable(const TextureFacts& known) {
+  if (!known.relief.present) return std::get<NoOutline>(facts(Texture{}).outline).reason;
+  const auto* none = std::get_if<NoOutline>(&known.outline);
+  if (!none) return {};
+  return none->reason + "; take its heights, exr, tiff, gsf, npy, x3p or stl, or a dose map";
+}
+
 // Why a format cannot be written; empty: it can.
-std::string refusal(const ExportFormat& format, const Design& design,
+std::string refusal(const ExportFormat& format, const TextureFacts& known,
                     const ExportOptions& options) {
   const std::string subject = fmt::format("format \"{}\"", format.name);
-  if (format.needs_outline && texture_depth(design.texture) <= 0)
-    return subject + ": the surface is flat, there are no outlines to write";
+  if (format.needs_outline || (format.follows_outline && known.relief.present)) {
+    if (const std::string reason = undrawable(known); !reason.empty())
+      return subject + ": " + reason;
+  }
   if (format.needs_dose_curve && options.dose_curve.empty())
     return subject + " needs --dose-curve, a CSV of depth_nm,grey";
-  if (format.needs_polarity && !options.polarity)
+  if (format.needs_polarity && !options.polarity) {
     return subject +
            " needs a polarity: white-high (bright is high) or white-deep (bright is deep)";
+  }
   return {};
 }
 
-std::vector<ExportFormat> chosen_formats(const Design& design, const ExportOptions& options) {
+std::vector<ExportFormat> chosen_formats(const Texture& texture, const ExportOptions& options) {
+  const TextureFacts known = facts(texture);
   std::vector<ExportFormat> out;
   if (options.formats.empty()) {
     for (const ExportFormat& format : export_format_table()) {
-      if (format.asked_only || !refusal(format, design, options).empty()) continue;
-      if (format.needs_outline && !is_array(design.texture)) continue;  // contours are on request
+      if (format.asked_only || !refusal(format, known, options).empty()) continue;
+      if (format.needs_outline && !array_of(known)) continue;  // contours are on request
       out.push_back(format);
     }
     return out;
   }
   for (const std::string& name : options.formats) {
     out.push_back(find_export_format(name));
-    if (const std::string why = refusal(out.back(), design, options); !why.empty())
+    if (const std::string why = refusal(out.back(), known, options); !why.empty())
       throw InputError(why);
   }
   return out;
@@ -48,7 +60,7 @@ std::vector<ExportFormat> chosen_formats(const Design& design, const ExportOptio
 // One cell of the lattice; sides of 0 where nothing repeats. Two periods along x hold two rows of a
 // square lattice, one of a hexagonal.
 Grid unit_cell(const Texture& texture, int pixels) {
-  const double period = texture_period(texture);
+  const double period = facts(texture).period();
   if (!(period > 0)) return {};
   Grid cell = patch_grid(texture, 2 * (pixels + pixels % 2), 2 * period);
   cell.lx = period;
@@ -63,14 +75,10 @@ Grid unit_cell(const Texture& texture, int pixels) {
 // GDSII places whole cells on a grid of 1 nm, where a period that a search found never lies. All
 // files of an export are of one texture, so that a map and a layout of it lie on each other.
 void snap_period(Texture& texture, std::vector<std::string>& warnings) {
-  const double period = texture_period(texture), nm = 1e9 * period;
+  const double period = facts(texture).period(), nm = 1e9 * period;
   const auto with = [&](double whole) {
     Texture out = texture;
-    std::visit(
-        [&](auto& kind) {
-          if constexpr (requires { kind.period; }) kind.period = 1e-9 * whole;
-        },
-        out.kind);
+    if (double* own = roles(out).period) *own = 1e-9 * whole;
     return out;
   };
   if (std::abs(nm - std::round(nm)) <= 1e-4) return;
@@ -78,7 +86,7 @@ void snap_period(Texture& texture, std::vector<std::string>& warnings) {
   if (!problems(snapped).empty()) snapped = with(std::ceil(nm));  // walls may be that thin
   for (const auto& [key, message] : problems(snapped))
     throw InputError("on the 1 nm grid of GDSII: texture." + key + ": " + message);
-  const double after = 1e9 * texture_period(snapped);
+  const double after = 1e9 * facts(snapped).period();
   warnings.push_back(fmt::format(
       "the period of {:.8g} nm is not on the 1 nm grid of GDSII: all files of this export, maps "
       "and layout, have {:.0f} nm, {:.2g} nm ({:.2g} %) {}",
@@ -90,8 +98,7 @@ void snap_period(Texture& texture, std::vector<std::string>& warnings) {
 // Heights and masks of too few pixels move and round every edge.
 void judge_pixels(const Texture& texture, const Grid& grid, std::vector<std::string>& warnings) {
   constexpr double kPixelsAcross = 4;
-  const FabricationMargins margins = fabrication_margins(texture);
-  const double smallest = std::min(margins.min_hole, margins.min_wall);
+  const double smallest = facts(texture).margins.smallest();
   const double pixel = std::max(grid.dx(), grid.dy());
   if (!std::isfinite(smallest) || !(smallest > 0) || pixel <= smallest / kPixelsAcross) return;
   const double pixels = 2 * std::ceil(0.5 * std::max(grid.lx, grid.ly) * kPixelsAcross / smallest);
@@ -130,17 +137,15 @@ void judge_size(Export& out, const ExportOptions& options) {
   out.warnings.push_back(fmt::format(
       "{:.6g} um were asked for, {:.6g} um are written: {}", 1e6 * options.size, 1e6 * grid.lx,
       out.cells_x > 0 ? "a whole number of periods"
-      : std::holds_alternative<Measured3d>(out.texture.kind)
+      : facts(out.texture).free_patch.exact
           ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
           : "the smallest patch that holds the texture"));
 }
 
 }  // namespace
 
-bool is_array(const Texture& texture) {
-  return std::holds_alternative<HoleArray>(texture.kind) ||
-         std::holds_alternative<PillarArray>(texture.kind) ||
-         std::holds_alternative<Grating>(texture.kind);
+const FeatureArray* array_of(const TextureFacts& known) {
+  return std::get_if<FeatureArray>(&known.outline);
 }
 
 Texture compensated(const Texture& texture, const ProcessBias& bias) {
@@ -150,15 +155,11 @@ Texture compensated(const Texture& texture, const ProcessBias& bias) {
     if (w <= 0) throw InputError("process bias: nothing is left of the features");
     return w;
   };
-  if (auto* holes = std::get_if<HoleArray>(&out.kind)) {
-    holes->diameter = width(holes->diameter + 2 * bias.shrink);
-    rim(holes->edge_radius);
-  } else if (auto* pillars = std::get_if<PillarArray>(&out.kind)) {
-    pillars->diameter = width(pillars->diameter - 2 * bias.shrink);
-    rim(pillars->edge_radius);
-  } else if (auto* grooves = std::get_if<Grating>(&out.kind)) {
-    grooves->width = width(grooves->width + 2 * bias.shrink);
-    rim(grooves->edge_radius);
+  const TextureFacts known = facts(texture);
+  if (const FeatureArray* array = array_of(known)) {
+    const Roles role = roles(out);
+    *role.width = width(*role.width + (array->deep ? 2 : -2) * bias.shrink);
+    rim(*role.edge_radius);
   } else if (bias.shrink != 0 || bias.edge_radius != 0) {
     throw InputError(fmt::format("process bias is for holes, pillars and grooves, not \"{}\"",
                                  texture_name(texture)));
@@ -172,10 +173,10 @@ Export export_design(const Design& wanted, const ExportOptions& options,
                      const std::string& folder) {
   Design design = wanted;
   design.texture = compensated(wanted.texture, options.bias);
-  const std::vector<ExportFormat> formats = chosen_formats(design, options);
+  const std::vector<ExportFormat> formats = chosen_formats(design.texture, options);
   Export out;
   out.texture = design.texture;
-  const bool array = is_array(out.texture);
+  const bool array = array_of(facts(out.texture)) != nullptr;
   const bool layout =
       std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f.needs_outline; });
   if (layout && array) snap_period(out.texture, out.warnings);

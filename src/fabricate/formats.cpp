@@ -47,8 +47,9 @@ void x3p(const ExportSource& s, const std::string& path, Export&) { write_x3p(pa
 // An array as cell and array reference, anything else as contours of its heights.
 void gds(const ExportSource& s, const std::string& path, Export& out) {
   const Grid& grid = s.heightmap.grid;
-  if (is_array(s.texture)) {
-    out.array = write_gds(path, s.texture, grid.lx, grid.ly, s.options.facet_error);
+  const TextureFacts known = facts(s.texture);
+  if (const FeatureArray* array = array_of(known)) {
+    out.array = write_gds(path, *array, grid.lx, grid.ly, s.options.facet_error);
   } else {
     out.contours = {write_gds_mask(path, s.heightmap, s.options.levels), s.options.levels};
   }
@@ -91,6 +92,7 @@ constexpr ExportFormat kFormats[]{
      .file = "mask.tif",
      .holds = "black and white: where the surface is below half its depth",
      .needs_polarity = true,
+     .follows_outline = true,
      .write = mask},
     {.name = "gsf",
      .file = "heightmap.gsf",

@@ -16,7 +16,7 @@ namespace {
 
 double mean_of(const std::string& metric, const Response& response) {
   const auto value = summarise(Summary::Mean, metric, response);
-  if (!value) throw InputError("the file cannot be judged: " + response.trouble());
+  if (!value) throw InputError("the file cannot be judged: " + text(response.troubles()));
   return value->value;
 }
 

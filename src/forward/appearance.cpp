@@ -16,25 +16,23 @@ namespace {
 constexpr double kRandomPatch = 100e-6;  // orders 0.3 deg apart
 constexpr int kPeriodPixels = 96, kRandomPixels = 1024;
 constexpr double kTrusted = 2e-6;  // narrower features: compare with a rigorous method
+// A shorter patch has no order that parts what leaves within 2.5 deg from haze.
+const double kLeastPatch = 2 * visible_wavelengths().back() / std::sin(kHazeAngle);
 constexpr double kTrustedSlope = 20 * kPi / 180;
 
 void warn(Optics& o, const std::string& text) {
   o.warning += (o.warning.empty() ? "" : "; ") + text;
 }
 
-Optics layer(const Texture& texture, const OpticalMedia& media, const View& view) {
-  Disorder disorder{0, view.displacement, view.diameter_scatter};
-  Features features = Features::Holes;
-  if (const auto* holes = std::get_if<HoleArray>(&texture.kind)) {
-    disorder.width = holes->diameter;
-  } else if (const auto* pillars = std::get_if<PillarArray>(&texture.kind)) {
-    disorder.width = pillars->diameter;
-    features = Features::Pillars;
-  } else if (const auto* grooves = std::get_if<Grating>(&texture.kind)) {
-    disorder.width = grooves->width;
-    features = Features::Lines;
-  }
-  return effective_medium(open_fraction(texture), texture_depth(texture), features, media, disorder,
+// A layer of features finer than the wavelength.
+Optics layer(const FeatureArray& array, const TextureFacts& known, const OpticalMedia& media,
+             const View& view) {
+  const bool lines = array.shape == FeatureArray::Shape::Line;
+  const Features features = lines        ? Features::Lines
+                            : array.deep ? Features::Holes
+                                         : Features::Pillars;
+  return effective_medium(known.open_share.value(), known.relief.height().value(), features, media,
+                          {array.width, view.displacement, view.diameter_scatter},
                           {visible_wavelengths(), view.angles});
 }
 
@@ -45,31 +43,37 @@ double finest_period(double index, const View& view) {
 }
 
 Optics screen(const Texture& texture, const OpticalMedia& media, const Light& light) {
-  const double period = texture_period(texture);
-  const bool array = quick_appearance(texture);
+  const TextureFacts known = facts(texture);
+  const double period = known.period();
+  const bool array = std::holds_alternative<FeatureArray>(known.outline);
   Grid grid = patch_grid(texture, kRandomPixels, kRandomPatch);
   if (array) {
     grid = patch_grid(texture, 2 * kPeriodPixels, 2 * period);
     grid.nx /= 2, grid.lx /= 2;  // one of the two periods
   }
-  const double edge =
-      std::max(rim_radius(texture) < kInfinity ? rim_radius(texture) : 0.0, 0.1 * grid.dx());
+  const double edge = std::max(known.rim_radius.value_or(0), 0.1 * grid.dx());
   const PixelEdges edges =
       array && edge < 0.1 * period ? PixelEdges::TwoLevels : PixelEdges::Sloped;
   const Heightmap h = generate(texture, grid);
   Optics out = phase_screen(h, edges, media, light);
   if (array) {
-    const FabricationMargins margins = fabrication_margins(texture);
-    const double feature = std::min(margins.min_hole, margins.min_wall);
+    const double feature = known.margins.smallest();
     if (feature < kTrusted) {
       warn(out, fmt::format("features of {:.2g} um are few wavelengths: scalar theory is rough",
                             1e6 * feature));
-    } else if (texture_depth(texture) > 0.5 * feature) {
+    } else if (known.relief.height() > 0.5 * feature) {
       warn(out, "deep against its width: a thin screen is rough");
     }
-  } else if (const double slope = std::atan(roughness_parameters(h).sdq); slope > kTrustedSlope) {
+    return out;
+  }
+  if (const double slope = std::atan(roughness_parameters(h).sdq); slope > kTrustedSlope) {
     warn(out, fmt::format("slopes of {:.0f} deg (root mean square) are too steep for a thin screen",
                           slope * 180 / kPi));
+  }
+  if (const double side = std::min(grid.lx, grid.ly); side < kLeastPatch) {
+    warn(out, fmt::format("a patch of {:.3g} um is short: what leaves within 2.5 deg counts as "
+                          "haze, a patch of {:.3g} um and more parts it",
+                          1e6 * side, 1e6 * kLeastPatch));
   }
   return out;
 }
@@ -77,17 +81,19 @@ Optics screen(const Texture& texture, const OpticalMedia& media, const Light& li
 Optics computed(const Texture& texture, double index, const View& view) {
   const OpticalMedia media{index, view.fill_index};
   const Light light{visible_wavelengths(), view.angles};
+  const TextureFacts known = facts(texture);
+  const auto* array = std::get_if<FeatureArray>(&known.outline);
   Optics out;
-  if (texture_depth(texture) <= 0) {
+  if (!known.relief.present) {
     const Heightmap flat{{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)};
     out = phase_screen(flat, PixelEdges::Sloped, media, light);
-    out.regime = "flat";
+    out.regime = OpticsRegime::Flat;
   } else if (const std::string why = optics_refusal(texture, index, view); !why.empty()) {
-    out.regime = "refused";
+    out.regime = OpticsRegime::Refused;
     out.warning = why;
     return out;
-  } else if (quick_appearance(texture) && texture_period(texture) < finest_period(index, view)) {
-    out = layer(texture, media, view);
+  } else if (array && array->period < finest_period(index, view)) {
+    out = layer(*array, known, media, view);
   } else {
     out = screen(texture, media, light);
   }
@@ -99,20 +105,13 @@ Optics computed(const Texture& texture, double index, const View& view) {
 
 }  // namespace
 
-bool quick_appearance(const Texture& texture) {
-  return std::holds_alternative<Flat>(texture.kind) ||
-         std::holds_alternative<HoleArray>(texture.kind) ||
-         std::holds_alternative<PillarArray>(texture.kind) ||
-         std::holds_alternative<Grating>(texture.kind);
-}
-
 std::string optics_refusal(const Texture& texture, double index, const View& view) {
-  const double period = texture_period(texture);
+  const TextureFacts known = facts(texture);
+  const auto* array = std::get_if<FeatureArray>(&known.outline);
+  if (!array || !known.relief.present) return {};
+  const double period = array->period;
   const double finest = finest_period(index, view), red = visible_wavelengths().back();
-  if (!quick_appearance(texture) || texture_depth(texture) <= 0 || period < finest ||
-      period >= 2 * red) {
-    return {};
-  }
+  if (period < finest || period >= 2 * red) return {};
   return fmt::format(
       "period {:.0f} nm is neither below {:.0f} nm (effective medium) nor above {:.0f} nm (phase "
       "screen)",

@@ -1,18 +1,15 @@
 #include "forward/coupling.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "base/constants.h"
+#include "forward/scene_terms.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 #include "physics/electrostatics/breakdown.h"
-#include "physics/electrostatics/electrowetting.h"
-#include "physics/electrostatics/full_field.h"
 
 namespace papilla {
 namespace {
@@ -32,14 +29,9 @@ class Timed {
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
-WaterProperties water_properties(const Scene& scene, double substrate_angle) {
-  const SkinWater& water = scene.finger.water;
-  return {water.surface_tension, water.contact_angle, substrate_angle, water.hysteresis};
-}
-
 Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
                      const WaterProperties& properties, std::uint64_t seed, PatchResult& out) {
-  const Timed timed(out.seconds.water);
+  const Timed timed(out.costs.seconds.water);
   const Scene& scene = *problem.scene;
   if (scene.model.water == WaterModel::Threshold) return fill_threshold(gap, volume, properties);
   DropletOptions options;
@@ -53,28 +45,21 @@ Wetting settle_water(const PatchProblem& problem, const Gap& gap, double volume,
   SettleReport report;
   Wetting wetting =
       settle_droplets(gap, volume, properties, options, seed, problem.droplet_index, &report);
-  if (!report.converged && out.status.empty()) {
-    out.status =
-        fmt::format("water: droplets not at rest after {} moves of one", options.max_moves);
-  }
+  if (!report.converged)
+    out.status.note({Trouble::WaterMoves, static_cast<double>(options.max_moves), ""});
   return wetting;
 }
 
 Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& driven,
                     PatchResult& out) {
-  const Timed timed(out.seconds.water);
+  const Timed timed(out.costs.seconds.water);
   return rewet(off, gap, driven);
 }
 
 FieldSolution solve_field_timed(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
                                 const FieldProblem& field, double tolerance, PatchResult& out) {
-  const Timed timed(out.seconds.field);
+  const Timed timed(out.costs.seconds.field);
   return solve_field(*problem.scene, gap, problem.surface, wetting, field, tolerance);
-}
-
-// Preset m3: hydrophobic surfaces carry no capillary force when off.
-bool capillary_off_counts(const Scene& scene) {
-  return scene.model.preset == Preset::Papilla || scene.surface.contact_angle <= kPi / 2;
 }
 
 class PatchSolver {
@@ -90,81 +75,81 @@ class PatchSolver {
                       ? 1
                       : 1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
 
-  RestPatch rest(const PatchStates& start) const {
+  UndrivenPatch undriven(const PatchStates& start) const {
     const Scene& scene = *problem_.scene;
     const Grid& grid = plan_.grid;
-    RestPatch rest;
-    PatchResult& out = rest.result;
+    UndrivenPatch patch;
+    PatchResult& out = patch.result;
     out.load = problem_.pressure * grid.area();
-    rest.water.grid = grid;
+    patch.water.grid = grid;
 
-    rest.dry = contact({}, start.dry.pressure.empty() ? nullptr : &start.dry, out);
-    if (rest.dry.gap.empty()) return rest;
-    out.area_dry = area(rest.dry);
-    const Gap gap{grid, rest.dry.gap};
-    describe_gap(rest.dry, out);
+    patch.dry = contact({}, start.dry.pressure.empty() ? nullptr : &start.dry, out);
+    if (patch.dry.gap.empty()) return patch;
+    out.area_dry = area(patch.dry);
+    const Gap gap{grid, patch.dry.gap};
+    describe_gap(patch.dry, out);
 
     const WaterProperties water = water_properties(scene, scene.surface.contact_angle);
     out.volume = plan_.water ? problem_.water_factor * grid.area() *
                                    scene.finger.water.volume_per_area(problem_.relative_humidity)
                              : 0;
     if (out.volume > 0) {
-      rest.water = settle_water(problem_, gap, out.volume, water, fidelity_.seed, out);
-      note_water(rest.water, out);
+      patch.water = settle_water(problem_, gap, out.volume, water, fidelity_.seed, out);
+      note_water(patch.water, out);
     }
-    if (capillary_off_counts(scene)) out.capillary_off = rest.water.capillary_force;
+    if (capillary_off_counts(scene)) out.capillary_off = patch.water.capillary_force;
     out.capillary_on = out.capillary_off;  // until a field changes the angle
 
     // Eq. coupling.1: capillary tractions off; the same water and the field on.
     out.area_off = out.area_dry;
     if (plan_.traction_solves) {
       if (out.capillary_off != 0) {
-        const ContactSolution expected = carried(rest.dry, start.dry, start.off);
-        rest.off = contact(capillary_traction(rest.water, gap, water).value, &expected, out);
-        out.area_off = area(rest.off);
+        const ContactSolution expected = carried(patch.dry, start.dry, start.off);
+        patch.off = contact(capillary_traction(patch.water, gap, water).value, &expected, out);
+        out.area_off = area(patch.off);
       } else {
-        rest.off = rest.dry;
+        patch.off = patch.dry;
       }
     }
     out.area_on = out.area_off;
-    return rest;
+    return patch;
   }
 
   // start: in: of a nearby humidity; out: with the driven state of this one.
-  PatchResult drive(const RestPatch& rest, PatchStates& start, PatchFields* fields) const {
+  PatchResult drive(const UndrivenPatch& undriven, PatchStates& start, PatchFields* fields) const {
     const Scene& scene = *problem_.scene;
-    PatchResult out = rest.result;
-    if (rest.dry.gap.empty()) return out;
+    PatchResult out = undriven.result;
+    if (undriven.dry.gap.empty()) return out;
     Wetting on;
     on.grid = plan_.grid;
     FieldSolution pull;
     pull.traction = {plan_.grid, {}};
     ContactSolution on_state;
     if (plan_.field) {
-      const Gap gap{plan_.grid, rest.dry.gap};
+      const Gap gap{plan_.grid, undriven.dry.gap};
       const FieldProblem field = field_problem(scene, problem_.relative_humidity);
       const WaterProperties driven =
           water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
       if (out.volume > 0) {
-        on = rewet_timed(rest.water, gap, driven, out);
+        on = rewet_timed(undriven.water, gap, driven, out);
         out.capillary_on = on.capillary_force;
       }
       pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
       note_field(pull, out);
       if (scene.model.coupling == Coupling::SelfConsistent) {
-        on_state = iterate(rest.dry, gap, rest.water, driven, field, pull, on, out);
+        on_state = iterate(undriven.dry, gap, undriven.water, driven, field, pull, on, out);
         if (plan_.traction_solves) out.area_on = area(on_state);
       } else if (plan_.traction_solves) {
-        const ContactSolution expected = carried(rest.off, start.off, start.on);
+        const ContactSolution expected = carried(undriven.off, start.off, start.on);
         on_state = contact(total_traction(on, gap, driven, pull.traction), &expected, out);
         out.area_on = area(on_state);
         if (!on_state.gap.empty()) note_pull_in(gap, on_state, on, field, out);
       }
     }
     if (fields) {
-      fields->off = plan_.traction_solves ? rest.off : rest.dry;
+      fields->off = plan_.traction_solves ? undriven.off : undriven.dry;
       fields->on = on_state.pressure.empty() ? fields->off : on_state;
-      fields->wetting_off = rest.water;
+      fields->wetting_off = undriven.water;
       fields->wetting_on = std::move(on);
       fields->pull = std::move(pull.traction);
     }
@@ -176,17 +161,17 @@ class PatchSolver {
   // Contact under the preload and an attractive traction [Pa]; pressures in and out are physical.
   ContactSolution contact(std::vector<double> traction, const ContactSolution* start,
                           PatchResult& out) const {
-    const Timed timed(out.seconds.contact);
+    const Timed timed(out.costs.seconds.contact);
     for (double& t : traction) t *= softness_;
     ContactOptions options;
     options.tolerance = fidelity_.contact_tolerance;
     options.hardness = problem_.scene->finger.skin.hardness * softness_;
     ContactSolution solution = solve_contact(
         *problem_.kernel, problem_.height, problem_.pressure * softness_, traction, options, start);
-    ++out.contact_solves;
-    out.fft_pairs += solution.fft_pairs;
+    ++out.costs.contact_solves;
+    out.costs.fft_pairs += solution.fft_pairs;
     out.certificate = std::max(out.certificate, solution.certificate);
-    if (!solution.converged() && out.status.empty()) out.status = "contact: " + solution.reason;
+    if (!solution.converged()) out.status.note({Trouble::ContactUnsolved, 0, solution.reason});
     return solution;
   }
 
@@ -238,12 +223,7 @@ class PatchSolver {
     const FieldSolution next = solve_field_timed(problem_, {plan_.grid, state.gap}, wetting, field,
                                                  fidelity_.field_tolerance, out);
     const double ratio = next.mean_pressure * plan_.grid.area() / out.pull;
-    if (ratio >= kTwice && out.status.empty()) {
-      out.status = fmt::format(
-          "pull-in: the gap closes, a second pass would raise the pull by {:.0f} % (coupling = "
-          "\"self_consistent\" seeks an equilibrium)",
-          100 * (ratio - 1));
-    }
+    if (ratio >= kTwice) out.status.note({Trouble::SecondPassPullIn, ratio - 1, ""});
   }
 
   // Gap, water and field iterated to a fixed point. Eq. coupling.2: under-relaxed by a half in the
@@ -272,16 +252,16 @@ class PatchSolver {
         traction[i] = pass == 0 ? target[i] : 0.5 * (traction[i] + target[i]);
       }
       if (measure_area(*problem_.kernel, state).raw > 0.9) {
-        out.status = "pull-in: no equilibrium short of a closed gap";
+        out.status = {Trouble::ClosedPullIn, 0, ""};
         return state;
       }
       if (std::abs(change) < fidelity_.coupling_tolerance) return state;
       previous = out.pull;
     }
     if (change > 0 && out.pull > 2 * first) {
-      out.status = "pull-in: the pull grows from pass to pass";
-    } else if (out.status.empty()) {
-      out.status = fmt::format("coupling: not settled after {} passes", fidelity_.coupling_passes);
+      out.status = {Trouble::GrowingPullIn, 0, ""};
+    } else {
+      out.status.note({Trouble::PassesUsedUp, static_cast<double>(fidelity_.coupling_passes), ""});
     }
     return state;
   }
@@ -306,9 +286,7 @@ class PatchSolver {
     for (const Droplet& d : off.droplets) {
       if (d.film > 0 && d.film < 1) out.on_its_way += d.volume;
     }
-    if (off.status == WettingStatus::Flooded && out.status.empty()) {
-      out.status = "flooded: more water than gap, no meniscus and no capillary force";
-    }
+    if (off.status == WettingStatus::Flooded) out.status.note({Trouble::Flooded, 0, ""});
   }
 
   void note_field(const FieldSolution& pull, PatchResult& out) const {
@@ -320,7 +298,7 @@ class PatchSolver {
     const Surface& surface = problem_.scene->surface;
     out.oxide_margin = dielectric_margin(
         surface.dielectric, surface.dielectric_thickness() * pull.peak_oxide_field, kInfinity);
-    if (!pull.ok && out.status.empty()) out.status = "field: " + pull.reason;
+    if (!pull.ok) out.status.note({Trouble::FieldUnsolved, 0, pull.reason});
   }
 
   const PatchProblem& problem_;
@@ -331,77 +309,29 @@ class PatchSolver {
 
 }  // namespace
 
-RestPatch rest_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
-                     const PatchStates& start) {
-  return PatchSolver(problem, plan, fidelity).rest(start);
+UndrivenPatch undriven_patch(const PatchProblem& problem, const Plan& plan,
+                             const Fidelity& fidelity, const PatchStates& start) {
+  return PatchSolver(problem, plan, fidelity).undriven(start);
 }
 
 PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
-                        const RestPatch& rest, PatchFields* fields) {
+                        const UndrivenPatch& undriven, PatchFields* fields) {
   PatchStates start;
-  return PatchSolver(problem, plan, fidelity).drive(rest, start, fields);
+  return PatchSolver(problem, plan, fidelity).drive(undriven, start, fields);
 }
 
 PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         PatchStates& states, PatchFields* fields) {
   const PatchSolver solver(problem, plan, fidelity);
-  RestPatch rest = solver.rest(states);
-  PatchResult out = solver.drive(rest, states, fields);
-  if (rest.dry.gap.empty()) {
+  UndrivenPatch undriven = solver.undriven(states);
+  PatchResult out = solver.drive(undriven, states, fields);
+  if (undriven.dry.gap.empty()) {
     states = {};
   } else {
-    states.dry = std::move(rest.dry);
-    states.off = std::move(rest.off);
+    states.dry = std::move(undriven.dry);
+    states.off = std::move(undriven.off);
   }
   return out;
-}
-
-FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurface* surface,
-                          const Wetting& wetting, const FieldProblem& problem, double tolerance) {
-  switch (field_method(scene.model)) {
-    case FieldMethod::Full:
-      return solve_full_field(gap, surface, wetting, problem);
-    case FieldMethod::Spread:
-      return solve_spread_field(gap, surface, wetting, problem, tolerance);
-    case FieldMethod::Local:
-      break;
-  }
-  return solve_local_field(gap, surface, wetting, problem);
-}
-
-FieldProblem field_problem(const Scene& scene, double relative_humidity) {
-  FieldProblem p;
-  p.v_rms = scene.drive.v_rms();
-  p.v_peak = scene.drive.amplitude;
-  p.dielectric = scene.surface.equivalent_thickness();
-  p.dielectric_thickness = scene.surface.dielectric_thickness();
-  p.edge_radius = scene.surface.electrode_edge_radius;
-  // Stratum corneum in series: conducts below its corner frequency, h(w) = h / (1 + i wc/w).
-  const double h = scene.finger.electrical.equivalent_thickness(relative_humidity);
-  const double corner = scene.finger.electrical.corner_frequency;
-  const double f = scene.drive.waveform == Waveform::Dc ? 0 : scene.drive.frequency;
-  p.skin_layer = corner > 0 ? (f > 0 ? h / std::complex<double>(1, corner / f) : 0.0) : h;
-  p.breakdown_cap = scene.model.breakdown_cap;
-  p.droplet_enhancement = scene.model.droplet_enhancement;
-  if (scene.model.preset == Preset::M3) {
-    p.zero_under_droplets = true;
-    p.screening = false;
-    p.droplet_enhancement = false;
-  }
-  return p;
-}
-
-double driven_contact_angle(const Scene& scene, double relative_humidity) {
-  if (!scene.drive.driven()) return scene.surface.contact_angle;
-  const double rest = scene.surface.contact_angle;
-  const double saturated = scene.finger.saturation.angle(rest);
-  const FieldProblem field = field_problem(scene, relative_humidity);
-  const double eta =
-      electrowetting_number(scene.drive.amplitude, field.dielectric + std::abs(field.skin_layer),
-                            scene.finger.water.surface_tension);
-  const bool sine = scene.drive.waveform == Waveform::Sine || scene.drive.waveform == Waveform::Am;
-  return std::acos(
-      std::clamp(electrowetted_cosine(std::cos(rest), std::cos(saturated), eta, sine), -1.0, 1.0));
 }
 
 }  // namespace papilla

@@ -1,44 +1,36 @@
-// The grid and method parts of the error: a few skins run again, one choice changed at a time.
+#include "forward/errors.h"
+
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <optional>
 
 #include "base/constants.h"
 #include "base/statistics.h"
-#include "forward/forward.h"
 
 namespace papilla {
 namespace {
 
 constexpr int kSmallestGrid = 16;
 // What is missing to the limit over the last halving of the pixel: order 1.3 for the pull, 1.5 for
-// the rest. Training scenes of docs/theory/accuracy.md
-constexpr double kPullRest = 0.7, kOtherRest = 0.55;
-// Of the spread of contact areas, that of the rest at least.
+// other quantities. Training scenes of docs/theory/accuracy.md
+constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
+// Contact areas: of the octaves left out, so many at least.
 constexpr double kFewestOctaves = 0.6;
 // By the load law the modulation's way to the limit is part of its method error; half of that way
 // is taken as not known. Eq. accuracy.2
-constexpr double kUnknownRest = 0.5;
+constexpr double kUnknownShare = 0.5;
 constexpr double kNothingLeft = 0.05;  // of the largest over humidity
-
-bool is_area(Measured ResponsePoint::*quantity) {
-  return quantity == &ResponsePoint::friction_off || quantity == &ResponsePoint::friction_on ||
-         quantity == &ResponsePoint::area_fraction_off ||
-         quantity == &ResponsePoint::area_fraction_on;
-}
 
 // of(k): the difference without skin k, -1: of all; no samples where it is not defined.
 std::vector<double> samples_of(std::size_t skins,
                                const std::function<std::optional<double>(int)>& of) {
   const std::optional<double> all = of(-1);
-  std::vector<double> rest;
+  std::vector<double> without;
   for (std::size_t k = 0; k < skins; ++k) {
     const std::optional<double> one = of(static_cast<int>(k));
     if (!all || !one) return {};
-    rest.push_back(*one);
+    without.push_back(*one);
   }
-  return jackknife_samples(*all, rest);
+  return jackknife_samples(*all, without);
 }
 
 // The number of a run without skin k, -1: of all.
@@ -93,11 +85,11 @@ double method_error(const std::vector<double>& samples) {
   return std::sqrt(std::max(square(e.value) - square(e.se), 0.0));
 }
 
-ControlledChange controlled_change(const ControlRuns& runs, Measured ResponsePoint::*quantity,
+ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
                                    const Reading& number) {
   const bool load_law = !runs.areas.points.empty();
   const Resampled& fine = load_law ? runs.areas : runs.own;
-  const bool to_limit = load_law && quantity == &ResponsePoint::modulation;
+  const bool to_limit = load_law && quantity == GridLaw::Modulation;
   const auto halving = [&](int k, const Resampled& of) {
     return relative(read(number, runs.coarse, k), read(number, fine, k), read(number, of, k));
   };
@@ -107,12 +99,12 @@ ControlledChange controlled_change(const ControlRuns& runs, Measured ResponsePoi
   if (!runs.coarse.points.empty()) {
     out.grid = samples_of(fine.without.size(), [&](int k) { return halving(k, fine); });
     const double step = grid_error(out.grid);
-    double rest = kOtherRest;
-    if (to_limit) rest *= kUnknownRest;
-    if (quantity == &ResponsePoint::electrostatic_force) rest = kPullRest;
-    if (is_area(quantity) && step > 0)
-      rest = left_out(step, std::max(runs.octaves, kFewestOctaves)) / step;
-    for (double& change : out.grid) change *= rest;
+    double missing = kOtherToLimit;
+    if (to_limit) missing *= kUnknownShare;
+    if (quantity == GridLaw::Pull) missing = kPullToLimit;
+    if (quantity == GridLaw::Area && step > 0)
+      missing = left_out(step, std::max(runs.octaves, kFewestOctaves)) / step;
+    for (double& change : out.grid) change *= missing;
   }
   // Eq. accuracy.3
   if (load_law) {
@@ -121,11 +113,95 @@ ControlledChange controlled_change(const ControlRuns& runs, Measured ResponsePoi
           relative(read(number, fine, k), read(number, runs.own, k), read(number, runs.own, k));
       if (!m || !to_limit || runs.coarse.points.empty()) return m;
       const auto last = halving(k, runs.own);
-      return last ? std::optional(*m - kOtherRest * *last) : std::nullopt;
+      return last ? std::optional(*m - kOtherToLimit * *last) : std::nullopt;
     });
   }
   return out;
 }
+
+namespace {
+
+// The control skins of a set of patches, run again.
+class Controls {
+ public:
+  Controls(const Scene& scene, const Texture& texture, const Fidelity& fidelity, int skins)
+      : scene_(scene), texture_(texture), fidelity_(fidelity), skins_(skins) {}
+
+  // As it was, by solved areas where it was by the load law, and on half the pixels.
+  void run(PatchSet& patches) {
+    ControlRuns& out = patches.controls;
+    PatchSet first = patches;
+    for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins_));
+    out.own = respond(scene_, fidelity_, first);
+    out.octaves =
+        std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
+    Fidelity resolved = fidelity_;
+    if (fidelity_.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
+      resolved.estimator = Estimator::Area;
+      const PatchSet areas = again(resolved, method);
+      out.areas = respond(scene_, resolved, areas);
+      for (const auto& results : areas.results) {
+        ModelStatus& status = method.pull_in.emplace_back();
+        for (const PatchResult& p : results) {
+          if (p.status.pull_in()) status.note(p.status);
+        }
+      }
+    }
+    if (fidelity_.grid / 2 >= kSmallestGrid) {
+      Fidelity half = resolved;
+      half.grid = fidelity_.grid / 2;
+      half.most_pixels = fidelity_.pixels_a_side() / 2;  // else long patches keep their pixels
+      out.coarse = respond(scene_, half, again(half, grid));
+    }
+  }
+
+  MeasuredError grid{&ErrorParts::grid, {}}, method{&ErrorParts::method, {}};
+
+ private:
+  PatchSet again(Fidelity changed, MeasuredError& error) const {
+    changed.skins = skins_;
+    PatchSet set = solve_patches(scene_, texture_, changed);
+    error.seconds += set.seconds;
+    error.costs += set.costs();
+    return set;
+  }
+
+  const Scene& scene_;
+  const Texture& texture_;
+  const Fidelity& fidelity_;
+  int skins_;
+};
+
+// The two errors of quantity m at each humidity; resolved: that of areas on these pixels.
+void state_errors(const ControlRuns& controls, std::size_t m, double resolved, MeasuredError& grid,
+                  MeasuredError& method) {
+  const std::vector<ResponsePoint>& own = controls.own.points;
+  const bool load_law = !controls.areas.points.empty();
+  const PointQuantity& quantity = kQuantities[m];
+  std::vector<double> of_grid, of_method, fine, law;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const auto number = [&](const std::vector<ResponsePoint>& points) {
+      return std::optional((points[i].*quantity.value).value);
+    };
+    const ControlledChange change = controlled_change(controls, quantity.grid, number);
+    of_grid.push_back(grid_error(change.grid));
+    of_method.push_back(method_error(change.method));
+    law.push_back((own[i].*quantity.value).value);
+    fine.push_back(load_law ? (controls.areas.points[i].*quantity.value).value : law.back());
+  }
+  level_out(of_grid, fine);
+  level_out(of_method, law);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    grid.size[i][m] = of_grid[i];
+    // The step over a grid that resolves the cut-off says how much the area depends on that, not
+    // how well it is resolved.
+    if (quantity.grid == GridLaw::Area)
+      grid.size[i][m] = std::hypot(controls.octaves > 0 ? of_grid[i] : 0, resolved);
+    method.size[i][m] = of_method[i];
+  }
+}
+
+}  // namespace
 
 void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                     PatchSet& patches) {
@@ -133,80 +209,18 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
   patches.controls = {};
   const int skins = std::min(fidelity.control_skins, patches.skins());
   if (skins < 2) return;
-  const bool load_law =
-      fidelity.estimator == Estimator::Load && (patches.plan.water || patches.plan.field);
-  MeasuredError grid{&ErrorParts::grid, {}}, method{&ErrorParts::method, {}};
-  const auto response = [&](const Fidelity& f, const PatchSet& set) -> Resampled {
-    return respond(scene, f, set);
-  };
-  const auto run = [&](Fidelity changed, MeasuredError& error) {
-    changed.skins = skins;
-    PatchSet set = solve_patches(scene, texture, changed);
-    error.seconds += set.seconds;
-    for (const auto& results : set.results) {
-      for (const PatchResult& p : results) {
-        error.contact_solves += p.contact_solves;
-        error.fft_pairs += p.fft_pairs;
-      }
-    }
-    return set;
-  };
-  ControlRuns& controls = patches.controls;
-  PatchSet first = patches;
-  for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins));
-  controls.own = response(fidelity, first);
-  controls.octaves =
-      std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
-  Fidelity resolved = fidelity;
-  if (load_law) {
-    resolved.estimator = Estimator::Area;
-    const PatchSet areas = run(resolved, method);
-    controls.areas = response(resolved, areas);
-    for (const auto& results : areas.results) {
-      std::string& status = method.pull_in.emplace_back();
-      for (const PatchResult& p : results) {
-        if (status.empty() && p.status.starts_with("pull-in")) status = p.status;
-      }
-    }
-  }
-  if (fidelity.grid / 2 >= kSmallestGrid) {
-    Fidelity half = resolved;
-    half.grid = fidelity.grid / 2;
-    half.most_pixels = fidelity.pixels_a_side() / 2;  // else long patches keep their pixels
-    controls.coarse = response(half, run(half, grid));
-  }
-  const std::vector<ResponsePoint>& own = controls.own.points;
-  const double cutoff = patches.plan.effective_cutoff;
+  Controls again(scene, texture, fidelity, skins);
+  again.run(patches);
+  const ControlRuns& controls = patches.controls;
   const Grid& pixels = patches.plan.grid;
-  const double resolved_part = resolved_area_error(cutoff / std::max(pixels.dx(), pixels.dy()));
-  grid.size.resize(own.size());
-  method.size.resize(own.size());
-  for (std::size_t m = 0; m < kMeasured.size(); ++m) {
-    const auto member = kMeasured[m];
-    std::vector<double> of_grid, of_method, fine, law;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      const auto number = [&](const std::vector<ResponsePoint>& points) {
-        return std::optional((points[i].*member).value);
-      };
-      const ControlledChange change = controlled_change(controls, member, number);
-      of_grid.push_back(grid_error(change.grid));
-      of_method.push_back(method_error(change.method));
-      law.push_back((own[i].*member).value);
-      fine.push_back(load_law ? (controls.areas.points[i].*member).value : law.back());
-    }
-    level_out(of_grid, fine);
-    level_out(of_method, law);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      grid.size[i][m] = of_grid[i];
-      // The step over a grid that resolves the cut-off says how much the area depends on that, not
-      // how well it is resolved.
-      if (is_area(member))
-        grid.size[i][m] = std::hypot(controls.octaves > 0 ? of_grid[i] : 0, resolved_part);
-      method.size[i][m] = of_method[i];
-    }
-  }
-  if (!controls.coarse.points.empty()) patches.errors.push_back(std::move(grid));
-  if (load_law) patches.errors.push_back(std::move(method));
+  const double resolved =
+      resolved_area_error(patches.plan.effective_cutoff / std::max(pixels.dx(), pixels.dy()));
+  again.grid.size.resize(controls.own.points.size());
+  again.method.size.resize(controls.own.points.size());
+  for (std::size_t m = 0; m < kQuantities.size(); ++m)
+    state_errors(controls, m, resolved, again.grid, again.method);
+  if (!controls.coarse.points.empty()) patches.errors.push_back(std::move(again.grid));
+  if (!controls.areas.points.empty()) patches.errors.push_back(std::move(again.method));
 }
 
 }  // namespace papilla

@@ -1,4 +1,4 @@
-// The one home of accuracy choices: grid, samples, tolerances, method a piece.
+// The one home of accuracy choices: grid, samples, tolerances, method per piece.
 #pragma once
 
 #include <algorithm>

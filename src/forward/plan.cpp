@@ -3,63 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <variant>
 
 #include "base/constants.h"
-#include "base/units.h"
-#include "geometry/measured.h"
-#include "physics/capillary/droplets.h"
-#include "physics/capillary/threshold.h"
+#include "forward/scene_terms.h"
+#include "geometry/measured_map.h"
+#include "physics/capillary/facts.h"
+#include "physics/contact/facts.h"
+#include "physics/electrostatics/rules.h"
 
 namespace papilla {
 namespace {
-
-// Seconds of the pieces for one patch at one humidity on one core, between two machines of which
-// one is twice as fast. FFT pairs a solve, seconds a pair and the water: `papilla evaluate --json`
-// of the published samples on 128 to 512 pixels (a smooth finger takes three times the water).
-struct Prices {
-  double contact, water, field, tractions;
-
-  double sum() const { return contact + water + field + tractions; }
-};
-
-Prices prices(const Scene& scene, const Plan& plan, const Grid& grid, const Fidelity& fidelity,
-              bool tractions) {
-  const auto n = static_cast<double>(grid.size());
-  const double pair = 3.3e-10 * n * std::log2(n);
-  const auto digits = [](double tolerance) { return std::max(1.0, -std::log10(tolerance)); };
-  const double contact = std::max(3.0, 3.3 * digits(fidelity.contact_tolerance) - 5) * pair;
-  Prices out{contact, 0, 0, 0};
-  // More droplets on a longer patch: 100 um take 16 times the water of the window, not 69.
-  const double room = std::pow(std::max(1.0, grid.area() / square(kWindow)), 2.0 / 3);
-  if (plan.water)
-    out.water = scene.model.water == WaterModel::Droplets ? 1e-5 * std::sqrt(n) * room : 9e-9 * n;
-  if (plan.field) {
-    switch (field_method(scene.model)) {
-      case FieldMethod::Local:
-        out.field = 2e-8 * n;
-        break;
-      case FieldMethod::Spread:
-        out.field = std::max(6.0, 10.5 * digits(fidelity.field_tolerance) - 12) * pair;
-        break;
-      case FieldMethod::Full:
-        out.field = 2.0 * n / 65536;
-        break;
-    }
-  }
-  if (tractions) out.tractions = (plan.field ? 2 : 1) * contact;
-  return out;
-}
-
-// One standard error of the modulation from one skin patch, relative (m3-prototype, section 3).
-double patch_scatter(const Fidelity& f) { return f.estimator == Estimator::Load ? 0.09 : 0.11; }
-
-std::string duration(double seconds) {
-  if (seconds < 10) return fmt::format("{:.2g} s", seconds);
-  if (seconds <= 120) return fmt::format("{:.0f} s", seconds);
-  if (seconds <= 2 * 3600) return fmt::format("{:.0f} min", seconds / 60);
-  return fmt::format("{:.0f} h", seconds / 3600);
-}
 
 // A patch so much longer than the window that its pixels, limited in number, drop waves of the skin
 // that every level keeps on the window.
@@ -89,7 +45,216 @@ std::string unresolved_skin(const Plan& plan, const Fidelity& fidelity, double c
       remedy);
 }
 
+// Seconds of the pieces for one patch at one humidity.
+struct Prices {
+  double contact = 0, water = 0, field = 0, tractions = 0;
+
+  double sum() const { return contact + water + field + tractions; }
+};
+
+Prices prices(const Scene& scene, const Plan& plan, const Grid& grid, const Fidelity& fidelity,
+              bool tractions) {
+  Prices out;
+  out.contact = contact_seconds(grid, fidelity.contact_tolerance);
+  if (plan.water) out.water = water_facts(scene.model.water).seconds(grid);
+  if (plan.field)
+    out.field = field_rule(field_method(scene.model)).seconds(grid, fidelity.field_tolerance);
+  if (tractions) out.tractions = (plan.field ? 2 : 1) * out.contact;
+  return out;
+}
+
+// What every piece decides by.
+struct Setting {
+  const Scene& scene;
+  const Texture& texture;
+  const Fidelity& fidelity;
+  const Plan& plan;           // grid and decisions
+  std::vector<double> water;  // volumes per area [m], one per humidity
+  Prices price;
+  double states;  // patches to solve: skins, humidities, patch pressures
+};
+
+// A piece says what it does, or why it is skipped and what that costs; or nothing, where there is
+// nothing to say.
+using Entry = std::variant<std::monostate, PlanStep, PlanSkip>;
+
+Entry contact(const Setting& s) {
+  const Grid& grid = s.plan.grid;
+  return PlanStep{Piece::Contact, contact_method(s.fidelity.contact_tolerance),
+                  fmt::format("{} skins on {} x {} pixels, skin resolved to {:.0f} nm",
+                              s.fidelity.skins, grid.nx, grid.ny, 1e9 * s.plan.effective_cutoff),
+                  s.states * s.price.contact, 0};
+}
+
+Entry water(const Setting& s) {
+  if (!s.plan.water) return PlanSkip{Piece::Water, "no water at any of these humidities"};
+  const WaterFacts& facts = water_facts(s.scene.model.water);
+  return PlanStep{Piece::Water, facts.method, facts.reason, s.states * s.price.water,
+                  facts.error(s.water)};
+}
+
+constexpr const char* kUndriven = "the drive is at 0 V";
+
+Entry field(const Setting& s) {
+  if (!s.plan.field) return PlanSkip{Piece::Field, kUndriven};
+  const FieldRule& rule = field_rule(field_method(s.scene.model));
+  return PlanStep{Piece::Field, rule.method, rule.accuracy, s.states * s.price.field,
+                  rule.usual_error};
+}
+
+Entry electrowetting(const Setting& s) {
+  if (!s.plan.field) return PlanSkip{Piece::Electrowetting, kUndriven};
+  if (!s.plan.water) return PlanSkip{Piece::Electrowetting, "no bridges without water"};
+  return PlanStep{Piece::Electrowetting, "saturated law, averaged over the cycle",
+                  "bridges conduct; the angle saturates"};
+}
+
+Entry tractions(const Setting& s) {
+  const bool field = s.plan.field;
+  if (s.plan.traction_solves) {
+    return PlanStep{Piece::Tractions, field ? "off and on states" : "off state",
+                    "areas from resolved contact, not from the load law",
+                    s.states * s.price.tractions};
+  }
+  if (!s.plan.water && !field) return {};
+  // Worst of the scenes in results/accuracy (PlanSkips.*); without a field, what is measured on the
+  // published samples.
+  const char* worst =
+      field ? ": within 4 % of F_on/F_off and 13 % of the modulation on 95 % of 130 random scenes, "
+              "10 and 34 % on the worst"
+            : "";
+  return PlanSkip{Piece::Tractions,
+                  fmt::format("the load law F ~ L^{:g} stands for it (Eq. friction.3){}",
+                              s.fidelity.load_exponent, worst),
+                  field ? 0.10 : 0.02};
+}
+
+Entry coupling(const Setting& s) {
+  if (!s.plan.field) return {};
+  if (s.scene.model.coupling == Coupling::OnePass) {
+    return PlanSkip{
+        Piece::Coupling,
+        "one pass, as the finger was calibrated; iterating would raise the modulation by 30-60 %",
+        0.6};
+  }
+  return PlanStep{Piece::Coupling, "self-consistent",
+                  fmt::format("gap, field and water to a fixed point, {} passes at most",
+                              s.fidelity.coupling_passes),
+                  s.states * 6 * (s.price.contact + s.price.water + s.price.field)};
+}
+
+Entry retention(const Setting& s) {
+  if (s.plan.retention)
+    return PlanStep{Piece::Retention, "contact-angle hysteresis", "F = tau A + F_ret"};
+  if (!s.plan.water) return PlanSkip{Piece::Retention, "no water"};
+  return PlanSkip{Piece::Retention, "preset m3 counts it for hydrophobic surfaces only", 0.05};
+}
+
+Entry patch_pressures(const Setting& s) {
+  if (s.scene.model.closure == Closure::Uniform) {
+    return PlanSkip{Piece::PatchPressures,
+                    "closure = uniform: phi of the finger file stands for it"};
+  }
+  return PlanStep{Piece::PatchPressures,
+                  fmt::format("Persson, {} patch pressures", s.fidelity.bridge_nodes),
+                  "patches under a fingertip do not share one pressure", 0, 0.03};
+}
+
+Entry van_der_waals(const Setting&) {
+  return PlanSkip{Piece::VanDerWaals,
+                  "Hamaker estimate below 5 % of the contact load (reported by reproduce)", 0.05};
+}
+
+Entry kelvin(const Setting&) {
+  return PlanSkip{
+      Piece::Kelvin,
+      "menisci of nanometres; Eq. accuracy.8 on the published samples (a smooth skin: three times "
+      "that), `papilla explain --measure` on this scene",
+      0.15};
+}
+
+Entry optics(const Setting&) {
+  return PlanSkip{Piece::Optics,
+                  "no part of friction: computed apart, where a metric or a limit asks"};
+}
+
+Entry sampling(const Setting& s) {
+  // One standard error of the modulation from one skin patch, relative (m3-prototype, section 3).
+  const double scatter = s.fidelity.estimator == Estimator::Load ? 0.09 : 0.11;
+  return PlanStep{Piece::Sampling, fmt::format("{} skins, common to all designs", s.fidelity.skins),
+                  "patches differ by tens of percent; designs are compared on the same skins", 0,
+                  scatter / std::sqrt(static_cast<double>(s.fidelity.skins))};
+}
+
+// measure_errors
+Entry errors(const Setting& s) {
+  const Fidelity& fidelity = s.fidelity;
+  const int controls = std::min(fidelity.control_skins, fidelity.skins);
+  if (controls < 2) return {};
+  const bool forces = s.plan.water || s.plan.field;
+  const bool load_law = !s.plan.traction_solves && forces;
+  const Grid half = simulated_patch(s.texture, fidelity.grid / 2, fidelity.pixels_a_side() / 2);
+  double seconds = prices(s.scene, s.plan, half, fidelity, forces).sum();
+  if (load_law) seconds += prices(s.scene, s.plan, s.plan.grid, fidelity, true).sum();
+  return PlanStep{Piece::Errors, fmt::format("{} of the skins on half the pixels", controls),
+                  load_law ? "what the grid and the load law may be off by, on solved areas"
+                           : "what the grid may be off by",
+                  s.states / fidelity.skins * controls * seconds};
+}
+
+// Each piece, its answer, and its names where it is modelled and where it is skipped.
+struct PieceRow {
+  Piece piece;
+  Entry (*entry)(const Setting&);
+  const char* modelled;
+  const char* skipped;
+};
+constexpr std::array kPieces{
+    PieceRow{Piece::Contact, contact, "contact", "contact"},
+    PieceRow{Piece::Water, water, "water", "water"},
+    PieceRow{Piece::Field, field, "field", "field"},
+    PieceRow{Piece::Electrowetting, electrowetting, "electrowetting", "electrowetting"},
+    PieceRow{Piece::Tractions, tractions, "contact with tractions", "contact with tractions"},
+    PieceRow{Piece::Coupling, coupling, "coupling", "self-consistent coupling"},
+    PieceRow{Piece::Retention, retention, "retention", "retention"},
+    PieceRow{Piece::PatchPressures, patch_pressures, "scale bridge",
+             "distribution of patch pressures"},
+    PieceRow{Piece::VanDerWaals, van_der_waals, "van der Waals", "van der Waals"},
+    PieceRow{Piece::Kelvin, kelvin, "Kelvin condensation", "Kelvin condensation"},
+    PieceRow{Piece::Optics, optics, "optics", "optics"},
+    PieceRow{Piece::Sampling, sampling, "sampling", "sampling"},
+    PieceRow{Piece::Errors, errors, "errors", "errors"}};
+static_assert([] {
+  for (std::size_t i = 0; i < kPieces.size(); ++i) {
+    if (kPieces[i].piece != static_cast<Piece>(i)) return false;
+  }
+  return kPieces.size() == static_cast<std::size_t>(Piece::Errors) + 1;
+}());
+
+const PieceRow& row(Piece piece) { return kPieces[static_cast<std::size_t>(piece)]; }
+
+void set_resolution(Plan& plan, const Skin& skin, const Texture& texture,
+                    const Fidelity& fidelity) {
+  plan.grid = simulated_patch(texture, fidelity.grid, fidelity.pixels_a_side());
+  // The same for every texture, although its patch may have somewhat finer pixels.
+  plan.skin_cutoff =
+      skin.map.empty() ? skin.cutoff : measured_skin_cutoff(skin.map, skin.map_width);
+  plan.effective_cutoff = std::max({plan.skin_cutoff, 2 * kWindow / fidelity.grid,
+                                    2 * std::max(plan.grid.dx(), plan.grid.dy())});
+  plan.warning = unresolved_skin(plan, fidelity, plan.skin_cutoff);
+}
+
+std::string duration(double seconds) {
+  if (seconds < 10) return fmt::format("{:.2g} s", seconds);
+  if (seconds <= 120) return fmt::format("{:.0f} s", seconds);
+  if (seconds <= 2 * 3600) return fmt::format("{:.0f} min", seconds / 60);
+  return fmt::format("{:.0f} h", seconds / 3600);
+}
+
 }  // namespace
+
+const char* PlanStep::name() const { return row(piece).modelled; }
+const char* PlanSkip::name() const { return row(piece).skipped; }
 
 double Plan::seconds() const {
   double sum = 0;
@@ -97,154 +262,25 @@ double Plan::seconds() const {
   return sum;
 }
 
-FieldMethod field_method(const ModelOptions& model) {
-  const bool paper = model.preset == Preset::M3 && model.field == FieldMethod::Spread;
-  return paper ? FieldMethod::Local : model.field;
-}
-
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Plan plan;
-  plan.grid = simulated_patch(texture, fidelity.grid, fidelity.pixels_a_side());
-  // The same for every texture, although its patch may have somewhat finer pixels.
-  const Skin& skin = scene.finger.skin;
-  plan.skin_cutoff =
-      skin.map.empty() ? skin.cutoff : measured_skin_cutoff(skin.map, skin.map_width);
-  plan.effective_cutoff = std::max({plan.skin_cutoff, 2 * kWindow / fidelity.grid,
-                                    2 * std::max(plan.grid.dx(), plan.grid.dy())});
-  plan.warning = unresolved_skin(plan, fidelity, plan.skin_cutoff);
-
-  double largest_volume = 0, droplet_error = 0;
-  for (double rh : scene.environment.relative_humidity) {
-    const double water = scene.finger.water.volume_per_area(rh);
-    largest_volume = std::max(largest_volume, water);
-    // The share of the water in bridges as on the published samples (results/accuracy/water.csv).
-    const double share = std::min(0.75, 0.2 + 0.009 * (water / 1e-9));
-    droplet_error = std::max(droplet_error, droplet_band(water, 0, share).pull);
-  }
-  plan.water = largest_volume > 0;
+  set_resolution(plan, scene.finger.skin, texture, fidelity);
+  const std::vector<double>& humidities = scene.environment.relative_humidity;
+  Setting setting{scene, texture, fidelity, plan, {}, {}, 0};
+  for (const double rh : humidities)
+    setting.water.push_back(scene.finger.water.volume_per_area(rh));
+  plan.water =
+      std::any_of(setting.water.begin(), setting.water.end(), [](double v) { return v > 0; });
   plan.field = scene.drive.driven();
-  plan.retention =
-      plan.water && scene.finger.water.hysteresis > 0 &&
-      (scene.model.preset == Preset::Papilla || scene.surface.contact_angle > 1.5707963267948966);
+  plan.retention = plan.water && scene.finger.water.hysteresis > 0 && retention_counts(scene);
   plan.traction_solves = fidelity.estimator == Estimator::Area && (plan.water || plan.field);
-
-  const auto states = static_cast<double>(fidelity.skins) *
-                      static_cast<double>(scene.environment.relative_humidity.size()) *
-                      (scene.model.closure == Closure::Persson ? fidelity.bridge_nodes : 1);
-  const Prices price = prices(scene, plan, plan.grid, fidelity, plan.traction_solves);
-
-  plan.steps.push_back(
-      {"contact", fmt::format("layered half-space, certified to {:g}", fidelity.contact_tolerance),
-       fmt::format("{} skins on {} x {} pixels, skin resolved to {:.0f} nm", fidelity.skins,
-                   plan.grid.nx, plan.grid.ny, 1e9 * plan.effective_cutoff),
-       states * price.contact, 0});
-  if (plan.water) {
-    const bool droplets = scene.model.water == WaterModel::Droplets;
-    plan.steps.push_back(
-        {"water", droplets ? "droplet ensemble by lowest energy" : "volume threshold",
-         droplets
-             ? "its variation over humidity is what textures change; error: mobility and number"
-             : "cheap and smooth; it reverses the sign of the texture's effect on variation",
-         states * price.water, droplets ? droplet_error : threshold_shortfall(largest_volume)});
-  } else {
-    plan.skipped.push_back({"water", "no water at any of these humidities", 0});
-  }
-  if (plan.field) {
-    const double seconds = states * price.field;
-    switch (field_method(scene.model)) {
-      case FieldMethod::Local:
-        plan.steps.push_back({"field", "columns, one by one",
-                              "pull typically 20 % (dry) to 35 % (wet) below the 3-D field",
-                              seconds, 0.2});
-        break;
-      case FieldMethod::Spread:
-        plan.steps.push_back({"field", "columns, the flux spreading in the dielectric",
-                              "pull typically 3 % (wet) to 9 % (dry) above the 3-D field", seconds,
-                              0.09});
-        break;
-      case FieldMethod::Full:
-        plan.steps.push_back({"field", "3-D potential",
-                              "asked for; pull stated to 8 % on these pixels", seconds, 0.08});
-        break;
-    }
-    plan.steps.push_back(
-        {"electrowetting", "saturated law, averaged over the cycle",
-         plan.water ? "bridges conduct; the angle saturates" : "no bridges: no effect", 0, 0});
-    if (!plan.water) {
-      plan.steps.pop_back();
-      plan.skipped.push_back({"electrowetting", "no bridges without water", 0});
-    }
-  } else {
-    plan.skipped.push_back({"field", "the drive is at 0 V", 0});
-    plan.skipped.push_back({"electrowetting", "the drive is at 0 V", 0});
-  }
-  if (plan.traction_solves) {
-    plan.steps.push_back({"contact with tractions", plan.field ? "off and on states" : "off state",
-                          "areas from resolved contact, not from the load law",
-                          states * price.tractions, 0});
-  } else if (plan.water || plan.field) {
-    // Worst of the scenes in results/accuracy (PlanSkips.*); without a field, what is measured on
-    // the published samples.
-    plan.skipped.push_back(
-        {"contact with tractions",
-         fmt::format(
-             "the load law F ~ L^{:g} stands for it (Eq. friction.3){}", fidelity.load_exponent,
-             plan.field ? ": within 4 % of F_on/F_off and 13 % of the modulation on 95 % of "
-                          "130 random scenes, 10 and 34 % on the worst"
-                        : ""),
-         plan.field ? 0.10 : 0.02});
-  }
-  if (scene.model.coupling == Coupling::SelfConsistent && plan.field) {
-    plan.steps.push_back({"coupling", "self-consistent",
-                          fmt::format("gap, field and water to a fixed point, {} passes at most",
-                                      fidelity.coupling_passes),
-                          states * 6 * (price.contact + price.water + price.field), 0});
-  } else if (plan.field) {
-    plan.skipped.push_back(
-        {"self-consistent coupling",
-         "one pass, as the finger was calibrated; iterating would raise the modulation by 30-60 %",
-         0.6});
-  }
-  if (plan.retention) {
-    plan.steps.push_back({"retention", "contact-angle hysteresis", "F = tau A + F_ret", 0, 0});
-  } else {
-    plan.skipped.push_back(
-        {"retention", plan.water ? "preset m3 counts it for hydrophobic surfaces only" : "no water",
-         plan.water ? 0.05 : 0});
-  }
-  if (scene.model.closure == Closure::Persson) {
-    plan.steps.push_back({"scale bridge",
-                          fmt::format("Persson, {} patch pressures", fidelity.bridge_nodes),
-                          "patches under a fingertip do not share one pressure", 0, 0.03});
-  } else {
-    plan.skipped.push_back({"distribution of patch pressures",
-                            "closure = uniform: phi of the finger file stands for it", 0});
-  }
-  plan.skipped.push_back({"van der Waals",
-                          "Hamaker estimate below 5 % of the contact load (reported by reproduce)",
-                          0.05});
-  plan.skipped.push_back(
-      {"Kelvin condensation",
-       "menisci of nanometres; Eq. accuracy.8 on the published samples (a smooth skin: three times "
-       "that), `papilla explain --measure` on this scene",
-       0.15});
-  plan.skipped.push_back(
-      {"optics", "no part of friction: computed apart, where a metric or a limit asks", 0});
-
-  const double se = patch_scatter(fidelity) / std::sqrt(static_cast<double>(fidelity.skins));
-  plan.steps.push_back({"sampling", fmt::format("{} skins, common to all designs", fidelity.skins),
-                        "patches differ by tens of percent; designs are compared on the same skins",
-                        0, se});
-  const int controls = std::min(fidelity.control_skins, fidelity.skins);
-  if (controls >= 2) {  // measure_errors
-    const bool load_law = !plan.traction_solves && (plan.water || plan.field);
-    const Grid half = simulated_patch(texture, fidelity.grid / 2, fidelity.pixels_a_side() / 2);
-    double seconds = prices(scene, plan, half, fidelity, plan.water || plan.field).sum();
-    if (load_law) seconds += prices(scene, plan, plan.grid, fidelity, true).sum();
-    plan.steps.push_back({"errors", fmt::format("{} of the skins on half the pixels", controls),
-                          load_law ? "what the grid and the load law may be off by, on solved areas"
-                                   : "what the grid may be off by",
-                          states / fidelity.skins * controls * seconds, 0});
+  setting.price = prices(scene, plan, plan.grid, fidelity, plan.traction_solves);
+  setting.states = static_cast<double>(fidelity.skins) * static_cast<double>(humidities.size()) *
+                   (scene.model.closure == Closure::Persson ? fidelity.bridge_nodes : 1);
+  for (const PieceRow& piece : kPieces) {
+    const Entry entry = piece.entry(setting);
+    if (const auto* step = std::get_if<PlanStep>(&entry)) plan.steps.push_back(*step);
+    if (const auto* skip = std::get_if<PlanSkip>(&entry)) plan.skipped.push_back(*skip);
   }
   return plan;
 }
@@ -254,14 +290,14 @@ std::string Plan::text() const {
                                 1e6 * grid.lx, 1e6 * grid.ly, grid.nx, grid.ny, 1e9 * grid.dx());
   out += "modelled:\n";
   for (const PlanStep& step : steps) {
-    out += fmt::format("  {:<22} {:<44} {}", step.piece, step.method, step.reason);
+    out += fmt::format("  {:<22} {:<44} {}", step.name(), step.method, step.reason);
     if (step.seconds > 0) out += "; about " + duration(step.seconds);
     if (step.error > 0) out += fmt::format("; error {:.1f} %", 100 * step.error);
     out += '\n';
   }
   out += "not modelled:\n";
   for (const PlanSkip& skip : skipped) {
-    out += fmt::format("  {:<32} {}", skip.piece, skip.reason);
+    out += fmt::format("  {:<32} {}", skip.name(), skip.reason);
     if (std::isinf(skip.bound)) {
       out += " (no bound)";
     } else if (skip.bound > 0) {

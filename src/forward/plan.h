@@ -11,19 +11,40 @@
 
 namespace papilla {
 
-struct PlanStep {
-  std::string piece, method, reason;
-  double seconds = 0;  // expected, on one core of a usual machine
-  double error = 0;    // expected relative error of the modulation; 0: none beyond sampling
+// In the order of plans.
+enum class Piece {
+  Contact,
+  Water,
+  Field,
+  Electrowetting,
+  Tractions,
+  Coupling,
+  Retention,
+  PatchPressures,
+  VanDerWaals,
+  Kelvin,
+  Optics,
+  Sampling,
+  Errors
+};
 
+struct PlanStep {
+  Piece piece = Piece::Contact;
+  std::string method, reason;  // for people
+  double seconds = 0;          // expected, on one core of a usual machine
+  double error = 0;            // expected relative error of the modulation; 0: none beyond sampling
+
+  const char* name() const;  // "contact", "scale bridge", ...
   bool operator==(const PlanStep&) const = default;
 };
 
 struct PlanSkip {
-  std::string piece, reason;
+  Piece piece = Piece::Contact;
+  std::string reason;    // for people
   double bound = 0;      // on the relative error of friction made by skipping; 0: none
   bool estimate = true;  // what other scenes had; false: a bound from patches of this scene
 
+  const char* name() const;  // "water", "distribution of patch pressures", ...
   bool operator==(const PlanSkip&) const = default;
 };
 
@@ -33,7 +54,7 @@ struct Plan {
   Grid grid;
   double skin_cutoff = 0;       // shortest wavelength of the finger's skin [m]
   double effective_cutoff = 0;  // shortest skin wavelength on this grid [m]
-  std::string warning;          // why this is not the finger's skin; empty: it is
+  std::string warning;          // for people: why this is not the finger's skin; empty: it is
 
   // The decisions as data, for the forward model.
   bool field = false;            // electrostatics and electrowetting
@@ -42,12 +63,9 @@ struct Plan {
   bool traction_solves = false;  // contact solved again with tractions
 
   double seconds() const;
-  std::string text() const;  // for people, one line a step
+  std::string text() const;  // for people, one line per step
   bool operator==(const Plan&) const = default;
 };
-
-// The rule in use: columns where the preset is the paper's, whose rules are made for them.
-FieldMethod field_method(const ModelOptions& model);
 
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 

@@ -1,4 +1,4 @@
-// What the forward model answers: one point a humidity, each number with its error by origin.
+// What the forward model answers: one point per humidity, each number with its error by origin.
 #pragma once
 
 #include <array>
@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "forward/patch_result.h"
 #include "forward/plan.h"
+#include "forward/status.h"
 #include "physics/optics/optics.h"
 
 namespace papilla {
@@ -67,26 +69,35 @@ struct VoltageAnswer {
   double limit = 0;       // [V] largest amplitude allowed: breakdown, source, pull-in
   double modulation = 0;  // at the amplitude, or the highest reached
   int evaluations = 0;    // of the driven patches
-  std::string status;     // empty: reached; else what came first
+  VoltageEnd end = VoltageEnd::Reached;
+  ModelStatus model;  // of ModelEnds and Unsound: what the model said
 
-  bool reached() const { return status.empty(); }
+  bool reached() const { return end == VoltageEnd::Reached; }
   bool operator==(const VoltageAnswer&) const = default;
 };
+// What came first, of an answer that is not reached: "the dielectric breaks down at 500 V".
+std::string text(const VoltageAnswer& answer);
 
-struct ResponsePoint {
-  double relative_humidity = 0;
-  double weight = 1;
-  double patch_pressure = 0;                     // [Pa] on the load-carrying patches
+// What a humidity answers, each with its errors.
+struct PointQuantities {
   Measured friction_off, friction_on;            // [N], whole finger
   Measured modulation;                           // (F_on - F_off) / F_off; 0 when undriven
   Measured area_fraction_off, area_fraction_on;  // of the load-carrying patches
   Measured capillary_force;                      // [N], whole finger, off
   Measured electrostatic_force;                  // [N], whole finger
   Measured retention_force;                      // [N], whole finger
-  Measured bridges;                              // a patch
+  Measured bridges;                              // per patch
   Measured wetted_fraction;
-  Measured mean_gap;                // [m]
-  Measured indentation;             // approach since first touch [m]
+  Measured mean_gap;     // [m]
+  Measured indentation;  // approach since first touch [m]
+
+  bool operator==(const PointQuantities&) const = default;
+};
+
+struct ResponsePoint : PointQuantities {
+  double relative_humidity = 0;
+  double weight = 1;
+  double patch_pressure = 0;        // [Pa] on the load-carrying patches
   double over_limit_area = 0;       // share of the patch where air is beyond its breakdown field
   double over_limit_share = 0;      // of the pull from there
   double peak_oxide_field = 0;      // [V/m] mean over the layers
@@ -96,40 +107,67 @@ struct ResponsePoint {
   // finger is fitted with that rule. Eq. electrostatics.15
   double field_error = 0;
   double bridge_water_share = 0;  // share of the water that sits in bridges
-  std::string status = "ok";      // else what went wrong: "flooded: ...", "pull-in: ..."
+  ModelStatus status;
   PatchSamples samples;
-  std::vector<VoltageAnswer> voltages;  // one a target asked for
+  std::vector<VoltageAnswer> voltages;  // one per target asked for
 
   bool operator==(const ResponsePoint&) const = default;
 };
 
-// Every quantity of a point that carries errors.
-inline constexpr std::array kMeasured{&ResponsePoint::friction_off,
-                                      &ResponsePoint::friction_on,
-                                      &ResponsePoint::modulation,
-                                      &ResponsePoint::area_fraction_off,
-                                      &ResponsePoint::area_fraction_on,
-                                      &ResponsePoint::capillary_force,
-                                      &ResponsePoint::electrostatic_force,
-                                      &ResponsePoint::retention_force,
-                                      &ResponsePoint::bridges,
-                                      &ResponsePoint::wetted_fraction,
-                                      &ResponsePoint::mean_gap,
-                                      &ResponsePoint::indentation};
+// What is missing on a grid to the limit of fine pixels, and by which law it goes: Eq. accuracy.2
+enum class GridLaw { Area, Pull, Modulation, Other };
 
-// Processor time by piece of physics [s], summed over threads; in no reproducible file.
-struct PieceSeconds {
-  double contact = 0, water = 0, field = 0;
+// Which part of the band that the droplets leave open reaches the quantity: Eq. capillary.19, 20
+enum class WaterBand { None, Capillary, Pull, LoadOff, LoadOn };
+
+struct PointQuantity {
+  Measured PointQuantities::*value;
+  double PatchResult::*mean_of;  // over the skins; null: by a law of its own (forward/point.cpp)
+  bool whole_finger;             // mean_of is a force on a patch: times the patches of a finger
+  GridLaw grid;
+  WaterBand water;
 };
+// Every quantity of a humidity: where it comes from and how its errors do.
+inline constexpr std::array kQuantities{
+    PointQuantity{&PointQuantities::friction_off, nullptr, true, GridLaw::Area, WaterBand::LoadOff},
+    PointQuantity{&PointQuantities::friction_on, nullptr, true, GridLaw::Area, WaterBand::LoadOn},
+    PointQuantity{&PointQuantities::modulation, nullptr, false, GridLaw::Modulation,
+                  WaterBand::Pull},
+    PointQuantity{&PointQuantities::area_fraction_off, nullptr, false, GridLaw::Area,
+                  WaterBand::LoadOff},
+    PointQuantity{&PointQuantities::area_fraction_on, nullptr, false, GridLaw::Area,
+                  WaterBand::LoadOn},
+    PointQuantity{&PointQuantities::capillary_force, &PatchResult::capillary_off, true,
+                  GridLaw::Other, WaterBand::Capillary},
+    PointQuantity{&PointQuantities::electrostatic_force, &PatchResult::pull, true, GridLaw::Pull,
+                  WaterBand::Pull},
+    PointQuantity{&PointQuantities::retention_force, &PatchResult::retention, true, GridLaw::Other,
+                  WaterBand::Capillary},
+    PointQuantity{&PointQuantities::bridges, &PatchResult::bridges, false, GridLaw::Other,
+                  WaterBand::Capillary},
+    PointQuantity{&PointQuantities::wetted_fraction, &PatchResult::wetted, false, GridLaw::Other,
+                  WaterBand::Capillary},
+    PointQuantity{&PointQuantities::mean_gap, &PatchResult::mean_gap, false, GridLaw::Other,
+                  WaterBand::None},
+    PointQuantity{&PointQuantities::indentation, &PatchResult::indentation, false, GridLaw::Other,
+                  WaterBand::None}};
+GridLaw grid_law(Measured PointQuantities::*quantity);
+static_assert(sizeof(PointQuantities) == kQuantities.size() * sizeof(Measured),
+              "every quantity says where it comes from");
 
 // What was asked for by [accuracy] target, and what came of it.
 struct TargetReport {
   double target = 0;   // relative standard error of the quantity; 0: none was asked for
   double reached = 0;  // total of the parts that were measured
   std::string quantity;
-  std::string status;              // "reached", or what stopped it
-  std::vector<std::string> steps;  // what was run and why, one line each
+  TargetEnd end = TargetEnd::Reached;
+  const char* largest_part = "";         // of LimitsReached: the origin of the largest part
+  double largest_share = 0;              // that part, relative
+  int largest_grid = 0, most_skins = 0;  // the limits
+  std::vector<std::string> steps;        // what was run and why, one line each
 };
+// "reached", or what stopped it.
+std::string text(const TargetReport& report);
 
 // Points over humidity, and the same without each skin for the jackknife (none of one skin).
 struct Resampled {
@@ -152,7 +190,7 @@ struct ParameterStep {
 struct ParameterSteps {
   std::vector<ParameterStep> steps;  // empty: not asked for
   int skins = 0, grid = 0;
-  std::string trouble;  // the first step whose response is not sound
+  std::vector<PointTrouble> troubles;  // of the first step whose response is not sound
 };
 
 struct Response : Resampled {
@@ -168,8 +206,8 @@ struct Response : Resampled {
   double fft_pairs = 0;
   std::optional<Optics> appearance;  // where a metric of the texture's look is asked for
 
-  // Empty when every point is sound, else the trouble of each that is not.
-  std::string trouble() const;
+  // The points that are not sound.
+  std::vector<PointTrouble> troubles() const;
 };
 
 }  // namespace papilla

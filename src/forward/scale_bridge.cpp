@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/constants.h"
+#include "forward/scene_terms.h"
 #include "physics/macro/fingertip.h"
 #include "physics/persson/persson.h"
 
@@ -68,14 +69,14 @@ ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Gri
   const MeanField field = ridge_field(finger, q_patch, relative_humidity);
   if (nominal_ == 0 || field.stress_measure(q_patch) == 0) {  // no load, or a flat ridge
     pressures_ = {nominal_};
-    share_off_ = share_on_ = {1};
+    shares_ = {{1}, {1}};
     mean_pressure_ = nominal_;
     return;
   }
   const PatchPressures patches(field.stress_measure(q_patch), nominal_, fidelity.bridge_nodes);
   pressures_ = patches.pressure();
-  share_off_ = share_on_ = patches.share();
-  mean_pressure_ = nominal_ / std::accumulate(share_off_.begin(), share_off_.end(), 0.0);
+  shares_ = {patches.share(), patches.share()};
+  mean_pressure_ = nominal_ / std::accumulate(shares_.off.begin(), shares_.off.end(), 0.0);
   if (!scene.drive.driven()) return;
   // Pull of the open gaps at the pressure that it makes itself.
   const FieldProblem electric = field_problem(scene, relative_humidity);
@@ -89,52 +90,20 @@ ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Gri
     if (far_pull_ > 1e3 * nominal_) break;
   }
   if (!settled) {
-    status_ = "pull-in: the gaps between patches in contact close";
+    status_.note({Trouble::FarGapPullIn, 0, ""});
     far_pull_ = 0;
   }
-  share_on_ = patches.share_at(nominal_ + far_pull_);
+  shares_.on = patches.share_at(nominal_ + far_pull_);
 }
 
 PatchResult ScaleBridge::combine(std::span<const PatchResult> patches) const {
-  PAPILLA_CHECK(patches.size() == pressures_.size(), "one result a pressure");
+  PAPILLA_CHECK(patches.size() == pressures_.size(), "one result per pressure");
   if (closure_ == Closure::Uniform) return patches[0];
   PatchResult out;
-  const double touching = std::accumulate(share_off_.begin(), share_off_.end(), 0.0);
-  double over_limit_pull = 0;
   out.load = nominal_ * patch_area_;
   out.pull = far_pull_ * patch_area_;
   out.status = status_;
-  for (std::size_t k = 0; k < patches.size(); ++k) {
-    const PatchResult& p = patches[k];
-    const double off = share_off_[k], on = share_on_[k], part = off / touching;
-    out.capillary_off += off * p.capillary_off;
-    out.retention += off * p.retention;
-    out.area_dry += off * p.area_dry;
-    out.area_off += off * p.area_off;
-    out.capillary_on += on * p.capillary_on;
-    out.pull += on * p.pull;
-    out.area_on += on * p.area_on;
-    over_limit_pull += on * p.over_limit_share * p.pull;
-    out.bridges += part * p.bridges;
-    out.wetted += part * p.wetted;
-    out.bridge_volume += part * p.bridge_volume;
-    out.on_its_way += part * p.on_its_way;
-    out.volume += part * p.volume;
-    out.mean_gap += part * p.mean_gap;
-    out.indentation += part * p.indentation;
-    out.over_limit_area += part * p.over_limit_area;
-    out.peak_oxide_field = std::max(out.peak_oxide_field, p.peak_oxide_field);
-    out.oxide_margin = std::min(out.oxide_margin, p.oxide_margin);
-    out.peak_air_field = std::max(out.peak_air_field, p.peak_air_field);
-    out.contact_solves += p.contact_solves;
-    out.fft_pairs += p.fft_pairs;
-    out.certificate = std::max(out.certificate, p.certificate);
-    out.seconds.contact += p.seconds.contact;
-    out.seconds.water += p.seconds.water;
-    out.seconds.field += p.seconds.field;
-    if (out.status.empty()) out.status = p.status;
-  }
-  if (out.pull > 0) out.over_limit_share = over_limit_pull / out.pull;
+  add_over_pressures(patches, shares_, out);
   return out;
 }
 

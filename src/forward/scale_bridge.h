@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "forward/coupling.h"
@@ -24,21 +23,19 @@ class ScaleBridge {
 
   const std::vector<double>& pressures() const { return pressures_; }  // to solve patches at [Pa]
   double mean_pressure() const { return mean_pressure_; }              // of patches in contact [Pa]
-  double carrying_share() const {
-    return carrying_share_;
-  }                                              // of the gross area, that combine is of
-  double far_pull() const { return far_pull_; }  // of the gaps of patches that do not touch [Pa]
-  const std::string& status() const { return status_; }
+  double carrying_share() const { return carrying_share_; }            // of the gross area
 
   // Results at pressures() to one result for a mean patch of the carrying area: forces and contact
-  // areas are means over it, the rest over its patches in contact.
+  // areas are means over it, other members over its patches in contact (kPatchMembers).
   PatchResult combine(std::span<const PatchResult> patches) const;
 
  private:
   Closure closure_;
-  double patch_area_, carrying_share_, mean_pressure_ = 0, nominal_ = 0, far_pull_ = 0;
-  std::vector<double> pressures_, share_off_, share_on_;
-  std::string status_;
+  double patch_area_, carrying_share_, mean_pressure_ = 0, nominal_ = 0;
+  double far_pull_ = 0;  // of the gaps of patches that do not touch [Pa]
+  std::vector<double> pressures_;
+  PressureShares shares_;
+  ModelStatus status_;
 };
 
 // The gap [m] that a capacitance measurement reports under a finger whose ridges press with

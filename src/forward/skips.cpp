@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "base/constants.h"
-#include "forward/coupling.h"
+#include "forward/scene_terms.h"
 
 namespace papilla {
 namespace {
@@ -62,8 +63,8 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
   fidelity.skins = skins;
   fidelity.control_skins = 0;
   for (const ResponsePoint& p : evaluate(held, texture, fidelity).points) {
-    const double rest = p.friction_off.value - p.retention_force.value;
-    if (rest > 0) out.retention = std::max(out.retention, p.retention_force.value / rest);
+    const double sliding = p.friction_off.value - p.retention_force.value;
+    if (sliding > 0) out.retention = std::max(out.retention, p.retention_force.value / sliding);
   }
   for (const double rh : scene.environment.relative_humidity) {
     double load_off = 0, load_on = 0, waals = 0, kelvin = 0, pull = 0, next = 0;
@@ -99,15 +100,15 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
 Plan measured_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Plan plan = make_plan(scene, texture, fidelity);
   const SkipBounds bounds = skip_bounds(scene, texture, fidelity);
-  const auto is = [](PlanSkip& skip, double bound) {
-    skip.bound = bound;
-    skip.estimate = false;
-  };
+  const std::map<Piece, double> measured{{Piece::VanDerWaals, bounds.van_der_waals},
+                                         {Piece::Kelvin, bounds.kelvin},
+                                         {Piece::Coupling, bounds.self_consistency},
+                                         {Piece::Retention, bounds.retention}};
   for (PlanSkip& skip : plan.skipped) {
-    if (skip.piece == "van der Waals") skip.bound = bounds.van_der_waals;  // proven by nothing
-    if (skip.piece == "Kelvin condensation") is(skip, bounds.kelvin);
-    if (skip.piece == "self-consistent coupling") is(skip, bounds.self_consistency);
-    if (skip.piece == "retention") is(skip, bounds.retention);
+    const auto bound = measured.find(skip.piece);
+    if (bound == measured.end()) continue;
+    skip.bound = bound->second;
+    skip.estimate = skip.piece == Piece::VanDerWaals;  // its constant is proven by nothing
   }
   return plan;
 }

@@ -5,7 +5,7 @@
 
 namespace papilla {
 
-// Bounds on the relative change of friction by pieces that the plan skips, from `skins` patches a
+// Bounds on the relative change of friction by pieces that the plan skips, from `skins` patches per
 // humidity with all their fields; the largest over humidity. Eq. accuracy.7-10
 struct SkipBounds {
   double van_der_waals = 0;     // Eq. accuracy.7
@@ -16,10 +16,10 @@ struct SkipBounds {
 SkipBounds skip_bounds(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                        int skins = 2);
 
-// The plan with these in place of what it states a priori. Cost: `skins` patches a humidity.
+// The plan with these in place of what it states a priori. Cost: `skins` patches per humidity.
 Plan measured_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
-// Attraction [Pa] a pixel that is not in contact, of the two pieces with no model of their own.
+// Attraction [Pa] per pixel that is not in contact, of the two pieces with no model of their own.
 Traction van_der_waals_traction(const Gap& gap);
 Traction kelvin_traction(const Gap& gap, const Scene& scene, double relative_humidity);
 

@@ -146,8 +146,8 @@ class Sweeper {
       row.stated.push_back(v ? v->se : std::numeric_limits<double>::quiet_NaN());
     }
     row.work = r.fft_pairs * pair_work(r.fidelity);
-    if (const std::string trouble = r.trouble(); !trouble.empty()) row.status = trouble;
-    if (!r.accuracy.status.empty()) row.status = r.accuracy.status;
+    if (const auto troubles = r.troubles(); !troubles.empty()) row.status = text(troubles);
+    if (r.accuracy.target > 0) row.status = text(r.accuracy);
     rows_.push_back(std::move(row));
   }
 

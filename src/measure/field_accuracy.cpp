@@ -7,6 +7,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 #include "forward/forward.h"
+#include "forward/scene_terms.h"
 #include "physics/electrostatics/full_field.h"
 
 namespace papilla {

@@ -24,7 +24,9 @@ struct MetricInfo {
 const std::vector<MetricInfo>& metric_list();
 const MetricInfo* find_metric(const std::string& name);
 
-// Of "voltage_for(modulation = 0.5)" the modulation; nothing for another metric. Throws InputError
+// The one metric with a target of its own: the amplitude at which the modulation reaches a value.
+inline constexpr const char* kVoltageFor = "voltage_for";
+// The modulation of "voltage_for(modulation = 0.5)"; nothing for another metric. Throws InputError
 // where the target is no number above 0.
 std::optional<double> voltage_target(const std::string& metric);
 
@@ -32,8 +34,15 @@ std::optional<double> voltage_target(const std::string& metric);
 // not reach its modulation).
 std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point);
 
+// The quantity that carries the errors of a metric; nothing for a voltage, which has its own.
+std::optional<Measured PointQuantities::*> metric_quantity(const std::string& metric);
+
+// Value of a metric of the look, in a regime that has one.
+double appearance_value(const std::string& metric, const Optics& look);
+
 // How a quantity is summarised over humidity with the points' weights. Eq. metrics.1-5
 enum class Summary { Mean, Variation, Range, Std, Worst, Best, First, Last };
+bool is_spread(Summary summary);  // Variation, Range, Std: lower is better
 
 struct SummaryValue {
   double value = 0;
@@ -49,8 +58,8 @@ struct SummaryValue {
 std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
                                       const Response& response);
 
-// Half the change of a number over each step of the finger's parameters, a sample a skin whose mean
-// it is; nothing where the number is not defined at a step. Eq. accuracy.11
+// Half the change of a number over each step of the finger's parameters, one sample per skin whose
+// mean it is; nothing where the number is not defined at a step. Eq. accuracy.11
 using StepSamples = std::vector<std::vector<double>>;  // [direction][skin]
 std::optional<StepSamples> step_samples(
     const std::vector<ParameterStep>& steps,
@@ -67,8 +76,8 @@ struct ErrorSamples {
 ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response);
 ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
                               const Response& response);
-// Of the first less the second, from samples of the same skins: sampling, grid and method part.
-// Nothing where one of them lacks the samples of the other. Eq. accuracy.14
+// The error of the first less the second, from samples of the same skins: sampling, grid and method
+// part. Nothing where one of them lacks the samples of the other. Eq. accuracy.14
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second);
 
 // "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name).

@@ -102,9 +102,9 @@ double Candidate::value(const Criterion& c, Response& response) const {
   if (!v || !std::isfinite(v->value)) {
     throw InputError(fmt::format("{} is not defined for \"{}\"{}", metric_text(c.expression),
                                  design_.title,
-                                 look_ && look_->regime == "refused" ? ": " + look_->warning
-                                 : response.driven                   ? ""
-                                                                     : ": it is not driven (0 V)"));
+                                 look_ && look_->refused() ? ": " + look_->warning
+                                 : response.driven         ? ""
+                                                           : ": it is not driven (0 V)"));
   }
   return v->value;
 }

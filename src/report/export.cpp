@@ -51,7 +51,7 @@ Json verification_json(const Verification& v) {
 Json record(const Design& design, const ExportOptions& options, const Export& result) {
   const Heightmap& h = result.heightmap;
   const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-  const FabricationMargins margins = fabrication_margins(result.texture);
+  const FabricationMargins margins = facts(result.texture).margins;
   Json files = Json::array();
   for (const ExportedFile& file : result.files) {
     files.push_back(

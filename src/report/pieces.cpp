@@ -178,8 +178,8 @@ std::string field_json(const FieldSolution& s, const FieldRun& run) {
 }
 
 std::string optics_text(const Optics& look) {
-  std::string out = "regime         " + look.regime + '\n';
-  if (look.regime != "refused") {
+  std::string out = fmt::format("regime         {}\n", text(look.regime));
+  if (!look.refused()) {
     out += fmt::format(
         "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"
         "colour shift   {:.4f} (u'v')\n\n{:>8} {:>8} {:>8} {:>8} {:>8}\n",
@@ -194,7 +194,7 @@ std::string optics_text(const Optics& look) {
 }
 
 std::string optics_json(const Optics& look) {
-  const bool refused = look.regime == "refused";
+  const bool refused = look.refused();
   const auto number = [&](double v) {
     return json_number(refused ? std::nullopt : std::optional(v));
   };
@@ -208,7 +208,7 @@ std::string optics_json(const Optics& look) {
                         {"gloss", p.gloss}});
   }
   return Json{{"schema", 1},
-              {"regime", look.regime},
+              {"regime", text(look.regime)},
               {"warning", look.warning},
               {"haze", number(look.haze)},
               {"transmittance", number(look.transmittance)},

@@ -159,13 +159,13 @@ std::string undriven_lines(const Response& response) {
 }
 
 std::string appearance_line(const Optics& look) {
-  if (look.regime == "refused") {
+  if (look.refused()) {
     return "appearance: " + look.warning + "\n";
   }
   return fmt::format(
       "haze {:.2f} %  transmittance {:.1f} %  gloss {:.1f} %  colour shift {:.4f}  ({}{}{})\n",
-      100 * look.haze, 100 * look.transmittance, 100 * look.gloss, look.colour_shift, look.regime,
-      look.warning.empty() ? "" : ": ", look.warning);
+      100 * look.haze, 100 * look.transmittance, 100 * look.gloss, look.colour_shift,
+      text(look.regime), look.warning.empty() ? "" : ": ", look.warning);
 }
 
 std::string voltage_lines(const Response& response) {
@@ -175,7 +175,7 @@ std::string voltage_lines(const Response& response) {
       out += fmt::format("modulation {:.3g} at {:.0f} % RH: ", v.target, 100 * p.relative_humidity);
       out += v.reached() ? with_error(v.amplitude, 1, 1) +
                                " V (±: " + voltage_parts(v.amplitude.parts) + ")\n"
-                         : fmt::format("{} first (modulation {:.3g})\n", v.status, v.modulation);
+                         : fmt::format("{} first (modulation {:.3g})\n", text(v), v.modulation);
     }
   }
   return out;
@@ -185,7 +185,7 @@ std::string target_lines(const Response& response) {
   const TargetReport& a = response.accuracy;
   std::string out;
   out += fmt::format("accuracy {:.2g} % asked for, {:.2g} % of {}: {} ({} pixels, {} skins, {})\n",
-                     100 * a.target, 100 * a.reached, a.quantity, a.status, response.fidelity.grid,
+                     100 * a.target, 100 * a.reached, a.quantity, text(a), response.fidelity.grid,
                      response.fidelity.skins,
                      response.fidelity.estimator == Estimator::Load ? "load law" : "solved areas");
   if (const std::string apart = beside_target(response); !apart.empty())
@@ -198,7 +198,7 @@ std::string parameter_line(const ParameterSteps& p) {
       "parameters: {} directions of the finger's covariance, one standard deviation up and down, "
       "{} skins, {} pixels{}\n",
       p.steps.size(), p.skins, p.grid,
-      p.trouble.empty() ? "" : "; a step is not sound: " + p.trouble);
+      p.troubles.empty() ? "" : "; a step is not sound: " + text(p.troubles));
 }
 
 }  // namespace
@@ -251,8 +251,8 @@ std::string response_table(const Response& response) {
   if (response.accuracy.target > 0) out += target_lines(response);
   if (!response.parameters.steps.empty()) out += parameter_line(response.parameters);
   if (!response.plan.warning.empty()) out += "warning: " + response.plan.warning + "\n";
-  if (const std::string trouble = response.trouble(); !trouble.empty())
-    out += "note: " + trouble + "\n";
+  if (const auto troubles = response.troubles(); !troubles.empty())
+    out += "note: " + text(troubles) + "\n";
   return out;
 }
 

@@ -46,14 +46,14 @@ Json summary_json(const Response& response) {
 Json plan_json(const Plan& plan) {
   Json steps = Json::array(), skipped = Json::array();
   for (const PlanStep& s : plan.steps) {
-    steps.push_back({{"piece", s.piece},
+    steps.push_back({{"piece", s.name()},
                      {"method", s.method},
                      {"reason", s.reason},
                      {"seconds", s.seconds},
                      {"error", s.error}});
   }
   for (const PlanSkip& s : plan.skipped) {
-    skipped.push_back({{"piece", s.piece},
+    skipped.push_back({{"piece", s.name()},
                        {"reason", s.reason},
                        {"bound", json_number(s.bound)},
                        {"estimate", s.estimate}});
@@ -74,7 +74,7 @@ Json voltage_json(const VoltageAnswer& v) {
           {"highest_modulation", json_number(v.modulation)},
           {"limit", json_number(v.limit)},
           {"evaluations", v.evaluations},
-          {"status", v.reached() ? "ok" : v.status}};
+          {"status", v.reached() ? "ok" : text(v)}};
 }
 
 Json point_json(const ResponsePoint& p, bool driven) {
@@ -102,33 +102,33 @@ Json point_json(const ResponsePoint& p, bool driven) {
   point["field_error"] = json_number(p.field_error);
   point["oxide_margin"] = json_number(p.oxide_margin);
   for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
-  point["status"] = p.status == "ok" && driven && p.oxide_margin < 1
+  point["status"] = p.status.sound() && driven && p.oxide_margin < 1
                         ? "breakdown: the dielectric does not hold this field, the numbers under "
                           "voltage mean nothing physical"
-                        : p.status;
+                        : text(p.status);
   return point;
 }
 
 // Null where the theory does not reach.
 Json appearance_json(const Optics& look) {
-  const bool refused = look.regime == "refused";
+  const bool refused = look.refused();
   const auto value = [&](double v) { return refused ? Json(nullptr) : json_number(v); };
-  return {{"regime", look.regime},      {"warning", look.warning},
-          {"haze", value(look.haze)},   {"transmittance", value(look.transmittance)},
-          {"gloss", value(look.gloss)}, {"colour_shift", value(look.colour_shift)}};
+  return {{"regime", text(look.regime)}, {"warning", look.warning},
+          {"haze", value(look.haze)},    {"transmittance", value(look.transmittance)},
+          {"gloss", value(look.gloss)},  {"colour_shift", value(look.colour_shift)}};
 }
 
 Json steps_json(const ParameterSteps& p) {
   return {{"directions", p.steps.size()},
           {"skins", p.skins},
           {"grid", p.grid},
-          {"status", p.trouble.empty() ? "ok" : p.trouble}};
+          {"status", p.troubles.empty() ? "ok" : text(p.troubles)}};
 }
 
 Json target_json(const TargetReport& a) {
   return {{"target", a.target},     {"reached", json_number(a.reached)},
           {"quantity", a.quantity}, {"parts", {"sampling", "grid", "method", "solver"}},
-          {"status", a.status},     {"steps", a.steps}};
+          {"status", text(a)},      {"steps", a.steps}};
 }
 
 Json fidelity_json(const Fidelity& f) {

@@ -17,8 +17,8 @@ const char* breakdown(const Response& response) {
 }
 
 std::string haze_column(const Optics& look) {
-  return look.regime == "refused" ? fmt::format(" {:>8}", "refused")
-                                  : fmt::format(" {:>8.2f}", 100 * look.haze);
+  return look.refused() ? fmt::format(" {:>8}", "refused")
+                        : fmt::format(" {:>8.2f}", 100 * look.haze);
 }
 
 }  // namespace

@@ -4,13 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "config/fields.h"
 
 namespace papilla {
 
 struct Environment {
   std::vector<double> relative_humidity = {0.15, 0.35, 0.55, 0.75};
-  std::vector<double> weights;  // one a humidity; empty: equal
+  std::vector<double> weights;  // one per humidity; empty: equal
 
   bool operator==(const Environment&) const = default;
 };
@@ -40,6 +41,7 @@ struct Surface {
 
   double equivalent_thickness() const;  // sum of d/eps [m]
   double dielectric_thickness() const;  // of all layers [m]
+  bool repels_water() const { return contact_angle > kPi / 2; }
 
   bool operator==(const Surface&) const = default;
 };

@@ -42,7 +42,7 @@ struct MacroContact {
   double ridge_share = 0.3;     // share of the gross area on ridges
   double load_share = 0.0063;   // phi: share of the gross area that carries the load
   double shear_strength = 9e6;  // tau, interfacial [Pa]
-  // Of closure "persson": the ridges' surface above the patch size, and what it lies on.
+  // For closure "persson": the ridges' surface above the patch size, and what it lies on.
   double ridge_rms = 2.2e-6, ridge_longest = 1e-3;           // rms height, longest wavelength [m]
   double corneum_thickness = 200e-6, tissue_modulus = 10e3;  // [m], Young's modulus [Pa]
 

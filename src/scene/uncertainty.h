@@ -23,7 +23,7 @@ std::string uncertainty_problem(const Finger& finger);
 struct FingerStep {
   Finger up, down;
 };
-// One a column of L that moves anything. Throws InputError where the finger has no `uncertainty`.
+// One per column of L that moves anything. Throws InputError where the finger has no `uncertainty`.
 std::vector<FingerStep> finger_steps(const Finger& finger);
 
 // What is said of a finger without `uncertainty`.

@@ -63,7 +63,7 @@ double look_value(const std::string& name, const Optics& optics) {
 
 // What a constraint of shape limits.
 double shape_value(const std::string& name, const Design& d) {
-  const FabricationMargins m = fabrication_margins(d.texture);
+  const FabricationMargins m = facts(d.texture).margins;
   if (name == "min_hole") return m.min_hole;
   if (name == "min_wall") return m.min_wall;
   return m.aspect_ratio;
@@ -269,13 +269,12 @@ StudyProblem::StudyProblem(const Study& study) : study_(study) {
     std::sort(d.choices.begin(), d.choices.end());
     space_.dimensions.push_back(d);
   }
-  slow_look_ = !quick_appearance(study.design.texture);
+  slow_look_ = !facts(study.design.texture).quick_look;
   for (const Variable& v : study.variables) {
     for (double kind : v.choices) {
-      slow_look_ = slow_look_ ||
-                   (v.is_kind() &&
-                    !quick_appearance(of_kind(study.design.texture,
-                                              texture_kinds()[static_cast<std::size_t>(kind)])));
+      slow_look_ =
+          slow_look_ ||
+          (v.is_kind() && !facts(default_texture(static_cast<std::size_t>(kind))).quick_look);
     }
   }
   own_value_ = space_.value(unit_of_study());
@@ -405,15 +404,16 @@ Point StudyProblem::unit_of_study() const {
 }
 
 bool StudyProblem::has_features() const {
-  const auto varies = [&](const char* path) {
-    return std::any_of(study_.variables.begin(), study_.variables.end(),
-                       [&](const Variable& v) { return v.path == path; });
+  const auto varies = [&](Measure measure) {
+    return std::any_of(study_.variables.begin(), study_.variables.end(), [&](const Variable& v) {
+      return std::count(v.path.begin(), v.path.end(), '.') == 1 && measure_of(v.path) == measure;
+    });
   };
-  return varies("texture.period") && (varies("texture.diameter") || varies("texture.width"));
+  return varies(Measure::Period) && varies(Measure::Width);
 }
 
 std::vector<double> StudyProblem::features(const Point& unit) const {
-  return {std::sqrt(open_fraction(design(unit).texture))};
+  return {std::sqrt(facts(design(unit).texture).open_share.value_or(0))};
 }
 
 Point StudyProblem::collapsed(const Point& unit) const {
@@ -421,10 +421,7 @@ Point StudyProblem::collapsed(const Point& unit) const {
       std::any_of(study_.variables.begin(), study_.variables.end(),
                   [](const Variable& v) { return v.path.starts_with("texture."); });
   if (!textured) return unit;
-  const auto is_depth = [](const Variable& v) {
-    return v.path.starts_with("texture.") &&
-           (v.path.ends_with(".depth") || v.path.ends_with(".height"));
-  };
+  const auto is_depth = [](const Variable& v) { return measure_of(v.path) == Measure::Depth; };
   Point value = space_.value(unit);
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
@@ -438,30 +435,28 @@ Point StudyProblem::collapsed(const Point& unit) const {
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
     if (v.is_levels()) {  // a last part of no depth is one level less
-      while (const auto* stack = std::get_if<Stack>(&d.texture.kind)) {
-        const int levels = static_cast<int>(stack->parts.size());
-        if (levels < 2 || texture_depth(stack->parts.back()) > 0 || !offered(v, levels - 1)) break;
+      for (int levels = texture_levels(d.texture);
+           levels >= 2 && !last_level_has_relief(d.texture) && offered(v, levels - 1);
+           levels = texture_levels(d.texture)) {
         d.texture = with_levels(d.texture, levels - 1);
         value[i] = levels - 1;
       }
     }
-    if (v.is_kind() && texture_depth(d.texture) <= 0) {
-      value[i] = v.low;  // "flat" is the first of all kinds
-      d.texture = of_kind(d.texture, texture_kinds()[static_cast<std::size_t>(v.low)]);
+    if (v.is_kind() && !facts(d.texture).relief.present) {  // all flat textures are one
+      const Texture first = of_kind(d.texture, texture_kinds()[static_cast<std::size_t>(v.low)]);
+      if (facts(first).relief.present) continue;  // none of its measures is this one's
+      value[i] = v.low;
+      d.texture = first;
     }
   }
-  const auto texture_of = [&](const std::string& path) -> const Texture& {
-    constexpr std::string_view kPart = "texture.parts.";
-    const auto* stack = std::get_if<Stack>(&d.texture.kind);
-    if (!stack || !path.starts_with(kPart)) return d.texture;
-    const auto part = static_cast<std::size_t>(std::atoi(path.c_str() + kPart.size()));
-    return part < stack->parts.size() ? stack->parts[part] : d.texture;
+  const auto has_relief = [&](const std::string& path) {
+    return facts(part_at(d.texture, path)).relief.present;
   };
   const std::vector<NumberField> known = number_fields(d);
   for (std::size_t i = 0; i < value.size(); ++i) {
     const Variable& v = study_.variables[i];
     if (!v.path.starts_with("texture.") || v.is_kind() || v.is_levels()) continue;
-    if (!acts(known, i) || (!is_depth(v) && texture_depth(texture_of(path_in(known, v.path))) <= 0))
+    if (!acts(known, i) || (!decides_relief(v.path) && !has_relief(path_in(known, v.path))))
       value[i] = own[i];
   }
   return space_.unit(value);
@@ -492,11 +487,14 @@ std::optional<Point> StudyProblem::flat_by(std::size_t variable, const Point& un
   flat[variable] = 0;
   if (study_.variables[variable].is_kind()) {
     Point value = space_.value(unit);
-    value[variable] = study_.variables[variable].low;  // "flat" is the first of all kinds
+    value[variable] =
+        study_.variables[variable].low;  // flat, where it is offered: the first of all kinds
     flat = space_.unit(value);
   }
-  if (texture_depth(design(unit).texture) <= 0 || texture_depth(design(flat).texture) > 0)
-    return std::nullopt;
+  const auto has_relief = [this](const Point& p) {
+    return facts(design(p).texture).relief.present;
+  };
+  if (!has_relief(unit) || has_relief(flat)) return std::nullopt;
   return space_.snapped(flat);
 }
 
@@ -611,15 +609,16 @@ Outcome StudyProblem::evaluate_task(const Design& base, std::size_t index, const
                           : evaluate(scene, d.texture, fidelity);
   if (needs_appearance()) {
     response.appearance = appearance_of(d);
-    if (response.appearance->regime == "refused") {
+    if (response.appearance->refused()) {
       out.reason = response.appearance->warning;
       return out;
     }
   }
   // No equilibrium: no friction to judge.
-  if (const std::string trouble = response.trouble();
-      trouble.find(": pull-in") != std::string::npos) {
-    out.reason = task.name + ", " + trouble;
+  const std::vector<PointTrouble> troubles = response.troubles();
+  if (std::any_of(troubles.begin(), troubles.end(),
+                  [](const PointTrouble& t) { return t.status.pull_in(); })) {
+    out.reason = task.name + ", " + text(troubles);
     return out;
   }
   if (!voltage_targets_.empty())

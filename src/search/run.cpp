@@ -115,11 +115,9 @@ Point work_request(std::size_t task, Stage stage, bool flat, const Point& unit) 
 Texture without_relief(const Design& textured) {
   constexpr double kNone = 1e-12;  // [m]
   Design flat = textured;
-  for (const NumberField& field : number_fields(flat)) {
-    if (field.path == "texture.depth" || field.path == "texture.height")
-      *field.value = std::min(*field.value, kNone);
-  }
-  return texture_depth(flat.texture) > kNone ? Texture{} : flat.texture;
+  double* depth = roles(flat.texture).depth;
+  if (depth) *depth = std::min(*depth, kNone);
+  return depth || !facts(flat.texture).relief.present ? flat.texture : Texture{};
 }
 
 Evaluate work_function(const StudyProblem& problem, const Study& study, int threads) {
@@ -860,7 +858,7 @@ class Run {
       return;
     }
     pick();
-    if (texture_depth(study_.design.texture) > 0) compare_with_flat();
+    if (facts(study_.design.texture).relief.present) compare_with_flat();
     step();
     find_sensitivity();
     step(2);

@@ -172,10 +172,10 @@ std::vector<AreaErrorRow> area_error_against_time(const std::string& scene,
       const Heightmap points = skin(fine, k);  // of the skin, whatever the state: not counted
       const double begin = now();
       const RefinedContact low =
-          refine_contact(*kernel, h.z, s.low, {}, c.pressure, *target, points.z);
+          refine_contact({*kernel, h.z, {}, c.pressure, s.low}, *target, points.z);
       const double seconds = s.seconds + now() - begin;
       const RefinedContact high =
-          refine_contact(*kernel, h.z, s.high, {}, kMoreLoad * c.pressure, *target, points.z);
+          refine_contact({*kernel, h.z, {}, kMoreLoad * c.pressure, s.high}, *target, points.z);
       if (!low.ok || !high.ok) continue;
       refined.add({low.area.near_edge, high.area.near_edge}, reference[at],
                   low.area.se / low.area.near_edge, low.contacts, seconds, s.pairs);

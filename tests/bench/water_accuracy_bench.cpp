@@ -16,6 +16,7 @@
 #include "base/statistics.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "forward/scene_terms.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 

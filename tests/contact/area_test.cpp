@@ -147,7 +147,7 @@ TEST(Area, RefinedOnPointsIsThatOfTheWholeFineGrid) {
     const ContactOptions options{.tolerance = 1e-10};
     const ContactSolution coarse = solve_contact(*kernel, h.z, 15e3, traction, options);
     const RefinedContact refined =
-        refine_contact(*kernel, h.z, coarse, traction, 15e3, *target, points.z);
+        refine_contact({*kernel, h.z, traction, 15e3, coarse}, *target, points.z);
     ASSERT_TRUE(refined.ok) << refined.reason;
     const ContactArea exact =
         measure_area(*target, solve_contact(*target, points.z, 15e3, fine_traction, options));
@@ -162,7 +162,7 @@ TEST(Area, RefinementOfMuchContactSaysNo) {
   const auto kernel = make_contact_kernel(grid, skin), target = make_contact_kernel(fine, skin);
   const std::vector<double> flat(grid.size(), 0), fine_flat(fine.size(), 0);
   const ContactSolution s = solve_contact(*kernel, flat, 1e5, {}, {});
-  const RefinedContact refined = refine_contact(*kernel, flat, s, {}, 1e5, *target, fine_flat);
+  const RefinedContact refined = refine_contact({*kernel, flat, {}, 1e5, s}, *target, fine_flat);
   EXPECT_FALSE(refined.ok);
   EXPECT_FALSE(refined.reason.empty());
 }

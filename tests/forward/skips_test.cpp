@@ -56,7 +56,7 @@ TEST(SkipBounds, HoldForTheCouplingInOnePass) {
     bounds.push_back(skip_bounds(scene, texture, small()).self_consistency);
     scene.model.coupling = Coupling::SelfConsistent;
     const Response settled = evaluate(scene, texture, small());
-    if (settled.points[0].status != "ok") {
+    if (!settled.points[0].status.sound()) {
       bounds.pop_back();
       continue;
     }
@@ -110,7 +110,7 @@ TEST(PlanSkips, TheLoadLawIsAsFarOffAsOnTheCommittedScenes) {
   scene.drive.amplitude = 200;
   const Plan plan = make_plan(scene, Texture{}, fidelity_level("draft"));
   for (const PlanSkip& skip : plan.skipped) {
-    if (skip.piece != "contact with tractions") continue;
+    if (skip.piece != Piece::Tractions) continue;
     EXPECT_NEAR(skip.bound, quantile(friction, 1), 0.005);
     EXPECT_NE(plan.text().find("estimate 10 % of friction"), std::string::npos) << plan.text();
   }
@@ -127,8 +127,8 @@ TEST(PlanSkips, AreEstimatesUntilMeasured) {
   EXPECT_EQ(before.text().find("(bound"), std::string::npos) << before.text();
   for (std::size_t i = 0; i < before.skipped.size(); ++i) {
     const PlanSkip &a = before.skipped[i], &b = after.skipped[i];
-    EXPECT_TRUE(a.estimate) << a.piece;
-    if (a.piece != "Kelvin condensation") continue;
+    EXPECT_TRUE(a.estimate) << a.name();
+    if (a.piece != Piece::Kelvin) continue;
     EXPECT_FALSE(b.estimate);
     EXPECT_GE(a.bound, b.bound);
   }

@@ -77,13 +77,17 @@ double drawn_area(const std::map<std::string, Structure>& all, const std::string
   return sum;
 }
 
+FeatureArray array_of(const Texture& texture) {
+  return std::get<FeatureArray>(facts(texture).outline);
+}
+
 TEST(Gds, TheArrayHasTheOpenAreaOfTheTexture) {
   for (const Lattice lattice : {Lattice::Square, Lattice::Hexagonal}) {
     HoleArray holes;
     holes.lattice = lattice;
     const Texture texture{holes};
     const std::string path = temporary("array.gds");
-    const GdsArray array = write_gds(path, texture, 600e-6, 600e-6);
+    const GdsArray array = write_gds(path, array_of(texture), 600e-6, 600e-6);
     std::map<std::string, Structure> structures;
     std::string name;
     int element = 0;
@@ -123,13 +127,14 @@ TEST(Gds, TheArrayHasTheOpenAreaOfTheTexture) {
     EXPECT_NEAR(height, 600000, 1e9 * array.pitch_y);
     const double open = drawn_area(structures, name) / (600000 * height);
     // Rounding to 1 nm: at most half a database unit along the rim.
-    EXPECT_NEAR(open, open_fraction(texture), 4 * 0.5e-9 / holes.diameter * open);
+    EXPECT_NEAR(open, facts(texture).open_share.value(), 4 * 0.5e-9 / holes.diameter * open);
   }
 }
 
 TEST(Gds, RefusesWhatIsNoArray) {
-  EXPECT_THROW(write_gds(temporary("no.gds"), Texture{}, 1e-5, 1e-5), InputError);
-  EXPECT_THROW(write_gds(temporary("no.gds"), Texture{HoleArray{}}, 1.0, 1e-5), InputError);
+  EXPECT_THROW(array_of(Texture{}), std::bad_variant_access);
+  EXPECT_THROW(write_gds(temporary("no.gds"), array_of(Texture{HoleArray{}}), 1.0, 1e-5),
+               InputError);
 }
 
 TEST(Stl, IsAClosedBodyOfTheRightVolume) {

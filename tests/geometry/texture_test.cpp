@@ -9,8 +9,8 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "geometry/io/files.h"
-#include "geometry/particles.h"
 #include "geometry/roughness.h"
+#include "geometry/textures/particle_film.h"
 
 namespace papilla {
 namespace {
@@ -40,7 +40,7 @@ TEST(HoleArray, HexagonalPatchHoldsWholePeriods) {
   const Grid grid = patch_grid(t, 128);
   EXPECT_NEAR(std::fmod(grid.lx / 3e-6 + 1e-9, 1), 0, 1e-6);
   EXPECT_NEAR(std::fmod(grid.ly / (std::sqrt(3.0) * 3e-6) + 1e-9, 1), 0, 1e-6);
-  EXPECT_NEAR(mean(generate(t, grid)), -1e-7 * open_fraction(t), 3e-3 * 1e-7);
+  EXPECT_NEAR(mean(generate(t, grid)), -1e-7 * facts(t).open_share.value(), 3e-3 * 1e-7);
 }
 
 TEST(SimulatedPatch, IsAlikeForEveryPeriod) {
@@ -76,13 +76,13 @@ TEST(HoleArray, SlopedWallsRemoveAFrustum) {
   const double volume = kPi * depth / 3 * (r * r + r * floor + floor * floor);
   const Grid grid = patch_grid(t, 256);
   EXPECT_NEAR(mean(generate(t, grid)), -volume / 36e-12, 1e-3 * volume / 36e-12);
-  EXPECT_NEAR(fabrication_margins(t).min_hole, 2 * floor, 1e-15);
+  EXPECT_NEAR(facts(t).margins.min_hole, 2 * floor, 1e-15);
 }
 
 TEST(HoleArray, ZeroDepthIsFlat) {
   Texture t{HoleArray{.depth = 0}};
   for (double z : generate(t, patch_grid(t, 64)).z) EXPECT_EQ(z, 0);
-  EXPECT_TRUE(std::isinf(fabrication_margins(t).min_hole));
+  EXPECT_TRUE(std::isinf(facts(t).margins.min_hole));
 }
 
 TEST(HoleArray, RimRadiusTakesAwayMaterialAtTheEdgeOnly) {
@@ -194,7 +194,7 @@ TEST(Roughness, CosineHasItsClosedForms) {
 TEST(Roughness, HolesHaveTheirMomentsAndFlagTheirSlopes) {
   Texture t{HoleArray{.diameter = 4e-6, .depth = 350e-9, .wall_angle = kPi / 2}};
   const RoughnessParameters r = roughness_parameters(generate(t, patch_grid(t, 512)));
-  const double f = open_fraction(t);
+  const double f = facts(t).open_share.value();
   EXPECT_NEAR(r.sq, 350e-9 * std::sqrt(f * (1 - f)), 0.01 * r.sq);
   EXPECT_NEAR(r.ssk, -(1 - 2 * f) / std::sqrt(f * (1 - f)), 0.03);
   EXPECT_TRUE(r.slopes_sampling_limited);

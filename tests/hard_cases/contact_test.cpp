@@ -64,7 +64,7 @@ TEST(HardContact, SmoothSkinOnHolesTouchesTheLandOnly) {
       EXPECT_EQ(s.pressure[i], 0);
     }
   }
-  EXPECT_NEAR(measure_area(kernel, s).raw, 1 - open_fraction(texture), 0.03);
+  EXPECT_NEAR(measure_area(kernel, s).raw, 1 - facts(texture).open_share.value(), 0.03);
 }
 
 TEST(HardContact, ASinglePixelCarriesTheWholeLoad) {

@@ -51,8 +51,8 @@ TEST(Property, EverySceneIsFiniteAndHomogeneousAndMonotone) {
     Scene scene = random_scene(i, texture);
     const Response r = run(scene, texture);
     for (const ResponsePoint& p : r.points) {
-      for (const auto member : kMeasured) {
-        const Measured& m = p.*member;
+      for (const PointQuantity& q : kQuantities) {
+        const Measured& m = p.*q.value;
         ASSERT_TRUE(std::isfinite(m.value) && std::isfinite(m.se()) && m.se() >= 0) << i;
       }
       ASSERT_GE(p.friction_off.value, 0) << i;

@@ -22,6 +22,10 @@ std::string temporary(const std::string& name) {
   return testing::TempDir() + "papilla_mask_" + name;
 }
 
+FeatureArray array_of(const HoleArray& holes) {
+  return std::get<FeatureArray>(facts(holes).outline);
+}
+
 TEST(PixelMargins, AreThoseOfHolesPillarsAndGrooves) {
   for (const auto& [period, width] : {std::pair{6e-6, 4.8e-6}, {4e-6, 1e-6}}) {
     HoleArray holes;
@@ -35,7 +39,7 @@ TEST(PixelMargins, AreThoseOfHolesPillarsAndGrooves) {
     for (const Texture& texture : {Texture{holes}, Texture{grooves}, Texture{pillars}}) {
       const Heightmap h = generate(texture, patch_grid(texture, 192, 2 * period));
       const PixelMargins found = measure_margins(h);
-      const FabricationMargins want = fabrication_margins(texture);
+      const FabricationMargins want = facts(texture).margins;
       EXPECT_NEAR(found.min_hole, want.min_hole, 1.6 * found.pixel)
           << texture_name(texture) << width;
       EXPECT_NEAR(found.min_wall, want.min_wall, 1.6 * found.pixel)
@@ -79,16 +83,16 @@ TEST(GdsMask, PolygonsCoverTheAreaBelowTheLevel) {
     }
     area += 0.5e-18 * std::abs(sum);
   }
-  EXPECT_NEAR(area / h.grid.area(), open_fraction(texture), 0.005);
+  EXPECT_NEAR(area / h.grid.area(), facts(texture).open_share.value(), 0.005);
 }
 
 TEST(GdsArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
   HoleArray holes;
   holes.period = 6.0004e-6;
-  EXPECT_THROW(write_gds(temporary("a.gds"), Texture{holes}, 1e-4, 1e-4), InputError);
+  EXPECT_THROW(write_gds(temporary("a.gds"), array_of(holes), 1e-4, 1e-4), InputError);
   holes.period = 6e-6;
-  const GdsArray fine = write_gds(temporary("a.gds"), Texture{holes}, 1e-4, 1e-4, 1e-9);
-  const GdsArray coarse = write_gds(temporary("b.gds"), Texture{holes}, 1e-4, 1e-4, 50e-9);
+  const GdsArray fine = write_gds(temporary("a.gds"), array_of(holes), 1e-4, 1e-4, 1e-9);
+  const GdsArray coarse = write_gds(temporary("b.gds"), array_of(holes), 1e-4, 1e-4, 50e-9);
   EXPECT_GT(fine.sides, 2 * coarse.sides);
   for (const auto& [array, error] : {std::pair{fine, 1e-9}, {coarse, 50e-9}})
     EXPECT_LE(0.5 * holes.diameter * (1 - std::cos(kPi / array.sides)), error);
@@ -145,7 +149,7 @@ TEST(GdsArray, HexagonsKeepTheirPlacesOverTheWholeArea) {
     holes.period = period;
     holes.diameter = 0.4 * period;
     for (const double size : {period, 1e-4, 15e-3}) {
-      const GdsArray a = write_gds(temporary("c.gds"), Texture{holes}, size, size);
+      const GdsArray a = write_gds(temporary("c.gds"), array_of(holes), size, size);
       EXPECT_LE(a.drift, 0.5e-9) << period << " " << size;
       EXPECT_NEAR(a.pitch_y * static_cast<double>(a.rows),
                   std::sqrt(3.0) * period * static_cast<double>(a.rows), 1e-9);
@@ -179,6 +183,37 @@ TEST(ProcessBias, IsUndoneInTheFile) {
   EXPECT_THROW(compensated(Texture{PillarArray{}}, {2e-6, 0}), InputError);
   EXPECT_THROW(compensated(Texture{HoleArray{}}, {2e-6, 0}), InputError);  // holes would meet
   EXPECT_THROW(compensated(Texture{RandomRough{}}, {1e-9, 0}), InputError);
+}
+
+std::string refusal(const Texture& texture, const char* format) {
+  Design design;
+  design.texture = texture;
+  ExportOptions options;
+  options.formats = {format};
+  options.polarity = Polarity::WhiteDeep;
+  options.pixels = 32;
+  try {
+    export_design(design, options, temporary("drawn"));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Outlines, OfARoughSurfaceThereAreNoneAndTheRefusalSaysWhatToTake) {
+  for (const Texture& texture : {Texture{RandomRough{}}, Texture{ParticleFilm{}}}) {
+    for (const char* format : {"gds", "mask"}) {
+      const std::string why = refusal(texture, format);
+      EXPECT_NE(why.find("has no outline"), std::string::npos) << why;
+      EXPECT_NE(why.find("take its heights"), std::string::npos) << why;
+    }
+    EXPECT_EQ(refusal(texture, "npy"), "");
+  }
+  EXPECT_NE(refusal(Texture{HoleArray{.depth = 0}}, "gds").find("flat, there are no outlines"),
+            std::string::npos);
+  Stack stack;
+  stack.parts = {Texture{HoleArray{}}, Texture{RandomRough{.rms = 5e-9}}};
+  EXPECT_EQ(refusal(Texture{stack}, "gds"), "");
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include "base/constants.h"
 #include "base/random.h"
 #include "forward/appearance.h"
+#include "geometry/io/files.h"
+#include "geometry/roughness.h"
 
 namespace papilla {
 namespace {
@@ -112,8 +114,10 @@ TEST(Appearance, IsTheMeanOverTheAnglesOfView) {
   EXPECT_NEAR(haze({0.0, 1.0}), 0.5 * (haze({0.0}) + haze({1.0})), 1e-12);
   EXPECT_GT(haze({1.0}), haze({0.0}));  // the path through the glass grows
   // Oblique light is diffracted by finer arrays.
-  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {}).regime, "effective medium");
-  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {.angles = {1.0}}).regime, "refused");
+  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {}).regime,
+            OpticsRegime::EffectiveMedium);
+  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), 1.5, {.angles = {1.0}}).regime,
+            OpticsRegime::Refused);
 }
 
 TEST(PhaseScreen, MatchedFillRemovesHaze) {
@@ -236,13 +240,14 @@ TEST(EffectiveMedium, HazeOfDisorderIsTheSumOverRandomHoles) {
 
 TEST(Appearance, ChoosesTheTheoryAndRefusesTheBandBetween) {
   const double glass = 1.5;
-  EXPECT_EQ(appearance(holes(6e-6, 3e-6, 0), glass, {}).regime, "flat");
+  EXPECT_EQ(appearance(holes(6e-6, 3e-6, 0), glass, {}).regime, OpticsRegime::Flat);
   EXPECT_NEAR(appearance(holes(6e-6, 3e-6, 0), glass, {}).transmittance, 0.96 / 1.04, 1e-12);
-  EXPECT_EQ(appearance(holes(0.2e-6, 0.1e-6, 0.1e-6), glass, {}).regime, "effective medium");
-  EXPECT_EQ(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass, {}).regime, "refused");
+  EXPECT_EQ(appearance(holes(0.2e-6, 0.1e-6, 0.1e-6), glass, {}).regime,
+            OpticsRegime::EffectiveMedium);
+  EXPECT_EQ(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass, {}).regime, OpticsRegime::Refused);
   EXPECT_FALSE(appearance(holes(0.6e-6, 0.3e-6, 0.1e-6), glass, {}).warning.empty());
   const Optics wide = appearance(holes(6e-6, 3e-6, 100e-9), glass, {});
-  EXPECT_EQ(wide.regime, "phase screen");
+  EXPECT_EQ(wide.regime, OpticsRegime::PhaseScreen);
   EXPECT_TRUE(wide.warning.empty());
   EXPECT_FALSE(appearance(holes(3e-6, 1.5e-6, 100e-9), glass, {}).warning.empty());
 }
@@ -259,6 +264,45 @@ TEST(Appearance, ColourOfADeepArrayIsSeen) {
   EXPECT_NEAR(photopic.haze, 0.333, 3e-3);
   EXPECT_GT(photopic.colour_shift, 0.02);
   EXPECT_NEAR(appearance(holes(6e-6, 4.5e-6, 100e-9), 1.5, {}).haze, 0.0767, 5e-4);
+}
+
+// What a design shows is what its exported map shows.
+TEST(Appearance, OfRoughGlassIsThatOfItsMap) {
+  const Texture rough{RandomRough{.rms = 60e-9}};
+  const Optics own = appearance(rough, 1.46, {});
+  EXPECT_EQ(own.regime, "phase screen");
+  for (const double side : {48e-6, 100e-6}) {
+    const Heightmap map = generate(rough, patch_grid(rough, 1024, side));
+    const Optics seen = phase_screen(map, PixelEdges::Sloped, {1.46, 1});
+    EXPECT_NEAR(own.haze, seen.haze, 0.05 * seen.haze) << side;
+    EXPECT_NEAR(own.gloss, seen.gloss, 0.05 * seen.gloss) << side;
+  }
+  // Specular light of Gaussian heights, Eq. optics.2.
+  const Heightmap map = generate(rough, patch_grid(rough, 1024, 100e-6));
+  const double rms = roughness_parameters(map).sq;
+  for (const SpectrumPoint& p : own.spectrum) {
+    EXPECT_NEAR(p.specular, std::exp(-square(2 * kPi * 0.46 * rms / p.wavelength)),
+                0.01 * p.specular);
+  }
+  EXPECT_EQ(appearance(Texture{RandomRough{.rms = 0}}, 1.46, {}).regime, "flat");
+}
+
+TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
+  const Texture rough{RandomRough{.rms = 60e-9}};
+  const Heightmap map = generate(rough, patch_grid(rough, 256, 60e-6));
+  Measured3d measured;
+  measured.file = testing::TempDir() + "papilla_look.npy";
+  measured.width = map.grid.lx;
+  measured.patch = 50e-6;
+  write_npy(measured.file, map);
+  Stack stack;
+  stack.parts = {Texture{}, rough};
+  const double whole = phase_screen(map, PixelEdges::Sloped, {1.46, 1}).haze;
+  EXPECT_NEAR(appearance(Texture{measured}, 1.46, {}).haze, whole, 0.1 * whole);
+  EXPECT_EQ(appearance(Texture{measured}, 1.46, {}).warning, "");
+  EXPECT_EQ(appearance(Texture{stack}, 1.46, {}).haze, appearance(rough, 1.46, {}).haze);
+  measured.patch = 12e-6;
+  EXPECT_NE(appearance(Texture{measured}, 1.46, {}).warning.find("is short"), std::string::npos);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "base/constants.h"
@@ -304,6 +305,8 @@ TEST(StepResponse, MatchesTheTable) {
   }
   EXPECT_LT(relative(step.relaxation_time(1e-6), 3.82e-4), 2e-3);
   EXPECT_LT(relative(step.relaxation_time(0), 4.92e-4), 2e-3);
+  const StepResponse ideal{1e-7, 1e-6, 10, std::numeric_limits<double>::infinity()};
+  EXPECT_EQ(ideal.field(1, 1e-7, 1e9), ideal.field(1, 1e-7, 0));  // an insulator never charges
 }
 
 TEST(StressDistribution, MatchesTheTable) {

@@ -54,7 +54,7 @@ std::vector<DropletSeed> scatter_droplets(const Grid& grid, double volume,
 // Settles droplets in the patch (Eqs. capillary.4-8). Status: Dry (no water), Discs, Film (a bridge
 // or the wetted area too large for discs: those bridges go over into a film of one pressure, Eqs.
 // capillary.15, 22; `film` marks it), Flooded (more water than gap: no
-// meniscus, no force). Cost: 10-25 us a droplet.
+// meniscus, no force). Cost: 10-25 us per droplet.
 Wetting settle_droplets(const Gap& gap, const std::vector<DropletSeed>& droplets,
                         const WaterProperties& water, const DropletOptions& options,
                         SettleReport* report = nullptr);

@@ -19,7 +19,8 @@ struct Film {
   int regions = 0;                // connected ones
 };
 
-// Force, retention and regions of a film whose wet pixels, area and edge height are known.
+// Adds force, retention (Eqs. capillary.9, 14) and connected regions to a film whose wet pixels,
+// area and edge height are known. Cost: two passes over the patch.
 void measure_film(const Gap& gap, const WaterProperties& water, Film& film);
 
 // A bridge on its way from disc to film.
@@ -54,7 +55,7 @@ struct FilmRegions {
 // until its volume is placed; regions that meet go on as one with one level. joins(pixel, source)
 // returns the volume of other water that a region meets at a pixel (0 for none), which then belongs
 // to it; it is asked once for each pixel and growth. Cost: n log n in their pixels for each growth
-// (one a source and one more a meeting), plus one pass over the patch.
+// (one per source and one more per meeting), plus one pass over the patch.
 FilmRegions grow_films(const Gap& gap, const std::vector<FilmSource>& sources,
                        const std::vector<std::size_t>& seeds, const WaterProperties& water,
                        const std::function<double(std::size_t, int)>& joins);

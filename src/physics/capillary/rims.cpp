@@ -49,7 +49,7 @@ RimMap::RimMap(const Heightmap& texture) {
                         left = g.index(wrap(ix - 1, g.nx), iy),
                         up = g.index(ix, wrap(iy + 1, g.ny)),
                         below = g.index(ix, wrap(iy - 1, g.ny));
-      // Of a line in any direction, steps along x and y add up to 4 / pi of its length.
+      // The steps along x and y of a line in any direction add up to 4 / pi of its length.
       const double length =
           kPi / 4 * ((down[k] != down[right]) + (down[k] != down[left])) * g.dy() +
           kPi / 4 * ((down[k] != down[up]) + (down[k] != down[below])) * g.dx();

@@ -10,7 +10,7 @@
 namespace papilla {
 namespace {
 
-// About the mean; NaN or infinite where a value is.
+// Mean square about the mean; NaN or infinite where a value is.
 double variance(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
   const double origin = values[0];  // near enough to the mean against cancellation
@@ -63,6 +63,30 @@ void hang(std::span<const double> g0, double level, const std::string& reason,
   out.shift = level;
   out.status = ContactStatus::NoLoad;
   out.reason = reason;
+}
+
+// A load-controlled problem by the sparse solver where that is allowed and able, else by the dense
+// one, which goes on from what the other found. start: a usable one, or null.
+void press(const StandardProblem& problem, const ContactOptions& options,
+           const ContactSolution* start, ContactSolution& out) {
+  const bool demand = options.method == ContactMethod::Sparse;
+  std::span<const double> first;
+  if (start) first = start->pressure;
+  StandardState state;
+  if (options.method != ContactMethod::Dense && options.hardness <= 0) {
+    if (solve_sparse(problem, options.tolerance, start, demand, state)) {
+      out.method = ContactMethod::Sparse;
+      finish(problem, std::move(state), options, out);
+      return;
+    }
+    out.fft_pairs += state.pairs;
+    if (std::any_of(state.p.begin(), state.p.end(), [](double p) { return p > 0; })) {
+      first = state.p;
+    }
+  }
+  out.method = ContactMethod::Dense;
+  finish(problem, solve_dense(problem, options.tolerance, options.max_iterations, first), options,
+         out);
 }
 
 }  // namespace
@@ -120,25 +144,7 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   }
   if (options.hardness > 0) problem.cap = options.hardness;
 
-  if (!usable(start, n)) start = nullptr;
-  const bool demand = options.method == ContactMethod::Sparse;
-  std::span<const double> first;
-  if (start) first = start->pressure;
-  StandardState state;
-  if (options.method != ContactMethod::Dense && options.hardness <= 0) {
-    if (solve_sparse(problem, options.tolerance, start, demand, state)) {
-      out.method = ContactMethod::Sparse;
-      finish(problem, std::move(state), options, out);
-      return out;
-    }
-    out.fft_pairs += state.pairs;
-    if (std::any_of(state.p.begin(), state.p.end(), [](double p) { return p > 0; })) {
-      first = state.p;
-    }
-  }
-  out.method = ContactMethod::Dense;
-  finish(problem, solve_dense(problem, options.tolerance, options.max_iterations, first), options,
-         out);
+  press(problem, options, usable(start, n) ? start : nullptr, out);
   return out;
 }
 

@@ -75,6 +75,10 @@ class ContactKernel {
   std::shared_ptr<const ContactKernel> coarse_;
 };
 
+// The kernel of a grid and a solid, made or found among those used lately: the process keeps up to
+// 64 kernels and, the newest apart, 2^24 pixels of them (about 0.6 GB). Thread safe; a kernel never
+// changes, so where it comes from shows in time alone. Cost: 4-6 transforms and a compliance for
+// each wave number, or a look-up.
 std::shared_ptr<const ContactKernel> make_contact_kernel(const Grid& grid,
                                                          const LayeredSolid& solid);
 
@@ -109,8 +113,8 @@ struct ContactSolution {
 };
 
 // height: rigid counter-body plus skin topography [m], grid.size() values, high touches first.
-// mean_pressure: external load over the patch area [Pa]. traction: attractive pressure [Pa] a
-// pixel, or empty. start: a nearby solution. Cost: 1-3 transform pairs (sparse), 5-25 (dense).
+// mean_pressure: external load over the patch area [Pa]. traction: attractive pressure per pixel
+// [Pa], or empty. start: a nearby solution. Cost: 1-3 transform pairs (sparse), 5-25 (dense).
 // Status NoLoad: nothing presses (the patch hangs free or lifts off); Invalid: NaN input, or a mean
 // load beyond the hardness.
 ContactSolution solve_contact(const ContactKernel& kernel, std::span<const double> height,
@@ -124,26 +128,6 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
 ContactSolution solve_approach(const ContactKernel& kernel, std::span<const double> height,
                                double approach, const ContactOptions& options,
                                const ContactSolution* start = nullptr);
-
-// Derivative of a number J(pressure, gap) of a load-controlled solution by the heights, with the
-// contact set frozen. Eq. contact.17
-struct ContactAdjoint {
-  std::vector<double> by_height;  // dJ/dh of each pixel [unit of J / m]
-  bool converged = false;
-  int iterations = 0;
-  double fft_pairs = 0;
-};
-
-// by_pressure, by_gap: dJ/dp and dJ/dgap of each pixel, or empty. hardness: of the solution; pixels
-// at it stay there. Cost: one linear conjugate gradient, two transform pairs an iteration (10-40).
-ContactAdjoint contact_adjoint(const ContactKernel& kernel, const ContactSolution& solution,
-                               std::span<const double> by_pressure, std::span<const double> by_gap,
-                               double hardness = 0, double tolerance = 1e-8);
-
-// A contact area that can be differentiated: mean of exp(-gap/length), and what each gap changes
-// it by. Eq. contact.18
-double smoothed_area(const ContactSolution& solution, double length,
-                     std::vector<double>* by_gap = nullptr);
 
 // Contact area as fractions of the patch, by three estimators (Eq. contact.5-7).
 struct ContactArea {
@@ -166,14 +150,21 @@ struct RefinedContact {
   int contacts = 0, points = 0;  // under pressure; looked at
 };
 
-// solution: of height and traction (a value a coarse pixel, or empty) under mean_pressure, without
-// a hardness. fine: a kernel of the same solid on a grid several times finer, fine_height: the
-// heights on it. Points that penetrate join until none does, among the neighbours of the contact
-// and twice the points watched. Not ok: more than 2048 fine contact pixels are expected (solve the
-// fine grid instead). Cost: far below one transform pair of the fine grid up to some 500 contacts.
-RefinedContact refine_contact(const ContactKernel& kernel, std::span<const double> height,
-                              const ContactSolution& solution, std::span<const double> traction,
-                              double mean_pressure, const ContactKernel& fine,
+// A solution on a coarse grid and what it solves, without a hardness.
+struct CoarseContact {
+  const ContactKernel& kernel;
+  std::span<const double> height;    // [m], a value per coarse pixel
+  std::span<const double> traction;  // [Pa], the same, or empty
+  double mean_pressure;              // [Pa]
+  const ContactSolution& solution;
+};
+
+// fine: a kernel of the same solid on a grid several times finer, fine_height: the heights on it
+// [m]. Points that penetrate join until none does, among the neighbours of the contact and twice
+// the points watched. Not ok: more than 2048 fine contact pixels are expected (solve the fine grid
+// instead), or the coarse solution did not converge. Cost: far below one transform pair of the fine
+// grid up to some 500 contacts.
+RefinedContact refine_contact(const CoarseContact& coarse, const ContactKernel& fine,
                               std::span<const double> fine_height);
 
 }  // namespace papilla

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <mutex>
 
+#include "base/cache.h"
 #include "base/check.h"
 #include "base/constants.h"
 #include "physics/contact/contact.h"
@@ -132,27 +131,25 @@ void ContactKernel::press(RealArray& u, SpectrumArray& scratch) const {
   fft_->inverse(scratch.data(), u.data());
 }
 
+namespace {
+
+struct KernelKey {
+  Grid grid;
+  LayeredSolid solid;
+
+  bool operator==(const KernelKey&) const = default;
+};
+
+// What make_contact_kernel states: a search solves thousands of states on a few grids.
+constexpr std::size_t kMostKernels = 64;
+constexpr double kMostPixels = 1 << 24;
+
+}  // namespace
+
 std::shared_ptr<const ContactKernel> make_contact_kernel(const Grid& grid, const LayeredSolid& s) {
-  // Kernels of recent scenes are kept: a search solves thousands of states on a few grids.
-  struct Entry {
-    Grid grid;
-    LayeredSolid solid;
-    std::shared_ptr<const ContactKernel> kernel;
-  };
-  static std::mutex mutex;
-  static std::vector<Entry> cache;
-  {
-    std::lock_guard lock(mutex);
-    for (const Entry& e : cache) {
-      if (e.grid == grid && e.solid == s) return e.kernel;
-    }
-  }
-  auto kernel = std::make_shared<const ContactKernel>(grid, s);
-  std::lock_guard lock(mutex);
-  constexpr std::size_t kKept = 64;
-  if (cache.size() >= kKept) cache.erase(cache.begin());
-  cache.push_back({grid, s, kernel});
-  return kernel;
+  static Cache<KernelKey, ContactKernel> kernels(kMostKernels, kMostPixels);
+  return kernels.get({grid, s}, static_cast<double>(grid.size()),
+                     [&] { return std::make_shared<const ContactKernel>(grid, s); });
 }
 
 }  // namespace papilla

@@ -40,6 +40,12 @@ struct StandardState {
 StandardState solve_dense(const StandardProblem& problem, double tolerance, int max_iterations,
                           std::span<const double> start);
 
+// Start of a dense solve from the grid of half the pixels, its gaps the 2x2 minimum, solved as far
+// as a start is worth: pressures [Pa] on the finer grid. g0: the finer grid's gap function without
+// pressure. pairs: the transform pairs it took, in units of the finer grid, are added.
+std::vector<double> nested_start(const StandardProblem& fine, const RealArray& g0, double tolerance,
+                                 double& pairs);
+
 // Candidate set with an exact active set; certified over all pixels. False: too much contact for it
 // (state.p is then a start for the dense solver where pairs were spent, and they count). start: a
 // nearby solution or null. demand: tried whatever amount of contact is expected.

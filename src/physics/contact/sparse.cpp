@@ -1,9 +1,12 @@
 // Light contact: the few pixels that may touch as one small dense problem with an exact active set.
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/constants.h"
 #include "physics/contact/active_set.h"
+#include "physics/contact/candidates.h"
 #include "physics/contact/cubic.h"
 #include "physics/contact/solvers.h"
 
@@ -13,6 +16,8 @@ namespace {
 // Share of the height spread up to which the field of a small change of pressure is left out far
 // away.
 constexpr double kBlur = 3e-4;
+// Watch sets solved, and transforms among them, before the dense solver is the better way.
+constexpr int kMostPasses = 12, kMostTransforms = 6;
 
 class CandidateSolver {
  public:
@@ -27,8 +32,8 @@ class CandidateSolver {
         set_(problem.kernel) {}
 
   bool run(const ContactSolution* start, bool demand) {
-    if (start && !choose_near(*start, demand)) return false;
     if (start) {
+      if (!take(watch_near(problem_, *start, {limit_, demand}))) return false;
       state_.p.assign(n_, 0.0);
       if (!predict(*start)) return false;
       displace();
@@ -37,34 +42,18 @@ class CandidateSolver {
       if (!choose_cold(demand)) return false;
       state_.p.assign(n_, 0.0);
     }
-    for (int transforms = 0; state_.iterations < 12; ++state_.iterations) {
+    for (int transforms = 0; state_.iterations < kMostPasses; ++state_.iterations) {
       // What the pressures' own influence leaves of the gap function at the pixels watched.
-      const auto initial_gap = [this](int i) { return gap_function(i) - pressed(i); };
-      set_.watch(members_, initial_gap);
+      set_.watch(members_, [this](int i) { return gap_function(i) - pressed(i); });
       if (!balance()) return false;
-      double moved = 0;
-      change_.clear();
-      for (std::size_t k = 0; k < set_.size(); ++k) {
-        const double d = set_.pressure(k) - state_.p[set_.pixel(k)];
-        if (d != 0) change_.emplace_back(set_.pixel(k), d);
-        moved += std::abs(d);
-      }
-      const double blur = problem_.kernel.influence_beyond() * moved;
+      const double blur = problem_.kernel.influence_beyond() * find_change();
       if (blur > kBlur * problem_.spread) {
-        if (++transforms > 6) return false;
+        if (++transforms > kMostTransforms) return false;
         take_pressures();
         displace();
         continue;
       }
-      // The change is added nearby, and exactly at the pixels watched: so every gap is known to
-      // within the blur.
-      displace_nearby(1);
-      before_.resize(set_.size());
-      for (std::size_t k = 0; k < set_.size(); ++k) {
-        double& rise = rise_[set_.pixel(k)];
-        before_[k] = rise;
-        rise = -problem_.height[set_.pixel(k)] - (set_.gap_at(k) + set_.shift());
-      }
+      displace_closely();
       const std::vector<int> open = inspect(blur);
       if (open.empty()) {
         take_pressures();
@@ -81,94 +70,39 @@ class CandidateSolver {
   }
 
  private:
-  using Low = std::pair<double, int>;  // gap and pixel
+  // change_: pressures found less those taken. Returns the sum of their sizes.
+  double find_change() {
+    double moved = 0;
+    change_.clear();
+    for (std::size_t k = 0; k < set_.size(); ++k) {
+      const double d = set_.pressure(k) - state_.p[set_.pixel(k)];
+      if (d != 0) change_.emplace_back(set_.pixel(k), d);
+      moved += std::abs(d);
+    }
+    return moved;
+  }
 
-  // First watch set: the lowest gaps, four times the contact that Persson's and Bush's theories
-  // expect, 2 p / (E* rms slope).
+  // The change is added nearby, and exactly at the pixels watched: so every gap is known to within
+  // the blur. before_: what to put back at those.
+  void displace_closely() {
+    displace_nearby(1);
+    before_.resize(set_.size());
+    for (std::size_t k = 0; k < set_.size(); ++k) {
+      double& rise = rise_[set_.pixel(k)];
+      before_[k] = rise;
+      rise = -problem_.height[set_.pixel(k)] - (set_.gap_at(k) + set_.shift());
+    }
+  }
+
+  // First watch set, from the gaps without pressure.
   bool choose_cold(bool demand) {
     std::vector<double> g0(n_);
     for (std::size_t i = 0; i < n_; ++i) g0[i] = gap_function(i);
-    double slopes = 0;
-    const int last = grid_.nx - 1;
-    for (int iy = 0; iy < grid_.ny; ++iy) {
-      const double* row = g0.data() + grid_.index(0, iy);
-      const double* next = g0.data() + grid_.index(0, iy + 1 < grid_.ny ? iy + 1 : 0);
-      double along = 0, across = 0;
-#pragma omp simd reduction(+ : along, across)
-      for (int ix = 0; ix < last; ++ix) {
-        along += (row[ix + 1] - row[ix]) * (row[ix + 1] - row[ix]);
-        across += (next[ix] - row[ix]) * (next[ix] - row[ix]);
-      }
-      slopes += along / (grid_.dx() * grid_.dx()) + across / (grid_.dy() * grid_.dy());
-    }
-    const double slope = std::sqrt(slopes / static_cast<double>(n_));
-    const double expected = 2 * problem_.load / (problem_.kernel.contact_modulus() * slope);
-    double wanted = 4 * expected;
-    if (!affordable(wanted, demand)) return false;
-    watch(lowest(g0, std::max<std::size_t>(16, static_cast<std::size_t>(wanted))), wanted, {});
-    return true;
+    return take(watch_lowest(problem_, g0, {limit_, demand}));
   }
-
-  // Pixels under pressure have no gap: they are among the lowest.
-  bool choose_near(const ContactSolution& start, bool demand) {
-    std::vector<Low> low = lowest(start.gap, 2 * limit_);
-    double load = 0, contact = 0;
-    for (const auto& [gap, i] : low) {
-      load += start.pressure[i];
-      contact += start.pressure[i] > 0 ? 1.0 : 0.0;
-    }
-    if (!(load > 0)) return false;
-    double wanted = 3 * contact * std::max(1.0, problem_.load / load);
-    if (!affordable(wanted, demand)) return false;
-    watch(std::move(low), wanted, start.pressure);
-    return true;
-  }
-
-  bool affordable(double& wanted, bool demand) const {
-    const double most = 2 * static_cast<double>(limit_);
-    if (!(wanted <= most)) {
-      if (!demand) return false;
-      wanted = most;
-    }
-    return true;
-  }
-
-  // The lowest values of score, found from a sample: `count` of them and some more.
-  std::vector<Low> lowest(std::span<const double> score, std::size_t count) const {
-    const std::size_t stride = std::max<std::size_t>(1, n_ / 8192) | 1;
-    std::vector<double> sample;
-    for (std::size_t i = 0; i < n_; i += stride) sample.push_back(score[i]);
-    const std::size_t rank = std::min(sample.size() - 1, 2 * count / stride + 12);
-    std::nth_element(sample.begin(), sample.begin() + static_cast<std::ptrdiff_t>(rank),
-                     sample.end());
-    const double below = sample[rank];
-    std::vector<Low> low;
-    constexpr std::size_t kBlock = 64;
-    for (std::size_t begin = 0; begin < n_; begin += kBlock) {
-      const std::size_t end = std::min(begin + kBlock, n_);
-      double found = 0;
-#pragma omp simd reduction(+ : found)
-      for (std::size_t i = begin; i < end; ++i) found += score[i] <= below ? 1.0 : 0.0;
-      if (found == 0) continue;
-      for (std::size_t i = begin; i < end; ++i) {
-        if (score[i] <= below) low.emplace_back(score[i], static_cast<int>(i));
-      }
-    }
-    return low;
-  }
-
-  // The lowest `wanted` of them as watch set; touching at first: those under pressure, or half.
-  void watch(std::vector<Low> low, double wanted, std::span<const double> pressure) {
-    const std::size_t count = std::max<std::size_t>(16, static_cast<std::size_t>(wanted));
-    if (low.size() > count) {
-      std::nth_element(low.begin(), low.begin() + static_cast<std::ptrdiff_t>(count), low.end());
-      low.resize(count);
-    }
-    std::sort(low.begin(), low.end());
-    for (std::size_t k = 0; k < low.size(); ++k) {
-      const int i = low[k].second;
-      members_.emplace_back(i, pressure.empty() ? 2 * k <= low.size() : pressure[i] > 0);
-    }
+  bool take(std::optional<Watched> members) {
+    if (members) members_ = std::move(*members);
+    return members.has_value();
   }
 
   // Pressures of the pixels watched by what half the pixels say of the tractions: with their
@@ -343,7 +277,7 @@ class CandidateSolver {
   RealArray rise_;       // by the tractions less the pressures taken; before, the tractions
   bool copied_ = false;  // it holds the tractions
   ActiveSet set_;
-  std::vector<std::pair<int, bool>> members_;   // watched, and whether they touch
+  Watched members_;
   std::vector<int> under_pressure_;             // pixels of the pressures taken
   std::vector<std::pair<int, double>> change_;  // pressures found less those taken
   std::vector<double> before_;

@@ -60,6 +60,33 @@ AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProb
   return out;
 }
 
+namespace {
+
+// The columns with the strongest field: squared distance in d/eps of the closest with air and
+// without [m^2]; whether there are bridges.
+struct ClosestColumns {
+  double air, touched;
+  bool bridged;
+};
+
+void set_peaks(const FieldProblem& p, bool walls, const ClosestColumns& closest,
+               double most_voltage, FieldSolution& out) {
+  if (closest.air < HUGE_VAL) out.peak_air_field = p.v_peak / std::sqrt(closest.air);
+  if (p.dielectric_thickness > 0) {
+    // Water leads around the skin's layer: under a bridge the dielectric carries everything.
+    const double share = closest.bridged ? 1
+                         : most_voltage > 0
+                             ? most_voltage
+                             : p.dielectric / std::sqrt(std::min(closest.air, closest.touched));
+    out.peak_oxide_field = p.v_peak * share / p.dielectric_thickness;
+    if (walls && p.edge_radius > 0) {
+      out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
+    }
+  }
+}
+
+}  // namespace
+
 FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldProblem& p,
                    const AirColumns& columns, const FluxFactors& factors) {
   FieldSolution out;
@@ -118,18 +145,7 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
     out.reason = "the pull is not finite";
     return out;
   }
-  if (least_air < HUGE_VAL) out.peak_air_field = p.v_peak / std::sqrt(least_air);
-  if (p.dielectric_thickness > 0) {
-    // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-    const double share = bridged ? 1
-                         : factors.most_voltage > 0
-                             ? factors.most_voltage
-                             : p.dielectric / std::sqrt(std::min(least_air, least_touched));
-    out.peak_oxide_field = p.v_peak * share / p.dielectric_thickness;
-    if (walls && p.edge_radius > 0) {
-      out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
-    }
-  }
+  set_peaks(p, walls, {least_air, least_touched, bridged}, factors.most_voltage, out);
   out.mean_pressure = sum / static_cast<double>(n);
   out.over_limit_area = static_cast<double>(over) / static_cast<double>(n);
   out.over_limit_share = sum > 0 ? over_sum / sum : 0;

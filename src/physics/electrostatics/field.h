@@ -36,7 +36,7 @@ struct FieldSolution {
   std::string reason;  // when not ok
 };
 
-// p = eps0/2 (V_rms / |g + sum d/eps + h_SC|)^2 a pixel (Eq. electrostatics.1), zero in bridges,
+// p = eps0/2 (V_rms / |g + sum d/eps + h_SC|)^2 per pixel (Eq. electrostatics.1), zero in bridges,
 // faded around them (Eq. electrostatics.3), raised over droplets that do not bridge (Eq.
 // electrostatics.4); behind walls the mean of the rules with uniform and with column-wise
 // dielectric (Eq. electrostatics.2; within 1.4 % of the 3-D field on the arrays of the M3 paper for
@@ -63,7 +63,7 @@ double local_rule_error(double wetted);
 // How far the rule with spreading flux is above it, the same way. Eq. electrostatics.17
 double spread_rule_error(double wetted);
 
-// Height of the water of droplets that do not bridge a pixel [m]: spherical caps on either side.
+// Height of the water of droplets that do not bridge, per pixel [m]: spherical caps on either side.
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting);
 
 }  // namespace papilla

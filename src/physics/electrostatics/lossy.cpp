@@ -48,18 +48,4 @@ std::complex<double> gap_field(double gap, double gap_resistivity,
   return 1.0 / sum;
 }
 
-double StepResponse::field(double t) const {
-  return settled + (initial - settled) * std::exp(-t / time);
-}
-
-StepResponse step_response(double gap, double dielectric, const LossyLayer& layer) {
-  const double rest = gap + dielectric, h = layer.thickness / layer.permittivity;
-  StepResponse out;
-  out.initial = 1 / (rest + h);
-  out.settled = std::isinf(layer.resistivity) ? out.initial : 1 / rest;
-  // b = a/(eps0 rho eps), rate = b (u + d1/eps1).
-  out.time = layer.relaxation_time() * (rest + h) / rest;
-  return out;
-}
-
 }  // namespace papilla

@@ -28,16 +28,4 @@ std::complex<double> equivalent_thickness(const LossyLayer& layer, double freque
 std::complex<double> gap_field(double gap, double gap_resistivity,
                                std::span<const LossyLayer> layers, double frequency);
 
-// After a voltage step at t = 0 over an ideal dielectric (d/eps [m]), a gap [m] and one lossy
-// layer.
-struct StepResponse {
-  double initial = 0;  // field in the gap for one volt at t = 0 [1/m]: capacitive division
-  double settled = 0;  // and at last: the lossy layer has charged
-  double time = 0;     // time constant [s]; infinite for an insulator
-
-  double field(double t) const;  // [1/m]
-};
-// Eq. electrostatics.12
-StepResponse step_response(double gap, double dielectric, const LossyLayer& layer);
-
 }  // namespace papilla

@@ -81,7 +81,7 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
 }
 
 // Squared distances in steps of a row, single precision: a fading factor asks for no more.
-// To the nearest wet pixel of a periodic row; infinite without one.
+// Distances to the nearest wet pixel of a periodic row; infinite without one.
 void row_distance(const std::uint8_t* wet, int n, float step, float* out) {
   float since = std::numeric_limits<float>::infinity();
   for (int lap = 0; lap < 2; ++lap) {
@@ -97,7 +97,8 @@ void row_distance(const std::uint8_t* wet, int n, float step, float* out) {
   for (int i = 0; i < n; ++i) out[i] *= out[i];
 }
 
-// Of each pixel to the nearest wet one, where that is nearer than `most` [m]; more elsewhere.
+// Distance of each pixel to the nearest wet one, where that is less than `most` [m]; more
+// elsewhere.
 class WaterDistance {
  public:
   WaterDistance(const Grid& g, const std::vector<std::uint8_t>& wet, double most)

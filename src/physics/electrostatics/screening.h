@@ -18,7 +18,7 @@ double screening_length(double gap, double dielectric_thickness);
 // below). Eq. electrostatics.3
 double screening_reach(double gap, double dielectric_thickness, double bridge_radius);
 
-// Remaining share of the pull a pixel, 0 to 1; empty when nothing is screened: 0 in bridges and
+// Remaining share of the pull per pixel, 0 to 1; empty when nothing is screened: 0 in bridges and
 // films, tanh^2(x/W) at a distance x from each bridge, the factors of several multiplied; W keeps
 // the lost pull of the disc a + L. A film without discs: tanh^2 of the distance to the nearest wet
 // pixel over the planar length. wetting.bridged marks wet pixels; fade = false: only those are

@@ -92,7 +92,7 @@ class SurfacePotential {
     for (std::size_t i = 0; i < n; ++i) phi[i] = dry_[i] * drive_ / (drive_ + c_[i]);
     apply(phi, q);
     for (std::size_t i = 0; i < n; ++i) r[i] = dry_[i] * drive_ - q[i];
-    // Of the first guess, good to a fraction: a scale for the residual.
+    // The first guess, good to a fraction, gives the scale of the residual.
     const double energy = drive_ * dot(phi, dry_);
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {

@@ -40,7 +40,7 @@ double tip_pressure(const TipShape& shape, const TipSolid& solid, double radius,
 
 // The finger file's law of gross area (Eq. scene.2) as such a fingertip: the shape follows from the
 // load exponent n (power 2/n - 1), the modulus from the area at 0.2 N and its growth over humidity.
-// curvature_radius [m]: of the undeformed tip, seen over the contact at 0.2 N. Eq. macro.4
+// curvature_radius [m] is that of the undeformed tip, seen over the contact at 0.2 N. Eq. macro.4
 struct Fingertip {
   TipShape shape;
   TipSolid solid;  // at the humidity asked for

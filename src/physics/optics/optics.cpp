@@ -317,7 +317,7 @@ const std::vector<double>& visible_wavelengths() {
 Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& media,
                     const Light& light) {
   Optics out;
-  out.regime = "phase screen";
+  out.regime = OpticsRegime::PhaseScreen;
   const Medium air = plain(1), fill = plain(media.fill), glass = plain(media.index);
   Screen screen(h, edges, *std::min_element(light.wavelengths.begin(), light.wavelengths.end()));
   for (const double angle : light.angles) {
@@ -349,7 +349,7 @@ Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& me
 Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,
                         const Disorder& disorder, const Light& light) {
   Optics out;
-  out.regime = "effective medium";
+  out.regime = OpticsRegime::EffectiveMedium;
   const bool lines = features == Features::Lines;
   const Medium air = plain(1), fill = plain(media.fill), glass = plain(media.index);
   const auto mean = [](const std::vector<double>& list) {

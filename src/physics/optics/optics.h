@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/heightmap.h"
+#include "physics/optics/regime.h"
 
 namespace papilla {
 
@@ -38,8 +39,10 @@ struct Optics {
   double haze = 0, transmittance = 1, gloss = 1;  // photopic means, mean over the angles
   double colour_shift = 0;  // CIE 1976 u'v' distance of the undeviated light from the source; mean
   std::vector<SpectrumPoint> spectrum;
-  std::string regime;   // "flat", "phase screen", "effective medium"; "refused": no numbers
-  std::string warning;  // empty: inside the validity
+  OpticsRegime regime = OpticsRegime::Flat;
+  std::string warning;  // for people; empty: inside the validity
+
+  bool refused() const { return regime == OpticsRegime::Refused; }
 };
 
 // What a pixel between the lowest and the highest plane is: a slope, or an edge of a two-level

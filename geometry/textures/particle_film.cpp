@@ -1,4 +1,4 @@
-#include "geometry/particles.h"
+#include "geometry/textures/particle_film.h"
 
 #include <fmt/format.h>
 
@@ -21,6 +21,22 @@ double disc_radius(const Particle& p, double embedding) {
 double periodic(double d, double length) { return d - length * std::round(d / length); }
 
 }  // namespace
+
+void fields(FieldVisitor& v, ParticleFilm& t) {
+  v.number({"radius", "um", 0.01, 100, "mean particle radius", Source::Paper, "M3: 1.5 and 3 um"},
+           t.radius);
+  v.number({"radius_spread", "%", 0, 50, "standard deviation of the radius over its mean",
+            Source::Estimate, "none published"},
+           t.radius_spread);
+  v.number({"coverage", "%", 0, 80, "projected share covered by particles", Source::Estimate,
+            "none published"},
+           t.coverage);
+  v.number({"embedding", "%", 0, 95, "share of the diameter below the film", Source::Estimate,
+            "none published"},
+           t.embedding);
+  v.number({"clustering", "", 0, 1, "share of particles placed against another one"}, t.clustering);
+  v.integer({"seed", "which random arrangement"}, 0, 1000000000, t.seed);
+}
 
 std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid) {
   RandomStream random(static_cast<std::uint64_t>(film.seed), "particles");
@@ -76,7 +92,7 @@ std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid
   return particles;
 }
 
-Heightmap particle_heights(const ParticleFilm& film, const Grid& grid) {
+Heightmap heights(const ParticleFilm& film, const Grid& grid) {
   Heightmap out{grid, std::vector<double>(grid.size(), 0)};
   for (const Particle& p : place_particles(film, grid)) {
     const double centre = p.radius * (1 - 2 * film.embedding);  // height of the sphere's centre
@@ -94,6 +110,31 @@ Heightmap particle_heights(const ParticleFilm& film, const Grid& grid) {
       }
     }
   }
+  return out;
+}
+
+TextureProblems problems(const ParticleFilm& t) {
+  // Random sequential placement of discs jams at 0.547 (Feder 1980).
+  if (t.coverage <= 0.52) return {};
+  return {{"coverage", "random non-overlapping particles jam near 55 %; use at most 52 %"}};
+}
+
+TextureFacts facts(const ParticleFilm& t) {
+  const double top = t.coverage > 0 ? 2 * t.radius * (1 - t.embedding) : 0;
+  return {.relief = Relief::between(0, top),
+          .cell = std::nullopt,
+          .free_patch = FreePatch{8 * t.radius, std::nullopt},
+          .margins = FabricationMargins::none(),
+          .open_share = std::nullopt,
+          .rim_radius = std::nullopt,
+          .outline = NoOutline{"a film of particles has no outline: its caps rise gradually from "
+                               "the film, and nothing is etched"},
+          .quick_look = false};
+}
+
+Roles roles(ParticleFilm& t) {
+  Roles out = Roles::none();
+  out.relief = &t.coverage;
   return out;
 }
 

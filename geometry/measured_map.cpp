@@ -1,4 +1,4 @@
-#include "geometry/measured.h"
+#include "geometry/measured_map.h"
 
 #include <fmt/format.h>
 
@@ -165,13 +165,13 @@ constexpr double kSeam = 0.1;  // of a patch's side: the band that is blended
 
 }  // namespace
 
-Heightmap measured_heights(const Measured3d& map, const Grid& grid) {
-  const auto source = map_of(map.file, map.width);
+Heightmap middle_of_map(const std::string& file, double width, double patch, const Grid& grid) {
+  const auto source = map_of(file, width);
   const Grid& whole = source->grid;
-  if (whole.lx < map.patch * (1 - 1e-9) || whole.ly < map.patch * (1 - 1e-9)) {
+  if (whole.lx < patch * (1 - 1e-9) || whole.ly < patch * (1 - 1e-9)) {
     throw InputError(fmt::format(
-        "{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; lower texture.patch",
-        map.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * map.patch));
+        "{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; lower texture.patch", file,
+        1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
   }
   const double x0 = 0.5 * (whole.lx - grid.lx), y0 = 0.5 * (whole.ly - grid.ly);
   return periodic_cut(*source, grid, x0, y0, std::clamp(x0, 0.0, kSeam * grid.lx),

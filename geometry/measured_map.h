@@ -1,16 +1,17 @@
-// Measured surfaces: textures and skins.
+// Heightmaps from files as periodic patches: of textures and of skins.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
-#include "geometry/texture.h"
+#include "geometry/heightmap.h"
 
 namespace papilla {
 
 // The map of the file, levelled, mended and made periodic, resampled on the grid: cut from the
-// middle. Throws InputError for a map smaller than its patch.
-Heightmap measured_heights(const Measured3d& map, const Grid& grid);
+// middle. width [m]: where the file does not say. Throws InputError for a map smaller than `patch`
+// [m].
+Heightmap middle_of_map(const std::string& file, double width, double patch, const Grid& grid);
 
 // A patch of a measured skin (Eq. geometry.5): a cut of the map at a random place, mirrored at
 // random, levelled and made periodic. Independent patches are cuts of the same map: they know no

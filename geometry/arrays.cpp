@@ -1,0 +1,116 @@
+#include "geometry/arrays.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+
+namespace papilla {
+namespace {
+
+// Distance to the nearest lattice point [m].
+double lattice_distance(Lattice lattice, double period, double x, double y) {
+  const auto nearest = [](double u, double p) { return u - p * std::round(u / p); };
+  if (lattice == Lattice::Square)
+    return std::hypot(nearest(x - 0.5 * period, period), nearest(y - 0.5 * period, period));
+  const double row = std::sqrt(3.0) * period;
+  const double a = std::hypot(nearest(x - 0.25 * period, period), nearest(y - 0.25 * row, row));
+  const double b = std::hypot(nearest(x - 0.75 * period, period), nearest(y - 0.75 * row, row));
+  return std::min(a, b);
+}
+
+// Share of the area inside the features.
+double feature_share(const FeatureArray& a) {
+  if (a.shape == FeatureArray::Shape::Line) return a.width / a.period;
+  const double cell = a.lattice == Lattice::Square ? a.period * a.period
+                                                   : 0.5 * std::sqrt(3.0) * a.period * a.period;
+  return kPi / 4 * a.width * a.width / cell;
+}
+
+FabricationMargins array_margins(const FeatureArray& a, const WallSection& wall) {
+  const double gap = a.period - a.width;
+  const double hole = (a.deep ? a.width : gap) - 2 * wall.run();  // at its floor
+  const double land = a.deep ? gap : a.width;
+  return {hole, land, wall.depth / std::min(hole, land)};
+}
+
+}  // namespace
+
+double WallSection::run() const { return depth / std::tan(wall_angle); }
+double WallSection::reach() const { return run() + 2 * edge_radius; }
+
+void wall_fields(FieldVisitor& v, double& wall_angle, double& edge_radius) {
+  v.number({"wall_angle", "deg", 1, 90, "angle of the wall from the land", Source::Estimate,
+            "reactive ion etch"},
+           wall_angle);
+  v.number({"edge_radius", "nm", 0, 1e5, "radius of the convex rim", Source::Choice, "0: sharp"},
+           edge_radius);
+}
+
+void lattice_field(FieldVisitor& v, Lattice& lattice) {
+  v.choice({"lattice", "arrangement"}, {"square", "hexagonal"}, lattice);
+}
+
+// Pixels at an edge are split, so that the average is over the square and not over its inscribed
+// box.
+Heightmap round_features(const FeatureArray& array, const WallSection& wall, const Grid& grid,
+                         const std::function<double(double, double)>& height) {
+  Heightmap out{grid, std::vector<double>(grid.size())};
+  const double pixel = std::sqrt(grid.pixel_area());
+  const auto distance = [&](double x, double y) {
+    return lattice_distance(array.lattice, array.period, x, y);
+  };
+  constexpr int kSplit = 4;
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const double x = grid.x(ix), y = grid.y(iy);
+      const double r = distance(x, y);
+      if (std::abs(r - 0.5 * array.width) > wall.reach() + pixel) {
+        out(ix, iy) = height(r, pixel);
+        continue;
+      }
+      double sum = 0;
+      for (int k = 0; k < kSplit * kSplit; ++k) {
+        const double dx = ((k % kSplit + 0.5) / kSplit - 0.5) * grid.dx();
+        const double dy = ((k / kSplit + 0.5) / kSplit - 0.5) * grid.dy();
+        sum += height(distance(x + dx, y + dy), pixel / kSplit);
+      }
+      out(ix, iy) = sum / (kSplit * kSplit);
+    }
+  }
+  return out;
+}
+
+TextureFacts array_facts(const FeatureArray& array, const WallSection& wall) {
+  const bool relief = wall.depth > 0;
+  const double row =
+      array.lattice == Lattice::Square ? array.period : std::sqrt(3.0) * array.period;
+  const double share = array.deep ? feature_share(array) : 1 - feature_share(array);
+  return {.relief = array.deep ? Relief::between(-wall.depth, 0) : Relief::between(0, wall.depth),
+          .cell = relief ? std::optional(UnitCell{array.period, row}) : std::nullopt,
+          .free_patch = FreePatch{0, std::nullopt},
+          .margins = relief ? array_margins(array, wall) : FabricationMargins::none(),
+          .open_share = relief ? share : 0.0,
+          .rim_radius = relief ? std::optional(wall.edge_radius) : std::nullopt,
+          .outline = array,
+          .quick_look = true};
+}
+
+TextureProblems array_problems(double period, double width, const char* width_key) {
+  if (width < period) return {};
+  return {{width_key,
+           fmt::format("{:.4g} um is not smaller than the period {:.4g} um; features would overlap",
+                       1e6 * width, 1e6 * period)}};
+}
+
+void add_wall_problem(const WallSection& wall, double width, TextureProblems& out) {
+  if (wall.depth <= 0 || wall.run() <= 0.5 * width) return;
+  out.emplace_back("wall_angle",
+                   fmt::format("walls of {:.4g} deg meet before the depth of {:.4g} nm is reached; "
+                               "make them steeper or the feature shallower",
+                               wall.wall_angle * 180 / kPi, 1e9 * wall.depth));
+}
+
+}  // namespace papilla

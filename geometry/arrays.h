@@ -1,0 +1,34 @@
+// What textures of equal features on a lattice share: keys, section of a wall, facts.
+#pragma once
+
+#include <functional>
+
+#include "geometry/facts.h"
+
+namespace papilla {
+
+// Section of every edge: height of the step [m], angle of the wall from the land [rad], radius of
+// its convex rim [m].
+struct WallSection {
+  double depth, wall_angle, edge_radius;
+
+  double run() const;    // lateral extent of the wall [m]
+  double reach() const;  // of the wall and its rim [m]
+};
+
+inline constexpr double kSteepWall = 1.5358897417550099;  // 88 deg from the land
+
+void wall_fields(FieldVisitor& v, double& wall_angle, double& edge_radius);
+void lattice_field(FieldVisitor& v, Lattice& lattice);
+
+// height(distance to the nearest axis, width) averaged over each pixel of round features.
+Heightmap round_features(const FeatureArray& array, const WallSection& wall, const Grid& grid,
+                         const std::function<double(double, double)>& height);
+
+TextureFacts array_facts(const FeatureArray& array, const WallSection& wall);
+
+// Features that overlap, and walls that meet before the depth is reached.
+TextureProblems array_problems(double period, double width, const char* width_key);
+void add_wall_problem(const WallSection& wall, double width, TextureProblems& out);
+
+}  // namespace papilla

@@ -1,0 +1,35 @@
+#include "geometry/textures/measured.h"
+
+#include "geometry/measured_map.h"
+
+namespace papilla {
+
+void fields(FieldVisitor& v, Measured3d& t) {
+  v.path(
+      {"file", "heightmap to import (.npy .gsf .exr .tif)", Source::Choice, "", Presence::Required},
+      t.file);
+  v.number({"width", "um", 0, 1e6, "lateral size of the map where the file does not say"}, t.width);
+  v.number({"patch", "um", 0.1, 1e4, "side of the simulated square, cut from the middle"}, t.patch);
+}
+
+Heightmap heights(const Measured3d& t, const Grid& grid) {
+  return middle_of_map(t.file, t.width, t.patch, grid);
+}
+
+TextureProblems problems(const Measured3d&) { return {}; }
+
+// Told without reading the file: a map counts as having relief.
+TextureFacts facts(const Measured3d& t) {
+  return {.relief = Relief{true, std::nullopt},
+          .cell = std::nullopt,
+          .free_patch = FreePatch{0, t.patch},
+          .margins = FabricationMargins::none(),
+          .open_share = std::nullopt,
+          .rim_radius = std::nullopt,
+          .outline = Contours{},
+          .quick_look = false};
+}
+
+Roles roles(Measured3d&) { return Roles::none(); }
+
+}  // namespace papilla

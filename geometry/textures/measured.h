@@ -1,0 +1,25 @@
+// A measured heightmap as a texture.
+#pragma once
+
+#include "geometry/facts.h"
+
+namespace papilla {
+
+struct Measured3d {
+  static constexpr std::string_view kName = "measured";
+  static constexpr bool kNumbersAlone = false;
+
+  std::string file;      // .npy .gsf .exr .tif
+  double width = 0;      // lateral size where the file does not say [m]
+  double patch = 12e-6;  // side of the square that is simulated, cut from the middle
+
+  bool operator==(const Measured3d&) const = default;
+};
+
+void fields(FieldVisitor& v, Measured3d& t);
+Heightmap heights(const Measured3d& t, const Grid& grid);
+TextureProblems problems(const Measured3d& t);
+TextureFacts facts(const Measured3d& t);
+Roles roles(Measured3d& t);
+
+}  // namespace papilla

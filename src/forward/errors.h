@@ -1,0 +1,35 @@
+// The grid and method parts of the error: a few skins run again, one choice changed at a time.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "forward/patch_set.h"
+
+namespace papilla {
+
+// Fills patches.errors and patches.controls, the grid and method parts of the error, from
+// fidelity.control_skins of the patches run again: on half the pixels (Eq. accuracy.2), and with
+// contact areas solved in place of the load law (Eq. accuracy.3). Nothing with fewer than two
+// control skins.
+void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                    PatchSet& patches);
+
+// A number read off the points of a response; nothing where it is not defined.
+using Reading = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
+
+// What grid and load law do to a number that stands on a quantity, relative to it, as samples of
+// the control skins: Eq. accuracy.2, accuracy.3. Empty where they were not run or the number is not
+// defined.
+struct ControlledChange {
+  std::vector<double> grid, method;
+};
+ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
+                                   const Reading& number);
+// The errors that they state: the scatter between skins is added, of the load law taken off. 0 for
+// no samples.
+double grid_error(const std::vector<double>& samples);
+double method_error(const std::vector<double>& samples);
+
+}  // namespace papilla

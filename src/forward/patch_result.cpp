@@ -1,0 +1,85 @@
+#include "forward/patch_result.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace papilla {
+
+PatchCosts& PatchCosts::operator+=(const PatchCosts& other) {
+  contact_solves += other.contact_solves;
+  fft_pairs += other.fft_pairs;
+  seconds.contact += other.seconds.contact;
+  seconds.water += other.seconds.water;
+  seconds.field += other.seconds.field;
+  return *this;
+}
+
+PatchResult over_water(std::span<const PatchResult> members) {
+  PatchResult out = members.front();
+  if (members.size() == 1) return out;
+  for (const PatchMember& member : kPatchMembers) {
+    double& value = out.*member.value;
+    if (member.water == OverWater::Mean) value = 0;
+    for (const PatchResult& m : members) {
+      switch (member.water) {
+        case OverWater::Common:
+          break;
+        case OverWater::Mean:
+          value += m.*member.value / static_cast<double>(members.size());
+          break;
+        case OverWater::Highest:
+          value = std::max(value, m.*member.value);
+          break;
+        case OverWater::Lowest:
+          value = std::min(value, m.*member.value);
+          break;
+      }
+    }
+  }
+  for (const PatchResult& m : members.subspan(1)) {
+    out.costs += m.costs;
+    out.status.note(m.status);
+  }
+  return out;
+}
+
+void add_over_pressures(std::span<const PatchResult> patches, const PressureShares& shares,
+                        PatchResult& out) {
+  const double touching = std::accumulate(shares.off.begin(), shares.off.end(), 0.0);
+  double of_pull = 0;
+  for (const PatchMember& member : kPatchMembers) {
+    double& value = out.*member.value;
+    for (std::size_t k = 0; k < patches.size(); ++k) {
+      const double one = patches[k].*member.value;
+      switch (member.pressures) {
+        case OverPressures::Given:
+          break;
+        case OverPressures::Off:
+          value += shares.off[k] * one;
+          break;
+        case OverPressures::On:
+          value += shares.on[k] * one;
+          break;
+        case OverPressures::Touching:
+          value += shares.off[k] / touching * one;
+          break;
+        case OverPressures::OfPull:
+          of_pull += shares.on[k] * one * patches[k].pull;
+          break;
+        case OverPressures::Highest:
+          value = std::max(value, one);
+          break;
+        case OverPressures::Lowest:
+          value = std::min(value, one);
+          break;
+      }
+    }
+  }
+  if (out.pull > 0) out.over_limit_share = of_pull / out.pull;
+  for (const PatchResult& p : patches) {
+    out.costs += p.costs;
+    out.status.note(p.status);
+  }
+}
+
+}  // namespace papilla

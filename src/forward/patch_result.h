@@ -1,0 +1,94 @@
+// The numbers of one solved patch, and the table that says once how each of them combines.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "base/constants.h"
+#include "forward/status.h"
+
+namespace papilla {
+
+// Processor time by piece of physics [s], summed over threads; in no reproducible file.
+struct PieceSeconds {
+  double contact = 0, water = 0, field = 0;
+};
+
+// What was spent; adds up over everything.
+struct PatchCosts {
+  int contact_solves = 0;
+  double fft_pairs = 0;
+  PieceSeconds seconds;
+
+  PatchCosts& operator+=(const PatchCosts& other);
+};
+
+// Forces are on the patch [N], areas are fractions of it. "off": before the drive, "on": under it.
+struct PatchResult {
+  double load = 0;  // preload
+  double capillary_off = 0, capillary_on = 0, pull = 0, retention = 0;
+  double area_dry = 0, area_off = 0, area_on = 0;
+  double bridges = 0, wetted = 0, bridge_volume = 0, volume = 0;
+  double on_its_way = 0;                 // water of bridges between disc and film [m^3]
+  double mean_gap = 0, indentation = 0;  // [m]
+  double over_limit_area = 0, over_limit_share = 0, peak_oxide_field = 0, peak_air_field = 0;
+  double oxide_margin = kInfinity;  // strength of the dielectric over its peak field
+  double certificate = 0;           // the worst of the contact solves
+  PatchCosts costs;
+  ModelStatus status;
+};
+
+// Over volumes and placements of the water on one skin. Common: of the dry contact, which they
+// share.
+enum class OverWater { Common, Mean, Highest, Lowest };
+
+// Over the patch pressures of one humidity (closure persson), to a mean patch of the load-carrying
+// area: by the share of patches at each pressure before or under the drive; over the patches in
+// contact alone; of the pull; or given by the fingertip. `ScaleBridge::combine`
+enum class OverPressures { Given, Off, On, Touching, OfPull, Highest, Lowest };
+
+struct PatchMember {
+  double PatchResult::*value;
+  OverWater water;
+  OverPressures pressures;
+};
+// Every number of a patch, in any order. How a mean over skins becomes a quantity of a humidity,
+// and with which errors, is the table of quantities in forward/response.h.
+inline constexpr std::array kPatchMembers{
+    PatchMember{&PatchResult::load, OverWater::Common, OverPressures::Given},
+    PatchMember{&PatchResult::capillary_off, OverWater::Mean, OverPressures::Off},
+    PatchMember{&PatchResult::capillary_on, OverWater::Mean, OverPressures::On},
+    PatchMember{&PatchResult::pull, OverWater::Mean, OverPressures::On},
+    PatchMember{&PatchResult::retention, OverWater::Mean, OverPressures::Off},
+    PatchMember{&PatchResult::area_dry, OverWater::Common, OverPressures::Off},
+    PatchMember{&PatchResult::area_off, OverWater::Mean, OverPressures::Off},
+    PatchMember{&PatchResult::area_on, OverWater::Mean, OverPressures::On},
+    PatchMember{&PatchResult::bridges, OverWater::Mean, OverPressures::Touching},
+    PatchMember{&PatchResult::wetted, OverWater::Mean, OverPressures::Touching},
+    PatchMember{&PatchResult::bridge_volume, OverWater::Mean, OverPressures::Touching},
+    PatchMember{&PatchResult::volume, OverWater::Mean, OverPressures::Touching},
+    PatchMember{&PatchResult::on_its_way, OverWater::Mean, OverPressures::Touching},
+    PatchMember{&PatchResult::mean_gap, OverWater::Common, OverPressures::Touching},
+    PatchMember{&PatchResult::indentation, OverWater::Common, OverPressures::Touching},
+    PatchMember{&PatchResult::over_limit_area, OverWater::Mean, OverPressures::Touching},
+    PatchMember{&PatchResult::over_limit_share, OverWater::Mean, OverPressures::OfPull},
+    PatchMember{&PatchResult::peak_oxide_field, OverWater::Highest, OverPressures::Highest},
+    PatchMember{&PatchResult::peak_air_field, OverWater::Highest, OverPressures::Highest},
+    PatchMember{&PatchResult::oxide_margin, OverWater::Lowest, OverPressures::Lowest},
+    PatchMember{&PatchResult::certificate, OverWater::Highest, OverPressures::Highest}};
+static_assert(sizeof(PatchResult) ==
+                  kPatchMembers.size() * sizeof(double) + sizeof(PatchCosts) + sizeof(ModelStatus),
+              "every member says how it combines");
+
+// One result for the skin: costs add up, the first trouble counts.
+PatchResult over_water(std::span<const PatchResult> members);
+
+// The share of patches at each patch pressure, before and under the drive.
+struct PressureShares {
+  std::vector<double> off, on;
+};
+// Adds the results at each pressure to `out`, which holds what the fingertip gives.
+void add_over_pressures(std::span<const PatchResult> patches, const PressureShares& shares,
+                        PatchResult& out);
+
+}  // namespace papilla

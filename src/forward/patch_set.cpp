@@ -1,0 +1,166 @@
+#include "forward/patch_set.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "base/check.h"
+#include "base/parallel.h"
+#include "forward/patch_setup.h"
+#include "forward/point.h"
+#include "forward/scene_terms.h"
+
+namespace papilla {
+namespace {
+
+// One skin at every humidity: contact starts from that of the humidity before.
+class SkinRun {
+ public:
+  SkinRun(const PatchSetup& setup, const PatchSet& set,
+          const std::vector<std::shared_ptr<const ContactKernel>>& kernels, int k)
+      : setup_(setup),
+        set_(set),
+        kernels_(kernels),
+        height_(setup.height(setup.skin(k))),
+        members_(setup.water_members(k)),
+        start_(set.bridges[0].pressures().size()) {}
+
+  PatchResult at(std::size_t i) {
+    const ScaleBridge& bridge = set_.bridges[i];
+    const double humidity = setup_.scene().environment.relative_humidity[i];
+    std::vector<PatchResult> patches, of_water;
+    for (const double pressure : bridge.pressures()) {
+      of_water.clear();
+      for (const WaterMember& member : members_) {
+        const PatchProblem problem =
+            setup_.problem(height_, *kernels_[i], humidity, pressure, member);
+        of_water.push_back(
+            solve_patch(problem, setup_.plan(), setup_.fidelity(), start_[patches.size()]));
+      }
+      patches.push_back(over_water(of_water));
+    }
+    return bridge.combine(patches);
+  }
+
+ private:
+  const PatchSetup& setup_;
+  const PatchSet& set_;
+  const std::vector<std::shared_ptr<const ContactKernel>>& kernels_;
+  std::vector<double> height_;
+  std::vector<WaterMember> members_;
+  std::vector<PatchStates> start_;  // one per patch pressure
+};
+
+// What grid and method add to the last point, which is that of all skins.
+void add_measured_error(const MeasuredError& error, std::size_t humidity, ResponsePoint& point) {
+  if (!error.pull_in.empty()) point.status.note(error.pull_in[humidity]);
+  for (std::size_t m = 0; m < kQuantities.size(); ++m) {
+    Measured& measured = point.*kQuantities[m].value;
+    std::optional<double>& part = measured.parts.*error.origin;
+    part = std::hypot(part.value_or(0), error.size[humidity][m] * std::abs(measured.value));
+  }
+}
+
+}  // namespace
+
+PatchCosts PatchSet::costs(int first) const {
+  PatchCosts out;
+  for (const std::vector<PatchResult>& skins : results) {
+    for (std::size_t k = static_cast<std::size_t>(first); k < skins.size(); ++k)
+      out += skins[k].costs;
+  }
+  return out;
+}
+
+void PatchSet::add(const PatchSet& other) {
+  PAPILLA_CHECK(results.size() == other.results.size(), "the same humidities");
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    results[i].insert(results[i].end(), other.results[i].begin(), other.results[i].end());
+  }
+  seconds += other.seconds;
+}
+
+PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  const auto begin = std::chrono::steady_clock::now();
+  const PatchSetup setup(scene, texture, fidelity);
+  const std::vector<double>& humidities = scene.environment.relative_humidity;
+  PAPILLA_CHECK(!humidities.empty(), "one humidity at least");
+  PatchSet set;
+  set.plan = setup.plan();
+  std::vector<std::shared_ptr<const ContactKernel>> kernels;
+  for (const double rh : humidities) {
+    kernels.push_back(contact_kernel(setup.scene(), set.plan.grid, rh));
+    set.bridges.emplace_back(setup.scene(), fidelity, set.plan.grid, rh);
+  }
+  set.results.assign(humidities.size(),
+                     std::vector<PatchResult>(static_cast<std::size_t>(fidelity.skins)));
+  parallel_for(
+      fidelity.skins,
+      [&](int k) {
+        SkinRun run(setup, set, kernels, k);
+        for (std::size_t i = 0; i < humidities.size(); ++i)
+          set.results[i][static_cast<std::size_t>(k)] = run.at(i);
+      },
+      fidelity.threads);
+  set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return set;
+}
+
+Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set) {
+  Scene scene = given;
+  scene.finger = given.finger.applied();
+  Response response;
+  response.plan = set.plan;
+  response.controls = set.controls;
+  response.fidelity = fidelity;
+  response.fidelity.skins = set.skins();
+  response.driven = set.plan.field;
+  response.seconds = set.seconds;
+  const PointSetting setting{scene, response.plan, fidelity};
+  const Environment& air = scene.environment;
+  if (set.skins() > 1) response.without.resize(static_cast<std::size_t>(set.skins()));
+  for (std::size_t i = 0; i < air.relative_humidity.size(); ++i) {
+    const auto point_of = [&](const std::vector<PatchResult>& patches) {
+      return response_point(setting, air.relative_humidity[i],
+                            air.weights.empty() ? 1 : air.weights[i], set.bridges[i], patches);
+    };
+    const std::vector<PatchResult>& patches = set.results[i];
+    response.points.push_back(point_of(patches));
+    std::vector<PatchResult> others(patches.begin() + (patches.empty() ? 0 : 1), patches.end());
+    for (std::size_t k = 0; k < response.without.size(); ++k) {
+      // `others` holds all but skin k.
+      response.without[k].push_back(point_of(others));
+      response.without[k].back().samples = {};
+      if (k < others.size()) others[k] = patches[k];
+    }
+    for (const MeasuredError& error : set.errors)
+      add_measured_error(error, i, response.points.back());
+  }
+  PatchCosts costs = set.costs();
+  response.piece_seconds = costs.seconds;
+  for (const MeasuredError& error : set.errors) {
+    costs += error.costs;
+    response.seconds += error.seconds;
+  }
+  response.contact_solves = costs.contact_solves;
+  response.fft_pairs = costs.fft_pairs;
+  return response;
+}
+
+PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                           double relative_humidity, int index) {
+  const PatchSetup setup(scene, texture, fidelity);
+  const Grid& grid = setup.plan().grid;
+  PatchPicture picture{setup.texture(), setup.skin(index), {}};
+  const std::vector<double> height = setup.height(picture.skin);
+  const auto kernel = contact_kernel(setup.scene(), grid, relative_humidity);
+  const double pressure =
+      ScaleBridge(setup.scene(), fidelity, grid, relative_humidity).mean_pressure();
+  const WaterMember mean{1, static_cast<std::uint64_t>(fidelity.first_skin + index)};
+  PatchStates start;
+  solve_patch(setup.problem(height, *kernel, relative_humidity, pressure, mean), setup.plan(),
+              fidelity, start, &picture.fields);
+  return picture;
+}
+
+}  // namespace papilla

@@ -1,0 +1,75 @@
+#include "forward/patch_setup.h"
+
+#include <cmath>
+
+#include "geometry/measured_map.h"
+#include "geometry/roughness.h"
+
+namespace papilla {
+namespace {
+
+// The finger in its state, with nothing more to apply.
+Scene applied(const Scene& scene) {
+  Scene out = scene;
+  out.finger = scene.finger.applied();
+  return out;
+}
+
+// Sliding offset of skin k against the texture: the R2 low-discrepancy sequence over the patch.
+double offset_share(int k, bool second) {
+  const double step = second ? 0.56984029099805327 : 0.75487766624669276;
+  return std::fmod(0.5 + step * (k + 1), 1.0);
+}
+
+}  // namespace
+
+PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelity& fidelity)
+    : scene_(applied(scene)),
+      fidelity_(fidelity),
+      plan_(make_plan(scene_, texture, fidelity)),
+      surface_(generate(texture, plan_.grid), scene_.surface.dielectric_thickness()) {}
+
+Heightmap PatchSetup::skin(int k) const {
+  const int index = fidelity_.first_skin + k;
+  const Skin& skin = scene_.finger.skin;
+  const Grid& grid = plan_.grid;
+  if (!skin.map.empty())
+    return measured_skin(skin.map, skin.map_width, grid, fidelity_.seed,
+                         static_cast<std::uint64_t>(index));
+  const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, plan_.effective_cutoff};
+  return random_surface(spectrum, grid, fidelity_.seed, static_cast<std::uint64_t>(index),
+                        offset_share(index, false) * grid.lx, offset_share(index, true) * grid.ly);
+}
+
+std::vector<double> PatchSetup::height(const Heightmap& skin) const {
+  std::vector<double> sum = skin.z;
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] = surface_.height.z[i] + sum[i];
+  return sum;
+}
+
+std::vector<WaterMember> PatchSetup::water_members(int k) const {
+  const auto index = static_cast<std::uint64_t>(fidelity_.first_skin + k);
+  if (!plan_.water) return {{1, index}};
+  const double spread = scene_.finger.water.volume_spread;
+  const int seeds = scene_.model.water == WaterModel::Droplets ? fidelity_.droplet_seeds : 1;
+  std::vector<WaterMember> out;
+  for (int s = 0; s < seeds; ++s) {
+    const std::uint64_t member = index + (static_cast<std::uint64_t>(s) << 32);
+    if (spread > 0) {
+      out.push_back({1 - spread, member});
+      out.push_back({1 + spread, member});
+    } else {
+      out.push_back({1, member});
+    }
+  }
+  return out;
+}
+
+PatchProblem PatchSetup::problem(std::span<const double> height, const ContactKernel& kernel,
+                                 double relative_humidity, double pressure,
+                                 const WaterMember& water) const {
+  return {&scene_,           &surface_, height,      &kernel,
+          relative_humidity, pressure,  water.index, water.factor};
+}
+
+}  // namespace papilla

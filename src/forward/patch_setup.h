@@ -1,0 +1,47 @@
+// What the patches of a scene are made of: surface, skins and water; the finger in its state.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "forward/coupling.h"
+
+namespace papilla {
+
+// A volume and a placement of the water on one skin.
+struct WaterMember {
+  double factor;        // on the volume
+  std::uint64_t index;  // of the droplets' random stream
+};
+
+class PatchSetup {
+ public:
+  PatchSetup(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+  PatchSetup(const PatchSetup&) = delete;
+  PatchSetup& operator=(const PatchSetup&) = delete;
+
+  const Scene& scene() const { return scene_; }
+  const Plan& plan() const { return plan_; }
+  const Fidelity& fidelity() const { return fidelity_; }
+  const Heightmap& texture() const { return surface_.height; }
+
+  // Skin k of the fidelity: common to every design, because its modes are keyed by integer index.
+  Heightmap skin(int k) const;
+  // Texture + skin [m].
+  std::vector<double> height(const Heightmap& skin) const;
+  // Low and high volume (or the mean) by droplet seeds, on skin k.
+  std::vector<WaterMember> water_members(int k) const;
+
+  // The problem points into this setup and at height and kernel.
+  PatchProblem problem(std::span<const double> height, const ContactKernel& kernel,
+                       double relative_humidity, double pressure, const WaterMember& water) const;
+
+ private:
+  Scene scene_;
+  Fidelity fidelity_;
+  Plan plan_;
+  CoveredSurface surface_;
+};
+
+}  // namespace papilla

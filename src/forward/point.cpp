@@ -1,0 +1,151 @@
+#include "forward/point.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/statistics.h"
+#include "forward/scene_terms.h"
+#include "forward/water_band.h"
+#include "physics/contact/facts.h"
+#include "physics/electrostatics/rules.h"
+
+namespace papilla {
+namespace {
+
+using Patches = std::span<const PatchResult>;
+
+Measured sampled_mean(Patches patches, double PatchResult::*member, double factor = 1) {
+  std::vector<double> values;
+  values.reserve(patches.size());
+  for (const PatchResult& p : patches) values.push_back(p.*member);
+  const Estimate e = mean_estimate(values);
+  return {factor * e.value, {.sampling = std::abs(factor) * e.se}};
+}
+
+// Per-skin numbers, peaks, shares and the first trouble.
+void gather(ResponsePoint& point, Patches patches) {
+  const auto count = static_cast<double>(patches.size());
+  for (const PatchResult& p : patches) {
+    point.samples.load_off.push_back(p.load + p.capillary_off);
+    point.samples.load_on.push_back(p.load + p.capillary_on + p.pull);
+    point.samples.area_off.push_back(p.area_off);
+    point.samples.area_on.push_back(p.area_on);
+    point.over_limit_area += p.over_limit_area / count;
+    point.over_limit_share += p.over_limit_share / count;
+    point.oxide_margin = std::min(point.oxide_margin, p.oxide_margin);
+    point.peak_oxide_field = std::max(point.peak_oxide_field, p.peak_oxide_field);
+    point.peak_air_field = std::max(point.peak_air_field, p.peak_air_field);
+    if (p.volume > 0) point.bridge_water_share += p.bridge_volume / p.volume / count;
+    point.status.note(p.status);
+  }
+}
+
+Measured scaled(const Measured& dry, const Estimate& load_ratio, double beta) {
+  const double base = std::max(load_ratio.value, 0.0);
+  const double factor = std::pow(base, beta);
+  const double relative = base > 0 ? beta * load_ratio.se / base : 0;
+  return {dry.value * factor,
+          {.sampling = std::hypot(dry.parts.sampling * factor, dry.value * factor * relative)}};
+}
+
+// Eq. friction.3: F ~ L^beta on the dry contact area.
+void areas_by_load(ResponsePoint& point, Patches patches, double beta) {
+  const Measured dry = sampled_mean(patches, &PatchResult::area_dry);
+  std::vector<double> loads;
+  for (const PatchResult& p : patches) loads.push_back(p.load);
+  const Estimate off = ratio_estimate(point.samples.load_off, loads);
+  const Estimate on = ratio_estimate(point.samples.load_on, loads);
+  const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
+  point.area_fraction_off = scaled(dry, off, beta);
+  point.area_fraction_on = scaled(dry, on, beta);
+  const double ratio = std::pow(std::max(gain.value, 0.0), beta);
+  point.modulation.value = ratio - 1;
+  point.modulation.parts.sampling = beta * ratio * gain.se / std::max(gain.value, 1e-12);
+}
+
+// Eq. friction.1, friction.2: resolved areas, ratio of sums over the skins.
+void areas_resolved(ResponsePoint& point) {
+  const Estimate off = mean_estimate(point.samples.area_off);
+  const Estimate on = mean_estimate(point.samples.area_on);
+  point.area_fraction_off = {off.value, {.sampling = off.se}};
+  point.area_fraction_on = {on.value, {.sampling = on.se}};
+  if (off.value > 0) {
+    const Estimate gain = ratio_estimate(point.samples.area_on, point.samples.area_off);
+    point.modulation = {gain.value - 1, {.sampling = gain.se}};
+  }
+}
+
+Measured friction(double strength, const Measured& area, const Measured& retention) {
+  Measured f;
+  f.value = strength * area.value + retention.value;
+  f.parts.sampling = std::hypot(strength * area.parts.sampling, retention.parts.sampling);
+  return f;
+}
+
+// Friction off and on from areas and retention; of the modulation the share of the dry friction,
+// because the retention force is part of both frictions. Eq. friction.1
+void add_friction(ResponsePoint& point, double strength, bool driven) {
+  point.friction_off = friction(strength, point.area_fraction_off, point.retention_force);
+  point.friction_on = friction(strength, point.area_fraction_on, point.retention_force);
+  if (!driven) {
+    point.modulation = {};
+    return;
+  }
+  const double share =
+      point.friction_off.value > 0 ? 1 - point.retention_force.value / point.friction_off.value : 1;
+  point.modulation.value *= share;
+  point.modulation.parts.sampling *= std::abs(share);
+}
+
+// Eq. accuracy.1
+void add_solver_errors(ResponsePoint& point, Patches patches) {
+  double certificate = 0;
+  for (const PatchResult& p : patches) certificate = std::max(certificate, p.certificate);
+  const double relative = contact_error(certificate);
+  for (const PointQuantity& q : kQuantities) {
+    Measured& m = point.*q.value;
+    m.parts.solver.emplace(relative * std::abs(m.value));
+  }
+  point.modulation.parts.solver = relative * (1 + std::abs(point.modulation.value));
+}
+
+}  // namespace
+
+ResponsePoint response_point(const PointSetting& setting, double relative_humidity, double weight,
+                             const ScaleBridge& bridge, Patches patches) {
+  const Scene& scene = setting.scene;
+  const Plan& plan = setting.plan;
+  const MacroContact& macro = scene.finger.macro;
+  ResponsePoint point;
+  point.relative_humidity = relative_humidity;
+  point.weight = weight;
+  point.patch_pressure = bridge.mean_pressure();
+  const double carrying =
+      bridge.carrying_share() * macro.gross_area(scene.finger.load, relative_humidity);  // [m^2]
+  const double patches_per_finger = carrying / plan.grid.area();
+  gather(point, patches);
+  for (const PointQuantity& q : kQuantities) {
+    if (q.mean_of)
+      point.*q.value = sampled_mean(patches, q.mean_of, q.whole_finger ? patches_per_finger : 1);
+  }
+  if (!plan.retention) point.retention_force = {};
+  if (setting.fidelity.estimator == Estimator::Load || !plan.traction_solves) {
+    areas_by_load(point, patches, setting.fidelity.load_exponent);
+  } else {
+    areas_resolved(point);
+  }
+  for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
+    // Resolved areas end at the patch, the load law does not.
+    if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
+  }
+  add_friction(point, macro.shear_strength * carrying, plan.field);
+  if (plan.field)
+    point.field_error = field_rule(field_method(scene.model)).error(point.wetted_fraction.value);
+  add_solver_errors(point, patches);
+  if (plan.water)
+    add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);
+  return point;
+}
+
+}  // namespace papilla

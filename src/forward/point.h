@@ -1,0 +1,26 @@
+// From the solved patches of one humidity to the friction of the finger and its causes there.
+#pragma once
+
+#include <span>
+
+#include "forward/response.h"
+#include "forward/scale_bridge.h"
+#include "scene/scene.h"
+
+namespace papilla {
+
+// Everything that the patches of a humidity are solved and judged by; scene: the finger in its
+// state.
+struct PointSetting {
+  const Scene& scene;
+  const Plan& plan;
+  const Fidelity& fidelity;
+};
+
+// Means over the patches (one per skin) with what sampling, the solver's tolerance and the choices
+// of the water leave open (kQuantities); Eq. friction.1-3. The status is that of the first patch in
+// trouble, or full contact. Cost: linear in the patches.
+ResponsePoint response_point(const PointSetting& setting, double relative_humidity, double weight,
+                             const ScaleBridge& bridge, std::span<const PatchResult> patches);
+
+}  // namespace papilla

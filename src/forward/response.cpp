@@ -1,0 +1,73 @@
+#include "forward/response.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "base/check.h"
+
+namespace papilla {
+
+double ErrorParts::total() const {
+  double sum = sampling * sampling;
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    if (origin.in_total) sum += square((this->*origin.part).value_or(0));
+  }
+  return std::sqrt(sum);
+}
+
+GridLaw grid_law(Measured PointQuantities::*quantity) {
+  for (const PointQuantity& q : kQuantities) {
+    if (q.value == quantity) return q.grid;
+  }
+  PAPILLA_CHECK(false, "every quantity is in the table");
+  return GridLaw::Other;
+}
+
+std::vector<PointTrouble> Response::troubles() const {
+  std::vector<PointTrouble> out;
+  for (const ResponsePoint& point : points) {
+    if (!point.status.sound()) out.push_back({point.relative_humidity, point.status});
+  }
+  return out;
+}
+
+std::string text(const VoltageAnswer& answer) {
+  switch (answer.end) {
+    case VoltageEnd::Reached:
+      return "reached";
+    case VoltageEnd::NoDielectric:
+      return "no dielectric: contact would short the drive";
+    case VoltageEnd::Breakdown:
+      return fmt::format("the dielectric breaks down at {:.4g} V", answer.limit);
+    case VoltageEnd::SourceEnds:
+      return fmt::format("the source ends at {:.4g} V", answer.limit);
+    case VoltageEnd::ModelEnds:
+      return fmt::format("{} at {:.3g} V", text(answer.model), answer.limit);
+    case VoltageEnd::Unsound:
+      return text(answer.model);
+    case VoltageEnd::NotConverged:
+      return "the search for the voltage has not converged";
+  }
+  PAPILLA_CHECK(false, "an end without words");
+  return {};
+}
+
+std::string text(const TargetReport& report) {
+  switch (report.end) {
+    case TargetEnd::Reached:
+      return "reached";
+    case TargetEnd::NoRelativeError:
+      return report.quantity + " is zero: no relative error";
+    case TargetEnd::PlanUnsettled:
+      return "not reached: the plan does not settle";
+    case TargetEnd::LimitsReached:
+      return fmt::format(
+          "not reached: {} {:.2g} % is the largest part; at most {} pixels, {} skins",
+          report.largest_part, 100 * report.largest_share, report.largest_grid, report.most_skins);
+  }
+  PAPILLA_CHECK(false, "an end without words");
+  return {};
+}
+
+}  // namespace papilla

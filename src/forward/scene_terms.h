@@ -1,0 +1,44 @@
+// The scene in the terms of each piece of physics: one question each, no coupling.
+#pragma once
+
+#include <memory>
+
+#include "fields/gap.h"
+#include "fields/wetting.h"
+#include "physics/capillary/water.h"
+#include "physics/contact/contact.h"
+#include "physics/electrostatics/field.h"
+#include "scene/scene.h"
+
+namespace papilla {
+
+// The contact kernel of a humidity. Skin on a rigid surface softens as a whole, so the kernel at
+// 15 % RH serves all humidities (see the softness in forward/coupling.cpp); a compliant surface
+// does not soften, and needs one each.
+std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const Grid& grid,
+                                                    double relative_humidity);
+
+// Water on the skin and on a surface at a contact angle [rad].
+WaterProperties water_properties(const Scene& scene, double substrate_angle);
+
+// Whether the capillary force counts before the drive: preset m3 has none on surfaces that repel
+// water.
+bool capillary_off_counts(const Scene& scene);
+// Whether contact-angle hysteresis holds the finger: preset m3 counts it on surfaces that repel
+// water only.
+bool retention_counts(const Scene& scene);
+
+// The rule in use: columns where the preset is the paper's, whose rules are made for them.
+FieldMethod field_method(const ModelOptions& model);
+
+// The electrical problem of the scene at a humidity.
+FieldProblem field_problem(const Scene& scene, double relative_humidity);
+
+// The pull by the scene's field rule; tolerance: of the potential that spreads in the dielectric.
+FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurface* surface,
+                          const Wetting& wetting, const FieldProblem& problem, double tolerance);
+
+// Contact angle of the surface under the scene's drive (electrowetting) [rad].
+double driven_contact_angle(const Scene& scene, double relative_humidity);
+
+}  // namespace papilla

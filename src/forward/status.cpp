@@ -1,0 +1,58 @@
+#include "forward/status.h"
+
+#include <fmt/format.h>
+
+#include "base/check.h"
+
+namespace papilla {
+
+bool ModelStatus::pull_in() const {
+  return trouble == Trouble::SecondPassPullIn || trouble == Trouble::ClosedPullIn ||
+         trouble == Trouble::GrowingPullIn || trouble == Trouble::FarGapPullIn;
+}
+
+std::string text(const ModelStatus& status) {
+  switch (status.trouble) {
+    case Trouble::None:
+      return "ok";
+    case Trouble::WaterMoves:
+      return fmt::format("water: droplets not at rest after {:.0f} moves of one", status.number);
+    case Trouble::ContactUnsolved:
+      return "contact: " + status.reason;
+    case Trouble::FieldUnsolved:
+      return "field: " + status.reason;
+    case Trouble::Flooded:
+      return "flooded: more water than gap, no meniscus and no capillary force";
+    case Trouble::SecondPassPullIn:
+      return fmt::format(
+          "pull-in: the gap closes, a second pass would raise the pull by {:.0f} % (coupling = "
+          "\"self_consistent\" seeks an equilibrium)",
+          100 * status.number);
+    case Trouble::ClosedPullIn:
+      return "pull-in: no equilibrium short of a closed gap";
+    case Trouble::GrowingPullIn:
+      return "pull-in: the pull grows from pass to pass";
+    case Trouble::FarGapPullIn:
+      return "pull-in: the gaps between patches in contact close";
+    case Trouble::PassesUsedUp:
+      return fmt::format("coupling: not settled after {:.0f} passes", status.number);
+    case Trouble::FullContact:
+      return fmt::format(
+          "full contact: the area estimate is {:.3g} times the patch, friction and modulation mean "
+          "nothing physical",
+          status.number);
+  }
+  PAPILLA_CHECK(false, "a trouble without words");
+  return {};
+}
+
+std::string text(const std::vector<PointTrouble>& troubles) {
+  std::string out;
+  for (const PointTrouble& t : troubles) {
+    out += fmt::format("{}{:.0f} % RH: {}", out.empty() ? "" : "; ", 100 * t.relative_humidity,
+                       text(t.status));
+  }
+  return out;
+}
+
+}  // namespace papilla

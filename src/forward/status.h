@@ -1,0 +1,71 @@
+// What can go wrong with the answer of a patch or of a humidity, and in which words people read it.
+// Code asks for the state; nobody reads the words.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace papilla {
+
+enum class Trouble {
+  None,
+  WaterMoves,        // droplets not at rest; number: moves allowed to one of them
+  ContactUnsolved,   // reason: of the contact solver
+  FieldUnsolved,     // reason: of the field rule
+  Flooded,           // more water than gap
+  SecondPassPullIn,  // the gap closes under one pass; number: rise of the pull by a second,
+                     // relative
+  ClosedPullIn,      // no equilibrium short of a closed gap
+  GrowingPullIn,     // the pull grows from pass to pass
+  FarGapPullIn,      // the gaps between patches in contact close
+  PassesUsedUp,      // coupling not settled; number: passes
+  FullContact,       // number: area estimate over the patch
+};
+
+struct ModelStatus {
+  Trouble trouble = Trouble::None;
+  double number = 0;   // what it is, the trouble says
+  std::string reason;  // of a solver, where the trouble has one
+
+  bool sound() const { return trouble == Trouble::None; }
+  // No equilibrium under this voltage.
+  bool pull_in() const;
+  // Keeps the first trouble: what follows from it is no news.
+  void note(const ModelStatus& next) {
+    if (sound()) *this = next;
+  }
+  bool operator==(const ModelStatus&) const = default;
+};
+// "ok", "flooded: more water than gap, ...", "pull-in: ..."
+std::string text(const ModelStatus& status);
+
+// The trouble of one humidity.
+struct PointTrouble {
+  double relative_humidity = 0;
+  ModelStatus status;
+
+  bool operator==(const PointTrouble&) const = default;
+};
+// "15 % RH: flooded: ...; 75 % RH: pull-in: ..."; empty for none.
+std::string text(const std::vector<PointTrouble>& troubles);
+
+// How a search for the voltage of a modulation ended: `voltage_for`.
+enum class VoltageEnd {
+  Reached,
+  NoDielectric,
+  Breakdown,     // of the dielectric, below the voltage
+  SourceEnds,    // its compliance is below the voltage
+  ModelEnds,     // no friction is known above the limit: pull-in, full contact
+  Unsound,       // the model has a trouble that no voltage cures
+  NotConverged,  // the search itself
+};
+
+// How [accuracy] target ended.
+enum class TargetEnd {
+  Reached,
+  NoRelativeError,  // the quantity is zero
+  PlanUnsettled,    // each plan, once measured, asks for another
+  LimitsReached,    // of pixels and skins
+};
+
+}  // namespace papilla

@@ -1,0 +1,78 @@
+#include "forward/undriven.h"
+
+#include "base/check.h"
+#include "base/parallel.h"
+#include "forward/point.h"
+#include "forward/scale_bridge.h"
+#include "forward/scene_terms.h"
+
+namespace papilla {
+namespace {
+
+// Any voltage: the plan is that of a driven scene.
+Scene driven(const Scene& scene) {
+  PAPILLA_CHECK(scene.environment.relative_humidity.size() == 1, "one humidity");
+  Scene out = scene;
+  if (!out.drive.driven()) out.drive.amplitude = 1;
+  return out;
+}
+
+}  // namespace
+
+UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
+                                 const Fidelity& fidelity)
+    : setup_(std::make_unique<const PatchSetup>(driven(scene), texture, fidelity)) {
+  const Grid& grid = setup_->plan().grid;
+  kernel_ = contact_kernel(setup_->scene(), grid, humidity());
+  pressures_ = ScaleBridge(setup_->scene(), fidelity, grid, humidity()).pressures();
+  height_.resize(static_cast<std::size_t>(fidelity.skins));
+  patches_.resize(height_.size());
+  parallel_for(
+      fidelity.skins,
+      [&](int k) {
+        height_[k] = setup_->height(setup_->skin(k));
+        const std::vector<WaterMember> members = setup_->water_members(k);
+        for (const double pressure : pressures_) {
+          PatchStates start;  // the dry contact is that of the first member
+          for (const WaterMember& member : members) {
+            const PatchProblem problem =
+                setup_->problem(height_[k], *kernel_, humidity(), pressure, member);
+            patches_[k].push_back(undriven_patch(problem, setup_->plan(), fidelity, start));
+            if (members.size() > 1) start.dry = patches_[k].back().dry;
+          }
+        }
+      },
+      fidelity.threads);
+}
+
+ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) const {
+  Scene scene = setup_->scene();
+  scene.drive.amplitude = amplitude;
+  Fidelity fidelity = setup_->fidelity();
+  fidelity.estimator = estimator;
+  Plan plan = setup_->plan();
+  plan.traction_solves = plan.traction_solves && estimator == Estimator::Area;
+  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity());
+  std::vector<PatchResult> results(patches_.size());
+  parallel_for(
+      fidelity.skins,
+      [&](int k) {
+        std::vector<PatchResult> patches, of_water;
+        std::size_t at = 0;
+        for (const double pressure : pressures_) {
+          of_water.clear();
+          for (const WaterMember& member : setup_->water_members(k)) {
+            PatchProblem problem =
+                setup_->problem(height_[k], *kernel_, humidity(), pressure, member);
+            problem.scene = &scene;
+            of_water.push_back(drive_patch(problem, plan, fidelity, patches_[k][at++]));
+          }
+          patches.push_back(over_water(of_water));
+        }
+        results[k] = bridge.combine(patches);
+      },
+      fidelity.threads);
+  return response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
+}
+
+}  // namespace papilla

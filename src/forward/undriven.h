@@ -1,0 +1,33 @@
+// The patches of one humidity before the drive, to be driven at one voltage after another.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "forward/patch_setup.h"
+#include "forward/response.h"
+
+namespace papilla {
+
+// Contact and water before the drive are solved once. Memory: 32 bytes per pixel, skin and patch
+// pressure.
+class UndrivenPatches {
+ public:
+  // scene: of one humidity; its amplitude does not matter.
+  UndrivenPatches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+  // The response at an amplitude [V] > 0. The load estimator costs field and water alone, the area
+  // one a contact solve per patch.
+  ResponsePoint drive(double amplitude, Estimator estimator) const;
+
+ private:
+  double humidity() const { return setup_->scene().environment.relative_humidity[0]; }
+
+  std::unique_ptr<const PatchSetup> setup_;
+  std::shared_ptr<const ContactKernel> kernel_;
+  std::vector<double> pressures_;
+  std::vector<std::vector<double>> height_;          // one per skin
+  std::vector<std::vector<UndrivenPatch>> patches_;  // [skin][pressure x water member]
+};
+
+}  // namespace papilla

@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/statistics.h"
+#include "forward/errors.h"
+#include "metrics/metrics.h"
+#include "metrics/series.h"
+
+namespace papilla {
+namespace {
+
+// A summary of a metric of any points of a response.
+Reading reading(Summary summary, const std::string& metric) {
+  const Better better = find_metric(metric)->better;
+  return [=](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    std::vector<double> values, weights;
+    for (const ResponsePoint& point : points) {
+      const auto m = metric_at(metric, point);
+      if (!m || !std::isfinite(m->value)) return std::nullopt;
+      values.push_back(m->value);
+      weights.push_back(point.weight);
+    }
+    const Series series(values, weights, better);
+    if (!series.defined(summary)) return std::nullopt;
+    return series.value(summary);
+  };
+}
+
+// Eq. accuracy.4: every second inner humidity replaced by the line between its neighbours, from the
+// first and from the second on; the larger change of the summary, over 3.
+std::optional<double> humidity_error(Summary summary, const Response& response,
+                                     const std::vector<double>& values,
+                                     const std::vector<double>& weights, Better better) {
+  const bool smooth =
+      summary == Summary::Mean || summary == Summary::Std || summary == Summary::Variation;
+  if (!smooth || values.size() < 3) return std::nullopt;
+  const auto humidity = [&](std::size_t i) { return response.points[i].relative_humidity; };
+  const double full = Series(values, weights, better).value(summary);
+  double change = 0;
+  for (std::size_t first : {1, 2}) {
+    std::vector<double> coarse = values;
+    for (std::size_t i = first; i + 1 < values.size(); i += 2) {
+      const double span = humidity(i + 1) - humidity(i - 1);
+      if (span <= 0) return std::nullopt;  // no order in humidity: nothing to interpolate
+      const double t = (humidity(i) - humidity(i - 1)) / span;
+      coarse[i] = (1 - t) * values[i - 1] + t * values[i + 1];
+    }
+    const Series series(coarse, weights, better);
+    if (!series.defined(summary)) return std::nullopt;
+    change = std::max(change, std::abs(series.value(summary) - full));
+  }
+  return change / 3;
+}
+
+// The samples behind a number of a metric.
+ErrorSamples samples_of(const std::string& metric, const Reading& number,
+                        const Response& response) {
+  ErrorSamples out;
+  const auto quantity = metric_quantity(metric);
+  const auto value = quantity ? number(response.points) : std::nullopt;
+  if (!value) return out;
+  std::vector<double> without;
+  for (const auto& points : response.without) {
+    if (const auto v = number(points)) without.push_back(*v);
+  }
+  if (without.size() == response.without.size()) out.sampling = jackknife_samples(*value, without);
+  const ControlledChange change = controlled_change(response.controls, grid_law(*quantity), number);
+  for (const double c : change.grid) out.grid.push_back(c * std::abs(*value));
+  for (const double c : change.method) out.method.push_back(c * std::abs(*value));
+  return out;
+}
+
+}  // namespace
+
+std::optional<StepSamples> step_samples(
+    const std::vector<ParameterStep>& steps,
+    const std::function<std::optional<double>(const std::vector<ResponsePoint>&)>& value) {
+  StepSamples out;
+  for (const ParameterStep& step : steps) {
+    const auto half = [&](const std::vector<ResponsePoint>& up,
+                          const std::vector<ResponsePoint>& down) {
+      const auto high = value(up), low = value(down);
+      return high && low ? std::optional((*high - *low) / 2) : std::nullopt;
+    };
+    const auto all = half(step.up.points, step.down.points);
+    if (!all) return std::nullopt;
+    std::vector<double> without;  // the half difference without each skin
+    for (std::size_t k = 0; k < step.up.without.size(); ++k) {
+      const auto one = half(step.up.without[k], step.down.without.at(k));
+      if (!one) return std::nullopt;
+      without.push_back(*one);
+    }
+    out.push_back(jackknife_samples(*all, without));
+  }
+  return out;
+}
+
+double step_error(const StepSamples& samples) {
+  double sum = 0;
+  for (const std::vector<double>& direction : samples) {
+    const Estimate e = mean_estimate(direction);
+    sum += square(e.value) - square(e.se);
+  }
+  return std::sqrt(std::max(0.0, sum));
+}
+
+std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
+                                      const Response& response) {
+  const MetricInfo* info = find_metric(metric);
+  if (info && info->appearance) {
+    if (!response.appearance || response.appearance->refused()) return std::nullopt;
+    // One look at all humidities: no spread.
+    if (is_spread(summary)) return SummaryValue{};
+    return SummaryValue{appearance_value(metric, *response.appearance), 0, {}};
+  }
+  if (!info || response.points.empty() || (info->needs_drive && !response.driven))
+    return std::nullopt;
+  double total = 0;
+  std::vector<double> values, sampling, weights;
+  std::array<std::vector<double>, kErrorOrigins.size()> errors;
+  for (const ResponsePoint& point : response.points) {
+    const auto m = metric_at(metric, point);
+    if (!m || !std::isfinite(m->value)) return std::nullopt;
+    values.push_back(m->value);
+    weights.push_back(point.weight);
+    sampling.push_back(m->parts.sampling);
+    for (std::size_t k = 0; k < errors.size(); ++k) {
+      if (const auto& part = m->parts.*kErrorOrigins[k].part) errors[k].push_back(*part);
+    }
+    total += point.weight;
+  }
+  if (total <= 0) return std::nullopt;
+  const Series series(values, weights, info->better);
+  if (!series.defined(summary)) return std::nullopt;
+  SummaryValue out{series.value(summary), 0, {.sampling = series.error(summary, sampling)}};
+  for (std::size_t k = 0; k < errors.size(); ++k) {
+    if (errors[k].size() == values.size())
+      out.parts.*kErrorOrigins[k].part = series.error(summary, errors[k]);
+  }
+  out.parts.humidity = humidity_error(summary, response, values, weights, info->better);
+  // Where the runs behind a part are at hand, the summary itself is followed through them, so that
+  // what humidities share cancels where it does. Eq. accuracy.13
+  const ErrorSamples samples = error_samples(summary, metric, response);
+  if (samples.sampling.size() > 1) out.parts.sampling = mean_estimate(samples.sampling).se;
+  if (is_spread(summary)) {
+    if (!samples.grid.empty()) out.parts.grid = grid_error(samples.grid);
+    if (!samples.method.empty()) out.parts.method = method_error(samples.method);
+  }
+  if (!response.parameters.steps.empty()) {
+    if (const auto steps = step_samples(response.parameters.steps, reading(summary, metric)))
+      out.parts.parameters = step_error(*steps);
+  }
+  out.se = out.parts.total();
+  return out;
+}
+
+ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response) {
+  return samples_of(metric, reading(summary, metric), response);
+}
+
+ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
+                              const Response& response) {
+  const auto number = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    const auto m = metric_at(metric, points[point]);
+    return m ? std::optional(m->value) : std::nullopt;
+  };
+  return samples_of(metric, number, response);
+}
+
+std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second) {
+  bool same = first.sampling.size() > 1;
+  const auto minus = [&](const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> out = a;
+    same = same && a.size() == b.size();
+    for (std::size_t k = 0; k < a.size() && same; ++k) out[k] -= b[k];
+    return out;
+  };
+  const double sampling = mean_estimate(minus(first.sampling, second.sampling)).se,
+               grid = grid_error(minus(first.grid, second.grid)),
+               method = method_error(minus(first.method, second.method));
+  if (!same) return std::nullopt;
+  return std::sqrt(square(sampling) + square(grid) + square(method));
+}
+
+}  // namespace papilla

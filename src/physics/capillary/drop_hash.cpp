@@ -1,0 +1,76 @@
+#include "physics/capillary/drop_hash.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+
+namespace papilla {
+
+void DropHash::build(const std::vector<Drop>& drops) {
+  // Cells hold about one drop, and are wide enough for all but a few drops of the end to count as
+  // small: the others are one list that every search goes through.
+  double typical = 0;
+  for (const Drop& d : drops) typical += d.radius / static_cast<double>(drops.size());
+  small_radius_ = 6 * typical;
+  const double cell =
+      std::max(std::sqrt(lx_ * ly_ / static_cast<double>(drops.size() + 1)), small_radius_);
+  cells_x_ = std::max(1, static_cast<int>(lx_ / cell));
+  cells_y_ = std::max(1, static_cast<int>(ly_ / cell));
+  cell_x_ = lx_ / cells_x_;
+  cell_y_ = ly_ / cells_y_;
+  head_.assign(static_cast<std::size_t>(cells_x_) * cells_y_, -1);
+  next_.assign(drops.size(), -1);
+  for (int i = 0; i < static_cast<int>(drops.size()); ++i) {
+    if (drops[i].film < 1) link(i, drops[i]);  // film is no disc that others meet
+  }
+}
+
+int DropHash::cell_of(const Drop& d) const {
+  return std::min(static_cast<int>(d.y / cell_y_), cells_y_ - 1) * cells_x_ +
+         std::min(static_cast<int>(d.x / cell_x_), cells_x_ - 1);
+}
+
+void DropHash::link(int i, const Drop& drop) {
+  if (drop.radius > small_radius_) {
+    large_.push_back(i);
+    return;
+  }
+  int& head = head_[cell_of(drop)];
+  next_[i] = head;
+  head = i;
+}
+
+void DropHash::unlink(int i, const Drop& drop) {
+  if (drop.radius > small_radius_) {
+    large_.erase(std::find(large_.begin(), large_.end(), i));
+    return;
+  }
+  int* at = &head_[cell_of(drop)];
+  while (*at != i) at = &next_[*at];
+  *at = next_[i];
+}
+
+void DropHash::collect_overlaps(const std::vector<Drop>& drops, const Drop& d,
+                                std::vector<int>& members) const {
+  const auto consider = [&](int j) {
+    if (std::find(members.begin(), members.end(), j) != members.end()) return;
+    const double ex = nearest_image(drops[j].x - d.x, lx_);
+    const double ey = nearest_image(drops[j].y - d.y, ly_);
+    if (square(ex) + square(ey) < square(d.radius + drops[j].radius)) members.push_back(j);
+  };
+  for (int j : large_) consider(j);
+  const double reach = d.radius + small_radius_;
+  const int x0 = static_cast<int>(std::floor((d.x - reach) / cell_x_));
+  const int x1 = std::min(static_cast<int>(std::floor((d.x + reach) / cell_x_)), x0 + cells_x_ - 1);
+  const int y0 = static_cast<int>(std::floor((d.y - reach) / cell_y_));
+  const int y1 = std::min(static_cast<int>(std::floor((d.y + reach) / cell_y_)), y0 + cells_y_ - 1);
+  for (int cy = y0; cy <= y1; ++cy) {
+    for (int cx = x0; cx <= x1; ++cx) {
+      for (int j = head_[wrap(cy, cells_y_) * cells_x_ + wrap(cx, cells_x_)]; j >= 0; j = next_[j])
+        consider(j);
+    }
+  }
+}
+
+}  // namespace papilla

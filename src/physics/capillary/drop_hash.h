@@ -1,0 +1,35 @@
+// Which drops' discs overlap a disc: drops by the cell of their centre.
+#pragma once
+
+#include <vector>
+
+#include "geometry/grid.h"
+#include "physics/capillary/drop.h"
+
+namespace papilla {
+
+// Knows drops by their index in a list that the caller keeps; a drop is taken out before it changes
+// and put back after. A search costs the drops of the cells around, about one.
+class DropHash {
+ public:
+  explicit DropHash(const Grid& grid) : lx_(grid.lx), ly_(grid.ly) {}
+
+  void build(const std::vector<Drop>& drops);
+  void link(int i, const Drop& drop);
+  void unlink(int i, const Drop& drop);
+
+  // Adds to `members` every drop, not among them, that the disc of `d` overlaps.
+  void collect_overlaps(const std::vector<Drop>& drops, const Drop& d,
+                        std::vector<int>& members) const;
+
+ private:
+  int cell_of(const Drop& d) const;
+
+  double lx_, ly_;
+  // Drops up to small_radius_ lie in cells, lists linked by next_; the others are one list.
+  int cells_x_ = 1, cells_y_ = 1;
+  double cell_x_ = 0, cell_y_ = 0, small_radius_ = 0;
+  std::vector<int> head_, next_, large_;
+};
+
+}  // namespace papilla

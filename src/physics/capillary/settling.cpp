@@ -1,0 +1,178 @@
+#include "physics/capillary/settling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace papilla {
+namespace {
+
+constexpr double kDiagonal = 0.7071067811865476;  // cos 45 deg
+constexpr std::array<std::array<double, 2>, 8> kDirections = {{{1, 0},
+                                                               {kDiagonal, kDiagonal},
+                                                               {0, 1},
+                                                               {-kDiagonal, kDiagonal},
+                                                               {-1, 0},
+                                                               {-kDiagonal, -kDiagonal},
+                                                               {0, -1},
+                                                               {kDiagonal, -kDiagonal}}};
+
+// A move must gain this share of the drop's energy: beyond the rounding of a footprint.
+constexpr double kLeastGain = 1e-9;
+
+class Walker {
+ public:
+  Walker(const Gap& gap, const WaterProperties& water, const DropletOptions& options,
+         DropEnergy& energy, DropPopulation& drops, SettleReport& report)
+      : gap_(gap),
+        water_(water),
+        options_(options),
+        energy_(energy),
+        drops_(drops),
+        report_(report) {}
+
+  // Drop i, with steps of first_step / 2^level, until nothing around it is lower.
+  void walk(int i, int level, double step) {
+    int moves = 0;
+    for (;;) {
+      if (moves >= options_.max_moves) {
+        report_.converged = false;
+        return;
+      }
+      const Downhill ways = downhill(i, step);
+      Onward onward = Onward::Stuck;
+      for (int c = 0; c < ways.count && onward == Onward::Stuck; ++c) {
+        onward = go(i, kDirections[ways.direction[c]], step, moves);
+      }
+      if (onward == Onward::Merged &&
+          level > 0) {  // a larger drop starts from the first step again
+        double s = options_.first_step;
+        for (int l = 0; l < level; ++l, s *= 0.5) walk(i, 0, s);
+      }
+      if (onward == Onward::Stuck) return;
+    }
+  }
+
+ private:
+  struct Downhill {  // directions of lower energy, lowest first
+    std::array<int, 8> direction;
+    std::array<double, 8> energy;
+    int count = 0;
+  };
+  enum class Onward { Stuck, Moved, Merged };
+
+  Downhill downhill(int i, double step) {
+    Downhill out;
+    const Drop& d = drops_[i];
+    const double margin = kLeastGain * std::abs(d.energy);
+    for (int k = 0; k < 8; ++k) {
+      const double x = into_period(d.x + step * kDirections[k][0], gap_.grid.lx);
+      const double y = into_period(d.y + step * kDirections[k][1], gap_.grid.ly);
+      double e;
+      if (d.bridge) {
+        e = energy_.estimated(d, x, y);
+      } else {
+        const Drop trial = energy_.placed(x, y, d.volume, 0, false);
+        if (!trial.bridge) continue;
+        e = trial.energy;
+      }
+      if (e >= d.energy - margin) continue;
+      int at = out.count++;
+      for (; at > 0 && out.energy[at - 1] > e; --at) {
+        out.energy[at] = out.energy[at - 1];
+        out.direction[at] = out.direction[at - 1];
+      }
+      out.energy[at] = e;
+      out.direction[at] = k;
+    }
+    return out;
+  }
+
+  // Onward the same way while it helps, until the drop merges with another.
+  Onward go(int i, const std::array<double, 2>& way, double step, int& moves) {
+    Onward out = Onward::Stuck;
+    while (moves < options_.max_moves) {
+      const Drop& d = drops_[i];
+      const Drop trial = energy_.placed(d.x + step * way[0], d.y + step * way[1], d.volume,
+                                        d.bridge ? d.radius : 0, d.bridge);
+      if (trial.energy >= d.energy - kLeastGain * std::abs(d.energy)) break;
+      const int merges = drops_.merges();
+      if (held(d, trial) || !drops_.move(i, trial)) break;
+      ++moves;
+      ++report_.moves;
+      if (drops_.merges() != merges) return Onward::Merged;
+      out = Onward::Moved;
+    }
+    return out;
+  }
+
+  // Eq. capillary.16: whether an edge of the texture that `from` has not reached keeps it from
+  // moving to `to`. A drop on the skin has no line on the texture.
+  bool held(const Drop& from, const Drop& to) const {
+    if (!options_.rims || !options_.rim_pinning) return false;
+    const RimMap& rims = *options_.rims;
+    if (!rims.valid() || (!from.bridge && energy_.cap_state() == DropletState::OnSkin)) {
+      return false;
+    }
+    const Grid& g = gap_.grid;
+    bool found = false;
+    for_pixels(g, disc_of(to), [&](std::size_t k) {
+      if (found || !rims.edge(k)) return;
+      if (square_distance(g, k, from.x, from.y) <= square(from.radius)) return;
+      found = !passes_edge(water_.theta_skin, water_.theta_substrate, rims.turn(),
+                           std::max(to.edge_gap, options_.gap_floor),
+                           std::max(gap_.value[k], options_.gap_floor));
+    });
+    return found;
+  }
+
+  const Gap& gap_;
+  const WaterProperties& water_;
+  const DropletOptions& options_;
+  DropEnergy& energy_;
+  DropPopulation& drops_;
+  SettleReport& report_;
+};
+
+}  // namespace
+
+double wick_into_corners(const Grid& grid, const RimMap& rims, const WaterProperties& water,
+                         DropletState cap_state, DropPopulation& drops) {
+  if (!rims.valid() || cap_state == DropletState::OnSkin) return 0;
+  std::vector<double> room;
+  for (const RimMap::Hole& hole : rims.holes()) {
+    room.push_back(rims.capacity(hole, water.theta_substrate));
+  }
+  double wicked = 0;
+  for (int i = 0; i < drops.size(); ++i) {
+    const Drop& d = drops[i];
+    const int hole = rims.hole_of(pixel_of(grid, d.x, d.y));
+    if (!d.alive || d.bridge || hole < 0 || room[hole] <= 0) continue;
+    bool touches = false;
+    for_pixels(grid, disc_of(d), [&](std::size_t k) { touches = touches || rims.edge(k); });
+    if (!touches) continue;
+    const double taken = std::min(d.volume, room[hole]);
+    room[hole] -= taken;
+    wicked += taken;
+    drops.drain(i, taken);
+  }
+  return wicked;
+}
+
+void settle(const Gap& gap, const WaterProperties& water, const DropletOptions& options,
+            DropEnergy& energy, DropPopulation& drops, SettleReport& report) {
+  Walker walker(gap, water, options, energy, drops, report);
+  double last = drops.energy();
+  double step = options.first_step;
+  for (int level = 0; level <= options.halvings; ++level, step *= 0.5) {
+    for (int i = 0; i < drops.size(); ++i) {
+      if (drops[i].alive) walker.walk(i, level, step);
+    }
+    const double now = drops.energy();
+    if (now > last + 1e-12 * std::abs(last)) report.energy_rose = true;
+    last = now;
+  }
+  report.final_energy = last;
+}
+
+}  // namespace papilla

@@ -1,0 +1,75 @@
+// What the parts of the dense solver work on: the problem, its pressure and gap function, and the
+// step being taken.
+#pragma once
+
+#include <vector>
+
+#include "physics/contact/solvers.h"
+
+namespace papilla {
+
+// Slope of the energy along a step at its start, and its curvature; the step's end is at 1.
+struct StepSlopes {
+  double slope, curvature;
+};
+
+struct DenseFields {
+  DenseFields(const StandardProblem& standard, StandardState& state);
+
+  // p as given, with any mean: scaled to the load over the whole grid; below a cap what overflows
+  // goes to the others.
+  void scale_to_load();
+  // Gap function without pressure, or empty, to `change`: what p adds to it there.
+  void start(RealArray without);
+
+  // One transform pair: what the step changes the gap function by.
+  void displace_step();
+  // One transform pair: `field` as displacements to the pressures of the whole plane.
+  void press_field();
+
+  // Rigid shift at t of the step: the mean gap function of the pixels between the bounds, sum /
+  // count. Given the approach, the load instead.
+  void set_shift(double sum, double count, double t);
+  // Frank-Wolfe gap over load and height spread. Eq. contact.4
+  double certificate();
+  // Gaps and work of the state, in one pass.
+  void close_gaps();
+
+  // Most that pixels may carry together besides `held` of them at the cap [Pa].
+  double load_beside(std::size_t held) const {
+    return load - (held == 0 ? 0 : cap * static_cast<double>(held));
+  }
+
+  const StandardProblem& problem;
+  const ContactKernel& kernel;
+  const Grid& grid;
+  StandardState& state;
+  const double cap;        // [Pa]
+  double load;             // sum of p [Pa]; found where the approach is given
+  std::vector<double>& p;  // of the state
+  RealArray gap;           // gap function [m]: height difference under p, the rigid shift in it
+  // The change of p by the step taken, and of the gap function, both before it is shortened.
+  RealArray step, change;
+  RealArray field;  // of the whole grid, for one part at a time: residual, then direction
+  double shift = 0, low = 0, work = 0;  // low: the lowest gap; work: sum of p times gap function
+
+ private:
+  SpectrumArray scratch_;
+  std::vector<double> sorted_;
+};
+
+// level at which raw - level ones (empty: 1), cut at 0 and cap, carries `load`, to 1e-13 of
+// `scale`: Newton's method on a falling, piecewise linear function, kept between bounds.
+double load_level(std::span<const double> raw, std::span<const double> ones, double cap,
+                  double load, double scale);
+
+constexpr double kBarred = 1e300;  // a raw value that stands for a pixel held at a bound
+
+// How many times a pixel's step, its end p, fits between 0 and cap.
+inline double room_of(double step, double p, double cap) {
+  const double open = step < 0 ? step - p : cap - p + step;
+  const double length = open / (step != 0 ? step : 1e-300);
+  return step != 0 ? length : kInfinity;
+}
+
+}  // namespace papilla

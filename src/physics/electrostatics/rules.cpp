@@ -1,0 +1,60 @@
+#include "physics/electrostatics/rules.h"
+
+#include <algorithm>
+
+#include "base/check.h"
+#include "fields/price.h"
+#include "physics/electrostatics/full_field.h"
+
+namespace papilla {
+namespace {
+
+// Of the 3-D potential on the pixels of a patch (docs/theory/electrostatics.md).
+constexpr double kFullFieldError = 0.08;
+
+const FieldRule kLocal{
+    "columns, one by one",
+    "pull typically 20 % (dry) to 35 % (wet) below the 3-D field",
+    0.2,
+    local_rule_error,
+    [](const Grid& grid, double) { return 2e-8 * static_cast<double>(grid.size()); },
+    [](const Gap& gap, const CoveredSurface* surface, const Wetting& wetting,
+       const FieldProblem& problem,
+       double) { return solve_local_field(gap, surface, wetting, problem); }};
+
+const FieldRule kSpread{"columns, the flux spreading in the dielectric",
+                        "pull typically 3 % (wet) to 9 % (dry) above the 3-D field",
+                        0.09,
+                        spread_rule_error,
+                        [](const Grid& grid, double tolerance) {
+                          return std::max(6.0, 10.5 * digits(tolerance) - 12) *
+                                 fft_pair_seconds(grid);
+                        },
+                        solve_spread_field};
+
+const FieldRule kFull{
+    "3-D potential",
+    "asked for; pull stated to 8 % on these pixels",
+    kFullFieldError,
+    [](double) { return kFullFieldError; },
+    [](const Grid& grid, double) { return 2.0 * static_cast<double>(grid.size()) / 65536; },
+    [](const Gap& gap, const CoveredSurface* surface, const Wetting& wetting,
+       const FieldProblem& problem,
+       double) { return solve_full_field(gap, surface, wetting, problem); }};
+
+}  // namespace
+
+const FieldRule& field_rule(FieldMethod method) {
+  switch (method) {
+    case FieldMethod::Local:
+      return kLocal;
+    case FieldMethod::Spread:
+      return kSpread;
+    case FieldMethod::Full:
+      return kFull;
+  }
+  PAPILLA_CHECK(false, "a method without a rule");
+  return kLocal;
+}
+
+}  // namespace papilla

@@ -1,0 +1,22 @@
+#include "physics/optics/regime.h"
+
+#include "base/check.h"
+
+namespace papilla {
+
+const char* text(OpticsRegime regime) {
+  switch (regime) {
+    case OpticsRegime::Flat:
+      return "flat";
+    case OpticsRegime::PhaseScreen:
+      return "phase screen";
+    case OpticsRegime::EffectiveMedium:
+      return "effective medium";
+    case OpticsRegime::Refused:
+      return "refused";
+  }
+  PAPILLA_CHECK(false, "a regime without words");
+  return "";
+}
+
+}  // namespace papilla

@@ -1,0 +1,36 @@
+#include "base/cache.h"
+
+#include <gtest/gtest.h>
+
+namespace papilla {
+namespace {
+
+std::shared_ptr<const int> value_of(Cache<int, int>& cache, int key, double weight = 1) {
+  return cache.get(key, weight, [&] { return std::make_shared<const int>(10 * key); });
+}
+
+TEST(Cache, MakesAValueOnceAndKeepsTheLastUsed) {
+  Cache<int, int> cache(2, 1e9);
+  const auto one = value_of(cache, 1);
+  EXPECT_EQ(*one, 10);
+  value_of(cache, 2);
+  EXPECT_EQ(value_of(cache, 1), one);  // the same object, now the last used
+  value_of(cache, 3);                  // 2 goes
+  EXPECT_EQ(cache.size(), 2u);
+  EXPECT_EQ(value_of(cache, 1), one);
+}
+
+TEST(Cache, KeepsWhatItsWeightAllowsAndTheNewestAlways) {
+  Cache<int, int> cache(100, 10);
+  for (int key = 0; key < 8; ++key) value_of(cache, key, 4);
+  EXPECT_EQ(cache.size(), 2u);
+  const auto heavy = value_of(cache, 9, 50);
+  EXPECT_EQ(cache.size(), 1u);
+  EXPECT_EQ(value_of(cache, 9, 50), heavy);
+  cache.clear();
+  EXPECT_EQ(cache.size(), 0u);
+  EXPECT_EQ(*heavy, 90);  // who holds a value keeps it
+}
+
+}  // namespace
+}  // namespace papilla
