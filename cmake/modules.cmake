@@ -1,4 +1,5 @@
-# papilla_library(NAME FOLDER... LIBS target...): every .cpp of the folders, one library.
+# papilla_library(NAME FOLDER... LIBS target...): every .cpp of the folders, one library. Other programs see its public
+# headers alone; our own program and tests link papilla_inside, which adds the internal headers and what those include.
 function(papilla_library name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   set(sources)
@@ -6,9 +7,21 @@ function(papilla_library name)
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
     list(APPEND sources ${found})
   endforeach()
-  add_library(${name} STATIC ${sources})
-  set_target_properties(${name} PROPERTIES OUTPUT_NAME papilla)
-  target_link_libraries(${name} PUBLIC papilla_options ${ARG_LIBS})
+  add_library(${name} ${sources})
+  set_target_properties(${name} PROPERTIES OUTPUT_NAME papilla EXPORT_NAME papilla VERSION ${PROJECT_VERSION}
+                        SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # no stable ABI before 1.0
+  target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include>
+                                            $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${name} PUBLIC cxx_std_20)
+  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:papilla_options> ${ARG_LIBS})
+  if(BUILD_SHARED_LIBS)  # calls within the library are direct, as in a static one
+    target_compile_options(${name} PRIVATE -fno-semantic-interposition)
+    target_link_options(${name} PRIVATE LINKER:-Bsymbolic-functions)
+  endif()
+
+  add_library(papilla_inside INTERFACE)
+  target_link_libraries(papilla_inside INTERFACE ${name} papilla_options fmt::fmt OpenMP::OpenMP_CXX Eigen3::Eigen
+                        nlohmann_json::nlohmann_json)
 endfunction()
 
 # papilla_embed(module OUT name file ...): each file becomes `extern const std::string_view name` in namespace papilla.

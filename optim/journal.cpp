@@ -5,12 +5,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "base/error.h"
 
@@ -23,58 +25,64 @@ std::uint64_t checksum(const std::string& text) {  // FNV-1a, 64 bits
   return hash;
 }
 
-std::string numbers(const std::vector<double>& values) {
-  std::string out = std::to_string(values.size());
-  for (double v : values) out += fmt::format(" {:a}", v);
+constexpr char kBetween = '\t';  // key and payload
+
+// Letters that a line cannot hold, and what stands for them behind a backslash.
+constexpr std::array<std::pair<char, char>, 4> kEscapes{
+    {{'\\', '\\'}, {'\n', 'n'}, {'\r', 'r'}, {kBetween, 't'}}};
+
+std::string escaped(const std::string& bytes) {
+  std::string out;
+  for (char c : bytes) {
+    const auto* special =
+        std::find_if(kEscapes.begin(), kEscapes.end(), [c](const auto& e) { return e.first == c; });
+    if (special == kEscapes.end()) {
+      out += c;
+    } else {
+      out += {'\\', special->second};
+    }
+  }
   return out;
 }
 
-bool read_numbers(std::istringstream& in, std::vector<double>& values) {
-  std::size_t count = 0;
-  if (!(in >> count) || count > 100000) return false;
-  values.resize(count);
-  std::string word;
-  for (double& v : values) {
-    if (!(in >> word)) return false;
-    char* end = nullptr;
-    v = std::strtod(word.c_str(), &end);
-    if (end != word.c_str() + word.size()) return false;
+std::optional<std::string> unescaped(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\\') {
+      out += text[i];
+      continue;
+    }
+    if (++i == text.size()) return std::nullopt;
+    const auto* special = std::find_if(kEscapes.begin(), kEscapes.end(),
+                                       [&](const auto& e) { return e.second == text[i]; });
+    if (special == kEscapes.end()) return std::nullopt;
+    out += special->first;
   }
-  return true;
+  return out;
 }
 
-std::string header(const std::string& key) { return "papilla-journal 1 " + key + "\n"; }
+std::string header(const std::string& key) { return "papilla-journal 2 " + key + "\n"; }
 
 }  // namespace
 
 std::string text_hash(const std::string& text) { return fmt::format("{:016x}", checksum(text)); }
 
-std::string journal_line(const Evaluation& e) {
-  std::string reason = e.outcome.reason;
-  for (char& c : reason) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  const std::string body = numbers(e.unit) + (e.outcome.ok ? " ok " : " failed ") +
-                           numbers(e.outcome.objectives) + " " + numbers(e.outcome.constraints) +
-                           " " + numbers(e.outcome.info) + " |" + reason;
+std::string journal_line(const JournalRecord& record) {
+  const std::string body = escaped(record.key) + kBetween + escaped(record.payload);
   return fmt::format("{:016x} {}\n", checksum(body), body);
 }
 
-bool parse_journal_line(const std::string& line, Evaluation& e) {
+bool parse_journal_line(const std::string& line, JournalRecord& record) {
   if (line.size() < 18 || line[16] != ' ') return false;
   const std::string body = line.substr(17);
   if (fmt::format("{:016x}", checksum(body)) != line.substr(0, 16)) return false;
-  const std::size_t bar = body.find('|');
-  if (bar == std::string::npos) return false;
-  std::istringstream in(body.substr(0, bar));
-  std::string word;
-  if (!read_numbers(in, e.unit) || !(in >> word)) return false;
-  e.outcome.ok = word == "ok";
-  if (!read_numbers(in, e.outcome.objectives) || !read_numbers(in, e.outcome.constraints) ||
-      !read_numbers(in, e.outcome.info))
-    return false;
-  e.outcome.reason = body.substr(bar + 1);
-  return journal_line(e) == line + "\n";  // as it is written, in every letter
+  const std::size_t between = body.find(kBetween);
+  if (between == std::string::npos) return false;
+  const auto key = unescaped(body.substr(0, between)),
+             payload = unescaped(body.substr(between + 1));
+  if (!key || !payload) return false;
+  record = {*key, *payload};
+  return journal_line(record) == line + "\n";
 }
 
 Journal::Journal(const std::string& path, const std::string& key, bool resume) : path_(path) {
@@ -93,10 +101,11 @@ Journal::Journal(const std::string& path, const std::string& key, bool resume) :
         sound = header(key).size();
         while (sound < text.size()) {
           const std::size_t end = text.find('\n', sound);
-          Evaluation e;
-          if (end == std::string::npos || !parse_journal_line(text.substr(sound, end - sound), e))
+          JournalRecord record;
+          if (end == std::string::npos ||
+              !parse_journal_line(text.substr(sound, end - sound), record))
             break;
-          records_.push_back(std::move(e));
+          records_.push_back(std::move(record));
           sound = end + 1;
         }
       }
@@ -125,8 +134,8 @@ Journal::~Journal() {
   if (file_ >= 0) ::close(file_);
 }
 
-void Journal::append(const Evaluation& evaluation) {
-  const std::string line = journal_line(evaluation);
+void Journal::append(const JournalRecord& record) {
+  const std::string line = journal_line(record);
   std::size_t done = 0;
   while (done < line.size()) {
     const ssize_t n = ::write(file_, line.data() + done, line.size() - done);
@@ -137,7 +146,7 @@ void Journal::append(const Evaluation& evaluation) {
     done += static_cast<std::size_t>(n);
   }
   ::fdatasync(file_);
-  records_.push_back(evaluation);
+  records_.push_back(record);
 }
 
 }  // namespace papilla

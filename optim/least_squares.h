@@ -55,8 +55,9 @@ struct ParameterFit {
 // One singular direction of the whitened Jacobian of the data, in units of each parameter's prior
 // width (a quarter of the range without a prior). Eq. calibration.4
 struct FitDirection {
-  double singular_value = 0;  // standard deviations of the data a prior width; < 1: not identified
-  std::vector<double> weights;  // one a parameter, unit length
+  double singular_value =
+      0;  // standard deviations of the data per prior width; < 1: not identified
+  std::vector<double> weights;  // one per parameter, unit length
 };
 
 struct LeastSquaresFit {
@@ -75,10 +76,9 @@ struct LeastSquaresFit {
   std::vector<double> values() const;
 };
 
-// Minimises sum r^2 + sum ((p - prior)/prior_sd)^2 within the bounds (Eq. calibration.1). Cost:
-// 2 n + 1 evaluations an
-// iteration, n parameters. Deterministic. Status in the result; throws InputError for parameters
-// whose bounds or priors make no sense.
+// Minimises sum r^2 + sum ((p - prior)/prior_sd)^2 within the bounds (Eq. calibration.1). Cost: 2 n
+// + 1 evaluations per iteration, n parameters. Deterministic. Status in the result; throws
+// InputError for parameters whose bounds or priors make no sense.
 LeastSquaresFit least_squares(const std::vector<FitParameter>& parameters, int residuals,
                               const ResidualFunction& function,
                               const LeastSquaresOptions& options = {});

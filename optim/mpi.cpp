@@ -10,8 +10,6 @@
 
 #include <chrono>
 #include <thread>
-
-#include "optim/journal.h"
 #endif
 
 namespace papilla {
@@ -49,17 +47,17 @@ MPI_Status wait_for_message(int source, int tag) {
   }
 }
 
-std::string receive_text(const MPI_Status& status) {
+Bytes receive_bytes(const MPI_Status& status) {
   int length = 0;
   MPI_Get_count(&status, MPI_CHAR, &length);
-  std::string text(static_cast<std::size_t>(length), '\0');
-  MPI_Recv(text.data(), length, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
+  Bytes message(static_cast<std::size_t>(length), '\0');
+  MPI_Recv(message.data(), length, MPI_CHAR, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD,
            MPI_STATUS_IGNORE);
-  return text;
+  return message;
 }
 
-void send_text(const std::string& text, int rank, int tag) {
-  MPI_Send(text.data(), static_cast<int>(text.size()), MPI_CHAR, rank, tag, MPI_COMM_WORLD);
+void send_bytes(const Bytes& message, int rank, int tag) {
+  MPI_Send(message.data(), static_cast<int>(message.size()), MPI_CHAR, rank, tag, MPI_COMM_WORLD);
 }
 
 class MpiTeam : public Team {
@@ -68,25 +66,19 @@ class MpiTeam : public Team {
 
   std::size_t size() const override { return static_cast<std::size_t>(ranks_ - 1); }
 
-  std::vector<Outcome> evaluate(const std::vector<Point>& points) override {
-    std::vector<Outcome> out(points.size());
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
+    std::vector<WorkAnswer> out(requests.size());
     std::vector<std::size_t> task(static_cast<std::size_t>(ranks_), 0);
     std::size_t next = 0;
     const auto give = [&](int rank) {
-      if (next >= points.size()) return;
-      Evaluation request;
-      request.unit = points[next];
-      send_text(journal_line(request), rank, kAsk);
+      if (next >= requests.size()) return;
+      send_bytes(requests[next], rank, kAsk);
       task[static_cast<std::size_t>(rank)] = next++;
     };
     for (int rank = 1; rank < ranks_; ++rank) give(rank);
-    for (std::size_t done = 0; done < points.size(); ++done) {
+    for (std::size_t done = 0; done < requests.size(); ++done) {
       const MPI_Status status = wait_for_message(MPI_ANY_SOURCE, kAnswer);
-      std::string line = receive_text(status);
-      line.pop_back();
-      Evaluation reply;
-      if (!parse_journal_line(line, reply)) reply.outcome.reason = "a garbled answer";
-      out[task[static_cast<std::size_t>(status.MPI_SOURCE)]] = std::move(reply.outcome);
+      out[task[static_cast<std::size_t>(status.MPI_SOURCE)]] = unpack_answer(receive_bytes(status));
       give(status.MPI_SOURCE);
     }
     return out;
@@ -108,24 +100,17 @@ MpiSession::MpiSession() {
 
 MpiSession::~MpiSession() {
   if (!active()) return;
-  for (int rank = 1; rank_ == 0 && rank < size_; ++rank) send_text("", rank, kAsk);
+  for (int rank = 1; rank_ == 0 && rank < size_; ++rank) send_bytes({}, rank, kAsk);
   MPI_Finalize();
 }
 
-void MpiSession::serve(const Evaluate& evaluate, const WorkerLimits& limits) {
-  Worker worker(evaluate, limits);
+void MpiSession::serve(const Work& work, const WorkerLimits& limits) {
+  Worker worker(work, limits);
   while (true) {
-    std::string line = receive_text(wait_for_message(0, kAsk));
-    if (line.empty()) return;
-    line.pop_back();
-    Evaluation request, reply;
-    if (parse_journal_line(line, request)) {
-      worker.send(request.unit);
-      reply.outcome = worker.receive();
-    } else {
-      reply.outcome.reason = "a garbled request";
-    }
-    send_text(journal_line(reply), 0, kAnswer);
+    const Bytes request = receive_bytes(wait_for_message(0, kAsk));
+    if (request.empty()) return;  // the end
+    worker.send(request);
+    send_bytes(pack_answer(worker.receive()), 0, kAnswer);
   }
 }
 
@@ -141,7 +126,7 @@ MpiSession::MpiSession() {
   }
 }
 MpiSession::~MpiSession() = default;
-void MpiSession::serve(const Evaluate&, const WorkerLimits&) {}
+void MpiSession::serve(const Work&, const WorkerLimits&) {}
 std::unique_ptr<Team> MpiSession::team() const { return nullptr; }
 
 #endif

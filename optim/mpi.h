@@ -1,4 +1,4 @@
-// Evaluations on the ranks of an MPI job: rank 0 searches and writes, the others evaluate. Active
+// Work on the ranks of an MPI job: rank 0 searches and writes, the others evaluate. Active
 // only when a launcher (mpirun, srun) started the program as one of several.
 #pragma once
 
@@ -25,8 +25,8 @@ class MpiSession {
   bool active() const { return size_ > 1; }
   int rank() const { return rank_; }
 
-  // For the other ranks: evaluates what rank 0 asks, in a worker process, until it ends.
-  void serve(const Evaluate& evaluate, const WorkerLimits& limits);
+  // For the other ranks: works on what rank 0 asks, in a worker process, until it ends.
+  void serve(const Work& work, const WorkerLimits& limits);
   // For rank 0.
   std::unique_ptr<Team> team() const;
 

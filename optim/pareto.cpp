@@ -107,6 +107,27 @@ double hypervolume(std::vector<std::vector<double>> points, const std::vector<do
   return sum;
 }
 
+std::vector<double> hypervolume_shares(const std::vector<Evaluation>& evaluations) {
+  std::vector<double> worst, best;
+  for (const Evaluation& e : evaluations) {
+    if (!e.outcome.feasible()) continue;
+    if (worst.empty()) worst = best = e.outcome.objectives;
+    for (std::size_t k = 0; k < worst.size(); ++k) {
+      worst[k] = std::max(worst[k], e.outcome.objectives[k]);
+      best[k] = std::min(best[k], e.outcome.objectives[k]);
+    }
+  }
+  double box = 1;
+  for (std::size_t k = 0; k < worst.size(); ++k) box *= worst[k] > best[k] ? worst[k] - best[k] : 1;
+  std::vector<std::vector<double>> points;
+  std::vector<double> out;
+  for (const Evaluation& e : evaluations) {
+    if (e.outcome.feasible()) points.push_back(e.outcome.objectives);
+    out.push_back(points.empty() ? 0 : hypervolume(points, worst) / box);
+  }
+  return out;
+}
+
 std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& points,
                                        std::size_t count, double nearest_allowed) {
   std::vector<std::size_t> chosen;

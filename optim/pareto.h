@@ -24,6 +24,10 @@ std::vector<std::size_t> least_dominated(const std::vector<Evaluation>& evaluati
 // Points beyond the reference count nothing.
 double hypervolume(std::vector<std::vector<double>> points, const std::vector<double>& reference);
 
+// After each evaluation the hypervolume of the feasible ones so far to the worst values of all of
+// them, as a share of the box from there to the best. At most three objectives.
+std::vector<double> hypervolume_shares(const std::vector<Evaluation>& evaluations);
+
 // Crowding-like choice of `count` points spread along the front: the ends first, then the largest
 // gaps, until every other point is nearer than `nearest` (of the extent) to a chosen one.
 std::vector<std::size_t> spread_points(const std::vector<std::vector<double>>& points,

@@ -36,10 +36,10 @@ struct Space {
 
 struct Outcome {
   bool ok = false;
-  std::string reason;               // when not ok: why; when ok: text carried along
+  std::string reason;               // when not ok: why, for people
   std::vector<double> objectives;   // minimised; finite when ok
   std::vector<double> constraints;  // <= 0 is feasible; finite when ok; kept of a refused point
-  std::vector<double> info;         // carried along, not optimised; residuals first
+  std::vector<double> residuals;    // of a sum of squares (SearchProblem::residuals)
 
   double violation() const;  // sum of positive constraints
   bool feasible() const { return ok && violation() <= 0; }

@@ -15,16 +15,16 @@ namespace papilla {
 struct SearchProblem {
   Space space;
   std::size_t objectives = 1, constraints = 0;
-  // The first numbers of Outcome::info are so many residuals, whose sum of squares grows with the
-  // one objective; 0: it is no sum of squares.
+  // So many Outcome::residuals, whose sum of squares grows with the one objective; 0: it is no sum
+  // of squares.
   std::size_t residuals = 0;
   // Constraints known without an evaluation (<= 0 feasible, in the unit cube); may be empty.
   std::function<std::vector<double>(const Point&)> cheap_constraints;
   // The same for constraints that cost as much as a small evaluation: asked only of points that are
   // about to be chosen, a limited number of times.
   std::function<std::vector<double>(const Point&)> costly_constraints;
-  // What the outcomes hang on more directly than on the coordinates, as further coordinates of the
-  // models of "bayesian" (each about 0 to 1); may be empty.
+  // What the outcomes depend on more directly than on the coordinates, as further coordinates of
+  // the models of "bayesian" (each about 0 to 1); may be empty.
   std::function<std::vector<double>(const Point&)> features;
   std::vector<Point> starts;  // points to try first (the user's design)
   int evaluations = 100;      // the budget that the searcher plans for
@@ -39,7 +39,7 @@ struct SearchProblem {
   bool feasible_before_evaluation(const Point& unit) const;  // the costly constraints too
 };
 
-// The point as surrogate models see it: a choice of kinds becomes one coordinate a kind, so that
+// The point as surrogate models see it: a choice of kinds becomes one coordinate per kind, so that
 // any two kinds are equally far apart; the problem's features follow.
 Point model_coordinates(const SearchProblem& problem, const Point& unit);
 
@@ -75,7 +75,7 @@ SearchMethod choose_method(const std::string& name, const SearchProblem& problem
 
 std::unique_ptr<Searcher> make_searcher(const SearchMethod& method, const SearchProblem& problem);
 
-// Names that make_searcher knows, "auto" first.
-std::vector<std::string> searcher_names();
+// "auto" and the methods of the one list, optim/algorithms/methods.cpp.
+const std::vector<std::string>& searcher_names();
 
 }  // namespace papilla

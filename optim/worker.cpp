@@ -12,14 +12,14 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <stdexcept>
-#include <string>
+#include <string_view>
 #include <thread>
 
 #include "base/constants.h"
-#include "optim/journal.h"
 
 namespace papilla {
 namespace {
@@ -43,36 +43,70 @@ int poll_milliseconds(double seconds) {
   return static_cast<int>(std::clamp(seconds, 0.0, 3600.0) * 1000) + 1;
 }
 
-// One line, or "" at the end of the stream or the deadline (timed_out tells which).
-std::string read_line(int fd, double deadline, bool& timed_out) {
-  std::string line;
+// Until the buffer is full; false at the end of the stream or the deadline (timed_out tells which).
+bool read_all(int fd, char* buffer, std::size_t size, double deadline, bool& timed_out) {
   timed_out = false;
-  while (true) {
+  while (size > 0) {
     const double left = deadline - steady_seconds();
     if (left <= 0) {
       timed_out = true;
-      return {};
+      return false;
     }
     pollfd p{fd, POLLIN, 0};
     const int ready = ::poll(&p, 1, poll_milliseconds(left));
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) continue;
-    char buffer[4096];
-    const ssize_t n = ::read(fd, buffer, sizeof buffer);
+    const ssize_t n = ::read(fd, buffer, size);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return {};
-    line.append(buffer, static_cast<std::size_t>(n));
-    if (line.back() == '\n') {
-      line.pop_back();
-      return line;
-    }
+    if (n <= 0) return false;
+    buffer += n;
+    size -= static_cast<std::size_t>(n);
   }
+  return true;
 }
+
+// A message on a pipe: the number of its bytes, then they.
+bool write_message(int fd, const Bytes& message) {
+  const std::uint64_t size = message.size();
+  return write_all(fd, Bytes(reinterpret_cast<const char*>(&size), sizeof size) + message);
+}
+
+std::optional<Bytes> read_message(int fd, double deadline, bool& timed_out) {
+  std::uint64_t size = 0;
+  if (!read_all(fd, reinterpret_cast<char*>(&size), sizeof size, deadline, timed_out))
+    return std::nullopt;
+  Bytes message(size, '\0');
+  if (!read_all(fd, message.data(), message.size(), deadline, timed_out)) return std::nullopt;
+  return message;
+}
+
+WorkAnswer failed(WorkFailure::Reason reason, std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  return {{}, WorkFailure{reason, std::move(text)}};
+}
+
+constexpr char kSound = '+';
+// By WorkFailure::Reason.
+constexpr std::string_view kReasons = "ctmx";
 
 }  // namespace
 
-Worker::Worker(Evaluate evaluate, const WorkerLimits& limits)
-    : evaluate_(std::move(evaluate)), limits_(limits) {}
+Bytes pack_answer(const WorkAnswer& answer) {
+  if (!answer.failure) return kSound + answer.bytes;
+  return kReasons[static_cast<std::size_t>(answer.failure->reason)] + answer.failure->text;
+}
+
+WorkAnswer unpack_answer(const Bytes& message) {
+  if (message.empty()) return failed(WorkFailure::Reason::Crashed, "an empty answer");
+  if (message[0] == kSound) return {message.substr(1), std::nullopt};
+  const std::size_t reason = kReasons.find(message[0]);
+  if (reason == kReasons.npos) return failed(WorkFailure::Reason::Crashed, "a garbled answer");
+  return failed(static_cast<WorkFailure::Reason>(reason), message.substr(1));
+}
+
+Worker::Worker(Work work, const WorkerLimits& limits) : work_(std::move(work)), limits_(limits) {}
 
 Worker::~Worker() { stop(true); }
 
@@ -105,25 +139,22 @@ void Worker::start() {
 }
 
 void Worker::serve(int requests, int replies) const {
+  using Reason = WorkFailure::Reason;
   bool timed_out = false;
   while (true) {
-    const std::string line = read_line(requests, kInfinity, timed_out);
-    Evaluation request;
-    if (line.empty() || !parse_journal_line(line, request)) ::_exit(0);
-    Evaluation reply;
+    const std::optional<Bytes> request = read_message(requests, kInfinity, timed_out);
+    if (!request) ::_exit(0);
+    WorkAnswer reply;
     try {
-      reply.outcome = evaluate_(request.unit);
+      reply.bytes = work_(*request);
     } catch (const std::bad_alloc&) {
-      reply.outcome = {};
-      reply.outcome.reason = "not enough memory";
+      reply = failed(Reason::OutOfMemory, "not enough memory");
     } catch (const std::exception& e) {
-      reply.outcome = {};
-      reply.outcome.reason = e.what();
+      reply = failed(Reason::Threw, e.what());
     } catch (...) {
-      reply.outcome = {};
-      reply.outcome.reason = "an exception of an unknown kind";
+      reply = failed(Reason::Threw, "an exception of an unknown kind");
     }
-    if (!write_all(replies, journal_line(reply))) ::_exit(0);
+    if (!write_message(replies, pack_answer(reply))) ::_exit(0);
   }
 }
 
@@ -138,53 +169,47 @@ void Worker::stop(bool kill) {
   child_ = to_child_ = from_child_ = -1;
 }
 
-void Worker::send(const Point& point) {
+void Worker::send(const Bytes& request) {
   if (child_ < 0) start();
   ::signal(SIGPIPE, SIG_IGN);  // a dead child shows as a failed write
-  Evaluation request;
-  request.unit = point;
-  sent_ = write_all(to_child_, journal_line(request));
+  sent_ = write_message(to_child_, request);
   deadline_ = steady_seconds() + limits_.seconds;
 }
 
 double Worker::seconds_left() const { return deadline_ - steady_seconds(); }
 
-Outcome Worker::receive() {
-  Outcome failed;
+WorkAnswer Worker::receive() {
   bool timed_out = false;
-  const std::string line = sent_ ? read_line(from_child_, deadline_, timed_out) : std::string{};
-  Evaluation reply;
+  const std::optional<Bytes> reply =
+      sent_ ? read_message(from_child_, deadline_, timed_out) : std::nullopt;
   sent_ = false;
-  if (!line.empty() && parse_journal_line(line, reply)) return reply.outcome;
-  if (timed_out) {
-    failed.reason = fmt::format("took longer than {:.0f} s and was ended", limits_.seconds);
-  } else {
-    failed.reason = "the evaluation crashed";
-  }
+  if (reply) return unpack_answer(*reply);
   stop(true);
-  return failed;
+  if (!timed_out) return failed(WorkFailure::Reason::Crashed, "the evaluation crashed");
+  return failed(WorkFailure::Reason::TimedOut,
+                fmt::format("took longer than {:.0f} s and was ended", limits_.seconds));
 }
 
 namespace {
 
 class LocalTeam : public Team {
  public:
-  LocalTeam(std::size_t count, Evaluate evaluate, const WorkerLimits& limits) {
+  LocalTeam(std::size_t count, const Work& work, const WorkerLimits& limits) {
     for (std::size_t i = 0; i < count; ++i)
-      workers_.push_back(std::make_unique<Worker>(evaluate, limits));
+      workers_.push_back(std::make_unique<Worker>(work, limits));
   }
 
   std::size_t size() const override { return workers_.size(); }
 
-  std::vector<Outcome> evaluate(const std::vector<Point>& points) override {
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
     constexpr std::size_t kFree = static_cast<std::size_t>(-1);
-    std::vector<Outcome> out(points.size());
+    std::vector<WorkAnswer> out(requests.size());
     std::vector<std::size_t> task(workers_.size(), kFree);
     std::size_t next = 0, done = 0;
-    while (done < points.size()) {
-      for (std::size_t w = 0; w < workers_.size() && next < points.size(); ++w) {
+    while (done < requests.size()) {
+      for (std::size_t w = 0; w < workers_.size() && next < requests.size(); ++w) {
         if (task[w] != kFree) continue;
-        workers_[w]->send(points[next]);
+        workers_[w]->send(requests[next]);
         task[w] = next++;
       }
       std::vector<pollfd> waiting;
@@ -213,10 +238,8 @@ class LocalTeam : public Team {
 
 }  // namespace
 
-std::unique_ptr<Team> make_local_team(std::size_t workers, Evaluate evaluate,
-                                      const WorkerLimits& limits) {
-  return std::make_unique<LocalTeam>(std::max<std::size_t>(1, workers), std::move(evaluate),
-                                     limits);
+std::unique_ptr<Team> make_local_team(std::size_t workers, Work work, const WorkerLimits& limits) {
+  return std::make_unique<LocalTeam>(std::max<std::size_t>(1, workers), std::move(work), limits);
 }
 
 }  // namespace papilla

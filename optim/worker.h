@@ -1,19 +1,42 @@
-// An evaluation in a process of its own: a crash, a hang or too much memory becomes a failed
-// outcome. A team evaluates lists of points on several processes.
+// Work in a process of its own: a crash, a hang or too much memory becomes a failure that is told.
+// A team works on lists of requests in several processes.
 #pragma once
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
-
-#include "optim/problem.h"
 
 namespace papilla {
 
-using Evaluate = std::function<Outcome(const Point&)>;
+// What is asked and answered: only the two ends understand it.
+using Bytes = std::string;
+
+// Why there is no answer.
+struct WorkFailure {
+  enum class Reason { Crashed, TimedOut, OutOfMemory, Threw };
+  Reason reason = Reason::Crashed;
+  std::string text;  // one line for people
+
+  bool operator==(const WorkFailure&) const = default;
+};
+
+struct WorkAnswer {
+  Bytes bytes;
+  std::optional<WorkFailure> failure;  // then without bytes
+
+  bool operator==(const WorkAnswer&) const = default;
+};
+
+// As one message from process to process. What no pack_answer wrote is a crash.
+Bytes pack_answer(const WorkAnswer& answer);
+WorkAnswer unpack_answer(const Bytes& message);
+
+using Work = std::function<Bytes(const Bytes& request)>;
 
 struct WorkerLimits {
-  double seconds = 600;            // an evaluation that takes longer is ended
+  double seconds = 600;            // work that takes longer is ended
   double bytes = 8.0 * (1 << 30);  // address space of the process
 };
 
@@ -21,15 +44,15 @@ struct WorkerLimits {
 // its parent, however that ends.
 class Worker {
  public:
-  Worker(Evaluate evaluate, const WorkerLimits& limits);
+  Worker(Work work, const WorkerLimits& limits);
   ~Worker();
   Worker(const Worker&) = delete;
   Worker& operator=(const Worker&) = delete;
 
-  void send(const Point& point);  // starts an evaluation
-  Outcome receive();              // waits for it
-  // For poll(2) while an evaluation runs: readable when receive() will not wait; -1 when it will
-  // fail at once. Seconds left until the evaluation is ended.
+  void send(const Bytes& request);  // starts the work
+  WorkAnswer receive();             // waits for it
+  // For poll(2) while the work runs: readable when receive() will not wait long; -1 when it will
+  // fail at once. Seconds left until the work is ended.
   int descriptor() const { return sent_ ? from_child_ : -1; }
   double seconds_left() const;
 
@@ -38,23 +61,22 @@ class Worker {
   [[noreturn]] void serve(int requests, int replies) const;  // in the child
   void stop(bool kill);
 
-  Evaluate evaluate_;
+  Work work_;
   WorkerLimits limits_;
   int child_ = -1, to_child_ = -1, from_child_ = -1;
   bool sent_ = false;
   double deadline_ = 0;  // on the steady clock [s]
 };
 
-// Outcomes in the order of the points, whoever evaluates which: the same for any number of workers.
+// Answers in the order of the requests, whoever works on which: the same for any number of workers.
 class Team {
  public:
   virtual ~Team() = default;
-  virtual std::size_t size() const = 0;  // evaluations at a time
-  virtual std::vector<Outcome> evaluate(const std::vector<Point>& points) = 0;
+  virtual std::size_t size() const = 0;  // requests at a time
+  virtual std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) = 0;
 };
 
-// Workers on this machine; each takes the next point when it is free.
-std::unique_ptr<Team> make_local_team(std::size_t workers, Evaluate evaluate,
-                                      const WorkerLimits& limits);
+// Workers on this machine; each takes the next request when it is free.
+std::unique_ptr<Team> make_local_team(std::size_t workers, Work work, const WorkerLimits& limits);
 
 }  // namespace papilla

@@ -241,7 +241,7 @@ std::unique_ptr<Searcher> make_least_squares(const SearchProblem& problem) {
             if (!known.contains(u)) known[u] = objective({u})[0];
             const Outcome& o = known[u];
             if (!o.feasible()) return false;
-            std::copy_n(o.info.begin(), r.size(), r.begin());
+            std::copy_n(o.residuals.begin(), r.size(), r.begin());
             return true;
           },
           options);
@@ -249,8 +249,10 @@ std::unique_ptr<Searcher> make_least_squares(const SearchProblem& problem) {
   });
 }
 
-std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProblem& problem) {
-  return make_blocking([name, problem](const BlockingObjective& objective) {
+namespace {
+
+std::unique_ptr<Searcher> make_nlopt(nlopt::algorithm algorithm, const SearchProblem& problem) {
+  return make_blocking([algorithm, problem](const BlockingObjective& objective) {
     Penalty penalty;
     const auto n = static_cast<unsigned>(problem.space.size());
     nlopt::srand(static_cast<unsigned long>(problem.seed));  // the generator is per thread
@@ -273,9 +275,6 @@ std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProble
       }
       return f;
     };
-    const nlopt::algorithm algorithm = name == "bobyqa"  ? nlopt::LN_BOBYQA
-                                       : name == "sbplx" ? nlopt::LN_SBPLX
-                                                         : nlopt::GN_DIRECT_L;
     const auto minimise = [&](nlopt::algorithm which, double step, int budget) {
       nlopt::opt opt(which, n);
       opt.set_lower_bounds(0.0);
@@ -288,12 +287,25 @@ std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProble
       double f = 0;
       opt.optimize(x, f);
     };
+    const bool global = algorithm == nlopt::GN_DIRECT_L;
     minimise(algorithm, 0.2,
-             name == "direct" ? std::max(10, 2 * problem.evaluations / 3) : problem.evaluations);
+             global ? std::max(10, 2 * problem.evaluations / 3) : problem.evaluations);
     // A global search is polished; a local one that stopped early is started again, smaller.
     for (double step = 0.1; step > 1e-3; step *= 0.5)
       minimise(nlopt::LN_SBPLX, step, problem.evaluations);
   });
+}
+
+}  // namespace
+
+std::unique_ptr<Searcher> make_bobyqa(const SearchProblem& problem) {
+  return make_nlopt(nlopt::LN_BOBYQA, problem);
+}
+std::unique_ptr<Searcher> make_sbplx(const SearchProblem& problem) {
+  return make_nlopt(nlopt::LN_SBPLX, problem);
+}
+std::unique_ptr<Searcher> make_direct(const SearchProblem& problem) {
+  return make_nlopt(nlopt::GN_DIRECT_L, problem);
 }
 
 }  // namespace papilla

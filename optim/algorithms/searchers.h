@@ -1,25 +1,40 @@
 // The algorithms behind make_searcher (internal to optim).
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "optim/search.h"
 
 namespace papilla {
 
+using MakeSearcher = std::unique_ptr<Searcher>(const SearchProblem& problem);
+
 // Gaussian process with expected improvement (one objective) or exact expected hypervolume
 // improvement (two), constraints by probability of feasibility. Small budgets, noise welcome.
-std::unique_ptr<Searcher> make_bayesian(const SearchProblem& problem);
+MakeSearcher make_bayesian;
 
-// NSGA-II (pagmo), constraints by a penalty in front of the objectives.
-std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem);
-std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem);
+// NSGA-II (pagmo), constraints by a penalty in front of the objectives; CMA-ES of the same library.
+MakeSearcher make_nsga2, make_cmaes;
+
+// NLopt, one objective.
+MakeSearcher make_bobyqa, make_sbplx, make_direct;
 
 // Levenberg-Marquardt on the residuals, from the user's point, then from others while asked on.
-std::unique_ptr<Searcher> make_least_squares(const SearchProblem& problem);
+MakeSearcher make_least_squares;
 
-// NLopt: "bobyqa", "sbplx", "direct"; one objective.
-std::unique_ptr<Searcher> make_nlopt(const std::string& name, const SearchProblem& problem);
+// A search method as studies name it, and what it can do.
+struct MethodKind {
+  std::string name;
+  std::size_t least_objectives = 1, most_objectives = 1;
+  MakeSearcher* make = nullptr;
+  bool of_squares = false;  // needs the residuals of a smooth sum of squares
+};
+
+// The one list of methods.
+const std::vector<MethodKind>& method_kinds();
 
 // A blocking optimiser as a searcher: `run` gets an objective function of a list of points that it
 // may call in one thread; the call returns what tell() brought, or throws when the search ends.

@@ -7,19 +7,25 @@
 #include <exception>
 #include <utility>
 
+#include "base/watch.h"
+
 namespace papilla {
 
 // Calls work(i) for i in [0, n), each exactly once. The exception of the lowest failing index is
-// rethrown. threads = 0: all that OpenMP offers.
+// rethrown. threads = 0: all that OpenMP offers. A Watch of the calling thread counts the calls and
+// may end them.
 template <class Work>
 void parallel_for(int n, Work&& work, int threads = 0) {
   std::exception_ptr error;
   int failed = n;
+  Watch* const watch = Watch::current();
 #pragma omp parallel for schedule(dynamic, 1) \
     num_threads(threads > 0 ? threads : omp_get_max_threads())
   for (int i = 0; i < n; ++i) {
     try {
+      if (watch) watch->before_piece();
       work(i);
+      if (watch) watch->after_piece();
     } catch (...) {
 #pragma omp critical(papilla_parallel_error)
       if (i < failed) {

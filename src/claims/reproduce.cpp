@@ -3,24 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
-#include "base/check.h"
 #include "base/error.h"
 #include "base/text.h"
 
 namespace papilla {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-constexpr std::array kVerdicts{Verdict::Agrees, Verdict::Fitted, Verdict::Differs,
-                               Verdict::PaperInconsistent, Verdict::NotTestable};
 
 std::set<std::string> words(const std::string& text) {
   std::istringstream stream(text);
@@ -29,97 +20,26 @@ std::set<std::string> words(const std::string& text) {
   return out;
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-std::string cell(const std::string& text) {  // of a CSV table
-  if (text.find_first_of(",\"\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
-std::string escaped(std::string text) {  // of a Markdown table
-  for (std::size_t i = 0; (i = text.find('|', i)) != std::string::npos; i += 2) {
-    text.insert(i, 1, '\\');
-  }
-  return text;
-}
-
-std::string counts_text(const std::vector<ClaimResult>& results) {
-  std::string out;
-  for (const Verdict verdict : kVerdicts) {
-    const auto count = std::count_if(results.begin(), results.end(), [&](const ClaimResult& r) {
-      return r.papilla.verdict == verdict;
-    });
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, verdict_name(verdict));
-  }
-  return out;
-}
-
-}  // namespace
-
-std::string verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Agrees:
-      return "agrees";
-    case Verdict::Fitted:
-      return "fitted";
-    case Verdict::Differs:
-      return "differs";
-    case Verdict::PaperInconsistent:
-      return "paper inconsistent";
-    case Verdict::NotTestable:
-      return "not testable";
-  }
-  return "";
-}
-
-Judgement agrees_if(bool agrees, double value, double se, std::string model, std::string reason) {
-  return {agrees ? Verdict::Agrees : Verdict::Differs, value, se, std::move(model),
-          std::move(reason)};
-}
-
-Fidelity ClaimSampling::fidelity(int threads) const {
-  Fidelity f = fidelity_level(level);
-  f.skins = skins;
-  f.first_skin = first_skin;
-  if (grid > 0) f.grid = grid;
-  f.threads = threads;
-  // Claims and fits look at small differences on common skins, and at their derivatives: the
-  // solver's own noise has to stay far below them.
-  f.contact_tolerance = std::min(f.contact_tolerance, 1e-5);
-  return f;
-}
-
-const std::vector<Claim>& claims() {
-  static const std::vector<Claim> list = [] {
-    std::vector<Claim> all = m3_claims();
-    for (Claim& claim : theory_claims()) all.push_back(std::move(claim));
-    std::set<std::string> ids;
-    for (const Claim& claim : all) {
-      PAPILLA_CHECK(ids.insert(claim.id).second, "every claim has an id of its own");
-    }
-    return all;
-  }();
-  return list;
-}
-
-std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
+// Throws InputError for an id that no claim has.
+void check_ids(const std::vector<std::string>& ids) {
   std::vector<std::string> known;
   for (const Claim& claim : claims()) known.push_back(claim.id);
-  for (const std::string& id : options.ids) {
+  for (const std::string& id : ids) {
     if (std::find(known.begin(), known.end(), id) != known.end()) continue;
     const std::string near = nearest_name(id, known);
     throw InputError(fmt::format("no claim `{}`{}; known: {}", id,
                                  near.empty() ? "" : ", did you mean `" + near + "`?",
                                  join_names(known)));
   }
+}
+
+}  // namespace
+
+std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
+  check_ids(options.ids);
   const std::set<std::string> fitted = words(options.finger.fitted_to);
-  ClaimInputs papilla(options.finger, Preset::Papilla, options.threads, options.sampling);
-  ClaimInputs m3(options.finger, Preset::M3, options.threads, options.sampling);
+  FingerModel papilla(options.finger, Preset::Papilla, options.threads, options.sampling);
+  FingerModel m3(options.finger, Preset::M3, options.threads, options.sampling);
   std::vector<ClaimResult> results;
   for (const Claim& claim : claims()) {
     if (!options.ids.empty() &&
@@ -138,87 +58,6 @@ std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
     if (options.done) options.done(results.back());
   }
   return results;
-}
-
-std::string claims_text(const std::vector<ClaimResult>& results) {
-  std::string out;
-  for (const ClaimResult& r : results) {
-    out += fmt::format("{:<5} {:<18} {}\n", r.claim->id, verdict_name(r.papilla.verdict),
-                       r.claim->statement);
-    out += fmt::format("      model: {}\n", r.papilla.model);
-    if (!r.papilla.reason.empty()) out += fmt::format("      {}\n", r.papilla.reason);
-    if (r.claim->both_presets) {
-      out += fmt::format("      preset m3: {}, {}{}\n", verdict_name(r.m3.verdict), r.m3.model,
-                         r.m3.reason.empty() ? "" : "; " + r.m3.reason);
-    }
-  }
-  double seconds = 0;
-  for (const ClaimResult& r : results) seconds += r.seconds;
-  return out +
-         fmt::format("{} claims: {}; {:.3g} s\n", results.size(), counts_text(results), seconds);
-}
-
-std::string claims_markdown(const std::vector<ClaimResult>& results, const std::string& finger) {
-  std::string out = fmt::format(
-      "# Published claims and the model\n\nWritten by `papilla reproduce --out` for the finger "
-      "\"{}\".\n\n{} claims: {}.\n\n| id | paper says | agrees when | model | verdict | reason | "
-      "preset m3 |\n|---|---|---|---|---|---|---|\n",
-      finger, results.size(), counts_text(results));
-  for (const ClaimResult& r : results) {
-    const std::string m3 =
-        r.claim->both_presets ? verdict_name(r.m3.verdict) + ": " + r.m3.model : "";
-    out += fmt::format("| {} | {} ({}) | {} | {} | {} | {} | {} |\n", r.claim->id,
-                       escaped(r.claim->statement), escaped(r.claim->source),
-                       escaped(r.claim->band), escaped(r.papilla.model),
-                       verdict_name(r.papilla.verdict), escaped(r.papilla.reason), escaped(m3));
-  }
-  return out;
-}
-
-std::string claims_csv(const std::vector<ClaimResult>& results) {
-  std::string out =
-      "id,source,statement,agrees when,verdict,value,se,model,reason,m3 verdict,m3 value,m3 se,m3 "
-      "model,m3 reason\n";
-  const auto judgement = [](const Judgement& j) {
-    const std::string value = std::isfinite(j.value) ? fmt::format("{:.8g}", j.value) : "";
-    const std::string se = j.se > 0 ? fmt::format("{:.3g}", j.se) : "";
-    return fmt::format("{},{},{},{},{}", verdict_name(j.verdict), value, se, cell(j.model),
-                       cell(j.reason));
-  };
-  for (const ClaimResult& r : results) {
-    out += fmt::format("{},{},{},{},{},{}\n", r.claim->id, cell(r.claim->source),
-                       cell(r.claim->statement), cell(r.claim->band), judgement(r.papilla),
-                       r.claim->both_presets ? judgement(r.m3) : ",,,,");
-  }
-  return out;
-}
-
-std::string claims_json(const std::vector<ClaimResult>& results) {
-  const auto judgement = [](const Judgement& j) {
-    return Json{{"model", number(j.value)},
-                {"se", number(j.se)},
-                {"verdict", verdict_name(j.verdict)},
-                {"answer", j.model},
-                {"reason", j.reason}};
-  };
-  Json list = Json::array();
-  for (const ClaimResult& r : results) {
-    Json row{{"id", r.claim->id},
-             {"source", r.claim->source},
-             {"paper", r.claim->statement},
-             {"agrees_when", r.claim->band}};
-    row.update(judgement(r.papilla));
-    if (r.claim->both_presets) row["m3"] = judgement(r.m3);
-    row["seconds"] = r.seconds;
-    list.push_back(row);
-  }
-  Json counts = Json::object();
-  for (const Verdict verdict : kVerdicts) {
-    counts[verdict_name(verdict)] =
-        std::count_if(results.begin(), results.end(),
-                      [&](const ClaimResult& r) { return r.papilla.verdict == verdict; });
-  }
-  return Json{{"schema", 1}, {"claims", list}, {"counts", counts}}.dump(2);
 }
 
 }  // namespace papilla

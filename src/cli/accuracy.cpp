@@ -3,14 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <iostream>
 #include <memory>
 
 #include "base/files.h"
 #include "cli/commands.h"
-#include "design/design.h"
+#include "design/study.h"
 
 namespace papilla {
 namespace {
@@ -80,33 +79,30 @@ int run(const Context& context, const AccuracyCommand& c) {
 
 }  // namespace
 
-void add_accuracy(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand(
+void add_accuracy(Command app, Context& context) {
+  Command command = app.add_command(
       "accuracy", "Speed against error: every choice of fidelity swept on one design");
   auto c = std::make_shared<AccuracyCommand>();
-  command->add_option("file", c->file, "Design; default: m3_samples/a3h350.toml")
-      ->type_name("FILE");
-  add_set_option(*command, c->overrides);
-  command->add_option("--out", c->out, "Also write the tables and plots")->type_name("DIR");
-  command->add_option("--grid", c->grid, "Pixels of the base")->check(CLI::Range(16, 4096));
-  command->add_option("--skins", c->skins, "Skins of the base")->check(CLI::Range(2, 100000));
-  command->add_option("--finest", c->finest, "Pixels of the finest grid")
-      ->check(CLI::Range(32, 4096));
-  command->add_flag("--no-levels", c->no_levels, "Leave out the levels (reference takes minutes)");
+  command.add_option("file", c->file, "Design; default: m3_samples/a3h350.toml").type_name("FILE");
+  add_set_option(command, c->overrides);
+  command.add_option("--out", c->out, "Also write the tables and plots").type_name("DIR");
+  command.add_option("--grid", c->grid, "Pixels of the base").range(16, 4096);
+  command.add_option("--skins", c->skins, "Skins of the base").range(2, 100000);
+  command.add_option("--finest", c->finest, "Pixels of the finest grid").range(32, 4096);
+  command.add_flag("--no-levels", c->no_levels, "Leave out the levels (reference takes minutes)");
   command
-      ->add_option("--scenes", c->scenes,
-                   "Instead: error bars against a finer reference on that many random scenes")
-      ->check(CLI::Range(1, 100000));
-  command->add_flag(
-      "--tight", c->tight,
-      "Of --scenes: the level design and a target of 2 % against the level reference");
-  command->add_option("--first-scene", c->first_scene, "Number of the first of them")
-      ->check(CLI::Range(0, 1000000000));
-  command->add_flag("--json", c->json, "One JSON object on standard output");
-  command->add_option("--render", c->render, "Instead: the page of the tables in that folder")
-      ->type_name("DIR");
-  command->add_option("--jobs", c->jobs, "Threads; 0: all processors")->check(CLI::Range(0, 4096));
-  command->callback([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
+      .add_option("--scenes", c->scenes,
+                  "Instead: error bars against a finer reference on that many random scenes")
+      .range(1, 100000);
+  command.add_flag("--tight", c->tight,
+                   "Of --scenes: the level design and a target of 2 % against the level reference");
+  command.add_option("--first-scene", c->first_scene, "Number of the first of them")
+      .range(0, 1000000000);
+  command.add_flag("--json", c->json, "One JSON object on standard output");
+  command.add_option("--render", c->render, "Instead: the page of the tables in that folder")
+      .type_name("DIR");
+  command.add_option("--jobs", c->jobs, "Threads; 0: all processors").range(0, 4096);
+  command.on_chosen([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
 }
 
 }  // namespace papilla

@@ -1,7 +1,6 @@
 // papilla bench: the performance targets, measured here.
 #include "report/bench.h"
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
@@ -31,14 +30,14 @@ int run(const Context& context, const BenchCommand& c) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand("bench", "The performance targets, measured here");
+void add_bench(Command app, Context& context) {
+  Command command = app.add_command("bench", "The performance targets, measured here");
   auto c = std::make_shared<BenchCommand>();
-  command->add_flag("--json", c->json, "One JSON object on standard output");
-  command->add_flag("--page", c->page, "As the page docs/performance.md");
-  command->add_flag("--large", c->large, "Contact at 4096 x 4096 too (2.5 GB)");
-  command->add_option("--out", c->out, "Also write the table as CSV")->type_name("FILE");
-  command->callback([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
+  command.add_flag("--json", c->json, "One JSON object on standard output");
+  command.add_flag("--page", c->page, "As the page docs/performance.md");
+  command.add_flag("--large", c->large, "Contact at 4096 x 4096 too (2.5 GB)");
+  command.add_option("--out", c->out, "Also write the table as CSV").type_name("FILE");
+  command.on_chosen([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
 }
 
 }  // namespace papilla

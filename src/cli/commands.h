@@ -7,28 +7,28 @@
 
 namespace papilla {
 
-void add_optimize(CLI::App& app, Context& context);
-void add_evaluate(CLI::App& app, Context& context);
-void add_rank(CLI::App& app, Context& context);
-void add_explain(CLI::App& app, Context& context);
-void add_export(CLI::App& app, Context& context);
-void add_report(CLI::App& app, Context& context);
-void add_solve(CLI::App& app, Context& context);
-void add_reproduce(CLI::App& app, Context& context);
-void add_calibrate(CLI::App& app, Context& context);
-void add_accuracy(CLI::App& app, Context& context);
-void add_bench(CLI::App& app, Context& context);
-void add_describe(CLI::App& app, Context& context);
-void add_completion(CLI::App& app, Context& context);
+void add_optimize(Command app, Context& context);
+void add_evaluate(Command app, Context& context);
+void add_rank(Command app, Context& context);
+void add_explain(Command app, Context& context);
+void add_export(Command app, Context& context);
+void add_report(Command app, Context& context);
+void add_solve(Command app, Context& context);
+void add_reproduce(Command app, Context& context);
+void add_calibrate(Command app, Context& context);
+void add_accuracy(Command app, Context& context);
+void add_bench(Command app, Context& context);
+void add_describe(Command app, Context& context);
+void add_completion(Command app, Context& context);
 
 // The pieces of `papilla solve`.
-void add_solve_contact(CLI::App& solve, Context& context);
-void add_solve_bridge(CLI::App& solve, Context& context);
-void add_solve_droplets(CLI::App& solve, Context& context);
-void add_solve_drive(CLI::App& solve, Context& context);
-void add_solve_field(CLI::App& solve, Context& context);
-void add_solve_persson(CLI::App& solve, Context& context);
-void add_solve_haze(CLI::App& solve, Context& context);
+void add_solve_contact(Command solve, Context& context);
+void add_solve_bridge(Command solve, Context& context);
+void add_solve_droplets(Command solve, Context& context);
+void add_solve_drive(Command solve, Context& context);
+void add_solve_field(Command solve, Context& context);
+void add_solve_persson(Command solve, Context& context);
+void add_solve_haze(Command solve, Context& context);
 
 // clang-format off
 // In the order of `papilla --help`, one a line.

@@ -1,7 +1,6 @@
 // papilla completion SHELL: a completion script made from the commands themselves.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
@@ -11,25 +10,15 @@
 namespace papilla {
 namespace {
 
-std::vector<std::string> option_names(const CLI::App& app) {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-  }
-  return names;
-}
-
 // Works in bash, and in zsh through bashcompinit.
-std::string script(const CLI::App& app) {
+std::string script(Command program) {
   std::vector<std::string> names;
   std::string cases;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-    std::vector<std::string> words = option_names(*command);
-    for (const CLI::App* piece : command->get_subcommands([](const CLI::App*) { return true; })) {
-      words.push_back(piece->get_name());
-    }
-    cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), join_names(words, " "));
+  for (const Command command : program.commands()) {
+    names.push_back(command.name());
+    std::vector<std::string> words = command.option_names();
+    for (const Command piece : command.commands()) words.push_back(piece.name());
+    cases += fmt::format("    {}) words=\"{}\" ;;\n", command.name(), join_names(words, " "));
   }
   return fmt::format(
       "_papilla() {{\n"
@@ -48,14 +37,14 @@ std::string script(const CLI::App& app) {
 
 }  // namespace
 
-void add_completion(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand("completion", "Print a script for shell completion");
+void add_completion(Command app, Context& context) {
+  Command command = app.add_command("completion", "Print a script for shell completion");
   auto shell = std::make_shared<std::string>();
-  command->add_option("shell", *shell, "bash or zsh: source <(papilla completion bash)")
-      ->required()
-      ->check(CLI::IsMember({"bash", "zsh"}));
-  command->callback([&app, &context, shell] {
-    context.action = [&app, shell] {
+  command.add_option("shell", *shell, "bash or zsh: source <(papilla completion bash)")
+      .required()
+      .one_of({"bash", "zsh"});
+  command.on_chosen([app, &context, shell] {
+    context.action = [app, shell] {
       if (*shell == "zsh") std::cout << "autoload -U +X bashcompinit && bashcompinit\n";
       std::cout << script(app);
       return kSuccess;

@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -64,27 +63,26 @@ void make_folder(const std::string& path) {
     throw InputError({Problem{path, 0, 0, "", "the folder cannot be written to"}});
 }
 
-void add_design_options(CLI::App& command, DesignOptions& options) {
-  command.add_option("file", options.file, "Design or study file")->required()->type_name("FILE");
+void add_design_options(Command command, DesignOptions& options) {
+  command.add_option("file", options.file, "Design or study file").required().type_name("FILE");
   add_set_option(command, options.overrides);
   command.add_flag("--json", options.json, "One JSON object on standard output");
 }
 
-void add_set_option(CLI::App& command, std::vector<std::string>& overrides) {
+void add_set_option(Command command, std::vector<std::string>& overrides) {
   command
       .add_option("--set", overrides,
                   "Override a value of the file, e.g. --set drive.amplitude=150V")
-      ->type_name("KEY=VALUE")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      .type_name("KEY=VALUE")
+      .repeatable();
 }
 
-void add_pick_option(CLI::App& command, std::string& rule) {
+void add_pick_option(Command command, std::string& rule) {
   command
       .add_option("--pick", rule,
                   "Which design of the front: worst (highest worst modulation; default), knee, an "
                   "objective (its best), or a number")
-      ->type_name("RULE");
+      .type_name("RULE");
 }
 
 }  // namespace papilla

@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "cli/options.h"
 
 namespace papilla {
 
@@ -37,12 +35,12 @@ struct DesignOptions {
   std::vector<std::string> overrides;
   bool json = false;
 };
-void add_design_options(CLI::App& command, DesignOptions& options);
+void add_design_options(Command command, DesignOptions& options);
 
 // --set KEY=VALUE, for every command that reads a design.
-void add_set_option(CLI::App& command, std::vector<std::string>& overrides);
+void add_set_option(Command command, std::vector<std::string>& overrides);
 
 // --pick RULE, for every command that shows one design of a front.
-void add_pick_option(CLI::App& command, std::string& rule);
+void add_pick_option(Command command, std::string& rule);
 
 }  // namespace papilla

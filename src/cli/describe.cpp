@@ -1,5 +1,4 @@
 // papilla describe [SECTION]: the reference of every key.
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -44,17 +43,17 @@ int describe(const DescribeOptions& options) {
 
 }  // namespace
 
-void add_describe(CLI::App& app, Context& context) {
-  CLI::App* command =
-      app.add_subcommand("describe", "The reference of every key: unit, range, default, source");
+void add_describe(Command app, Context& context) {
+  Command command =
+      app.add_command("describe", "The reference of every key: unit, range, default, source");
   auto options = std::make_shared<DescribeOptions>();
-  command->add_option("section", options->section,
-                      "texture, surface, texture.depth, ...; all sections when left out");
-  command->add_flag("--markdown", options->markdown, "Markdown tables");
-  command->add_flag("--json", options->json, "One JSON object on standard output");
-  command->add_option("--out", options->out, "Write one Markdown page a section into this folder")
-      ->type_name("DIR");
-  command->callback(
+  command.add_option("section", options->section,
+                     "texture, surface, texture.depth, ...; all sections when left out");
+  command.add_flag("--markdown", options->markdown, "Markdown tables");
+  command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.add_option("--out", options->out, "Write one Markdown page a section into this folder")
+      .type_name("DIR");
+  command.on_chosen(
       [&context, options] { context.action = [options] { return describe(*options); }; });
 }
 

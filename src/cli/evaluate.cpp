@@ -1,7 +1,6 @@
 // papilla evaluate DESIGN.toml: the forward model over humidity.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <iostream>
 #include <memory>
@@ -13,9 +12,9 @@
 #include "cli/commands.h"
 #include "config/describe.h"
 #include "config/writer.h"
-#include "design/design.h"
+#include "design/study.h"
+#include "estimate/evaluation.h"
 #include "estimate/parameters.h"
-#include "estimate/target.h"
 #include "estimate/voltage.h"
 #include "measure/field_accuracy.h"
 #include "report/fields.h"
@@ -149,15 +148,7 @@ double wanted_accuracy(const std::string& text) {
 int evaluate_file(const Context& context, const EvaluateOptions& options) {
   const Study study = read_study(options.design.file, options.design.overrides);
   const Design& design = study.design;
-  if (const auto mismatch = calibration_mismatch(design); !mismatch.empty() && !options.force) {
-    std::vector<Problem> problems;
-    for (const std::string& line : mismatch)
-      problems.push_back({options.design.file, 0, 0, "", line});
-    problems.push_back({"", 0, 0, "",
-                        "such a change moves the modulation by tens of percent; fit the finger "
-                        "again, or run with --force"});
-    throw InputError(problems);
-  }
+  if (!options.force) require_fitted_model(design, options.design.file, "run with --force");
   Fidelity fidelity = fidelity_of(design);
   fidelity.threads = options.jobs;
   const bool parameters = options.parameters || design.accuracy.parameters;
@@ -167,19 +158,13 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   }
 
   if (!options.out.empty()) make_folder(options.out);
-  const double target =
-      options.accuracy.empty() ? design.accuracy.target : wanted_accuracy(options.accuracy);
-  Response response =
-      target > 0
-          ? evaluate_to_target(scene_of(design), design.texture,
-                               {.target = target, .seed = fidelity.seed, .threads = options.jobs})
-          : evaluate(scene_of(design), design.texture, fidelity);
+  const Response response = evaluate_design(
+      design, {.target = options.accuracy.empty() ? 0 : wanted_accuracy(options.accuracy),
+               .parameters = options.parameters,
+               .appearance = options.appearance,
+               .voltage_for = options.voltage_for,
+               .threads = options.jobs});
   for (const std::string& step : response.accuracy.steps) context.note(step);
-  if (parameters)
-    add_parameter_errors(response, scene_of(design), design.texture, response.fidelity);
-  if (options.appearance) response.appearance = appearance_of(design);
-  if (!options.voltage_for.empty())
-    add_voltages(response, scene_of(design), design.texture, fidelity, options.voltage_for);
   if (!options.out.empty()) {
     remove_field_pictures(options.out);
     write_bytes(options.out + "/resolved.toml", resolved_toml(study));
@@ -200,18 +185,18 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
 
 }  // namespace
 
-void add_evaluate(CLI::App& app, Context& context) {
-  CLI::App* command =
-      app.add_subcommand("evaluate", "Friction over humidity, drive off and on, with error bars");
+void add_evaluate(Command app, Context& context) {
+  Command command =
+      app.add_command("evaluate", "Friction over humidity, drive off and on, with error bars");
   auto options = std::make_shared<EvaluateOptions>();
-  add_design_options(*command, options->design);
-  command->add_option("--sweep", options->sweep, "Evaluate over a number of the design")
-      ->type_name("PATH=LOW..HIGH[:COUNT]");
+  add_design_options(command, options->design);
+  command.add_option("--sweep", options->sweep, "Evaluate over a number of the design")
+      .type_name("PATH=LOW..HIGH[:COUNT]");
   command
-      ->add_option("--voltage-for", options->voltage_for,
-                   "Also the amplitude at which the modulation reaches this value")
-      ->type_name("MODULATION")
-      ->check([](const std::string& text) {
+      .add_option("--voltage-for", options->voltage_for,
+                  "Also the amplitude at which the modulation reaches this value")
+      .type_name("MODULATION")
+      .check([](const std::string& text) {
         double value = 0;
         const char* end = text.data() + text.size();
         const auto [last, error] = std::from_chars(text.data(), end, value);
@@ -222,25 +207,24 @@ void add_evaluate(CLI::App& app, Context& context) {
                "for 50 %, got " +
                text;
       });
-  command->add_flag(
+  command.add_flag(
       "--check-field", options->check_field,
       "Also solve the 3-D field on one skin and say how far the cheaper rules are off");
-  command->add_option("--out", options->out, "Also write the numbers and pictures of the fields")
-      ->type_name("DIR");
-  command->add_flag("--appearance", options->appearance,
-                    "Also haze, transmittance, gloss and colour");
+  command.add_option("--out", options->out, "Also write the numbers and pictures of the fields")
+      .type_name("DIR");
+  command.add_flag("--appearance", options->appearance,
+                   "Also haze, transmittance, gloss and colour");
   command
-      ->add_option("--accuracy", options->accuracy,
-                   "Wanted standard error of the modulation: grid, samples and estimator follow")
-      ->type_name("SHARE")
-      ->check([](const std::string& text) { return text.empty() ? "expected a share: 5%" : ""; });
-  command->add_flag("--parameters", options->parameters,
-                    "Also the error that the finger's fitted numbers leave (its [[uncertainty]])");
-  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
-      ->check(CLI::Range(0, 4096));
-  command->add_flag("--force", options->force,
-                    "Run with model options that the finger was not fitted with");
-  command->callback([&context, options] {
+      .add_option("--accuracy", options->accuracy,
+                  "Wanted standard error of the modulation: grid, samples and estimator follow")
+      .type_name("SHARE")
+      .check([](const std::string& text) { return text.empty() ? "expected a share: 5%" : ""; });
+  command.add_flag("--parameters", options->parameters,
+                   "Also the error that the finger's fitted numbers leave (its [[uncertainty]])");
+  command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
+  command.add_flag("--force", options->force,
+                   "Run with model options that the finger was not fitted with");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return evaluate_file(context, *options); };
   });
 }

@@ -1,16 +1,15 @@
 // papilla explain FILE: what would be modelled, what not, why, at which cost and error.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
 #include "cli/commands.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "estimate/target.h"
 #include "forward/skips.h"
 #include "report/response.h"
-#include "search/problem.h"
+#include "search/tasks.h"
 
 namespace papilla {
 namespace {
@@ -46,15 +45,15 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
 
 }  // namespace
 
-void add_explain(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand(
+void add_explain(Command app, Context& context) {
+  Command command = app.add_command(
       "explain", "The plan: what is modelled or skipped, why, expected cost and error");
   auto options = std::make_shared<DesignOptions>();
-  add_design_options(*command, *options);
+  add_design_options(command, *options);
   auto measure = std::make_shared<bool>(false);
-  command->add_flag("--measure", *measure,
-                    "Bounds of what is skipped from patches of this scene (seconds)");
-  command->callback([&context, options, measure] {
+  command.add_flag("--measure", *measure,
+                   "Bounds of what is skipped from patches of this scene (seconds)");
+  command.on_chosen([&context, options, measure] {
     context.action = [&context, options, measure] { return explain(context, *options, *measure); };
   });
 }

@@ -1,7 +1,6 @@
 // papilla export DESIGN.toml: heightmap and mask files.
 #include "report/export.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -95,48 +94,46 @@ int export_files(const ExportCommand& command) {
 
 }  // namespace
 
-void add_export(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand("export", "Heightmap and mask files of a design");
+void add_export(Command app, Context& context) {
+  Command command = app.add_command("export", "Heightmap and mask files of a design");
   auto options = std::make_shared<ExportCommand>();
-  command->add_option("file", options->design.file, "Design or study file, or a folder of results")
-      ->required()
-      ->type_name("FILE");
-  add_set_option(*command, options->design.overrides);
-  command->add_flag("--json", options->design.json, "One JSON object on standard output");
+  command.add_option("file", options->design.file, "Design or study file, or a folder of results")
+      .required()
+      .type_name("FILE");
+  add_set_option(command, options->design.overrides);
+  command.add_flag("--json", options->design.json, "One JSON object on standard output");
   command
-      ->add_option("--format", options->formats,
-                   join_names(export_formats()) + "; default: what the texture allows")
-      ->delimiter(',');
-  command->add_option("--size", options->size,
-                      "Side, rounded to whole periods, e.g. \"1 mm\"; default: about 12 um");
-  command->add_option("--pixels", options->pixels, "Pixels along x")
-      ->check(CLI::Range(8, 65536))
-      ->capture_default_str();
+      .add_option("--format", options->formats,
+                  join_names(export_formats()) + "; default: what the texture allows")
+      .separator(',');
+  command.add_option("--size", options->size,
+                     "Side, rounded to whole periods, e.g. \"1 mm\"; default: about 12 um");
+  command.add_option("--pixels", options->pixels, "Pixels along x").range(8, 65536).show_default();
   command
-      ->add_option("--polarity", options->polarity,
-                   "white-high (bright is high) or white-deep; needed for tiff and mask")
-      ->check(CLI::IsMember({"white-high", "white-deep"}));
-  command->add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--levels", options->levels, "GDSII of a free form: layers, one a level")
-      ->check(CLI::Range(1, 64));
-  command->add_option("--facet-error", options->facet_error, "GDSII: of circles; default 2 nm");
-  command->add_option("--shrink", options->shrink,
-                      "The process moves each wall into the hole by this; undone in the files");
-  command->add_option("--edge-rounding", options->edge_rounding,
-                      "The process rounds rims by this; left out of the files");
-  command->add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
-      ->type_name("FILE");
-  command->add_flag("--verify", options->verify,
-                    "Read the heights back, measure holes and walls, simulate again");
-  command->add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
-      ->capture_default_str();
+      .add_option("--polarity", options->polarity,
+                  "white-high (bright is high) or white-deep; needed for tiff and mask")
+      .one_of({"white-high", "white-deep"});
+  command.add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
+      .range(1, 4096);
+  command.add_option("--levels", options->levels, "GDSII of a free form: layers, one a level")
+      .range(1, 64);
+  command.add_option("--facet-error", options->facet_error, "GDSII: of circles; default 2 nm");
+  command.add_option("--shrink", options->shrink,
+                     "The process moves each wall into the hole by this; undone in the files");
+  command.add_option("--edge-rounding", options->edge_rounding,
+                     "The process rounds rims by this; left out of the files");
+  command.add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
+      .type_name("FILE");
+  command.add_flag("--verify", options->verify,
+                   "Read the heights back, measure holes and walls, simulate again");
+  command.add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
+      .show_default();
   command
-      ->add_option("--out", options->out,
-                   "Folder; default results/NAME/export, of a folder FILE in FILE/export")
-      ->type_name("DIR");
-  add_pick_option(*command, options->pick);
-  command->callback(
+      .add_option("--out", options->out,
+                  "Folder; default results/NAME/export, of a folder FILE in FILE/export")
+      .type_name("DIR");
+  add_pick_option(command, options->pick);
+  command.on_chosen(
       [&context, options] { context.action = [options] { return export_files(*options); }; });
 }
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdlib>
 #include <exception>
@@ -23,27 +22,26 @@ void print_error(const Context& context, const std::string& text) {
   std::cerr << (context.color ? "\033[1;31merror:\033[0m " : "error: ") << text << std::endl;
 }
 
-std::vector<std::string> command_names(const CLI::App& app) {
+std::vector<std::string> names_of(const std::vector<Command>& commands) {
   std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
-    names.push_back(command->get_name());
-  }
+  for (const Command command : commands) names.push_back(command.name());
   return names;
 }
 
-// A word in the place of a command that is none (papilla foo, papilla solve foo): CLI11 would only
-// say that it was not expected.
-bool knows_command(const CLI::App& app, int argc, char** argv, const Context& context) {
-  const CLI::App* level = &app;
+// A word in the place of a command that is none (papilla foo, papilla solve foo): the parser would
+// only say that it was not expected.
+bool knows_command(Command level, int argc, char** argv, const Context& context) {
   for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-    const std::vector<std::string> names = command_names(*level);
-    if (names.empty()) return true;
-    if (std::find(names.begin(), names.end(), argv[i]) != names.end()) {
-      level = level->get_subcommand(argv[i]);
+    const std::vector<Command> commands = level.commands();
+    if (commands.empty()) return true;
+    const std::vector<std::string> names = names_of(commands);
+    const auto found = std::find(names.begin(), names.end(), argv[i]);
+    if (found != names.end()) {
+      level = commands[static_cast<std::size_t>(found - names.begin())];
       continue;
     }
     const std::string near = nearest_name(argv[i], names);
-    const std::string above = i > 1 ? level->get_name() + " " : "";
+    const std::string above = i > 1 ? level.name() + " " : "";
     print_error(context, near.empty() ? fmt::format("unknown command `{}{}`; known: {}", above,
                                                     argv[i], join_names(names))
                                       : fmt::format("unknown command `{}{}`, did you mean `{}{}`?",
@@ -60,25 +58,18 @@ int run(int argc, char** argv) {
   context.color = colors && isatty(STDERR_FILENO) != 0;
   context.color_results = colors && isatty(STDOUT_FILENO) != 0;
 
-  CLI::App app{"Papilla: inverse design of surface textures for touch", "papilla"};
-  app.set_version_flag("--version", "papilla " PAPILLA_VERSION);
-  app.add_flag("-q,--quiet", context.quiet, "No progress messages");
-  app.fallthrough();
-  app.require_subcommand(1);
-  for (const auto& add : kCommands) add(app, context);
+  const CommandLine line("papilla", "papilla " PAPILLA_VERSION,
+                         "Papilla: inverse design of surface textures for touch");
+  const Command program = line.program();
+  program.add_flag("-q,--quiet", context.quiet, "No progress messages");
+  for (const auto& add : kCommands) add(program, context);
 
-  if (!knows_command(app, argc, argv, context)) return kWrongInput;
+  if (!knows_command(program, argc, argv, context)) return kWrongInput;
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::Success& e) {  // --help, --version
-    return app.exit(e);
-  } catch (const CLI::ParseError& e) {
+    if (!line.parse(argc, argv)) return kSuccess;
+  } catch (const CommandLineError& e) {
     print_error(context, e.what());
-    std::string chosen;
-    for (auto level = app.get_subcommands(); !level.empty();
-         level = level.front()->get_subcommands())
-      chosen += level.front()->get_name() + " ";
-    std::cerr << "try: papilla " << chosen << "--help" << std::endl;
+    std::cerr << "try: papilla " << e.commands() << "--help" << std::endl;
     return kWrongInput;
   }
 

@@ -3,7 +3,6 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -15,7 +14,9 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "optim/mpi.h"
-#include "search/run.h"
+#include "optim/search.h"
+#include "report/results.h"
+#include "report/summary.h"
 
 namespace papilla {
 namespace {
@@ -35,7 +36,7 @@ extern "C" void on_interrupt(int) {
   if (interrupted.exchange(true)) ::_exit(130);
 }
 
-// A bar on a terminal, one line a tenth of the way otherwise.
+// A bar on a terminal, one line per tenth of the way otherwise.
 class ProgressPrinter {
  public:
   explicit ProgressPrinter(const Context& context)
@@ -100,7 +101,7 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
   out["designs"] = Json::array();
   for (const FinalDesign& d : r.finalists) {
     Json variables = Json::object();
-    const std::vector<double> values = problem.values(d.unit);
+    const std::vector<double> values = problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Variable& v = study.variables[i];
       variables[v.path] = v.is_kind() ? Json(variable_text(v, values[i])) : Json(values[i]);
@@ -173,7 +174,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   ::sigaction(SIGTERM, &action, nullptr);
 
   const auto begin = std::chrono::steady_clock::now();
-  const OptimiseResult result = optimise(study, run);
+  const OptimiseResult result = optimise_to_folder(study, run);
   if (launched_rank() > 0) return kSuccess;
   printer.finish();
   if (options.json) {
@@ -216,28 +217,28 @@ int optimize(const OptimizeOptions& options, const Context& context) {
 
 }  // namespace
 
-void add_optimize(CLI::App& app, Context& context) {
-  CLI::App* command =
-      app.add_subcommand("optimize", "Search the design space of a study; write results/<study>/");
+void add_optimize(Command app, Context& context) {
+  Command command =
+      app.add_command("optimize", "Search the design space of a study; write results/<study>/");
   auto options = std::make_shared<OptimizeOptions>();
-  command->add_option("study", options->study, "STUDY.toml, a design with a [design_space]")
-      ->required();
-  command->add_option("--out", options->out, "Folder of results; default results/<study>")
-      ->type_name("DIR");
-  command->add_flag("--resume", options->resume, "Continue an interrupted run of the same study");
-  command->add_option("--jobs", options->jobs, "Evaluations at a time; default: one a processor")
-      ->check(CLI::Range(1, 4096));
-  command->add_option("--evaluations", options->evaluations, "Largest number of evaluated designs")
-      ->check(CLI::Range(1, 100000000));
-  command->add_option("--time", options->time, "Largest wall-clock time, e.g. \"5 min\"");
-  command->add_option("--seed", options->seed, "Seed of the search and of the skins")
-      ->check(CLI::Range(0, 1 << 30));
-  command->add_option("--method", options->method,
-                      "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct, least_squares");
-  add_pick_option(*command, options->pick);
-  add_set_option(*command, options->overrides);
-  command->add_flag("--json", options->json, "The result as one JSON object on standard output");
-  command->callback([&context, options] {
+  command.add_option("study", options->study, "STUDY.toml, a design with a [design_space]")
+      .required();
+  command.add_option("--out", options->out, "Folder of results; default results/<study>")
+      .type_name("DIR");
+  command.add_flag("--resume", options->resume, "Continue an interrupted run of the same study");
+  command.add_option("--jobs", options->jobs, "Evaluations at a time; default: one per processor")
+      .range(1, 4096);
+  command.add_option("--evaluations", options->evaluations, "Largest number of evaluated designs")
+      .range(1, 100000000);
+  command.add_option("--time", options->time, "Largest wall-clock time, e.g. \"5 min\"");
+  command.add_option("--seed", options->seed, "Seed of the search and of the skins")
+      .range(0, 1 << 30);
+  command.add_option("--method", options->method,
+                     "auto, bayesian, nsga2, cmaes, bobyqa, sbplx, direct, least_squares");
+  add_pick_option(command, options->pick);
+  add_set_option(command, options->overrides);
+  command.add_flag("--json", options->json, "The result as one JSON object on standard output");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return optimize(*options, context); };
   });
 }

@@ -1,7 +1,6 @@
 // papilla rank: candidates in order, with intervals and the probability of being best.
 #include "rank/rank.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -104,37 +103,35 @@ int run(const Context& context, const RankCommand& command) {
 
 }  // namespace
 
-void add_rank(CLI::App& app, Context& context) {
-  CLI::App* command = app.add_subcommand(
+void add_rank(Command app, Context& context) {
+  Command command = app.add_command(
       "rank", "Designs in order, by paired differences, with the probability of being best");
   auto options = std::make_shared<RankCommand>();
   command
-      ->add_option("designs", options->files,
-                   "DESIGN.toml of each candidate; A.toml+B.toml: regions of one")
-      ->required();
+      .add_option("designs", options->files,
+                  "DESIGN.toml of each candidate; A.toml+B.toml: regions of one")
+      .required();
   command
-      ->add_option(
-          "--by", options->by,
-          "Criteria, e.g. friction:low,variation(modulation):low; default modulation:high, "
-          "or friction:low,adhesion:low without a drive")
-      ->type_name("METRIC[:low|:high],...");
-  command->add_option("--state", options->states, "Finger states: clean,natural,wet")
-      ->type_name("STATE,...");
-  command->add_option("--max-skins", options->max_skins, "Most skins a candidate and state")
-      ->check(CLI::Range(12, 100000));
-  command->add_flag("--parameters", options->parameters,
-                    "Also what the finger's fitted numbers (its [[uncertainty]]) leave of each "
-                    "value and of each difference");
-  command->add_flag("--any-conditions", options->any_conditions,
-                    "Also designs of different finger, air, drive or accuracy: the order is then "
-                    "not of the surfaces alone");
-  command->add_option("--out", options->out, "Also write table, JSON, designs and report.html")
-      ->type_name("DIR");
-  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
-      ->check(CLI::Range(0, 4096));
-  add_set_option(*command, options->overrides);
-  command->add_flag("--json", options->json, "One JSON object on standard output");
-  command->callback([&context, options] {
+      .add_option("--by", options->by,
+                  "Criteria, e.g. friction:low,variation(modulation):low; default modulation:high, "
+                  "or friction:low,adhesion:low without a drive")
+      .type_name("METRIC[:low|:high],...");
+  command.add_option("--state", options->states, "Finger states: clean,natural,wet")
+      .type_name("STATE,...");
+  command.add_option("--max-skins", options->max_skins, "Most skins a candidate and state")
+      .range(12, 100000);
+  command.add_flag("--parameters", options->parameters,
+                   "Also what the finger's fitted numbers (its [[uncertainty]]) leave of each "
+                   "value and of each difference");
+  command.add_flag("--any-conditions", options->any_conditions,
+                   "Also designs of different finger, air, drive or accuracy: the order is then "
+                   "not of the surfaces alone");
+  command.add_option("--out", options->out, "Also write table, JSON, designs and report.html")
+      .type_name("DIR");
+  command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
+  add_set_option(command, options->overrides);
+  command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return run(context, *options); };
   });
 }

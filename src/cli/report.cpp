@@ -1,5 +1,4 @@
 // papilla report RESULT_DIR: one self-contained HTML page.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -37,21 +36,21 @@ int report(const ReportOptions& options) {
 
 }  // namespace
 
-void add_report(CLI::App& app, Context& context) {
-  CLI::App* command =
-      app.add_subcommand("report", "One HTML page of a finished run: charts, pictures, files");
+void add_report(Command app, Context& context) {
+  Command command =
+      app.add_command("report", "One HTML page of a finished run: charts, pictures, files");
   auto options = std::make_shared<ReportOptions>();
   command
-      ->add_option("folder", options->folder,
-                   "Folder that `papilla optimize`, `rank --out` or `calibrate` wrote")
-      ->required()
-      ->type_name("RESULT_DIR");
-  command->add_option("--out", options->out, "Default: RESULT_DIR/report.html")->type_name("FILE");
-  command->add_option("--svg", options->svg, "The picture of the front alone, to this file")
-      ->type_name("FILE");
-  command->add_flag("--json", options->json, "One JSON object on standard output");
-  add_pick_option(*command, options->pick);
-  command->callback(
+      .add_option("folder", options->folder,
+                  "Folder that `papilla optimize`, `rank --out` or `calibrate` wrote")
+      .required()
+      .type_name("RESULT_DIR");
+  command.add_option("--out", options->out, "Default: RESULT_DIR/report.html").type_name("FILE");
+  command.add_option("--svg", options->svg, "The picture of the front alone, to this file")
+      .type_name("FILE");
+  command.add_flag("--json", options->json, "One JSON object on standard output");
+  add_pick_option(command, options->pick);
+  command.on_chosen(
       [&context, options] { context.action = [options] { return report(*options); }; });
 }
 

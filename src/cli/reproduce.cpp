@@ -1,7 +1,6 @@
 // papilla reproduce: every published claim beside the model's number.
 #include "claims/reproduce.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "base/files.h"
 #include "cli/commands.h"
 #include "design/design.h"
+#include "report/claims.h"
 
 namespace papilla {
 namespace {
@@ -51,22 +51,19 @@ int run(const Context& context, const ReproduceCommand& command) {
 
 }  // namespace
 
-void add_reproduce(CLI::App& app, Context& context) {
-  CLI::App* command =
-      app.add_subcommand("reproduce", "Every published claim beside the model, with a verdict");
+void add_reproduce(Command app, Context& context) {
+  Command command =
+      app.add_command("reproduce", "Every published claim beside the model, with a verdict");
   auto options = std::make_shared<ReproduceCommand>();
-  command->add_option("--claim", options->claims, "Only this claim, e.g. M13; may be repeated")
-      ->type_name("ID")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--finger", options->finger, "Finger file; default: fingers/reference.toml")
-      ->type_name("FILE");
-  command->add_option("--out", options->out, "Also write claims.csv and claims.md")
-      ->type_name("DIR");
-  command->add_option("--jobs", options->jobs, "Threads; 0: all processors")
-      ->check(CLI::Range(0, 4096));
-  command->add_flag("--json", options->json, "One JSON object on standard output");
-  command->callback([&context, options] {
+  command.add_option("--claim", options->claims, "Only this claim, e.g. M13; may be repeated")
+      .type_name("ID")
+      .repeatable();
+  command.add_option("--finger", options->finger, "Finger file; default: fingers/reference.toml")
+      .type_name("FILE");
+  command.add_option("--out", options->out, "Also write claims.csv and claims.md").type_name("DIR");
+  command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
+  command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return run(context, *options); };
   });
 }

@@ -1,5 +1,4 @@
 // papilla solve bridge: the exact liquid bridge between two plates.
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -37,20 +36,18 @@ int solve(const BridgeOptions& options) {
 
 }  // namespace
 
-void add_solve_bridge(CLI::App& solve_command, Context& context) {
-  CLI::App* command =
-      solve_command.add_subcommand("bridge", "Exact liquid bridge between two plates");
+void add_solve_bridge(Command solve_command, Context& context) {
+  Command command = solve_command.add_command("bridge", "Exact liquid bridge between two plates");
   auto options = std::make_shared<BridgeOptions>();
-  command->add_option("--volume", options->volume, "Of the liquid")->capture_default_str();
-  command->add_option("--gap", options->gap, "Distance of the plates")->capture_default_str();
-  command->add_option("--theta1", options->theta1, "Contact angle on the first plate")
-      ->capture_default_str();
-  command->add_option("--theta2", options->theta2, "Contact angle on the second plate")
-      ->capture_default_str();
-  command->add_option("--surface-tension", options->surface_tension, "Of the liquid")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "One JSON object, SI units");
-  command->callback(
+  command.add_option("--volume", options->volume, "Of the liquid").show_default();
+  command.add_option("--gap", options->gap, "Distance of the plates").show_default();
+  command.add_option("--theta1", options->theta1, "Contact angle on the first plate")
+      .show_default();
+  command.add_option("--theta2", options->theta2, "Contact angle on the second plate")
+      .show_default();
+  command.add_option("--surface-tension", options->surface_tension, "Of the liquid").show_default();
+  command.add_flag("--json", options->json, "One JSON object, SI units");
+  command.on_chosen(
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 

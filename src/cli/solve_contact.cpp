@@ -1,7 +1,6 @@
 // papilla solve contact: a rigid rough surface pressed on a (layered) elastic half-space.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -110,43 +109,40 @@ int solve(const ContactCommand& c) {
 
 }  // namespace
 
-void add_solve_contact(CLI::App& solve_command, Context& context) {
-  CLI::App* command = solve_command.add_subcommand(
+void add_solve_contact(Command solve_command, Context& context) {
+  Command command = solve_command.add_command(
       "contact", "Rough contact of a rigid surface with a layered elastic half-space");
   auto c = std::make_shared<ContactCommand>();
-  command->add_option("--height", c->height, "Heightmap (.npy .gsf .exr .tif), high touches first")
-      ->required();
-  command->add_option("--size", c->size,
-                      "Lateral size in x, where the file does not say: \"12 um\"");
-  command->add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"");
-  command->add_option("--approach", c->approach,
-                      "Or the rigid approach from first touch: \"120 nm\"");
-  command->add_option("--modulus", c->modulus, "E* of a homogeneous half-space: \"53 MPa\"");
-  command->add_option("--layer-modulus", c->layer_modulus, "Young's modulus of the layer");
-  command->add_option("--layer-poisson", c->layer_poisson, "Its Poisson ratio")
-      ->check(CLI::Range(0.0, 0.5));
-  command->add_option("--layer-thickness", c->layer_thickness, "Its thickness");
-  command->add_option("--bulk-modulus", c->bulk_modulus, "Young's modulus below");
-  command->add_option("--bulk-poisson", c->bulk_poisson, "Poisson ratio below")
-      ->check(CLI::Range(0.0, 0.5));
-  command->add_option("--counter-modulus", c->counter_modulus,
-                      "Young's modulus of a compliant counter-body");
-  command->add_option("--counter-poisson", c->counter_poisson, "Its Poisson ratio")
-      ->check(CLI::Range(0.0, 0.5));
-  command->add_option("--hardness", c->hardness, "Cap on the pressure; 0: none");
-  command->add_option("--tolerance", c->tolerance, "On the certificate (docs/theory/contact.md)")
-      ->check(CLI::Range(1e-15, 0.1));
-  command->add_option("--method", c->method, "auto, dense (full grid) or sparse (light contact)")
-      ->transform(CLI::Transformer(kMethods));
-  command->add_option("--max-iterations", c->max_iterations, "Before the solver gives up")
-      ->check(CLI::Range(1, 1000000));
+  command.add_option("--height", c->height, "Heightmap (.npy .gsf .exr .tif), high touches first")
+      .required();
+  command.add_option("--size", c->size,
+                     "Lateral size in x, where the file does not say: \"12 um\"");
+  command.add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"");
+  command.add_option("--approach", c->approach,
+                     "Or the rigid approach from first touch: \"120 nm\"");
+  command.add_option("--modulus", c->modulus, "E* of a homogeneous half-space: \"53 MPa\"");
+  command.add_option("--layer-modulus", c->layer_modulus, "Young's modulus of the layer");
+  command.add_option("--layer-poisson", c->layer_poisson, "Its Poisson ratio").range(0.0, 0.5);
+  command.add_option("--layer-thickness", c->layer_thickness, "Its thickness");
+  command.add_option("--bulk-modulus", c->bulk_modulus, "Young's modulus below");
+  command.add_option("--bulk-poisson", c->bulk_poisson, "Poisson ratio below").range(0.0, 0.5);
+  command.add_option("--counter-modulus", c->counter_modulus,
+                     "Young's modulus of a compliant counter-body");
+  command.add_option("--counter-poisson", c->counter_poisson, "Its Poisson ratio").range(0.0, 0.5);
+  command.add_option("--hardness", c->hardness, "Cap on the pressure; 0: none");
+  command.add_option("--tolerance", c->tolerance, "On the certificate (docs/theory/contact.md)")
+      .range(1e-15, 0.1);
+  command.add_choice("--method", c->method, kMethods,
+                     "auto, dense (full grid) or sparse (light contact)");
+  command.add_option("--max-iterations", c->max_iterations, "Before the solver gives up")
+      .range(1, 1000000);
   command
-      ->add_option("--threads", c->threads, "Accepted for comparisons: a solve runs on one thread")
-      ->check(CLI::Range(1, 1024));
-  command->add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
-  command->add_option("--out-gap", c->out_gap, "Gap [m] as .npy");
-  command->add_flag("--json", c->json, "One JSON object");
-  command->callback([c, &context] { context.action = [c] { return solve(*c); }; });
+      .add_option("--threads", c->threads, "Accepted for comparisons: a solve runs on one thread")
+      .range(1, 1024);
+  command.add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
+  command.add_option("--out-gap", c->out_gap, "Gap [m] as .npy");
+  command.add_flag("--json", c->json, "One JSON object");
+  command.on_chosen([c, &context] { context.action = [c] { return solve(*c); }; });
 }
 
 }  // namespace papilla

@@ -1,5 +1,4 @@
 // papilla solve drive: from the source to the force over time and its spectrum.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
@@ -41,22 +40,22 @@ int solve(const Context& context, const DriveCommand& command) {
 
 }  // namespace
 
-void add_solve_drive(CLI::App& solve_command, Context& context) {
-  CLI::App* command = solve_command.add_subcommand(
+void add_solve_drive(Command solve_command, Context& context) {
+  Command command = solve_command.add_command(
       "drive", "From the source to the force: impedances, modulation, spectrum, limits");
   auto options = std::make_shared<DriveCommand>();
-  command->add_option("file", options->file.file, "Case, e.g. designs/physics/fingertip_drive.toml")
-      ->required()
-      ->type_name("FILE");
-  add_set_option(*command, options->file.overrides);
-  command->add_flag("--json", options->file.json, "One JSON object, SI units");
+  command.add_option("file", options->file.file, "Case, e.g. designs/physics/fingertip_drive.toml")
+      .required()
+      .type_name("FILE");
+  add_set_option(command, options->file.overrides);
+  command.add_flag("--json", options->file.json, "One JSON object, SI units");
   command
-      ->add_option("--swipe", options->swipe,
-                   "Forces \"lateral,normal\" [N] at 1 kHz: when stickiness would drive the finger")
-      ->type_name("FORCES.csv");
-  command->add_option("--out", options->out, "Also write series.csv, lines.csv and drive.svg")
-      ->type_name("DIR");
-  command->callback([&context, options] {
+      .add_option("--swipe", options->swipe,
+                  "Forces \"lateral,normal\" [N] at 1 kHz: when stickiness would drive the finger")
+      .type_name("FORCES.csv");
+  command.add_option("--out", options->out, "Also write series.csv, lines.csv and drive.svg")
+      .type_name("DIR");
+  command.on_chosen([&context, options] {
     context.action = [&context, options] { return solve(context, *options); };
   });
 }

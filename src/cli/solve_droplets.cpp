@@ -1,6 +1,5 @@
 // papilla solve droplets: sweat in a given gap; states, forces and a picture of
 // the droplets before and after they move.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -94,58 +93,55 @@ int solve(const DropletsOptions& options) {
 
 }  // namespace
 
-void add_solve_droplets(CLI::App& solve_command, Context& context) {
-  CLI::App* command = solve_command.add_subcommand("droplets", "Droplets of sweat in a given gap");
+void add_solve_droplets(Command solve_command, Context& context) {
+  Command command = solve_command.add_command("droplets", "Droplets of sweat in a given gap");
   auto options = std::make_shared<DropletsOptions>();
-  CLI::Option_group* where = command->add_option_group("gap");
-  where->add_option("--gap", options->gap_file, "Heightmap of the gap: .npy, .gsf, .exr, .tif");
-  where->add_option("--design", options->design,
-                    "Design file: gap of its dry contact, water and angles of its finger");
-  where->require_option(1);
-  command->add_option("--humidity", options->humidity, "Of the design")->capture_default_str();
-  command->add_option("--skin", options->skin, "Skin patch of the design, from 0")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  command->add_option("--size", options->size, "Lateral size in x where the file does not say");
-  command->add_option("--volume", options->volume, "Water in the patch")->capture_default_str();
-  command->add_option("--theta-skin", options->theta_skin, "Contact angle on the skin")
-      ->capture_default_str();
-  command->add_option("--theta-substrate", options->theta_substrate, "Contact angle on the surface")
-      ->capture_default_str();
-  command->add_option("--surface-tension", options->surface_tension, "Of the sweat")
-      ->capture_default_str();
-  command->add_option("--hysteresis", options->hysteresis, "cos(receding) - cos(advancing), 0 to 2")
-      ->check(CLI::Range(0.0, 2.0))
-      ->capture_default_str();
-  command->add_option("--drops-per-um3", options->drops_per_um3, "Droplets that a volume starts as")
-      ->capture_default_str();
-  command->add_option("--step", options->step, "First step of a droplet: its mobility")
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "Seed of the placement")
-      ->check(CLI::Range(0L, 1L << 53))
-      ->capture_default_str();
-  command->add_option("--index", options->index, "Member of the ensemble")
-      ->check(CLI::Range(0L, 1L << 53))
-      ->capture_default_str();
-  command->add_option("--model", options->model, "droplets or threshold")
-      ->check(CLI::IsMember({"droplets", "threshold"}))
-      ->capture_default_str();
-  command->add_option(
+  Command where = command.add_alternatives("gap");
+  where.add_option("--gap", options->gap_file, "Heightmap of the gap: .npy, .gsf, .exr, .tif");
+  where.add_option("--design", options->design,
+                   "Design file: gap of its dry contact, water and angles of its finger");
+  command.add_option("--humidity", options->humidity, "Of the design").show_default();
+  command.add_option("--skin", options->skin, "Skin patch of the design, from 0")
+      .range(0, 1000000)
+      .show_default();
+  command.add_option("--size", options->size, "Lateral size in x where the file does not say");
+  command.add_option("--volume", options->volume, "Water in the patch").show_default();
+  command.add_option("--theta-skin", options->theta_skin, "Contact angle on the skin")
+      .show_default();
+  command.add_option("--theta-substrate", options->theta_substrate, "Contact angle on the surface")
+      .show_default();
+  command.add_option("--surface-tension", options->surface_tension, "Of the sweat").show_default();
+  command.add_option("--hysteresis", options->hysteresis, "cos(receding) - cos(advancing), 0 to 2")
+      .range(0.0, 2.0)
+      .show_default();
+  command.add_option("--drops-per-um3", options->drops_per_um3, "Droplets that a volume starts as")
+      .show_default();
+  command.add_option("--step", options->step, "First step of a droplet: its mobility")
+      .show_default();
+  command.add_option("--seed", options->seed, "Seed of the placement")
+      .range(0L, 1L << 53)
+      .show_default();
+  command.add_option("--index", options->index, "Member of the ensemble")
+      .range(0L, 1L << 53)
+      .show_default();
+  command.add_option("--model", options->model, "droplets or threshold")
+      .one_of({"droplets", "threshold"})
+      .show_default();
+  command.add_option(
       "--out", options->picture,
       "PNG of the initial (left) and final droplets: bridges blue, film cyan, on the "
       "surface orange, on the skin magenta; gap in grey");
-  command->add_flag("--pin-edges", options->pinning,
-                    "Design: lines do not pass the edges of holes");
-  command->add_flag("--wick-corners", options->wicking,
-                    "Design: droplets at the foot of a wall creep along it");
+  command.add_flag("--pin-edges", options->pinning, "Design: lines do not pass the edges of holes");
+  command.add_flag("--wick-corners", options->wicking,
+                   "Design: droplets at the foot of a wall creep along it");
   command
-      ->add_option("--placements", options->seeds,
-                   "Placements of a low and a high volume each, with standard errors")
-      ->check(CLI::Range(2, 10000));
-  command->add_option("--spread", options->spread, "Low and high volume, as a share of the volume")
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "One JSON object, SI units");
-  command->callback(
+      .add_option("--placements", options->seeds,
+                  "Placements of a low and a high volume each, with standard errors")
+      .range(2, 10000);
+  command.add_option("--spread", options->spread, "Low and high volume, as a share of the volume")
+      .show_default();
+  command.add_flag("--json", options->json, "One JSON object, SI units");
+  command.on_chosen(
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 

@@ -1,7 +1,6 @@
 // papilla solve field: the electrostatic pull over a gap heightmap.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -79,35 +78,35 @@ int solve(const FieldCommand& c) {
 
 }  // namespace
 
-void add_solve_field(CLI::App& solve_command, Context& context) {
-  CLI::App* command = solve_command.add_subcommand(
+void add_solve_field(Command solve_command, Context& context) {
+  Command command = solve_command.add_command(
       "field", "Electrostatic pull over a gap: by columns, with spreading flux, or 3-D");
   auto c = std::make_shared<FieldCommand>();
-  command->add_option("--gap", c->gap, "Gap heightmap (.npy .gsf .exr .tif)")->required();
-  command->add_option("--texture", c->texture,
-                      "Surface below the gap, whose oxide follows its walls; default: flat");
-  command->add_option("--size", c->size, "Lateral size in x, where the file does not say");
-  command->add_option("--voltage", c->voltage, "Peak of a sine: \"200 V\"")->required();
-  command->add_flag("--dc", c->dc, "The voltage is constant");
-  command->add_option("--thickness", c->thickness, "Of the dielectric")->capture_default_str();
-  command->add_option("--permittivity", c->permittivity, "Of the dielectric, relative")
-      ->check(CLI::Range(1.0, 1e5))
-      ->capture_default_str();
-  command->add_option("--strength", c->strength, "Its breakdown field")->capture_default_str();
+  command.add_option("--gap", c->gap, "Gap heightmap (.npy .gsf .exr .tif)").required();
+  command.add_option("--texture", c->texture,
+                     "Surface below the gap, whose oxide follows its walls; default: flat");
+  command.add_option("--size", c->size, "Lateral size in x, where the file does not say");
+  command.add_option("--voltage", c->voltage, "Peak of a sine: \"200 V\"").required();
+  command.add_flag("--dc", c->dc, "The voltage is constant");
+  command.add_option("--thickness", c->thickness, "Of the dielectric").show_default();
+  command.add_option("--permittivity", c->permittivity, "Of the dielectric, relative")
+      .range(1.0, 1e5)
+      .show_default();
+  command.add_option("--strength", c->strength, "Its breakdown field").show_default();
   command
-      ->add_option("--edge-radius", c->edge_radius,
-                   "Of the electrode's edges below walls; 0: not stated")
-      ->capture_default_str();
-  command->add_option("--skin-layer", c->skin_layer, "d/eps of the stratum corneum in series")
-      ->capture_default_str();
+      .add_option("--edge-radius", c->edge_radius,
+                  "Of the electrode's edges below walls; 0: not stated")
+      .show_default();
+  command.add_option("--skin-layer", c->skin_layer, "d/eps of the stratum corneum in series")
+      .show_default();
   command
-      ->add_option("--method", c->method,
-                   "spread: flux spreads in the dielectric; local: columns; full: 3-D")
-      ->check(CLI::IsMember({"spread", "local", "full"}))
-      ->capture_default_str();
-  command->add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
-  command->add_flag("--json", c->json, "One JSON object");
-  command->callback([c, &context] { context.action = [c] { return solve(*c); }; });
+      .add_option("--method", c->method,
+                  "spread: flux spreads in the dielectric; local: columns; full: 3-D")
+      .one_of({"spread", "local", "full"})
+      .show_default();
+  command.add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
+  command.add_flag("--json", c->json, "One JSON object");
+  command.on_chosen([c, &context] { context.action = [c] { return solve(*c); }; });
 }
 
 }  // namespace papilla

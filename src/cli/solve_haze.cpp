@@ -1,5 +1,4 @@
 // papilla solve haze: how a design or a heightmap looks on glass.
-#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 
@@ -7,7 +6,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "forward/appearance.h"
 #include "geometry/io/files.h"
 #include "report/pieces.h"
@@ -56,26 +55,26 @@ int solve(const HazeOptions& options) {
 
 }  // namespace
 
-void add_solve_haze(CLI::App& solve_command, Context& context) {
-  CLI::App* command = solve_command.add_subcommand(
+void add_solve_haze(Command solve_command, Context& context) {
+  Command command = solve_command.add_command(
       "haze", "Haze, transmittance, gloss and colour of a texture on glass");
   auto options = std::make_shared<HazeOptions>();
-  command->add_option("file", options->design.file, "Design or study file")->type_name("FILE");
-  add_set_option(*command, options->design.overrides);
-  command->add_option("--height", options->height, "Heightmap instead: .npy .gsf .exr .tif")
-      ->type_name("FILE");
-  command->add_option("--size", options->size, "Its width where the file does not say");
-  command->add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
-      ->check(CLI::Range(1.0, 5.0));
+  command.add_option("file", options->design.file, "Design or study file").type_name("FILE");
+  add_set_option(command, options->design.overrides);
+  command.add_option("--height", options->height, "Heightmap instead: .npy .gsf .exr .tif")
+      .type_name("FILE");
+  command.add_option("--size", options->size, "Its width where the file does not say");
+  command.add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
+      .range(1.0, 5.0);
   command
-      ->add_option("--fill-index", options->fill,
-                   "Index of what fills the texture; default: the design's, or 1, air")
-      ->check(CLI::Range(1.0, 5.0));
-  command->add_option("--angle", options->angles,
-                      "From the normal, e.g. \"45 deg\"; several: their mean; default: the "
-                      "design's, or 0");
-  command->add_flag("--json", options->design.json, "One JSON object, SI units");
-  command->callback(
+      .add_option("--fill-index", options->fill,
+                  "Index of what fills the texture; default: the design's, or 1, air")
+      .range(1.0, 5.0);
+  command.add_option("--angle", options->angles,
+                     "From the normal, e.g. \"45 deg\"; several: their mean; default: the "
+                     "design's, or 0");
+  command.add_flag("--json", options->design.json, "One JSON object, SI units");
+  command.on_chosen(
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 

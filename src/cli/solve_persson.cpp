@@ -1,5 +1,4 @@
 // papilla solve persson: mean field of a rough skin under voltage.
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -24,16 +23,16 @@ int solve(const DesignOptions& options) {
 
 }  // namespace
 
-void add_solve_persson(CLI::App& solve_command, Context& context) {
-  CLI::App* command = solve_command.add_subcommand(
+void add_solve_persson(Command solve_command, Context& context) {
+  Command command = solve_command.add_command(
       "persson", "Mean field of a rough skin under voltage: area, gap, pull, friction");
   auto options = std::make_shared<DesignOptions>();
-  command->add_option("file", options->file, "Case, e.g. designs/physics/wrist_on_glass.toml")
-      ->required()
-      ->type_name("FILE");
-  add_set_option(*command, options->overrides);
-  command->add_flag("--json", options->json, "One JSON object, SI units");
-  command->callback(
+  command.add_option("file", options->file, "Case, e.g. designs/physics/wrist_on_glass.toml")
+      .required()
+      .type_name("FILE");
+  add_set_option(command, options->overrides);
+  command.add_flag("--json", options->json, "One JSON object, SI units");
+  command.on_chosen(
       [&context, options] { context.action = [options] { return solve(*options); }; });
 }
 

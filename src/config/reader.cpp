@@ -655,8 +655,11 @@ Document load_document(const std::string& path, const std::vector<std::string>& 
 }
 
 Document parse_document(const std::string& text, const std::string& file,
-                        const std::vector<std::string>& overrides) {
-  return Document(with_overrides_and_bases(parse_file_text(text, file), overrides, nullptr));
+                        const std::vector<std::string>& overrides,
+                        const std::vector<std::string>& search_roots) {
+  BaseFiles bases{fs::current_path(), search_roots, {}};
+  return Document(with_overrides_and_bases(parse_file_text(text, file), overrides,
+                                           search_roots.empty() ? nullptr : &bases));
 }
 
 void Document::finish() {

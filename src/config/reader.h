@@ -62,9 +62,11 @@ class Document {
 // surface.dielectric.0.thickness
 Document load_document(const std::string& path, const std::vector<std::string>& overrides = {},
                        const std::vector<std::string>& search_roots = {});
-// The same from text, for tests and `file`less input.
+// The same from text; `file` stands for it in problems. With search roots its bases are looked for
+// in the current folder and below the roots, without it has none.
 Document parse_document(const std::string& text, const std::string& file,
-                        const std::vector<std::string>& overrides = {});
+                        const std::vector<std::string>& overrides = {},
+                        const std::vector<std::string>& search_roots = {});
 
 // Finds a file that `from` names: beside it, then under the roots; empty when there is none there.
 std::string find_beside(const std::string& name, const std::string& from,

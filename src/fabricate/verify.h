@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "design/design.h"
+#include "design/study.h"
 #include "geometry/io/mask.h"
 
 namespace papilla {

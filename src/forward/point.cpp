@@ -41,27 +41,28 @@ void gather(ResponsePoint& point, Patches patches) {
   }
 }
 
-Measured scaled(const Measured& dry, const Estimate& load_ratio, double beta) {
-  const double base = std::max(load_ratio.value, 0.0);
-  const double factor = std::pow(base, beta);
-  const double relative = base > 0 ? beta * load_ratio.se / base : 0;
+Measured scaled(const Measured& dry, const Estimate& load_ratio, const Fidelity& fidelity) {
+  const double factor = fidelity.area_by_load(load_ratio.value);
+  const double relative =
+      load_ratio.value > 0 ? fidelity.load_exponent * load_ratio.se / load_ratio.value : 0;
   return {dry.value * factor,
           {.sampling = std::hypot(dry.parts.sampling * factor, dry.value * factor * relative)}};
 }
 
 // Eq. friction.3: F ~ L^beta on the dry contact area.
-void areas_by_load(ResponsePoint& point, Patches patches, double beta) {
+void areas_by_load(ResponsePoint& point, Patches patches, const Fidelity& fidelity) {
   const Measured dry = sampled_mean(patches, &PatchResult::area_dry);
   std::vector<double> loads;
   for (const PatchResult& p : patches) loads.push_back(p.load);
   const Estimate off = ratio_estimate(point.samples.load_off, loads);
   const Estimate on = ratio_estimate(point.samples.load_on, loads);
   const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
-  point.area_fraction_off = scaled(dry, off, beta);
-  point.area_fraction_on = scaled(dry, on, beta);
-  const double ratio = std::pow(std::max(gain.value, 0.0), beta);
+  point.area_fraction_off = scaled(dry, off, fidelity);
+  point.area_fraction_on = scaled(dry, on, fidelity);
+  const double ratio = fidelity.area_by_load(gain.value);
   point.modulation.value = ratio - 1;
-  point.modulation.parts.sampling = beta * ratio * gain.se / std::max(gain.value, 1e-12);
+  point.modulation.parts.sampling =
+      fidelity.load_exponent * ratio * gain.se / std::max(gain.value, 1e-12);
 }
 
 // Eq. friction.1, friction.2: resolved areas, ratio of sums over the skins.
@@ -86,6 +87,7 @@ Measured friction(double strength, const Measured& area, const Measured& retenti
 // Friction off and on from areas and retention; of the modulation the share of the dry friction,
 // because the retention force is part of both frictions. Eq. friction.1
 void add_friction(ResponsePoint& point, double strength, bool driven) {
+  point.strength = strength;
   point.friction_off = friction(strength, point.area_fraction_off, point.retention_force);
   point.friction_on = friction(strength, point.area_fraction_on, point.retention_force);
   if (!driven) {
@@ -131,7 +133,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   }
   if (!plan.retention) point.retention_force = {};
   if (setting.fidelity.estimator == Estimator::Load || !plan.traction_solves) {
-    areas_by_load(point, patches, setting.fidelity.load_exponent);
+    areas_by_load(point, patches, setting.fidelity);
   } else {
     areas_resolved(point);
   }

@@ -103,6 +103,7 @@ struct ResponsePoint : PointQuantities {
   double peak_oxide_field = 0;      // [V/m] mean over the layers
   double oxide_margin = kInfinity;  // least strength over field of a layer of the dielectric
   double peak_air_field = 0;        // [V/m]
+  double strength = 0;  // tau x load-carrying area [N]: of contact, F = strength x fraction
   // Relative, of the pull by the field rule that was used; no part of the errors above, because the
   // finger is fitted with that rule. Eq. electrostatics.15
   double field_error = 0;

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "geometry/texture.h"
 #include "report/markup.h"
 #include "report/page_data.h"

@@ -10,7 +10,7 @@
 #include "cases/drive.h"
 #include "cases/persson.h"
 #include "config/describe.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "fabricate/formats.h"
 #include "metrics/metrics.h"
 

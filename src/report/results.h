@@ -1,34 +1,22 @@
-// The folder of a run: tables, one folder a design of the front, the best, a summary.
+// The folder of a run: tables, one folder per design of the front, the best, a summary.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "search/run.h"
 
 namespace papilla {
 
-// Refuses a second run in the same folder while this one lives (released by the system when the
-// process ends, however it ends). Throws InputError.
-class FolderLock {
+class FolderWriter : public ResultWriter {
  public:
-  explicit FolderLock(const std::string& folder);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int file_ = -1;
+  std::string text(const Response& response) const override;
+  void write(const ResultFiles& files) const override;
 };
 
-struct ResultFiles {
-  const std::string& folder;
-  const Study& study;
-  const StudyProblem& problem;
-  const std::vector<Evaluation>& history;
-  OptimiseResult& result;   // hypervolumes are filled in
-  const std::string& pick;  // rule that chose the best design
-};
+// Searches, and writes the folder of results.
+OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options);
+
+// All files of the folder but its page.
 void write_results(const ResultFiles& files);
 
 }  // namespace papilla

@@ -1,5 +1,5 @@
 // Runs a study: searches cheaply, confirms the finalists at the study's accuracy on fresh skins,
-// writes the folder of results. Resumable after a kill at any moment.
+// checks what is said of them. Resumable after a kill at any moment.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "forward/response.h"
 #include "search/problem.h"
+#include "search/protocol.h"
+#include "search/sensitivity.h"
 #include "search/stability.h"
 
 namespace papilla {
@@ -20,14 +23,6 @@ struct Progress {
   double seconds_left = 0;  // < 0: not known yet
 };
 
-struct OptimiseOptions {
-  std::string folder;
-  bool resume = false;
-  std::function<void(const Progress&)> progress;  // may be empty
-  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after the running evaluation
-  std::string pick{};  // which design of the front is the best: a rule of pick_design
-};
-
 struct FinalDesign {
   Point unit;
   Design design;
@@ -36,18 +31,6 @@ struct FinalDesign {
   // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
   // rest.
   std::string folder;
-};
-
-// What a variable does at the best design, at search level. Eq. search.9
-struct VariableSensitivity {
-  std::size_t variable = 0;
-  std::vector<double> change;  // of each objective for +`step`, the user's sign
-  std::vector<double> share;   // of each objective's variance when all variables scatter by a step
-  double step = 0;             // SI
-  // Drift that costs no objective more than 5 % of its value, SI; beyond: even a whole step does
-  // not.
-  double down = 0, up = 0;
-  bool down_beyond = false, up_beyond = false;
 };
 
 struct OptimiseResult {
@@ -68,22 +51,40 @@ struct OptimiseResult {
   bool has_best() const { return !finalists.empty() && finalists[best].confirmed.ok; }
 };
 
+// A run as its folder shows it.
+struct ResultFiles {
+  const std::string& folder;
+  const Study& study;
+  const StudyProblem& problem;
+  const JudgedDesigns& history;  // of the search
+  const OptimiseResult& result;
+  const std::string& pick;  // rule that chose the best design
+};
+
+// Makes files of values, for the folder of a run.
+class ResultWriter {
+ public:
+  virtual ~ResultWriter() = default;
+  // The response of a confirmed task; called in workers.
+  virtual std::string text(const Response& response) const = 0;
+  // Tables, designs and pages, once the run has ended.
+  virtual void write(const ResultFiles& files) const = 0;
+};
+
+struct OptimiseOptions {
+  std::string folder;
+  bool resume = false;
+  std::function<void(const Progress&)> progress;  // may be empty
+  const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after the running evaluation
+  std::string pick{};  // which design of the front is the best: a rule of pick_design
+  const ResultWriter* writer =
+      nullptr;  // none: the folder has the journal, the plan and no results
+};
+
 // Throws InputError for a folder that belongs to another study or is in use, for one without a run
 // to resume, and for a rule of `pick` that no front could meet; the folder is then as before.
 // Launched by mpirun as several processes, rank 0 does this and the others evaluate for it and
 // return an empty result.
 OptimiseResult optimise(const Study& study, const OptimiseOptions& options);
-
-// Evaluations that a study gets when nothing else is said.
-int default_evaluations(const Study& study);
-
-// The finalists as a table for people (Markdown).
-std::string result_table(const Study& study, const OptimiseResult& result);
-
-// Why nothing is feasible, as part of a sentence.
-std::string infeasible_text(const OptimiseResult& result);
-
-// What will run, for plan.txt and people.
-std::string search_plan(const Study& study);
 
 }  // namespace papilla

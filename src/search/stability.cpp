@@ -59,42 +59,42 @@ std::vector<std::string> stability_variants(const StudyProblem& problem) {
   return out;
 }
 
-Outcome evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t index,
-                         const Fidelity& fidelity) {
+TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t index,
+                            const Fidelity& fidelity) {
   const Variant variant = variants(problem).at(index);
   const StudyTask& task = problem.tasks()[variant.task];
+  const StudyGoals& goals = problem.goals();
   const Design d = with_settings(design, task.settings);
   Scene scene{d.surface, task.finger, d.environment, d.drive, d.model};
   variant.change(scene);
   Response response = evaluate(scene, d.texture, fidelity);
-  if (!problem.voltage_targets().empty())
-    add_voltages(response, scene, d.texture, fidelity, problem.voltage_targets());
-  if (problem.needs_appearance()) response.appearance = appearance_of(d);
-  Outcome out;
-  for (const StudyObjective& o : problem.objectives()) {
+  if (!goals.voltage_targets.empty())
+    add_voltages(response, scene, d.texture, fidelity, goals.voltage_targets);
+  if (goals.looks) response.appearance = appearance_of(d);
+  TaskAnswer out;
+  for (const StudyObjective& o : goals.objectives) {
     const auto v = summarise(o.expression.summary, o.expression.metric, response);
-    if (!v || !std::isfinite(v->value)) {
-      out.objectives.clear();
-      out.reason = o.name + " is not defined";
-      return out;
-    }
-    out.objectives.push_back(v->value);
+    if (!v || !std::isfinite(v->value))
+      return TaskAnswer::refused(TaskStatus::Kind::NotDefined, o.name + " is not defined");
+    out.objectives.push_back({v->value, v->se, {}});
   }
-  out.ok = true;
   return out;
 }
 
 Stability judge_stability(const StudyProblem& problem,
-                          const std::vector<std::vector<Outcome>>& outcomes, double tolerance) {
+                          const std::vector<std::vector<TaskAnswer>>& answers, double tolerance) {
   const auto& objectives = problem.objectives();
-  const std::size_t designs = outcomes.size();
+  const std::size_t designs = answers.size();
   Stability out;
   out.times_on_front.assign(designs, 0);
   const std::vector<std::string> names = stability_variants(problem);
   for (std::size_t v = 0; v < names.size(); ++v) {
     StabilityVariant result;
     result.name = names[v];
-    for (const auto& design : outcomes) result.values.push_back(design[v].objectives);
+    for (const auto& design : answers) {
+      std::vector<double>& values = result.values.emplace_back();
+      for (const TaskObjective& o : design[v].objectives) values.push_back(o.value);
+    }
     for (std::size_t i = 0; i < designs; ++i) {
       bool front = !result.values[i].empty();
       for (std::size_t j = 0; j < designs && front; ++j) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "search/problem.h"
+#include "search/protocol.h"
 
 namespace papilla {
 
@@ -30,14 +31,14 @@ struct Stability {
 // breakdown cap, self-consistent coupling.
 std::vector<std::string> stability_variants(const StudyProblem& problem);
 
-// One design in one variant: objectives in the user's sign. Cost: one finger at this fidelity.
-Outcome evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t variant,
-                         const Fidelity& fidelity);
+// One design in one variant: the values of the objectives. Cost: one finger at this fidelity.
+TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t variant,
+                            const Fidelity& fidelity);
 
-// From outcomes[design][variant]. Common random numbers throughout, so a design counts as beaten
+// From answers[design][variant]. Common random numbers throughout, so a design counts as beaten
 // only by one that is better by `tolerance` (relative) in every objective.
 Stability judge_stability(const StudyProblem& problem,
-                          const std::vector<std::vector<Outcome>>& outcomes,
+                          const std::vector<std::vector<TaskAnswer>>& answers,
                           double tolerance = 0.01);
 
 }  // namespace papilla

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/memory.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "forward/forward.h"
 
 int main() {

@@ -39,6 +39,7 @@
 #include "optim/pareto.h"
 #include "optim/search.h"
 #include "search/problem.h"
+#include "search/task.h"
 
 using namespace papilla;
 
@@ -250,13 +251,14 @@ class Judge {
   Outcome operator()(const Point& u) {
     if (const auto it = known_.find(u); it != known_.end()) return it->second;
     const auto from = std::clock();
-    std::vector<Outcome> tasks;
+    std::vector<TaskAnswer> tasks;
+    const Design design = problem_.space().design(u);
     for (std::size_t t = 0; t < problem_.tasks().size(); ++t)
-      tasks.push_back(problem_.evaluate_task(u, t, fidelity_, false));
+      tasks.push_back(evaluate_task(problem_, design, t, {fidelity_}));
     seconds_ += static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
     ++count_;
     return known_[u] = guarded(problem_.outcome(problem_.score(tasks)),
-                               problem_.objectives().size(), problem_.constraints());
+                               problem_.objectives().size(), problem_.constraints().evaluated());
   }
   double seconds_each() const { return count_ ? seconds_ / count_ : 0; }
   const std::map<Point, Outcome>& known() const { return known_; }
@@ -279,13 +281,13 @@ Fidelity level(int grid, int skins, int first_skin = 0) {
 
 SearchProblem search_of(const StudyProblem& problem) {
   SearchProblem p;
-  p.space = problem.space();
+  const DesignSpace& space = problem.space();
+  p.space = space.cube();
   p.objectives = problem.objectives().size();
-  p.constraints = problem.constraints();
-  p.cheap_constraints = [&problem](const Point& u) { return problem.geometry(u); };
-  if (problem.has_features())
-    p.features = [&problem](const Point& u) { return problem.features(u); };
-  p.starts = problem.starts();
+  p.constraints = problem.constraints().evaluated();
+  p.cheap_constraints = [&problem](const Point& u) { return problem.constraints().geometry(u); };
+  if (space.has_features()) p.features = [&space](const Point& u) { return space.features(u); };
+  p.starts = space.starts();
   return p;
 }
 
@@ -385,7 +387,7 @@ void write_front(const std::string& path, const Study& study, const StudyProblem
     fmt::print(out, "{}{}", k ? "," : "", problem.objectives()[k].name);
   fmt::print(out, "\n");
   for (std::size_t i : pareto_front(all)) {
-    const std::vector<double> values = problem.values(all[i].unit);
+    const std::vector<double> values = problem.space().value(all[i].unit);
     for (std::size_t k = 0; k < values.size(); ++k)
       fmt::print(out, "{},", variable_text(study.variables[k], values[k], true));
     for (std::size_t k = 0; k < problem.objectives().size(); ++k)
@@ -525,7 +527,7 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
     std::vector<Evaluation> judged;
     for (const Point& u : designs) {
       judged.push_back({u, judge(u)});
-      for (double v : problem.values(u)) fmt::print(stderr, "{:.4g} ", v);
+      for (double v : problem.space().value(u)) fmt::print(stderr, "{:.4g} ", v);
       for (double v : judged.back().outcome.objectives) fmt::print(stderr, " {:.4f}", v);
       fmt::print(stderr, "{}\n", judged.back().outcome.feasible() ? "" : " infeasible");
     }
@@ -592,7 +594,7 @@ void product(const std::string& file, int evaluations, int seeds, int grid, int 
   bench.problem = search_of(problem);
   bench.full = [&](const Point& u) { return full(u); };
   bench.draft = [&](const Point& u) { return draft(u); };
-  const Point own = problem.unit_of_study();
+  const Point own = problem.space().unit_of_study();
   full(own);
   draft(own);
   bench.draft_cost = draft.seconds_each() / full.seconds_each();

@@ -10,8 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "claims/claim.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "report/fit.h"
 
 namespace papilla {
 namespace {
@@ -19,6 +21,8 @@ namespace {
 constexpr const char* kHeader =
     "design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_on_N,F_on_sd_"
     "N\n";
+
+Calibration read(const std::string& path) { return read_calibration(path, m3_claim_ids()); }
 
 class Calibrate : public testing::Test {
  protected:
@@ -59,7 +63,7 @@ softening = 2.3
 
 // What people would measure on two samples if the model with other parameters were right, without
 // noise: the fit has to find them again. Stated errors of 2 %.
-std::string planted_table(const Finger& truth, const ClaimSampling& sampling) {
+std::string planted_table(const Finger& truth, const SkinSampling& sampling) {
   std::string out = kHeader;
   for (const char* name : {"m3_samples/flat.toml", "m3_samples/a3h350.toml"}) {
     Design d = read_design(find_design(name));
@@ -79,7 +83,7 @@ std::string planted_table(const Finger& truth, const ClaimSampling& sampling) {
 Calibration Calibrate::planted_calibration(const std::string& start,
                                            const std::string& check) const {
   write("measured.csv", planted_table(planted_finger(), {check, 4, 0, 64}));
-  return read_calibration(write("fit.toml", "schema_version = 1\nfinger = \"" + start + R"("
+  return read(write("fit.toml", "schema_version = 1\nfinger = \"" + start + R"("
 data = "measured.csv"
 [sampling]
 level = "draft"
@@ -156,7 +160,7 @@ skins = 4
   CalibrationOptions options;
   options.check = false;
   options.threads = 1;
-  const CalibrationResult r = calibrate(read_calibration(file), options);
+  const CalibrationResult r = calibrate(read(file), options);
   ASSERT_EQ(r.fit.directions.size(), 2u);
   EXPECT_GT(r.fit.directions[0].singular_value, 3);
   EXPECT_LT(r.fit.directions[1].singular_value, 1);
@@ -241,7 +245,7 @@ skins = 4
 [parameters]
 "macro.shear_strength" = { low = "8 MPa", high = "10 MPa", prior = "9 MPa", sd = "1 MPa" }
 )");
-  const Calibration calibration = read_calibration(file);
+  const Calibration calibration = read(file);
   CalibrationOptions options;
   options.check = false;
   const CalibrationResult r = calibrate(calibration, options);
@@ -264,7 +268,7 @@ hold_out = ["M1", "M8"]
 "macro.load_share" = { low = 0.001, high = 0.05, prior = 0.006 }
 "skin.softening" = { low = 3.0, high = 4.0 }
 )");
-  const auto problems = problems_of([&] { read_calibration(file); });
+  const auto problems = problems_of([&] { read(file); });
   ASSERT_EQ(problems.size(), 7u);
   std::string all;
   for (const Problem& p : problems) all += p.text() + "\n";
@@ -274,7 +278,7 @@ hold_out = ["M1", "M8"]
 }
 
 TEST_F(Calibrate, TheReferenceFitReadsAndHoldsOutMoreThanItFits) {
-  const Calibration c = read_calibration(find_design("fingers/reference.calibration.toml"));
+  const Calibration c = read(find_design("fingers/reference.calibration.toml"));
   EXPECT_LT(c.fit.size(), c.hold_out.size());
   for (const CalibrationParameter& p : c.parameters) EXPECT_GT(p.fit.prior_sd, 0) << p.path;
 }

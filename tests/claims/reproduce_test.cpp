@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "report/claims.h"
 
 namespace papilla {
 namespace {

@@ -1,5 +1,3 @@
-#include "design/design.h"
-
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +6,7 @@
 #include "base/error.h"
 #include "config/describe.h"
 #include "config/writer.h"
+#include "design/study.h"
 
 namespace papilla {
 namespace {
@@ -138,7 +137,7 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
   EXPECT_EQ(problems_of(head + "[environment]\nrelative_humidity = [\"35 %\", \"15 %\"]\n"),
             ":3:21: environment.relative_humidity: expected rising values");
   EXPECT_EQ(problems_of(head + "[environment]\nweights = [1, 2]\n"),
-            ":3:11: environment.weights: expected 4 weights, one a humidity, got 2");
+            ":3:11: environment.weights: expected 4 weights, one per humidity, got 2");
   EXPECT_EQ(problems_of(head + "[finger]\nload = \"0 N\"\n"),
             ":3:8: finger.load: expected a force above 0 N");
   EXPECT_EQ(

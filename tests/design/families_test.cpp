@@ -47,15 +47,15 @@ TEST(Family, OneVariableActsOnEveryKindThatHasTheMeasure) {
   const Study study = family_study();
   const StudyProblem problem(study);
   ASSERT_EQ(problem.space().size(), 5u);
-  const Design pillars = problem.design(unit_of(problem, "pillar_array", 5e-6, 2e-6, 800e-9));
+  const Design pillars = problem.space().design(unit_of(problem, "pillar_array", 5e-6, 2e-6, 800e-9));
   ASSERT_EQ(texture_name(pillars.texture), "pillar_array");
   EXPECT_NEAR(std::get<PillarArray>(pillars.texture.kind).height, 800e-9, 1e-15);
-  const Design grating = problem.design(unit_of(problem, "grating", 5e-6, 2e-6, 800e-9));
+  const Design grating = problem.space().design(unit_of(problem, "grating", 5e-6, 2e-6, 800e-9));
   EXPECT_NEAR(std::get<Grating>(grating.texture.kind).width, 2e-6, 1e-15);
-  EXPECT_EQ(texture_name(problem.design(unit_of(problem, "flat", 5e-6, 2e-6, 8e-7)).texture),
+  EXPECT_EQ(texture_name(problem.space().design(unit_of(problem, "flat", 5e-6, 2e-6, 8e-7)).texture),
             "flat");
   // The study's own design, each other kind; the flat surface is one of them.
-  EXPECT_EQ(problem.starts().size(), 4u);
+  EXPECT_EQ(problem.space().starts().size(), 4u);
 }
 
 TEST(Family, FlatDesignsAreOnePoint) {
@@ -70,8 +70,8 @@ TEST(Family, FlatDesignsAreOnePoint) {
   }
   ASSERT_EQ(points.size(), 1u);
   EXPECT_EQ(problem.space().snapped(*points.begin()), *points.begin());
-  EXPECT_EQ(texture_name(problem.design(*points.begin()).texture), "flat");
-  EXPECT_EQ(problem.geometry_reason(*points.begin()), "");
+  EXPECT_EQ(texture_name(problem.space().design(*points.begin()).texture), "flat");
+  EXPECT_EQ(problem.constraints().geometry_reason(*points.begin()), "");
   const Point deep = unit_of(problem, "grating", 4e-6, 1e-6, 5e-7);
   EXPECT_EQ(problem.space().snapped(deep), problem.space().unit(problem.space().value(deep)));
 }
@@ -83,7 +83,7 @@ TEST(Family, AtDepthZeroPeriodAndDiameterCollapseWithoutKindsToo) {
     return problem.space().snapped(problem.space().unit({period, diameter, 0, 0.9}));
   };
   EXPECT_EQ(flat(4e-6, 1e-6), flat(9e-6, 5e-6));
-  EXPECT_NEAR(problem.values(flat(4e-6, 1e-6))[0], study.design.texture == Texture{} ? 0 : 6e-6,
+  EXPECT_NEAR(problem.space().value(flat(4e-6, 1e-6))[0], study.design.texture == Texture{} ? 0 : 6e-6,
               1e-15);
 }
 
@@ -96,12 +96,12 @@ TEST(Family, LevelsCutAStackAndUnusedLevelsCollapse) {
     if (study.variables[i].path == "texture.parts.1.diameter") fine = i;
   }
   ASSERT_TRUE(study.variables[0].is_levels());
-  std::vector<double> value = problem.values(problem.unit_of_study());
-  EXPECT_EQ(texture_levels(problem.design(problem.unit_of_study()).texture), 2);
+  std::vector<double> value = problem.space().value(problem.space().unit_of_study());
+  EXPECT_EQ(texture_levels(problem.space().design(problem.space().unit_of_study()).texture), 2);
   value[0] = 1;
   std::vector<double> other = value;
   other[fine] = 1.3e-6;
-  EXPECT_EQ(texture_levels(problem.design(problem.space().unit(value)).texture), 1);
+  EXPECT_EQ(texture_levels(problem.space().design(problem.space().unit(value)).texture), 1);
   EXPECT_EQ(problem.space().snapped(problem.space().unit(value)),
             problem.space().snapped(problem.space().unit(other)));
   // Fine holes of no depth are one level.

@@ -27,6 +27,7 @@ std::vector<std::vector<double>> table(const std::string& name) {
     for (std::string cell; std::getline(stream, cell, ',');) row.push_back(std::stod(cell));
     rows.push_back(row);
   }
+  EXPECT_FALSE(rows.empty()) << name;
   return rows;
 }
 

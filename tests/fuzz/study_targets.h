@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "calibrate/calibrate.h"
+#include "claims/claim.h"
 #include "config/describe.h"
-#include "design/design.h"
+#include "design/study.h"
 #include "optim/journal.h"
+#include "search/protocol.h"
 #include "tests/fuzz/targets.h"
 
 namespace papilla {
@@ -34,21 +36,22 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
        0.03,
        {design_text("fingers/reference.calibration.toml")},
        from_file(folder + "/calibration.toml", [](const std::string& path) {
-         const Calibration calibration = read_calibration(path);
+         const Calibration calibration = read_calibration(path, m3_claim_ids());
          for (const CalibrationParameter& p : calibration.parameters) {
            for (double v : {p.fit.start, p.fit.low, p.fit.high, p.fit.prior, p.fit.prior_sd})
              require_finite(v, p.path.c_str());
          }
        })});
 
-  Evaluation e{{1.0 / 7, 0.1}, {true, "", {1.0 / 3, 2}, {-0.5}, {7}}};
-  std::string good = journal_line(e);
-  e.outcome = {false, "crashed", {}, {}, {}};
-  std::string failed = journal_line(e);
+  const Bytes key = encode(TaskRequest{Stage::Search, 0, false, {1.0 / 7, 0.1}});
+  std::string good =
+      journal_line({key, encode(Judgement{{true, "", {1.0 / 3, 2}, {-0.5}, {7}}, 0.2})});
+  std::string failed =
+      journal_line({key, encode(TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed"))});
   good.pop_back();
   failed.pop_back();
   out.push_back({"journal", 0.27, {good, failed}, [](const std::string& bytes) {
-                   Evaluation back;
+                   JournalRecord back;
                    // The checksum: no changed record is taken for a sound one.
                    if (parse_journal_line(bytes, back) && journal_line(back) != bytes + "\n")
                      throw NotFinite{"a changed record is taken for a sound one"};

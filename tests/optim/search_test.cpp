@@ -293,24 +293,27 @@ TEST(Bayesian, ACostlyConstraintIsAskedOfFewPointsAndKept) {
 }
 
 TEST(Worker, ACrashAHangAndAnExceptionBecomeFailures) {
-  const auto evaluate = [](const Point& u) -> Outcome {
-    if (u[0] < 0.2) ::abort();
-    if (u[0] < 0.4) throw std::runtime_error("no water left");
-    if (u[0] < 0.6) {
-      while (true) {
-      }
+  const auto work = [](const Bytes& request) -> Bytes {
+    if (request == "crash") ::abort();
+    if (request == "throw") throw std::runtime_error("no water left\nfor the droplets");
+    while (request == "hang") {
     }
-    return outcome({u[0]});
+    return request + "\n\t" + Bytes(1, '\0');
   };
-  Worker worker(evaluate, {.seconds = 1});
-  const auto ask = [&](double u) {
-    worker.send({u});
+  using Reason = WorkFailure::Reason;
+  Worker worker(work, {.seconds = 1});
+  const auto ask = [&](const Bytes& request) {
+    worker.send(request);
     return worker.receive();
   };
-  EXPECT_NE(ask(0.1).reason.find("crashed"), std::string::npos);
-  EXPECT_EQ(ask(0.3).reason, "no water left");
-  EXPECT_NE(ask(0.5).reason.find("longer"), std::string::npos);
-  EXPECT_EQ(ask(0.75).objectives[0], 0.75);
+  const auto failure = [&](const Bytes& request) { return ask(request).failure.value(); };
+  EXPECT_EQ(failure("crash").reason, Reason::Crashed);
+  EXPECT_NE(failure("crash").text.find("crashed"), std::string::npos);
+  EXPECT_EQ(failure("throw"), (WorkFailure{Reason::Threw, "no water left for the droplets"}));
+  EXPECT_EQ(failure("hang").reason, Reason::TimedOut);
+  EXPECT_NE(failure("hang").text.find("longer"), std::string::npos);
+  EXPECT_EQ(ask("work").bytes, Bytes("work\n\t") + '\0');
+  EXPECT_FALSE(ask("").failure);
 }
 
 TEST(Worker, RunsInParallelAlthoughItsParentDidSoBefore) {
@@ -318,17 +321,17 @@ TEST(Worker, RunsInParallelAlthoughItsParentDidSoBefore) {
   parallel_for(
       4, [&](int i) { sum += i; }, 2);
   Worker worker(
-      [](const Point& x) {
+      [](const Bytes& request) {
         std::atomic<int> counted{0};
         parallel_for(
             8, [&](int) { ++counted; }, 2);
-        return outcome({x[0] + counted});
+        return std::to_string(std::stoi(request) + counted);
       },
       {.seconds = 20});
-  worker.send({1});
-  const Outcome out = worker.receive();
-  ASSERT_TRUE(out.ok) << out.reason;
-  EXPECT_EQ(out.objectives[0], 9);
+  worker.send("1");
+  const WorkAnswer out = worker.receive();
+  ASSERT_FALSE(out.failure) << out.failure->text;
+  EXPECT_EQ(out.bytes, "9");
 }
 
 TEST(Worker, TooMuchMemoryBecomesAFailure) {
@@ -336,44 +339,58 @@ TEST(Worker, TooMuchMemoryBecomesAFailure) {
   GTEST_SKIP() << "workers have no limit of address space under the sanitizer";
 #endif
   Worker worker(
-      [](const Point& u) {
-        std::vector<double> field(static_cast<std::size_t>(u[0]), 1.0);
-        return outcome({field.back()});
+      [](const Bytes& request) {
+        std::vector<double> field(std::stoul(request), 1.0);
+        return std::to_string(field.back());
       },
       {.seconds = 20, .bytes = 1e9});
-  worker.send({4e9});
-  EXPECT_EQ(worker.receive().reason, "not enough memory");
-  worker.send({1e3});
-  EXPECT_EQ(worker.receive().objectives[0], 1);
+  worker.send("4000000000");
+  EXPECT_EQ(worker.receive().failure,
+            (WorkFailure{WorkFailure::Reason::OutOfMemory, "not enough memory"}));
+  worker.send("1000");
+  EXPECT_EQ(worker.receive().bytes, std::to_string(1.0));
 }
 
-TEST(Team, AnyNumberGivesTheSameOutcomes) {
-  std::vector<Point> points;
-  for (int i = 0; i < 9; ++i) points.push_back({i / 9.0});
-  const auto evaluate = [](const Point& u) -> Outcome {
-    if (u[0] > 0.3 && u[0] < 0.4) ::abort();
-    ::usleep(static_cast<unsigned>(2e4 * (1 - u[0])));  // the first are the slowest
-    return outcome({u[0] * 3});
+TEST(Team, AnyNumberGivesTheSameAnswers) {
+  std::vector<Bytes> requests;
+  for (int i = 0; i < 9; ++i) requests.push_back(std::to_string(i));
+  const auto work = [](const Bytes& request) {
+    const int i = std::stoi(request);
+    if (i == 3) ::abort();
+    ::usleep(static_cast<unsigned>(2e3 * (9 - i)));  // the first are the slowest
+    return std::to_string(3 * i);
   };
-  std::vector<Outcome> first;
+  std::vector<WorkAnswer> first;
   for (std::size_t jobs : {1u, 2u, 3u}) {
-    const auto outcomes = make_local_team(jobs, evaluate, {})->evaluate(points);
-    if (first.empty()) first = outcomes;
-    EXPECT_EQ(outcomes, first);
+    const auto answers = make_local_team(jobs, work, {})->answer(requests);
+    if (first.empty()) first = answers;
+    EXPECT_EQ(answers, first);
   }
-  EXPECT_FALSE(first[3].ok);
-  EXPECT_EQ(first[8].objectives[0], 8 / 9.0 * 3);
+  EXPECT_TRUE(first[3].failure);
+  EXPECT_EQ(first[8].bytes, "24");
 }
 
 TEST(Team, AHangHoldsUpNobodyElse) {
-  const auto evaluate = [](const Point& u) -> Outcome {
-    while (u[0] < 0) {
+  const auto work = [](const Bytes& request) {
+    while (request == "hang") {
     }
-    return outcome({u[0]});
+    return request;
   };
-  const auto out = make_local_team(2, evaluate, {.seconds = 1})->evaluate({{-1}, {1}, {2}, {3}});
-  EXPECT_FALSE(out[0].ok);
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(out[i].objectives[0], static_cast<double>(i));
+  const auto out = make_local_team(2, work, {.seconds = 1})->answer({"hang", "1", "2", "3"});
+  EXPECT_EQ(out[0].failure.value().reason, WorkFailure::Reason::TimedOut);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_EQ(out[i].bytes, std::to_string(i));
+}
+
+// Of the one list of methods, each as studies name it.
+TEST(Method, EveryNameMakesASearcherThatAsks) {
+  SearchProblem p = box(2, 1, 10);
+  p.residuals = 2;
+  for (const std::string& name : searcher_names()) {
+    p.objectives = name == "nsga2" ? 2 : 1;
+    const std::vector<Point> asked = make_searcher(choose_method(name, p), p)->ask();
+    ASSERT_FALSE(asked.empty()) << name;
+    EXPECT_EQ(asked[0].size(), 2u) << name;
+  }
 }
 
 TEST(Method, WhatCannotDoTheProblemIsRefused) {

@@ -6,12 +6,19 @@
 
 #include "report/response.h"
 #include "search/problem.h"
+#include "search/task.h"
 
 namespace papilla {
 namespace {
 
 Study transparent_glass(const std::vector<std::string>& overrides = {}) {
   return read_study(PAPILLA_SOURCE_DIR "/designs/transparent_glass/study.toml", overrides);
+}
+
+TaskAnswer confirmed(const StudyProblem& problem, const Fidelity& fidelity) {
+  const auto text = [](const Response& response) { return response_json(response, false); };
+  return evaluate_task(problem, problem.space().design(problem.space().unit_of_study()), 0,
+                       {fidelity, true, text});
 }
 
 TEST(AppearanceInStudies, HazeIsAnObjectiveBesideFriction) {
@@ -22,8 +29,8 @@ TEST(AppearanceInStudies, HazeIsAnObjectiveBesideFriction) {
   Fidelity fidelity = fidelity_level("search");
   fidelity.grid = 64;
   fidelity.skins = 2;
-  const Outcome task = problem.evaluate_task(problem.unit_of_study(), 0, fidelity, true);
-  ASSERT_TRUE(task.ok) << task.reason;
+  const TaskAnswer task = confirmed(problem, fidelity);
+  ASSERT_TRUE(task.status.ok()) << task.status.text;
   const Score score = problem.score({task});
   EXPECT_EQ(score.values[2], appearance_of(study.design).haze);
   EXPECT_GT(score.values[2], 0.01);
@@ -35,12 +42,13 @@ TEST(AppearanceInStudies, ALimitOnHazeHoldsBeforeAnEvaluation) {
   const auto violation = [](const std::string& depth) {
     const Study study = transparent_glass({"texture.depth=\"" + depth + "\""});
     const StudyProblem problem(study);
-    EXPECT_EQ(problem.constraints(), 1u);  // only the breakdown margin needs a field
-    const Point unit = problem.unit_of_study();
-    const std::vector<double> g = problem.geometry(unit), look = problem.look(unit);
+    EXPECT_EQ(problem.constraints().evaluated(), 1u);  // only the breakdown margin needs a field
+    const Point unit = problem.space().unit_of_study();
+    const std::vector<double> g = problem.constraints().geometry(unit),
+                              look = problem.constraints().look(unit);
     EXPECT_LT(*std::max_element(g.begin(), g.end()), 0);  // the shape can be made
     EXPECT_EQ(look.size(), 1u);
-    return std::pair{look.front(), problem.geometry_reason(unit)};
+    return std::pair{look.front(), problem.constraints().geometry_reason(unit)};
   };
   EXPECT_LT(violation("80 nm").first, 0);
   EXPECT_EQ(violation("80 nm").second, "");
@@ -52,9 +60,9 @@ TEST(AppearanceInStudies, APeriodThatNoTheoryCoversIsOutsideTheSpace) {
   const Study study = transparent_glass({"texture.period=\"1 um\"", "texture.diameter=\"0.5 um\"",
                                          "design_space.texture.period=[\"0.2 um\", \"10 um\"]"});
   const StudyProblem problem(study);
-  const Point unit = problem.unit_of_study();
-  EXPECT_GT(problem.geometry(unit).front(), 0);
-  EXPECT_NE(problem.geometry_reason(unit).find("neither below"), std::string::npos);
+  const Point unit = problem.space().unit_of_study();
+  EXPECT_GT(problem.constraints().geometry(unit).front(), 0);
+  EXPECT_NE(problem.constraints().geometry_reason(unit).find("neither below"), std::string::npos);
 }
 
 TEST(AppearanceInStudies, NobodyPaysForALookThatIsNotAskedFor) {
@@ -62,13 +70,14 @@ TEST(AppearanceInStudies, NobodyPaysForALookThatIsNotAskedFor) {
                                  {"population.fingers=[\"../fingers/reference.toml\"]",
                                   "environment.relative_humidity=[\"35 %\"]"});
   const StudyProblem problem(study);
-  EXPECT_FALSE(problem.needs_appearance());
+  EXPECT_FALSE(problem.goals().looks);
   Fidelity fidelity = fidelity_level("search");
   fidelity.grid = 64;
   fidelity.skins = 1;
-  const Outcome task = problem.evaluate_task(problem.unit_of_study(), 0, fidelity, true);
-  ASSERT_TRUE(task.ok) << task.reason;
-  EXPECT_EQ(task.reason.find("appearance"), std::string::npos);
+  const TaskAnswer task = confirmed(problem, fidelity);
+  ASSERT_TRUE(task.status.ok()) << task.status.text;
+  EXPECT_EQ(task.report.find("appearance"), std::string::npos);
+  EXPECT_FALSE(task.look);
 }
 
 TEST(AppearanceInStudies, AFilledTextureLosesItsHazeAndSaysThatTheFingerFeelsItOpen) {

@@ -7,8 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "report/results.h"
 #include "search/problem.h"
 #include "search/run.h"
+#include "search/task.h"
 
 namespace papilla {
 namespace {
@@ -44,7 +46,7 @@ TEST(FieldStudy, TheStrongestModulationKeepsTheMarginOfTheOxide) {
   OptimiseOptions options;
   options.folder = (fs::path(testing::TempDir()) / "papilla_margin").string();
   fs::remove_all(options.folder);
-  const OptimiseResult result = optimise(study, options);
+  const OptimiseResult result = optimise_to_folder(study, options);
   ASSERT_FALSE(result.finalists.empty());
   bool feasible = false;
   for (const FinalDesign& d : result.finalists) {
@@ -73,9 +75,9 @@ TEST(FieldStudy, VoltageForIsAnObjectiveAndAConstraint) {
                             "\"worst(modulation)\" = 0.01\n"));
   const StudyProblem problem(study);
   EXPECT_EQ(problem.objectives()[0].name, "mean(voltage_for(modulation = 0.5))");
-  EXPECT_EQ(problem.constraints(), 2u);
-  const Outcome task = problem.evaluate_task(study.design, 0, small(), false);
-  ASSERT_TRUE(task.ok) << task.reason;
+  EXPECT_EQ(problem.constraints().evaluated(), 2u);
+  const TaskAnswer task = evaluate_task(problem, study.design, 0, {small()});
+  ASSERT_TRUE(task.status.ok()) << task.status.text;
   const Score score = problem.score({task});
   ASSERT_EQ(score.limited.size(), 2u);
   EXPECT_LT(score.limited[0], score.values[0]);  // a quarter takes less than a half
@@ -90,10 +92,11 @@ TEST(FieldStudy, AVoltageThatCannotBeReachedIsARefusalWithItsReason) {
       study_file("unreached",
                  "[drive]\namplitude = \"150 V\"\n[design_space]\n\"texture.depth\" = [\"0 nm\", "
                  "\"500 nm\"]\n[objective]\nminimise = \"voltage_for(modulation = 1000)\"\n"));
-  const Outcome task = StudyProblem(study).evaluate_task(study.design, 0, small(), false);
-  EXPECT_FALSE(task.ok);
-  EXPECT_NE(task.reason.find("the dielectric breaks down at 500 V"), std::string::npos)
-      << task.reason;
+  const TaskAnswer task = evaluate_task(StudyProblem(study), study.design, 0, {small()});
+  EXPECT_FALSE(task.status.ok());
+  EXPECT_EQ(task.status.kind, TaskStatus::Kind::NotDefined);
+  EXPECT_NE(task.status.text.find("the dielectric breaks down at 500 V"), std::string::npos)
+      << task.status.text;
 }
 
 TEST(FieldStudy, AVoltagePastPullInIsARefusalWithItsReason) {
@@ -103,9 +106,10 @@ TEST(FieldStudy, AVoltagePastPullInIsARefusalWithItsReason) {
                  "\"20000 V\"]\n[objective]\nmaximise = \"mean(modulation)\"\n"));
   study.design.model.coupling = Coupling::SelfConsistent;
   study.design.drive.amplitude = 20000;
-  const Outcome task = StudyProblem(study).evaluate_task(study.design, 0, small(), false);
-  EXPECT_FALSE(task.ok);
-  EXPECT_NE(task.reason.find("35 % RH: "), std::string::npos) << task.reason;
+  const TaskAnswer task = evaluate_task(StudyProblem(study), study.design, 0, {small()});
+  EXPECT_FALSE(task.status.ok());
+  EXPECT_EQ(task.status.kind, TaskStatus::Kind::NoEquilibrium);
+  EXPECT_NE(task.status.text.find("35 % RH: "), std::string::npos) << task.status.text;
 }
 
 TEST(FieldStudy, AConstraintOnAnUnknownMetricIsAMistakeAtItsPlace) {

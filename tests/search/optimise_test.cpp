@@ -9,9 +9,12 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/statistics.h"
+#include "report/response.h"
 #include "report/results.h"
+#include "report/summary.h"
 #include "search/pick.h"
 #include "search/run.h"
+#include "search/task.h"
 
 namespace papilla {
 namespace {
@@ -28,6 +31,8 @@ Study small_study() {
   study.search.jobs = 2;
   return study;
 }
+
+std::string response_text(const Response& response) { return response_json(response, false); }
 
 std::string fresh_folder(const std::string& name) {
   const fs::path folder = fs::path(testing::TempDir()) / ("papilla_optimise_" + name);
@@ -74,10 +79,10 @@ TEST(StudyProblem, RefusesShapesOutsideTheFabricationLimits) {
   const StudyProblem problem(study);
   // period 5 um, diameter 4.8 um, depth 350 nm, 50 deg
   const Point thin = problem.space().unit({5e-6, 4.8e-6, 350e-9, 0.87});
-  EXPECT_EQ(problem.geometry_reason(thin), "min_wall 0.2 um is below 0.4 um");
+  EXPECT_EQ(problem.constraints().geometry_reason(thin), "min_wall 0.2 um is below 0.4 um");
   const Point flat = problem.space().unit({5e-6, 4.8e-6, 0, 0.87});
-  EXPECT_EQ(problem.geometry_reason(flat), "");
-  EXPECT_EQ(problem.starts().size(), 2u);  // the study's own design and the flat surface
+  EXPECT_EQ(problem.constraints().geometry_reason(flat), "");
+  EXPECT_EQ(problem.space().starts().size(), 2u);  // the study's own design and the flat surface
 }
 
 TEST(StudyProblem, RefusesToMaximiseTheModulationOfAnUndrivenDesign) {
@@ -121,9 +126,10 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
   f.skins = 6;
   const auto score = [&] {
     const StudyProblem problem(study);
-    std::vector<Outcome> tasks;
+    const Design design = problem.space().design(problem.space().unit_of_study());
+    std::vector<TaskAnswer> tasks;
     for (std::size_t t = 0; t < problem.tasks().size(); ++t)
-      tasks.push_back(problem.evaluate_task(problem.unit_of_study(), t, f, true));
+      tasks.push_back(evaluate_task(problem, design, t, {f, true, response_text}));
     return problem.score(tasks);
   };
   const Score same = score();
@@ -134,10 +140,10 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
   EXPECT_NE(same.reports[0].find("\"directions\": 1"), std::string::npos);
   {
     const StudyProblem problem(study);  // the steps alone
+    const Design design = problem.space().design(problem.space().unit_of_study());
     Score alone;
-    problem.add_steps(alone,
-                      {problem.evaluate_steps(problem.design(problem.unit_of_study()), 0, f).info,
-                       problem.evaluate_steps(problem.design(problem.unit_of_study()), 1, f).info});
+    problem.add_steps(
+        alone, {evaluate_steps(problem, design, 0, f), evaluate_steps(problem, design, 1, f)});
     EXPECT_EQ(alone.parameter_steps, same.parameter_steps);
   }
 
@@ -155,7 +161,7 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
 TEST(Optimise, WritesItsResultsAndResumesToTheSameBytes) {
   const Study study = small_study();
   const std::string whole = fresh_folder("whole");
-  const OptimiseResult result = optimise(study, {whole, false, {}, nullptr});
+  const OptimiseResult result = optimise_to_folder(study, {whole, false, {}, nullptr});
   EXPECT_EQ(result.evaluations, 6);
   EXPECT_TRUE(result.any_feasible);
   for (const char* file :
@@ -180,16 +186,17 @@ TEST(Optimise, WritesItsResultsAndResumesToTheSameBytes) {
         << journal.substr(0, static_cast<std::size_t>(share * static_cast<double>(journal.size())));
     Study again = study;
     again.search.jobs = 1;
-    optimise(again, {folder, true, {}, nullptr});
+    optimise_to_folder(again, {folder, true, {}, nullptr});
     for (const char* file : {"journal", "pareto.csv", "history.csv", "best/metrics.json"}) {
       EXPECT_EQ(bytes(folder + "/" + file), bytes(whole + "/" + file)) << file;
     }
   }
-  EXPECT_THROW(optimise(study, {whole, false, {}, nullptr}),
+  EXPECT_THROW(optimise_to_folder(study, {whole, false, {}, nullptr}),
                InputError);  // an earlier run's folder
   Study other = study;
   other.search.seed = 2;
-  EXPECT_THROW(optimise(other, {whole, true, {}, nullptr}), InputError);  // of another study
+  EXPECT_THROW(optimise_to_folder(other, {whole, true, {}, nullptr}),
+               InputError);  // of another study
 }
 
 TEST(Optimise, AnInterruptLeavesAResumableFolder) {
@@ -197,8 +204,8 @@ TEST(Optimise, AnInterruptLeavesAResumableFolder) {
   const std::string folder = fresh_folder("interrupted");
   std::atomic<bool> stop{false};
   const auto progress = [&](const Progress& p) { stop = p.done >= 2; };
-  EXPECT_TRUE(optimise(study, {folder, false, progress, &stop}).interrupted);
-  const OptimiseResult result = optimise(study, {folder, true, {}, nullptr});
+  EXPECT_TRUE(optimise_to_folder(study, {folder, false, progress, &stop}).interrupted);
+  const OptimiseResult result = optimise_to_folder(study, {folder, true, {}, nullptr});
   EXPECT_FALSE(result.interrupted);
   EXPECT_EQ(result.evaluations, 6);
 }
@@ -211,9 +218,9 @@ TEST(Optimise, ARunInterruptedBeforeItsChecksEndsAsIfItHadNotBeen) {
   const auto progress = [&](const Progress& p) {
     stop = p.stage == "confirm" && p.done == p.total;
   };
-  EXPECT_TRUE(optimise(study, {folder, false, progress, &stop}).interrupted);
-  EXPECT_FALSE(optimise(study, {folder, true, {}, nullptr}).interrupted);
-  EXPECT_FALSE(optimise(study, {whole, false, {}, nullptr}).interrupted);
+  EXPECT_TRUE(optimise_to_folder(study, {folder, false, progress, &stop}).interrupted);
+  EXPECT_FALSE(optimise_to_folder(study, {folder, true, {}, nullptr}).interrupted);
+  EXPECT_FALSE(optimise_to_folder(study, {whole, false, {}, nullptr}).interrupted);
   for (const char* file : {"journal", "pareto.csv", "summary.md"})
     EXPECT_EQ(bytes(folder + "/" + file), bytes(whole + "/" + file)) << file;
 }
@@ -231,10 +238,10 @@ TEST(Optimise, FinalistsComeFromALevelBetween) {
       EXPECT_EQ(p.total, 3);
     }
   };
-  const OptimiseResult first = optimise(study, {folder, false, progress, nullptr});
+  const OptimiseResult first = optimise_to_folder(study, {folder, false, progress, nullptr});
   EXPECT_EQ(stages, (std::vector<std::string>{"search", "narrow", "confirm", "check"}));
   const std::string journal = bytes(folder + "/journal"), front = bytes(folder + "/pareto.csv");
-  optimise(study, {folder, true, {}, nullptr});
+  optimise_to_folder(study, {folder, true, {}, nullptr});
   EXPECT_EQ(bytes(folder + "/journal"), journal);
   EXPECT_EQ(bytes(folder + "/pareto.csv"), front);
 }
@@ -244,7 +251,8 @@ TEST(Optimise, AnEmptyFeasibleSetNamesTheLeastViolatingDesign) {
   study.search.evaluations = 3;
   study.constraints = {{"min_wall", 20e-6, true}, {"min_hole", 20e-6, true}};
   study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}}};
-  const OptimiseResult result = optimise(study, {fresh_folder("empty"), false, {}, nullptr});
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("empty"), false, {}, nullptr});
   EXPECT_FALSE(result.any_feasible);
   ASSERT_EQ(result.finalists.size(), 1u);
   EXPECT_FALSE(result.finalists[0].feasible);
@@ -266,7 +274,7 @@ TEST(Optimise, ASpaceThatNeverKeepsALimitEndsInASummary) {
     const auto progress = [&](const Progress& p) {
       said += p.best == "none keeps every constraint yet";
     };
-    const OptimiseResult result = optimise(study, {folder, false, progress, nullptr});
+    const OptimiseResult result = optimise_to_folder(study, {folder, false, progress, nullptr});
     EXPECT_GT(said, 0);
     EXPECT_EQ(result.evaluations, 0);
     EXPECT_FALSE(result.any_feasible);
@@ -285,7 +293,7 @@ TEST(Optimise, TheNearestToAnImpossibleLimitIsShown) {
                      {"texture.depth", "nm", 100e-9, 1e-6, {}}};
   study.constraints = {{"min_wall", 1.5e-6, true}, {"worst(modulation)", 5, true}};
   const std::string folder = fresh_folder("nearest");
-  const OptimiseResult result = optimise(study, {folder, false, {}, nullptr});
+  const OptimiseResult result = optimise_to_folder(study, {folder, false, {}, nullptr});
   EXPECT_FALSE(result.any_feasible);
   EXPECT_EQ(result.never_kept, std::vector<std::string>{"worst(modulation) (at least 5)"});
   ASSERT_TRUE(result.has_best());
@@ -318,7 +326,7 @@ TEST(Optimise, AFewEvaluationsHaveFinalists) {
   for (const int evaluations : {1, 3}) {
     study.search.evaluations = evaluations;
     const std::string folder = fresh_folder("few");
-    EXPECT_TRUE(optimise(study, {folder, false, {}, nullptr}).has_best()) << evaluations;
+    EXPECT_TRUE(optimise_to_folder(study, {folder, false, {}, nullptr}).has_best()) << evaluations;
     EXPECT_TRUE(fs::exists(folder + "/report.html"));
   }
 }
@@ -326,8 +334,9 @@ TEST(Optimise, AFewEvaluationsHaveFinalists) {
 TEST(Optimise, ARefusedStartLeavesNothingBehind) {
   const Study study = small_study();
   const std::string folder = fresh_folder("refused");
-  EXPECT_THROW(optimise(study, {folder, true, {}, nullptr}), InputError);  // nothing to continue
-  EXPECT_THROW(optimise(study, {folder, false, {}, nullptr, "bestest"}), InputError);
+  EXPECT_THROW(optimise_to_folder(study, {folder, true, {}, nullptr}),
+               InputError);  // nothing to continue
+  EXPECT_THROW(optimise_to_folder(study, {folder, false, {}, nullptr, "bestest"}), InputError);
   EXPECT_FALSE(fs::exists(folder));
 }
 
@@ -337,10 +346,10 @@ TEST(Optimise, AResumedRunIsNotShortened) {
   const std::string folder = fresh_folder("shortened");
   std::atomic<bool> stop{false};
   const auto progress = [&](const Progress& p) { stop = p.done >= 4; };
-  EXPECT_TRUE(optimise(study, {folder, false, progress, &stop}).interrupted);
+  EXPECT_TRUE(optimise_to_folder(study, {folder, false, progress, &stop}).interrupted);
   study.search.evaluations = 3;
   try {
-    optimise(study, {folder, true, {}, nullptr});
+    optimise_to_folder(study, {folder, true, {}, nullptr});
     ADD_FAILURE() << "went on";
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("has 4 evaluations already, more than the 3"),
@@ -352,7 +361,8 @@ TEST(Optimise, AResumedRunIsNotShortened) {
 TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
   Study study = small_study();
   study.variables = {{"texture.diameter", "um", 3e-6, 3e-6, {3e-6}}};
-  const OptimiseResult result = optimise(study, {fresh_folder("point"), false, {}, nullptr});
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("point"), false, {}, nullptr});
   EXPECT_EQ(result.evaluations, 1);
   EXPECT_TRUE(result.any_feasible);
 }
@@ -364,22 +374,23 @@ TEST(Optimise, ATargetIsMetByLeastSquares) {
   study.constraints.clear();
   study.variables = {{"texture.depth", "nm", 0, 1e-6, {}}, {"drive.amplitude", "V", 100, 220, {}}};
   study.search.evaluations = 12;
-  const OptimiseResult result = optimise(study, {fresh_folder("target"), false, {}, nullptr});
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("target"), false, {}, nullptr});
   EXPECT_EQ(result.method, "least_squares");
   ASSERT_FALSE(result.finalists.empty());
   const StudyProblem problem(study);
   const Score own =
-      problem.score({problem.evaluate_task(study.design, 0, fidelity_level("search"), false)});
+      problem.score({evaluate_task(problem, study.design, 0, {fidelity_level("search")})});
   EXPECT_LT(result.finalists[0].searched.values[0], own.values[0]);
 }
 
 TEST(Optimise, AnotherPickOfTheSameRunNeedsNoNewSearch) {
   Study study = small_study();
   const std::string folder = fresh_folder("pick");
-  const OptimiseResult first = optimise(study, {folder, false, {}, nullptr});
+  const OptimiseResult first = optimise_to_folder(study, {folder, false, {}, nullptr});
   const std::string journal = bytes(folder + "/journal");
   OptimiseOptions options{folder, true, {}, nullptr, "mean"};
-  const OptimiseResult second = optimise(study, options);
+  const OptimiseResult second = optimise_to_folder(study, options);
   EXPECT_EQ(bytes(folder + "/journal"), journal);
   ASSERT_TRUE(second.finalists[second.best].on_front);
   for (const FinalDesign& f : second.finalists) {
@@ -389,14 +400,14 @@ TEST(Optimise, AnotherPickOfTheSameRunNeedsNoNewSearch) {
   EXPECT_EQ(read_design(picked_design_file(folder, "mean")), second.finalists[second.best].design);
   EXPECT_EQ(read_design(picked_design_file(folder, "")), second.finalists[second.best].design);
   options.pick = "best of all";
-  EXPECT_THROW(optimise(study, options), InputError);
+  EXPECT_THROW(optimise_to_folder(study, options), InputError);
   // Neither a number beyond the front nor an interruption takes what is there.
   const std::string best = bytes(folder + "/best/design.toml"),
                     summary = bytes(folder + "/summary.md");
   options.pick = "99";
-  EXPECT_THROW(optimise(study, options), InputError);
+  EXPECT_THROW(optimise_to_folder(study, options), InputError);
   std::atomic<bool> stop{true};
-  EXPECT_TRUE(optimise(study, {folder, true, {}, &stop, "variation"}).interrupted);
+  EXPECT_TRUE(optimise_to_folder(study, {folder, true, {}, &stop, "variation"}).interrupted);
   EXPECT_EQ(bytes(folder + "/best/design.toml"), best);
   EXPECT_EQ(bytes(folder + "/summary.md"), summary);
 }
@@ -406,7 +417,7 @@ TEST(Optimise, ResultsAreWrittenBeforeARuleOfPickIsRefused) {
   OptimiseOptions options{fresh_folder("unmet"), false, {}, nullptr};
   options.pick = "99";
   try {
-    optimise(small_study(), options);
+    optimise_to_folder(small_study(), options);
     FAIL();
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("is written with the usual choice"), std::string::npos);
@@ -420,11 +431,11 @@ TEST(Optimise, AnotherStudyIsRefusedByTheKeysThatDiffer) {
   Study study = small_study();
   const std::string folder = fresh_folder("another");
   std::atomic<bool> stop{true};
-  EXPECT_TRUE(optimise(study, {folder, false, {}, &stop}).interrupted);
+  EXPECT_TRUE(optimise_to_folder(study, {folder, false, {}, &stop}).interrupted);
   study.search.evaluations += 5;  // may be more
   study.design.drive.amplitude = 150;
   try {
-    optimise(study, {folder, true, {}, nullptr});
+    optimise_to_folder(study, {folder, true, {}, nullptr});
     FAIL();
   } catch (const InputError& e) {
     const std::string why = e.what();
@@ -446,7 +457,8 @@ TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
   // Under a risk, over humidities and fingers, as without.
   for (const char* risk : {"", "mean - 2 std"}) {
     study.objective.risk = risk;
-    const OptimiseResult r = optimise(study, {fresh_folder("relief"), false, {}, nullptr});
+    const OptimiseResult r =
+        optimise_to_folder(study, {fresh_folder("relief"), false, {}, nullptr});
     ASSERT_TRUE(r.flat && r.has_best());
     const Score& best = r.finalists[r.best].confirmed;
     for (std::size_t k = 0; k < best.values.size(); ++k)
@@ -466,7 +478,7 @@ TEST(Optimise, ALimitOnTheLookIsKept) {
   Study study = small_study();
   study.constraints.push_back({"haze", 0.03, false});
   study.design.surface.refractive_index = 1.52;
-  const OptimiseResult r = optimise(study, {fresh_folder("haze"), false, {}, nullptr});
+  const OptimiseResult r = optimise_to_folder(study, {fresh_folder("haze"), false, {}, nullptr});
   ASSERT_TRUE(r.any_feasible);
   for (const FinalDesign& f : r.finalists) {
     if (f.feasible) {

@@ -44,7 +44,7 @@ std::size_t designs(const Study& study, std::size_t variable, int count) {
   const StudyProblem problem(study);
   std::set<Point> out;
   for (int i = 0; i < count; ++i) {
-    Point unit = problem.unit_of_study();
+    Point unit = problem.space().unit_of_study();
     unit[variable] = static_cast<double>(i) / (count - 1);
     out.insert(problem.space().snapped(unit));
   }
@@ -66,9 +66,9 @@ TEST(RoughStudy, ARmsOfZeroIsOneDesignWhateverItsSpectrum) {
   const auto& space = problem.space();
   EXPECT_EQ(space.snapped({0, 0.2}), space.snapped({0, 0.7}));
   EXPECT_NE(space.snapped({0.5, 0.2}), space.snapped({0.5, 0.7}));
-  EXPECT_FALSE(facts(problem.design(space.snapped({0, 0.2})).texture).relief.present);
-  ASSERT_TRUE(problem.flattened(problem.unit_of_study()));
-  EXPECT_EQ(*problem.flattened(problem.unit_of_study()), space.snapped({0, 0.2}));
+  EXPECT_FALSE(facts(problem.space().design(space.snapped({0, 0.2})).texture).relief.present);
+  ASSERT_TRUE(problem.space().flattened(problem.space().unit_of_study()));
+  EXPECT_EQ(*problem.space().flattened(problem.space().unit_of_study()), space.snapped({0, 0.2}));
 }
 
 TEST(RoughStudy, RoughCompetesWithFlat) {
@@ -93,7 +93,7 @@ TEST(RoughStudy, AFlatRoughSurfaceIsNoHole) {
   const StudyProblem problem(study);
   const Point smooth =
       problem.space().snapped(problem.space().unit({study.variables[0].high, 0, 300e-9}));
-  EXPECT_FALSE(facts(problem.design(smooth).texture).relief.present);
+  EXPECT_FALSE(facts(problem.space().design(smooth).texture).relief.present);
 }
 
 TEST(RoughStudy, ASearchMakesAllEvaluationsThatItWasAskedFor) {

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "search/problem.h"
+#include "search/task.h"
 
 namespace papilla {
 namespace {
@@ -103,27 +104,31 @@ TEST(Scatter, AStudyJudgesTheDesignWithinItsTolerances) {
   Fidelity f = fidelity_level("search");
   f.skins = 4;
   const Design design = study.design;
-  std::vector<Outcome> tasks;
-  for (std::size_t t = 0; t < 3; ++t) tasks.push_back(problem.evaluate_task(design, t, f, false));
+  std::vector<TaskAnswer> tasks;
+  for (std::size_t t = 0; t < 3; ++t) tasks.push_back(evaluate_task(problem, design, t, {f}));
+  const auto value = [&](std::size_t t) { return tasks[t].objectives[0].value; };
   // The ends are designs of their own.
   for (const auto& [t, depth] : {std::pair(1, 290e-9), std::pair(2, 410e-9)}) {
     const Design moved = with_settings(design, {{"texture.depth", depth}});
-    EXPECT_NEAR(problem.evaluate_task(moved, 0, f, false).info[0],
-                tasks[static_cast<std::size_t>(t)].info[0], 1e-12);
+    EXPECT_NEAR(evaluate_task(problem, moved, 0, {f}).objectives[0].value,
+                value(static_cast<std::size_t>(t)), 1e-12);
   }
   const Score worst = problem.score(tasks);
   ASSERT_TRUE(worst.ok) << worst.reason;
-  EXPECT_LE(worst.values[0],
-            std::min({tasks[0].info[0], tasks[1].info[0], tasks[2].info[0]}) + 1e-12);
-  EXPECT_LT(worst.values[0], tasks[0].info[0]);
+  EXPECT_LE(worst.values[0], std::min({value(0), value(1), value(2)}) + 1e-12);
+  EXPECT_LT(worst.values[0], value(0));
 }
 
 TEST(Scatter, AShapeThatCannotExistWithinItsToleranceIsRefused) {
   const Study study = small_study({"scatter.texture.diameter=300 nm"});
   const StudyProblem problem(study);
   // period 5 um: a hole of 4.8 um may come out as 5.1 um.
-  EXPECT_NE(problem.geometry_reason(problem.space().unit({5e-6, 4.8e-6, 350e-9, 0.87})), "");
-  EXPECT_EQ(problem.geometry_reason(problem.space().unit({5e-6, 4.0e-6, 350e-9, 0.87})), "");
+  EXPECT_NE(
+      problem.constraints().geometry_reason(problem.space().unit({5e-6, 4.8e-6, 350e-9, 0.87})),
+      "");
+  EXPECT_EQ(
+      problem.constraints().geometry_reason(problem.space().unit({5e-6, 4.0e-6, 350e-9, 0.87})),
+      "");
 }
 
 TEST(Scatter, WrongTolerancesAreReported) {
@@ -140,9 +145,10 @@ TEST(Target, TheDistanceIsTheRootMeanSquareOverHumidityAndFingers) {
   EXPECT_EQ(problem.objectives()[0].name, "distance(modulation, 0.8)");
   Fidelity f = fidelity_level("search");
   f.skins = 4;
-  const Outcome task = problem.evaluate_task(study.design, 0, f, false);
-  ASSERT_TRUE(task.ok) << task.reason;
-  const double a = task.info[4] - 0.8, b = task.info[5] - 0.8;
+  const TaskAnswer task = evaluate_task(problem, study.design, 0, {f});
+  ASSERT_TRUE(task.status.ok()) << task.status.text;
+  const std::vector<double>& points = task.objectives[0].points;
+  const double a = points[0] - 0.8, b = points[1] - 0.8;
   EXPECT_NEAR(problem.score({task}).values[0], std::sqrt((a * a + b * b) / 2), 1e-12);
   EXPECT_THROW(small_study({"objective={ target = { modulatoin = 0.8 } }"}), InputError);
 }

@@ -17,12 +17,12 @@ TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
   flat.texture = Texture{};
   Fidelity fidelity = fidelity_level("search");
   fidelity.grid = 64;
-  std::vector<std::vector<Outcome>> outcomes(2);
+  std::vector<std::vector<TaskAnswer>> answers(2);
   for (std::size_t v = 0; v < stability_variants(problem).size(); ++v) {
-    outcomes[0].push_back(evaluate_variant(problem, flat, v, fidelity));
-    outcomes[1].push_back(evaluate_variant(problem, holes, v, fidelity));
+    answers[0].push_back(evaluate_variant(problem, flat, v, fidelity));
+    answers[1].push_back(evaluate_variant(problem, holes, v, fidelity));
   }
-  const Stability s = judge_stability(problem, outcomes);
+  const Stability s = judge_stability(problem, answers);
   EXPECT_EQ(s.variants.size(), 8u);
   EXPECT_EQ(s.times_on_front[0], 8);
   EXPECT_EQ(s.times_on_front[1], 0);

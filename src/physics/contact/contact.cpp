@@ -55,8 +55,8 @@ void finish(const StandardProblem& problem, StandardState state, const ContactOp
 }
 
 // First touch without load: gaps above the lowest point.
-void hang(std::span<const double> g0, double level, const std::string& reason,
-          ContactSolution& out) {
+void leave_untouched(std::span<const double> g0, double level, const std::string& reason,
+                     ContactSolution& out) {
   out.pressure.assign(g0.size(), 0);
   out.gap.resize(g0.size());
   for (std::size_t i = 0; i < g0.size(); ++i) out.gap[i] = g0[i] - level;
@@ -131,8 +131,9 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
     SpectrumArray scratch;
     out.fft_pairs += problem.rise_unpressed(g0, scratch);
     for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i] - g0[i];
-    hang(g0, *std::min_element(g0.begin(), g0.end()),
-         mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch", out);
+    leave_untouched(g0, *std::min_element(g0.begin(), g0.end()),
+                    mean < 0 ? "the tractions lift the surfaces apart" : "no load: first touch",
+                    out);
     return out;
   }
   if (options.hardness > 0 && mean >= options.hardness) {
@@ -169,7 +170,7 @@ ContactSolution solve_approach(const ContactKernel& kernel, std::span<const doub
   if (approach <= 0) {
     RealArray g0(n);
     for (std::size_t i = 0; i < n; ++i) g0[i] = -height[i];
-    hang(g0, level, "the surfaces do not touch yet", out);
+    leave_untouched(g0, level, "the surfaces do not touch yet", out);
     return out;
   }
   if (level >= mean) {  // the mean surface cannot be passed: every load closes the gap there

@@ -12,11 +12,13 @@ namespace papilla {
 namespace {
 
 // Shares of the pixels that may carry pressure, one in so many: above the first whole fields are
-// cheaper than lists, below the second lists are; between them nothing changes.
+// cheaper than lists, below the second lists are; between them nothing changes, so that a share at
+// the border does not swing. contact_bench, rough p/E* = 0.2: docs/theory/contact.md, "Method".
 constexpr std::size_t kWholeAbove = 3, kListsBelow = 4;
 
 // An iteration counts as progress where it lowers the best certificate by 2 %; without any for this
-// many the solve ends: rounding is reached, or the problem is beyond it.
+// many the solve ends: rounding is reached, or the problem is beyond it. No state of the benches
+// waits that long: 20 to 400 iterations and 0 to 10 % give the same pairs (contact_steps_bench).
 constexpr double kProgress = 0.98;
 constexpr int kPatience = 100;
 
@@ -59,12 +61,19 @@ class StepLength {
     }
   }
 
-  static constexpr double kFirst = 0.6;  // the stencil, cut off, is softer than the inverse kernel
+  // Measured by the transform pairs of contact_steps_bench, 2459 for its 216 states. The first
+  // length: 0.3 costs 1.5 % more pairs, 1 costs 0.7 %, 0.8 saves 0.7 %.
+  static constexpr double kFirst = 0.6;
+  // A clipped step whose minimum lies beyond this is kept whole: 0.7 costs 3 % more pairs, 1 costs
+  // 1.5 %, 0.95 saves 1 %.
+  static constexpr double kKeepWhole = 0.85;
+  // Guards against lost directions. Within 1e-6 to 1e-2 and 30 to 1e6, and as bounds of the length
+  // within 1e-6 to 1e-2 and 5 to 100, no choice moves the pairs by more than 0.05 %.
   static constexpr double kShortest = 1e-3, kLongest = 1e3;
   static constexpr double kLeastAlpha = 1e-4, kMostAlpha = 20;
-  static constexpr double kKeepWhole = 0.85;
-  static constexpr double kAgain = 0.3;  // after a direction without descent, and shorter each time
-  static constexpr double kLeastPlain = 1e-6;
+  // After a direction without descent, and shorter each time, down to the least: no state of the
+  // benches needs it.
+  static constexpr double kAgain = 0.3, kLeastPlain = 1e-6;
 
   double alpha_ = kFirst;
   bool conjugate_ = false, plain_ = false;

@@ -1,0 +1,63 @@
+// A design: a texture, its finish, the finger that feels it, the air and the drive, as a TOML file
+// says them. docs/reference names every key.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "papilla/names.h"
+
+namespace papilla::api {
+
+// Heights of one sampled period or patch [m], high touches first; z is row-major, x fastest, ny
+// rows of nx; a pixel is dx by dy [m].
+struct Heights {
+  int nx = 0, ny = 0;
+  double dx = 0, dy = 0;
+  std::vector<double> z;
+};
+
+// How a texture looks on glass: photopic means; docs/theory/optics.md.
+struct Look {
+  double haze = 0, transmittance = 1, gloss = 1;  // shares
+  double colour_shift = 0;                        // distance in CIE 1976 u'v'
+  std::string
+      regime;  // which theory answered: "flat", "phase screen", "effective medium", "refused"
+  std::string warning;  // empty: inside the theory's validity
+};
+
+// Immutable, cheap to copy, safe to share between threads.
+class Design {
+ public:
+  // A path of a value and the value as a file would write it: {"texture.depth", "350 nm"}.
+  using Values = std::vector<std::pair<std::string, std::string>>;
+
+  // A file, or the text of one, with values that replace its own. A study is a design too. Both
+  // throw InputError with every problem.
+  static Design read(const std::string& file, const Values& values = {});
+  static Design parse(const std::string& toml, const Values& values = {});
+
+  // The design with other values. It is read anew, all values together, so that those which go
+  // together (a diameter and its period) are given in one call.
+  Design with(const Values& values) const;
+  Design with(const std::string& path, const std::string& value) const;
+
+  double number(const std::string& path) const;  // SI; throws InputError for a path that is none
+  std::string title() const;
+  std::string toml() const;  // every value with the origin of each; reads back to the same design
+
+  // The patch that is simulated, `pixels` along x.
+  Heights heights(int pixels) const;
+  Look look() const;
+
+  struct Inside;  // not for callers
+  const Inside& inside() const { return *inside_; }
+
+ private:
+  explicit Design(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
+  std::shared_ptr<const Inside> inside_;
+};
+
+}  // namespace papilla::api

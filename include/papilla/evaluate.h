@@ -1,0 +1,79 @@
+// Friction of a finger on a design over humidity, drive off and on, with error bars.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "papilla/design.h"
+
+namespace papilla::api {
+
+// Standard errors by origin, in the unit of the value; nothing where one was not measured.
+// docs/theory/accuracy.md
+struct ErrorParts {
+  double sampling = 0;
+  std::optional<double> grid, solver, humidity, method, parameters;
+  std::optional<double> water;  // a band common to all designs, no part of the total
+};
+
+struct Quantity {
+  double value = 0;
+  double error = 0;  // one standard error: all parts in squares
+  ErrorParts parts;
+};
+
+struct Point {
+  double relative_humidity = 0;                  // share
+  Quantity friction_off, friction_on;            // [N], whole finger
+  Quantity modulation;                           // (on - off) / off; 0 when undriven
+  Quantity area_fraction_off, area_fraction_on;  // of the load-carrying patches
+  Quantity capillary_force, electrostatic_force, retention_force;  // [N], whole finger
+  Quantity bridges;                                                // per patch
+  Quantity wetted_fraction;
+  Quantity mean_gap, indentation;  // [m]
+  bool sound = true;
+  std::string status;  // for people: "ok", or what went wrong
+};
+
+// Immutable, cheap to copy.
+class Response {
+ public:
+  const std::vector<Point>& points() const;  // one per humidity
+  bool driven() const;
+  std::string trouble() const;  // empty: every point is sound
+  // The text of `papilla evaluate --json`, byte for byte; without the clock where it must be
+  // reproducible. And its table for people, Markdown.
+  std::string json(bool with_time = true) const;
+  std::string table() const;
+
+  struct Inside;  // not for callers
+  explicit Response(std::shared_ptr<const Inside> inside);
+
+ private:
+  std::shared_ptr<const Inside> inside_;
+};
+
+struct EvaluateOptions {
+  std::string level;  // "draft", "design", "reference"; empty: the design's own
+  double target = 0;  // relative standard error of the modulation, in place of a level; 0: none
+  int threads = 0;    // 0: all processors. The result is the same for any number
+  bool parameters = false;          // also the error that the finger's fitted numbers leave
+  bool look = false;                // also haze, transmittance, gloss and colour
+  std::vector<double> voltage_for;  // also the amplitudes that reach these modulations
+  bool force = false;               // with model options that the finger was not fitted with
+
+  // Called after each skin patch with the number of those that are done; from any thread, one call
+  // at a time. May be empty.
+  std::function<void(int done)> progress;
+  // Set by another thread: evaluate() ends after the running patches and throws Stopped.
+  const std::atomic<bool>* stop = nullptr;
+};
+
+// Throws InputError, Stopped.
+Response evaluate(const Design& design, const EvaluateOptions& options = {});
+
+}  // namespace papilla::api

@@ -1,0 +1,40 @@
+// Which of several designs is better, and how sure that is. docs/theory/ranking.md
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "papilla/design.h"
+
+namespace papilla::api {
+
+struct RankOptions {
+  std::string by;           // "friction:low,variation(modulation):low"; empty: as `papilla rank`
+  std::string states;       // "clean,natural,wet"; empty: the fingers' own
+  int max_skins = 96;       // per candidate and state
+  int threads = 0;          // 0: all processors
+  bool parameters = false;  // also what the finger's fitted numbers leave open
+  bool any_conditions = false;     // compare designs under other conditions all the same
+  std::vector<std::string> names;  // of the candidates; empty: their titles
+  std::function<void(const std::string&)> progress;  // for people; may be empty
+};
+
+struct Ranked {
+  std::size_t index = 0;                // into the designs as given
+  int rank = 1;                         // ties share the better rank
+  double score = 0, low = 0, high = 0;  // 95 %
+  double p_best = 0;                    // probability of the highest score
+};
+
+struct Ranking {
+  // Best first; one list per finger state, in their order.
+  std::vector<std::vector<Ranked>> states;
+  std::string table, json;  // of the command
+};
+
+// Throws InputError.
+Ranking rank(const std::vector<Design>& designs, const RankOptions& options = {});
+
+}  // namespace papilla::api

@@ -1,0 +1,113 @@
+"""Runs test cases with a mutant switched on, and finds out which mutants a test case reaches."""
+import concurrent.futures
+import json
+import os
+import resource
+import signal
+import subprocess
+import time
+
+from . import planting
+
+MEMORY = 8 << 30
+
+
+class Test:
+    def __init__(self, name, command, labels, folder):
+        self.name, self.command, self.folder = name, command, folder
+        self.fast = any(label.endswith("_fast") for label in labels)
+        self.room = next((label.rsplit("_", 1)[0] for label in labels), "")
+        self.seconds = 0.0
+
+
+def listed(build):
+    """What ctest would run, one entry a test case."""
+    out = subprocess.run(["ctest", "--test-dir", str(build), "--show-only=json-v1"], check=True,
+                         capture_output=True).stdout
+    tests = []
+    for entry in json.loads(out)["tests"]:
+        properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
+        built = "command" in entry and os.path.exists(entry["command"][0])
+        if built and not entry["name"].endswith("_NOT_BUILT") and not properties.get("DISABLED"):
+            tests.append(Test(entry["name"], entry["command"], properties.get("LABELS", []),
+                              properties.get("WORKING_DIRECTORY")))
+    return sorted(tests, key=lambda t: t.name)
+
+
+class Runner:
+    """One slot a worker: its own folder for temporary files, one thread for each test."""
+
+    def __init__(self, folder):
+        self.folder = folder
+
+    def run(self, test, timeout, mutant=0, reached=None):
+        """(passed, seconds); a test that runs longer than `timeout` has not passed."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        environment = dict(os.environ, TMPDIR=str(self.folder), TEST_TMPDIR=str(self.folder), OMP_NUM_THREADS="1",
+                           PAPILLA_MUTANT=str(mutant))
+        if reached:
+            environment["PAPILLA_MUTANTS_REACHED"] = str(reached)
+        start = time.monotonic()
+        process = subprocess.Popen(test.command, cwd=test.folder or self.folder, env=environment,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                   preexec_fn=_limited)
+        try:
+            code = process.wait(timeout)
+        except subprocess.TimeoutExpired:
+            code = None
+        try:  # what the test started and left behind
+            os.killpg(process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+        process.wait()
+        return code == 0, time.monotonic() - start
+
+
+def _limited():
+    os.setsid()
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def reach(tests, runners, folder, kept, report, stop):
+    """name -> (passed, seconds, ids reached) without a mutant; `kept` is what an earlier call found."""
+    found = dict(kept)
+    free = list(runners)
+
+    def one(test):
+        runner = free.pop()
+        page = folder / f"reached_{runner.folder.name}"
+        page.write_bytes(bytes(planting.REACHED_BYTES))
+        try:
+            passed, seconds = runner.run(test, 1800, reached=page)
+            ids = [i for i, b in enumerate(page.read_bytes()) if b]
+        finally:
+            free.append(runner)
+        return test.name, (passed, seconds, ids)
+
+    todo = [t for t in tests if t.name not in found]
+    with concurrent.futures.ThreadPoolExecutor(len(runners)) as pool:
+        jobs = [pool.submit(lambda t=t: None if stop() else one(t)) for t in todo]
+        for number, job in enumerate(concurrent.futures.as_completed(jobs)):
+            if job.result():
+                name, result = job.result()
+                found[name] = result
+                report(f"which mutants a test reaches {number + 1}/{len(todo)}", found)
+    return found
+
+
+def verdict(mutant, tests, runner, mirrors, fast_only, stop):
+    """(verdict, test that noticed): `folder`, `all`, `none`, `unreached`, or None when stopped."""
+    reaching = [t for t in tests if mutant["id"] in t.reaches and (t.fast or not fast_only)]
+    if not reaching:
+        return "unreached", ""
+    own = [t for t in reaching if t.fast and t.room in mirrors]
+    rest = [t for t in reaching if t not in own]
+    for group, name in ((own, "folder"), (rest, "all")):
+        for test in sorted(group, key=lambda t: (not t.fast, t.seconds, t.name)):
+            if stop():
+                return None, ""
+            passed, _ = runner.run(test, 15 + 6 * test.seconds, mutant=mutant["id"])
+            if not passed:
+                return name, test.name
+    return "none", ""

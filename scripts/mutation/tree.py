@@ -1,0 +1,207 @@
+"""The copy of the source tree under build/mutate that mutants are planted in, and its build."""
+import concurrent.futures
+import hashlib
+import json
+import os
+import re
+import shlex
+import shutil
+import subprocess
+
+from . import candidates, planting
+
+SOURCES = ("src", "geometry", "optim")
+LEFT_OUT = ("src/cli/", "src/report/page", "src/report/html")
+
+
+class Failure(Exception):
+    pass
+
+
+def digest(*parts):
+    h = hashlib.sha256()
+    for part in parts:
+        h.update(part if isinstance(part, bytes) else str(part).encode())
+        h.update(b"\0")
+    return h.hexdigest()[:20]
+
+
+class Tree:
+    def __init__(self, top, jobs):
+        self.top, self.jobs = top, jobs
+        self.work = top / "build" / "mutate"
+        self.copy = self.work / "tree"
+        self.build = self.copy / "build"
+        self.files = self._listed()
+
+    def _listed(self):
+        """The working tree as git would add it."""
+        out = subprocess.run(["git", "ls-files", "-co", "--exclude-standard", "-z"], cwd=self.top,
+                             check=True, capture_output=True).stdout.decode().split("\0")
+        return sorted(f for f in set(out) if f and (self.top / f).is_file())
+
+    def mutable(self, folders):
+        chosen = [f for f in self.files
+                  if f.endswith((".cpp", ".h")) and f.split("/")[0] in SOURCES and not f.startswith(LEFT_OUT)]
+        if folders:
+            chosen = [f for f in chosen if any(f.startswith(x.rstrip("/") + "/") or f == x for x in folders)]
+        return chosen
+
+    def state(self, *prefixes):
+        return digest(*(x for f in self.files if f.startswith(prefixes) for x in (f, (self.top / f).read_bytes())))
+
+    # -- copy -----------------------------------------------------------------
+    def write(self, planted):
+        """Copies what changed; `planted` is file -> text with mutants. Unchanged files keep their times."""
+        wanted = {f: planted.get(f) or (self.top / f).read_bytes() for f in self.files}
+        wanted["papilla_mutant.h"] = planting.HEADER.encode()
+        for file, text in wanted.items():
+            path = self.copy / file
+            if path.is_file() and path.read_bytes() == text:
+                continue
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(text)
+            if (self.top / file).is_file():
+                shutil.copymode(self.top / file, path)
+        for path in sorted(self.copy.rglob("*"), reverse=True):
+            name = str(path.relative_to(self.copy))
+            if path.is_file() and name not in wanted and not name.startswith("build/"):
+                path.unlink()
+
+    def configure(self):
+        command = ["cmake", "-S", str(self.copy), "-B", str(self.build), "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                   "-DPAPILLA_NATIVE=OFF", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]
+        if shutil.which("ccache"):
+            command.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
+        self._run(command, "configure")
+
+    def compile(self, rooms=None):
+        """Everything, or the fast test programs of some rooms of tests/ alone."""
+        targets = ["all"]
+        if rooms is not None:
+            listed = subprocess.run(["ninja", "-C", str(self.build), "-t", "targets", "all"], check=True,
+                                    capture_output=True, text=True).stdout
+            known = {line.split(":")[0] for line in listed.splitlines()}
+            targets = [t for t in (f"{room}_fast_tests" for room in sorted(rooms)) if t in known]
+        if targets:
+            self._run(["ninja", "-C", str(self.build), f"-j{self.jobs}", *targets], "build")
+
+    def _run(self, command, name):
+        log = self.work / f"{name}.log"
+        with open(log, "wb") as stream:
+            if subprocess.run(command, stdout=stream, stderr=subprocess.STDOUT).returncode:
+                errors = [x for x in log.read_text(errors="replace").splitlines() if "error" in x.lower()]
+                raise Failure("\n".join(errors[:10] + [f"the {name} failed: {log}"]))
+
+    # -- compile commands -----------------------------------------------------
+    def commands(self):
+        table = {}
+        for entry in json.loads((self.build / "compile_commands.json").read_text()):
+            file = os.path.relpath(entry["file"], self.copy)
+            words = entry.get("arguments") or shlex.split(entry["command"])
+            table[file] = [w for w in words if not w.endswith("ccache")]
+        return table
+
+    def arguments_for(self, file, commands):
+        """Compiler and options for a source, or for a header those of any source of the library."""
+        words = commands.get(file)
+        if words is None:
+            words = next((commands[f] for f in sorted(commands)
+                          if f.startswith(file.rsplit("/", 1)[0] + "/") and f.endswith(".cpp")),
+                         None) or next(commands[f] for f in sorted(commands) if f.startswith(SOURCES))
+        kept, skip = [], False
+        for word in words[1:]:
+            if skip or word == "-c" or word.endswith(".cpp"):
+                skip = False
+            elif word in ("-o", "-MF", "-MT", "-MQ"):
+                skip = True
+            elif word not in ("-MD", "-MMD") and not word.startswith("-W"):
+                kept.append(word)
+        return words[0], kept
+
+    # -- candidates -----------------------------------------------------------
+    def all_candidates(self, files, report):
+        """Every candidate of the files, in an order that depends on the tree alone."""
+        commands = self.commands()
+        cache = self.work / "candidates"
+        cache.mkdir(exist_ok=True)
+        version = digest((self.top / "scripts/mutation/candidates.py").read_bytes())
+        jobs, out = {}, {}
+        with concurrent.futures.ProcessPoolExecutor(self.jobs) as pool:
+            for file in files:
+                kept = cache / f"{digest(version, file, (self.top / file).read_bytes())}.json"
+                if kept.is_file():
+                    out[file] = json.loads(kept.read_text())
+                    continue
+                _, options = self.arguments_for(file, commands)
+                options = [o.replace(str(self.copy), str(self.top)) for o in options]
+                jobs[pool.submit(candidates.of_file, self.top, file, ["-x", "c++"] + options)] = (file, kept)
+            for number, job in enumerate(concurrent.futures.as_completed(jobs)):
+                file, kept = jobs[job]
+                out[file] = job.result()
+                kept.write_text(json.dumps(out[file]))
+                report(f"reading the sources {number + 1}/{len(jobs)}")
+        uses = {}
+        for file in files:
+            for place, ranges in out[file]["constants"].items():
+                if place.split(" ")[0] in files:
+                    uses.setdefault(place, {})[file] = ranges
+        return [c for file in files for c in out[file]["candidates"]] + candidates.of_constants(self.top, uses)
+
+    # -- planting -------------------------------------------------------------
+    def planted_texts(self, mutants):
+        edits = {}
+        for mutant in mutants:
+            for edit in mutant["edits"]:
+                edits.setdefault(edit["file"], []).append(dict(edit, id=mutant["id"]))
+        return {f: planting.plant((self.top / f).read_bytes(), e) for f, e in edits.items()}
+
+    def without_those_that_do_not_compile(self, mutants, report):
+        """Drops mutants that the compiler refuses: those on a line with an error, else each tried alone."""
+        commands = self.commands()
+        planted = self.planted_texts(mutants)
+        bad = set()
+        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
+            jobs = [pool.submit(self._refused_in, f, [m for m in mutants if any(e["file"] == f for e in m["edits"])],
+                                commands) for f in sorted(planted)]
+            for number, job in enumerate(concurrent.futures.as_completed(jobs)):
+                bad |= job.result()
+                report(f"compiling with mutants {number + 1}/{len(jobs)}")
+        return [m for m in mutants if m["id"] not in bad]
+
+    def _refused_in(self, file, mutants, commands):
+        """Kept from run to run by the planted text."""
+        known = self.work / "refused" / f"{digest(self.planted_texts(mutants)[file])}.json"
+        if not known.is_file():
+            known.parent.mkdir(exist_ok=True)
+            known.write_text(json.dumps(sorted(self._search_refused(file, mutants, commands))))
+        return set(json.loads(known.read_text()))
+
+    def _search_refused(self, file, mutants, commands):
+        bad = set()
+        while True:
+            left = [m for m in mutants if m["id"] not in bad]
+            errors = self._errors(file, left, commands) if left else []
+            if not errors:
+                return bad
+            text = self.planted_texts(left)[file].split(b"\n")
+            named = {int(i) for line in errors if 0 < line <= len(text)
+                     for i in re.findall(rb"papilla_mutant\((\d+)\)", text[line - 1])}
+            if not named:
+                named = {m["id"] for m in left if self._errors(file, [m], commands)}
+            if not named:
+                named = {m["id"] for m in left}
+            bad |= named
+
+    def _errors(self, file, mutants, commands):
+        """Lines of the planted file with compiler errors; [0] for errors elsewhere."""
+        compiler, options = self.arguments_for(file, commands)
+        path = self.work / "check" / file
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(self.planted_texts(mutants)[file])
+        folder = (self.copy / file).parent
+        result = subprocess.run([compiler, *options, "-w", "-O0", "-fsyntax-only", "-x", "c++", f"-iquote{folder}",
+                                 str(path)], capture_output=True, text=True, errors="replace")
+        if result.returncode == 0:
+            return []
+        return [int(n) for n in re.findall(re.escape(str(path)) + r":(\d+):\d+: error", result.stderr)] or [0]

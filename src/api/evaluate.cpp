@@ -1,0 +1,82 @@
+#include "papilla/evaluate.h"
+
+#include "api/inside.h"
+#include "estimate/evaluation.h"
+#include "report/response.h"
+
+namespace papilla::api {
+namespace {
+
+Quantity quantity_of(const Measured& m) {
+  return {m.value,
+          m.se(),
+          {m.parts.sampling, m.parts.grid, m.parts.solver, m.parts.humidity, m.parts.method,
+           m.parts.parameters, m.parts.water}};
+}
+
+Point point_of(const ResponsePoint& p) {
+  Point out;
+  out.relative_humidity = p.relative_humidity;
+  out.friction_off = quantity_of(p.friction_off);
+  out.friction_on = quantity_of(p.friction_on);
+  out.modulation = quantity_of(p.modulation);
+  out.area_fraction_off = quantity_of(p.area_fraction_off);
+  out.area_fraction_on = quantity_of(p.area_fraction_on);
+  out.capillary_force = quantity_of(p.capillary_force);
+  out.electrostatic_force = quantity_of(p.electrostatic_force);
+  out.retention_force = quantity_of(p.retention_force);
+  out.bridges = quantity_of(p.bridges);
+  out.wetted_fraction = quantity_of(p.wetted_fraction);
+  out.mean_gap = quantity_of(p.mean_gap);
+  out.indentation = quantity_of(p.indentation);
+  out.sound = p.status == "ok";
+  out.status = p.status;
+  return out;
+}
+
+papilla::Design at_level(papilla::Design design, const std::string& level) {
+  const std::vector<std::string>& names = accuracy_level_names();
+  const auto found = std::find(names.begin(), names.end(), level);
+  if (found == names.end())
+    throw papilla::InputError("level: expected draft, design or reference, got " + level);
+  design.accuracy.level = static_cast<AccuracyLevel>(found - names.begin());
+  design.accuracy.target = 0;
+  return design;
+}
+
+}  // namespace
+
+Response::Response(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
+
+const std::vector<Point>& Response::points() const { return inside_->points; }
+
+bool Response::driven() const { return inside_->response.driven; }
+
+std::string Response::trouble() const { return inside_->response.trouble(); }
+
+std::string Response::json(bool with_time) const {
+  return response_json(inside_->response, with_time);
+}
+
+std::string Response::table() const { return response_table(inside_->response); }
+
+Response evaluate(const Design& design, const EvaluateOptions& options) {
+  return across([&] {
+    const papilla::Design& own = design.inside().design();
+    if (!options.force) require_fitted_model(own, design.inside().file, "set `force`");
+    if (options.target < 0 || options.target >= 1)
+      throw papilla::InputError("target: expected a share from 0 to 1");
+    Watch watch(options.progress, options.stop);
+    Response::Inside inside;
+    inside.response = evaluate_design(options.level.empty() ? own : at_level(own, options.level),
+                                      {.target = options.target,
+                                       .parameters = options.parameters,
+                                       .appearance = options.look,
+                                       .voltage_for = options.voltage_for,
+                                       .threads = options.threads});
+    for (const ResponsePoint& p : inside.response.points) inside.points.push_back(point_of(p));
+    return Response(std::make_shared<const Response::Inside>(std::move(inside)));
+  });
+}
+
+}  // namespace papilla::api

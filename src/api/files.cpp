@@ -1,0 +1,39 @@
+#include "papilla/files.h"
+
+#include "api/inside.h"
+#include "fabricate/export.h"
+#include "fabricate/verify.h"
+
+namespace papilla::api {
+
+Exported export_files(const Design& design, const std::string& folder,
+                      const ExportOptions& options) {
+  return across([&] {
+    papilla::ExportOptions inside;
+    inside.formats = options.formats;
+    inside.size = options.size;
+    inside.pixels = options.pixels;
+    if (options.polarity == "white-high" || options.polarity == "white-deep") {
+      inside.polarity =
+          options.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
+    } else if (!options.polarity.empty()) {
+      throw papilla::InputError("polarity: expected white-high or white-deep, got " +
+                                options.polarity);
+    }
+    const Export done = export_design(design.inside().design(), inside, folder);
+    Exported out;
+    for (const ExportedFile& file : done.files) out.files.push_back(file.path);
+    out.warnings = done.warnings;
+    out.heights = heights_of(done.heightmap);
+    return out;
+  });
+}
+
+Verdict verify(const Design& design, const std::string& file, double tolerance) {
+  return across([&] {
+    const Verification v = verify_export(design.inside().study, file, tolerance);
+    return Verdict{v.pixels.min_hole, v.pixels.min_wall, v.design, v.file, v.loss, v.faults};
+  });
+}
+
+}  // namespace papilla::api

@@ -1,0 +1,62 @@
+#include "rank/rank.h"
+
+#include <algorithm>
+
+#include "api/inside.h"
+#include "base/text.h"
+#include "papilla/rank.h"
+
+namespace papilla::api {
+namespace {
+
+papilla::RankOptions inner(const std::vector<papilla::Design>& designs,
+                           const RankOptions& options) {
+  papilla::RankOptions out;
+  const bool driven = std::all_of(designs.begin(), designs.end(),
+                                  [](const papilla::Design& d) { return d.drive.driven(); });
+  out.criteria = parse_criteria(!options.by.empty() ? options.by
+                                : driven            ? "modulation:high"
+                                                    : "friction:low,adhesion:low");
+  const std::vector<std::string>& names = finger_state_names();
+  for (const std::string& name : split(options.states, ',')) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw papilla::InputError("states: expected some of " + join_names(names) + ", got " + name);
+    out.states.push_back(static_cast<FingerState>(found - names.begin()));
+  }
+  out.max_skins = options.max_skins;
+  out.threads = options.threads;
+  out.parameters = options.parameters;
+  out.any_conditions = options.any_conditions;
+  out.names = options.names;
+  out.note = options.progress;
+  return out;
+}
+
+}  // namespace
+
+Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
+  return across([&] {
+    if (designs.size() < 2) throw papilla::InputError("name two designs at least");
+    std::vector<papilla::Design> candidates;
+    for (const Design& design : designs) candidates.push_back(design.inside().design());
+    papilla::RankOptions inside = inner(candidates, options);
+    if (inside.names.empty()) {
+      for (const papilla::Design& design : candidates) inside.names.push_back(design.title);
+    }
+    if (inside.states.empty()) inside.states = {candidates.front().finger.state};
+    const papilla::Ranking ranking = papilla::rank(candidates, inside);
+    Ranking out;
+    for (const StateRanking& state : ranking.states) {
+      out.states.emplace_back();
+      for (const RankedCandidate& c : state.candidates)
+        out.states.back().push_back(
+            {c.index, c.rank, c.score.value, c.score.low, c.score.high, c.p_best});
+    }
+    out.table = ranking_table(inside.names, inside, ranking);
+    out.json = ranking_json(inside.names, inside, ranking);
+    return out;
+  });
+}
+
+}  // namespace papilla::api

@@ -1,0 +1,135 @@
+#include "calibrate/residuals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "forward/forward.h"
+
+namespace papilla {
+
+Residuals::Residuals(const Calibration& calibration, int threads)
+    : calibration_(calibration), threads_(threads), factors_(calibration.data.size()) {
+  const std::set<std::string> wanted(calibration.fit.begin(), calibration.fit.end());
+  for (PublishedTarget& target : published_targets()) {
+    if (wanted.count(target.claim)) targets_.push_back(std::move(target));
+  }
+  group_data();
+  for (const PublishedTarget& t : targets_)
+    rows_.push_back({t.claim, t.what, t.low, t.high, t.sd, 0, 0, 0});
+  for (const FrictionDatum& d : calibration.data) add_rows(d);
+}
+
+void Residuals::add_rows(const FrictionDatum& d) {
+  const auto add = [&](const char* name, double value, double sd) {
+    rows_.push_back({fmt::format("line {}", d.line),
+                     fmt::format("{} of {} at {:.0f} % RH, {} V, mN", name,
+                                 std::filesystem::path(d.design).stem().string(),
+                                 100 * d.relative_humidity, d.amplitude),
+                     value * 1e3, value * 1e3, sd * 1e3, 0, 0, 0});
+  };
+  add("F_off", d.off, d.off_sd);
+  if (d.on_sd > 0) add("F_on", d.on, d.on_sd);
+}
+
+std::vector<Estimate> Residuals::model(const Finger& finger) const {
+  std::vector<Estimate> out;
+  FingerModel finger_model(finger, finger.calibrated_for.preset, threads_, calibration_.sampling);
+  for (const PublishedTarget& t : targets_) out.push_back(t.model(finger_model));
+  const std::vector<Friction> friction = frictions(finger, calibration_.sampling);
+  for (std::size_t i = 0; i < friction.size(); ++i) {
+    const auto add = [&](const Estimate& force, double factor) {
+      out.push_back({1e3 * factor * force.value, 1e3 * factor * force.se});
+    };
+    add(friction[i].off, factors_[i].off);
+    if (calibration_.data[i].on_sd > 0) add(friction[i].on, factors_[i].on);
+  }
+  return out;
+}
+
+double Residuals::correct(const Finger& finger) {
+  SkinSampling fine = calibration_.sampling;
+  fine.level = calibration_.check.level;
+  fine.grid = calibration_.check.grid;
+  const SkinSampling& coarse = calibration_.sampling;
+  if (calibration_.data.empty() || (fine.level == coarse.level && fine.grid == coarse.grid))
+    return 0;
+  const std::vector<Friction> good = frictions(finger, fine), fast = frictions(finger, coarse);
+  double largest = 0;
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    const FrictionDatum& d = calibration_.data[i];
+    const auto update = [&](double& factor, const Estimate& from, const Estimate& to, double sd) {
+      if (!(from.value > 0) || !(to.value > 0)) return;
+      const double now = to.value / from.value;
+      largest = std::max(largest, std::abs(now - factor) * from.value / sd);
+      factor = now;
+    };
+    update(factors_[i].off, fast[i].off, good[i].off, d.off_sd);
+    if (d.on_sd > 0) update(factors_[i].on, fast[i].on, good[i].on, d.on_sd);
+  }
+  return largest;
+}
+
+bool Residuals::residuals(const Finger& finger, std::span<double> r) const {
+  const std::vector<Estimate> values = model(finger);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const FitRow& row = rows_[i];
+    if (!std::isfinite(values[i].value)) return false;
+    const double miss = values[i].value - std::clamp(values[i].value, row.low, row.high);
+    r[i] = miss / std::hypot(row.sd, row.sampling_sd);
+  }
+  return true;
+}
+
+std::vector<Residuals::Friction> Residuals::frictions(const Finger& finger,
+                                                      const SkinSampling& sampling) const {
+  std::vector<Friction> out(calibration_.data.size());
+  const Fidelity fidelity = sampling.fidelity(threads_);
+  for (const MeasuredGroup& s : groups_) {
+    Scene scene = scene_of(s.design);
+    const double load = scene.finger.load;
+    const FingerState state = scene.finger.state;
+    scene.finger = finger;
+    scene.finger.load = load;
+    scene.finger.state = state;
+    scene.model = finger.calibrated_for;
+    const Response response = evaluate(scene, s.design.texture, fidelity);
+    for (std::size_t k = 0; k < s.rows.size(); ++k) {
+      const ResponsePoint& p = response.points[s.humidity_of[k]];
+      out[s.rows[k]] = {{p.friction_off.value, p.friction_off.parts.sampling},
+                        {p.friction_on.value, p.friction_on.parts.sampling}};
+    }
+  }
+  return out;
+}
+
+void Residuals::group_data() {
+  std::map<std::tuple<std::string, double, double, double>, std::vector<std::size_t>> same;
+  for (std::size_t i = 0; i < calibration_.data.size(); ++i) {
+    const FrictionDatum& d = calibration_.data[i];
+    same[{d.design, d.amplitude, d.frequency, d.load}].push_back(i);
+  }
+  for (const auto& [key, rows] : same) {
+    const FrictionDatum& d = calibration_.data[rows.front()];
+    MeasuredGroup s{read_design(d.design), rows, {}};
+    s.design.drive.amplitude = d.amplitude;
+    if (d.frequency > 0) s.design.drive.frequency = d.frequency;
+    s.design.finger.load = d.load;
+    std::set<double> humidities;
+    for (std::size_t i : rows) humidities.insert(calibration_.data[i].relative_humidity);
+    s.design.environment.relative_humidity.assign(humidities.begin(), humidities.end());
+    s.design.environment.weights.clear();
+    for (std::size_t i : rows) {
+      const auto at = humidities.find(calibration_.data[i].relative_humidity);
+      s.humidity_of.push_back(static_cast<std::size_t>(std::distance(humidities.begin(), at)));
+    }
+    groups_.push_back(std::move(s));
+  }
+}
+
+}  // namespace papilla

@@ -1,0 +1,72 @@
+// The model beside published numbers and measured friction: the rows of a fit and their residuals.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/statistics.h"
+#include "calibrate/calibration_file.h"
+#include "design/design.h"
+#include "published/targets.h"
+
+namespace papilla {
+
+// One residual before and after.
+struct FitRow {
+  std::string source;  // claim id, or "line 4 F_off"
+  std::string what;
+  double low = 0, high = 0, sd = 0;  // what the data say; low = high: a value
+  double sampling_sd = 0;            // of the model, from its skins; already in the weight
+  double before = 0, after = 0;      // the model
+};
+
+// Rows of one design, drive and load: one evaluation over their humidities.
+struct MeasuredGroup {
+  Design design;
+  std::vector<std::size_t> rows;         // into the data
+  std::vector<std::size_t> humidity_of;  // of each row, into the environment's list
+};
+
+class Residuals {
+ public:
+  // The calibration has to outlive this. threads 0: all.
+  Residuals(const Calibration& calibration, int threads);
+
+  std::vector<FitRow>& rows() { return rows_; }
+  int size() const { return static_cast<int>(rows_.size()); }
+
+  // The model at every row, with the error of its sampling.
+  std::vector<Estimate> model(const Finger& finger) const;
+
+  // What a coarse level gets wrong in a friction, a factor: taken at this finger from the level of
+  // the checks on the same skins. Returns the largest change of a friction in standard deviations
+  // of its datum. Eq. calibration.6
+  double correct(const Finger& finger);
+
+  // Distance from the band in standard deviations: the data's and the model's sampling error,
+  // which stays what it was at the start. false: the model has no answer. Eq. calibration.5
+  bool residuals(const Finger& finger, std::span<double> r) const;
+
+ private:
+  struct Friction {
+    Estimate off, on;  // [N], with the error of the skins
+  };
+  struct Factor {
+    double off = 1, on = 1;
+  };
+
+  void group_data();
+  void add_rows(const FrictionDatum& datum);
+  // At every datum.
+  std::vector<Friction> frictions(const Finger& finger, const SkinSampling& sampling) const;
+
+  const Calibration& calibration_;
+  int threads_;
+  std::vector<PublishedTarget> targets_;
+  std::vector<MeasuredGroup> groups_;
+  std::vector<Factor> factors_;  // of each datum
+  std::vector<FitRow> rows_;
+};
+
+}  // namespace papilla

@@ -1,0 +1,108 @@
+#include "claims/claim.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "base/check.h"
+#include "claims/papers.h"
+
+namespace papilla {
+
+std::string verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Agrees:
+      return "agrees";
+    case Verdict::Fitted:
+      return "fitted";
+    case Verdict::Differs:
+      return "differs";
+    case Verdict::PaperInconsistent:
+      return "paper inconsistent";
+    case Verdict::NotTestable:
+      return "not testable";
+  }
+  return "";
+}
+
+Judgement agrees_if(bool agrees, double value, double se, std::string model, std::string reason) {
+  return {agrees ? Verdict::Agrees : Verdict::Differs, value, se, std::move(model),
+          std::move(reason)};
+}
+
+Judgement all_of(const std::vector<Part>& parts, const std::string& why_not) {
+  std::string list;
+  const Part* shown = &parts.front();
+  bool all = true;
+  for (const Part& p : parts) {
+    list += fmt::format("{}{} {:.3g} ± {:.2g}{}", list.empty() ? "" : "; ", p.name, p.value.value,
+                        p.value.se, p.holds ? "" : " (no)");
+    if (all && !p.holds) shown = &p;
+    all = all && p.holds;
+  }
+  std::string reason = list;
+  if (!all && !why_not.empty()) reason += ". " + why_not;
+  return agrees_if(all, shown->value.value, shown->value.se,
+                   fmt::format("{:.3g} ± {:.2g}", shown->value.value, shown->value.se), reason);
+}
+
+Judgement trend(const std::vector<double>& values, bool rises, std::string reason) {
+  bool agrees = true;
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (i > 0) agrees = agrees && (rises ? values[i] > values[i - 1] : values[i] < values[i - 1]);
+    text += fmt::format("{}{:.4g}", i ? ", " : "", values[i]);
+  }
+  return agrees_if(agrees, values.back() / values.front(), 0, text, std::move(reason));
+}
+
+namespace {
+
+std::vector<Claim> joined(std::vector<std::vector<Claim>> lists) {
+  std::vector<Claim> all;
+  for (std::vector<Claim>& list : lists) {
+    for (Claim& claim : list) all.push_back(std::move(claim));
+  }
+  return all;
+}
+
+}  // namespace
+
+Claim m3_claim(const char* id, const char* statement, const char* band,
+               std::function<Judgement(FingerModel&)> judge) {
+  return {id, "M3 model (Ma et al. 2025)", statement, band, true, std::move(judge)};
+}
+
+std::vector<Claim> m3_claims() {
+  std::vector<Claim> all = joined({m3_friction_claims(), m3_modulation_claims(), m3_water_claims(),
+                                   m3_field_claims(), m3_film_claims()});
+  const auto number = [](const Claim& claim) { return std::stoi(claim.id.substr(1)); };
+  std::sort(all.begin(), all.end(),
+            [&](const Claim& a, const Claim& b) { return number(a) < number(b); });
+  return all;
+}
+
+std::vector<std::string> m3_claim_ids() {
+  std::vector<std::string> out;
+  for (const Claim& claim : m3_claims()) out.push_back(claim.id);
+  return out;
+}
+
+std::vector<Claim> theory_claims() {
+  return joined({mean_field_claims(), network_claims(), stiction_claims()});
+}
+
+const std::vector<Claim>& claims() {
+  static const std::vector<Claim> list = [] {
+    const std::vector<Claim> all = joined({m3_claims(), theory_claims()});
+    std::set<std::string> ids;
+    for (const Claim& claim : all) {
+      PAPILLA_CHECK(ids.insert(claim.id).second, "every claim has an id of its own");
+    }
+    return all;
+  }();
+  return list;
+}
+
+}  // namespace papilla

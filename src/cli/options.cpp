@@ -1,0 +1,121 @@
+#include "cli/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+
+namespace papilla {
+
+Option Option::required() const { return Option(option_->required()); }
+
+Option Option::type_name(const std::string& name) const { return Option(option_->type_name(name)); }
+
+Option Option::show_default() const { return Option(option_->capture_default_str()); }
+
+Option Option::repeatable() const {
+  return Option(option_->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll));
+}
+
+Option Option::separator(char character) const { return Option(option_->delimiter(character)); }
+
+Option Option::one_of(const std::vector<std::string>& values) const {
+  return Option(option_->check(CLI::IsMember(values)));
+}
+
+Option Option::check(const std::function<std::string(const std::string&)>& mistake) const {
+  return Option(option_->check(mistake));
+}
+
+template <typename T>
+Option Option::range(T low, T high) const {
+  return Option(option_->check(CLI::Range(low, high)));
+}
+template Option Option::range(int, int) const;
+template Option Option::range(long, long) const;
+template Option Option::range(double, double) const;
+
+Command Command::add_command(const std::string& name, const std::string& meaning) const {
+  return Command(app_->add_subcommand(name, meaning));
+}
+
+template <typename T>
+Option Command::add_option(const std::string& name, T& variable, const std::string& meaning) const {
+  return Option(app_->add_option(name, variable, meaning));
+}
+using std::string, std::vector;
+template Option Command::add_option(const string&, string&, const string&) const;
+template Option Command::add_option(const string&, int&, const string&) const;
+template Option Command::add_option(const string&, double&, const string&) const;
+template Option Command::add_option(const string&, std::uint64_t&, const string&) const;
+template Option Command::add_option(const string&, vector<string>&, const string&) const;
+template Option Command::add_option(const string&, vector<double>&, const string&) const;
+
+Option Command::add_flag(const std::string& name, bool& variable,
+                         const std::string& meaning) const {
+  return Option(app_->add_flag(name, variable, meaning));
+}
+
+Option Command::add_numbers(const std::string& name, const std::function<void(int)>& set,
+                            const std::map<std::string, int>& words,
+                            const std::string& meaning) const {
+  return Option(app_->add_option_function<int>(name, set, meaning)
+                    ->type_name("ENUM")
+                    ->transform(CLI::Transformer(words)));
+}
+
+Command Command::add_alternatives(const std::string& name) const {
+  CLI::Option_group* group = app_->add_option_group(name);
+  group->require_option(1);
+  return Command(group);
+}
+
+void Command::require_command() const { app_->require_subcommand(1); }
+
+void Command::on_chosen(const std::function<void()>& callback) const { app_->callback(callback); }
+
+std::string Command::name() const { return app_->get_name(); }
+
+std::vector<Command> Command::commands() const {
+  std::vector<Command> all;
+  for (CLI::App* app : app_->get_subcommands([](CLI::App*) { return true; })) {
+    all.emplace_back(app);
+  }
+  return all;
+}
+
+std::vector<std::string> Command::option_names() const {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app_->get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+CommandLine::CommandLine(const std::string& name, const std::string& version,
+                         const std::string& meaning)
+    : app_(std::make_unique<CLI::App>(meaning, name)) {
+  app_->set_version_flag("--version", version);
+  app_->fallthrough();
+  app_->require_subcommand(1);
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::program() const { return Command(app_.get()); }
+
+bool CommandLine::parse(int argc, const char* const* argv) const {
+  try {
+    app_->parse(argc, argv);
+    return true;
+  } catch (const CLI::Success& e) {  // --help, --version
+    app_->exit(e);
+    return false;
+  } catch (const CLI::ParseError& e) {
+    std::string commands;
+    for (auto level = app_->get_subcommands(); !level.empty();
+         level = level.front()->get_subcommands())
+      commands += level.front()->get_name() + " ";
+    throw CommandLineError(e.what(), commands);
+  }
+}
+
+}  // namespace papilla

@@ -1,0 +1,103 @@
+// Commands, their options and the command line, in plain types. Only options.cpp knows the parser
+// behind them (CLI11).
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace papilla {
+
+// An option or an argument of a command; each call adds to what it asks for.
+class Option {
+ public:
+  explicit Option(CLI::Option* option) : option_(option) {}
+
+  Option required() const;
+  Option type_name(const std::string& name) const;  // of its value in the help: FILE
+  Option show_default() const;                      // the variable's value now, in the help
+  Option repeatable() const;                        // one value each time that it is named
+  Option separator(char character) const;           // of several values in one argument
+  Option one_of(const std::vector<std::string>& values) const;
+  // What is wrong with a text; empty: nothing.
+  Option check(const std::function<std::string(const std::string&)>& mistake) const;
+  // Both ends are allowed. int, long or double.
+  template <typename T>
+  Option range(T low, T high) const;
+
+ private:
+  CLI::Option* option_;
+};
+
+// A handle of one (sub)command, copied freely; it lives as long as its CommandLine.
+class Command {
+ public:
+  explicit Command(CLI::App* app) : app_(app) {}
+
+  Command add_command(const std::string& name, const std::string& meaning) const;
+  // "file" is an argument by place, "--file" an option. Variables: std::string, int, double,
+  // std::uint64_t, std::vector of std::string or double; they outlive the parsing.
+  template <typename T>
+  Option add_option(const std::string& name, T& variable, const std::string& meaning) const;
+  Option add_flag(const std::string& name, bool& variable, const std::string& meaning) const;
+  // A word for each value.
+  template <typename Enum>
+  Option add_choice(const std::string& name, Enum& variable,
+                    const std::map<std::string, Enum>& words, const std::string& meaning) const {
+    std::map<std::string, int> numbers;
+    for (const auto& [word, value] : words) numbers[word] = static_cast<int>(value);
+    return add_numbers(
+        name, [&variable](int number) { variable = static_cast<Enum>(number); }, numbers, meaning);
+  }
+  // Exactly one of the options that are added to it must be given.
+  Command add_alternatives(const std::string& name) const;
+  void require_command() const;
+  // Called after the command line is read, where this command was chosen.
+  void on_chosen(const std::function<void()>& callback) const;
+
+  std::string name() const;
+  std::vector<Command> commands() const;
+  std::vector<std::string> option_names() const;  // "--out"
+
+ private:
+  Option add_numbers(const std::string& name, const std::function<void(int)>& set,
+                     const std::map<std::string, int>& words, const std::string& meaning) const;
+  CLI::App* app_;
+};
+
+// A mistake on the command line.
+class CommandLineError : public std::runtime_error {
+ public:
+  CommandLineError(const std::string& mistake, std::string commands)
+      : std::runtime_error(mistake), commands_(std::move(commands)) {}
+  // As far as they were understood: "solve contact ".
+  const std::string& commands() const { return commands_; }
+
+ private:
+  std::string commands_;
+};
+
+// The whole command line of a program.
+class CommandLine {
+ public:
+  CommandLine(const std::string& name, const std::string& version, const std::string& meaning);
+  ~CommandLine();
+
+  Command program() const;
+  // False: it asked for help or the version, which are printed. Throws CommandLineError.
+  bool parse(int argc, const char* const* argv) const;
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace papilla

@@ -1,0 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "design/families.h"
+#include "design/study_file.h"
+
+namespace papilla {
+namespace {
+
+// The texture's kind and number of parts; then the numbers of every kind may be varied.
+void read_kinds(StudyFile& file, const PathMembers& members) {
+  for (const auto& [path, node] : members) {
+    if (path != "texture.type" && path != "texture.levels") continue;
+    const std::string where = "design_space." + path;
+    const Node* choice = node->is_table() ? node->find("choice") : nullptr;
+    const bool kind = path == "texture.type";
+    const int parts = texture_levels(file.study.design.texture);
+    const std::string expected =
+        kind ? "expected { choice = [...] } of texture types"
+             : fmt::format("expected {{ choice = [...] }} of numbers of parts, 1 to {}", parts);
+    if (!choice || !choice->is_array() || choice->children.empty()) {
+      file.document.problem(node->place, where, expected + ", got " + describe(*node));
+      continue;
+    }
+    Variable variable{path, "", 0, 0, {}};
+    const auto& kinds = texture_kinds();
+    for (const Node& item : choice->children) {
+      const auto found =
+          std::find(kinds.begin(), kinds.end(), item.is_text() ? item.text : std::string());
+      if (kind && found != kinds.end() &&
+          numbers_alone(static_cast<std::size_t>(found - kinds.begin()))) {
+        variable.choices.push_back(static_cast<double>(found - kinds.begin()));
+        file.kind_copies.push_back(of_kind(file.study.design.texture, item.text));
+        file.numbers.add(number_fields(file.kind_copies.back(), "texture"));
+      } else if (!kind && item.kind == Node::Kind::Integer && item.integer >= 1 &&
+                 item.integer <= parts) {
+        variable.choices.push_back(static_cast<double>(item.integer));
+      } else {
+        file.document.problem(item.place, where, expected + ", got " + describe(item));
+      }
+    }
+    if (variable.choices.empty()) continue;
+    variable.low = *std::min_element(variable.choices.begin(), variable.choices.end());
+    variable.high = *std::max_element(variable.choices.begin(), variable.choices.end());
+    file.study.variables.push_back(std::move(variable));
+  }
+}
+
+// Bounds [low, high] of a number, or its choices.
+void read_variable(StudyFile& file, const std::string& path, const Node& node) {
+  const std::string where = "design_space." + path;
+  const NumberField* field = file.numbers.find(path, node, "design_space");
+  if (!field) return;
+  Variable variable{path, field->unit, 0, 0, {}};
+  const Node* choice = node.is_table() ? node.find("choice") : nullptr;
+  const Node& list = choice ? *choice : node;
+  if (!list.is_array() || (!choice && list.children.size() != 2) || list.children.empty()) {
+    file.document.problem(
+        list.place, where,
+        fmt::format("expected [low, high] or {{ choice = [...] }}, got {}", describe(list)));
+    return;
+  }
+  if (choice && node.children.size() > 1)
+    file.document.problem(node.place, where, "expected `choice` alone");
+  std::vector<double> values(list.children.size());
+  bool good = true;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    good &= file.numbers.read(*field, list.children[i], where, values[i]);
+  if (!good) return;
+  variable.low = *std::min_element(values.begin(), values.end());
+  variable.high = *std::max_element(values.begin(), values.end());
+  if (choice) {
+    variable.choices = values;
+  } else if (values[0] >= values[1]) {
+    file.document.problem(list.place, where, "expected low < high");
+    return;
+  }
+  file.study.variables.push_back(std::move(variable));
+}
+
+// Numbers of the design that a scenario fixes.
+void read_settings(StudyFile& file, const std::string& where, const Node& set,
+                   std::vector<Setting>& out) {
+  if (!set.is_table()) {
+    file.document.problem(set.place, where,
+                          "expected a section, e.g. { \"surface.contact_angle\" = \"80 deg\" }");
+    return;
+  }
+  for (const auto& [path, node] : members_by_path(set)) {
+    const NumberField* field = file.numbers.find(path, *node, where);
+    double si = 0;
+    if (field && file.numbers.read(*field, *node, where + "." + path, si))
+      out.push_back({path, si});
+  }
+}
+
+}  // namespace
+
+void read_design_space(StudyFile& file) {
+  const Node* space = file.section("design_space");
+  if (!space) return;
+  const PathMembers members = members_by_path(*space, true);
+  read_kinds(file, members);
+  for (const auto& [path, node] : members) {
+    if (path != "texture.type" && path != "texture.levels") read_variable(file, path, *node);
+  }
+}
+
+void read_scatter(StudyFile& file) {
+  const Node* section = file.section("scatter");
+  if (!section) return;
+  const PathMembers members = members_by_path(*section);
+  for (const auto& [path, node] : members) {
+    const NumberField* field = file.numbers.find(path, *node, "scatter");
+    if (!field) continue;
+    const std::string where = "scatter." + path;
+    double tolerance = 0;
+    if (!file.document.number(*node, where, {path.c_str(), field->unit, 0, 1e9, ""}, tolerance))
+      continue;
+    if (tolerance > 0) {
+      file.study.scatter.push_back({path, tolerance});
+    } else {
+      file.document.problem(node->place, where, "expected a tolerance above 0");
+    }
+  }
+}
+
+void read_scenarios(StudyFile& file) {
+  const Node* list = file.document.take("scenarios");
+  if (!list) return;
+  file.keep("scenarios");
+  if (!list->is_array()) {
+    file.document.problem(list->place, "scenarios",
+                          "expected a list of sections [[scenarios]], got " + describe(*list));
+    return;
+  }
+  for (std::size_t i = 0; i < list->children.size(); ++i) {
+    const Node& item = list->children[i];
+    const std::string path = fmt::format("scenarios.{}", i);
+    if (!item.is_table()) {
+      file.document.problem(item.place, path, "expected a section { ... }, got " + describe(item));
+      continue;
+    }
+    file.only(item, path, {"name", "weight", "set"});
+    Scenario scenario;
+    const Node* name = item.find("name");
+    if (!name || !name->is_text()) {
+      file.document.problem(name ? name->place : item.place, path, "missing `name` (a text)");
+    } else {
+      scenario.name = name->text;
+    }
+    if (const Node* weight = item.find("weight")) {
+      file.document.number(*weight, path + ".weight", {"weight", "", 0, 1e6, ""}, scenario.weight);
+    }
+    if (const Node* set = item.find("set")) read_settings(file, path + ".set", *set, scenario.set);
+    file.study.scenarios.push_back(std::move(scenario));
+  }
+}
+
+}  // namespace papilla

@@ -1,0 +1,76 @@
+#include "design/paths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "design/families.h"
+
+namespace papilla {
+namespace {
+
+void flatten(const Node& table, const std::string& path, bool stop_at_choice, PathMembers& out) {
+  for (const Node& child : table.children) {
+    const std::string full = path.empty() ? child.key : path + "." + child.key;
+    const bool leaf = !child.is_table() || (stop_at_choice && child.find("choice"));
+    if (leaf) {
+      out.emplace_back(full, &child);
+    } else {
+      flatten(child, full, stop_at_choice, out);
+    }
+  }
+}
+
+}  // namespace
+
+Design with_settings(Design design, const std::vector<Setting>& settings) {
+  const std::vector<NumberField> known = number_fields(design);
+  for (const Setting& setting : settings) {
+    const std::string path = path_in(known, setting.path);
+    if (!path.empty() || !setting.path.starts_with("texture."))
+      *find_number_field(known, path.empty() ? setting.path : path).value = setting.value;
+  }
+  return design;
+}
+
+PathMembers members_by_path(const Node& section, bool stop_at_choice) {
+  PathMembers out;
+  flatten(section, "", stop_at_choice, out);
+  return out;
+}
+
+KnownNumbers::KnownNumbers(Document& document, Design& design)
+    : document_(document), numbers_(number_fields(design)) {}
+
+void KnownNumbers::add(const std::vector<NumberField>& more) {
+  for (const NumberField& field : more) {
+    if (std::none_of(numbers_.begin(), numbers_.end(),
+                     [&](const NumberField& known) { return known.path == field.path; }))
+      numbers_.push_back(field);
+  }
+}
+
+const NumberField* KnownNumbers::find(const std::string& path, const Node& node,
+                                      const std::string& where) {
+  for (const NumberField& field : numbers_) {
+    if (field.path == path) return &field;
+  }
+  std::vector<std::string> names;
+  for (const NumberField& field : numbers_) names.push_back(field.path);
+  const std::string near = nearest_name(path, names);
+  document_.problem(
+      node.key_place, where,
+      near.empty()
+          ? fmt::format("`{}` is no number of this design", path)
+          : fmt::format("`{}` is no number of this design, did you mean `{}`?", path, near));
+  return nullptr;
+}
+
+bool KnownNumbers::read(const NumberField& field, const Node& node, const std::string& where,
+                        double& si) {
+  return document_.number(node, where, {field.path.c_str(), field.unit, field.low, field.high, ""},
+                          si);
+}
+
+}  // namespace papilla

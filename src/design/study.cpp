@@ -1,0 +1,54 @@
+#include "design/study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/units.h"
+#include "config/writer.h"
+#include "optim/search.h"
+
+namespace papilla {
+
+void fields(FieldVisitor& v, Search& s) {
+  const std::vector<std::string>& names = searcher_names();
+  int method = static_cast<int>(std::find(names.begin(), names.end(), s.method) - names.begin());
+  v.choice({"method", "search method"}, names, method);
+  s.method = names[static_cast<std::size_t>(method)];
+  v.integer({"seed", "of the search's random numbers"}, 0, 1 << 30, s.seed);
+  v.integer({"evaluations", "largest number of evaluated designs; 0: the method's default"}, 0,
+            100000000, s.evaluations);
+  v.integer({"drafts", "cheap evaluations that steer the bayesian search"}, 0, 10000, s.drafts);
+  v.number({"time", "min", 0, 1e6, "largest wall-clock time; 0: no limit"}, s.time);
+  v.integer({"jobs", "evaluations at a time; 0: one a processor"}, 0, 4096, s.jobs);
+}
+
+const std::vector<ConstraintKind>& constraint_kinds() {
+  static const std::vector<ConstraintKind> kinds{
+      {"min_hole", "um", true, "smallest hole or gap between features"},
+      {"min_wall", "um", true, "smallest wall or feature"},
+      {"aspect_ratio", "", false, "largest depth / smallest width of a hole"},
+      {"oxide_breakdown_margin", "", true,
+       "breakdown field of the dielectric / largest field in it"},
+      {"haze", "%", false, "share of the transmitted light beyond 2.5 deg"},
+      {"transmittance", "%", true, "undeviated share of the light on the plate"},
+      {"gloss", "%", true, "specular reflection at 60 deg over that of flat glass"},
+      {"colour_shift", "", false, "CIE 1976 u'v' distance of the undeviated light"},
+  };
+  return kinds;
+}
+
+std::string variable_text(const Variable& variable, double value, bool plain) {
+  if (variable.is_kind()) return texture_kinds()[static_cast<std::size_t>(value)];
+  const double shown = value / find_unit(variable.unit)->to_si;
+  if (plain) return fmt::format("{:.6g}", shown);
+  return fmt::format("{:.3g}{}", shown, variable.unit.empty() ? "" : " " + variable.unit);
+}
+
+std::string resolved_toml(const Study& study) {
+  Node table = to_table(study.design, &study.origins);
+  for (const Node& section : study.study_sections.children) table.set(section.key, section);
+  return write_toml(table);
+}
+
+}  // namespace papilla

@@ -1,0 +1,158 @@
+#include "design/study_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "base/text.h"
+#include "config/writer.h"
+#include "scene/uncertainty.h"
+
+namespace papilla {
+namespace {
+
+namespace fs = std::filesystem;
+
+void read_population(StudyFile& file) {
+  const Node* section = file.section("population");
+  if (!section) return;
+  file.only(*section, "population", {"fingers"});
+  const Node* list = section->find("fingers");
+  if (!list || !list->is_array() || list->children.empty()) {
+    file.document.problem(list ? list->place : section->place, "population.fingers",
+                          "expected a list of finger files");
+    return;
+  }
+  std::vector<Node> files;  // absolute, for resolved.toml in another folder
+  for (const Node& item : list->children) {
+    const std::string name =
+        item.is_text() ? find_beside(item.text, item.place.file, design_roots()) : "";
+    if (name.empty()) {
+      file.document.problem(item.place, "population.fingers",
+                            item.is_text()
+                                ? fmt::format("no file \"{}\" beside this file or in the "
+                                              "designs folder",
+                                              item.text)
+                                : "expected the name of a file, got " + describe(item));
+      continue;
+    }
+    try {
+      Finger finger = read_finger(name);
+      // What the study says of the touch itself holds for everyone.
+      if (file.document.origins().count("finger.load")) finger.load = file.study.design.finger.load;
+      if (file.document.origins().count("finger.state"))
+        finger.state = file.study.design.finger.state;
+      file.study.population.push_back(std::move(finger));
+      files.push_back(text_node(fs::absolute(name).lexically_normal().string()));
+    } catch (const InputError& error) {
+      for (const Problem& p : error.problems()) {
+        file.document.problem({p.file, p.line, p.column}, p.key, p.message);
+      }
+    }
+  }
+  file.study.study_sections.find("population")->set("fingers", array_node(std::move(files)));
+}
+
+// What stands in the head of the file, and the mistakes across its fields.
+void read_head(Document& document, Design& design) {
+  read_section(document, "", design);
+  if (!document.problems().empty()) return;  // values may stand for ones that could not be read
+  for (const DesignProblem& p : design_problems(design)) document.problem_at(p.path, p.message);
+  if (const std::string wrong = uncertainty_problem(design.finger); !wrong.empty())
+    document.problem_at("finger.uncertainty", wrong);
+}
+
+void read_search(Document& document, Study& study) {
+  read_section(document, "search", study.search);
+  if (study.is_study())
+    study.study_sections.set("search", to_table(study.search, &document.origins(), "search"));
+}
+
+void check_whole(Document& document, const Study& study) {
+  const Objective& wanted = study.objective;
+  if (study.is_study() && wanted.maximise.empty() && wanted.minimise.empty() &&
+      wanted.targets.empty()) {
+    document.problem_at("objective",
+                        "a study needs `maximise`, `minimise` or `target`, e.g. maximise = "
+                        "\"mean(modulation)\"");
+  }
+}
+
+std::string study_name(const std::string& path) {
+  const fs::path file(path);
+  const std::string stem = file.stem().string();
+  if (stem != "study" && stem != "resolved" && stem != "design") return stem;
+  const std::string folder =
+      fs::absolute(file).lexically_normal().parent_path().filename().string();
+  return folder.empty() ? stem : folder;
+}
+
+}  // namespace
+
+const Node* StudyFile::section(const std::string& path) {
+  const Node* node = document.take(path);
+  if (!node) return nullptr;
+  if (!node->is_table()) {
+    document.problem(node->place, path,
+                     fmt::format("expected a section [{}], got {}", path, describe(*node)));
+    return nullptr;
+  }
+  keep(path);
+  return node;
+}
+
+void StudyFile::keep(const std::string& path) {
+  if (const Node* node = document.take(path)) study.study_sections.set(path, *node);
+}
+
+void StudyFile::only(const Node& section, const std::string& path,
+                     const std::vector<std::string>& names) {
+  for (const Node& child : section.children) {
+    if (std::find(names.begin(), names.end(), child.key) != names.end()) continue;
+    const std::string near = nearest_name(child.key, names);
+    document.problem(child.key_place, path,
+                     fmt::format("unknown key `{}`{}", child.key,
+                                 near.empty() ? "; known here: " + join_names(names)
+                                              : fmt::format(", did you mean `{}`?", near)));
+  }
+}
+
+namespace {
+
+Study study_of(Document document, const std::string& path) {
+  Study study;
+  study.file = path;
+  study.name = study_name(path);
+  study.study_sections = table_node();
+  read_head(document, study.design);
+  StudyFile file{document, study, KnownNumbers(document, study.design), {}};
+  read_design_space(file);
+  read_scatter(file);
+  read_objective(file);
+  read_constraints(file);
+  read_population(file);
+  read_scenarios(file);
+  read_search(document, study);
+  check_whole(document, study);
+  finish(document);
+  study.origins = document.origins();
+  return study;
+}
+
+}  // namespace
+
+Study read_study(const std::string& path, const std::vector<std::string>& overrides) {
+  return study_of(load_document(path, overrides, design_roots()), path);
+}
+
+Study parse_study(const std::string& text, const std::string& name,
+                  const std::vector<std::string>& overrides) {
+  return study_of(parse_document(text, name, overrides, design_roots()), name);
+}
+
+Design read_design(const std::string& path, const std::vector<std::string>& overrides) {
+  return read_study(path, overrides).design;
+}
+
+}  // namespace papilla

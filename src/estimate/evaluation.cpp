@@ -1,0 +1,41 @@
+#include "estimate/evaluation.h"
+
+#include "base/error.h"
+#include "estimate/parameters.h"
+#include "estimate/target.h"
+#include "estimate/voltage.h"
+
+namespace papilla {
+
+Response evaluate_design(const Design& design, const EvaluationOptions& options) {
+  const Scene scene = scene_of(design);
+  Fidelity fidelity = fidelity_of(design);
+  fidelity.threads = options.threads;
+  const double target = options.target > 0 ? options.target : design.accuracy.target;
+  Response response =
+      target > 0 ? evaluate_to_target(
+                       scene, design.texture,
+                       {.target = target, .seed = fidelity.seed, .threads = options.threads})
+                 : evaluate(scene, design.texture, fidelity);
+  if (options.parameters || design.accuracy.parameters)
+    add_parameter_errors(response, scene, design.texture, response.fidelity);
+  if (options.appearance) response.appearance = appearance_of(design);
+  if (!options.voltage_for.empty())
+    add_voltages(response, scene, design.texture, fidelity, options.voltage_for);
+  return response;
+}
+
+void require_fitted_model(const Design& design, const std::string& file,
+                          const std::string& way_out) {
+  std::vector<Problem> problems;
+  for (const std::string& line : calibration_mismatch(design))
+    problems.push_back({file, 0, 0, "", line});
+  if (problems.empty()) return;
+  problems.push_back({"", 0, 0, "",
+                      "such a change moves the modulation by tens of percent; fit the finger "
+                      "again, or " +
+                          way_out});
+  throw InputError(problems);
+}
+
+}  // namespace papilla

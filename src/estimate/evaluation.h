@@ -1,0 +1,26 @@
+// A design evaluated as it asks for itself: the one way of the program and of the library.
+#pragma once
+
+#include <vector>
+
+#include "design/design.h"
+#include "forward/response.h"
+
+namespace papilla {
+
+struct EvaluationOptions {
+  double target = 0;        // relative standard error; 0: the design's target, or its level
+  bool parameters = false;  // also the error that the finger's fitted numbers leave
+  bool appearance = false;
+  std::vector<double> voltage_for;  // modulations
+  int threads = 0;
+};
+
+Response evaluate_design(const Design& design, const EvaluationOptions& options = {});
+
+// Throws InputError where model options differ from those that the finger was fitted with: such a
+// change moves the modulation by tens of percent. way_out: "run with --force".
+void require_fitted_model(const Design& design, const std::string& file,
+                          const std::string& way_out);
+
+}  // namespace papilla

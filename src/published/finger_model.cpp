@@ -1,0 +1,19 @@
+#include "published/finger_model.h"
+
+#include <algorithm>
+
+namespace papilla {
+
+Fidelity SkinSampling::fidelity(int threads) const {
+  Fidelity f = fidelity_level(level);
+  f.skins = skins;
+  f.first_skin = first_skin;
+  if (grid > 0) f.grid = grid;
+  f.threads = threads;
+  // Claims and fits look at small differences on common skins, and at their derivatives: the
+  // solver's own noise has to stay far below them.
+  f.contact_tolerance = std::min(f.contact_tolerance, 1e-5);
+  return f;
+}
+
+}  // namespace papilla

@@ -1,0 +1,30 @@
+// Published numbers that a fit can be held against: ratios and trends, because the papers print no
+// curves.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/statistics.h"
+#include "published/finger_model.h"
+
+namespace papilla {
+
+// Its residual is the distance from [low, high] over sd, the width that the paper's words leave.
+struct PublishedTarget {
+  std::string claim;  // id; kGapTarget is no claim but a measurement
+  std::string what;   // with its unit
+  double low = 0, high = 0, sd = 1;
+  std::function<Estimate(FingerModel&)> model;
+};
+std::vector<PublishedTarget> published_targets();
+
+// The gap under a finger that slides on coated glass, by its capacitance [m]: the paper on
+// broadband electroadhesion has 250 pF on 30 mm2 (claim B2); and what the ridges of this finger
+// give.
+inline constexpr const char* kGapTarget = "C_gap";
+inline constexpr double kPublishedGap = 1.06e-6;
+double capacitance_gap(const Finger& finger);
+
+}  // namespace papilla

@@ -1,0 +1,245 @@
+#include "report/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "base/text.h"
+#include "base/units.h"
+
+namespace papilla {
+namespace {
+
+// "0.612 ± 0.014 (0.051)": its own error, in brackets the one that parameters leave.
+std::string with_errors(const Score& score, std::size_t k) {
+  std::string out = fmt::format("{:.3f} ± {:.3f}", score.values[k], score.errors[k]);
+  if (const auto parameters = parameter_error(score, k))
+    out += fmt::format(" ({:.3f})", *parameters);
+  return out;
+}
+
+std::string best_text(const ResultFiles& f, const FinalDesign& best) {
+  const OptimiseResult& r = f.result;
+  return fmt::format("\n`best/` is {}: {}{}.\n", best.folder,
+                     f.pick.empty() || f.pick == "worst"
+                         ? "the highest worst modulation over fingers and humidity"
+                         : "picked by \"" + f.pick + "\"",
+                     r.stability.stable(r.best)
+                         ? ""
+                         : "; under other choices of the model its neighbours beat it, see below");
+}
+
+// The step from the study's own flat surface to the best design, split into the part of the
+// finish (and drive) and the part of the texture.
+std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
+  const OptimiseResult& r = f.result;
+  const auto& objectives = f.problem.objectives();
+  std::string out = "\n## What the texture does, and what the finish does\n\n| surface |";
+  std::string rule = "|---|";
+  for (const auto& o : objectives) {
+    out += " " + o.name + " |";
+    rule += "---|";
+  }
+  out += " worst modulation |\n" + rule + "---|\n";
+  const auto row = [&](const char* name, const Score& s) {
+    out += fmt::format("| {} |", name);
+    for (std::size_t k = 0; k < objectives.size(); ++k)
+      out += fmt::format(" {} |", with_errors(s, k));
+    out += fmt::format(" {:.3f} |\n", s.worst);
+  };
+  if (no_better(objectives, best.confirmed, *r.flat))
+    out = "\n**" + std::string(kNoBetter) + "**\n" + out;
+  if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
+  row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
+  row("best design", best.confirmed);
+  out += "| difference made by the texture |";
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    out += fmt::format(" {:+.3f} ± {:.3f}", best.confirmed.values[k] - r.flat->values[k],
+                       difference_error(best.confirmed, *r.flat, k));
+    if (const auto part = parameter_error(best.confirmed, *r.flat, k))
+      out += fmt::format(" ({:.3f})", *part);
+    out += " |";
+  }
+  out +=
+      " |\n\n± of the difference is from both on the same skins, droplets and grid, skin by "
+      "skin: what moves both alike is not in it (the larger of both where their numbers of skins "
+      "differ).\n";
+  if (r.flat_before) {
+    out +=
+        "\nFrom the first row to the second is the finish (and drive), from the second to the "
+        "third the texture.\n";
+  }
+  return out;
+}
+
+std::string sensitivity_text(const ResultFiles& f) {
+  if (f.result.sensitivity.empty()) return {};
+  const auto& objectives = f.problem.objectives();
+  std::string out =
+      "\n## What the best design is sensitive to\n\nEach continuous variable alone, by 5 % of "
+      "its "
+      "range (128 pixels, 12 skins, common random numbers). Share: of the objective's variance "
+      "if every "
+      "variable scattered so. Tolerance: the drift that costs no objective more than 5 % of its "
+      "value.\n\n| variable | step";
+  for (const StudyObjective& o : objectives) out += " | " + o.name + ", share";
+  out += " | tolerance down | up |\n|---|---";
+  for (std::size_t k = 0; k < objectives.size(); ++k) out += "|---";
+  out += "|---|---|\n";
+  for (const VariableSensitivity& s : f.result.sensitivity) {
+    const Variable& v = f.study.variables[s.variable];
+    const double unit = find_unit(v.unit)->to_si;
+    const auto rounded = [](double value, int digits) {  // 2000 where {:.3g} writes 2e+03
+      return format_number(std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr));
+    };
+    out += fmt::format("| {} | {} {}", v.path, rounded(s.step / unit, 3), v.unit);
+    for (std::size_t k = 0; k < objectives.size(); ++k) {
+      out += k < s.change.size()
+                 ? fmt::format(" | {:+.4f}, {:.0f} %", s.change[k], 100 * s.share[k])
+                 : std::string(" | -");
+    }
+    const auto drift = [&](double value, bool beyond) {
+      return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "", rounded(value / unit, 2),
+                                     v.unit)
+                       : std::string("at its bound");
+    };
+    out += " | " + drift(s.down, s.down_beyond) + " | " + drift(s.up, s.up_beyond) + " |\n";
+  }
+  return out;
+}
+
+// How the finalists fare on each finger alone and under other choices of the model.
+std::string stability_text(const ResultFiles& f) {
+  const Stability& s = f.result.stability;
+  const auto& objectives = f.problem.objectives();
+  const std::size_t judged = s.times_on_front.size();
+  if (s.variants.empty() || judged < 2) return {};
+  std::string out =
+      "\n## Does the order hold?\n\nEach design of the front on each finger alone, then on the "
+      "first finger "
+      "with one choice of the model changed (128 pixels, 12 skins, common random numbers; " +
+      objectives.front().name + (objectives.size() > 1 ? ", " + objectives[1].name : "") +
+      "; * on the front of these designs):\n\n|";
+  for (std::size_t i = 0; i < judged; ++i)
+    out += " | " +
+           (f.result.finalists[i].folder.empty() ? "(dominated)" : f.result.finalists[i].folder);
+  out += " |\n|---";
+  for (std::size_t i = 0; i < judged; ++i) out += "|---";
+  out += "|\n";
+  for (const StabilityVariant& v : s.variants) {
+    out += "| " + v.name;
+    for (std::size_t i = 0; i < v.values.size(); ++i) {
+      out += " |";
+      for (std::size_t k = 0; k < std::min<std::size_t>(2, v.values[i].size()); ++k)
+        out += fmt::format("{}{:.3f}", k == 0 ? " " : ", ", v.values[i][k]);
+      out += v.on_front[i] ? " *" : "";
+    }
+    out += " |\n";
+  }
+  out += "| **on the front** |";
+  for (std::size_t i = 0; i < judged; ++i) {
+    out += fmt::format(" {} of {}{} |", s.times_on_front[i], s.variants.size(),
+                       s.stable(i) ? "" : ", **unstable**");
+  }
+  return out + "\n";
+}
+
+}  // namespace
+
+std::string run_summary(const ResultFiles& f) {
+  const OptimiseResult& r = f.result;
+  std::string out =
+      "# " + (f.study.design.title.empty() ? f.study.name : f.study.design.title) + "\n\n";
+  if (r.interrupted) {
+    return out + fmt::format("Interrupted after {}; continue with --resume.\n",
+                             counted(r.evaluations, "evaluation"));
+  }
+  out += fmt::format("Search: {} ({}). {}", r.method, r.why, counted(r.evaluations, "evaluation"));
+  if (r.refused) out += fmt::format(", {} refused by the fabrication limits", r.refused);
+  if (r.failures) out += fmt::format(", **{} failed** (history.csv says why)", r.failures);
+  out += ".\n\n";
+  if (r.finalists.empty()) {
+    return out +
+           "**No design could be evaluated**: every one failed; history.csv says why for each.\n";
+  }
+  if (!r.any_feasible) {
+    out += "**No design keeps every constraint**: " + infeasible_text(r) +
+           ". The one that violates them least is shown; loosen a constraint or widen the design "
+           "space.\n\n";
+  }
+  out += result_table(f.study, r);
+  const FinalDesign& best = r.finalists[r.best];
+  if (best.on_front) out += best_text(f, best);
+  if (r.flat && best.confirmed.ok) out += gain_text(f, best);
+  out += stability_text(f);
+  out += sensitivity_text(f);
+  out += r.has_best()
+             ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
+               "history.csv (every evaluation), front/ and best/ (design.toml, metrics.json, "
+               "heightmap.exr, heightmap.gsf, mask.tif (white is deep), preview.png), "
+               "sensitivity.json, "
+               "resolved.toml (every value and where it came from), plan.txt, journal.\n"
+             : "\nFiles: pareto.csv (finalists), history.csv (every evaluation), resolved.toml "
+               "(every value and where it came from), plan.txt, journal.\n";
+  return out;
+}
+
+std::string result_table(const Study& study, const OptimiseResult& result) {
+  const StudyProblem problem(study);
+  const auto& objectives = problem.objectives();
+  std::string out = "Finalists, confirmed on fresh skins at level \"" +
+                    study.design.accuracy.level_name() + "\":\n\n| design";
+  for (const Variable& v : study.variables) out += " | " + v.path;
+  for (const StudyObjective& o : objectives)
+    out += fmt::format(" | {} {}", o.maximise ? "max" : "min", o.name);
+  out += " | worst modulation |\n|";
+  for (std::size_t i = 0; i < study.variables.size() + objectives.size() + 2; ++i) out += "---|";
+  out += "\n";
+  for (const FinalDesign& d : result.finalists) {
+    out += "| " + (!d.folder.empty() ? d.folder : d.feasible ? "(dominated)" : "(infeasible)");
+    if (!d.folder.empty() && !d.feasible) out += " (infeasible)";
+    const std::vector<double> values = problem.space().value(d.unit);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      out.append(" | ").append(variable_text(study.variables[i], values[i]));
+    }
+    for (std::size_t k = 0; k < objectives.size(); ++k) {
+      out += fmt::format(" | {}", d.confirmed.ok ? with_errors(d.confirmed, k) : "failed");
+    }
+    out += fmt::format(" | {:.3f} |\n", d.confirmed.worst);
+  }
+  const std::string unknown = problem.parameters_unknown();
+  if (!unknown.empty())
+    return out + fmt::format("\nWhat the fit of the finger leaves open is in no ±: {}.\n", unknown);
+  out += fmt::format(
+      "\n± is one standard error of skins, droplets, grid and method. In brackets{} what the fit "
+      "of "
+      "the finger leaves open, one standard deviation, common to all designs",
+      study.design.accuracy.parameters
+          ? ""
+          : ", of the best design (all: `[accuracy] parameters = true`),");
+  // Common is not cancelled: a design may answer to the finger as its flat surface does not.
+  std::vector<std::string> better, worse;
+  for (std::size_t k = 0; result.has_best() && result.flat && k < objectives.size(); ++k) {
+    const Score& best = result.finalists[result.best].confirmed;
+    const auto own = parameter_error(best, k), flat = parameter_error(*result.flat, k),
+               both = parameter_error(best, *result.flat, k);
+    if (both) (*both < std::min(*own, *flat) ? better : worse).push_back(objectives[k].name);
+  }
+  if (!better.empty())
+    out += "; it leaves the difference from flat better known than the values in " +
+           join_names(better);
+  if (!worse.empty())
+    out += fmt::format("; {} it leaves the difference from flat no better known than the values",
+                       "in " + join_names(worse));
+  return out + ".\n";
+}
+
+std::string infeasible_text(const OptimiseResult& result) {
+  std::string names;
+  for (const std::string& name : result.never_kept) names += (names.empty() ? "" : ", nor ") + name;
+  return names.empty() ? "each is kept by some design that was tried, but not all by one"
+                       : "no design of the space that was tried keeps " + names;
+}
+
+}  // namespace papilla

@@ -1,0 +1,42 @@
+// The constraints of a study on a design: known before an evaluation, or with it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "search/score.h"
+#include "search/space.h"
+
+namespace papilla {
+
+// Violations are <= 0 where a constraint is kept, relative to its limit.
+class StudyConstraints {
+ public:
+  StudyConstraints(const Study& study, const DesignSpace& space,
+                   const std::vector<StudyTask>& tasks, const StudyGoals& goals);
+
+  // Fabrication limits, known without an evaluation; the first is 1 for a shape that cannot exist.
+  std::vector<double> geometry(const Point& unit) const;  // of the shape alone: microseconds
+  std::vector<double> look(const Point& unit) const;      // of its look: an optical calculation
+  bool limits_look() const;
+  // Why the shape or its look is refused, for people; "" where it is not.
+  std::string geometry_reason(const Point& unit) const;
+
+  std::size_t evaluated() const;                             // how many need an evaluation
+  std::vector<double> violations(const Score& score) const;  // of those
+
+  // The constraints that none of these designs keeps, for people: "min_wall (at least 5.5 um)".
+  std::vector<std::string> never_kept(const std::vector<Evaluation>& tried) const;
+
+ private:
+  bool needs_evaluation(const Constraint& constraint) const;
+  std::string refusal(const Design& design) const;
+
+  const Study& study_;
+  const DesignSpace& space_;
+  const std::vector<StudyTask>& tasks_;
+  const StudyGoals& goals_;
+  bool slow_look_ = false;  // the appearance of some kind of texture takes as long as an evaluation
+};
+
+}  // namespace papilla

@@ -1,0 +1,171 @@
+// From the search's best designs to the confirmed front.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "optim/pareto.h"
+#include "search/levels.h"
+#include "search/stages.h"
+
+namespace papilla {
+namespace {
+
+// Of designs at one level, those to judge at the next.
+std::vector<std::size_t> chosen_of(const SearchProblem& search, const JudgedDesigns& designs,
+                                   std::size_t most) {
+  std::vector<std::size_t> chosen = promising(search, designs.evaluations, most);
+  if (chosen.empty()) return chosen;
+  // The one with the highest worst modulation is always among them.
+  const std::vector<std::size_t> front = pareto_front(designs.evaluations);
+  std::size_t steady = front.front();
+  for (std::size_t i : front) {
+    if (designs.worst[i] > designs.worst[steady]) steady = i;
+  }
+  if (std::find(chosen.begin(), chosen.end(), steady) == chosen.end()) chosen.push_back(steady);
+  return chosen;
+}
+
+// The search's evaluations as drafts of the level above.
+std::vector<Evaluation> known_drafts(const std::vector<Evaluation>& history) {
+  std::vector<std::size_t> drafts;
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    if (history[i].outcome.ok) drafts.push_back(i);
+  }
+  if (drafts.size() > kMostModelled) drafts = least_dominated(history, kMostModelled);
+  std::vector<Evaluation> out;
+  for (std::size_t i : drafts) out.push_back(history[i]);
+  return out;
+}
+
+// The finalists, and the surface of the first one by the first objective without its texture: a
+// texture of a nanometre must not pass for a design because its patch has other skins.
+std::vector<Point> to_confirm(const Run& run, const JudgedDesigns& below) {
+  std::vector<Point> out;
+  const Evaluation* first = nullptr;
+  for (std::size_t i : chosen_of(run.search, below, kFinalists)) {
+    const Evaluation& e = below.evaluations[i];
+    out.push_back(e.unit);
+    if (e.outcome.ok && (!first || e.outcome.objectives[0] < first->outcome.objectives[0]))
+      first = &e;
+  }
+  const auto flat = first ? run.problem.space().flattened(first->unit) : std::nullopt;
+  if (flat && run.search.feasible_before_evaluation(*flat) &&
+      std::find(out.begin(), out.end(), *flat) == out.end())
+    out.push_back(*flat);
+  return out;
+}
+
+// What the search said of a design, the user's sign.
+Score searched_score(const Run& run, const Point& unit) {
+  Score out;
+  for (const Evaluation& e : run.history.evaluations) {
+    if (e.unit != unit) continue;
+    out.ok = e.outcome.ok;
+    for (std::size_t k = 0; k < e.outcome.objectives.size(); ++k) {
+      const double v = e.outcome.objectives[k];
+      out.values.push_back(run.problem.objectives()[k].maximise ? -v : v);
+    }
+    break;
+  }
+  return out;
+}
+
+FinalDesign finalist(Run& run, const Point& unit) {
+  FinalDesign f;
+  f.unit = unit;
+  f.design = run.problem.space().design(unit);
+  f.searched = searched_score(run, unit);
+  f.confirmed = run.replay.scores({unit}, Stage::Confirm).front();
+  f.feasible = f.confirmed.ok && run.problem.feasible(f.confirmed, unit);
+  return f;
+}
+
+Evaluation as_evaluation(const StudyProblem& problem, const FinalDesign& f) {
+  Evaluation e{f.unit, problem.outcome(f.confirmed)};
+  if (f.confirmed.ok && !f.feasible && e.outcome.violation() <= 0)
+    e.outcome.constraints.push_back(1);  // outside the fabrication limits
+  return e;
+}
+
+// The confirmed numbers decide the front and its order.
+void judge(Run& run) {
+  OptimiseResult& result = run.result;
+  std::vector<Evaluation> confirmed;
+  for (const FinalDesign& f : result.finalists) {
+    confirmed.push_back(as_evaluation(run.problem, f));
+    result.any_feasible = result.any_feasible || f.feasible;
+  }
+  if (!result.any_feasible)
+    result.never_kept = run.problem.constraints().never_kept(run.history.evaluations);
+  for (std::size_t i : pareto_front(confirmed)) {
+    FinalDesign& f = result.finalists[i];
+    f.on_front = f.feasible;
+    if (!f.feasible && f.confirmed.ok) f.folder = "best";
+  }
+  const bool maximise = run.problem.objectives()[0].maximise;
+  std::stable_sort(result.finalists.begin(), result.finalists.end(),
+                   [&](const FinalDesign& a, const FinalDesign& b) {
+                     if (a.on_front != b.on_front) return a.on_front;
+                     if (a.folder.empty() != b.folder.empty()) return b.folder.empty();
+                     if (!a.confirmed.ok || !b.confirmed.ok) return a.confirmed.ok;
+                     const double d = a.confirmed.values[0] - b.confirmed.values[0];
+                     return maximise ? d > 0 : d < 0;
+                   });
+  int number = 0;
+  for (FinalDesign& f : result.finalists) {
+    if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
+  }
+}
+
+}  // namespace
+
+bool narrow(Run& run) {
+  const std::size_t count = narrowings(run.search);
+  SearchProblem problem = run.search;
+  problem.residuals = 0;
+  problem.known_drafts = known_drafts(run.history.evaluations);
+  if (count < 2 || problem.known_drafts.empty()) return true;
+  const auto searcher = make_searcher({"bayesian", ""}, problem);
+  std::vector<Point> asked;
+  for (std::size_t i : chosen_of(run.search, run.history, count / 2))
+    asked.push_back(run.history.evaluations[i].unit);
+  const bool done_before = run.replay.finished(Stage::Narrow);
+  const double from = run.seconds();
+  while (run.narrowed.size() < count) {
+    if (done_before) {
+      asked.clear();
+      if (const auto unit = run.replay.next_unit(Stage::Narrow)) asked.push_back(*unit);
+    } else if (asked.empty()) {
+      asked = searcher->ask();
+    }
+    if (asked.empty() || !run.search.feasible_before_evaluation(asked.front())) break;
+    if (run.stopped_before_next()) return false;
+    const JudgedDesigns judged = run.replay.judged({asked.front()}, Stage::Narrow);
+    run.narrowed.add(asked.front(), {judged.evaluations[0].outcome, judged.worst[0]});
+    searcher->tell({run.narrowed.evaluations.back()});
+    asked.erase(asked.begin());
+    const auto done = static_cast<double>(run.narrowed.size());
+    run.progress("narrow", static_cast<int>(done), static_cast<int>(count),
+                 (run.seconds() - from) / done * (static_cast<double>(count) - done));
+  }
+  return true;
+}
+
+bool confirm(Run& run) {
+  const std::vector<Point> chosen =
+      to_confirm(run, run.narrowed.size() == 0 ? run.history : run.narrowed);
+  const std::size_t total = chosen.size();
+  const double from = run.seconds();
+  run.progress("confirm", 0, static_cast<int>(total), run.seconds_to_confirm());
+  for (std::size_t done = 1; done <= total; ++done) {
+    if (run.stopped()) return false;
+    run.result.finalists.push_back(finalist(run, chosen[done - 1]));
+    const double each = (run.seconds() - from) / static_cast<double>(done);
+    run.progress("confirm", static_cast<int>(done), static_cast<int>(total),
+                 each * static_cast<double>(2 * total - done + kOtherChecks));
+  }
+  judge(run);
+  return true;
+}
+
+}  // namespace papilla

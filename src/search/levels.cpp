@@ -1,0 +1,123 @@
+#include "search/levels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "forward/plan.h"
+
+namespace papilla {
+namespace {
+
+constexpr int kNarrowSkins = 500;  // skins of the level between start here
+constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came before
+// Designs that the level between judges: one for so many evaluations of the search, at most.
+constexpr int kEvaluationsPerNarrowing = 3;
+constexpr int kMostNarrowings = 32;
+
+// Of one design on its own: one finger, one choice of the model, a small step.
+Fidelity check_fidelity(const Study& study) {
+  Fidelity f = fidelity_level("search");
+  f.seed = static_cast<std::uint64_t>(study.search.seed);
+  return f;
+}
+
+// The cheapest that ranks designs as well as other skins at the level above do: sixteen skins in
+// all, four a finger at least (results/bench/search_levels.csv). More designs for the same time
+// find more than surer numbers do (docs/theory/search.md).
+Fidelity search_fidelity(const Study& study) {
+  Fidelity f = check_fidelity(study);
+  f.level = "steer";
+  f.grid = 64;
+  f.skins = std::max(4, 16 / std::max(1, static_cast<int>(study.population.size())));
+  return f;
+}
+
+// Every finger, two skins: what half of that cost knows best.
+Fidelity draft_fidelity(const Study& study) {
+  Fidelity f = search_fidelity(study);
+  f.skins = 2;
+  return f;
+}
+
+// Between search and confirmation: two thirds of the search's scatter about design level, at a
+// tenth of the confirmation's cost (`search_bench scatter`, results/bench/search_scatter.csv).
+Fidelity narrow_fidelity(const Study& study) {
+  Fidelity f = search_fidelity(study);
+  f.level = "narrow";
+  f.grid = 128;
+  f.first_skin = kNarrowSkins;
+  f.skins *= 2;
+  return f;
+}
+
+// The finger population shares the samples of the level: the mean over fingers is as sure as one
+// finger at that level.
+Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
+  Fidelity f = fidelity_level(study.design.accuracy.level_name());
+  f.seed = static_cast<std::uint64_t>(study.search.seed);
+  f.first_skin = kFreshSkins;
+  f.skins = std::max(10, f.skins / static_cast<int>(tasks));
+  return f;
+}
+
+Plan plan_of(const StudyProblem& problem, Stage stage) {
+  const Design& d = problem.study().design;
+  return make_plan({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture,
+                   stage_fidelity(problem, stage));
+}
+
+}  // namespace
+
+Fidelity stage_fidelity(const StudyProblem& problem, Stage stage) {
+  const Study& study = problem.study();
+  switch (stage) {
+    case Stage::Search:
+      return search_fidelity(study);
+    case Stage::Draft:
+      return draft_fidelity(study);
+    case Stage::Narrow:
+      return narrow_fidelity(study);
+    case Stage::Confirm:
+    case Stage::Steps:
+      return confirm_fidelity(study, problem.nominal_tasks());
+    case Stage::Stability:
+    case Stage::Sensitivity:
+      break;
+  }
+  return check_fidelity(study);
+}
+
+std::size_t narrowings(const SearchProblem& p) {
+  if (p.objectives > 2 || p.space.single_point()) return 0;
+  return static_cast<std::size_t>(
+      std::min(kMostNarrowings, p.evaluations / kEvaluationsPerNarrowing));
+}
+
+double relative_cost(const StudyProblem& problem, Stage stage) {
+  return plan_of(problem, stage).seconds() / plan_of(problem, Stage::Search).seconds();
+}
+
+std::string search_plan(const Study& study) {
+  const StudyProblem problem(study);
+  const SearchProblem search = search_problem(problem);
+  const SearchMethod method = choose_method(study.search.method, search);
+  std::string out =
+      fmt::format("search: {} ({}), {}{} evaluations, seed {}\n", method.name, method.why,
+                  search.drafts > 0 ? fmt::format("{} drafts, ", search.drafts) : "",
+                  search.evaluations, study.search.seed);
+  out += "tasks of an evaluation (finger, scenario):";
+  for (const StudyTask& task : problem.tasks()) out += " [" + task.name + "]";
+  const auto level = [&](Stage stage) { return plan_of(problem, stage).text(); };
+  out += "\n\nsearch level:\n" + level(Stage::Search);
+  if (narrowings(search) > 1) {
+    out += fmt::format("\n{} of them and of their neighbours again, other skins:\n",
+                       narrowings(search)) +
+           level(Stage::Narrow);
+  }
+  out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
+         level(Stage::Confirm);
+  return out;
+}
+
+}  // namespace papilla

@@ -1,0 +1,40 @@
+// What a study wants: its objectives and the metrics that its constraints limit.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "metrics/metrics.h"
+#include "search/risk.h"
+#include "search/tasks.h"
+
+namespace papilla {
+
+struct StudyObjective {
+  MetricExpression expression;
+  bool maximise = true;
+  std::string name;    // "mean(modulation)"
+  bool aimed = false;  // the root mean square distance from `target`, Eq. search.11
+  double target = 0;   // SI
+};
+
+struct StudyGoals {
+  std::vector<StudyObjective> objectives;
+  std::vector<StudyObjective> limited;  // metrics of constraints, in their order
+  std::vector<double> voltage_targets;  // of voltage_for in either
+  Risk risk;
+  bool looks = false;  // an objective or a constraint is about the look
+
+  // The objective is made of its quantity at each humidity, not of a summary over them: its aim or
+  // its risk takes those.
+  bool by_points(std::size_t objective) const;
+};
+
+// Throws InputError for what cannot be judged.
+StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks);
+
+// A constraint such as "worst(modulation)", not on a quantity of its own name.
+bool on_metric(const Constraint& constraint);
+bool of_appearance(const Constraint& constraint);
+
+}  // namespace papilla

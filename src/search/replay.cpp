@@ -1,0 +1,191 @@
+#include "search/replay.h"
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iterator>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "search/folder.h"
+
+namespace papilla {
+namespace {
+
+TaskRequest search_key(const Point& unit) { return {Stage::Search, 0, false, unit}; }
+
+Journal open_journal(const StudyProblem& problem, const std::string& folder, bool resume) {
+  try {
+    return Journal(folder + "/journal", text_hash(problem.identity()), resume);
+  } catch (const InputError& e) {
+    const std::string file = folder + "/resolved.toml";
+    if (!resume || !std::filesystem::exists(file)) throw;
+    const std::string differ = differing_keys(read_bytes(file), resolved_toml(problem.study()));
+    if (differ.empty()) throw;
+    throw InputError(std::string(e.what()) + "; there and here: " + differ);
+  }
+}
+
+}  // namespace
+
+Replay::Replay(const StudyProblem& problem, const SearchProblem& search, const std::string& folder,
+               bool resume, std::unique_ptr<Team> team)
+    : problem_(problem),
+      search_(search),
+      folder_(folder),
+      journal_(open_journal(problem, folder, resume)),
+      team_(std::move(team)) {
+  for (const JournalRecord& record : journal_.records()) {
+    requests_.push_back(sound(decode_request(record.key)));
+    if (requests_.back().unit.size() != search.space.size()) refuse();
+  }
+}
+
+void Replay::refuse() const {
+  throw InputError(folder_ +
+                   "/journal: the earlier run took another path (other budget or another "
+                   "version of Papilla); start again with another --out folder");
+}
+
+int Replay::evaluated() const {
+  int count = 0;
+  for (std::size_t i = 0; i < requests_.size(); ++i) {
+    if (requests_[i].stage != Stage::Search) continue;
+    const Outcome o = sound(decode_judgement(journal_.records()[i].payload)).outcome;
+    count += o.ok || o.constraints.empty();
+  }
+  return count;
+}
+
+bool Replay::searching() const {
+  return !replaying() || requests_[next_].stage == Stage::Search ||
+         requests_[next_].stage == Stage::Draft;
+}
+
+std::optional<Point> Replay::next_unit(Stage stage) const {
+  if (!replaying() || requests_[next_].stage != stage) return std::nullopt;
+  return requests_[next_].unit;
+}
+
+bool Replay::finished(Stage stage) const {
+  if (requests_.empty()) return false;
+  const Stage last = requests_.back().stage;
+  if (last == Stage::Search || last == Stage::Draft) return false;
+  return stage == Stage::Search || last != stage;
+}
+
+const Bytes& Replay::replayed(const TaskRequest& request) {
+  if (requests_[next_] != request) refuse();
+  return journal_.records()[next_++].payload;
+}
+
+void Replay::record(const TaskRequest& request, const Bytes& payload) {
+  journal_.append({encode(request), payload});
+  requests_.push_back(request);
+  ++next_;
+}
+
+std::size_t Replay::designs() const {
+  const std::size_t tasks = problem_.tasks().size();
+  return (team_->size() + tasks - 1) / tasks + 1;
+}
+
+std::vector<TaskRequest> Replay::requests_of(const std::vector<Point>& units, Stage stage,
+                                             bool flat) const {
+  std::vector<TaskRequest> out;
+  for (const Point& u : units) {
+    for (std::size_t t = 0; t < problem_.tasks().size(); ++t) out.push_back({stage, t, flat, u});
+  }
+  return out;
+}
+
+std::vector<TaskAnswer> Replay::ask(const std::vector<TaskRequest>& requests) {
+  std::vector<Bytes> bytes;
+  for (const TaskRequest& r : requests) bytes.push_back(encode(r));
+  std::vector<TaskAnswer> out;
+  for (const WorkAnswer& answer : team_->answer(bytes)) out.push_back(task_answer(answer));
+  return out;
+}
+
+std::vector<Score> Replay::scores_of(const std::vector<TaskAnswer>& answers) const {
+  const auto tasks = static_cast<std::ptrdiff_t>(problem_.tasks().size());
+  std::vector<Score> out;
+  for (auto first = answers.begin(); first != answers.end(); first += tasks)
+    out.push_back(problem_.score({first, first + tasks}));
+  return out;
+}
+
+Judgement Replay::judgement(const Score& score) const {
+  return {guarded(problem_.outcome(score), search_.objectives, search_.constraints), score.worst};
+}
+
+// By the limits of the shape and its look, without an evaluation.
+Judgement Replay::refusal(const Point& unit) const {
+  const StudyConstraints& constraints = problem_.constraints();
+  Judgement out;
+  out.outcome.reason = constraints.geometry_reason(unit);
+  out.outcome.constraints = constraints.geometry(unit);
+  for (double c : constraints.look(unit)) out.outcome.constraints.push_back(c);
+  return out;
+}
+
+std::vector<Judgement> Replay::searched(const std::vector<Point>& units) {
+  std::vector<Judgement> out;
+  while (out.size() < units.size() && replaying())
+    out.push_back(sound(decode_judgement(replayed(search_key(units[out.size()])))));
+  const std::vector<Point> rest(units.begin() + static_cast<std::ptrdiff_t>(out.size()),
+                                units.end());
+  std::vector<Point> fresh;
+  std::copy_if(rest.begin(), rest.end(), std::back_inserter(fresh),
+               [&](const Point& u) { return search_.feasible_before_evaluation(u); });
+  const auto from = std::chrono::steady_clock::now();
+  const std::vector<Score> scores = scores_of(ask(requests_of(fresh, Stage::Search, false)));
+  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  fresh_ += static_cast<int>(fresh.size());
+  std::size_t next = 0;
+  for (const Point& unit : rest) {
+    out.push_back(search_.feasible_before_evaluation(unit) ? judgement(scores[next++])
+                                                           : refusal(unit));
+    record(search_key(unit), encode(out.back()));
+  }
+  return out;
+}
+
+JudgedDesigns Replay::searched_before() {
+  JudgedDesigns out;
+  for (; replaying() && searching(); ++next_) {
+    if (requests_[next_].stage == Stage::Draft) continue;
+    const Judgement j = sound(decode_judgement(journal_.records()[next_].payload));
+    if (j.outcome.ok && j.outcome.objectives.size() != search_.objectives) refuse();
+    out.add(requests_[next_].unit, j);
+  }
+  return out;
+}
+
+std::vector<TaskAnswer> Replay::answers(const std::vector<TaskRequest>& requests) {
+  if (picked_ && replaying() && requests_[next_] != requests.front()) beside_journal_ = true;
+  if (beside_journal_) return ask(requests);
+  std::vector<TaskAnswer> out;
+  while (out.size() < requests.size() && replaying())
+    out.push_back(sound(decode_answer(replayed(requests[out.size()]))));
+  const std::vector<TaskRequest> rest(requests.begin() + static_cast<std::ptrdiff_t>(out.size()),
+                                      requests.end());
+  for (TaskAnswer& fresh : ask(rest)) {
+    record(requests[out.size()], encode(fresh));
+    out.push_back(std::move(fresh));
+  }
+  return out;
+}
+
+std::vector<Score> Replay::scores(const std::vector<Point>& units, Stage stage, bool flat) {
+  return scores_of(answers(requests_of(units, stage, flat)));
+}
+
+JudgedDesigns Replay::judged(const std::vector<Point>& units, Stage stage) {
+  JudgedDesigns out;
+  const std::vector<Score> all = scores(units, stage);
+  for (std::size_t i = 0; i < units.size(); ++i) out.add(units[i], judgement(all[i]));
+  return out;
+}
+
+}  // namespace papilla

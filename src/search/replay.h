@@ -1,0 +1,88 @@
+// Answers to what a run asks: from its journal while there are records, else from a team of
+// workers, and then recorded.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optim/journal.h"
+#include "optim/worker.h"
+#include "search/problem.h"
+#include "search/protocol.h"
+
+namespace papilla {
+
+// The search has one record per design, under the request of its first task: its judgement. Every
+// other stage has one per task: its answer.
+class Replay {
+ public:
+  // Opens or starts folder/journal. Throws InputError for one of another study, by the keys in
+  // which the studies differ. Refers to both problems.
+  Replay(const StudyProblem& problem, const SearchProblem& search, const std::string& folder,
+         bool resume, std::unique_ptr<Team> team);
+
+  int lost() const { return journal_.lost(); }
+  // The earlier run's searched designs, without those that the shape's limits refused.
+  int evaluated() const;
+  bool replaying() const { return next_ < requests_.size(); }
+  // The next record is one of the search, or there is none: a resumed search stops where its
+  // confirmation began.
+  bool searching() const;
+  // The design of the next record where it is of this stage.
+  std::optional<Point> next_unit(Stage stage) const;
+  // Whether the journal goes beyond a stage: nothing of it is left to ask.
+  bool finished(Stage stage) const;
+
+  // Judgements of the search.
+  std::vector<Judgement> searched(const std::vector<Point>& units);
+  // Those of an earlier run that went on beyond its search; its drafts are passed over.
+  JudgedDesigns searched_before();
+
+  std::vector<TaskAnswer> answers(const std::vector<TaskRequest>& requests);
+  // Every task of every design, of another stage than the search's own.
+  std::vector<Score> scores(const std::vector<Point>& units, Stage stage, bool flat = false);
+  JudgedDesigns judged(const std::vector<Point>& units, Stage stage);
+  // From now on answers depend on the picked design: they are asked anew, beside the journal, when
+  // the earlier run picked another.
+  void picked() { picked_ = true; }
+
+  // Designs at a time that keep everyone busy; no more, so that a kill loses little.
+  std::size_t designs() const;
+  std::size_t workers() const { return team_->size(); }
+  // Of the search's evaluations that were not replayed.
+  int fresh() const { return fresh_; }
+  double seconds() const { return seconds_; }
+  double seconds_each() const { return fresh_ > 0 ? seconds_ / fresh_ : 0; }
+
+ private:
+  std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage,
+                                       bool flat) const;
+  std::vector<TaskAnswer> ask(const std::vector<TaskRequest>& requests);
+  std::vector<Score> scores_of(const std::vector<TaskAnswer>& answers) const;
+  Judgement judgement(const Score& score) const;
+  Judgement refusal(const Point& unit) const;
+  // The earlier run's payload for a question; refused where it asked another.
+  const Bytes& replayed(const TaskRequest& request);
+  void record(const TaskRequest& request, const Bytes& payload);
+  [[noreturn]] void refuse() const;
+  template <class T>
+  T sound(std::optional<T> decoded) const {
+    if (!decoded) refuse();
+    return *std::move(decoded);
+  }
+
+  const StudyProblem& problem_;
+  const SearchProblem& search_;
+  std::string folder_;
+  Journal journal_;
+  std::unique_ptr<Team> team_;
+  std::vector<TaskRequest> requests_;  // of the journal's records
+  std::size_t next_ = 0;
+  bool picked_ = false, beside_journal_ = false;
+  double seconds_ = 0;
+  int fresh_ = 0;
+};
+
+}  // namespace papilla

@@ -1,0 +1,249 @@
+#include "search/score.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "base/check.h"
+#include "base/constants.h"
+#include "base/statistics.h"
+#include "estimate/parameters.h"
+
+namespace papilla {
+namespace {
+
+using Numbers = std::vector<std::vector<double>>;  // [task][number that an objective is made of]
+
+constexpr std::array kSampleLists{&ErrorSamples::sampling, &ErrorSamples::grid,
+                                  &ErrorSamples::method};
+
+// Of these members the lowest over tasks counts.
+struct Lowest {
+  double TaskAnswer::*of_task;
+  double Score::*of_design;
+};
+constexpr std::array kLowest{Lowest{&TaskAnswer::worst, &Score::worst},
+                             Lowest{&TaskAnswer::oxide_margin, &Score::oxide_margin}};
+
+Numbers numbers_of(const StudyGoals& goals, std::size_t k, const std::vector<TaskAnswer>& answers) {
+  Numbers out;
+  for (const TaskAnswer& a : answers) {
+    const TaskObjective& o = a.objectives.at(k);
+    out.push_back(goals.by_points(k) ? o.points : std::vector<double>{o.value});
+  }
+  return out;
+}
+
+// Weight of one of a task's numbers.
+double weight_of(const Scoring& s, std::size_t k, std::size_t task, std::size_t number) {
+  const bool weighted = s.goals.by_points(k) && !s.humidity_weights.empty();
+  return s.tasks[task].weight * (weighted ? s.humidity_weights[number] : 1);
+}
+
+// An objective from the numbers of all tasks. residuals: of targets are appended; or null.
+double combined(const Scoring& s, std::size_t k, const Numbers& numbers,
+                std::vector<double>* residuals) {
+  const StudyObjective& o = s.goals.objectives[k];
+  Risk risk = s.goals.risk;
+  if (!o.aimed && o.expression.summary == Summary::Worst) risk.kind = Risk::Kind::Worst;
+  std::vector<double> values, weights, nominal;
+  for (std::size_t t = 0; t < s.nominal; ++t) {
+    for (std::size_t i = 0; i < numbers[t].size(); ++i) {
+      const auto value = [&](std::size_t task) {
+        return o.aimed ? square(numbers[task][i] - o.target) : numbers[task][i];
+      };
+      std::vector<double> lower, upper;
+      for (std::size_t j = 0; j < s.scatter; ++j) {
+        const std::size_t low = s.nominal + 2 * (t * s.scatter + j);
+        lower.push_back(value(low));
+        upper.push_back(value(low + 1));
+      }
+      const std::vector<double> all = scattered_values(risk, o.maximise, value(t), lower, upper);
+      for (double v : all) {
+        values.push_back(v);
+        weights.push_back(weight_of(s, k, t, i) / static_cast<double>(all.size()));
+      }
+      nominal.push_back(numbers[t][i]);
+    }
+  }
+  if (o.aimed && risk.kind == Risk::Kind::Mean && residuals) {
+    // Scatter is in the squares alone: each residual keeps the sign of its nominal distance.
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    for (std::size_t i = 0; i < nominal.size(); ++i) {
+      residuals->push_back(std::copysign(std::sqrt(std::max(0.0, values[i]) * weights[i] / sum),
+                                         nominal[i] - o.target));
+    }
+  }
+  const double value = apply_risk(risk, o.maximise, values, weights);
+  return o.aimed ? std::sqrt(std::max(0.0, value)) : value;  // Eq. search.11
+}
+
+// One list of samples of an objective, followed through it: all numbers of all tasks without one
+// skin, or with the change of grid or method. Nothing where tasks differ in their skins.
+std::vector<double> combined_samples(const Scoring& s, std::size_t k, const Numbers& numbers,
+                                     double value, std::vector<double> ErrorSamples::*list,
+                                     const std::vector<TaskAnswer>& answers) {
+  const std::size_t n = (answers[0].samples[k][0].*list).size();
+  for (const TaskAnswer& a : answers) {
+    for (const ErrorSamples& of : a.samples[k]) {
+      if ((of.*list).size() != n || n < 2) return {};
+    }
+  }
+  const bool changes = list != &ErrorSamples::sampling;
+  // From all skins, or without one: the samples of a jackknife the other way round.
+  const auto objective = [&](std::optional<std::size_t> skin) {
+    Numbers there = numbers;
+    for (std::size_t t = 0; t < there.size(); ++t) {
+      for (std::size_t i = 0; i < there[t].size(); ++i) {
+        const std::vector<double>& samples = answers[t].samples[k][i].*list;
+        const double mean = mean_estimate(samples).value;
+        const double others =
+            skin ? mean - (samples[*skin] - mean) / static_cast<double>(n - 1) : mean;
+        there[t][i] = (changes ? there[t][i] : 0) + others;
+      }
+    }
+    return combined(s, k, there, nullptr) - (changes ? value : 0);
+  };
+  std::vector<double> without;
+  for (std::size_t skin = 0; skin < n; ++skin) without.push_back(objective(skin));
+  return jackknife_samples(objective(std::nullopt), without);
+}
+
+// Follows the objectives through the samples of confirmed tasks. Eq. accuracy.14
+void add_samples(Score& score, const Scoring& s, const std::vector<TaskAnswer>& answers) {
+  for (const TaskAnswer& a : answers) {
+    if (a.samples.empty()) return;  // not confirmed
+  }
+  score.samples.resize(s.goals.objectives.size());
+  for (std::size_t k = 0; k < score.samples.size(); ++k) {
+    ErrorSamples& samples = score.samples[k];
+    const Numbers numbers = numbers_of(s.goals, k, answers);
+    for (const auto list : kSampleLists)
+      samples.*list = combined_samples(s, k, numbers, score.values[k], list, answers);
+    // The tasks state the error of their own summaries, not that of a risk over them.
+    if ((s.goals.by_points(k) || s.goals.risk.kind != Risk::Kind::Mean) &&
+        samples.sampling.size() > 1) {
+      score.errors[k] =
+          std::sqrt(square(mean_estimate(samples.sampling).se) + square(grid_error(samples.grid)) +
+                    square(method_error(samples.method)));
+    }
+  }
+}
+
+void add_objectives(Score& score, const Scoring& s, const std::vector<TaskAnswer>& answers) {
+  for (std::size_t k = 0; k < s.goals.objectives.size(); ++k) {
+    double error = 0, total = 0;
+    for (std::size_t t = 0; t < s.nominal; ++t) {
+      error += s.tasks[t].weight * answers[t].objectives[k].error;  // they share skins: linearly
+      total += s.tasks[t].weight;
+    }
+    score.values.push_back(combined(s, k, numbers_of(s.goals, k, answers), &score.residuals));
+    score.errors.push_back(error / total);
+  }
+}
+
+// What constraints are about: the bad side over tasks.
+void add_extremes(Score& score, const Scoring& s, const std::vector<TaskAnswer>& answers) {
+  for (const Lowest& member : kLowest) score.*member.of_design = kInfinity;
+  for (const StudyObjective& o : s.goals.limited)
+    score.limited.push_back(o.maximise ? kInfinity : -kInfinity);
+  for (std::size_t t = 0; t < answers.size(); ++t) {
+    if (s.tasks[t].weight <= 0) continue;
+    const TaskAnswer& a = answers[t];
+    for (const Lowest& member : kLowest)
+      score.*member.of_design = std::min(score.*member.of_design, a.*member.of_task);
+    for (std::size_t j = 0; j < s.goals.limited.size(); ++j) {
+      double& bad = score.limited[j];
+      bad = s.goals.limited[j].maximise ? std::min(bad, a.limited[j]) : std::max(bad, a.limited[j]);
+    }
+    // The same for every finger; a scenario may look otherwise: the worst.
+    if (a.look && (!score.look || a.look->haze > score.look->haze)) score.look = a.look;
+  }
+}
+
+}  // namespace
+
+Score score_of(const Scoring& scoring, const std::vector<TaskAnswer>& answers) {
+  PAPILLA_CHECK(answers.size() == scoring.tasks.size(), "one answer per task");
+  Score score;
+  for (std::size_t t = 0; t < answers.size(); ++t) {
+    if (!answers[t].status.ok()) {
+      score.reason = scoring.tasks[t].name + ": " + answers[t].status.text;
+      return score;
+    }
+    if (t < scoring.nominal) score.reports.push_back(answers[t].report);
+  }
+  add_objectives(score, scoring, answers);
+  add_extremes(score, scoring, answers);
+  add_samples(score, scoring, answers);
+  add_steps(score, scoring, answers);
+  score.ok = true;
+  return score;
+}
+
+void add_steps(Score& score, const Scoring& scoring, const std::vector<TaskAnswer>& answers) {
+  const std::vector<StudyTask>& tasks = scoring.tasks;
+  double total = 0;
+  for (std::size_t t = 0; t < scoring.nominal; ++t) {
+    total += tasks[t].weight;
+    if (answers.at(t).steps.empty()) return;  // not asked for or not known
+  }
+  score.parameter_steps.resize(scoring.goals.objectives.size());
+  for (std::size_t k = 0; k < score.parameter_steps.size(); ++k) {
+    StepSamples& sums = score.parameter_steps[k];
+    std::vector<std::size_t> first(scoring.nominal);  // direction of each finger
+    bool known = true;
+    for (std::size_t t = 0; t < scoring.nominal; ++t) {
+      const StepSamples& steps = answers[t].steps.at(k);
+      std::size_t same = 0;
+      while (tasks[same].finger.uncertainty != tasks[t].finger.uncertainty) ++same;
+      first[t] = same < t ? first[same] : sums.size();
+      known = known && !steps.empty();
+      if (sums.size() < first[t] + steps.size()) sums.resize(first[t] + steps.size());
+      for (std::size_t d = 0; d < steps.size(); ++d) {
+        std::vector<double>& sum = sums[first[t] + d];
+        sum.resize(steps[d].size(), 0);
+        for (std::size_t skin = 0; skin < sum.size(); ++skin)
+          sum[skin] += tasks[t].weight / total * steps[d][skin];
+      }
+    }
+    if (!known) sums.clear();
+  }
+}
+
+std::optional<double> parameter_error(const Score& score, std::size_t objective) {
+  if (objective >= score.parameter_steps.size() || score.parameter_steps[objective].empty())
+    return std::nullopt;
+  return step_error(score.parameter_steps[objective]);
+}
+
+std::optional<double> parameter_error(const Score& score, const Score& other,
+                                      std::size_t objective) {
+  if (!parameter_error(score, objective) || !parameter_error(other, objective)) return std::nullopt;
+  StepSamples difference = score.parameter_steps[objective];
+  for (std::size_t k = 0; k < difference.size(); ++k) {
+    for (std::size_t s = 0; s < difference[k].size(); ++s)
+      difference[k][s] -= other.parameter_steps[objective].at(k).at(s);
+  }
+  return step_error(difference);
+}
+
+double difference_error(const Score& score, const Score& other, std::size_t objective) {
+  if (objective < score.samples.size() && objective < other.samples.size()) {
+    if (const auto error = difference_error(score.samples[objective], other.samples[objective]))
+      return *error;
+  }
+  return std::max(score.errors[objective], other.errors[objective]);
+}
+
+bool no_better(const std::vector<StudyObjective>& objectives, const Score& design,
+               const Score& other) {
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    const double gain = (objectives[k].maximise ? 1 : -1) * (design.values[k] - other.values[k]);
+    if (gain > difference_error(design, other, k)) return false;
+  }
+  return true;
+}
+
+}  // namespace papilla

@@ -1,0 +1,173 @@
+#include "search/space.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "design/families.h"
+
+namespace papilla {
+namespace {
+
+// Shallower relief is none: polished glass is as rough, and no process holds such a depth [m].
+// Else a search finds textures of a nanometre whose patch has the luckier skins.
+constexpr double kLeastDepth = 2e-9;
+
+}  // namespace
+
+DesignSpace::DesignSpace(const Study& study) : study_(study) {
+  for (const Variable& v : study.variables) {
+    Dimension d{v.low, v.high, v.choices, !v.is_kind()};
+    std::sort(d.choices.begin(), d.choices.end());
+    cube_.dimensions.push_back(d);
+  }
+  own_value_ = cube_.value(unit_of_study());
+  cube_.collapse = [this](const Point& u) { return collapsed(u); };
+}
+
+bool DesignSpace::acts(const std::vector<NumberField>& known, std::size_t variable) const {
+  const std::string& own = study_.variables[variable].path;
+  const std::string path = path_in(known, own);
+  return !path.empty() &&
+         (path == own || std::none_of(study_.variables.begin(), study_.variables.end(),
+                                      [&](const Variable& v) { return v.path == path; }));
+}
+
+Design DesignSpace::design(const Point& unit) const {
+  const std::vector<double> v = cube_.value(unit);
+  Design out = study_.design;
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    if (study_.variables[i].is_kind())
+      out.texture = of_kind(out.texture, texture_kinds()[static_cast<std::size_t>(v[i])]);
+    if (study_.variables[i].is_levels())
+      out.texture = with_levels(std::move(out.texture), static_cast<int>(v[i]));
+  }
+  const std::vector<NumberField> known = number_fields(out);
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const Variable& variable = study_.variables[i];
+    if (!variable.is_kind() && !variable.is_levels() && acts(known, i))
+      *find_number_field(known, path_in(known, variable.path)).value = v[i];
+  }
+  return out;
+}
+
+Point DesignSpace::unit_of_study() const {
+  Point value;
+  Design copy = study_.design;
+  const std::vector<NumberField> known = number_fields(copy);
+  for (const Variable& v : study_.variables) {
+    if (v.is_kind()) {
+      value.push_back(static_cast<double>(study_.design.texture.kind.index()));
+    } else if (v.is_levels()) {
+      value.push_back(texture_levels(study_.design.texture));
+    } else {
+      const std::string path = path_in(known, v.path);
+      value.push_back(path.empty() ? 0.5 * (v.low + v.high)
+                                   : *find_number_field(known, path).value);
+    }
+  }
+  return cube_.unit(value);
+}
+
+bool DesignSpace::has_features() const {
+  const auto varies = [&](Measure measure) {
+    return std::any_of(study_.variables.begin(), study_.variables.end(), [&](const Variable& v) {
+      return std::count(v.path.begin(), v.path.end(), '.') == 1 && measure_of(v.path) == measure;
+    });
+  };
+  return varies(Measure::Period) && varies(Measure::Width);
+}
+
+std::vector<double> DesignSpace::features(const Point& unit) const {
+  return {std::sqrt(facts(design(unit).texture).open_share.value_or(0))};
+}
+
+Point DesignSpace::collapsed(const Point& unit) const {
+  const bool textured =
+      std::any_of(study_.variables.begin(), study_.variables.end(),
+                  [](const Variable& v) { return v.path.starts_with("texture."); });
+  if (!textured) return unit;
+  const auto is_depth = [](const Variable& v) { return measure_of(v.path) == Measure::Depth; };
+  Point value = cube_.value(unit);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Variable& v = study_.variables[i];
+    if (is_depth(v) && v.choices.empty() && v.low <= 0 && value[i] < kLeastDepth) value[i] = v.low;
+  }
+  Design d = design(cube_.unit(value));
+  const Point& own = own_value_;
+  const auto offered = [](const Variable& v, double choice) {
+    return std::find(v.choices.begin(), v.choices.end(), choice) != v.choices.end();
+  };
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Variable& v = study_.variables[i];
+    if (v.is_levels()) {  // a last part of no depth is one level less
+      for (int levels = texture_levels(d.texture);
+           levels >= 2 && !last_level_has_relief(d.texture) && offered(v, levels - 1);
+           levels = texture_levels(d.texture)) {
+        d.texture = with_levels(d.texture, levels - 1);
+        value[i] = levels - 1;
+      }
+    }
+    if (v.is_kind() && !facts(d.texture).relief.present) {  // all flat textures are one
+      const Texture first = of_kind(d.texture, texture_kinds()[static_cast<std::size_t>(v.low)]);
+      if (facts(first).relief.present) continue;  // none of its measures is this one's
+      value[i] = v.low;
+      d.texture = first;
+    }
+  }
+  const auto has_relief = [&](const std::string& path) {
+    return facts(part_at(d.texture, path)).relief.present;
+  };
+  const std::vector<NumberField> known = number_fields(d);
+  for (std::size_t i = 0; i < value.size(); ++i) {
+    const Variable& v = study_.variables[i];
+    if (!v.path.starts_with("texture.") || v.is_kind() || v.is_levels()) continue;
+    if (!acts(known, i) || (!decides_relief(v.path) && !has_relief(path_in(known, v.path))))
+      value[i] = own[i];
+  }
+  return cube_.unit(value);
+}
+
+std::vector<Point> DesignSpace::starts() const {
+  std::vector<Point> out{unit_of_study()};
+  const auto add = [&](const Point& u) {
+    const Point p = cube_.snapped(u);
+    if (std::find(out.begin(), out.end(), p) == out.end()) out.push_back(p);
+  };
+  for (std::size_t i = 0; i < cube_.size(); ++i) {
+    if (study_.variables[i].is_kind()) {  // each kind once
+      for (double kind : study_.variables[i].choices) {
+        Point value = cube_.value(out.front());
+        value[i] = kind;
+        add(cube_.unit(value));
+      }
+      continue;
+    }
+    if (const auto flat = flat_by(i, out.front())) add(*flat);
+  }
+  return out;
+}
+
+std::optional<Point> DesignSpace::flat_by(std::size_t variable, const Point& unit) const {
+  Point flat = unit;
+  flat[variable] = 0;
+  if (study_.variables[variable].is_kind()) {
+    Point value = cube_.value(unit);
+    value[variable] =
+        study_.variables[variable].low;  // flat, where it is offered: the first of all kinds
+    flat = cube_.unit(value);
+  }
+  const auto has_relief = [this](const Point& p) {
+    return facts(design(p).texture).relief.present;
+  };
+  if (!has_relief(unit) || has_relief(flat)) return std::nullopt;
+  return cube_.snapped(flat);
+}
+
+std::optional<Point> DesignSpace::flattened(const Point& unit) const {
+  for (std::size_t i = 0; i < cube_.size(); ++i) {
+    if (auto flat = flat_by(i, unit)) return flat;
+  }
+  return std::nullopt;
+}
+
+}  // namespace papilla

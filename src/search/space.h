@@ -1,0 +1,51 @@
+// The design space of a study: its variables and the unit cube that searchers see.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "config/describe.h"
+#include "design/design.h"
+#include "optim/problem.h"
+
+namespace papilla {
+
+class DesignSpace {
+ public:
+  explicit DesignSpace(const Study& study);
+  DesignSpace(const DesignSpace&) = delete;
+  DesignSpace& operator=(const DesignSpace&) = delete;
+
+  const Space& cube() const { return cube_; }
+  std::size_t size() const { return cube_.size(); }
+  std::vector<double> value(const Point& unit) const { return cube_.value(unit); }
+  Point unit(const std::vector<double>& value) const { return cube_.unit(value); }
+  Point snapped(const Point& unit) const { return cube_.snapped(unit); }
+
+  Design design(const Point& unit) const;
+  Point unit_of_study() const;  // the study's own design
+  std::vector<Point> starts() const;
+  // The same surface without its texture, where the space holds that and the point has a texture.
+  std::optional<Point> flattened(const Point& unit) const;
+
+  // What the response depends on more directly than on the variables: the open share of a lattice,
+  // as a length over the period, where both lengths vary. For SearchProblem::features.
+  bool has_features() const;
+  std::vector<double> features(const Point& unit) const;
+
+ private:
+  // The representative of all points that are the same design: numbers without effect on this kind
+  // of texture, or at depth 0, take the study's own value.
+  Point collapsed(const Point& unit) const;
+  // Flat by one variable alone; nothing where that is not possible, or is so already.
+  std::optional<Point> flat_by(std::size_t variable, const Point& unit) const;
+  // The variable has an effect on a design with these numbers: it names one of them, or another
+  // kind's word for one that no other variable names.
+  bool acts(const std::vector<NumberField>& known, std::size_t variable) const;
+
+  const Study& study_;
+  Space cube_;
+  Point own_value_;  // of the study's own design
+};
+
+}  // namespace papilla

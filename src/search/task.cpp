@@ -1,0 +1,215 @@
+#include "search/task.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/constants.h"
+#include "design/families.h"
+#include "estimate/parameters.h"
+#include "estimate/target.h"
+#include "estimate/voltage.h"
+#include "search/levels.h"
+#include "search/stability.h"
+
+namespace papilla {
+namespace {
+
+// Steps of the parameters of confirmed designs: skins over all fingers, pixels.
+constexpr int kStepSkins = 12, kStepGrid = 64;
+
+// Root mean square distance from the target over humidity. Eq. search.11
+double distance(const StudyObjective& o, const Response& response) {
+  double sum = 0, total = 0;
+  for (const ResponsePoint& p : response.points) {
+    sum += p.weight * square(metric_at(o.expression.metric, p)->value - o.target);
+    total += p.weight;
+  }
+  return std::sqrt(sum / total);
+}
+
+// Of the objective over the steps of the response; empty: not defined.
+StepSamples steps_of(const StudyObjective& o, const Response& response) {
+  Response there;
+  there.driven = response.driven;
+  there.appearance = response.appearance;
+  const auto value = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    there.points = points;
+    const auto v = summarise(o.expression.summary, o.expression.metric, there);
+    if (!v || !std::isfinite(v->value)) return std::nullopt;
+    return o.aimed ? distance(o, there) : v->value;
+  };
+  return step_samples(response.parameters.steps, value).value_or(StepSamples{});
+}
+
+// The same surface without its relief. Of a lattice a picometre stays, so that it is judged on the
+// patch and the skins of the lattice: the difference is the texture's, not that of other skins.
+Texture without_relief(const Design& textured) {
+  constexpr double kNone = 1e-12;  // [m]
+  Design flat = textured;
+  double* depth = roles(flat.texture).depth;
+  if (depth) *depth = std::min(*depth, kNone);
+  return depth || !facts(flat.texture).relief.present ? flat.texture : Texture{};
+}
+
+// Skins are shared out over the population, as in the search.
+Fidelity steps_fidelity(const StudyProblem& problem, Fidelity fidelity) {
+  fidelity.skins = std::max(2, kStepSkins / static_cast<int>(problem.nominal_tasks()));
+  fidelity.grid = kStepGrid;
+  return fidelity;
+}
+
+std::vector<StepSamples> steps_of(const StudyGoals& goals, const Response& response) {
+  std::vector<StepSamples> out;
+  for (const StudyObjective& o : goals.objectives) out.push_back(steps_of(o, response));
+  return out;
+}
+
+// Of each number that each objective is made of.
+std::vector<std::vector<ErrorSamples>> samples_of(const StudyGoals& goals,
+                                                  const Response& response) {
+  std::vector<std::vector<ErrorSamples>> out;
+  for (std::size_t k = 0; k < goals.objectives.size(); ++k) {
+    const MetricExpression& e = goals.objectives[k].expression;
+    std::vector<ErrorSamples>& of = out.emplace_back();
+    if (!goals.by_points(k)) {
+      of.push_back(error_samples(e.summary, e.metric, response));
+      continue;
+    }
+    for (std::size_t i = 0; i < response.points.size(); ++i)
+      of.push_back(error_samples_at(i, e.metric, response));
+  }
+  return out;
+}
+
+// Finalists are worth the target of the study; the search is not.
+Response respond(const Scene& scene, const Design& d, const TaskWork& work) {
+  if (!work.confirmed || d.accuracy.target <= 0) return evaluate(scene, d.texture, work.fidelity);
+  return evaluate_to_target(scene, d.texture,
+                            {.target = d.accuracy.target,
+                             .first_skin = work.fidelity.first_skin,
+                             .seed = work.fidelity.seed,
+                             .threads = work.fidelity.threads});
+}
+
+// A summary of the response; else the answer is that it is not defined.
+std::optional<SummaryValue> defined(const StudyObjective& o, const std::string& task,
+                                    const Response& response, TaskAnswer& answer) {
+  auto value = summarise(o.expression.summary, o.expression.metric, response);
+  if (value && std::isfinite(value->value)) return value;
+  const std::string why = why_undefined(o.expression.metric, response);
+  answer =
+      TaskAnswer::refused(TaskStatus::Kind::NotDefined,
+                          o.name + " is not defined for " + task + (why.empty() ? "" : ": " + why));
+  return std::nullopt;
+}
+
+TaskObjective objective_of(const StudyObjective& o, const SummaryValue& value,
+                           const Response& response) {
+  TaskObjective out;
+  out.value = o.aimed ? distance(o, response) : value.value;
+  ErrorParts own = value.parts;
+  own.parameters.reset();
+  out.error = own.total();
+  const auto mean = summarise(Summary::Mean, o.expression.metric, response);
+  for (const ResponsePoint& p : response.points) {
+    const auto there = metric_at(o.expression.metric, p);
+    out.points.push_back(there ? there->value : mean ? mean->value : 0);
+  }
+  return out;
+}
+
+// The numbers of a response that a study is about.
+TaskAnswer answer_of(const StudyGoals& goals, const std::string& task, const Response& response) {
+  TaskAnswer out;
+  for (const StudyObjective& o : goals.objectives) {
+    const auto value = defined(o, task, response, out);
+    if (!value) return out;
+    out.objectives.push_back(objective_of(o, *value, response));
+  }
+  for (const StudyObjective& o : goals.limited) {
+    const auto value = defined(o, task, response, out);
+    if (!value) return out;
+    out.limited.push_back(value->value);
+  }
+  if (const auto w = summarise(Summary::Worst, "modulation", response)) out.worst = w->value;
+  for (const ResponsePoint& p : response.points)
+    out.oxide_margin = std::min(out.oxide_margin, p.oxide_margin);
+  if (const auto& look = response.appearance)
+    out.look = {look->haze, look->transmittance, look->gloss, look->colour_shift};
+  if (!response.parameters.steps.empty()) out.steps = steps_of(goals, response);
+  return out;
+}
+
+}  // namespace
+
+TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std::size_t index,
+                         const TaskWork& work) {
+  using Kind = TaskStatus::Kind;
+  const StudyGoals& goals = problem.goals();
+  const StudyTask& task = problem.tasks().at(index);
+  const Design d = task_design(problem.study(), design, task);
+  if (const auto wrong = design_problems(d); !wrong.empty())
+    return TaskAnswer::refused(Kind::ShapeRefused,
+                               wrong.front().path + ": " + wrong.front().message);
+  const Scene scene = scene_of(d);
+  Response response = respond(scene, d, work);
+  if (goals.looks) {
+    response.appearance = appearance_of(d);
+    if (response.appearance->refused())
+      return TaskAnswer::refused(Kind::LookRefused, response.appearance->warning);
+  }
+  const std::vector<PointTrouble> troubles = response.troubles();
+  if (std::any_of(troubles.begin(), troubles.end(),
+                  [](const PointTrouble& t) { return t.status.pull_in(); }))
+    return TaskAnswer::refused(Kind::NoEquilibrium, task.name + ", " + papilla::text(troubles));
+  if (!goals.voltage_targets.empty())
+    add_voltages(response, scene, d.texture, work.fidelity, goals.voltage_targets);
+  if (work.confirmed && task.nominal() && d.accuracy.parameters &&
+      !scene.finger.uncertainty.empty())
+    add_parameter_errors(response, scene, d.texture, steps_fidelity(problem, work.fidelity));
+  TaskAnswer out = answer_of(goals, task.name, response);
+  if (!out.status.ok() || !work.confirmed) return out;
+  out.samples = samples_of(goals, response);
+  if (work.text) out.report = work.text(response);
+  return out;
+}
+
+TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
+                          const Fidelity& fidelity) {
+  const Design d = task_design(problem.study(), design, problem.tasks().at(task));
+  Response response;
+  response.driven = d.drive.driven();
+  if (problem.goals().looks) response.appearance = appearance_of(d);
+  add_parameter_errors(response, scene_of(d), d.texture, steps_fidelity(problem, fidelity));
+  TaskAnswer out;
+  out.steps = steps_of(problem.goals(), response);
+  return out;
+}
+
+Work work_function(const StudyProblem& problem, int threads, const ResponseText& text) {
+  return [&problem, threads, text](const Bytes& bytes) {
+    const auto request = decode_request(bytes);
+    PAPILLA_CHECK(request, "a request as it was encoded");
+    Fidelity fidelity = stage_fidelity(problem, request->stage);
+    fidelity.threads = threads;
+    Design design = problem.space().design(request->unit);
+    if (request->flat) design.texture = without_relief(design);
+    switch (request->stage) {
+      case Stage::Steps:
+        return encode(evaluate_steps(problem, design, request->task, fidelity));
+      case Stage::Stability:
+        return encode(evaluate_variant(problem, design, request->task, fidelity));
+      case Stage::Search:
+      case Stage::Draft:
+      case Stage::Narrow:
+      case Stage::Confirm:
+      case Stage::Sensitivity:
+        break;
+    }
+    const bool confirmed = request->stage == Stage::Confirm;
+    return encode(evaluate_task(problem, design, request->task, {fidelity, confirmed, text}));
+  };
+}
+
+}  // namespace papilla

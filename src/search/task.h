@@ -1,0 +1,35 @@
+// One task of one design evaluated: what a worker does.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "forward/fidelity.h"
+#include "search/problem.h"
+#include "search/protocol.h"
+
+namespace papilla {
+
+// A response as the text that reports of confirmed designs are made of.
+using ResponseText = std::function<std::string(const Response&)>;
+
+// How a task is evaluated. Confirmed: to the accuracy target of the study, with the samples behind
+// the errors and the steps of the parameters, where the study has them.
+struct TaskWork {
+  Fidelity fidelity;
+  bool confirmed = false;
+  ResponseText text{};  // of a confirmed task; may be empty
+};
+
+TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std::size_t task,
+                         const TaskWork& work);
+
+// The steps of the parameters alone, for a task as designed whose finger has an `uncertainty`. With
+// [accuracy] parameters a confirmed task has them too.
+TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
+                          const Fidelity& fidelity);
+
+// What a worker does: a request in, an answer out. Refers to the problem.
+Work work_function(const StudyProblem& problem, int threads, const ResponseText& text);
+
+}  // namespace papilla

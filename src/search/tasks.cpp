@@ -1,0 +1,102 @@
+#include "search/tasks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "config/describe.h"
+#include "design/families.h"
+
+namespace papilla {
+namespace {
+
+// A frequency that no task feels is no variable.
+void check_frequency(const Study& study, const std::vector<StudyTask>& tasks) {
+  const auto searches = [&](const std::string& beginning) {
+    return std::any_of(study.variables.begin(), study.variables.end(),
+                       [&](const Variable& v) { return v.path.starts_with(beginning); });
+  };
+  if (searches("drive.frequency") && !searches("finger.electrical.")) {
+    const auto deaf = [&](const StudyTask& t) {
+      return !frequency_not_felt(task_design(study, study.design, t)).empty();
+    };
+    if (std::all_of(tasks.begin(), tasks.end(), deaf)) {
+      throw InputError("design_space: drive.frequency has no effect: " +
+                       frequency_not_felt(task_design(study, study.design, tasks.front())) +
+                       "; leave the variable out, or give a finger its corner frequency");
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<StudyTask> study_tasks(const Study& study) {
+  std::vector<StudyTask> tasks;
+  const std::vector<Finger> fingers =
+      study.population.empty() ? std::vector<Finger>{study.design.finger} : study.population;
+  const std::vector<Scenario> scenarios =
+      study.scenarios.empty() ? std::vector<Scenario>{Scenario{}} : study.scenarios;
+  for (const Scenario& scenario : scenarios) {
+    for (const Finger& finger : fingers) {
+      tasks.push_back({scenario.name.empty() ? finger.name : finger.name + ", " + scenario.name,
+                       scenario.weight, finger, scenario.set});
+    }
+  }
+  const std::size_t nominal = tasks.size();
+  for (std::size_t t = 0; t < nominal; ++t) {
+    for (std::size_t k = 0; k < study.scatter.size(); ++k) {
+      for (int sign : {-1, 1}) {
+        StudyTask task = tasks[t];
+        task.name += fmt::format(", {} {}", study.scatter[k].path, sign < 0 ? "low" : "high");
+        task.scattered = static_cast<int>(k);
+        task.sign = sign;
+        tasks.push_back(std::move(task));
+      }
+    }
+  }
+  if (std::none_of(tasks.begin(), tasks.end(), [](const StudyTask& t) { return t.weight > 0; }))
+    throw InputError("scenarios: at least one weight above 0 is needed");
+  check_frequency(study, tasks);
+  return tasks;
+}
+
+Design task_design(const Study& study, Design d, const StudyTask& task) {
+  d.finger = task.finger;
+  d = with_settings(std::move(d), task.settings);  // a scenario may change the finger too
+  if (task.nominal()) return d;
+  const Scatter& scatter = study.scatter[static_cast<std::size_t>(task.scattered)];
+  const std::vector<NumberField> known = number_fields(d);
+  const std::string path = path_in(known, scatter.path);
+  if (path.empty()) return d;  // this kind of texture does not have it
+  const NumberField field = find_number_field(known, path);
+  const double unit = find_unit(field.unit)->to_si;
+  *field.value =
+      std::clamp(*field.value + task.sign * scatter.tolerance, field.low * unit, field.high * unit);
+  return d;
+}
+
+std::string shape_trouble(const Study& study, const std::vector<StudyTask>& tasks,
+                          const Design& design) {
+  if (const auto wrong = design_problems(design); !wrong.empty())
+    return wrong.front().path + ": " + wrong.front().message;
+  for (const StudyTask& task : tasks) {
+    if (task.nominal()) continue;
+    const auto wrong = design_problems(task_design(study, design, task));
+    if (!wrong.empty())
+      return wrong.front().path + ": within the scatter, " + wrong.front().message;
+    if (task.scattered + 1 == static_cast<int>(study.scatter.size()) && task.sign > 0)
+      break;  // shapes are the same for every finger
+  }
+  return {};
+}
+
+std::string frequency_not_felt(const Design& design) {
+  if (design.drive.waveform == Waveform::Dc) return "the drive is a direct voltage";
+  if (design.finger.electrical.corner_frequency > 0) return "";
+  return "the dielectric has no loss, and the finger's skin layer never conducts "
+         "(finger.electrical.corner_frequency is 0)";
+}
+
+}  // namespace papilla

@@ -1,0 +1,39 @@
+// The work that one design is: each finger in each scenario, as designed and within its scatter.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "design/design.h"
+
+namespace papilla {
+
+// One finger in one scenario, as designed or with one number at an end of its scatter: the unit of
+// work.
+struct StudyTask {
+  std::string name;  // "reference", "moist, worn"
+  double weight = 1;
+  Finger finger;
+  std::vector<Setting> settings;  // of the scenario
+  int scattered = -1;             // which of the study's scatter; -1: as designed
+  int sign = 0;                   // -1, +1: the end
+
+  bool nominal() const { return scattered < 0; }
+};
+
+// Those as designed first, then of each of them every scatter low and high. Throws InputError when
+// no task has a weight, or when a searched drive.frequency is felt by none.
+std::vector<StudyTask> study_tasks(const Study& study);
+
+// The design of a task: finger, scenario, then the end of the scatter, within the range that the
+// number may have at all.
+Design task_design(const Study& study, Design design, const StudyTask& task);
+
+// What is wrong with the shape, as designed or within its scatter; empty: nothing.
+std::string shape_trouble(const Study& study, const std::vector<StudyTask>& tasks,
+                          const Design& design);
+
+// Why drive.frequency changes nothing on this design; "" where it may.
+std::string frequency_not_felt(const Design& design);
+
+}  // namespace papilla

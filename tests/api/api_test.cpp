@@ -1,0 +1,86 @@
+// The library as other programs see it: public headers alone.
+#include <gtest/gtest.h>
+#include <papilla/papilla.h>
+
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include "tests/architecture/source_tree.h"
+
+namespace {
+
+constexpr const char* kHoles =
+    "schema_version = 1\nbase = \"m3_samples/a3h350.toml\"\n[accuracy]\nlevel = \"draft\"\n"
+    "[environment]\nrelative_humidity = [\"50 %\"]\n";
+
+TEST(Library, ReadsTextAndTakesValuesWithUnits) {
+  const papilla::Design design = papilla::Design::parse(kHoles);
+  EXPECT_EQ(design.with("texture.depth", "262 nm").number("texture.depth"), 262e-9);
+  EXPECT_EQ(design.number("texture.depth"), 350e-9) << "the first is as before";
+}
+
+TEST(Library, SaysEveryProblemWithItsPlace) {
+  try {
+    papilla::Design::parse("schema_version = 1\n[texture]\ntype = \"hole_array\"\nperiod = 3\n",
+                           {{"texture.depht", "1 nm"}});
+    FAIL() << "no problem";
+  } catch (const papilla::InputError& error) {
+    ASSERT_EQ(error.problems().size(), 2u);
+    EXPECT_EQ(error.problems()[0].line + error.problems()[1].line, 4);
+  }
+}
+
+TEST(Library, HeightsAreHolesInALand) {
+  const papilla::Heights h = papilla::Design::parse(kHoles).heights(64);
+  EXPECT_EQ(h.z.size(), static_cast<std::size_t>(h.nx) * static_cast<std::size_t>(h.ny));
+  EXPECT_NEAR(*std::min_element(h.z.begin(), h.z.end()), -350e-9, 1e-12);
+  EXPECT_EQ(*std::max_element(h.z.begin(), h.z.end()), 0);
+}
+
+TEST(Library, WorkIsCountedAndStops) {
+  const papilla::Design design = papilla::Design::parse(kHoles);
+  int done = 0;
+  std::atomic<bool> stop = false;
+  papilla::EvaluateOptions options;
+  options.stop = &stop;
+  options.progress = [&](int count) {
+    done = count;
+    stop = true;
+  };
+  options.threads = 1;
+  EXPECT_THROW(papilla::evaluate(design, options), papilla::Stopped);
+  EXPECT_EQ(done, 1);
+}
+
+TEST(Library, FullContactOfAFlatPlaneCarriesItsLoad) {
+  papilla::Heights plane{16, 16, 1e-7, 1e-7, std::vector<double>(256, 0.0)};
+  const papilla::ContactResult r = papilla::contact(plane, papilla::Solid::half_space(1e6), 1e4);
+  EXPECT_TRUE(r.converged);
+  EXPECT_NEAR(r.mean_pressure, 1e4, 1e-4);
+  EXPECT_NEAR(r.area_fraction, 1, 1e-12);
+}
+
+TEST(Library, ABridgeRupturesBeyondItsLimit) {
+  const double right_angle = std::acos(0.0);
+  const papilla::BridgeResult b = papilla::bridge(1e-20, 100e-9, 0.8, right_angle, 0.072);
+  ASSERT_TRUE(b.exists);
+  EXPECT_GT(b.rupture_gap, 100e-9);
+  EXPECT_FALSE(papilla::bridge(1e-20, 1.1 * b.rupture_gap, 0.8, right_angle, 0.072).exists);
+}
+
+TEST(Library, PublicHeadersIncludeTheStandardLibraryAndEachOtherOnly) {
+  const std::regex include("#include ([<\"])([^>\"]+)");
+  for (const std::string& file : papilla::source_files({"include"}, {".h"})) {
+    const std::string text = papilla::read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
+    for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
+      const std::string name = (*it)[2];
+      EXPECT_TRUE((*it)[1] == "<"
+                      ? name.find('/') == std::string::npos && name.find('.') == std::string::npos
+                      : name.starts_with("papilla/"))
+          << file << " includes " << name;
+    }
+  }
+}
+
+}  // namespace

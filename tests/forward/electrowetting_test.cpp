@@ -1,0 +1,51 @@
+// The contact angle that a drive leaves, from a scene as a user writes it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "forward/coupling.h"
+
+namespace papilla {
+namespace {
+
+// Far below saturation the angle is Lippmann's at the mean square of the voltage:
+// cos(theta) = cos(theta_0) + eps0 V_rms^2 / (2 gamma sum d/eps).
+double lippmann_gain(const Scene& scene, double mean_square) {
+  const FieldProblem field = field_problem(scene, 0.5);
+  return kVacuumPermittivity * mean_square /
+         (2 * scene.finger.water.surface_tension * (field.dielectric + std::abs(field.skin_layer)));
+}
+
+double gain(const Scene& scene) {
+  return std::cos(driven_contact_angle(scene, 0.5)) - std::cos(scene.surface.contact_angle);
+}
+
+Scene scene_of(Waveform waveform, double amplitude) {
+  Scene scene;
+  scene.surface.contact_angle = 110 * kPi / 180;
+  scene.drive.waveform = waveform;
+  scene.drive.amplitude = amplitude;
+  return scene;
+}
+
+TEST(DrivenAngle, IsLippmannsAtTheMeanSquareOfASine) {
+  const Scene scene = scene_of(Waveform::Sine, 10);
+  const double expected = lippmann_gain(scene, 10.0 * 10 / 2);
+  EXPECT_GT(expected, 1e-4);
+  EXPECT_NEAR(gain(scene), expected, 0.01 * expected);
+}
+
+TEST(DrivenAngle, OfASquareWaveIsThatOfItsAmplitude) {
+  const Scene scene = scene_of(Waveform::Square, 10);
+  const double expected = lippmann_gain(scene, 10.0 * 10);
+  EXPECT_NEAR(gain(scene), expected, 0.01 * expected);
+}
+
+TEST(DrivenAngle, GrowsWithTheSquareOfTheVoltageAndIsRestAtNone) {
+  EXPECT_NEAR(gain(scene_of(Waveform::Sine, 10)) / gain(scene_of(Waveform::Sine, 5)), 4, 0.02);
+  EXPECT_EQ(driven_contact_angle(scene_of(Waveform::Sine, 0), 0.5), 110 * kPi / 180);
+}
+
+}  // namespace
+}  // namespace papilla

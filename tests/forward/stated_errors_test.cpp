@@ -1,0 +1,144 @@
+// Scatter and steps of known size planted into the control runs: the errors that are stated of
+// them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "base/constants.h"
+#include "forward/forward.h"
+
+namespace papilla {
+namespace {
+
+using Member = Measured ResponsePoint::*;
+
+// The same number in a run and in all of its parts without a skin.
+Resampled steady(Member quantity, double value, int skins = 4) {
+  ResponsePoint point;
+  (point.*quantity).value = value;
+  Resampled out;
+  out.points = {point};
+  out.without.assign(static_cast<std::size_t>(skins), {point});
+  return out;
+}
+
+Reading of(Member quantity) {
+  return [quantity](const std::vector<ResponsePoint>& points) {
+    return std::optional((points[0].*quantity).value);
+  };
+}
+
+double grid_part(const ControlRuns& runs, Member quantity) {
+  return grid_error(controlled_change(runs, quantity, of(quantity)).grid);
+}
+
+// Means 0.03 and scatter with a standard error of 0.04: five numbers whose deviations are known.
+std::vector<double> planted(double mean, double se) {
+  const double unit = se / std::sqrt(0.5);  // of -2 -1 0 1 2: variance 2.5, over five 0.5
+  return {mean - 2 * unit, mean - unit, mean, mean + unit, mean + 2 * unit};
+}
+
+TEST(StatedErrors, TheScatterIsAddedToAStepOfTheGrid) {
+  EXPECT_NEAR(grid_error(planted(0.03, 0.04)), 0.05, 1e-12);
+  EXPECT_NEAR(grid_error(planted(-0.03, 0)), 0.03, 1e-12);
+  EXPECT_NEAR(grid_error(planted(0, 0.04)), 0.04, 1e-12);
+}
+
+TEST(StatedErrors, TheScatterIsTakenOffTheMethod) {
+  EXPECT_NEAR(method_error(planted(0.05, 0.03)), 0.04, 1e-12);
+  EXPECT_NEAR(method_error(planted(-0.05, 0.03)), 0.04, 1e-12);
+  EXPECT_EQ(method_error(planted(0.03, 0.05)), 0);  // nothing but scatter
+}
+
+TEST(StatedErrors, PartsAddInSquaresAndTheWatersBandIsNone) {
+  ErrorParts parts;
+  parts.sampling = 0.03;
+  parts.grid = 0.04;
+  parts.method = 0.12;
+  parts.water = 7;
+  EXPECT_NEAR(parts.total(), 0.13, 1e-12);
+}
+
+TEST(StatedErrors, TheScatterBetweenSkinsIsTheSamplingPart) {
+  Scene scene;
+  scene.drive.amplitude = 100;
+  scene.environment.relative_humidity = {0.5};
+  Fidelity fidelity = fidelity_level("search");
+  fidelity.grid = 32;
+  fidelity.skins = 5;
+  fidelity.control_skins = 0;
+  fidelity.threads = 1;
+  PatchSet set = solve_patches(scene, Texture{}, fidelity);
+  ASSERT_EQ(set.skins(), 5);
+  const std::vector<double> scatter = planted(1, 0.03);
+  for (std::size_t k = 0; k < 5; ++k) {
+    set.results[0][k].pull = 2e-6 * scatter[k];
+    set.results[0][k].mean_gap = 50e-9 * scatter[k];
+  }
+  const ResponsePoint p = respond(scene, fidelity, set).points.front();
+  EXPECT_NEAR(p.mean_gap.value, 50e-9, 1e-18);
+  EXPECT_NEAR(p.mean_gap.parts.sampling, 0.03 * 50e-9, 1e-18);
+  EXPECT_NEAR(p.electrostatic_force.parts.sampling / p.electrostatic_force.value, 0.03, 1e-9);
+}
+
+// Half the pixels see 10 % more: what is left to the limit is a known share of that, by the order
+// of convergence of each quantity (Eq. accuracy.2).
+TEST(StatedErrors, AStepBetweenGridsGivesItsRestToTheLimit) {
+  const double step = 0.1;
+  for (const auto& [quantity, rest] :
+       {std::pair<Member, double>{&ResponsePoint::electrostatic_force, 1 / (std::exp2(1.3) - 1)},
+        {&ResponsePoint::capillary_force, 1 / (std::exp2(1.5) - 1)}}) {
+    ControlRuns runs;
+    runs.own = steady(quantity, 2.0);
+    runs.coarse = steady(quantity, 2.0 * (1 + step));
+    EXPECT_NEAR(grid_part(runs, quantity), rest * step, 0.02 * step);
+    // A smaller number on half the pixels is as far off.
+    runs.coarse = steady(quantity, 2.0 * (1 - step));
+    EXPECT_NEAR(grid_part(runs, quantity), rest * step, 0.02 * step);
+  }
+}
+
+// Areas fall by one factor an octave: n octaves that the grid leaves out take 1 - 1.1^-n.
+TEST(StatedErrors, AreasLackTheOctavesThatTheGridLeavesOut) {
+  const Member area = &ResponsePoint::area_fraction_off;
+  ControlRuns runs;
+  runs.own = steady(area, 0.2);
+  runs.coarse = steady(area, 0.22);
+  for (double octaves : {1.0, 2.0, 3.5}) {
+    runs.octaves = octaves;
+    EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -octaves), 1e-9) << octaves;
+  }
+  // The spread of areas between the last octaves is not known better than by 0.6 of one.
+  for (double octaves : {0.0, 0.3, 0.6}) {
+    runs.octaves = octaves;
+    EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -0.6), 1e-9) << octaves;
+  }
+}
+
+TEST(StatedErrors, TheLoadLawIsJudgedBySolvedAreas) {
+  const Member friction = &ResponsePoint::friction_off;
+  ControlRuns runs;
+  runs.own = steady(friction, 1.0);
+  runs.areas = steady(friction, 0.8);
+  const ControlledChange change = controlled_change(runs, friction, of(friction));
+  EXPECT_NEAR(method_error(change.method), 0.2, 1e-12);
+  for (double sample : change.method) EXPECT_NEAR(sample, -0.2, 1e-12);
+  EXPECT_TRUE(change.grid.empty());
+}
+
+// Its way to the limit belongs to the method of the modulation: solved areas on half the pixels
+// have 10 % more, so they themselves are 5.5 % too high.
+TEST(StatedErrors, TheLoadLawOfTheModulationIsJudgedInTheLimit) {
+  const Member modulation = &ResponsePoint::modulation;
+  ControlRuns runs;
+  runs.own = steady(modulation, 1.0);
+  runs.areas = steady(modulation, 1.0);
+  runs.coarse = steady(modulation, 1.1);
+  const ControlledChange change = controlled_change(runs, modulation, of(modulation));
+  EXPECT_NEAR(method_error(change.method), 0.055, 0.002);
+  EXPECT_NEAR(grid_error(change.grid), 0.5 * 0.055, 0.002);  // half of that is not known
+}
+
+}  // namespace
+}  // namespace papilla
