@@ -5,6 +5,7 @@
 #include "api/inside.h"
 #include "base/text.h"
 #include "papilla/rank.h"
+#include "report/ranking.h"
 
 namespace papilla::api {
 namespace {
