@@ -3,6 +3,7 @@
 #include "api/inside.h"
 #include "fabricate/export.h"
 #include "fabricate/verify.h"
+#include "report/export.h"
 
 namespace papilla::api {
 
@@ -20,7 +21,7 @@ Exported export_files(const Design& design, const std::string& folder,
       throw rooms::InputError("polarity: expected white-high or white-deep, got " +
                               options.polarity);
     }
-    const Export done = export_design(design.inside().design(), inside, folder);
+    const Export done = export_with_record(design.inside().design(), inside, folder);
     Exported out;
     for (const ExportedFile& file : done.files) out.files.push_back(file.path);
     out.warnings = done.warnings;

@@ -13,11 +13,6 @@
 namespace papilla::fabricate {
 namespace {
 
-// Equal features that a layout repeats; null: none.
-const FeatureArray* array_of(const TextureFacts& known) {
-  return std::get_if<FeatureArray>(&known.outline);
-}
-
 // Why a layout or a mask cannot draw the texture; empty: it can.
 std::string undrawable(const TextureFacts& known) {
   if (!known.relief.present) return std::get<NoOutline>(facts(Texture{}).outline).reason;
@@ -27,35 +22,36 @@ std::string undrawable(const TextureFacts& known) {
 }
 
 // Why a format cannot be written; empty: it can.
-std::string refusal(const ExportFormat& format, const Design& design,
+std::string refusal(const ExportFormat& format, const TextureFacts& known,
                     const ExportOptions& options) {
   const std::string subject = fmt::format("format \"{}\"", format.name);
-  const TextureFacts known = facts(design.texture);
-  if (format.needs_outline || (format.two_levels && known.relief.present)) {
-    if (const std::string why = undrawable(known); !why.empty()) return subject + ": " + why;
+  if (format.needs_outline || (format.follows_outline && known.relief.present)) {
+    if (const std::string reason = undrawable(known); !reason.empty())
+      return subject + ": " + reason;
   }
   if (format.needs_dose_curve && options.dose_curve.empty())
     return subject + " needs --dose-curve, a CSV of depth_nm,grey";
-  if (format.needs_polarity && !options.polarity)
+  if (format.needs_polarity && !options.polarity) {
     return subject +
            " needs a polarity: white-high (bright is high) or white-deep (bright is deep)";
+  }
   return {};
 }
 
-std::vector<ExportFormat> chosen_formats(const Design& design, const ExportOptions& options) {
+std::vector<ExportFormat> chosen_formats(const Texture& texture, const ExportOptions& options) {
+  const TextureFacts known = facts(texture);
   std::vector<ExportFormat> out;
   if (options.formats.empty()) {
     for (const ExportFormat& format : export_format_table()) {
-      if (format.asked_only || !refusal(format, design, options).empty()) continue;
-      if (format.needs_outline && !array_of(facts(design.texture)))
-        continue;  // contours are on request
+      if (format.asked_only || !refusal(format, known, options).empty()) continue;
+      if (format.needs_outline && !array_of(known)) continue;  // contours are on request
       out.push_back(format);
     }
     return out;
   }
   for (const std::string& name : options.formats) {
     out.push_back(find_export_format(name));
-    if (const std::string why = refusal(out.back(), design, options); !why.empty())
+    if (const std::string why = refusal(out.back(), known, options); !why.empty())
       throw InputError(why);
   }
   return out;
@@ -148,6 +144,10 @@ void judge_size(Export& out, const ExportOptions& options) {
 
 }  // namespace
 
+const FeatureArray* array_of(const TextureFacts& known) {
+  return std::get_if<FeatureArray>(&known.outline);
+}
+
 Texture compensated(const Texture& texture, const ProcessBias& bias) {
   Texture out = texture;
   const auto rim = [&](double& radius) { radius = std::max(0.0, radius - bias.edge_radius); };
@@ -173,7 +173,7 @@ Export export_design(const Design& wanted, const ExportOptions& options,
                      const std::string& folder) {
   Design design = wanted;
   design.texture = compensated(wanted.texture, options.bias);
-  const std::vector<ExportFormat> formats = chosen_formats(design, options);
+  const std::vector<ExportFormat> formats = chosen_formats(design.texture, options);
   Export out;
   out.texture = design.texture;
   const bool array = array_of(facts(out.texture)) != nullptr;

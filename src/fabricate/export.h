@@ -56,6 +56,9 @@ struct Export {
   std::vector<std::string> warnings;  // what the files hold otherwise than asked for
 };
 
+// Equal features that a layout repeats; null: none.
+const FeatureArray* array_of(const TextureFacts& known);
+
 // Writes heightmap.exr, heightmap.tif, mask.tif and so on into a folder, which it makes. With a
 // GDSII layout of an array the period of all files is the nearest whole nanometre, with a warning;
 // so there is one where a pixel is more than a quarter of the smallest hole or wall. Throws

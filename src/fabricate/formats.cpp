@@ -48,7 +48,7 @@ void x3p(const ExportSource& s, const std::string& path, Export&) { write_x3p(pa
 void gds(const ExportSource& s, const std::string& path, Export& out) {
   const Grid& grid = s.heightmap.grid;
   const TextureFacts known = facts(s.texture);
-  if (const auto* array = std::get_if<FeatureArray>(&known.outline)) {
+  if (const FeatureArray* array = array_of(known)) {
     out.array = write_gds(path, *array, grid.lx, grid.ly, s.options.facet_error);
   } else {
     out.contours = {write_gds_mask(path, s.heightmap, s.options.levels), s.options.levels};
@@ -92,7 +92,7 @@ constexpr ExportFormat kFormats[]{
      .file = "mask.tif",
      .holds = "black and white: where the surface is below half its depth",
      .needs_polarity = true,
-     .two_levels = true,
+     .follows_outline = true,
      .write = mask},
     {.name = "gsf",
      .file = "heightmap.gsf",

@@ -25,8 +25,8 @@ struct ExportFormat {
   const char* holds;  // for people: "heights in um, 32-bit float"
   // What it cannot be written without.
   bool needs_polarity = false;    // which grey is deep
-  bool needs_outline = false;     // edges that polygons follow: a relief
-  bool two_levels = false;        // deep and high: nothing of a relief without outlines
+  bool needs_outline = false;     // edges that polygons follow
+  bool follows_outline = false;   // of a relief; what is flat has none and is drawn all the same
   bool needs_dose_curve = false;  // depth over grey
   bool asked_only = false;        // not among the files of an export that names no formats
   int judged = 0;                 // when --verify takes its heights, 1 first; 0: never

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "report/json.h"
+
 namespace papilla::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string cell(const std::string& text) {  // of a CSV table
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
@@ -98,8 +98,8 @@ std::string claims_csv(const std::vector<ClaimResult>& results) {
 
 std::string claims_json(const std::vector<ClaimResult>& results) {
   const auto judgement = [](const Judgement& j) {
-    return Json{{"model", number(j.value)},
-                {"se", number(j.se)},
+    return Json{{"model", json_number(j.value)},
+                {"se", json_number(j.se)},
                 {"verdict", verdict_name(j.verdict)},
                 {"answer", j.model},
                 {"reason", j.reason}};

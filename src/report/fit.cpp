@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "report/json.h"
 
 namespace papilla::report {
 namespace {
@@ -38,8 +39,6 @@ std::string misfit_text(const CalibrationResult& r) {
       "standard deviations, or let more parameters move; do not use this finger",
       misfit(r), r.rows[worst].source, r.rows[worst].what, r.fit.residuals[worst]);
 }
-
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 bool holds(const ClaimResult& r) {
   return r.papilla.verdict == Verdict::Agrees || r.papilla.verdict == Verdict::Fitted;
@@ -221,8 +220,8 @@ Json residuals_json(const CalibrationResult& r) {
     const FitRow& row = r.rows[i];
     rows.push_back({{"source", row.source},
                     {"what", row.what},
-                    {"low", number(row.low)},
-                    {"high", number(row.high)},
+                    {"low", json_number(row.low)},
+                    {"high", json_number(row.high)},
                     {"sd", row.sd},
                     {"sampling_sd", row.sampling_sd},
                     {"before", row.before},
@@ -243,8 +242,8 @@ Json claims_rows_json(const Calibration& c, const JudgedFit& claims) {
                     {"holds", holds(b)},
                     {"before", claims.before[i].papilla.model},
                     {"after", b.papilla.model},
-                    {"model", number(b.papilla.value)},
-                    {"se", number(b.papilla.se)}});
+                    {"model", json_number(b.papilla.value)},
+                    {"se", json_number(b.papilla.se)}});
   }
   return rows;
 }

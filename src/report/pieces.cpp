@@ -178,7 +178,7 @@ std::string field_json(const FieldSolution& s, const FieldRun& run) {
 }
 
 std::string optics_text(const Optics& look) {
-  std::string out = std::string("regime         ") + text(look.regime) + '\n';
+  std::string out = fmt::format("regime         {}\n", text(look.regime));
   if (!look.refused()) {
     out += fmt::format(
         "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"

@@ -9,6 +9,7 @@
 #include "base/files.h"
 #include "config/writer.h"
 #include "geometry/io/files.h"
+#include "report/json.h"
 #include "report/page.h"
 #include "report/response.h"
 #include "report/summary.h"
@@ -20,8 +21,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kExportPixels = 512;  // across one patch
-
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 Json variable_json(const Variable& v, double value) {
   return v.is_kind() ? Json(variable_text(v, value)) : Json(value);
@@ -124,12 +123,12 @@ class Writer {
   Json score_json(const Score& score) const {
     Json out = Json::object();
     for (std::size_t k = 0; k < score.values.size(); ++k) {
-      Json value{{"value", number(score.values[k])},
+      Json value{{"value", json_number(score.values[k])},
                  {"maximise", f_.problem.objectives()[k].maximise}};
       if (k < score.errors.size()) {
-        value["se"] = number(score.errors[k]);
+        value["se"] = json_number(score.errors[k]);
         const auto parameters = parameter_error(score, k);
-        value["parameters"] = parameters ? number(*parameters) : Json(nullptr);
+        value["parameters"] = json_number(parameters);
       }
       out[f_.problem.objectives()[k].name] = value;
     }
@@ -140,8 +139,9 @@ class Writer {
   Json differences(const Score& design, const Score& flat) const {
     Json out = Json::object();
     for (std::size_t k = 0; k < design.values.size(); ++k) {
-      out[f_.problem.objectives()[k].name] = {{"value", number(design.values[k] - flat.values[k])},
-                                              {"se", number(difference_error(design, flat, k))}};
+      out[f_.problem.objectives()[k].name] = {
+          {"value", json_number(design.values[k] - flat.values[k])},
+          {"se", json_number(difference_error(design, flat, k))}};
     }
     return out;
   }
@@ -155,8 +155,8 @@ class Writer {
     out["variables"] = variables;
     out["objectives"] = score_json(d.confirmed);
     out["objectives_at_search_level"] = score_json(d.searched);
-    out["worst_modulation"] = number(d.confirmed.worst);
-    out["oxide_breakdown_margin"] = number(d.confirmed.oxide_margin);
+    out["worst_modulation"] = json_number(d.confirmed.worst);
+    out["oxide_breakdown_margin"] = json_number(d.confirmed.oxide_margin);
     out["feasible"] = d.feasible;
     const Stability& stability = f_.result.stability;
     const auto index = static_cast<std::size_t>(&d - f_.result.finalists.data());
@@ -167,7 +167,7 @@ class Writer {
     }
     if (f_.result.flat)
       out["flat"] = {{"objectives", score_json(*f_.result.flat)},
-                     {"worst_modulation", number(f_.result.flat->worst)},
+                     {"worst_modulation", json_number(f_.result.flat->worst)},
                      {"difference", differences(d.confirmed, *f_.result.flat)},
                      {"no_better", no_better(f_.problem.objectives(), d.confirmed, *f_.result.flat)
                                        ? Json(kNoBetter)
@@ -178,7 +178,7 @@ class Writer {
     for (std::size_t k = 0; f_.result.flat && k < d.confirmed.values.size(); ++k) {
       const auto part = parameter_error(d.confirmed, *f_.result.flat, k);
       out["parameters"]["of_the_difference_to_flat"][f_.problem.objectives()[k].name] =
-          part ? number(*part) : Json(nullptr);
+          json_number(part);
     }
     out["tasks"] = Json::array();
     for (std::size_t t = 0; t < d.confirmed.reports.size(); ++t) {
@@ -209,8 +209,8 @@ class Writer {
     for (const VariableSensitivity& s : f_.result.sensitivity) {
       Json entry{{"step", s.step}, {"change", Json::object()}, {"variance_share", Json::object()}};
       for (std::size_t k = 0; k < s.change.size(); ++k) {
-        entry["change"][objectives[k].name] = number(s.change[k]);
-        entry["variance_share"][objectives[k].name] = number(s.share[k]);
+        entry["change"][objectives[k].name] = json_number(s.change[k]);
+        entry["variance_share"][objectives[k].name] = json_number(s.share[k]);
       }
       entry["tolerance"] = {{"down", s.down},
                             {"down_at_least", s.down_beyond},
