@@ -61,7 +61,7 @@ class TrustRegion {
   // The least sum of squares from x, with the parameters `free` moving and the others held.
   FitSolution solve(std::vector<double> x, const std::vector<std::size_t>& free, int iterations,
                     double region = kFirstRegion);
-  // Of the data, whitened, in the parameters `free` per unit of x; false: no model near x.
+  // Jacobian of the data, whitened, in the parameters `free` per unit of x; false: no model near x.
   bool jacobian(const std::vector<double>& x, const std::vector<std::size_t>& free,
                 Eigen::MatrixXd& out);
   int evaluations() const { return evaluations_; }

@@ -60,7 +60,7 @@ class ImageCodec {
                                         std::string& error) const = 0;
 };
 
-// Of the classes above: the module of another build is refused.
+// Version of the classes above: the module of another build is refused.
 constexpr int kCodecInterface = 1;
 
 // Loads the module on the first call. Throws std::runtime_error where it does not load.

@@ -180,7 +180,7 @@ ArrayCell line_cell(double period, double width, double size_y) {
   return cell;
 }
 
-// References to CELL, one a row of a block, in a structure of their own.
+// References to CELL, one per row of a block, in a structure of their own.
 void block_structure(GdsStream& gds, const std::string& name, const ArrayCell& cell,
                      const std::vector<int>& date, std::size_t rows) {
   gds.shorts(0x0502, date);

@@ -7,7 +7,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of the shared library, or of the program that the static one is part of.
+// Folder of the shared library, or of the program that the static one is part of.
 fs::path library_folder() {
   Dl_info info{};
   std::error_code error;

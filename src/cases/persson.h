@@ -86,7 +86,7 @@ struct MeanFieldPoint {
 struct MeanFieldResult {
   double rms = 0, slope = 0, contact_modulus = 0;  // of the smoothed spectrum; E* at its cut-off
   MeanFieldPoint point;
-  std::vector<MeanFieldPoint> voltage, load, frequency;  // one a sweep
+  std::vector<MeanFieldPoint> voltage, load, frequency;  // one per sweep
 };
 // Milliseconds a point. Throws InputError for what has no answer (no load and no finite size).
 MeanFieldResult solve_mean_field(const MeanFieldCase& c);

@@ -32,7 +32,7 @@ void add_solve_persson(Command solve, Context& context);
 void add_solve_haze(Command solve, Context& context);
 
 // clang-format off
-// In the order of `papilla --help`, one a line.
+// In the order of `papilla --help`, one per line.
 inline constexpr std::array kCommands{
     add_optimize,
     add_evaluate,

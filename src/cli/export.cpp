@@ -115,7 +115,7 @@ void add_export(Command app, Context& context) {
       .one_of({"white-high", "white-deep"});
   command.add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
       .range(1, 4096);
-  command.add_option("--levels", options->levels, "GDSII of a free form: layers, one a level")
+  command.add_option("--levels", options->levels, "GDSII of a free form: layers, one per level")
       .range(1, 64);
   command.add_option("--facet-error", options->facet_error, "GDSII: of circles; default 2 nm");
   command.add_option("--shrink", options->shrink,

@@ -43,7 +43,7 @@ class FieldVisitor {
  public:
   virtual ~FieldVisitor() = default;
 
-  // True while values come from a file: the moment to set defaults that hang on earlier members.
+  // True while values come from a file: the moment to set defaults that depend on earlier members.
   virtual bool reading() const { return false; }
 
   virtual void number(const NumberSpec& spec, double& si) = 0;

@@ -20,7 +20,7 @@ void fields(FieldVisitor& v, Search& s) {
             100000000, s.evaluations);
   v.integer({"drafts", "cheap evaluations that steer the bayesian search"}, 0, 10000, s.drafts);
   v.number({"time", "min", 0, 1e6, "largest wall-clock time; 0: no limit"}, s.time);
-  v.integer({"jobs", "evaluations at a time; 0: one a processor"}, 0, 4096, s.jobs);
+  v.integer({"jobs", "evaluations at a time; 0: one per processor"}, 0, 4096, s.jobs);
 }
 
 const std::vector<ConstraintKind>& constraint_kinds() {

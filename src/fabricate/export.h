@@ -49,7 +49,7 @@ struct Export {
   Texture texture;  // as drawn: the process undone, with a layout the period on its grid
   Heightmap heightmap;
   int cells_x = 0, cells_y = 0;  // unit cells along either side; 0: nothing repeats within
-  // Of a GDSII layout, one of both; of a dose map.
+  // What a GDSII layout holds, one of both; what a dose map holds.
   std::optional<GdsArray> array;
   std::optional<GdsContours> contours;
   std::optional<DoseMap> dose;

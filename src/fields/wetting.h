@@ -27,7 +27,7 @@ struct Droplet {
 
 enum class WettingStatus : std::uint8_t { Dry, Discs, Flooded, Film };
 
-// Of a pixel: no film, water on its way from disc to film, film.
+// State of a pixel: no film, water on its way from disc to film, film.
 enum class FilmPixel : std::uint8_t { None, OnItsWay, Film };
 
 struct Wetting {

@@ -18,7 +18,7 @@ class UndrivenPatches {
   UndrivenPatches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
   // The response at an amplitude [V] > 0. The load estimator costs field and water alone, the area
-  // one a contact solve per patch.
+  // one contact solve per patch.
   ResponsePoint drive(double amplitude, Estimator estimator) const;
 
  private:

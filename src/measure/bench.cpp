@@ -20,7 +20,7 @@
 namespace papilla::measure {
 namespace {
 
-// Of the calling thread, or of all: other work on the machine does not count.
+// Processor time of the calling thread, or of all: other work on the machine does not count.
 double processor_seconds(clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
   timespec t{};
   clock_gettime(clock, &t);

@@ -40,7 +40,7 @@ class StateRanker {
   }
 
  private:
-  // Of two whose difference is open: it is over the skins that both have, so the one with more of
+  // The difference of two that is open is over the skins that both have, so the one with more of
   // them waits.
   std::vector<bool> open_candidates() const {
     std::vector<bool> open(candidates_.size(), false);

@@ -36,7 +36,7 @@ struct Ranking {
   std::vector<ConditionDifference> conditions;  // empty unless any_conditions
   int skins = 0;                                // solved in all
   double seconds = 0;
-  // Of the finger's parameters: independent directions, and what their steps were run with.
+  // Steps of the finger's parameters: independent directions, and what their steps were run with.
   int directions = 0, step_skins = 0, step_grid = 0;  // 0: not asked for
 };
 

@@ -168,7 +168,7 @@ std::vector<std::vector<double>> Scores::step_moves() const {
 std::vector<std::vector<double>> Scores::skin_moves() const {
   std::size_t n = 0;
   for (const auto& s : skins) n = std::max(n, s.size());
-  // Of those that met all skins: what carries the others to all, Eq. ranking.6.
+  // Values of those that met all skins: what carries the others to all, Eq. ranking.6.
   std::vector<double> carrier(n, 0);
   const auto met_all = static_cast<double>(
       std::count_if(skins.begin(), skins.end(), [&](const auto& s) { return s.size() == n; }));

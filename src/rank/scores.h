@@ -17,7 +17,7 @@ struct Interval {
 
   Interval moved(double by) const;
 };
-// Of the mean of samples. steps: of the finger's parameters; empty: not asked for.
+// Error of the mean of samples. steps: of the finger's parameters; empty: not asked for.
 Interval interval_of(const std::vector<double>& samples, const StepSamples& steps);
 
 // What the skins that candidate i has not met would move its mean by: as much as they move the mean
@@ -36,9 +36,9 @@ struct Scores {
   // Score of a minus b over the skins that both have, and over the steps of the finger.
   Interval difference(std::size_t a, std::size_t b) const;
   bool decided(std::size_t a, std::size_t b) const;  // the interval of the difference leaves out 0
-  // Of a to be ahead of b: normal error of the paired difference. Eq. ranking.4
+  // Probability that a is ahead of b: normal error of the paired difference. Eq. ranking.4
   double probability_ahead(std::size_t a, std::size_t b) const;
-  // Of each to have the highest score: normal scores with the covariance of the common skins.
+  // Probability of each to have the highest score: normal scores with the covariance of the common skins.
   // Eq. ranking.3; 4000 draws of stream `index`, an error of 0.8 points at most.
   std::vector<double> probabilities(std::uint64_t index) const;
 

@@ -26,7 +26,7 @@ struct Decades {
   bool empty() const { return !(low < high); }
   double first() const { return std::floor(std::log10(low)); }
   double last() const { return std::ceil(std::log10(high)); }
-  // Of a number along an axis of this length.
+  // Place of a number along an axis of this length.
   double place(double v, double length) const {
     return length * (std::log10(v) - first()) / (last() - first());
   }

@@ -55,7 +55,7 @@ double mean_of(const std::vector<double>& values) {
   return sum;
 }
 
-// Of the mean planes since first touch [m].
+// Approach of the mean planes since first touch [m].
 double approach_of(const ContactSolution& s, const Heightmap& h) {
   return s.shift + *std::max_element(h.z.begin(), h.z.end());
 }

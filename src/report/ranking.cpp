@@ -27,7 +27,7 @@ const std::string& state_name(FingerState state) {
   return finger_state_names()[static_cast<std::size_t>(state)];
 }
 
-// Of a criterion: a share of its mean over humidity, without a unit.
+// A criterion as a share of its mean over humidity has no unit.
 bool is_relative(const Criterion& c) {
   return c.expression.summary == Summary::Variation || c.expression.summary == Summary::Range;
 }

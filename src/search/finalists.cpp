@@ -10,7 +10,7 @@
 namespace papilla::search {
 namespace {
 
-// Of designs at one level, those to judge at the next.
+// Which designs of one level to judge at the next.
 std::vector<std::size_t> chosen_of(const SearchProblem& search, const JudgedDesigns& designs,
                                    std::size_t most) {
   std::vector<std::size_t> chosen = promising(search, designs.evaluations, most);

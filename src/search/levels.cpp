@@ -15,7 +15,7 @@ constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came befo
 constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
 
-// Of one design on its own: one finger, one choice of the model, a small step.
+// For one design on its own: one finger, one choice of the model, a small step.
 Fidelity check_fidelity(const Study& study) {
   Fidelity f = fidelity_level("search");
   f.seed = static_cast<std::uint64_t>(study.search.seed);

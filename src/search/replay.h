@@ -52,7 +52,7 @@ class Replay {
   // Designs at a time that keep everyone busy; no more, so that a kill loses little.
   std::size_t designs() const;
   std::size_t workers() const { return team_->size(); }
-  // Of the search's evaluations that were not replayed.
+  // Clock and number of the search's evaluations that were not replayed.
   int fresh() const { return fresh_; }
   double seconds() const { return seconds_; }
   double seconds_each() const { return fresh_ > 0 ? seconds_ / fresh_ : 0; }

@@ -173,7 +173,7 @@ OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
   write_bytes(run.folder + "/resolved.toml", resolved_toml(study));
   write_bytes(run.folder + "/plan.txt", search_plan(study));
   const StageSeconds at = run_stages(run);
-  // Of a finished run that was to be written anew, what is there stays.
+  // What a finished run wrote stays when it was to be written anew.
   const bool stays =
       run.result.interrupted && std::filesystem::exists(run.folder + "/best/design.toml");
   if (!stays) write_files(run, at);

@@ -18,7 +18,7 @@ using Numbers = std::vector<std::vector<double>>;  // [task][number that an obje
 constexpr std::array kSampleLists{&ErrorSamples::sampling, &ErrorSamples::grid,
                                   &ErrorSamples::method};
 
-// Of these members the lowest over tasks counts.
+// The lowest of these members over the tasks counts.
 struct Lowest {
   double TaskAnswer::*of_task;
   double Score::*of_design;

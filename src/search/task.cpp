@@ -28,7 +28,7 @@ double distance(const StudyObjective& o, const Response& response) {
   return std::sqrt(sum / total);
 }
 
-// Of the objective over the steps of the response; empty: not defined.
+// The objective over the steps of the response; empty: not defined.
 StepSamples steps_of(const StudyObjective& o, const Response& response) {
   Response there;
   there.driven = response.driven;
@@ -65,7 +65,7 @@ std::vector<StepSamples> steps_of(const StudyGoals& goals, const Response& respo
   return out;
 }
 
-// Of each number that each objective is made of.
+// The samples behind each number that each objective is made of.
 std::vector<std::vector<ErrorSamples>> samples_of(const StudyGoals& goals,
                                                   const Response& response) {
   std::vector<std::vector<ErrorSamples>> out;

@@ -12,7 +12,7 @@ namespace papilla::capillary {
 struct WaterFacts {
   const char* method;  // for people: what is computed
   const char* reason;  // for people: why, and what it costs in accuracy
-  // Of the modulation, relative; volumes of water per area [m], one per humidity.
+  // Error of the modulation, relative; volumes of water per area [m], one per humidity.
   double (*error)(std::span<const double> water_per_area);
   double (*seconds)(const Grid& grid);  // of one patch on one core of a usual machine
 };

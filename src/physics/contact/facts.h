@@ -9,7 +9,7 @@
 namespace papilla::contact {
 
 std::string contact_method(double tolerance);  // for people
-// Of one solve on one core of a usual machine [s], to a certificate.
+// Price of one solve on one core of a usual machine [s], to a certificate.
 double contact_seconds(const Grid& grid, double tolerance);
 
 // Worst relative error of friction from a contact solve with this certificate: Eq. accuracy.1

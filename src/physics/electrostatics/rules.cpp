@@ -9,7 +9,7 @@
 namespace papilla::electrostatics {
 namespace {
 
-// Of the 3-D potential on the pixels of a patch (docs/theory/electrostatics.md).
+// Error of the 3-D potential on the pixels of a patch (docs/theory/electrostatics.md).
 constexpr double kFullFieldError = 0.08;
 
 const FieldRule kLocal{
