@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
+#include "design/study.h"
 
 namespace papilla {
 namespace {
