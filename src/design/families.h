@@ -26,7 +26,8 @@ Texture part_at(const Texture& texture, const std::string& path);
 
 // The numbers that several kinds have, by whatever key: what Roles says of each kind.
 enum class Measure { Period, Width, Depth, WallAngle, EdgeRadius };
-// What stands for the number at a path, texture.depth or texture.parts.1.height; none: another number.
+// What stands for the number at a path, texture.depth or texture.parts.1.height; none: another
+// number.
 std::optional<Measure> measure_of(const std::string& path);
 // Whether some kind of texture is flat when the number at this path is 0.
 bool decides_relief(const std::string& path);
