@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <regex>
-
-#include "tests/architecture/source_tree.h"
 
 namespace {
 
@@ -96,20 +93,6 @@ TEST(Library, AStudyIsSearchedByAskAndTell) {
     search.tell(judgements);
   }
   EXPECT_NEAR(found, 300e-9, 10e-9);
-}
-
-TEST(Library, PublicHeadersIncludeTheStandardLibraryAndEachOtherOnly) {
-  const std::regex include("#include ([<\"])([^>\"]+)");
-  for (const std::string& file : papilla::source_files({"include"}, {".h"})) {
-    const std::string text = papilla::read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
-    for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
-      const std::string name = (*it)[2];
-      EXPECT_TRUE((*it)[1] == "<"
-                      ? name.find('/') == std::string::npos && name.find('.') == std::string::npos
-                      : name.starts_with("papilla/"))
-          << file << " includes " << name;
-    }
-  }
 }
 
 }  // namespace

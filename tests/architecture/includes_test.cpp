@@ -94,6 +94,20 @@ TEST(Includes, EveryFileLivesInTheNamespaceOfItsRoom) {
   EXPECT_GT(files, 200);
 }
 
+TEST(Includes, PublicHeadersIncludeTheStandardLibraryAndEachOtherOnly) {
+  const std::regex include("#include ([<\"])([^>\"]+)");
+  for (const std::string& file : source_files({"include"}, {".h"})) {
+    const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
+    for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
+      const std::string name = (*it)[2];
+      EXPECT_TRUE((*it)[1] == "<"
+                      ? name.find('/') == std::string::npos && name.find('.') == std::string::npos
+                      : name.starts_with("papilla/"))
+          << file << " includes " << name;
+    }
+  }
+}
+
 TEST(Includes, LibrariesOfOthersStayInTheSourcesOfOneFolder) {
   const std::vector<std::pair<std::string, std::string>> libraries{
       {"toml++", "toml\\+\\+/"}, {"OpenImageIO", "OpenImageIO/"},

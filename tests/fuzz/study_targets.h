@@ -46,7 +46,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
 
   const Bytes key = encode(TaskRequest{Stage::Search, 0, false, {1.0 / 7, 0.1}});
   std::string good =
-      journal_line({key, encode(Judgement{{true, "", {1.0 / 3, 2}, {-0.5}, {7}}, 0.2})});
+      journal_line({key, encode(search::Judgement{{true, "", {1.0 / 3, 2}, {-0.5}, {7}}, 0.2})});
   std::string failed =
       journal_line({key, encode(TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed"))});
   good.pop_back();

@@ -270,7 +270,7 @@ TEST(Appearance, ColourOfADeepArrayIsSeen) {
 TEST(Appearance, OfRoughGlassIsThatOfItsMap) {
   const Texture rough{RandomRough{.rms = 60e-9}};
   const Optics own = appearance(rough, 1.46, {});
-  EXPECT_EQ(own.regime, "phase screen");
+  EXPECT_EQ(own.regime, OpticsRegime::PhaseScreen);
   for (const double side : {48e-6, 100e-6}) {
     const Heightmap map = generate(rough, patch_grid(rough, 1024, side));
     const Optics seen = phase_screen(map, PixelEdges::Sloped, {1.46, 1});
@@ -284,7 +284,7 @@ TEST(Appearance, OfRoughGlassIsThatOfItsMap) {
     EXPECT_NEAR(p.specular, std::exp(-square(2 * kPi * 0.46 * rms / p.wavelength)),
                 0.01 * p.specular);
   }
-  EXPECT_EQ(appearance(Texture{RandomRough{.rms = 0}}, 1.46, {}).regime, "flat");
+  EXPECT_EQ(appearance(Texture{RandomRough{.rms = 0}}, 1.46, {}).regime, OpticsRegime::Flat);
 }
 
 TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
