@@ -18,14 +18,18 @@ std::string undrawable(const TextureFacts& known) {
   if (!known.relief.present) return std::get<NoOutline>(facts(Texture{}).outline).reason;
   const auto* none = std::get_if<NoOutline>(&known.outline);
   if (!none) return {};
-  return none->reason + "; take its heights, exr, tiff, gsf, npy, x3p or stl, or a dose map";
+  return none->reason +
+         "; take its heights, exr, tiff, gsf, npy, x3p or stl, or a dose map; `--format gds "
+         "--levels 3` draws its contour lines";
 }
 
 // Why a format cannot be written; empty: it can.
 std::string refusal(const ExportFormat& format, const TextureFacts& known,
                     const ExportOptions& options) {
   const std::string subject = fmt::format("format \"{}\"", format.name);
-  if (format.needs_outline || (format.follows_outline && known.relief.present)) {
+  // Contour lines at several heights are a map, not a mask: any relief has them.
+  const bool lines = format.needs_outline && options.levels > 1 && known.relief.present;
+  if (!lines && (format.needs_outline || (format.follows_outline && known.relief.present))) {
     if (const std::string reason = undrawable(known); !reason.empty())
       return subject + ": " + reason;
   }

@@ -44,10 +44,15 @@ TEST(Program, ImageFormatsAreLoadedWhereAnImageIsTouchedAndNowhereElse) {
   EXPECT_FALSE(loads("explain " + kSample));
   EXPECT_FALSE(loads("export " + kSample + " --format npy,gsf --pixels 64 --out plain"));
   EXPECT_TRUE(loads("export " + kSample + " --format exr --pixels 64 --out image"));
-  // A program that was copied without its module says so, before anything is written.
+  // Copied without the module that belongs beside it, it says so before anything is written.
   std::filesystem::copy_file(PAPILLA_PROGRAM, place.path() / "alone");
-  const Outcome broken =
-      place.shell("./alone export " + kSample + " --format exr --pixels 64 --out broken");
+  const auto beside = std::filesystem::path(PAPILLA_PROGRAM).parent_path();
+  for (const auto& file : std::filesystem::directory_iterator(beside)) {  // none: linked statically
+    if (file.path().filename().string().starts_with("libpapilla.so"))
+      std::filesystem::copy(file.path(), place.path() / file.path().filename());
+  }
+  const Outcome broken = place.shell("LD_LIBRARY_PATH=. ./alone export " + kSample +
+                                     " --format exr --pixels 64 --out broken");
   EXPECT_EQ(broken.status, 1);
   EXPECT_NE(broken.err.find("papilla_images.so"), std::string::npos) << broken.err;
   EXPECT_FALSE(std::filesystem::exists(place.path() / "broken/heightmap.exr"));
