@@ -110,7 +110,7 @@ struct GaussianProcess::State {
 GaussianProcess::GaussianProcess(std::vector<Point> points, std::vector<double> values,
                                  const GaussianProcess* before)
     : state_(std::make_unique<State>()) {
-  PAPILLA_CHECK(!points.empty() && points.size() == values.size(), "one value a point");
+  PAPILLA_CHECK(!points.empty() && points.size() == values.size(), "one value per point");
   State& s = *state_;
   s.points = std::move(points);
   const auto n = static_cast<double>(values.size());
@@ -142,16 +142,6 @@ Prediction GaussianProcess::predict(const Point& x) const {
   return {s.mean + s.scale * k.dot(s.alpha), s.scale * std::sqrt(variance)};
 }
 
-std::vector<double> GaussianProcess::leave_one_out() const {
-  const State& s = *state_;
-  const Eigen::MatrixXd inverse = s.factor.solve(Eigen::MatrixXd::Identity(s.y.size(), s.y.size()));
-  std::vector<double> out;
-  for (Eigen::Index i = 0; i < s.y.size(); ++i) {
-    out.push_back(s.alpha(i) / inverse(i, i) / std::sqrt(s.signal / inverse(i, i)));
-  }
-  return out;
-}
-
 double GaussianProcess::leave_one_out_error() const {
   const State& s = *state_;
   const Eigen::MatrixXd inverse = s.factor.solve(Eigen::MatrixXd::Identity(s.y.size(), s.y.size()));
@@ -161,12 +151,6 @@ double GaussianProcess::leave_one_out_error() const {
 }
 
 const std::vector<double>& GaussianProcess::parameters() const { return state_->parameters; }
-
-std::vector<double> GaussianProcess::lengths() const {
-  std::vector<double> out(state_->parameters.begin(), state_->parameters.end() - 1);
-  for (double& v : out) v = std::exp(v);
-  return out;
-}
 
 DraftedProcess::DraftedProcess(const std::vector<Point>& points, const std::vector<double>& values,
                                const GaussianProcess* draft, const DraftedProcess* before) {

@@ -1,5 +1,5 @@
-// A small Gaussian process: Matern-5/2 with a length a dimension, constant mean, noise; parameters
-// by maximum likelihood. For up to a few hundred points.
+// A small Gaussian process: Matern-5/2 with a length per dimension, constant mean, noise;
+// parameters by maximum likelihood. For up to a few hundred points.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct Prediction {
 class GaussianProcess {
  public:
   // Points in the unit cube. Fits lengths, signal and noise by likelihood, started from `before`
-  // when given. O(n^3) a likelihood, a few hundred of them.
+  // when given. O(n^3) per likelihood, a few hundred of them.
   GaussianProcess(std::vector<Point> points, std::vector<double> values,
                   const GaussianProcess* before = nullptr);
   ~GaussianProcess();
@@ -25,11 +25,9 @@ class GaussianProcess {
   GaussianProcess& operator=(GaussianProcess&&) noexcept;
 
   Prediction predict(const Point& x) const;
-  // Error of each value when predicted from the others, in predicted standard deviations.
-  std::vector<double> leave_one_out() const;
-  double leave_one_out_error() const;  // the same, root mean square, in units of the values
+  // Root mean square of the errors of each value when predicted from the others, in its units.
+  double leave_one_out_error() const;
   const std::vector<double>& parameters() const;  // log lengths, log noise share
-  std::vector<double> lengths() const;
 
  private:
   struct State;
@@ -46,7 +44,6 @@ class DraftedProcess {
                  const GaussianProcess* draft, const DraftedProcess* before = nullptr);
 
   Prediction predict(const Point& x) const;
-  bool uses_draft() const { return draft_ != nullptr; }
   double ratio() const { return ratio_; }
 
  private:

@@ -76,7 +76,6 @@ GapTable::GapTable(const Gap& gap, double floor)
       node_(static_cast<std::size_t>(stride_) * gap.grid.ny) {
   PAPILLA_CHECK(gap.value.size() == grid_.size() && grid_.size() > 0,
                 "gap and grid differ in size");
-  double total = 0;
   for (int iy = 0; iy < grid_.ny; ++iy) {
     Node* n = &node_[static_cast<std::size_t>(iy) * stride_];
     for (int ix = 0; ix < grid_.nx; ++ix) {
@@ -87,9 +86,7 @@ GapTable::GapTable(const Gap& gap, double floor)
     for (int ix = 0; ix < grid_.nx; ++ix) {
       n[ix + 1].prefix = n[ix].prefix + 0.5 * (n[ix].value + n[ix + 1].value);
     }
-    total += n[grid_.nx].prefix;
   }
-  volume_ = total * grid_.pixel_area();
 }
 
 inline double GapTable::row_integral(int iy, double u) const {

@@ -31,7 +31,6 @@ class GapTable {
   Rim rim(double x, double y, double radius, const Rule& rule) const;
 
   const Grid& grid() const { return grid_; }
-  double volume() const { return volume_; }  // of the whole gap [m^3]
   double floor() const { return floor_; }
 
  private:
@@ -41,7 +40,6 @@ class GapTable {
   Grid grid_;
   double floor_;
   double inverse_dx_, inverse_dy_;
-  double volume_ = 0;
   int stride_;
   struct Node {
     double value;   // the gap [m]

@@ -98,8 +98,4 @@ RidgeLoad ridge_load(const MacroContact& macro, double load, double relative_hum
   return out;
 }
 
-double ridge_share_at(double share, double pressure_ratio) {
-  return std::min(1.0, share * std::sqrt(std::max(0.0, pressure_ratio)));
-}
-
 }  // namespace papilla::macro

@@ -56,8 +56,5 @@ struct RidgeLoad {
   double peak_pressure = 0;  // on the ridge in the middle [Pa]
 };
 RidgeLoad ridge_load(const MacroContact& macro, double load, double relative_humidity);
-// Share of the gross area that rounded ridges touch when the gross pressure changes from one at
-// which they touch `share`: Hertz' line contact. Eq. macro.5
-double ridge_share_at(double share, double pressure_ratio);
 
 }  // namespace papilla::macro
