@@ -21,7 +21,7 @@ Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t 
 }
 
 Point Space::value(const Point& unit) const {
-  PAPILLA_CHECK(unit.size() == size(), "one coordinate a variable");
+  PAPILLA_CHECK(unit.size() == size(), "one coordinate per variable");
   Point out(size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Dimension& d = dimensions[i];
@@ -37,7 +37,7 @@ Point Space::value(const Point& unit) const {
 }
 
 Point Space::unit(const Point& value) const {
-  PAPILLA_CHECK(value.size() == size(), "one value a variable");
+  PAPILLA_CHECK(value.size() == size(), "one value per variable");
   Point out(size());
   for (std::size_t i = 0; i < size(); ++i) {
     const Dimension& d = dimensions[i];

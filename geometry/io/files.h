@@ -49,7 +49,7 @@ void write_png(const std::string& path, const Heightmap& h);
 // files.
 Heightmap read_heightmap(const std::string& path, double width = 0);
 
-// RGB rows, top first, 3 bytes a pixel.
+// RGB rows, top first, 3 bytes per pixel.
 void write_png_rgb(const std::string& path, int width, int height,
                    const std::vector<std::uint8_t>& rgb);
 // Field as colours (viridis-like), low to high, with a scale bar of a round length.

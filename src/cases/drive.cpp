@@ -261,7 +261,7 @@ DriveResult solve_drive(const DriveCase& c) {
   std::vector<double> frequencies = r.modulation.frequency;
   frequencies.push_back(frequency);
   const double period = common_period(frequencies);
-  // A plain sine needs few points a cycle; edges of a square many.
+  // A plain sine needs few points per cycle; edges of a square many.
   const double cycle = drive.waveform == Waveform::Square ? 4096 : 32;
   const double samples = std::max(64.0, cycle * frequency * period);
   if (period == 0 || samples > static_cast<double>(kMostSamples)) {

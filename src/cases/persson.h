@@ -88,7 +88,7 @@ struct MeanFieldResult {
   MeanFieldPoint point;
   std::vector<MeanFieldPoint> voltage, load, frequency;  // one per sweep
 };
-// Milliseconds a point. Throws InputError for what has no answer (no load and no finite size).
+// Milliseconds per point. Throws InputError for what has no answer (no load and no finite size).
 MeanFieldResult solve_mean_field(const MeanFieldCase& c);
 
 }  // namespace papilla::cases

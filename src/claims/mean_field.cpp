@@ -114,7 +114,7 @@ Judgement finite_size(FingerModel& model) {
   const MeanField& field = gap_field(model);
   const double roll_off = field.spectrum().wave_number[1];
   const double cells = printed::kArea * square(roll_off / (2 * kPi));
-  const double lowest = normal_quantile(1 - 1 / cells);  // one independent height a wavelength
+  const double lowest = normal_quantile(1 - 1 / cells);  // one height per wavelength
   double highest = 1;  // one region above it: A q^2/2 u e^(-u^2/2) / (2 pi)^(3/2) = 1
   for (int i = 0; i < 60; ++i) {
     highest = std::sqrt(

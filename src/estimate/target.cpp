@@ -131,7 +131,7 @@ class TargetRun {
     return response;
   }
 
-  // Pixel of a plan: beyond a number of pixels a side, a finer grid is none.
+  // Pixel of a plan: beyond a number of pixels per side, a finer grid is none.
   Grid patch(int grid) const {
     Fidelity at = fidelity_;
     at.grid = grid;

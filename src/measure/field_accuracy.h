@@ -29,7 +29,7 @@ struct FieldAccuracyOptions {
 };
 
 // Local rules and full field of one design at its humidities. Cost: of the finest 3-D solve, 64
-// nodes in height, 8 s at 512^2 a humidity.
+// nodes in height, 8 s per humidity at 512^2.
 std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const Design& design,
                                              const FieldAccuracyOptions& options);
 

@@ -109,7 +109,7 @@ void fields(FieldVisitor& v, ElectricalLayer& s) {
 
 double SkinWater::volume_per_area(double rh) const {
   PAPILLA_CHECK(relative_humidity.size() == volume.size() && !volume.empty(),
-                "one volume a humidity");
+                "one volume per humidity");
   constexpr double kPatchArea = 144e-12;  // the paper's 12 x 12 um window
   const std::size_t n = volume.size();
   if (n == 1) return volume[0] / kPatchArea;

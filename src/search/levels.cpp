@@ -23,7 +23,7 @@ Fidelity check_fidelity(const Study& study) {
 }
 
 // The cheapest that ranks designs as well as other skins at the level above do: sixteen skins in
-// all, four a finger at least (results/bench/search_levels.csv). More designs for the same time
+// all, four per finger at least (results/bench/search_levels.csv). More designs for the same time
 // find more than surer numbers do (docs/theory/search.md).
 Fidelity search_fidelity(const Study& study) {
   Fidelity f = check_fidelity(study);

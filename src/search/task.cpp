@@ -42,8 +42,8 @@ StepSamples steps_of(const StudyObjective& o, const Response& response) {
   return step_samples(response.parameters.steps, value).value_or(StepSamples{});
 }
 
-// The same surface without its relief. Of a lattice a picometre stays, so that it is judged on the
-// patch and the skins of the lattice: the difference is the texture's, not that of other skins.
+// The same surface without its relief. A lattice keeps a picometre of it, so that it is judged on
+// the patch and the skins of the lattice: the difference is the texture's, not that of other skins.
 Texture without_relief(const Design& textured) {
   constexpr double kNone = 1e-12;  // [m]
   Design flat = textured;

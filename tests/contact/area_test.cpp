@@ -78,7 +78,7 @@ TEST(Area, OfRoughSkinAgreesWithAFinerGridWithinItsStatedError) {
   EXPECT_NEAR(ratio[0], ratio[1], 0.003 * ratio[1]);
 }
 
-// Contact in a few large pieces, one a particle.
+// Contact in a few large pieces, one per particle.
 TEST(Area, OfAParticleFilmAgreesWithAFinerGrid) {
   const Finger finger;
   const Skin& skin = finger.skin;

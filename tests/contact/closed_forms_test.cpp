@@ -59,11 +59,11 @@ TEST(ClosedForms, EggBoxHasTheAreaOfTheTable) {
                 0.01 * exact.peak_pressure(p))
         << share;
   }
-  const Hertz peak{1e6, square(1e-6 / (2 * kPi)) / 1e-8};  // two a period
+  const Hertz peak{1e6, square(1e-6 / (2 * kPi)) / 1e-8};  // two per period
   const double light = 1e-4 * exact.full_pressure();
   EXPECT_NEAR(exact.peak_pressure(light), peak.peak_pressure(light * square(1e-6) / 2),
               0.03 * exact.peak_pressure(light));
-  EXPECT_NEAR(exact.area(1e-4 * exact.full_pressure()),  // the Hertz limit, two peaks a period
+  EXPECT_NEAR(exact.area(1e-4 * exact.full_pressure()),  // the Hertz limit, two peaks per period
               kPi * std::pow(3e-4 / (8 * kPi), 2.0 / 3),
               0.01 * exact.area(1e-4 * exact.full_pressure()));
 }

@@ -125,7 +125,7 @@ TEST(Errors, OfAreasAreTheOctavesLeftOut) {
   EXPECT_NEAR(draft.parts.grid.value(), missing, 0.35 * missing);
 }
 
-// Long patches have a limited number of pixels a side; the control run has half of that too.
+// Long patches have a limited number of pixels per side; the control run has half of that too.
 TEST(Errors, OfALongPatchAreOfHalfItsPixels) {
   Fidelity f = fidelity_level("search");
   f.skins = f.control_skins = 2;

@@ -52,7 +52,7 @@ double EggBox::area(double p) const {
   if (share <= 0) return 0;
   if (share >= 1) return 1;
   if (share <=
-      kTable[0][0]) {  // Hertz on two peaks a period; their interaction grows with the load
+      kTable[0][0]) {  // Hertz on two peaks per period; their interaction grows with the load
     const auto hertz = [](double s) { return kPi * std::pow(3 * s / (8 * kPi), 2.0 / 3); };
     const double excess = kTable[0][1] / hertz(kTable[0][0]) - 1;
     return hertz(share) * (1 + excess * share / kTable[0][0]);

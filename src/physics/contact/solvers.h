@@ -30,7 +30,7 @@ struct StandardProblem {
 struct StandardState {
   std::vector<double> p;    // pressure [Pa]
   std::vector<double> gap;  // [m], zero under pressure
-  double work = 0;          // sum of (traction - p) S (traction - p), twice the energy a pixel area
+  double work = 0;          // sum of (traction - p) S (traction - p): twice energy per pixel area
   double shift = 0, certificate = 0;
   double pairs = 0;  // in units of the problem's grid
   int iterations = 0;

@@ -75,7 +75,7 @@ Signal source_signal(Waveform waveform, double amplitude, double frequency,
                      const Modulation& modulation, double exponent, double period,
                      std::size_t samples) {
   PAPILLA_CHECK(modulation.frequency.size() == modulation.amplitude.size(),
-                "one amplitude a frequency");
+                "one amplitude per frequency");
   Signal out{period, std::vector<double>(std::bit_ceil(samples))};
   const double depth =
       std::accumulate(modulation.amplitude.begin(), modulation.amplitude.end(), 0.0);

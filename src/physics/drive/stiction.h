@@ -1,5 +1,5 @@
 // Rendered stickiness: current only until the finger slips. A state machine on the ratio of lateral
-// to normal force, one step a sample.
+// to normal force, one step per sample.
 #pragma once
 
 #include <span>

@@ -47,7 +47,7 @@ struct PotentialSolution {
 // harmonic mean of cell averages, bodies at their distance along the line of nodes. Conjugate
 // gradients with one multigrid cycle (semi-coarsened in x and y, damped line relaxation in z). Eq.
 // electrostatics.13. Not ok: no dielectric somewhere, values that are not finite, or the iteration
-// limit. Cost: 80 bytes a node, about 10 iterations.
+// limit. Cost: 80 bytes per node, about 10 iterations.
 PotentialSolution solve_potential(const PotentialProblem& problem, const PotentialOptions& options);
 
 // The pull by the 3-D potential: p = eps0/2 E_n^2 on the skin's surface (Eq. electrostatics.14),

@@ -58,7 +58,7 @@ void smooth(std::vector<double>& density, int half) {
   }
 }
 
-// Heights of n nodes: dense where most of the flux passes, at most four a pixel width, smooth.
+// Heights of n nodes: dense where most of the flux passes, at most four per pixel width, smooth.
 std::vector<double> node_heights(const std::vector<FieldColumn>& columns, double pixel, int n) {
   HeightRange range;
   for (const FieldColumn& c : columns) {

@@ -48,7 +48,7 @@ struct Optics {
 
 // What a pixel between the lowest and the highest plane is: a slope, or an edge of a two-level
 // texture that crosses it (then its amplitude is the mean over both levels, right to 1e-4 at 96
-// pixels a period, where a mean height errs by 1 %).
+// pixels per period, where a mean height errs by 1 %).
 enum class PixelEdges { Sloped, TwoLevels };
 
 // What a perfect array lacks: each feature displaced at random, each diameter (or groove width)

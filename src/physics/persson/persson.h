@@ -72,7 +72,7 @@ struct GapDistribution {
   double contact = 0;       // A/A0: share of the area at gap 0
   double mean_gap = 0;      // over the whole area [m]
   double smallest_gap = 0;  // MeanFieldOptions
-  // One a band, magnification ascending: shares sum to 1 - contact; gaps are |N(offset, width)|.
+  // One per band, magnification ascending: shares sum to 1 - contact; gaps are |N(offset, width)|.
   std::vector<double> share, offset, width, wave_number /*upper end of the band, 1/m*/;
 
   double density(double u) const;     // P(u) [1/m] at u > 0, without the contact
@@ -121,7 +121,7 @@ class MeanField {
   std::vector<double> q_;            // nodes
   std::vector<double> measure_;      // M at nodes
   std::vector<double> variance_;     // roughness above each node [m^2]
-  std::vector<double> measure_mid_;  // M at two Gauss points an interval
+  std::vector<double> measure_mid_;  // M at two Gauss points per interval
   std::vector<double> weight_;       // sqrt(pi) q^2 C E* dq there
   std::vector<double> gap_table_;    // F of Eq. persson.7
 };
