@@ -12,9 +12,10 @@
 namespace papilla::optim {
 namespace {
 
-constexpr std::size_t kCandidatesAPoint = 50;  // of the first design
+constexpr std::size_t kCandidatesPerPoint = 50;  // of the first design
 // Costly constraints asked for one point to evaluate.
 constexpr int kCostlyChecks = 40;
+// One point in so many explores, far from all others (docs/theory/search.md).
 constexpr std::size_t kExploreEvery = 3;
 
 double normal_density(double t) { return std::exp(-0.5 * t * t) / std::sqrt(2 * kPi); }
@@ -95,7 +96,7 @@ class Bayesian : public Searcher {
     std::vector<Point> free;
     std::vector<double> nearest;  // squared distance
     for (int tries = 0;
-         free.size() < std::max<std::size_t>(200, kCandidatesAPoint * count) && tries < 20000;
+         free.size() < std::max<std::size_t>(200, kCandidatesPerPoint * count) && tries < 20000;
          ++tries) {
       const Point u =
           problem_.space.snapped(low_discrepancy(problem_.space.size(), problem_.seed, drawn_++));

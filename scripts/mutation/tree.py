@@ -11,7 +11,7 @@ import subprocess
 from . import candidates, planting
 
 SOURCES = ("src", "geometry", "optim")
-LEFT_OUT = ("src/cli/", "src/report/page", "src/report/html")
+LEFT_OUT = ("src/cli/", "src/report/page")
 
 
 class Failure(Exception):

@@ -21,6 +21,7 @@
 namespace papilla::cases {
 namespace {
 
+// Of a force series over one common period: tones without a short one would fill the memory.
 constexpr std::size_t kMostSamples = std::size_t{1} << 22;
 
 double insulating_if_zero(double resistivity) { return resistivity > 0 ? resistivity : kInfinity; }

@@ -16,10 +16,10 @@ namespace {
 
 // What the papers print.
 namespace printed {
-constexpr double kFingerArea = 30e-6;  // [m^2]
-constexpr double kGapResistance = 17e6, kGapCapacitance = 250e-12;
-constexpr double kMu = 0.2;
-constexpr double kCurrent = 4e-3, kCarrier = 25e3;  // [A] peak, [Hz]
+constexpr double kFingerArea = 30e-6;                               // [m^2]
+constexpr double kGapResistance = 17e6, kGapCapacitance = 250e-12;  // [ohm], [F]
+constexpr double kMu = 0.2;                                         // friction coefficient
+constexpr double kCurrent = 4e-3, kCarrier = 25e3;                  // [A] peak, [Hz]
 
 // A gap of 250 pF on 30 mm2; dielectric 1 um of 3.9 and skin 200 um of 2000, 2e4 ohm m.
 Network network(double dielectric_resistance = 5e6) {

@@ -9,7 +9,7 @@ namespace {
 
 // Differences on common skins scatter far less than values: a few skins on few pixels are enough.
 constexpr int kMostSkins = 8, kFinestGrid = 128;
-constexpr double kTolerance = 1e-3;
+constexpr double kTolerance = 1e-3;  // of the contact, at the finest
 
 }  // namespace
 

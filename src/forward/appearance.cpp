@@ -18,7 +18,7 @@ constexpr int kPeriodPixels = 96, kRandomPixels = 1024;
 constexpr double kTrusted = 2e-6;  // narrower features: compare with a rigorous method
 // A shorter patch has no order that parts what leaves within 2.5 deg from haze.
 const double kLeastPatch = 2 * visible_wavelengths().back() / std::sin(kHazeAngle);
-constexpr double kTrustedSlope = 20 * kPi / 180;
+constexpr double kTrustedSlope = 20 * kPi / 180;  // of a thin screen (docs/theory/optics.md)
 
 void warn(Optics& o, const std::string& text) {
   o.warning += (o.warning.empty() ? "" : "; ") + text;

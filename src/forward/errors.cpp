@@ -9,7 +9,7 @@
 namespace papilla::forward {
 namespace {
 
-constexpr int kSmallestGrid = 16;
+constexpr int kSmallestGrid = 16;  // of the control run on half the pixels; below it there is none
 // What is missing to the limit over the last halving of the pixel: order 1.3 for the pull, 1.5 for
 // other quantities. Training scenes of docs/theory/accuracy.md
 constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;

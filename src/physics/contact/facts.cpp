@@ -17,7 +17,7 @@ double contact_seconds(const Grid& grid, double tolerance) {
 }
 
 double contact_error(double certificate) {
-  constexpr double kSolverError = 5;
+  constexpr double kSolverError = 5;  // Eq. accuracy.1
   return kSolverError * certificate;
 }
 
