@@ -7,13 +7,10 @@ namespace {
 
 rooms::Problem inner(const Problem& p) { return {p.file, p.line, p.column, p.key, p.message}; }
 
-std::string joined(const std::vector<Problem>& problems) {
-  std::string out;
-  for (const Problem& problem : problems) {
-    if (!out.empty()) out += '\n';
-    out += problem.text();
-  }
-  return out;
+std::string text_of(const std::vector<Problem>& problems) {
+  std::vector<rooms::Problem> out;
+  for (const Problem& problem : problems) out.push_back(inner(problem));
+  return rooms::InputError(std::move(out)).what();
 }
 
 }  // namespace
@@ -21,6 +18,6 @@ std::string joined(const std::vector<Problem>& problems) {
 std::string Problem::text() const { return inner(*this).text(); }
 
 InputError::InputError(std::vector<Problem> problems)
-    : std::runtime_error(joined(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(text_of(problems)), problems_(std::move(problems)) {}
 
 }  // namespace papilla::api

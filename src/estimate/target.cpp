@@ -14,7 +14,7 @@ namespace papilla::estimate {
 namespace {
 
 constexpr int kSmallestGrid = 64, kFewestSkins = 8;  // of the pilot; no plan has fewer
-constexpr int kBatch = 8;      // skins that are added at a time, at most
+constexpr int kBatch = 8;                            // skins that are added at a time, at most
 constexpr int kMostPlans = 5;  // changes of grid or estimator before the run ends unsettled
 // Share of the target's square that grid, method and solver may take in a plan: the rest is left to
 // sampling, whose error is known only within a third.
