@@ -103,10 +103,10 @@ Heightmap heights(const ParticleFilm& film, const Grid& grid) {
     for (int iy = cy - ny; iy <= cy + ny; ++iy) {
       for (int ix = cx - nx; ix <= cx + nx; ++ix) {
         const double dx = (ix + 0.5) * grid.dx() - p.x, dy = (iy + 0.5) * grid.dy() - p.y;
-        const double rest = p.radius * p.radius - dx * dx - dy * dy;
-        if (rest <= 0) continue;
+        const double above2 = p.radius * p.radius - dx * dx - dy * dy;
+        if (above2 <= 0) continue;
         double& z = out(wrap(ix, grid.nx), wrap(iy, grid.ny));
-        z = std::max(z, centre + std::sqrt(rest));
+        z = std::max(z, centre + std::sqrt(above2));
       }
     }
   }

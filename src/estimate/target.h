@@ -23,7 +23,7 @@ Fidelity pilot_fidelity(const TargetOptions& options);
 // the cheapest is run whose predicted error is inside (Eq. accuracy.5, accuracy.6); its parts are
 // measured again, skins are added in batches where sampling is too large, and the plan is made anew
 // where grid or method are. Ends inside the target, or at a limit with a status that says which
-// part is left. The same answer on any machine: decisions rest on counts, not on seconds.
+// part is left. The same answer on any machine: decisions depend on counts, not on seconds.
 Response evaluate_to_target(const Scene& scene, const Texture& texture,
                             const TargetOptions& options);
 

@@ -42,18 +42,18 @@ std::vector<double> covariance_factor(const std::vector<ParameterDeviation>& unc
     if (row.correlation.size() > i)
       throw InputError(fmt::format("uncertainty of {}: {} correlations, but {} entries before it",
                                    row.parameter, row.correlation.size(), i));
-    double rest = 1;
+    double left = 1;
     for (std::size_t j = 0; j < i; ++j) {
       double sum = j < row.correlation.size() ? row.correlation[j] : 0;
       for (std::size_t k = 0; k < j; ++k) sum -= l[i * n + k] * l[j * n + k];
       l[i * n + j] = sum / l[j * n + j];
-      rest -= square(l[i * n + j]);
+      left -= square(l[i * n + j]);
     }
-    if (!(rest > 1e-12))
+    if (!(left > 1e-12))
       throw InputError(fmt::format(
           "uncertainty of {}: its correlations contradict those before it (not positive definite)",
           row.parameter));
-    l[i * n + i] = std::sqrt(rest);
+    l[i * n + i] = std::sqrt(left);
   }
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = 0; j <= i; ++j) l[i * n + j] *= uncertainty[i].deviation;

@@ -133,17 +133,17 @@ std::vector<Judgement> Replay::searched(const std::vector<Point>& units) {
   std::vector<Judgement> out;
   while (out.size() < units.size() && replaying())
     out.push_back(sound(decode_judgement(replayed(search_key(units[out.size()])))));
-  const std::vector<Point> rest(units.begin() + static_cast<std::ptrdiff_t>(out.size()),
-                                units.end());
+  const std::vector<Point> remaining(units.begin() + static_cast<std::ptrdiff_t>(out.size()),
+                                     units.end());
   std::vector<Point> fresh;
-  std::copy_if(rest.begin(), rest.end(), std::back_inserter(fresh),
+  std::copy_if(remaining.begin(), remaining.end(), std::back_inserter(fresh),
                [&](const Point& u) { return search_.feasible_before_evaluation(u); });
   const auto from = std::chrono::steady_clock::now();
   const std::vector<Score> scores = scores_of(ask(requests_of(fresh, Stage::Search, false)));
   seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   fresh_ += static_cast<int>(fresh.size());
   std::size_t next = 0;
-  for (const Point& unit : rest) {
+  for (const Point& unit : remaining) {
     out.push_back(search_.feasible_before_evaluation(unit) ? judgement(scores[next++])
                                                            : refusal(unit));
     record(search_key(unit), encode(out.back()));
@@ -168,9 +168,9 @@ std::vector<TaskAnswer> Replay::answers(const std::vector<TaskRequest>& requests
   std::vector<TaskAnswer> out;
   while (out.size() < requests.size() && replaying())
     out.push_back(sound(decode_answer(replayed(requests[out.size()]))));
-  const std::vector<TaskRequest> rest(requests.begin() + static_cast<std::ptrdiff_t>(out.size()),
-                                      requests.end());
-  for (TaskAnswer& fresh : ask(rest)) {
+  const std::vector<TaskRequest> remaining(
+      requests.begin() + static_cast<std::ptrdiff_t>(out.size()), requests.end());
+  for (TaskAnswer& fresh : ask(remaining)) {
     record(requests[out.size()], encode(fresh));
     out.push_back(std::move(fresh));
   }

@@ -28,7 +28,7 @@ class DropPopulation {
   // Puts drop i where `trial` is. If it overlaps others there they become one drop, provided that
   // the energy falls; else nothing happens and the answer is false.
   bool move(int i, const Drop& trial);
-  // Takes volume [m^3] from drop i, which gets its state anew or, without a rest, is gone.
+  // Takes volume [m^3] from drop i, which gets its state anew or, where none is left, is gone.
   void drain(int i, double volume);
 
  private:

@@ -35,8 +35,8 @@ Heightmap electrode_below(const Heightmap& surface, double thickness) {
       if (!is_foot(surface, ix, iy)) continue;
       const double level = surface(ix, iy) - thickness;
       for (int j = -ny; j <= ny; ++j) {
-        const double rest = square(radius) - square(j * g.dy());
-        const int width = std::min(static_cast<int>(std::sqrt(rest) / g.dx()), nx);
+        const double across2 = square(radius) - square(j * g.dy());
+        const int width = std::min(static_cast<int>(std::sqrt(across2) / g.dx()), nx);
         double* row = electrode.z.data() + g.index(0, wrap(iy + j, g.ny));
         const auto lower = [&](int from, int to) {
           for (int i = from; i < to; ++i) row[i] = std::min(row[i], level);

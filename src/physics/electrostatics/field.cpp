@@ -118,13 +118,13 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
     const double g = columns.air[i];
     if (g < 0) continue;
     const double gain = factors.gain.empty() ? 1 : factors.gain[i];
-    const double rest =
+    const double in_series =
         columns.water.empty() ? series : series + columns.water[i] / kWaterPermittivity;
-    const double distance2 = (square(g + rest) + quadrature) / gain;
+    const double distance2 = (square(g + in_series) + quadrature) / gain;
     double pressure = scale / distance2;
     if (walls && surface->behind_walls[i] > 0) {
       const double behind =
-          square(g + rest + surface->behind_walls[i] * per_thickness) + quadrature;
+          square(g + in_series + surface->behind_walls[i] * per_thickness) + quadrature;
       pressure = 0.5 * (pressure + scale * gain / behind);
     }
     pressure = std::min(pressure, cap) * open;

@@ -66,10 +66,11 @@ double effective_modulus(const MeanFieldSolid& s, double q) {
   const double one_minus_m = 4 * (1 - s.layer_poisson) / (ratio + 3 - 4 * s.layer_poisson);
   const double one_minus_n = 4 * (1 - s.layer_poisson) / (1 + ratio * (3 - 4 * s.bulk_poisson));
   const double m = 1 - one_minus_m, n = 1 - one_minus_n;
-  const double e = std::exp(-2 * x), rest = -std::expm1(-2 * x);
+  const double e = std::exp(-2 * x), one_minus_e = -std::expm1(-2 * x);
   // Factored so that a stiff layer at small q d loses no digits.
   const double above = 1 - m * n * e * e + 4 * m * x * e;
-  const double below = (one_minus_m + m * rest) * (one_minus_n + n * rest) - 4 * m * x * x * e;
+  const double below =
+      (one_minus_m + m * one_minus_e) * (one_minus_n + n * one_minus_e) - 4 * m * x * x * e;
   return layer * below / above;
 }
 
