@@ -12,8 +12,6 @@ inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr double kVacuumPermittivity = 8.8541878128e-12;  // F/m, CODATA 2018
 inline constexpr double kWaterSurfaceTension = 0.072126;         // N/m, 24 C, IAPWS R1-76(2014)
-inline constexpr double kWaterMolarVolume = 1.80641e-5;          // m^3/mol, 24 C
-inline constexpr double kGasConstant = 8.314462618;              // J/(mol K)
 inline constexpr double kWaterPermittivity = 80.0;               // relative, below 1 GHz
 
 constexpr double square(double x) { return x * x; }

@@ -38,8 +38,6 @@ class Fft2d {
   Fft2d(const Fft2d&) = delete;
   Fft2d& operator=(const Fft2d&) = delete;
 
-  int nx() const { return nx_; }
-  int ny() const { return ny_; }
   int half() const { return nx_ / 2 + 1; }  // spectrum columns kept (the rest is conjugate)
   std::size_t real_size() const { return static_cast<std::size_t>(nx_) * ny_; }
   std::size_t spectrum_size() const { return static_cast<std::size_t>(half()) * ny_; }

@@ -19,7 +19,6 @@ struct Unit {
     return metre == other.metre && kilogram == other.kilogram && second == other.second &&
            ampere == other.ampere && radian == other.radian;
   }
-  bool dimensionless() const { return same_dimension(Unit{}); }
 };
 
 // "um", "MPa", "uN", "ohm m", "um3", "mN/m", "1/m", "%", "" ...; nothing if unknown.

@@ -137,7 +137,7 @@ class TargetRun {
   Grid patch(int grid) const {
     Fidelity at = fidelity_;
     at.grid = grid;
-    return simulated_patch(texture_, grid, at.pixels_a_side());
+    return simulated_patch(texture_, grid, at.pixels_per_side());
   }
 
   // Error parts of a plan but for sampling, in squares. Eq. accuracy.5: the grid part falls with

@@ -150,7 +150,7 @@ class Controls {
     if (fidelity_.grid / 2 >= kSmallestGrid) {
       Fidelity half = resolved;
       half.grid = fidelity_.grid / 2;
-      half.most_pixels = fidelity_.pixels_a_side() / 2;  // else long patches keep their pixels
+      half.most_pixels = fidelity_.pixels_per_side() / 2;  // else long patches keep their pixels
       out.coarse = respond(scene_, half, again(half, grid));
     }
   }

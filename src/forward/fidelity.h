@@ -39,7 +39,7 @@ struct Fidelity {
   std::uint64_t seed = 1;       // of skins, offsets and droplets: common to all designs
   int threads = 0;              // 0: all
 
-  int pixels_a_side() const { return most_pixels > 0 ? most_pixels : std::max(1024, grid); }
+  int pixels_per_side() const { return most_pixels > 0 ? most_pixels : std::max(1024, grid); }
   // Contact area under a load over that under the preload, by their ratio. Eq. friction.3
   double area_by_load(double load_ratio) const {
     return std::pow(std::max(load_ratio, 0.0), load_exponent);

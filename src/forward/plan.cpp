@@ -26,7 +26,7 @@ std::string unresolved_skin(const Plan& plan, const Fidelity& fidelity, double c
   if (plan.effective_cutoff <= kNoticed * usual) return {};
   const double side = std::max(plan.grid.lx, plan.grid.ly);
   const double needed = std::ceil(2 * side / usual);
-  const double period = 0.5 * usual * fidelity.pixels_a_side();
+  const double period = 0.5 * usual * fidelity.pixels_per_side();
   const std::string remedy =
       needed <= kLargestKey
           ? fmt::format(
@@ -193,7 +193,7 @@ Entry errors(const Setting& s) {
   if (controls < 2) return {};
   const bool forces = s.plan.water || s.plan.field;
   const bool load_law = !s.plan.traction_solves && forces;
-  const Grid half = simulated_patch(s.texture, fidelity.grid / 2, fidelity.pixels_a_side() / 2);
+  const Grid half = simulated_patch(s.texture, fidelity.grid / 2, fidelity.pixels_per_side() / 2);
   double seconds = prices(s.scene, s.plan, half, fidelity, forces).sum();
   if (load_law) seconds += prices(s.scene, s.plan, s.plan.grid, fidelity, true).sum();
   return PlanStep{Piece::Errors, fmt::format("{} of the skins on half the pixels", controls),
@@ -235,7 +235,7 @@ const PieceRow& row(Piece piece) { return kPieces[static_cast<std::size_t>(piece
 
 void set_resolution(Plan& plan, const Skin& skin, const Texture& texture,
                     const Fidelity& fidelity) {
-  plan.grid = simulated_patch(texture, fidelity.grid, fidelity.pixels_a_side());
+  plan.grid = simulated_patch(texture, fidelity.grid, fidelity.pixels_per_side());
   // The same for every texture, although its patch may have somewhat finer pixels.
   plan.skin_cutoff =
       skin.map.empty() ? skin.cutoff : measured_skin_cutoff(skin.map, skin.map_width);
