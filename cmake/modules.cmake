@@ -1,3 +1,18 @@
+# papilla_unity(TARGET FOLDER...): rooms that do not compute in loops are compiled as one file each, so that what they all
+# include is read once. Physics and the model keep their files: there one changes at a time, and is optimised hard.
+function(papilla_unity name)
+  if(NOT PAPILLA_UNITY)
+    return()
+  endif()
+  set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  foreach(room config design estimate published search rank calibrate claims measure fabricate cases metrics report cli)
+    if(src/${room} IN_LIST ARGN)
+      file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+      set_source_files_properties(${found} PROPERTIES UNITY_GROUP ${room})
+    endif()
+  endforeach()
+endfunction()
+
 # papilla_library(NAME FOLDER... LIBS target...): every .cpp of the folders, one library. Other programs see its public
 # headers alone; our own program and tests link papilla_inside, which adds the internal headers and what those include.
 function(papilla_library name)
@@ -8,6 +23,7 @@ function(papilla_library name)
     list(APPEND sources ${found})
   endforeach()
   add_library(${name} ${sources})
+  papilla_unity(${name} ${ARG_UNPARSED_ARGUMENTS})
   set_target_properties(${name} PROPERTIES OUTPUT_NAME papilla EXPORT_NAME papilla VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # no stable ABI before 1.0
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include>

@@ -312,8 +312,8 @@ Judgement double_frequency(FingerModel&) {
                    fmt::format("lines at 0 and {:g} f, equal", lines[1].frequency));
 }
 
-Claim claim(const char* id, const char* statement, const char* band,
-            std::function<Judgement(FingerModel&)> judge) {
+Claim mean_field_claim(const char* id, const char* statement, const char* band,
+                       std::function<Judgement(FingerModel&)> judge) {
   return {id, "mean-field electroadhesion", statement, band, false, std::move(judge)};
 }
 
@@ -321,35 +321,41 @@ Claim claim(const char* id, const char* statement, const char* band,
 
 std::vector<Claim> mean_field_claims() {
   return {
-      claim("P1", "A/A0 = 5e-4 at 10 kPa, 40 MPa, rms slope 1", "within 5 %", contact_area),
-      claim("P2", "d1/eps1 = 0.26 um, d2/eps2 = 0.07 and 0.02 um", "rounds to the printed digits",
-            dielectric_thickness),
-      claim("P3", "charge relaxation 3e-4 s", "3e-4 to 5e-4 s", relaxation),
-      claim("P4", "most of the area sees 1 to 100 Pa", "5 and 95 % quantiles inside", stress_range),
-      claim("P5", "the force comes from stresses near eps0 V0^2/(4 h0^2)", "peak within 5 %",
-            stress_peak),
-      claim("P6", "finite size matters below about 1e4 Pa", "0.5e4 to 2e4 Pa", finite_size),
-      claim("P7", "with voltage, friction stays finite as the load vanishes", "> 0",
-            friction_without_load),
-      claim("P8",
-            "friction with tau = 8 MPa: effect ~ V^2; coefficient under 200 V falls with load",
-            "exponent 1.9 to 2.1 below p_c; sign", friction_law),
-      claim("P9", "area falls with the skin's modulus", "sign", area_and_modulus),
-      claim("P10", "area falls with roughness", "sign", area_and_roughness),
-      claim("P11", "area falls with the stratum corneum's thickness", "sign",
-            area_and_skin_thickness),
-      claim("P12", "area falls with h0", "sign", area_and_dielectric),
-      claim("P13", "area rises with load", "sign", area_and_load),
-      claim("P14", "plasticity raises the area at 1 GPa", "sign", area_and_plasticity),
-      claim("P15", "A_on/A_off rises as the frequency falls", "sign", frequency_trend),
-      claim("P16", "with a conducting gap it falls at low frequency", "sign", conducting_gap),
-      claim("P17", "the force oscillates at twice the frequency", "exact", double_frequency),
-      claim("P18", "roughness: rms 22 um, slope 0.91, H = 0.86; smoothed rms 22 and 20 um",
-            "within 2 %", roughness),
-      claim("P19", "mean gap about 10 um", "-", mean_gap),
-      claim("P20", "elastic area with the smoothed spectrum = elastic + yielded area",
-            "2 % at every magnification", plastic_area),
-      claim("P21", "the skin conducts below 200 1/s or 30 Hz", "-", corner),
+      mean_field_claim("P1", "A/A0 = 5e-4 at 10 kPa, 40 MPa, rms slope 1", "within 5 %",
+                       contact_area),
+      mean_field_claim("P2", "d1/eps1 = 0.26 um, d2/eps2 = 0.07 and 0.02 um",
+                       "rounds to the printed digits", dielectric_thickness),
+      mean_field_claim("P3", "charge relaxation 3e-4 s", "3e-4 to 5e-4 s", relaxation),
+      mean_field_claim("P4", "most of the area sees 1 to 100 Pa", "5 and 95 % quantiles inside",
+                       stress_range),
+      mean_field_claim("P5", "the force comes from stresses near eps0 V0^2/(4 h0^2)",
+                       "peak within 5 %", stress_peak),
+      mean_field_claim("P6", "finite size matters below about 1e4 Pa", "0.5e4 to 2e4 Pa",
+                       finite_size),
+      mean_field_claim("P7", "with voltage, friction stays finite as the load vanishes", "> 0",
+                       friction_without_load),
+      mean_field_claim(
+          "P8", "friction with tau = 8 MPa: effect ~ V^2; coefficient under 200 V falls with load",
+          "exponent 1.9 to 2.1 below p_c; sign", friction_law),
+      mean_field_claim("P9", "area falls with the skin's modulus", "sign", area_and_modulus),
+      mean_field_claim("P10", "area falls with roughness", "sign", area_and_roughness),
+      mean_field_claim("P11", "area falls with the stratum corneum's thickness", "sign",
+                       area_and_skin_thickness),
+      mean_field_claim("P12", "area falls with h0", "sign", area_and_dielectric),
+      mean_field_claim("P13", "area rises with load", "sign", area_and_load),
+      mean_field_claim("P14", "plasticity raises the area at 1 GPa", "sign", area_and_plasticity),
+      mean_field_claim("P15", "A_on/A_off rises as the frequency falls", "sign", frequency_trend),
+      mean_field_claim("P16", "with a conducting gap it falls at low frequency", "sign",
+                       conducting_gap),
+      mean_field_claim("P17", "the force oscillates at twice the frequency", "exact",
+                       double_frequency),
+      mean_field_claim("P18",
+                       "roughness: rms 22 um, slope 0.91, H = 0.86; smoothed rms 22 and 20 um",
+                       "within 2 %", roughness),
+      mean_field_claim("P19", "mean gap about 10 um", "-", mean_gap),
+      mean_field_claim("P20", "elastic area with the smoothed spectrum = elastic + yielded area",
+                       "2 % at every magnification", plastic_area),
+      mean_field_claim("P21", "the skin conducts below 200 1/s or 30 Hz", "-", corner),
   };
 }
 

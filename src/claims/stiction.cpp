@@ -71,8 +71,8 @@ Judgement stickiness(FingerModel&) {
           "needs subjects; the fit finds planted exponents within 0.02"};
 }
 
-Claim claim(const char* id, const char* statement, const char* band,
-            std::function<Judgement(FingerModel&)> judge) {
+Claim stiction_claim(const char* id, const char* statement, const char* band,
+                     std::function<Judgement(FingerModel&)> judge) {
   return {id, "stiction rendering", statement, band, false, std::move(judge)};
 }
 
@@ -80,10 +80,12 @@ Claim claim(const char* id, const char* statement, const char* band,
 
 std::vector<Claim> stiction_claims() {
   return {
-      claim("S1", "friction at onset: tau0 A + beta (W + F_e)(1 - alpha)", "formula", onset),
-      claim("S2", "stuck, partial, full slip; current only before full slip", "every step in order",
-            slip_states),
-      claim("S3", "friction x load^n with n = -0.69 (force), -0.74 (judgement)", "-", stickiness),
+      stiction_claim("S1", "friction at onset: tau0 A + beta (W + F_e)(1 - alpha)", "formula",
+                     onset),
+      stiction_claim("S2", "stuck, partial, full slip; current only before full slip",
+                     "every step in order", slip_states),
+      stiction_claim("S3", "friction x load^n with n = -0.69 (force), -0.74 (judgement)", "-",
+                     stickiness),
   };
 }
 

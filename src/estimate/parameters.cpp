@@ -9,7 +9,7 @@ namespace {
 
 // Differences on common skins scatter far less than values: a few skins on few pixels are enough.
 constexpr int kMostSkins = 8, kFinestGrid = 128;
-constexpr double kTolerance = 1e-3;  // of the contact, at the finest
+constexpr double kStepTolerance = 1e-3;  // of the contact, at the finest
 
 }  // namespace
 
@@ -17,7 +17,7 @@ Fidelity step_fidelity(const Fidelity& fidelity) {
   Fidelity few = fidelity;
   few.skins = std::min(fidelity.skins, kMostSkins);
   few.grid = std::min(fidelity.grid, kFinestGrid);
-  few.contact_tolerance = std::max(fidelity.contact_tolerance, kTolerance);
+  few.contact_tolerance = std::max(fidelity.contact_tolerance, kStepTolerance);
   few.estimator = Estimator::Load;
   few.control_skins = 0;
   return few;

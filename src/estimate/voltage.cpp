@@ -10,8 +10,8 @@
 namespace papilla::estimate {
 namespace {
 
-constexpr double kLargestAmplitude = 1e5;  // [V] of the key drive.amplitude
-constexpr double kTolerance = 1e-3;        // of the amplitude
+constexpr double kLargestAmplitude = 1e5;     // [V] of the key drive.amplitude
+constexpr double kAmplitudeTolerance = 1e-3;  // of the amplitude
 constexpr int kMaxEvaluations = 40;
 
 // No equilibrium at that voltage, or none that friction is known for.
@@ -70,7 +70,7 @@ class VoltageSearch {
       if (beyond(last_)) {
         blocked_ = last_.status;
         ceiling = v;
-        if (ceiling - low_.amplitude < 5 * kTolerance * ceiling) {
+        if (ceiling - low_.amplitude < 5 * kAmplitudeTolerance * ceiling) {
           answer_.limit = ceiling;
           return 0;
         }
@@ -88,14 +88,14 @@ class VoltageSearch {
       const Sample sample{v, m};
       const Sample previous = above ? high_ : low_;
       (above ? high_ : low_) = sample;
-      if (!above &&
-          (v >= ceiling || (!blocked_.sound() && ceiling - v < 5 * kTolerance * ceiling))) {
+      if (!above && (v >= ceiling ||
+                     (!blocked_.sound() && ceiling - v < 5 * kAmplitudeTolerance * ceiling))) {
         answer_.limit = ceiling;
         return 0;
       }
       if (above && high_.amplitude < 1e-3 * answer_.limit) return v;  // at next to no voltage
       const double next = propose(above, previous, ceiling);
-      if (std::abs(next - v) < kTolerance * v && (high_.amplitude > 0 || next < ceiling)) {
+      if (std::abs(next - v) < kAmplitudeTolerance * v && (high_.amplitude > 0 || next < ceiling)) {
         return v;
       }
       v = next;
@@ -140,7 +140,7 @@ class VoltageSearch {
     for (const ErrorOrigin& origin : kErrorOrigins) {
       if (auto& part = e.*origin.part) *part *= scale;
     }
-    e.solver = std::hypot(e.solver.value_or(0), kTolerance * v);
+    e.solver = std::hypot(e.solver.value_or(0), kAmplitudeTolerance * v);
     return {v, e};
   }
 

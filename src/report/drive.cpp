@@ -131,7 +131,8 @@ const char* text_of(SlipState state) {
 }
 
 // The panels of the picture [px].
-constexpr double kLeft = 70, kWidth = 680, kHeight = 200, kTop = 40, kGap = 70;
+constexpr double kTraceLeft = 70, kTraceWidth = 680, kTraceHeight = 200, kTraceTop = 40,
+                 kTraceGap = 70;
 
 std::string label(double x, double y, const std::string& text, const char* anchor = "middle") {
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor,
@@ -140,8 +141,8 @@ std::string label(double x, double y, const std::string& text, const char* ancho
 
 std::string frame(double top) {
   return fmt::format(
-      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>\n", kLeft,
-      top, kWidth, kHeight);
+      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#888\"/>\n",
+      kTraceLeft, top, kTraceWidth, kTraceHeight);
 }
 
 // Friction over one period: least and largest value of each column.
@@ -150,30 +151,30 @@ std::string period_panel(const Signal& friction) {
   const auto [least, most] = std::minmax_element(y.begin(), y.end());
   const double low = *least, span = std::max(*most - low, 1e-12 * std::abs(*most) + 1e-300);
   std::string points;
-  const auto columns = static_cast<std::size_t>(kWidth);
+  const auto columns = static_cast<std::size_t>(kTraceWidth);
   for (std::size_t k = 0; k < columns; ++k) {
     const std::size_t begin = k * y.size() / columns;
     const std::size_t end = std::max(begin + 1, (k + 1) * y.size() / columns);
     const auto [a, b] = std::minmax_element(y.begin() + static_cast<std::ptrdiff_t>(begin),
                                             y.begin() + static_cast<std::ptrdiff_t>(end));
     for (double v : {*a, *b}) {
-      points += fmt::format("{:.1f},{:.1f} ", kLeft + static_cast<double>(k),
-                            kTop + kHeight * (1 - (v - low) / span));
+      points += fmt::format("{:.1f},{:.1f} ", kTraceLeft + static_cast<double>(k),
+                            kTraceTop + kTraceHeight * (1 - (v - low) / span));
     }
   }
-  return frame(kTop) +
+  return frame(kTraceTop) +
          fmt::format(
              "<polyline fill=\"none\" stroke=\"#1f6fb4\" stroke-width=\"1\" points=\"{}\"/>\n",
              points) +
-         label(kLeft - 6, kTop + 10, fmt::format("{:.3g} mN", 1e3 * *most), "end") +
-         label(kLeft - 6, kTop + kHeight, fmt::format("{:.3g}", 1e3 * low), "end") +
-         label(kLeft + kWidth / 2, kTop + kHeight + 16,
+         label(kTraceLeft - 6, kTraceTop + 10, fmt::format("{:.3g} mN", 1e3 * *most), "end") +
+         label(kTraceLeft - 6, kTraceTop + kTraceHeight, fmt::format("{:.3g}", 1e3 * low), "end") +
+         label(kTraceLeft + kTraceWidth / 2, kTraceTop + kTraceHeight + 16,
                fmt::format("friction over {:.4g} ms", 1e3 * friction.period));
 }
 
 // Lines of the spectrum over decades, down to 120 dB below the largest.
 std::string spectrum_panel(const std::vector<SpectrumLine>& lines) {
-  const double top = kTop + kHeight + kGap;
+  const double top = kTraceTop + kTraceHeight + kTraceGap;
   std::string out = frame(top);
   double first = kInfinity, last = 0, largest = 0;
   for (const SpectrumLine& line : lines) {
@@ -186,19 +187,20 @@ std::string spectrum_panel(const std::vector<SpectrumLine>& lines) {
   const double from = std::floor(std::log10(first)), to = std::ceil(std::log10(last) + 1e-9);
   const double width = std::max(1.0, to - from);
   for (double decade = from; decade <= from + width; ++decade) {
-    const double x = kLeft + kWidth * (decade - from) / width;
-    out += label(x, top + kHeight + 16, fmt::format("{:g} Hz", std::pow(10, decade)));
+    const double x = kTraceLeft + kTraceWidth * (decade - from) / width;
+    out += label(x, top + kTraceHeight + 16, fmt::format("{:g} Hz", std::pow(10, decade)));
   }
   for (const SpectrumLine& line : lines) {
     if (line.frequency == 0) continue;
-    const double x = kLeft + kWidth * (std::log10(line.frequency) - from) / width;
-    const double height = kHeight * std::max(0.0, 1 + std::log10(line.amplitude / largest) / 6);
+    const double x = kTraceLeft + kTraceWidth * (std::log10(line.frequency) - from) / width;
+    const double height =
+        kTraceHeight * std::max(0.0, 1 + std::log10(line.amplitude / largest) / 6);
     out += fmt::format(
         "<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"#b4411f\"/>\n", x,
-        top + kHeight, x, top + kHeight - height);
+        top + kTraceHeight, x, top + kTraceHeight - height);
   }
-  return out + label(kLeft - 6, top + 10, fmt::format("{:.3g} mN", 1e3 * largest), "end") +
-         label(kLeft - 6, top + kHeight, "-120 dB", "end");
+  return out + label(kTraceLeft - 6, top + 10, fmt::format("{:.3g} mN", 1e3 * largest), "end") +
+         label(kTraceLeft - 6, top + kTraceHeight, "-120 dB", "end");
 }
 
 }  // namespace
@@ -302,7 +304,7 @@ std::string drive_svg(const DriveCase& c, const DriveResult& r) {
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"800\" height=\"{:.0f}\" "
              "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"100%\" height=\"100%\" "
              "fill=\"white\"/>\n",
-             kTop + 2 * kHeight + kGap + 50) +
+             kTraceTop + 2 * kTraceHeight + kTraceGap + 50) +
          label(400, 20, markup_text(c.title)) + period_panel(r.friction) + spectrum_panel(r.lines) +
          "</svg>\n";
 }

@@ -17,6 +17,8 @@
 namespace papilla::report {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // A table of a section; `plain`: keys and meanings alone.
 struct Part {
   std::string heading;
@@ -218,7 +220,6 @@ std::string reference_section(const std::string& section, ReferenceFormat format
 }
 
 std::string reference_json(const std::vector<std::string>& sections) {
-  using Json = nlohmann::ordered_json;
   Json list = Json::array();
   for (const std::string& section : sections) {
     Json tables = Json::array();

@@ -10,7 +10,8 @@
 namespace papilla::report {
 namespace {
 
-constexpr double kWidth = 460, kHeight = 380, kLeft = 64, kRight = 444, kTop = 76, kBottom = 330;
+constexpr double kPlotWidth = 460, kPlotHeight = 380, kPlotLeft = 64, kPlotRight = 444,
+                 kPlotTop = 76, kPlotBottom = 330;
 
 double at(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? values[i] : 0;
@@ -58,8 +59,8 @@ struct Frame {
   Axis x, y;
   double shift;  // of the plot to the right [px]
 
-  double px(double v) const { return shift + kLeft + (kRight - kLeft) * x.share(v); }
-  double py(double v) const { return kBottom - (kBottom - kTop) * y.share(v); }
+  double px(double v) const { return shift + kPlotLeft + (kPlotRight - kPlotLeft) * x.share(v); }
+  double py(double v) const { return kPlotBottom - (kPlotBottom - kPlotTop) * y.share(v); }
 };
 
 std::string draw_axes(const SvgPlot& plot, const Frame& f) {
@@ -70,22 +71,22 @@ std::string draw_axes(const SvgPlot& plot, const Frame& f) {
     out += fmt::format(
         "<line x1=\"{0:.1f}\" y1=\"{1}\" x2=\"{0:.1f}\" y2=\"{2}\" stroke=\"#e3e6ea\"/>"
         "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4:.4g}</text>\n",
-        f.px(v), kTop, kBottom, kBottom + 16, std::abs(v) < 1e-9 * ax.step ? 0 : v);
+        f.px(v), kPlotTop, kPlotBottom, kPlotBottom + 16, std::abs(v) < 1e-9 * ax.step ? 0 : v);
   }
   for (int i = 0; i <= ay.ticks(); ++i) {
     const double v = ay.low + i * ay.step;
     out += fmt::format(
         "<line x1=\"{0:.0f}\" y1=\"{2:.1f}\" x2=\"{1:.0f}\" y2=\"{2:.1f}\" stroke=\"#e3e6ea\"/>"
         "<text x=\"{3:.0f}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:.4g}</text>\n",
-        f.shift + kLeft, f.shift + kRight, f.py(v), f.shift + kLeft - 6, f.py(v) + 4,
+        f.shift + kPlotLeft, f.shift + kPlotRight, f.py(v), f.shift + kPlotLeft - 6, f.py(v) + 4,
         std::abs(v) < 1e-9 * ay.step ? 0 : v);
   }
   out += fmt::format("<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n",
-                     f.shift + (kLeft + kRight) / 2, kBottom + 38, markup_text(plot.x));
+                     f.shift + (kPlotLeft + kPlotRight) / 2, kPlotBottom + 38, markup_text(plot.x));
   out += fmt::format(
       "<text x=\"{0:.0f}\" y=\"{1:.0f}\" text-anchor=\"middle\" transform=\"rotate(-90 {0:.0f} "
       "{1:.0f})\">{2}</text>\n",
-      f.shift + 16, (kTop + kBottom) / 2, markup_text(plot.y));
+      f.shift + 16, (kPlotTop + kPlotBottom) / 2, markup_text(plot.y));
   return out;
 }
 
@@ -126,7 +127,7 @@ std::string draw_plot(const SvgPlot& plot, double shift) {
       fmt::format("<text x=\"{:.0f}\" y=\"22\" font-size=\"14\" font-weight=\"bold\">{}</text>\n",
                   shift + 12, markup_text(plot.title));
   out += draw_axes(plot, frame);
-  double legend = kLeft;
+  double legend = kPlotLeft;
   for (const SvgSeries& s : plot.series) {
     out += draw_series(s, frame);
     if (s.name.empty()) continue;
@@ -150,14 +151,14 @@ std::string svg_sheet(int width, int height, int font_size) {
 }
 
 std::string svg_picture(const std::vector<SvgPlot>& plots) {
-  const double width = kWidth * static_cast<double>(plots.size());
+  const double width = kPlotWidth * static_cast<double>(plots.size());
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\" font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{0:.0f}\" "
       "height=\"{1:.0f}\" fill=\"white\"/>\n",
-      width, kHeight);
+      width, kPlotHeight);
   for (std::size_t i = 0; i < plots.size(); ++i)
-    out += draw_plot(plots[i], kWidth * static_cast<double>(i));
+    out += draw_plot(plots[i], kPlotWidth * static_cast<double>(i));
   return out + "</svg>\n";
 }
 
