@@ -59,7 +59,7 @@ int solve(const FieldCommand& c) {
   Wetting dry;
   dry.grid = gap.grid;
   if (c.method == "full")
-    require_memory(80.0 * 64 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
+    require_memory(2000.0 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
 
   const auto begin = std::chrono::steady_clock::now();
   std::optional<CoveredSurface> covered;

@@ -99,7 +99,7 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
         picture_patch(scene, design.texture, fidelity, humidity, options.skin);
     const FieldProblem problem = field_problem(scene, humidity);
     const std::size_t first = rows.size();
-    const auto add = [&](const char* method, const FinePatch& patch, int levels, auto&& solve) {
+    const auto add = [&](const char* method, const FinePatch& patch, auto&& solve) {
       // Processor time; the least of up to five runs: other work on the machine only adds.
       FieldSolution result;
       double least = kInfinity, total = 0;
@@ -110,27 +110,24 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
         least = std::min(least, spent);
         total += spent;
       }
-      rows.push_back({sample, method, humidity, patch.gap.grid.nx, levels, result.mean_pressure, 0,
+      rows.push_back({sample, method, humidity, patch.gap.grid.nx, result.mean_pressure, 0,
                       least, result.ok ? "" : result.reason});
     };
     const FinePatch solved = fine_patch(design, picture, 1);
     for (const bool screening : {false, true}) {
       FieldProblem p = problem;
       p.screening = screening;
-      add(screening ? "screened" : "local", solved, 0, [&](const FinePatch& patch) {
+      add(screening ? "screened" : "local", solved, [&](const FinePatch& patch) {
         return solve_local_field(patch.gap, &patch.surface, patch.wetting, p);
       });
     }
-    add("spread", solved, 0, [&](const FinePatch& patch) {
+    add("spread", solved, [&](const FinePatch& patch) {
       return solve_spread_field(patch.gap, &patch.surface, patch.wetting, problem);
     });
     for (const int factor : options.refinements) {
-      PotentialOptions potential;
-      potential.levels = options.levels;
-      add("full", fine_patch(design, picture, factor), potential.levels,
-          [&](const FinePatch& patch) {
-            return solve_full_field(patch.gap, &patch.surface, patch.wetting, problem, potential);
-          });
+      add("full", fine_patch(design, picture, factor), [&](const FinePatch& patch) {
+        return solve_full_field(patch.gap, &patch.surface, patch.wetting, problem);
+      });
     }
     const double exact = rows.back().pull;
     for (std::size_t i = first; i < rows.size(); ++i)

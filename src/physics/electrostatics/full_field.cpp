@@ -75,15 +75,15 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
   for (std::size_t i = 0; i < n; ++i) {
     if (!wetting.bridged.empty() && wetting.bridged[i]) continue;
     if (!hidden.empty() && hidden[i] > 0) continue;
-    double field = s.field[i];
-    if (p.skin_layer.imag() != 0) {
-      field /= std::hypot(1, s.flux[i] * p.skin_layer.imag());
-    }
-    const double pressure = std::min(scale * square(field), cap);
+    double square_field = s.square_field[i];
+    // Of the flux that the layer's real part leaves; for a flat stack exactly Eq. electrostatics.1.
+    square_field /= 1 + std::max(square_field, 0.0) * square(p.skin_layer.imag());
+    const double pressure = std::min(scale * square_field, cap);
     out.traction.value[i] = pressure;
     sum += pressure;
     const double g = gap.value[i];
-    if (g > 0 && p.v_peak * field * g > air_breakdown_voltage(g)) {
+    if (g > 0 && square_field > 0 &&
+        p.v_peak * std::sqrt(square_field) * g > air_breakdown_voltage(g)) {
       ++over;
       over_sum += pressure;
     }
