@@ -56,8 +56,8 @@ struct FinePatch {
 
 FinePatch fine_patch(const Design& design, const PatchPicture& picture, int factor) {
   const Grid& grid = picture.texture.grid;
-  const double thickness = design.surface.dielectric_thickness();
-  FinePatch out{CoveredSurface(picture.texture, thickness),
+  const std::vector<FilmLayer> film = film_layers(design.surface);
+  FinePatch out{CoveredSurface(picture.texture, film),
                 {grid, picture.fields.off.gap},
                 picture.fields.wetting_on};
   if (factor == 1) return out;
@@ -66,7 +66,7 @@ FinePatch fine_patch(const Design& design, const PatchPicture& picture, int fact
   for (std::size_t i = 0; i < skin.size(); ++i)
     skin[i] = picture.texture.z[i] + picture.fields.off.gap[i];
   skin = refined(grid, skin, fine, factor);
-  out.surface = CoveredSurface(generate(design.texture, fine), thickness);
+  out.surface = CoveredSurface(generate(design.texture, fine), film);
   out.gap = {fine, std::vector<double>(fine.size())};
   out.wetting.grid = fine;
   if (!out.wetting.bridged.empty()) out.wetting.bridged.assign(fine.size(), 0);

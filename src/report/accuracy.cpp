@@ -132,8 +132,8 @@ std::string field_accuracy_csv(const std::vector<FieldAccuracyRow>& rows) {
       "[%],seconds,status\n";
   for (const FieldAccuracyRow& r : rows) {
     out += fmt::format("{},{:.0f},{},{},{:.4g},{:.2f},{:.2g},{}\n", r.sample,
-                       100 * r.relative_humidity, r.method, r.pixels, 1e-3 * r.pull,
-                       100 * r.error, r.seconds, r.status.empty() ? "ok" : r.status);
+                       100 * r.relative_humidity, r.method, r.pixels, 1e-3 * r.pull, 100 * r.error,
+                       r.seconds, r.status.empty() ? "ok" : r.status);
   }
   return out;
 }

@@ -16,13 +16,19 @@ double mean_square_field(const PotentialSolution& s) {
   return sum / static_cast<double>(s.square_field.size());
 }
 
-PotentialProblem bodies(const Grid& grid, double permittivity = 1) {
+PotentialProblem bodies(const Grid& grid) {
   PotentialProblem p;
   p.grid = grid;
-  p.permittivity = permittivity;
   p.electrode.assign(grid.size(), 0);
   p.surface = p.skin = p.electrode;
   return p;
+}
+
+// The columns between electrode and surface filled with a dielectric.
+void fill(PotentialProblem& p, double permittivity) {
+  p.dielectric.resize(p.surface.size());
+  for (std::size_t i = 0; i < p.surface.size(); ++i)
+    p.dielectric[i] = (p.surface[i] - p.electrode[i]) / permittivity;
 }
 
 // Force on a sphere of radius 1 at a distance from a plane, per eps0 V^2, its upper half replaced
@@ -60,7 +66,7 @@ TEST(FullField, HoleArraysMatchFiniteVolumes) {
     const double thickness = 1e-6 * number(row, "d1_um");
     const double opening = 0.5e-6 * number(row, "hole_diam_um") - thickness;
     const double side = std::sqrt(kPi) * 1e-6 * number(row, "R_cell_um");
-    PotentialProblem p = bodies({256, 256, side, side}, number(row, "eps1"));
+    PotentialProblem p = bodies({256, 256, side, side});
     for (int iy = 0; iy < 256; ++iy) {
       for (int ix = 0; ix < 256; ++ix) {
         const std::size_t i = p.grid.index(ix, iy);

@@ -51,8 +51,7 @@ std::vector<float> ColumnOperator::diagonal() const {
   }
   std::vector<float> out(sum.size());
   // Unknowns inside a body stand alone.
-  for (std::size_t o = 0; o < sum.size(); ++o)
-    out[o] = sum[o] > 0 ? static_cast<float>(sum[o]) : 1;
+  for (std::size_t o = 0; o < sum.size(); ++o) out[o] = sum[o] > 0 ? static_cast<float>(sum[o]) : 1;
   return out;
 }
 

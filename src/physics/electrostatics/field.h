@@ -12,7 +12,8 @@
 namespace papilla::electrostatics {
 
 struct FieldProblem {
-  double v_rms = 0, v_peak = 0;         // [V] across electrode and body
+  double v_rms = 0, v_peak = 0;  // [V] across electrode and body
+  // Of the film on a flat surface, and of one whose columns `CoveredSurface` does not tell:
   double dielectric = 0;                // sum of d/eps on the electrode [m]
   double dielectric_thickness = 0;      // sum of d [m]
   double edge_radius = 0;               // of the electrode's edges below walls [m]; 0: none stated

@@ -32,7 +32,8 @@ void FieldColumns::place_nodes(std::size_t column, const PotentialProblem& p) {
   const double thickness = std::max(surface - p.electrode[column], thinnest);
   for (int k = 0; k <= below_; ++k) {
     z[k] = surface - thickness * square(1 - static_cast<double>(k) / below_);
-    if (k < below_) permittivity[k] = p.permittivity;
+    if (k < below_ && !p.dielectric.empty() && p.dielectric[column] > 0)
+      permittivity[k] = std::max(thickness / p.dielectric[column], 1.0);
   }
   const double gap = std::max(p.skin[column] - surface, 0.0);
   const auto water = [&](const std::vector<double>& of) {

@@ -19,8 +19,8 @@ enum class Body { None, Electrode, Skin, Water };
 
 // Flux between two neighbouring columns over an interval of height in which neither changes cell.
 struct Exchange {
-  double middle = 0;       // height of the interval's middle [m]
-  double conductance = 0;  // over eps0 [m]
+  double middle = 0;        // height of the interval's middle [m]
+  double conductance = 0;   // over eps0 [m]
   int here = 0, there = 0;  // cells of the two columns; of the one that is a body: -1
   Body body = Body::None;
   double share = 1;  // of the way from the column to the body's surface
@@ -40,7 +40,9 @@ class FieldColumns {
   double z(std::size_t column, int k) const { return z_[at(column, k)]; }  // [m]
   // How far node k rises when the skin above the column does. 0 to 1
   double rise(std::size_t column, int k) const { return rise_[at(column, k)]; }
-  double permittivity(std::size_t column, int cell) const { return permittivity_[at(column, cell)]; }
+  double permittivity(std::size_t column, int cell) const {
+    return permittivity_[at(column, cell)];
+  }
   // Integral of 1/eps over a cell [m].
   double resistance(std::size_t column, int cell) const { return resistance_[at(column, cell)]; }
   bool bridged(std::size_t column) const { return top_[column] == below_; }

@@ -42,18 +42,15 @@ PotentialProblem potential_problem(const Gap& gap, const CoveredSurface* surface
   const std::size_t n = gap.grid.size();
   PotentialProblem potential;
   potential.grid = gap.grid;
-  const bool walls = surface && !surface->behind_walls.empty();
   potential.surface = surface ? surface->height.z : std::vector<double>(n, 0);
   potential.electrode.resize(n);
   potential.skin.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    potential.electrode[i] = potential.surface[i] - p.dielectric_thickness;
-    if (walls) potential.electrode[i] -= surface->behind_walls[i];
+    potential.electrode[i] =
+        potential.surface[i] - (surface ? surface->film[i] : p.dielectric_thickness);
     potential.skin[i] = potential.surface[i] + gap.value[i];
   }
-  if (p.dielectric_thickness > 0) {
-    potential.permittivity = p.dielectric_thickness / p.dielectric;
-  }
+  potential.dielectric = surface ? surface->dielectric : std::vector<double>(n, p.dielectric);
   potential.skin_layer = p.skin_layer.real();
   if (p.screening) potential.bridged = wetting.bridged;
   if (p.droplet_enhancement && !p.zero_under_droplets) add_droplets(gap, wetting, potential);
@@ -111,8 +108,8 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
   add_pull(s, gap, wetting, p, out);
   out.peak_air_field = p.v_peak * s.peak_air;
   out.peak_oxide_field = p.v_peak * s.peak_dielectric;
-  const bool walls = surface && !surface->behind_walls.empty();
-  if (p.edge_radius > 0 && p.edge_radius < 2 * std::min(grid.dx(), grid.dy()) && walls) {
+  if (p.edge_radius > 0 && p.edge_radius < 2 * std::min(grid.dx(), grid.dy()) && surface &&
+      surface->walls) {
     out.peak_oxide_field =
         std::max(out.peak_oxide_field, p.v_peak / p.dielectric_thickness *
                                            corner_factor(p.dielectric_thickness, p.edge_radius));

@@ -28,7 +28,7 @@ struct PotentialProblem {
   std::vector<double> electrode, surface, skin;
   std::vector<double> water_below, water_above;  // of droplets that do not bridge [m]; may be empty
   std::vector<std::uint8_t> bridged;  // water at the body's potential fills the gap; may be empty
-  double permittivity = 1;            // between electrode and surface
+  std::vector<double> dielectric;     // d/eps between electrode and surface [m]; empty: air
   double skin_layer = 0;              // d/eps between skin surface and body [m]
 };
 

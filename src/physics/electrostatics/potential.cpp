@@ -98,9 +98,8 @@ class PotentialSolver {
       }
     }
     for_each_face(g, [&](std::size_t i, int ix, int iy, const Neighbour& n) {
-      columns_.exchanges(i, n.column, n.step, n.width, [&](const Exchange& e) {
-        add_exchange(a, e, i, ix, iy, n);
-      });
+      columns_.exchanges(i, n.column, n.step, n.width,
+                         [&](const Exchange& e) { add_exchange(a, e, i, ix, iy, n); });
     });
     return a;
   }
@@ -278,10 +277,12 @@ class PotentialSolver {
     const int ix = static_cast<int>(i % g.nx), iy = static_cast<int>(i / g.nx);
     for (int k = 0; k < columns_.cells_below_surface(); ++k) {
       const double z = 0.5 * (columns_.z(i, k) + columns_.z(i, k + 1));
-      double field = square((phi(i, k) - phi(i, k + 1)) / (columns_.z(i, k + 1) - columns_.z(i, k)));
+      double field =
+          square((phi(i, k) - phi(i, k + 1)) / (columns_.z(i, k + 1) - columns_.z(i, k)));
       for (const bool along_x : {true, false}) {
         const auto beside = [&](int step) {
-          return g.index(wrap(ix + (along_x ? step : 0), g.nx), wrap(iy + (along_x ? 0 : step), g.ny));
+          return g.index(wrap(ix + (along_x ? step : 0), g.nx),
+                         wrap(iy + (along_x ? 0 : step), g.ny));
         };
         const double across = (at_height(beside(1), z) - at_height(beside(-1), z)) /
                               (2 * (along_x ? g.dx() : g.dy()));
