@@ -10,10 +10,6 @@
 
 namespace papilla::electrostatics {
 
-double spread_rule_error(double wetted) { return 0.09 - 0.26 * std::clamp(wetted, 0.0, 0.23); }
-
-double local_rule_error(double wetted) { return 0.2 + 0.66 * std::clamp(wetted, 0.0, 0.5); }
-
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting) {
   std::vector<double> column(grid.size(), 0);
   const double dx = grid.dx(), dy = grid.dy();

@@ -58,13 +58,6 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
                                  const Wetting& wetting, const FieldProblem& problem,
                                  double tolerance = 1e-4);
 
-// How far the local rule with screening is below the 3-D potential on rough skin, relative to the
-// pull: a law over the published samples at 15 to 75 % RH; wetted: share of the patch under
-// bridges. Eq. electrostatics.15
-double local_rule_error(double wetted);
-// How far the rule with spreading flux is above it, the same way. Eq. electrostatics.17
-double spread_rule_error(double wetted);
-
 // Height of the water of droplets that do not bridge, per pixel [m]: spherical caps on either side.
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting);
 

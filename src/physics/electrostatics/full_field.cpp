@@ -92,6 +92,8 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
 
 }  // namespace
 
+double full_field_seconds(const Grid& grid) { return 3e-6 * static_cast<double>(grid.size()); }
+
 FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
                                const Wetting& wetting, const FieldProblem& p,
                                const PotentialOptions& options) {

@@ -55,6 +55,9 @@ struct PotentialSolution {
 // or the iteration limit. Cost: 0.6 kB a pixel, 3 to 5 iterations, 5 us a pixel.
 PotentialSolution solve_potential(const PotentialProblem& problem, const PotentialOptions& options);
 
+// Price of one solve on one core of a usual machine [s].
+double full_field_seconds(const Grid& grid);
+
 // The pull by the 3-D potential: p = eps0/2 E_n^2 on the skin's surface (Eq. electrostatics.14),
 // water bridges at the body's potential, droplets that do not bridge as dielectric caps; options
 // of the problem as in the local rule (water without screening: pull zero in bridges only). A lossy
