@@ -86,7 +86,7 @@ std::vector<Case> with_processes(const std::vector<Case>& cases) {
 // to 2 film thicknesses, voltage, contact angle and load.
 std::vector<Case> random_cases(int count, std::uint64_t seed) {
   std::vector<Case> out;
-  RandomStream random(seed);
+  RandomStream random(seed, "field designs");
   const auto between = [&](double low, double high) { return random.uniform(low, high); };
   while (static_cast<int>(out.size()) < count) {
     const char* kinds[] = {"hole_array", "pillar_array", "grating", "random_rough"};

@@ -61,9 +61,9 @@ TEST(Design, ATextureStaysInsideThePlanarFilmThatCarriesIt) {
       << told;
   EXPECT_EQ(problems_of(text, {"surface.process=planar", "surface.dielectric.0.thickness=700 nm"}),
             "");
-  const std::string order = problems_of(
-      text, {"surface.dielectric.0.process=conformal", "surface.dielectric.1.thickness=900 nm",
-             "surface.dielectric.1.process=planar"});
+  const std::string order =
+      problems_of(text + "[[surface.dielectric]]\nprocess = \"conformal\"\n" +
+                  "[[surface.dielectric]]\nthickness = \"900 nm\"\nprocess = \"planar\"\n");
   EXPECT_NE(order.find("surface.dielectric.0.process: a layer that follows the texture cannot lie"),
             std::string::npos)
       << order;

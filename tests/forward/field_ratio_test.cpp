@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
+#include "physics/electrostatics/full_field.h"
 
 namespace papilla::tests {
 namespace {
@@ -20,7 +21,7 @@ Texture deep_holes() {
   holes.diameter = 2e-6;
   holes.depth = 700e-9;
   holes.wall_angle = 88 * kPi / 180;
-  return holes;
+  return Texture{holes};
 }
 
 Scene planar_glass() {
@@ -142,7 +143,7 @@ TEST(FieldRatio, TheModulationHasNoStepAtAnySlopeOfTheWalls) {
       holes.diameter = 2.6e-6;
       holes.depth = 350e-9;
       holes.wall_angle = angle * kPi / 180;
-      modulation.push_back(evaluate(scene, holes, small(0)).points[0].modulation.value);
+      modulation.push_back(evaluate(scene, Texture{holes}, small(0)).points[0].modulation.value);
     }
     // Every value lies near the mean of its neighbours.
     for (std::size_t i = 1; i + 1 < modulation.size(); ++i) {
