@@ -22,7 +22,7 @@ TEST(AlignedTables, AreAsWideAsTheirCells) {
 TEST(Json, IsGivenByEveryCommandWithResults) {
   const Workplace place;
   for (const char* command :
-       {"optimize", "evaluate", "rank", "export", "report", "calibrate", "accuracy", "bench",
+       {"optimize", "evaluate", "rank", "export", "verify", "surface", "report", "calibrate", "accuracy", "bench",
         "explain", "reproduce", "describe", "solve contact", "solve bridge", "solve droplets",
         "solve field", "solve persson", "solve drive", "solve haze"}) {
     const Outcome run = place.run(std::string(command) + " --help");
