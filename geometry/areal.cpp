@@ -93,8 +93,10 @@ class Autocorrelation {
 class AlikeRegion {
  public:
   explicit AlikeRegion(const Autocorrelation& c, const Grid& grid)
-      : c_(c), grid_(grid), wide_(2 * c.reach_x() + 1), seen_(static_cast<std::size_t>(
-                                                            wide_ * (2 * c.reach_y() + 1))) {
+      : c_(c),
+        grid_(grid),
+        wide_(2 * c.reach_x() + 1),
+        seen_(static_cast<std::size_t>(wide_ * (2 * c.reach_y() + 1))) {
     visit(0, 0);
     while (!open_.empty()) {
       const auto [sx, sy] = open_.back();
@@ -111,8 +113,8 @@ class AlikeRegion {
   static constexpr double kAlike = 0.2;
 
   void visit(int sx, int sy) {
-    std::uint8_t& seen = seen_[static_cast<std::size_t>((sy + c_.reach_y()) * wide_ + sx +
-                                                        c_.reach_x())];
+    std::uint8_t& seen =
+        seen_[static_cast<std::size_t>((sy + c_.reach_y()) * wide_ + sx + c_.reach_x())];
     if (seen) return;
     seen = 1;
     open_.emplace_back(sx, sy);
@@ -128,7 +130,8 @@ class AlikeRegion {
       return;
     }
     const double t = (inside - kAlike) / (inside - outside);
-    const double way = std::hypot((sx + t * (tx - sx)) * grid_.dx(), (sy + t * (ty - sy)) * grid_.dy());
+    const double way =
+        std::hypot((sx + t * (tx - sx)) * grid_.dx(), (sy + t * (ty - sy)) * grid_.dy());
     nearest = std::min(nearest, way);
     farthest = std::max(farthest, way);
   }
@@ -179,9 +182,10 @@ void each_mode(const Heightmap& h, const Use& use) {
       if (kx == 0 && ky == 0) continue;
       const bool twice = kx > 0 && 2 * kx < g.nx;
       use(2 * kPi * kx / g.lx, 2 * kPi * ky / g.ly,
-          density * std::norm(spectrum[static_cast<std::size_t>(iy) *
-                                           static_cast<std::size_t>(fft->half()) +
-                                       static_cast<std::size_t>(kx)]),
+          density *
+              std::norm(
+                  spectrum[static_cast<std::size_t>(iy) * static_cast<std::size_t>(fft->half()) +
+                           static_cast<std::size_t>(kx)]),
           twice ? 2 : 1);
     }
   }
@@ -192,8 +196,7 @@ void each_mode(const Heightmap& h, const Use& use) {
 double direction(const Heightmap& h) {
   constexpr int kBins = 180, kBeside = 2;
   const Grid& g = h.grid;
-  const double least = 3 * 2 * kPi / std::min(g.lx, g.ly),
-               most = kPi / std::max(g.dx(), g.dy());
+  const double least = 3 * 2 * kPi / std::min(g.lx, g.ly), most = kPi / std::max(g.dx(), g.dy());
   std::vector<double> power(kBins), along(kBins), across(kBins);
   each_mode(h, [&](double qx, double qy, double density, int times) {
     const double q = std::hypot(qx, qy);
@@ -254,8 +257,10 @@ void material(const Heightmap& h, ArealParameters& out) {
   out.smr1 = static_cast<double>(peaks) / count;
   out.smr2 = static_cast<double>(core) / count;
   double hills = 0, dales = 0;
-  for (std::ptrdiff_t i = 0; i < peaks; ++i) hills += (z[static_cast<std::size_t>(i)] - top) / count;
-  for (std::ptrdiff_t i = core; i < n; ++i) dales += (bottom - z[static_cast<std::size_t>(i)]) / count;
+  for (std::ptrdiff_t i = 0; i < peaks; ++i)
+    hills += (z[static_cast<std::size_t>(i)] - top) / count;
+  for (std::ptrdiff_t i = core; i < n; ++i)
+    dales += (bottom - z[static_cast<std::size_t>(i)]) / count;
   out.spk = peaks > 0 ? 2 * hills / out.smr1 : 0;
   out.svk = core < n ? 2 * dales / (1 - out.smr2) : 0;
 }
@@ -288,7 +293,8 @@ std::vector<SpectrumRing> radial_spectrum(const Heightmap& h) {
     const double wavelength = 2 * kPi / std::hypot(qx, qy);
     if (wavelength < shortest * (1 - 1e-9)) return;
     const double at = kRingsPerDecade * std::log10(longest / wavelength);
-    Sums& ring = sums[static_cast<std::size_t>(std::clamp(static_cast<int>(at + 1e-9), 0, rings - 1))];
+    Sums& ring =
+        sums[static_cast<std::size_t>(std::clamp(static_cast<int>(at + 1e-9), 0, rings - 1))];
     ring.density += times * density;
     ring.logarithm += times * std::log(wavelength);
     ring.count += times;

@@ -96,12 +96,12 @@ Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid
   if (whole.lx < patch * (1 - 1e-9) || whole.ly < patch * (1 - 1e-9)) {
     throw InputError(fmt::format(
         "{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; lower texture.patch",
-        source.file,
-        1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
+        source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
   }
   const double x0 = 0.5 * (whole.lx - grid.lx), y0 = 0.5 * (whole.ly - grid.ly);
-  return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, kSeam * grid.lx),
-                      std::clamp(y0, 0.0, kSeam * grid.ly), {});
+  const double seam = source.as_is ? 0 : kSeam;  // what is known repeats by itself
+  return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, seam * grid.lx),
+                      std::clamp(y0, 0.0, seam * grid.ly), {});
 }
 
 double measured_skin_cutoff(const std::string& file, double width) {

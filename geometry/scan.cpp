@@ -15,7 +15,7 @@
 namespace papilla::geometry {
 namespace {
 
-constexpr double kFarDeviations = 8;   // of the median from the median: outliers
+constexpr double kFarDeviations = 8;    // of the median from the median: outliers
 constexpr double kMostOutliers = 0.02;  // of the pixels; more of them are features
 constexpr double kMostFilled = 0.2;
 
@@ -125,8 +125,9 @@ Scan read_scan(const ScanSource& source) {
   for (std::size_t i = 0; i < sound.size(); ++i) sound[i] = std::isfinite(h.z[i]);
   changes.filled = count_unsound(sound);
   if (static_cast<double>(changes.filled) > kMostFilled * static_cast<double>(changes.pixels)) {
-    throw InputError(fmt::format("{}: {} are no numbers; at most a fifth can be filled: cut the map",
-                                 source.file, share_text(changes.filled, changes.pixels)));
+    throw InputError(
+        fmt::format("{}: {} are no numbers; at most a fifth can be filled: cut the map",
+                    source.file, share_text(changes.filled, changes.pixels)));
   }
   double median = 0;
   if (!source.as_is) {
@@ -153,13 +154,14 @@ std::string text(const std::string& file, const ScanChanges& c) {
                        c.tilt() * 180 / kPi, 1e9 * c.rise);
     out += c.replaced == 0
                ? "no pixel was replaced"
-               : fmt::format("{} replaced by their neighbours, {:.3g} nm from the median at most, "
-                             "within x = {:.4g} to {:.4g} um, y = {:.4g} to {:.4g} um",
-                             share_text(c.replaced, c.pixels), 1e9 * c.furthest, 1e6 * c.where.x0,
-                             1e6 * c.where.x1, 1e6 * c.where.y0, 1e6 * c.where.y1);
+               : fmt::format(
+                     "{} replaced by their neighbours, {:.3g} nm from the median at most, "
+                     "within x = {:.4g} to {:.4g} um, y = {:.4g} to {:.4g} um",
+                     share_text(c.replaced, c.pixels), 1e9 * c.furthest, 1e6 * c.where.x0,
+                     1e6 * c.where.x1, 1e6 * c.where.y0, 1e6 * c.where.y1);
   }
-  if (c.filled > 0) out += fmt::format("; {} were no numbers and were filled",
-                                       share_text(c.filled, c.pixels));
+  if (c.filled > 0)
+    out += fmt::format("; {} were no numbers and were filled", share_text(c.filled, c.pixels));
   return out;
 }
 

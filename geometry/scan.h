@@ -14,7 +14,7 @@ struct ScanSource {
   std::string file;    // .npy .gsf .exr .tif
   double width = 0;    // where the file does not say [m]
   bool fill = false;   // heights that are no numbers get those around them; else they are refused
-  bool as_is = false;  // neither levelled nor mended: a surface that is known, not measured
+  bool as_is = false;  // neither levelled nor mended: a surface that is known and repeats
 
   auto operator<=>(const ScanSource&) const = default;
 };

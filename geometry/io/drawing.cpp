@@ -40,9 +40,9 @@ Polygon circle(double diameter, int sides) {
 double on_grid(double period) {
   const double nm = 1e9 * period, whole = std::round(nm);
   if (std::abs(nm - whole) > 1e-4) {
-    throw InputError(
-        fmt::format("period {:.8g} nm is not on the 1 nm grid of layouts; use {:.0f} nm or {:.0f} nm",
-                    nm, std::floor(nm), std::ceil(nm)));
+    throw InputError(fmt::format(
+        "period {:.8g} nm is not on the 1 nm grid of layouts; use {:.0f} nm or {:.0f} nm", nm,
+        std::floor(nm), std::ceil(nm)));
   }
   return 1e-9 * whole;
 }

@@ -130,7 +130,8 @@ struct GdsRecord {
 
   std::uint64_t word(std::size_t at, std::size_t size) const {
     std::uint64_t out = 0;
-    for (std::size_t i = 0; i < size; ++i) out = (out << 8) | static_cast<unsigned char>(data[at + i]);
+    for (std::size_t i = 0; i < size; ++i)
+      out = (out << 8) | static_cast<unsigned char>(data[at + i]);
     return out;
   }
   int number(std::size_t i) const { return static_cast<std::int16_t>(word(2 * i, 2)); }

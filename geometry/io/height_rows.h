@@ -14,10 +14,10 @@ namespace papilla::geometry {
 
 struct MapHeader {
   int nx = 0, ny = 0;
-  double lx = 0, ly = 0;              // [m]; 0: the file does not say
-  bool top_first = true;              // order of the rows
-  double step = 0;                    // between neighbouring levels of grey [m]; 0: real numbers
-  std::optional<Polarity> polarity;   // where the file names one
+  double lx = 0, ly = 0;               // [m]; 0: the file does not say
+  bool top_first = true;               // order of the rows
+  double step = 0;                     // between neighbouring levels of grey [m]; 0: real numbers
+  std::optional<Polarity> polarity;    // where the file names one
   std::optional<double> tag_x, tag_y;  // sides by the file's pixels per length [m]
 };
 

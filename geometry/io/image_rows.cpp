@@ -91,10 +91,10 @@ std::unique_ptr<ImageIn> open_image(const std::string& path, bool any_size) {
 // Sides by the tags that other programs take for the size [m].
 void read_tags(const ImageIn& in, std::optional<double>& x, std::optional<double>& y) {
   const std::string unit = in.text("ResolutionUnit");
-  const double metres = unit == "cm"                   ? 1e-2
-                        : unit.starts_with("in")       ? 25.4e-3
+  const double metres = unit == "cm"                     ? 1e-2
+                        : unit.starts_with("in")         ? 25.4e-3
                         : unit == "m" || unit == "meter" ? 1
-                                                       : 0;
+                                                         : 0;
   const auto rx = in.single("XResolution"), ry = in.single("YResolution");
   if (metres > 0 && rx && ry && *rx > 0 && *ry > 0) {
     x = in.spec().width * metres / static_cast<double>(*rx);
@@ -117,8 +117,7 @@ class ImageRows : public HeightRows {
         !text.empty() && text.front() == '{') {
       read_description(text);
     } else if (whole && !read_gwyddion_heights()) {
-      broken(path_,
-             "an integer image without its height scale; use a float image, .gsf or .npy");
+      broken(path_, "an integer image without its height scale; use a float image, .gsf or .npy");
     }
     if (whole) header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
     read_tags(*in_, header_.tag_x, header_.tag_y);

@@ -235,7 +235,7 @@ void write_oasis(const std::string& path, const Layout& layout) {
   out.text("1.0");
   out.number(0);  // the unit is a positive whole number of steps per micrometre
   out.number(kGridPerMicrometre);
-  out.number(0);                                // the places of the tables follow, none
+  out.number(0);  // the places of the tables follow, none
   for (int i = 0; i < 12; ++i) out.number(0);
   for (const LayoutCell& cell : layout.cells) {
     out.number(kCell);

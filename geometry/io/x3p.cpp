@@ -144,8 +144,7 @@ class X3pRows : public HeightRows {
     if (directory != "PK\x01\x02") fail("the data are cut off");
     const std::string rest{std::istreambuf_iterator<char>(file_), {}};
     constexpr std::size_t kEndOfZip = 22;
-    if (rest.size() < kEndOfZip ||
-        rest.substr(rest.size() - kEndOfZip, 4) != "PK\x05\x06")
+    if (rest.size() < kEndOfZip || rest.substr(rest.size() - kEndOfZip, 4) != "PK\x05\x06")
       fail("the data are cut off");
   }
 

@@ -1,10 +1,14 @@
 // papilla export DESIGN.toml: heightmap and mask files.
 #include "report/export.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -53,17 +57,17 @@ ExportSourceFile source_of(const ExportCommand& command) {
 
 // "1 mm", or "110x62 mm", "110 mm x 62 mm": both sides; 0 where only one is given.
 std::pair<double, double> parse_sides(const std::string& text) {
-  std::string plain = text;
-  if (const std::size_t times = plain.find("×"); times != std::string::npos)
-    plain.replace(times, std::string("×").size(), "x");
-  const std::size_t cross = plain.find('x');
-  if (cross == std::string::npos) return {parse_si(plain, "um"), 0};
-  const std::string second = plain.substr(cross + 1);
-  std::string first = plain.substr(0, cross);
-  const auto height = parse_quantity(second);
-  if (const auto width = parse_quantity(first); width && width->unit.empty() && height)
-    first.append(1, ' ').append(height->unit);
-  return {parse_si(first, "um"), parse_si(second, "um")};
+  constexpr std::string_view kTimes = "×";
+  const std::size_t times = text.find(kTimes), letter = text.find('x');
+  const std::size_t cross = std::min(times, letter);
+  if (cross == std::string::npos) return {parse_si(text, "um"), 0};
+  const std::string_view all = text, first = all.substr(0, cross),
+                         second = all.substr(cross + (cross == times ? kTimes.size() : 1));
+  const auto width = parse_quantity(first), height = parse_quantity(second);
+  // "110x62 mm": the unit of the second is that of both.
+  const bool bare = width && width->unit.empty() && height;
+  return {parse_si(bare ? fmt::format("{} {}", first, height->unit) : std::string(first), "um"),
+          parse_si(second, "um")};
 }
 
 ExportOptions options_of(const ExportCommand& command) {
@@ -150,9 +154,10 @@ void add_export(Command app, Context& context) {
                      "The process rounds rims by this; left out of the files");
   command.add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
       .type_name("FILE");
-  command.add_flag("--verify", options->verify,
-                   "Also measure holes and walls in the written heights and simulate them (every file is "
-                   "held against the design in any case)");
+  command.add_flag(
+      "--verify", options->verify,
+      "Also measure holes and walls in the written heights and simulate them (every file is "
+      "held against the design in any case)");
   command.add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
       .show_default();
   command

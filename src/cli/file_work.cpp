@@ -35,8 +35,8 @@ void FileWork::tick(const Context& context, const std::string& doing) {
   std::unique_lock lock(mutex_);
   for (int second = 1;; ++second) {
     if (changed_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; })) break;
-    // A first word after a second; files and pipes get one each ten from then on.
-    if (context.quiet || file_.empty() || (!terminal && second % 10 != 1)) continue;
+    // On a terminal each second, in a file or a pipe each ten.
+    if (context.quiet || file_.empty() || (!terminal && second % 10 != 0)) continue;
     std::string line = fmt::format("{} {}", doing, file_);
     if (share_ > 0) line += fmt::format(": {:.0f} %", 100 * share_);
     if (terminal) {

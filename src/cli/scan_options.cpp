@@ -23,8 +23,9 @@ void add_scan_options(Command command, ScanOptions& options) {
                      "Lateral size in x, where the file does not say: \"12 um\"");
   command.add_flag("--fill", options.fill,
                    "Heights that are no numbers get the mean of those around them");
-  command.add_flag("--as-is", options.as_is,
-                   "Take no plane away and replace no pixel: a surface that is known, not measured");
+  command.add_flag(
+      "--as-is", options.as_is,
+      "Take no plane away and replace no pixel: a surface that is known, not measured");
 }
 
 void say_scan(const std::string& file, const ScanChanges& changes) {

@@ -1,4 +1,6 @@
 // papilla surface FILE: a measured map as every command takes it.
+#include "report/surface.h"
+
 #include <iostream>
 #include <memory>
 #include <string>
@@ -8,7 +10,6 @@
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "geometry/io/files.h"
-#include "report/surface.h"
 
 namespace papilla::cli {
 namespace {
@@ -49,7 +50,8 @@ void add_surface(Command app, Context& context) {
   command.add_option("--tip", options->tip,
                      "Radius of the instrument's tip: what it cannot reach is marked");
   command
-      .add_option("--out", options->out, "The map as it is taken, levelled and mended: .gsf or .npy")
+      .add_option("--out", options->out,
+                  "The map as it is taken, levelled and mended: .gsf or .npy")
       .type_name("FILE");
   command.add_flag("--json", options->json, "One JSON object, SI units");
   command.on_chosen([&context, options] {

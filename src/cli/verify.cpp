@@ -1,4 +1,6 @@
 // papilla verify FOLDER|FILE: exported files held against the design that they were made from.
+#include "fabricate/verify.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -13,7 +15,6 @@
 #include "cli/file_work.h"
 #include "fabricate/formats.h"
 #include "fabricate/record.h"
-#include "fabricate/verify.h"
 
 namespace papilla::cli {
 namespace {
@@ -76,8 +77,7 @@ ExportVerdict judge(const Context& context, const VerifyCommand& command, const 
       return judged.path == file.path && there(judged);
     });
   });
-  if (holds_heights(record))
-    verdict.felt = verify_export(record, parse_si(command.tolerance, "%"));
+  if (holds_heights(record)) verdict.felt = verify_export(record, parse_si(command.tolerance, "%"));
   return verdict;
 }
 

@@ -39,7 +39,7 @@ Planes planes_of(const std::vector<double>& z) {
 struct Compared {
   double n = 0, f = 0, d = 0, ff = 0, dd = 0, fd = 0;
   double f_low = kInfinity, f_high = -kInfinity;
-  double off = 0;                        // pixels beyond the rounding
+  double off = 0;                           // pixels beyond the rounding
   double most = 0, most_x = 0, most_y = 0;  // the largest of them and its place
 
   void add(double file, double design) {
@@ -195,7 +195,8 @@ Faults check_picture(const std::string& path, int width, int height, int channel
     return {fmt::format("{} x {} pixels in {} channels, the design's {} x {} in {}", rows->width,
                         rows->height, rows->channels, width, height, channels)};
   }
-  std::vector<std::uint8_t> row(static_cast<std::size_t>(width) * static_cast<std::size_t>(channels));
+  std::vector<std::uint8_t> row(static_cast<std::size_t>(width) *
+                                static_cast<std::size_t>(channels));
   std::size_t off = 0, at = 0;
   int largest = 0;
   for (int y = 0; y < height; ++y) {
@@ -217,8 +218,9 @@ std::string differs(double is, double design, double unit, const char* name) {
   if (design == 0) return fmt::format("is {:.4g} {}, the design's 0", is / unit, name);
   // As many digits as show the difference.
   const double share = std::abs(is / design - 1);
-  const int digits =
-      std::clamp(share > 0 && std::isfinite(share) ? 2 - static_cast<int>(std::floor(std::log10(share))) : 4, 4, 12);
+  const int digits = std::clamp(
+      share > 0 && std::isfinite(share) ? 2 - static_cast<int>(std::floor(std::log10(share))) : 4,
+      4, 12);
   return fmt::format("is {:.{}g} {}, the design's {:.{}g} {}: {:.2g} % {}", is / unit, digits, name,
                      design / unit, digits, name, 100 * share, is > design ? "more" : "less");
 }

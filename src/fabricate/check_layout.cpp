@@ -145,7 +145,8 @@ Faults check_array(const ExportSource& s, const FeatureArray& array, const Layou
   double polygons = 0;
   for (const PolygonRow& row : rows) polygons += static_cast<double>(row.columns);
   const double due = static_cast<double>(wanted.columns) * static_cast<double>(wanted.first.size());
-  if (polygons != due) out.push_back(fmt::format("{:.0f} polygons, the design's {:.0f}", polygons, due));
+  if (polygons != due)
+    out.push_back(fmt::format("{:.0f} polygons, the design's {:.0f}", polygons, due));
   const auto centre_y = [&](const PolygonRow& r) { return r.y + shapes.at(r.polygon).y; };
   std::sort(rows.begin(), rows.end(),
             [&](const PolygonRow& a, const PolygonRow& b) { return centre_y(a) < centre_y(b); });
@@ -160,9 +161,10 @@ Faults check_array(const ExportSource& s, const FeatureArray& array, const Layou
     if (miss > most) most = miss, at_x = x, at_y = y;
   }
   if (most > 2) {
-    out.push_back(fmt::format("its {} are up to {:.4g} nm off their places, in the row that begins "
-                              "at ({:.4g}, {:.4g}) um",
-                              array.drawn, most, 1e-3 * at_x, 1e-3 * at_y));
+    out.push_back(
+        fmt::format("its {} are up to {:.4g} nm off their places, in the row that begins "
+                    "at ({:.4g}, {:.4g}) um",
+                    array.drawn, most, 1e-3 * at_x, 1e-3 * at_y));
   }
   return out;
 }
@@ -188,10 +190,11 @@ Faults check_contours(const ExportSource& s, Layout& layout) {
                       std::back_inserter(foreign), before);
   if (missing.empty() && foreign.empty()) return {};
   const LayoutPolygon& first = missing.empty() ? foreign.front() : missing.front();
-  return {fmt::format("{} of the design's {} polygons are not there and {} are there that it does "
-                      "not have, the first on layer {} at ({:.4g}, {:.4g}) um",
-                      missing.size(), wanted.size(), foreign.size(), first.layer,
-                      1e-3 * first.outline.x.front(), 1e-3 * first.outline.y.front())};
+  return {
+      fmt::format("{} of the design's {} polygons are not there and {} are there that it does "
+                  "not have, the first on layer {} at ({:.4g}, {:.4g}) um",
+                  missing.size(), wanted.size(), foreign.size(), first.layer,
+                  1e-3 * first.outline.x.front(), 1e-3 * first.outline.y.front())};
 }
 
 Faults check_layout(const ExportSource& s, Layout layout) {
@@ -256,9 +259,10 @@ class BodyCheck {
     if (!(std::abs(volume_ / volume - 1) <= 1e-4))
       out.push_back("its volume " + differs(volume_, volume, 1, "um3"));
     if (off_ > 0) {
-      out.push_back(fmt::format("{} corners are off the surface, by {:.4g} nm at most, at ({:.4g}, "
-                                "{:.4g}) um",
-                                off_, 1e3 * most_, most_x_, most_y_));
+      out.push_back(
+          fmt::format("{} corners are off the surface, by {:.4g} nm at most, at ({:.4g}, "
+                      "{:.4g}) um",
+                      off_, 1e3 * most_, most_x_, most_y_));
     }
     return out;
   }
@@ -289,7 +293,8 @@ class BodyCheck {
     }
     const int ix = static_cast<int>(std::lround(column)), iy = static_cast<int>(std::lround(row));
     const double high = 1e6 * (h_(ix % grid.nx, iy % grid.ny) - low_);
-    const double beside = std::max(std::abs(column - ix) * grid.dx(), std::abs(row - iy) * grid.dy());
+    const double beside =
+        std::max(std::abs(column - ix) * grid.dx(), std::abs(row - iy) * grid.dy());
     const double miss = std::max(z == 0 ? 0 : std::abs(z - high), 1e6 * beside);
     if (!(miss <= 2e-7 * std::max({high, x, y}))) note(miss, x, y);
   }

@@ -86,17 +86,17 @@ std::string more_pixels(const Grid& grid, double pixels_across, double smallest)
   const double pixels = 2 * std::ceil(0.5 * grid.lx * pixels_across / smallest);
   constexpr double kMost = 1 << 14;  // 2^28 of a square
   return pixels <= kMost ? fmt::format("--pixels {:.0f} would do", pixels)
-                         : fmt::format("that would take {:.0f} pixels a side: ask for a smaller "
-                                       "--size (one period to be repeated) or a layout, --format "
-                                       "gds or oasis",
-                                       pixels);
+                         : fmt::format(
+                               "that would take {:.0f} pixels a side: ask for a smaller "
+                               "--size (one period to be repeated) or a layout, --format "
+                               "gds or oasis",
+                               pixels);
 }
 
 // Edges are lost between pixels.
 bool too_coarse(const Texture& texture, const Grid& grid) {
   const double smallest = facts(texture).margins.smallest();
-  return std::isfinite(smallest) && smallest > 0 &&
-         std::max(grid.dx(), grid.dy()) > 0.5 * smallest;
+  return std::isfinite(smallest) && smallest > 0 && std::max(grid.dx(), grid.dy()) > 0.5 * smallest;
 }
 
 // Of too few pixels heights have their edges elsewhere, and what follows edges means nothing.

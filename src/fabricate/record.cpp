@@ -49,8 +49,8 @@ class RecordReader {
       out.limits.push_back({name, limit.get<double>(), true});
     }
     for (const Json& file : member("files")) read_file(file, out);
-    if (o.dose_curve && (o.dose_curve->depth.size() < 2 ||
-                         o.dose_curve->depth.size() != o.dose_curve->grey.size()))
+    if (o.dose_curve &&
+        (o.dose_curve->depth.size() < 2 || o.dose_curve->depth.size() != o.dose_curve->grey.size()))
       fail("dose_curve");
     return out;
   }
@@ -92,7 +92,8 @@ class RecordReader {
     const std::string format = file["format"], name = file["file"];
     if (name.empty() || name.find('/') != std::string::npos) fail("files");
     if (format != kDesignFormat) {
-      if (find_export_format(format).needs_dose_curve && !out.options.dose_curve) fail("dose_curve");
+      if (find_export_format(format).needs_dose_curve && !out.options.dose_curve)
+        fail("dose_curve");
       if (find_export_format(format).needs_polarity && !out.options.polarity) fail("polarity");
       out.options.formats.push_back(format);
     }

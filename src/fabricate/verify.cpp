@@ -47,10 +47,9 @@ FileVerdict verify_file(const ExportRecord& record, const Export& made, const Ex
       if (progress) progress(file.path, done);
     };
     share(0);
-    std::vector<std::string> faults = find_export_format(file.format)
-                                          .check({made.heightmap, made.texture, record.options,
-                                                  info, share},
-                                                 file.path);
+    std::vector<std::string> faults =
+        find_export_format(file.format)
+            .check({made.heightmap, made.texture, record.options, info, share}, file.path);
     const FileState state = faults.empty() ? FileState::Sound : FileState::Differs;
     return {file.path, state, std::move(faults)};
   } catch (const InputError& error) {
@@ -146,7 +145,8 @@ Verification verify_export(const Study& study, const std::string& file, double t
   const double side = std::min(h.grid.lx, h.grid.ly);
   Measured3d map;
   map.file = file;
-  map.as_is = true;  // a made map is level, and its peaks are no outliers
+  // A lattice repeats by itself: nothing is to be levelled, mended or blended.
+  map.as_is = facts(design.texture).cell.has_value();
   map.patch = side < 1.5 * plan.grid.lx ? side : plan.grid.lx;
   out.file = mean_of(metric, evaluate(scene, Texture{map}, fidelity));
   out.loss = std::abs(out.file - out.design) / std::abs(out.design);

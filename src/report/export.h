@@ -12,16 +12,17 @@
 
 namespace papilla::report {
 
-// export_design, and export.json beside its files: sizes, polarity, margins, what the layout is, and
-// what they were made from. beside: files of other makers in the folder that the record names too.
+// export_design, and export.json beside its files: sizes, polarity, margins, what the layout is,
+// and what they were made from. beside: files of other makers in the folder that the record names
+// too.
 Export export_with_record(const Study& study, const ExportOptions& options,
                           const std::string& folder, const FileProgress& progress = {},
                           const std::vector<ExportedFile>& beside = {});
 
 // What is known of the files of an export once they are written.
 struct ExportVerdict {
-  std::vector<FileVerdict> files;         // each against the design
-  std::optional<Verification> felt;       // where it was asked for
+  std::vector<FileVerdict> files;    // each against the design
+  std::optional<Verification> felt;  // where it was asked for
 
   bool sound() const;
   bool readable() const;  // as far as they are there

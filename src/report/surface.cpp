@@ -95,16 +95,11 @@ std::string spectrum_table(const SurfaceView& view) {
 Json scan_json(const std::string& file, const ScanChanges& c) {
   Json where;
   if (c.replaced > 0) where = {{"x", {c.where.x0, c.where.x1}}, {"y", {c.where.y0, c.where.y1}}};
-  return {{"file", file},
-          {"as_is", c.as_is},
-          {"tilt", c.tilt()},
-          {"slope", {c.slope_x, c.slope_y}},
-          {"rise", c.rise},
-          {"pixels", c.pixels},
-          {"replaced", c.replaced},
-          {"furthest", c.furthest},
-          {"where", where},
-          {"filled", c.filled}};
+  return {{"file", file},           {"as_is", c.as_is},
+          {"tilt", c.tilt()},       {"slope", {c.slope_x, c.slope_y}},
+          {"rise", c.rise},         {"pixels", c.pixels},
+          {"replaced", c.replaced}, {"furthest", c.furthest},
+          {"where", where},         {"filled", c.filled}};
 }
 
 Json areal_json(const ArealParameters& a) {
@@ -162,19 +157,19 @@ std::string surface_json(const SurfaceView& view) {
   Json spectrum = Json::array();
   for (const SpectrumRing& ring : view.spectrum)
     spectrum.push_back({{"wavelength", ring.wavelength}, {"density", ring.density}});
-  return Json{{"schema", 1},
-              {"scan", scan_json(view.file, view.scan.changes)},
-              {"size", {g.lx, g.ly}},
-              {"pixels", {g.nx, g.ny}},
-              {"areal", areal_json(view.areal)},
-              {"band",
-               {{"longest", view.band.longest},
-                {"shortest", view.band.shortest},
-                {"by_tip", view.band.by_tip}}},
-              {"spectrum", spectrum},
-              {"histogram",
-               {{"lowest", *low}, {"highest", *high}, {"shares", height_histogram(h, kBins)}}},
-              {"section", {{"y", g.y(g.ny / 2)}, {"heights", middle_row(h)}}}}
+  return Json{
+      {"schema", 1},
+      {"scan", scan_json(view.file, view.scan.changes)},
+      {"size", {g.lx, g.ly}},
+      {"pixels", {g.nx, g.ny}},
+      {"areal", areal_json(view.areal)},
+      {"band",
+       {{"longest", view.band.longest},
+        {"shortest", view.band.shortest},
+        {"by_tip", view.band.by_tip}}},
+      {"spectrum", spectrum},
+      {"histogram", {{"lowest", *low}, {"highest", *high}, {"shares", height_histogram(h, kBins)}}},
+      {"section", {{"y", g.y(g.ny / 2)}, {"heights", middle_row(h)}}}}
       .dump(2);
 }
 

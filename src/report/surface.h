@@ -1,4 +1,5 @@
-// A measured map as it is imported: what was changed, what it is in numbers, for people and as JSON.
+// A measured map as it is imported: what was changed, what it is in numbers, for people and as
+// JSON.
 #pragma once
 
 #include <string>

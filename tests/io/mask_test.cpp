@@ -100,14 +100,16 @@ TEST(LayoutArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
 }
 
 TEST(ExportedFiles, AllHaveThePeriodThatALayoutCanHold) {
-  Design design;
+  Study study;
+  Design& design = study.design;
   HoleArray holes;
   holes.period = 7997.3636e-9;
   design.texture.kind = holes;
   ExportOptions options;
   options.pixels = 256;
   const std::string folder = temporary("snapped");
-  const Export out = export_with_record({.design = design}, options, folder);  // the default formats
+  const Export out =
+      export_with_record(study, options, folder);  // the default formats
   EXPECT_TRUE(std::filesystem::exists(folder + "/texture.gds"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/export.json"));
   EXPECT_NEAR(out.heightmap.grid.lx / out.cells_x, 7997e-9, 1e-15);

@@ -10,8 +10,8 @@
 
 #include "base/constants.h"
 #include "fabricate/export.h"
-#include "geometry/io/files.h"
 #include "geometry/io/drawing.h"
+#include "geometry/io/files.h"
 #include "geometry/texture.h"
 #include "tests/io/gds_file.h"
 
