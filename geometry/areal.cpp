@@ -191,10 +191,11 @@ void each_mode(const Heightmap& h, const Use& use) {
   }
 }
 
-// The direction with the most power in five degrees, over the waves of at least three periods that
-// have no direction of the grid: within a circle.
+// The direction with the most power in five degrees, then the middle of what is within twelve of it
+// (the window spreads a wave over its neighbours); of waves of at least three periods, within a
+// circle: no direction of the grid counts more.
 double direction(const Heightmap& h) {
-  constexpr int kBins = 180, kBeside = 2;
+  constexpr int kBins = 180, kPeak = 2, kBeside = 12;
   const Grid& g = h.grid;
   const double least = 3 * 2 * kPi / std::min(g.lx, g.ly), most = kPi / std::max(g.dx(), g.dy());
   std::vector<double> power(kBins), along(kBins), across(kBins);
@@ -209,18 +210,23 @@ double direction(const Heightmap& h) {
     along[i] += times * density * std::cos(2 * angle);
     across[i] += times * density * std::sin(2 * angle);
   });
-  const auto around = [&](const std::vector<double>& values, int bin) {
+  const auto around = [&](const std::vector<double>& values, int bin, int beside) {
     double sum = 0;
-    for (int d = -kBeside; d <= kBeside; ++d)
+    for (int d = -beside; d <= beside; ++d)
       sum += values[static_cast<std::size_t>(wrap(bin + d, kBins))];
     return sum;
   };
   int best = 0;
   for (int i = 1; i < kBins; ++i) {
-    if (around(power, i) > around(power, best)) best = i;
+    if (around(power, i, kPeak) > around(power, best, kPeak)) best = i;
   }
-  const double angle = 0.5 * std::atan2(around(across, best), around(along, best));
-  return angle < 0 ? angle + kPi : angle;
+  double angle = 0;
+  for (int round = 0; round < 2; ++round) {  // again around what was found
+    angle = 0.5 * std::atan2(around(across, best, kBeside), around(along, best, kBeside));
+    if (angle < 0) angle += kPi;
+    best = std::min(kBins - 1, static_cast<int>(angle / kPi * kBins));
+  }
+  return angle;
 }
 
 // --- how the material is shared out ---

@@ -16,7 +16,9 @@ void fields(FieldVisitor& v, Measured3d& t) {
   v.number({"width", "um", 0, 1e6, "lateral size of the map where the file does not say"}, t.width);
   v.flag({"fill", "heights that are no numbers get the mean of those around them; else refused"},
          t.fill);
-  v.flag({"as_is", "neither levelled, mended nor blended: a surface that is known and repeats by itself"}, t.as_is);
+  v.flag({"as_is",
+          "neither levelled, mended nor blended: a surface that is known and repeats by itself"},
+         t.as_is);
   v.number({"patch", "um", 0.1, 1e4, "side of the simulated square, cut from the middle"}, t.patch);
 }
 

@@ -1,10 +1,15 @@
 // Where a mask means something.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
 
-#include "base/error.h"
 #include "fabricate/export.h"
+#include "tests/cli/program.h"
 
 namespace papilla::tests {
 namespace {
@@ -45,6 +50,25 @@ TEST(Rectangle, HasWholePeriodsAndNearlySquarePixels) {
   design.texture = Texture{holes};
   options.size_y = 1e-6;
   EXPECT_NEAR(prepare_export(design, options).heightmap.grid.ly, std::sqrt(3.0) * 6e-6, 1e-12);
+}
+
+// Each file is named before it is written; a long one says how far it is.
+TEST(Progress, NamesEveryFileAndTheShareOfARepeatedOne) {
+  const Workplace place;
+  Design design;
+  design.texture = Texture{HoleArray{}};
+  ExportOptions options;
+  options.formats = {"gsf", "exr"};
+  options.pixels = 32, options.repeat = 8;
+  std::map<std::string, std::vector<double>> told;
+  export_design(design, options, place.path().string(), [&](const std::string& file, double share) {
+    told[std::filesystem::path(file).filename().string()].push_back(share);
+  });
+  EXPECT_EQ(told["heightmap.gsf"], std::vector<double>{0});
+  const std::vector<double>& shares = told["heightmap.exr"];
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_EQ(shares.back(), 7.0 / 8);
 }
 
 }  // namespace

@@ -108,8 +108,7 @@ TEST(ExportedFiles, AllHaveThePeriodThatALayoutCanHold) {
   ExportOptions options;
   options.pixels = 256;
   const std::string folder = temporary("snapped");
-  const Export out =
-      export_with_record(study, options, folder);  // the default formats
+  const Export out = export_with_record(study, options, folder);  // the default formats
   EXPECT_TRUE(std::filesystem::exists(folder + "/texture.gds"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/export.json"));
   EXPECT_NEAR(out.heightmap.grid.lx / out.cells_x, 7997e-9, 1e-15);
