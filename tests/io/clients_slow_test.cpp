@@ -61,7 +61,9 @@ TEST(Klayout, SeesInOasisWhatItSeesInGdsii) {
     ASSERT_EQ(run.status, 0) << run.err;
     const Facts gds = ask(place, "gds", "o"), oasis = ask(place, "oasis", "o");
     EXPECT_FALSE(gds.empty());
-    EXPECT_EQ(gds, oasis) << what;
+    EXPECT_EQ(gds.size(), oasis.size());
+    for (const auto& [name, value] : gds)  // its unit of OASIS is off in the sixteenth digit
+      EXPECT_NEAR(number(oasis, name) / number(gds, name), 1, 1e-12) << name << " of " << what;
   }
 }
 
