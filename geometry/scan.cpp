@@ -150,12 +150,12 @@ std::string text(const std::string& file, const ScanChanges& c) {
   if (c.as_is) {
     out += "taken as it is, neither levelled nor mended";
   } else {
-    out += fmt::format("a plane of {:.3g} deg ({:.3g} nm over the map) was taken away; ",
+    out += fmt::format("a plane of {:.3g} deg ({:.4g} nm over the map) was taken away; ",
                        c.tilt() * 180 / kPi, 1e9 * c.rise);
     out += c.replaced == 0
                ? "no pixel was replaced"
                : fmt::format(
-                     "{} replaced by their neighbours, {:.3g} nm from the median at most, "
+                     "{} replaced by their neighbours, {:.4g} nm from the median at most, "
                      "within x = {:.4g} to {:.4g} um, y = {:.4g} to {:.4g} um",
                      share_text(c.replaced, c.pixels), 1e9 * c.furthest, 1e6 * c.where.x0,
                      1e6 * c.where.x1, 1e6 * c.where.y0, 1e6 * c.where.y1);
