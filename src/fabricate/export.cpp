@@ -125,7 +125,9 @@ Grid rectangle(const Texture& texture, const Grid& square, double size_y) {
   Grid out = square;
   out.ly = known.cell ? known.cell->y * std::max(1.0, std::round(size_y / known.cell->y))
                       : known.free_patch.side(size_y);
-  out.ny = 2 * std::max(1, static_cast<int>(std::lround(0.5 * out.nx * out.ly / out.lx)));
+  constexpr double kMost = 1 << 29;  // more than any export has
+  const double half = std::min(kMost, std::round(0.5 * out.nx * out.ly / out.lx));
+  out.ny = 2 * std::max(1, static_cast<int>(half));
   return out;
 }
 

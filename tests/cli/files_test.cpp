@@ -106,7 +106,8 @@ TEST(ExportSize, OfARectangleIsThatOfItsPeriods) {
         << run.err;
     EXPECT_EQ(place.run("verify out --geometry").status, 0);
   }
-  for (const std::string size : {"'x62 um'", "'110x um'", "'110x-2 um'", "'110x62'", "'3x2x1 um'"})
+  for (const std::string size :
+       {"'x62 um'", "'110x um'", "'110x-2 um'", "'110x62'", "'3x2x1 um'", "'10x1000000 um'"})
     EXPECT_EQ(place.run("export " + kHoles + " --format npy --out out --size " + size).status, 2)
         << size;
 }
