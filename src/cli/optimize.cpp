@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "optim/mpi.h"
 #include "optim/search.h"
 #include "report/results.h"
@@ -151,6 +153,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     [[maybe_unused]] const auto* err = std::freopen("/dev/null", "w", stderr);
   }
   Study study = read_study(options.study, options.overrides);
+  say_scans({study.design});
   if (options.jobs > 0) study.search.jobs = options.jobs;
   if (options.evaluations > 0) study.search.evaluations = options.evaluations;
   if (options.seed >= 0) study.search.seed = options.seed;
@@ -181,7 +184,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     std::cout << result_json(result, StudyProblem(study), run.folder, study).dump(2) << '\n';
   } else if (!result.interrupted) {
     std::string text = result_table(study, result);
-    if (result.has_best()) {
+    if (std::filesystem::exists(run.folder + "/best/mask.tif")) {
       text += fmt::format(
           "\nIn best/mask.tif white is deep; `papilla export {} --format mask --polarity "
           "white-high` "

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "report/ranking.h"
 
 namespace papilla::cli {
@@ -66,6 +67,7 @@ int run(const Context& context, const RankCommand& command) {
     designs.insert(designs.end(), regions.begin(), regions.end());
     candidates.push_back(std::move(regions));
   }
+  say_scans(designs);
   RankOptions options;
   const bool driven =
       std::all_of(designs.begin(), designs.end(), [](const Design& d) { return d.drive.driven(); });
