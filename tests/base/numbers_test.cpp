@@ -24,7 +24,9 @@ TEST(Quadrature, GaussLegendreIsExactForDegree2nMinus1) {
     }
     for (int i = 0; i < n; ++i) {  // ascending, and the same from both ends
       EXPECT_NEAR(rule.nodes[i] + rule.nodes[n - 1 - i], 2, 1e-14);
-      if (i > 0) EXPECT_GT(rule.nodes[i], rule.nodes[i - 1]);
+      if (i > 0) {
+        EXPECT_GT(rule.nodes[i], rule.nodes[i - 1]);
+      }
     }
   }
 }

@@ -40,6 +40,7 @@ TEST(LeastSquares, APriorAddsItsInformation) {
   EXPECT_NEAR(prior.parameters[1].value, (5 * (69.9 + 100) - 10 * 25.2) / det, 1e-8);
   EXPECT_NEAR(prior.parameters[1].se, std::sqrt(5 / det), 1e-8);
   EXPECT_NEAR(prior.parameters[1].data_share, 30.0 / 130, 1e-8);
+  EXPECT_EQ(prior.degrees_of_freedom, free.degrees_of_freedom + 1);
 }
 
 TEST(LeastSquares, AtABoundTheIntervalIsTheProfileOfTheLikelihood) {
