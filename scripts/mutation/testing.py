@@ -98,10 +98,11 @@ def reach(tests, runners, folder, kept, report, stop):
     return found
 
 
-def verdict(mutant, tests, runner, mirrors, fast_only, passed, stop):
+def verdict(mutant, tests, runner, mirrors, options, passed, stop):
     """(verdict, test that noticed): `folder`, `all`, `none`, `unreached`, or `open` when stopped. `passed`: the tests
     that did not notice it, by name, with the state of their program; those known from earlier are not run again."""
-    reaching = [t for t in tests if mutant["id"] in t.reaches and (t.fast or not fast_only)]
+    reaching = [t for t in tests if mutant["id"] in t.reaches and (t.fast or not options.fast)]
+    end = time.monotonic() + options.patience
     if not reaching:
         return "unreached", ""
     own = [t for t in reaching if t.fast and t.room in mirrors]
@@ -112,6 +113,8 @@ def verdict(mutant, tests, runner, mirrors, fast_only, passed, stop):
                 continue
             if stop():
                 return "open", ""
+            if time.monotonic() > end:
+                return "none", "out of patience"
             if not runner.run(test, 15 + 6 * test.seconds, mutant=mutant["id"])[0]:
                 return name, test.name
             passed[test.name] = test.state
