@@ -216,6 +216,7 @@ TEST(Rank, OtherConditionsAreRefusedByTheirKeys) {
   EXPECT_EQ(condition_differences({{designs[0]}, {designs[1]}}, options).at(0).key,
             "accuracy.level");
   EXPECT_TRUE(condition_differences({{designs[0]}, {designs[1]}}, by("haze:low")).empty());
+  EXPECT_FALSE(condition_differences({designs}, options).empty());  // regions of one candidate
 }
 
 TEST(Rank, SaysWhatIsOpenOnceAndThatTheValuesShareTheirSkins) {

@@ -129,7 +129,7 @@ TEST(Surface, LayersAddTheirThicknessOverPermittivity) {
 
 // Key, default, range and source of every number of a scene, as they are written down.
 TEST(Keys, OfASceneAreThoseOfTheReference) {
-  for (const char* section : {"finger", "environment", "drive", "surface", "model"}) {
+  for (const char* section : {"finger", "environment", "drive", "surface", "model", "view"}) {
     const std::string page = std::string(PAPILLA_SOURCE_DIR) + "/docs/reference/" + section + ".md";
     EXPECT_EQ(reference_section(section, ReferenceFormat::Markdown), read_bytes(page)) << section;
   }
