@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -185,10 +184,9 @@ TEST(Dose, ACurveMayFallAndBeWrittenFromItsEnd) {
   std::ofstream(path) << "# resist\n300,5\n100,60\n0,250\n";
   const DoseCurve curve = read_dose_curve(path);
   ASSERT_EQ(curve.depth.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_DOUBLE_EQ(curve.depth[i], std::array{0.0, 100e-9, 300e-9}[i]);
-    EXPECT_EQ(curve.grey[i], (std::array{250.0, 60.0, 5.0}[i]));
-  }
+  const std::vector<double> depth{0, 100e-9, 300e-9};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(curve.depth[i], depth[i], 1e-18);
+  EXPECT_EQ(curve.grey, (std::vector<double>{250, 60, 5}));
   const Heightmap h{{3, 1, 3e-6, 1e-6}, {0, -200e-9, -50e-9}};
   const DoseMap dose = write_dose(temporary("falling.png"), h, curve);
   EXPECT_NEAR(dose.lowest, 32, 1);  // half way from 60 to 5
