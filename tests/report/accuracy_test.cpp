@@ -118,10 +118,10 @@ TEST(AccuracyReport, OfCoverageIsTheShareInside) {
 
 TEST(AccuracyReport, OfTheFieldRulesIsInPercentAndKilopascals) {
   FieldAccuracyRow r;
-  r.sample = "flat", r.method = "full", r.relative_humidity = 0.35, r.pixels = 64, r.levels = 12;
+  r.sample = "flat", r.method = "full", r.relative_humidity = 0.35, r.pixels = 64;
   r.pull = 4500, r.error = -0.0125, r.seconds = 0.5;
   const std::string table = field_accuracy_csv({r});
-  EXPECT_EQ(table.substr(table.find('\n') + 1), "flat,35,full,64,12,4.5,-1.25,0.5,ok\n");
+  EXPECT_EQ(table.substr(table.find('\n') + 1), "flat,35,full,64,4.5,-1.25,0.5,ok\n");
 }
 
 }  // namespace
