@@ -18,6 +18,8 @@ class Test:
         self.fast = any(label.endswith("_fast") for label in labels)
         self.room = next((label.rsplit("_", 1)[0] for label in labels), "")
         self.seconds = 0.0
+        program = os.stat(command[0])
+        self.state = f"{program.st_size} {program.st_mtime_ns}"
 
 
 def listed(build):
@@ -70,8 +72,8 @@ def _limited():
 
 
 def reach(tests, runners, folder, kept, report, stop):
-    """name -> (passed, seconds, ids reached) without a mutant; `kept` is what an earlier call found."""
-    found = dict(kept)
+    """name -> (passed, seconds, ids reached, state of the program) without a mutant; `kept` is what an earlier call found."""
+    found = {t.name: kept[t.name] for t in tests if t.name in kept and kept[t.name][3] == t.state}
     free = list(runners)
 
     def one(test):
@@ -83,7 +85,7 @@ def reach(tests, runners, folder, kept, report, stop):
             ids = [i for i, b in enumerate(page.read_bytes()) if b]
         finally:
             free.append(runner)
-        return test.name, (passed, seconds, ids)
+        return test.name, (passed, seconds, ids, test.state)
 
     todo = [t for t in tests if t.name not in found]
     with concurrent.futures.ThreadPoolExecutor(len(runners)) as pool:
@@ -96,18 +98,24 @@ def reach(tests, runners, folder, kept, report, stop):
     return found
 
 
-def verdict(mutant, tests, runner, mirrors, fast_only, stop):
-    """(verdict, test that noticed): `folder`, `all`, `none`, `unreached`, or None when stopped."""
-    reaching = [t for t in tests if mutant["id"] in t.reaches and (t.fast or not fast_only)]
+def verdict(mutant, tests, runner, mirrors, options, passed, stop):
+    """(verdict, test that noticed): `folder`, `all`, `none`, `unreached`, or `open` when stopped. `passed`: the tests
+    that did not notice it, by name, with the state of their program; those known from earlier are not run again."""
+    reaching = [t for t in tests if mutant["id"] in t.reaches and (t.fast or not options.fast)]
+    end = time.monotonic() + options.patience
     if not reaching:
         return "unreached", ""
     own = [t for t in reaching if t.fast and t.room in mirrors]
     rest = [t for t in reaching if t not in own]
     for group, name in ((own, "folder"), (rest, "all")):
         for test in sorted(group, key=lambda t: (not t.fast, t.seconds, t.name)):
+            if passed.get(test.name) == test.state:
+                continue
             if stop():
-                return None, ""
-            passed, _ = runner.run(test, 15 + 6 * test.seconds, mutant=mutant["id"])
-            if not passed:
+                return "open", ""
+            if time.monotonic() > end:
+                return "none", "out of patience"
+            if not runner.run(test, 15 + 6 * test.seconds, mutant=mutant["id"])[0]:
                 return name, test.name
+            passed[test.name] = test.state
     return "none", ""

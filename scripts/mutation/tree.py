@@ -33,6 +33,8 @@ class Tree:
         self.copy = self.work / "tree"
         self.build = self.copy / "build"
         self.files = self._listed()
+        self._refused_at = self.work / "refused.json"
+        self._refused = set(json.loads(self._refused_at.read_text())) if self._refused_at.is_file() else set()
 
     def _listed(self):
         """The working tree as git would add it."""
@@ -73,25 +75,62 @@ class Tree:
                    "-DPAPILLA_NATIVE=OFF", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON"]
         if shutil.which("ccache"):
             command.append("-DCMAKE_CXX_COMPILER_LAUNCHER=ccache")
-        self._run(command, "configure")
+        if self._logged(command, "configure"):
+            raise Failure(f"cmake failed: {self.work / 'configure.log'}")
 
-    def compile(self, rooms=None):
-        """Everything, or the fast test programs of some rooms of tests/ alone."""
+    def build_with(self, mutants, rooms, report):
+        """Everything, or the fast test programs of some rooms of tests/ alone, with the mutants that compile."""
+        while True:
+            kept = [m for m in mutants if not self.refused(m)]
+            self.write(self.planted_texts(kept))
+            self.configure()
+            log = self._compile(rooms)
+            if log is None:
+                return
+            named = self._named_in(log)
+            bad = [m for m in kept if m["id"] in named]
+            if not bad:
+                raise Failure("\n".join([x for x in log.splitlines() if "error" in x.lower()][:10] + ["the build failed"]))
+            report(f"the compiler refuses {len(bad)} mutants: they are left out")
+            self._refused |= {self.key(m) for m in bad}
+            self._refused_at.write_text(json.dumps(sorted(self._refused)))
+
+    def key(self, mutant):
+        return digest(*((self.top / f).read_bytes() for f in sorted({e["file"] for e in mutant["edits"]})),
+                      json.dumps(mutant["edits"]))
+
+    def refused(self, mutant):
+        """Whether an earlier build found that the mutant does not compile."""
+        return self.key(mutant) in self._refused
+
+    def _compile(self, rooms):
+        """The log of a build that failed, else None."""
         targets = ["all"]
         if rooms is not None:
             listed = subprocess.run(["ninja", "-C", str(self.build), "-t", "targets", "all"], check=True,
                                     capture_output=True, text=True).stdout
             known = {line.split(":")[0] for line in listed.splitlines()}
             targets = [t for t in (f"{room}_fast_tests" for room in sorted(rooms)) if t in known]
-        if targets:
-            self._run(["ninja", "-C", str(self.build), f"-j{self.jobs}", *targets], "build")
+        return self._logged(["ninja", "-C", str(self.build), f"-j{self.jobs}", "-k0", *targets], "build") if targets else None
 
-    def _run(self, command, name):
+    def _named_in(self, log):
+        """Ids of the mutants at the places of the compiler's errors; a mutant may end some lines further down."""
+        named = set()
+        for path, line in set(re.findall(r"^(\S+?):(\d+):\d+: (?:fatal )?error", log, re.M)):
+            text = (self.build / path).read_bytes().split(b"\n") if (self.build / path).is_file() else []
+            for number in range(int(line), max(0, int(line) - 6), -1):
+                found = {int(i) for i in re.findall(rb"papilla_mutant\((\d+)\)", text[number - 1])} if number <= len(text) else set()
+                named |= found
+                if found:
+                    break
+        return named
+
+    def _logged(self, command, name):
+        """The log of a command that failed, else None."""
         log = self.work / f"{name}.log"
         with open(log, "wb") as stream:
-            if subprocess.run(command, stdout=stream, stderr=subprocess.STDOUT).returncode:
-                errors = [x for x in log.read_text(errors="replace").splitlines() if "error" in x.lower()]
-                raise Failure("\n".join(errors[:10] + [f"the {name} failed: {log}"]))
+            failed = subprocess.run(command, stdout=stream, stderr=subprocess.STDOUT).returncode
+        return log.read_text(errors="replace") if failed else None
 
     # -- compile commands -----------------------------------------------------
     def commands(self):
@@ -155,53 +194,3 @@ class Tree:
             for edit in mutant["edits"]:
                 edits.setdefault(edit["file"], []).append(dict(edit, id=mutant["id"]))
         return {f: planting.plant((self.top / f).read_bytes(), e) for f, e in edits.items()}
-
-    def without_those_that_do_not_compile(self, mutants, report):
-        """Drops mutants that the compiler refuses: those on a line with an error, else each tried alone."""
-        commands = self.commands()
-        planted = self.planted_texts(mutants)
-        bad = set()
-        with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            jobs = [pool.submit(self._refused_in, f, [m for m in mutants if any(e["file"] == f for e in m["edits"])],
-                                commands) for f in sorted(planted)]
-            for number, job in enumerate(concurrent.futures.as_completed(jobs)):
-                bad |= job.result()
-                report(f"compiling with mutants {number + 1}/{len(jobs)}")
-        return [m for m in mutants if m["id"] not in bad]
-
-    def _refused_in(self, file, mutants, commands):
-        """Kept from run to run by the planted text."""
-        known = self.work / "refused" / f"{digest(self.planted_texts(mutants)[file])}.json"
-        if not known.is_file():
-            known.parent.mkdir(exist_ok=True)
-            known.write_text(json.dumps(sorted(self._search_refused(file, mutants, commands))))
-        return set(json.loads(known.read_text()))
-
-    def _search_refused(self, file, mutants, commands):
-        bad = set()
-        while True:
-            left = [m for m in mutants if m["id"] not in bad]
-            errors = self._errors(file, left, commands) if left else []
-            if not errors:
-                return bad
-            text = self.planted_texts(left)[file].split(b"\n")
-            named = {int(i) for line in errors if 0 < line <= len(text)
-                     for i in re.findall(rb"papilla_mutant\((\d+)\)", text[line - 1])}
-            if not named:
-                named = {m["id"] for m in left if self._errors(file, [m], commands)}
-            if not named:
-                named = {m["id"] for m in left}
-            bad |= named
-
-    def _errors(self, file, mutants, commands):
-        """Lines of the planted file with compiler errors; [0] for errors elsewhere."""
-        compiler, options = self.arguments_for(file, commands)
-        path = self.work / "check" / file
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(self.planted_texts(mutants)[file])
-        folder = (self.copy / file).parent
-        result = subprocess.run([compiler, *options, "-w", "-O0", "-fsyntax-only", "-x", "c++", f"-iquote{folder}",
-                                 str(path)], capture_output=True, text=True, errors="replace")
-        if result.returncode == 0:
-            return []
-        return [int(n) for n in re.findall(re.escape(str(path)) + r":(\d+):\d+: error", result.stderr)] or [0]

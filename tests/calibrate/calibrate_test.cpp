@@ -101,6 +101,7 @@ level = ")" + check + "\"\n"));
 TEST_F(Calibrate, PlantedParametersAreFoundWithinTheirIntervals) {
   const Calibration calibration = planted_calibration("fingers/reference.toml", "draft");
   ASSERT_EQ(calibration.data.size(), 8u);
+  EXPECT_FALSE(calibration.profiles);
   CalibrationOptions options;
   options.check = false;
   options.threads = 1;

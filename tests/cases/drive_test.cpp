@@ -51,6 +51,26 @@ TEST(DriveFile, OnsetOfSlidingNeedsTheRealArea) {
   EXPECT_NEAR(r.onset_static, adhesive, 1e-12);
 }
 
+// Charge that has no way out piles up; each way out is enough.
+TEST(DriveFile, AConstantCurrentNeedsAWay) {
+  const auto refused = [](const std::vector<std::string>& more) {
+    std::vector<std::string> overrides{"drive.control=current", "drive.waveform=dc",
+                                       "gap.resistivity=0 ohm m", "source.shunt=0 ohm"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    try {
+      read_drive_case(kFingertip, overrides);
+    } catch (const InputError& error) {
+      return std::string(error.what()).find("has no end") != std::string::npos;
+    }
+    return false;
+  };
+  EXPECT_TRUE(refused({}));
+  EXPECT_FALSE(refused({"gap.resistivity=1e8 ohm m"}));
+  EXPECT_FALSE(refused({"source.shunt=1 Mohm"}));
+  EXPECT_FALSE(refused({"drive.waveform=sine"}));
+  EXPECT_FALSE(refused({"drive.control=voltage", "drive.amplitude=100 V"}));
+}
+
 TEST(DriveFile, ASwipeIsDrivenUntilItSlipsFully) {
   // Stuck, then the lateral force rises, levels off and falls again.
   std::string csv = "lateral,normal\n";

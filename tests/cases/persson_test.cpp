@@ -4,6 +4,9 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/files.h"
+#include "cases/droplets.h"
+#include "report/reference.h"
 
 namespace papilla::tests {
 namespace {
@@ -54,6 +57,39 @@ TEST(MeanFieldFile, MistakesAreNamedWithTheirPlace) {
   EXPECT_THROW(read_mean_field(kWrist, {"roughness.wave_number=[\"1e3 1/m\",\"1e5 1/m\"]"}),
                InputError);
   EXPECT_THROW(read_mean_field(kWrist, {"skin.hardness=1 kPa"}), InputError);
+}
+
+// Key, default, range and source of every number, as they are written down.
+TEST(Keys, OfCasesAreThoseOfTheReference) {
+  for (const char* section : {"persson", "circuit"}) {
+    const std::string page = std::string(PAPILLA_SOURCE_DIR) + "/docs/reference/" + section + ".md";
+    EXPECT_EQ(reference_section(section, ReferenceFormat::Markdown), read_bytes(page)) << section;
+  }
+}
+
+// Both volumes and every placement once: what single placements give, averaged by hand.
+TEST(DropletEnsemble, IsTheMeanOfItsPlacements) {
+  const DropletCase c = droplets_of_design(
+      std::string(PAPILLA_DESIGNS_DIR) + "/m3_samples/flat.toml", 0.35, 0, false, false);
+  const DropletEnsemble all = solve_droplet_ensemble(c, 0.25, 3, 7, 40);
+  EXPECT_EQ(all.placements, 3);
+  ASSERT_EQ(all.volumes.size(), 2u);
+  double whole = 0;
+  for (std::size_t v = 0; v < 2; ++v) {
+    DropletCase one = c;
+    one.volume = (v == 0 ? 0.75 : 1.25) * c.volume;
+    EXPECT_DOUBLE_EQ(all.volumes[v].volume, one.volume);
+    double force = 0, bridges = 0, wetted = 0;
+    for (std::uint64_t k = 0; k < 3; ++k) {
+      const Wetting w = solve_droplets(one, WaterModel::Droplets, 7, 40 + k).wetting;
+      force += w.capillary_force / 3, bridges += w.bridges / 3.0, wetted += w.wetted_fraction / 3;
+    }
+    EXPECT_NEAR(all.volumes[v].capillary_force.value, force, 1e-12 * force);
+    EXPECT_NEAR(all.volumes[v].bridges.value, bridges, 1e-12 * bridges);
+    EXPECT_NEAR(all.volumes[v].wetted_fraction.value, wetted, 1e-12 * wetted);
+    whole += force / 2;
+  }
+  EXPECT_NEAR(all.mean_capillary_force, whole, 1e-12 * whole);
 }
 
 }  // namespace

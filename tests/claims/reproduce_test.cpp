@@ -2,11 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "report/claims.h"
+#include "tests/claims/csv_rows.h"
 
 namespace papilla::tests {
 namespace {
@@ -29,6 +35,30 @@ TEST(Reproduce, TheoryClaimsEndInTheirKnownVerdicts) {
     if (r.papilla.verdict != Verdict::Agrees) {
       EXPECT_FALSE(r.papilla.reason.empty()) << id;
     }
+  }
+}
+
+// Every number that a theory claim shows, beside the committed table of all claims.
+TEST(Reproduce, TheoryClaimsSayWhatTheCommittedTableSays) {
+  std::map<std::string, std::vector<std::string>> table;
+  const std::string path = std::string(PAPILLA_SOURCE_DIR) + "/results/reproduction/claims.csv";
+  for (const auto& row : csv_rows(read_bytes(path))) table[row.at(0)] = row;
+  ReproduceOptions options;
+  for (const Claim& claim : theory_claims()) options.ids.push_back(claim.id);
+  const auto results = reproduce(options);
+  auto today = csv_rows(claims_csv(results));
+  ASSERT_EQ(today.size(), results.size() + 1);
+  EXPECT_EQ(today[0], table.at("id"));
+  for (std::size_t i = 1; i < today.size(); ++i) {
+    std::vector<std::string>& now = today[i];
+    const std::vector<std::string>& then = table.at(now[0]);
+    const double value = std::stod(then.at(5));
+    EXPECT_NEAR(std::stod(now.at(5)), value, 1e-5 * std::abs(value) + 1e-13) << now[0];
+    now[5] = then[5];
+    if (now[7].find("1e-") != std::string::npos ||
+        now[7].find("relative difference") != std::string::npos)
+      continue;  // differences that are rounding
+    EXPECT_EQ(now, then) << now[0];
   }
 }
 

@@ -133,5 +133,27 @@ TEST(ClosedForms, AdhesiveSpheresPullOffWhereTheirForceIsLeast) {
   EXPECT_NEAR(s.tabor(1e-9) / s.tabor(8e-9), 8, 1e-12);
 }
 
+// A layer, what lies below and a soft counter-body: the stiffness of two half-spaces in series.
+TEST(ClosedForms, ACounterBodyAddsTheComplianceOfItsHalfSpace) {
+  LayeredSolid solid{.layer_modulus = 3e6,
+                     .layer_poisson = 0.3,
+                     .layer_thickness = 0,
+                     .bulk_modulus = 2e6,
+                     .bulk_poisson = 0.4};
+  const Grid grid{16, 16, 1e-6, 1e-6};
+  const double below = (1 - 0.16) / 2e6, counter = (1 - 0.0625) / 5e6;
+  for (const double q : {1e4, 1e7})
+    EXPECT_NEAR(compliance(solid, q), 2 * below / q, 1e-9 * below / q);
+  EXPECT_NEAR(ContactKernel(grid, solid).contact_modulus(), 1 / below, 1e-9 / below);
+  solid.counter_modulus = 5e6, solid.counter_poisson = 0.25;
+  for (const double q : {1e4, 1e7})
+    EXPECT_NEAR(compliance(solid, q), 2 * (below + counter) / q, 1e-9 * below / q);
+  EXPECT_NEAR(ContactKernel(grid, solid).contact_modulus(), 1 / (below + counter), 1e-9 / below);
+  solid.layer_thickness = 1e-3;  // much deeper than the waves: the layer alone
+  const double layer = (1 - 0.09) / 3e6;
+  EXPECT_NEAR(compliance(solid, 1e7), 2 * (layer + counter) / 1e7, 1e-9 * layer / 1e7);
+  EXPECT_NEAR(ContactKernel(grid, solid).contact_modulus(), 1 / (layer + counter), 1e-9 / layer);
+}
+
 }  // namespace
 }  // namespace papilla::tests

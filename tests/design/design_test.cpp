@@ -4,9 +4,11 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "config/describe.h"
 #include "config/writer.h"
 #include "design/study.h"
+#include "report/reference.h"
 
 namespace papilla::tests {
 namespace {
@@ -184,6 +186,14 @@ TEST(Design, AHoleLargerThanItsPeriodIsRefused) {
       problems_of("schema_version = 1\n[texture]\ntype = \"hole_array\"\nperiod = \"3 um\"\n"
                   "diameter = \"4 um\"\ndepth = \"350 nm\"\n"),
       ":5:12: texture.diameter: 4 um is not smaller than the period 3 um; features would overlap");
+}
+
+// Key, default, range and source of every number, as they are written down.
+TEST(Keys, OfStudiesAreThoseOfTheReference) {
+  for (const char* section : {"study", "accuracy"}) {
+    const std::string page = std::string(PAPILLA_SOURCE_DIR) + "/docs/reference/" + section + ".md";
+    EXPECT_EQ(reference_section(section, ReferenceFormat::Markdown), read_bytes(page)) << section;
+  }
 }
 
 }  // namespace

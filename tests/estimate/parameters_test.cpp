@@ -40,41 +40,6 @@ Fidelity small_fidelity() {
   return f;
 }
 
-TEST(Parameters, TheFactorOfTheCovarianceIsItsRoot) {
-  const std::vector<ParameterDeviation> list{
-      {"skin.rms", 0.1, {}}, {"skin.hurst", 0.2, {-0.5}}, {"load", 0.3, {0.6, 0.1}}};
-  const std::vector<double> l = covariance_factor(list);
-  const double r[3][3] = {{1, -0.5, 0.6}, {-0.5, 1, 0.1}, {0.6, 0.1, 1}};
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      double c = 0;
-      for (std::size_t k = 0; k < 3; ++k) c += l[3 * i + k] * l[3 * j + k];
-      EXPECT_NEAR(c, r[i][j] * list[i].deviation * list[j].deviation, 1e-15);
-    }
-  }
-}
-
-TEST(Parameters, CorrelationsThatContradictEachOtherAreRefused) {
-  EXPECT_THROW(covariance_factor({{"a", 1, {}}, {"b", 1, {0.9}}, {"c", 1, {0.9, -0.9}}}),
-               InputError);
-  EXPECT_THROW(covariance_factor({{"a", 1, {0.5}}}), InputError);
-  Finger finger;
-  finger.uncertainty = {{"skin.rsm", 0.1, {}}};
-  EXPECT_NE(uncertainty_problem(finger).find("skin.rms"), std::string::npos);
-  finger.uncertainty = {{"skin.rms", 0.1, {}}};
-  EXPECT_EQ(uncertainty_problem(finger), "");
-}
-
-TEST(Parameters, ValuesMoveByFactorsWithinTheirLimits) {
-  Finger finger;
-  finger.uncertainty = {{"skin.rms", 0.1, {}}, {"water.scale", 1, {}}, {"skin.hurst", 1, {}}};
-  const Finger moved = moved_finger(finger, {0.1, std::log(2.0), 3});
-  EXPECT_DOUBLE_EQ(moved.skin.rms, finger.skin.rms * std::exp(0.1));
-  for (std::size_t i = 0; i < finger.water.volume.size(); ++i)
-    EXPECT_DOUBLE_EQ(moved.water.volume[i], 2 * finger.water.volume[i]);
-  EXPECT_EQ(moved.skin.hurst, 1);
-}
-
 // x = (a + 2 b, 3 a - b) of two correlated numbers: mean 2 a + b/2, by hand.
 TEST(Parameters, OfALinearModelTheErrorOfTheMeanIsExact) {
   const std::vector<ParameterDeviation> list{{"a", 0.1, {}}, {"b", 0.2, {0.5}}};

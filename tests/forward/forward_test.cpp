@@ -258,6 +258,27 @@ TEST(Plan, SaysWhatIsSkippedAndWhy) {
   EXPECT_FALSE(plan.traction_solves);
 }
 
+// Two pixels of the coarser direction: a hexagonal patch has others along x than along y.
+TEST(Plan, TheShortestWaveIsTwoPixelsOfTheCoarserDirection) {
+  HoleArray holes;
+  holes.lattice = Lattice::Hexagonal;
+  Fidelity f = fidelity_level("draft");
+  bool oblong = false;
+  for (const double period : {3e-6, 5e-6, 7e-6}) {
+    holes.period = period;
+    holes.diameter = 0.5 * period;
+    for (const int grid : {64, 96, 200}) {
+      f.grid = grid;
+      const Plan plan = make_plan(Scene{}, Texture{holes}, f);
+      const double coarser = std::max(plan.grid.dx(), plan.grid.dy());
+      oblong = oblong || coarser > 1.001 * std::min(plan.grid.dx(), plan.grid.dy());
+      EXPECT_GE(plan.effective_cutoff, 2 * coarser);
+      EXPECT_GE(plan.effective_cutoff, 2 * 12e-6 / grid * (1 - 1e-12));
+    }
+  }
+  EXPECT_TRUE(oblong);
+}
+
 TEST(Fidelity, AnUnknownLevelIsRefused) { EXPECT_THROW(fidelity_level("best"), InputError); }
 
 TEST(ScaleBridge, ClosuresGiveTheSameFrictionWithoutVoltage) {

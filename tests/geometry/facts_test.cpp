@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/files.h"
 #include "geometry/io/files.h"
 #include "geometry/texture.h"
+#include "report/reference.h"
 
 namespace papilla::tests {
 namespace {
@@ -149,6 +151,14 @@ TEST(Facts, OutlinesAreThoseThatALayoutCanDraw) {
   EXPECT_TRUE(none(stack(Combine::Sum, {Texture{}, rough})));
   EXPECT_FALSE(none(holes) || none(Texture{Measured3d{}}));
   EXPECT_FALSE(none(stack(Combine::Sum, {rough, holes})));
+}
+
+// Key, default, range and source of every number, as they are written down.
+TEST(Keys, OfTexturesAreThoseOfTheReference) {
+  for (const char* section : {"texture"}) {
+    const std::string page = std::string(PAPILLA_SOURCE_DIR) + "/docs/reference/" + section + ".md";
+    EXPECT_EQ(reference_section(section, ReferenceFormat::Markdown), read_bytes(page)) << section;
+  }
 }
 
 }  // namespace

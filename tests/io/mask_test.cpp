@@ -172,8 +172,27 @@ TEST(Dose, IsTheInverseOfTheCurveAndCountsWhatItClips) {
   EXPECT_EQ(dose.shallow, 0u);
   std::ofstream(path) << "depth_nm,grey\n0,10\n100,60\n80,255\n";
   EXPECT_THROW(read_dose_curve(path), InputError);
-  std::ofstream(path) << "0,10\n100,word\n";
-  EXPECT_THROW(read_dose_curve(path), InputError);
+  for (const char* wrong : {"0,10\n100,word\n", "0,10\n100,256\n", "0,-1\n100,20\n",
+                            "0,10\n-1,20\n", "0,10\n2e9,20\n", "0,10\n", "0,10\n100,60\n200,60\n",
+                            "0,10\n100,60\n100,70\n", "0,90\n100,60\n200,70\n", "0;10\n100;20\n"}) {
+    std::ofstream(path) << wrong;
+    EXPECT_THROW(read_dose_curve(path), InputError) << wrong;
+  }
+}
+
+// Deep is dark, or the table runs upwards: the same curve.
+TEST(Dose, ACurveMayFallAndBeWrittenFromItsEnd) {
+  const std::string path = temporary("falling.csv");
+  std::ofstream(path) << "# resist\n300,5\n100,60\n0,250\n";
+  const DoseCurve curve = read_dose_curve(path);
+  ASSERT_EQ(curve.depth.size(), 3u);
+  const std::vector<double> depth{0, 100e-9, 300e-9};
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(curve.depth[i], depth[i], 1e-18);
+  EXPECT_EQ(curve.grey, (std::vector<double>{250, 60, 5}));
+  const Heightmap h{{3, 1, 3e-6, 1e-6}, {0, -200e-9, -50e-9}};
+  const DoseMap dose = write_dose(temporary("falling.png"), h, curve);
+  EXPECT_NEAR(dose.lowest, 32, 1);  // half way from 60 to 5
+  EXPECT_EQ(dose.highest, 250);
 }
 
 TEST(ProcessBias, IsUndoneInTheFile) {

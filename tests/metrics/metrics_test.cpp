@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 
+#include "base/constants.h"
 #include "base/error.h"
 
 namespace papilla::tests {
@@ -47,6 +50,92 @@ TEST(Metrics, VariationOfAZeroMeanIsUndefined) {
 }
 
 // What a skin or a grid does to all humidities alike moves the mean and leaves the variation.
+// What a small change of each value does to the summary, taken from its own differences.
+TEST(Metrics, ErrorsOfASummaryAreThoseOfItsDerivatives) {
+  const std::vector<double> values{1, 2.5, 4, 5}, weights{1, 2, 3, 2},
+      errors{0.02, 0.01, 0.03, 0.04};
+  const auto value = [&](Summary summary, std::size_t moved, double by) {
+    std::vector<double> v = values;
+    v[moved] += by;
+    return summarise(summary, "modulation", response_of(v, weights))->value;
+  };
+  for (const Summary summary : {Summary::Mean, Summary::Std, Summary::Variation, Summary::Range,
+                                Summary::Worst, Summary::Best, Summary::First, Summary::Last}) {
+    Response r = response_of(values, weights);
+    double linear = 0, squares = 0, spread = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      r.points[i].modulation.parts.sampling = errors[i];
+      r.points[i].modulation.parts.grid = 2 * errors[i];
+      const double slope = (value(summary, i, 1e-6) - value(summary, i, -1e-6)) / 2e-6;
+      linear += slope * errors[i];
+      squares += square(slope * errors[i]);
+    }
+    // Of a quotient by the mean: its parts, of the spread and of the mean, in squares.
+    const double mean = value(Summary::Mean, 0, 0), mean_error = 0.0262500000;
+    if (summary == Summary::Variation) {
+      double deviation = 0;
+      for (std::size_t i = 0; i < values.size(); ++i)
+        deviation += square((value(Summary::Std, i, 1e-6) - value(Summary::Std, i, -1e-6)) / 2e-6 *
+                            errors[i]);
+      spread = std::sqrt(deviation + square(value(Summary::Variation, 0, 0) * mean_error)) / mean;
+    } else if (summary == Summary::Range) {
+      spread = std::hypot(errors[0], errors[3]) / mean;
+    }
+    const double expected = spread > 0                 ? spread
+                            : summary == Summary::Mean ? linear
+                                                       : std::sqrt(squares);
+    const SummaryValue out = *summarise(summary, "modulation", r);
+    EXPECT_NEAR(out.parts.sampling, expected, 1e-8) << static_cast<int>(summary);
+    EXPECT_NEAR(out.parts.grid.value(), 2 * expected, 1e-8) << static_cast<int>(summary);
+  }
+}
+
+// Each name its own number, and the better direction that decides what is worst.
+TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
+  ResponsePoint p;
+  for (std::size_t k = 0; k < kPointQuantities.size(); ++k)
+    (p.*kPointQuantities[k].value).value = 1.0 + static_cast<double>(k);
+  p.patch_pressure = 8;
+  p.indentation.parts = {.sampling = 0.5, .grid = 0.25};
+  for (const auto& [name, value] : {std::pair{"friction", p.friction_off.value},
+                                    {"friction_on", p.friction_on.value},
+                                    {"modulation", p.modulation.value},
+                                    {"contact_area", p.area_fraction_off.value},
+                                    {"capillary_force", p.capillary_force.value},
+                                    {"adhesion", p.capillary_force.value},
+                                    {"electrostatic_force", p.electrostatic_force.value},
+                                    {"retention_force", p.retention_force.value},
+                                    {"bridges", p.bridges.value},
+                                    {"wetted_fraction", p.wetted_fraction.value},
+                                    {"mean_gap", p.mean_gap.value},
+                                    {"compliance", p.indentation.value / 8}})
+    EXPECT_DOUBLE_EQ(metric_at(name, p)->value, value) << name;
+  EXPECT_DOUBLE_EQ(metric_at("compliance", p)->parts.sampling, 0.5 / 8);
+  EXPECT_DOUBLE_EQ(metric_at("compliance", p)->parts.grid.value(), 0.25 / 8);
+  p.capillary_force.value = -1;  // it pushes off
+  EXPECT_EQ(metric_at("adhesion", p)->value, 0);
+  EXPECT_EQ(metric_at("capillary_force", p)->value, -1);
+  Optics look;
+  look.haze = 0.1, look.transmittance = 0.2, look.gloss = 0.3, look.colour_shift = 0.4;
+  for (const auto& [name, value] :
+       {std::pair{"haze", 0.1}, {"transmittance", 0.2}, {"gloss", 0.3}, {"colour_shift", 0.4}})
+    EXPECT_EQ(appearance_value(name, look), value) << name;
+  for (const auto& [name, better] : {std::pair{"modulation", Better::Higher},
+                                     {"friction", Better::Lower},
+                                     {"friction_on", Better::Higher},
+                                     {"adhesion", Better::Lower},
+                                     {"compliance", Better::Neither},
+                                     {"haze", Better::Lower},
+                                     {"transmittance", Better::Higher},
+                                     {"gloss", Better::Higher},
+                                     {"colour_shift", Better::Lower}})
+    EXPECT_EQ(find_metric(name)->better, better) << name;
+  std::set<std::string> driven;
+  for (const MetricInfo& info : metric_list())
+    if (info.needs_drive) driven.insert(info.name);
+  EXPECT_EQ(driven, (std::set<std::string>{"modulation", "friction_on", "electrostatic_force"}));
+}
+
 TEST(Metrics, WhatHumiditiesShareIsNoErrorOfTheirSpread) {
   const std::vector<double> base{1, 2, 4, 5};
   const auto scaled = [&](double factor) {

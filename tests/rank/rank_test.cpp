@@ -43,6 +43,8 @@ TEST(Rank, OrdersTheSamplesAsThePaperDoes) {
   }
   EXPECT_GT(c[0].p_best, 0.99);
   EXPECT_GT(c[0].ahead_of_next.low, 0);
+  EXPECT_EQ(r.states.front().skins, 3 * RankOptions{}.batch);
+  EXPECT_EQ(r.skins, r.states.front().skins);
 }
 
 // Skins beyond the first six happen to be of lower modulation: only the close pairs meet them.
@@ -214,6 +216,7 @@ TEST(Rank, OtherConditionsAreRefusedByTheirKeys) {
   EXPECT_EQ(condition_differences({{designs[0]}, {designs[1]}}, options).at(0).key,
             "accuracy.level");
   EXPECT_TRUE(condition_differences({{designs[0]}, {designs[1]}}, by("haze:low")).empty());
+  EXPECT_FALSE(condition_differences({designs}, options).empty());  // regions of one candidate
 }
 
 TEST(Rank, SaysWhatIsOpenOnceAndThatTheValuesShareTheirSkins) {

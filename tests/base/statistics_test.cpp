@@ -1,0 +1,80 @@
+// Means, ratios, jackknife and quantiles against numbers worked out by hand and printed in tables.
+#include "base/statistics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace papilla::tests {
+namespace {
+
+TEST(Statistics, AMeanHasTheErrorOfItsSamples) {
+  const Estimate e = mean_estimate(std::vector<double>{1, 2, 3, 4});
+  EXPECT_DOUBLE_EQ(e.value, 2.5);
+  EXPECT_DOUBLE_EQ(e.se, std::sqrt(5.0 / 3 / 4));  // variance 5/3, of four
+  EXPECT_EQ(mean_estimate(std::vector<double>{7}), (Estimate{7, 0}));
+  EXPECT_EQ(mean_estimate({}), (Estimate{0, 0}));
+}
+
+// Over a constant a ratio is a mean, and it has the mean's error.
+TEST(Statistics, ARatioToAConstantIsAMean) {
+  const std::vector<double> a{1, 2, 3, 4, 9}, b(5, 10.0), c(5, -10.0);
+  const Estimate mean = mean_estimate(a), ratio = ratio_estimate(a, b);
+  EXPECT_DOUBLE_EQ(ratio.value, mean.value / 10);
+  EXPECT_DOUBLE_EQ(ratio.se, mean.se / 10);
+  EXPECT_DOUBLE_EQ(ratio_estimate(a, c).value, -ratio.value);
+  EXPECT_DOUBLE_EQ(ratio_estimate(a, c).se, ratio.se);
+  const Estimate exact =
+      ratio_estimate(std::vector<double>{2, 6, 10}, std::vector<double>{1, 3, 5});
+  EXPECT_DOUBLE_EQ(exact.value, 2);  // numbers that scatter alike leave nothing open
+  EXPECT_DOUBLE_EQ(exact.se, 0);
+}
+
+// The jackknife of a mean gives the samples back.
+TEST(Statistics, TheJackknifeOfAMeanIsItsSamples) {
+  const std::vector<double> samples{1, 2, 4, 9};
+  std::vector<double> without;
+  for (double x : samples) without.push_back((16 - x) / 3);
+  const std::vector<double> back = jackknife_samples(4, without);
+  ASSERT_EQ(back.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(back[i], samples[i], 1e-14);
+  EXPECT_EQ(jackknife_samples(3, {}), std::vector<double>{3});
+}
+
+TEST(Statistics, QuantilesInterpolateBetweenSortedValues) {
+  const std::vector<double> values{4, 1, 3, 2};
+  for (const auto& [p, expected] : {std::pair{0.0, 1.0},
+                                    {0.1, 1.3},
+                                    {1.0 / 3, 2.0},
+                                    {0.5, 2.5},
+                                    {0.9, 3.7},
+                                    {1.0, 4.0},
+                                    {-1.0, 1.0},
+                                    {2.0, 4.0}})
+    EXPECT_NEAR(quantile(values, p), expected, 1e-14) << p;
+  EXPECT_EQ(quantile({5}, 0.3), 5);
+}
+
+TEST(Statistics, NormalQuantilesInvertTheDistribution) {
+  EXPECT_NEAR(normal_cdf(1.959963984540054), 0.975, 1e-15);
+  EXPECT_NEAR(normal_cdf(-1), 0.158655253931457, 1e-15);
+  for (double x : {-6.0, -1.0, 0.0, 0.3, 2.0, 5.0})
+    EXPECT_NEAR(normal_quantile(normal_cdf(x)), x, 1e-9) << x;
+}
+
+TEST(Statistics, StudentQuantilesMatchTables) {
+  for (const auto& [degrees, at_975, at_90, error] : {std::tuple{1, 12.7062, 3.07768, 1e-4},
+                                                      {2, 4.30265, 1.88562, 1e-5},
+                                                      {3, 3.18245, 1.63774, 4e-3},
+                                                      {5, 2.57058, 1.47588, 3e-4},
+                                                      {10, 2.22814, 1.37218, 2e-5},
+                                                      {30, 2.04227, 1.31042, 1e-5}}) {
+    EXPECT_NEAR(student_t_quantile(0.975, degrees), at_975, error) << degrees;
+    EXPECT_NEAR(student_t_quantile(0.9, degrees), at_90, error) << degrees;
+    EXPECT_NEAR(student_t_quantile(0.025, degrees), -at_975, error) << degrees;
+  }
+  EXPECT_TRUE(std::isinf(student_t_quantile(0.975, 0)));
+}
+
+}  // namespace
+}  // namespace papilla::tests

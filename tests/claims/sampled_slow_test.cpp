@@ -1,0 +1,63 @@
+// The claims about the M3 model on a tenth of the skins, beside the committed table of all claims.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "base/files.h"
+#include "claims/reproduce.h"
+#include "design/design.h"
+#include "tests/claims/csv_rows.h"
+
+namespace papilla::tests {
+namespace {
+
+// "M9: flat 15 to 35 % 0.302 ± 0.0072; ..." -> every number with its error.
+std::vector<std::pair<double, double>> with_errors(const std::string& text) {
+  std::vector<std::pair<double, double>> out;
+  const std::regex number("([-+]?[0-9][-+.e0-9]*) ± ([0-9][-+.e0-9]*)");
+  for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it)
+    out.emplace_back(std::stod((*it)[1]), std::stod((*it)[2]));
+  return out;
+}
+
+TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
+  std::map<std::string, std::vector<std::string>> table;
+  const std::string path = std::string(PAPILLA_SOURCE_DIR) + "/results/reproduction/claims.csv";
+  for (const auto& row : csv_rows(read_bytes(path))) table[row.at(0)] = row;
+  ReproduceOptions options;
+  options.ids = m3_claim_ids();
+  options.finger = read_finger(std::string(PAPILLA_DESIGNS_DIR) + "/fingers/reference.toml");
+  options.sampling.skins = 4;
+  const double more = std::sqrt(SkinSampling{}.skins / 4.0);  // scatter of the mean
+  std::size_t compared = 0;
+  for (const ClaimResult& r : reproduce(options)) {
+    const std::vector<std::string>& then = table.at(r.claim->id);
+    const auto compare = [&](const Judgement& now, std::size_t at) {
+      const auto few = with_errors(now.model + "; " + now.reason),
+                 all = with_errors(then.at(at + 3) + "; " + then.at(at + 4));
+      ASSERT_EQ(few.size(), all.size()) << r.claim->id << ": " << now.reason;
+      for (std::size_t k = 0; k < few.size(); ++k) {
+        const double rounding = 0.01 * std::abs(all[k].first);
+        EXPECT_NEAR(few[k].first, all[k].first, 6 * more * all[k].second + rounding)
+            << r.claim->id << ", number " << k << ": " << now.reason;
+        ++compared;
+      }
+      if (then.at(at + 1).empty()) return;
+      const double value = std::stod(then.at(at + 1)), se = then.at(at + 2).empty()
+                                                                ? 0.02 * std::abs(value)
+                                                                : std::stod(then.at(at + 2));
+      EXPECT_NEAR(now.value, value, 6 * more * se) << r.claim->id;
+    };
+    compare(r.papilla, 4);
+    if (r.claim->both_presets) compare(r.m3, 9);
+  }
+  EXPECT_GT(compared, 200u);
+}
+
+}  // namespace
+}  // namespace papilla::tests

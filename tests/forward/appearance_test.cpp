@@ -1,0 +1,94 @@
+// Which theory looks at a texture, and with which of its numbers.
+#include "forward/appearance.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "base/constants.h"
+
+namespace papilla::tests {
+namespace {
+
+constexpr double kIndex = 1.46;
+
+void expect_look(const Optics& a, const Optics& b) {
+  EXPECT_EQ(a.regime, b.regime);
+  EXPECT_DOUBLE_EQ(a.haze, b.haze);
+  EXPECT_DOUBLE_EQ(a.transmittance, b.transmittance);
+  EXPECT_DOUBLE_EQ(a.gloss, b.gloss);
+  EXPECT_DOUBLE_EQ(a.colour_shift, b.colour_shift);
+}
+
+// Finer than the wavelength: a layer of the open share and the depth, with the disorder of the
+// view.
+TEST(Appearance, OfAFineArrayIsThatOfItsLayer) {
+  const View view{
+      .angles = {0, 0.3}, .fill_index = 1, .displacement = 4e-9, .diameter_scatter = 0.03};
+  HoleArray holes;
+  holes.period = 200e-9, holes.diameter = 120e-9, holes.depth = 90e-9;
+  PillarArray pillars;
+  pillars.period = 200e-9, pillars.diameter = 120e-9, pillars.height = 90e-9;
+  Grating grooves;
+  grooves.period = 200e-9, grooves.width = 120e-9, grooves.depth = 90e-9;
+  for (const auto& [texture, features] : {std::pair{Texture{holes}, Features::Holes},
+                                          {Texture{pillars}, Features::Pillars},
+                                          {Texture{grooves}, Features::Lines}}) {
+    const Optics seen = appearance(texture, kIndex, view);
+    EXPECT_EQ(seen.regime, OpticsRegime::EffectiveMedium);
+    expect_look(seen,
+                effective_medium(facts(texture).open_share.value(), 90e-9, features, {kIndex, 1},
+                                 {120e-9, 4e-9, 0.03}, {visible_wavelengths(), view.angles}));
+  }
+}
+
+// Coarser than twice the longest wavelength: a screen of one period.
+TEST(Appearance, OfACoarseArrayIsThatOfItsHeights) {
+  HoleArray holes;
+  holes.period = 6e-6, holes.diameter = 3e-6, holes.depth = 150e-9, holes.wall_angle = kPi / 2;
+  const Texture texture{holes};
+  const View view{.angles = {0, 0.5}};
+  const Heightmap h = generate(texture, patch_grid(texture, 192, 12e-6));
+  const Optics whole =
+      phase_screen(h, PixelEdges::TwoLevels, {kIndex, 1}, {visible_wavelengths(), view.angles});
+  const Optics seen = appearance(texture, kIndex, view);
+  EXPECT_NEAR(seen.haze, whole.haze, 1e-3 * whole.haze);
+  EXPECT_NEAR(seen.transmittance, whole.transmittance, 1e-4);
+  EXPECT_EQ(seen.warning, "");
+}
+
+TEST(Appearance, BetweenBothItIsRefusedWithTheBand) {
+  HoleArray holes;
+  holes.diameter = 100e-9, holes.depth = 50e-9;
+  const auto refusal = [&](double period, const View& view = {}) {
+    holes.period = period;
+    return optics_refusal(Texture{holes}, 1.5, view);
+  };
+  EXPECT_EQ(refusal(600e-9),
+            "period 600 nm is neither below 267 nm (effective medium) nor above 1440 nm (phase "
+            "screen)");
+  EXPECT_EQ(refusal(266e-9), "");  // 400 nm in glass
+  EXPECT_NE(refusal(268e-9), "");
+  EXPECT_NE(refusal(1439e-9), "");
+  EXPECT_EQ(refusal(1441e-9), "");                           // twice 720 nm
+  EXPECT_NE(refusal(266e-9, {.angles = {0, kPi / 6}}), "");  // 400 nm / (1.5 + 0.5)
+  EXPECT_EQ(refusal(199e-9, {.angles = {0, kPi / 6}}), "");
+}
+
+TEST(Appearance, WarnsWhereTheScreenIsRough) {
+  const auto warning = [](double diameter, double depth) {
+    HoleArray holes;
+    holes.period = 2.5 * diameter, holes.diameter = diameter, holes.depth = depth;
+    return appearance(Texture{holes}, kIndex, {}).warning;
+  };
+  EXPECT_EQ(warning(2.1e-6, 0.5e-6), "");
+  EXPECT_NE(warning(1.9e-6, 0.5e-6).find("features of 1.9 um are few wavelengths"),
+            std::string::npos);
+  EXPECT_NE(warning(2.1e-6, 1.1e-6).find("deep against its width"), std::string::npos);
+  EXPECT_NE(appearance(Texture{RandomRough{.rms = 300e-9, .roll_off = 1e-6}}, kIndex, {})
+                .warning.find("too steep for a thin screen"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,178 @@
+// The report of a fit: made-up numbers, each another, in the unit that stands beside it.
+#include "report/fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/constants.h"
+#include "tests/report/same_json.h"
+
+namespace papilla::tests {
+namespace {
+
+struct Fitted {
+  Calibration c;
+  CalibrationResult r;
+
+  Fitted() {
+    c.title = "a fit";
+    c.parameters = {{"skin.rms", "um", {}}, {"water.scale", "", {}}};
+    FitParameter& rms = c.parameters[0].fit;
+    rms.start = 2e-6, rms.low = 1e-6, rms.high = 9e-6, rms.prior = 3e-6, rms.prior_sd = 5e-7;
+    FitParameter& scale = c.parameters[1].fit;
+    scale.start = 1, scale.low = 0.1, scale.high = 10, scale.prior = 1.5;
+    scale.prior_sd = std::log(2), scale.logarithmic = true;
+    c.sampling = {"draft", 12, 5, 0};
+    c.check = {"design", 20, 100, 0};
+    c.data.resize(1);
+    r.fit.converged = true;
+    r.fit.parameters = {{.name = "skin.rms",
+                         .value = 2.5e-6,
+                         .se = 1e-7,
+                         .low = 2.25e-6,
+                         .high = 2.75e-6,
+                         .high_open = true,
+                         .data_share = 0.25},
+                        {.name = "water.scale",
+                         .value = 1.25,
+                         .se = 0.2,
+                         .low = 0.8,
+                         .high = 1.75,
+                         .at_bound = true,
+                         .data_share = 0.6}};
+    r.fit.correlation = {1, -0.35, -0.35, 1};
+    r.fit.directions = {{4.5, {0.98, 0.1}}, {0.5, {-0.3, 0.95}}};
+    r.fit.residuals = {0.5, -1.25, 2};
+    r.fit.chi2 = 7.5, r.fit.prior_chi2 = 0.75, r.fit.degrees_of_freedom = 3;
+    r.fit.variance_factor = 2.25;
+    r.rows = {{"M1", "friction", 0.1, 0.3, 0.02, 0.003, 0.4, 0.25},
+              {"M2", "ratio", 1.5, 1.5, 0.25, 0.05, 1.75, 1.625},
+              {"M3", "more", 2, kInfinity, 0.5, 0.01, 1, 3}};
+    r.chi2_before = 30;
+    r.evaluations = 17;
+    r.gap_before = 1.5e-6, r.gap_after = 1.25e-6;
+    r.friction_coefficient = {0.21, 0.32, 0.43, 0.54};
+  }
+};
+
+TEST(FitReport, ForPeopleHasEachNumberInTheUnitBesideIt) {
+  const Fitted f;
+  const std::string page = calibration_markdown(f.c, f.r);
+  for (const char* line :
+       {"# Fit: a fit\n",
+        "3 residuals, 2 parameters; χ² of the data 30 before, 7.5 after, of the priors 0.75; 3 "
+        "degrees of freedom; errors times 1.5; 17 evaluations of the model; converged.\n",
+        "Skins 5 to 16 at level draft; frictions corrected to level design on the same skins.\n",
+        "| skin.rms | 2 um | 2.5 um | 2.25 um to 2.75 um (bound) | 3 um ± 0.5 um | 25 |\n",
+        "| water.scale | 1 | 1.25 | 0.8 to 1.75 | 1.5 times or by 2 | 60; at its bound, interval "
+        "by "
+        "profile |\n",
+        "| skin.rms | 1.00 | -0.35 |\n| water.scale | -0.35 | 1.00 |\n",
+        "| 4.5 | +0.98 skin.rms |  |\n",
+        "| 0.5 | -0.30 skin.rms +0.95 water.scale | not identified |\n",
+        "| M1 | friction | 0.1 to 0.3 | 0.02 | 0.003 | 0.4 | 0.25 | +0.50 |\n",
+        "| M2 | ratio | 1.5 | 0.25 | 0.05 | 1.75 | 1.625 | -1.25 |\n",
+        "| M3 | more | above 2 | 0.5 | 0.01 | 1 | 3 | +2.00 |\n",
+        "(published 1.06 µm): 1.50 µm before, 1.25 µm after",
+        "0.21, 0.32, 0.43, 0.54 at 15, 35, 55, 75 % RH"})
+    EXPECT_NE(page.find(line), std::string::npos) << line << page;
+}
+
+TEST(FitReport, AMisfitNamesItsWorstRow) {
+  Fitted f;
+  EXPECT_EQ(calibration_warning(f.r), "");
+  f.r.fit.residuals = {1, -40, 2};
+  f.r.fit.chi2 = 1605;
+  const std::string warning = calibration_warning(f.r);
+  EXPECT_NE(warning.find("χ² a degree of freedom is 53"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("the worst is M2 (ratio), -40.0 standard deviations"), std::string::npos)
+      << warning;
+}
+
+TEST(FitReport, ForProgramsIsInSi) {
+  const Fitted f;
+  const auto json = nlohmann::json::parse(calibration_json(f.c, f.r));
+  expect_same(json["parameters"][0],
+              {{"path", "skin.rms"},
+               {"unit", "um"},
+               {"per_unit", 1e-6},
+               {"lowest", 1e-6},
+               {"highest", 9e-6},
+               {"prior", {{"value", 3e-6}, {"sd", 5e-7}}},
+               {"start", 2e-6},
+               {"value", 2.5e-6},
+               {"se", 1e-7},
+               {"low", 2.25e-6},
+               {"high", 2.75e-6},
+               {"low_open", false},
+               {"high_open", true},
+               {"at_bound", false},
+               {"data_share", 0.25}},
+              "parameters");
+  expect_same(json["parameters"][1]["prior"], {{"value", 1.5}, {"factor", 2}}, "prior");
+  expect_same(json["residuals"][2],
+              {{"source", "M3"},
+               {"what", "more"},
+               {"low", 2},
+               {"high", nullptr},
+               {"sd", 0.5},
+               {"sampling_sd", 0.01},
+               {"before", 1},
+               {"after", 3},
+               {"residual", 2}},
+              "residuals");
+  for (const auto& [key, value] : {std::pair{"chi2_before", 30.0},
+                                   {"chi2", 7.5},
+                                   {"prior_chi2", 0.75},
+                                   {"degrees_of_freedom", 3.0},
+                                   {"variance_factor", 2.25},
+                                   {"evaluations", 17.0},
+                                   {"check_skins", 20.0}})
+    EXPECT_EQ(json.at(key), value) << key;
+  expect_same(json["gap_by_capacitance"], {{"before", 1.5e-6}, {"after", 1.25e-6}}, "gap");
+  expect_same(json["directions"][1], {{"singular_value", 0.5}, {"weights", {-0.3, 0.95}}}, "");
+}
+
+TEST(FitReport, ClaimsAreCountedBeforeAndAfter) {
+  Fitted f;
+  f.c.fit = {"M1"};
+  const std::vector<Claim> claims{{"M1", "paper", "it rises", "", false, {}},
+                                  {"M2", "paper", "it falls", "", false, {}},
+                                  {"M3", "paper", "it stays", "", false, {}}};
+  JudgedFit judged;
+  for (const Claim& claim : claims) {
+    ClaimResult before, after;
+    before.claim = after.claim = &claim;
+    before.papilla = {Verdict::Differs, 1, 0.1, "old", ""};
+    after.papilla = {claim.id == "M3" ? Verdict::Differs : Verdict::Agrees, 2, 0.2, "new", ""};
+    judged.before.push_back(before);
+    judged.after.push_back(after);
+  }
+  const std::string page = calibration_markdown(f.c, f.r, judged);
+  EXPECT_NE(page.find("## Fitted claims\n\nOn 20 other skins at level design: 0 of 1 hold before, "
+                      "1 after."),
+            std::string::npos)
+      << page;
+  EXPECT_NE(
+      page.find("## Held-out claims\n\nOn 20 other skins at level design: 0 of 2 hold before, "
+                "1 after."),
+      std::string::npos);
+  EXPECT_NE(page.find("| M3 | it stays | differs: old | differs: new |"), std::string::npos);
+  const auto rows = nlohmann::json::parse(calibration_json(f.c, f.r, judged))["claims"];
+  expect_same(rows[1],
+              {{"id", "M2"},
+               {"statement", "it falls"},
+               {"fitted", false},
+               {"held_before", false},
+               {"holds", true},
+               {"before", "old"},
+               {"after", "new"},
+               {"model", 2},
+               {"se", 0.2}},
+              "claims");
+}
+
+}  // namespace
+}  // namespace papilla::tests

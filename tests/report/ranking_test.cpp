@@ -1,0 +1,140 @@
+// A ranking as people and programs read it: made-up numbers, each another.
+#include "report/ranking.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/text.h"
+#include "tests/report/same_json.h"
+
+namespace papilla::tests {
+namespace {
+
+struct Ranked {
+  RankOptions options;
+  Ranking ranking;
+  std::vector<std::string> names{"hard", "fine"};
+
+  Ranked() {
+    options.criteria = parse_criteria("friction:low,variation(friction),compliance:high");
+    options.parameters = true;
+    RankedCandidate first, second;
+    first.index = 1, first.rank = 1, first.tied_with_next = true;
+    first.score = {0.3, 0.2, 0.4}, first.behind_best = {0, 0, 0};
+    first.ahead_of_next = {0.12, 0.04, 0.2, 0.05};
+    first.p_ahead = 0.9, first.p_best = 0.8, first.skins = 24;
+    first.metrics = {{0.1, 0.09, 0.11}, {0.25, 0.2, 0.3}, {3e-12, 2e-12, 4e-12}};
+    second.index = 0, second.rank = 2;
+    second.score = {0.1, 0, 0.2}, second.behind_best = {-0.12, -0.2, -0.04};
+    second.p_best = 0.2, second.skins = 18;
+    second.metrics = {{0.2, 0.18, 0.22}, {-0.5, -0.6, -0.4}, {1.5e-12, 1e-12, 2e-12}};
+    ranking.states = {{FingerState::Natural, {first, second}, 42, 48}};
+    ranking.skins = 42, ranking.seconds = 6.54;
+    ranking.directions = 3, ranking.step_skins = 8, ranking.step_grid = 64;
+  }
+};
+
+// Cells of a line of a table: two blanks and more between them.
+std::vector<std::string> cells(std::string line) {
+  line.erase(0, line.find_first_not_of(' '));
+  const std::regex gap("  +");
+  return {std::sregex_token_iterator(line.begin(), line.end(), gap, -1),
+          std::sregex_token_iterator()};
+}
+
+TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
+  const Ranked r;
+  const std::string table = ranking_table(r.names, r.options, r.ranking);
+  const std::vector<std::string> lines = split(table, '\n');
+  using Cells = std::vector<std::string>;
+  EXPECT_EQ(lines[0], "finger natural");
+  EXPECT_EQ(cells(lines[1]),
+            (Cells{"rank", "design", "mean(friction):low mN", "variation(friction):low",
+                   "mean(compliance):high um/MPa", "ahead of the next, %", "finger's part",
+                   "p(ahead)", "p(best)", "skins"}));
+  EXPECT_EQ(cells(lines[2]), (Cells{"1=", "fine", "100 ± 10", "0.25 ± 0.05", "3 ± 1",
+                                    "12.0 [4.0, 20.0]", "±9.8", "0.900", "0.800", "24"}));
+  EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "-0.5 ± 0.1", "1.5 ± 0.5", "-", "-",
+                                    "-", "0.200", "18"}));
+  EXPECT_EQ(lines[4],
+            "42 patches of skin tried (more where two designs are close; 48 with as many for every "
+            "design)");
+  EXPECT_NE(table.find("3 directions of its covariance, the same for all designs; 8 skins, 64 "
+                       "pixels"),
+            std::string::npos);
+  EXPECT_NE(table.find("the luck of these few (18 at least)"), std::string::npos);
+  EXPECT_NE(table.find("42 patches of skin in all, 6.5 s"), std::string::npos);
+}
+
+TEST(RankingReport, ForProgramsIsInSi) {
+  const Ranked r;
+  const auto json = nlohmann::json::parse(ranking_json(r.names, r.options, r.ranking));
+  expect_same(
+      json["candidates"][0],
+      {{"name", "fine"},
+       {"index", 1},
+       {"rank", 1},
+       {"tied_with_next", true},
+       {"score", {{"value", 0.3}, {"low", 0.2}, {"high", 0.4}, {"parameters", nullptr}}},
+       {"behind_best", {{"value", 0}, {"low", 0}, {"high", 0}, {"parameters", nullptr}}},
+       {"ahead_of_next", {{"value", 0.12}, {"low", 0.04}, {"high", 0.2}, {"parameters", 0.05}}},
+       {"p_ahead", 0.9},
+       {"p_best", 0.8},
+       {"metrics",
+        {{"mean(friction)",
+          {{"value", 0.1}, {"low", 0.09}, {"high", 0.11}, {"parameters", nullptr}}},
+         {"variation(friction)",
+          {{"value", 0.25}, {"low", 0.2}, {"high", 0.3}, {"parameters", nullptr}}},
+         {"mean(compliance)",
+          {{"value", 3e-12}, {"low", 2e-12}, {"high", 4e-12}, {"parameters", nullptr}}}}},
+       {"skins", 24}},
+      "first");
+  EXPECT_EQ(json["states"][0]["state"], "natural");
+  EXPECT_EQ(json["states"][0]["skins"], 42);
+  EXPECT_EQ(json["states"][0]["equal_skins"], 48);
+  EXPECT_EQ(json["states"][0]["candidates"], json["candidates"]);
+  expect_same(json["parameters"], {{"directions", 3}, {"skins", 8}, {"grid", 64}}, "parameters");
+  expect_same(json["criteria"],
+              {{{"metric", "mean(friction)"}, {"better", "low"}, {"unit", "N"}},
+               {{"metric", "variation(friction)"}, {"better", "low"}, {"unit", ""}},
+               {{"metric", "mean(compliance)"}, {"better", "high"}, {"unit", "m/Pa"}}},
+              "criteria");
+  EXPECT_EQ(json["skins"], 42);
+  EXPECT_EQ(json["seconds"], 6.54);
+}
+
+// The rim is the best of each criterion, halfway is half as good, whichever direction is better.
+TEST(RankingReport, TheRadarHasTheBestOnItsRim) {
+  const Ranked r;
+  const std::string svg = radar_svg(r.names, r.options, r.ranking.states[0]);
+  std::vector<std::vector<std::pair<double, double>>> polygons;
+  const std::regex shape("points=\"([^\"]*)\""), pair("([-0-9.]+),([-0-9.]+)");
+  for (std::sregex_iterator it(svg.begin(), svg.end(), shape), end; it != end; ++it) {
+    const std::string points = (*it)[1];
+    polygons.emplace_back();
+    for (std::sregex_iterator p(points.begin(), points.end(), pair), none; p != none; ++p)
+      polygons.back().emplace_back(std::stod((*p)[1]) - 260, std::stod((*p)[2]) - 260);
+  }
+  ASSERT_EQ(polygons.size(), 6u);  // four rings, two candidates
+  const double share[6][3] = {{0.25, 0.25, 0.25}, {0.5, 0.5, 0.5}, {0.75, 0.75, 0.75},
+                              {1, 1, 1},          {1, 1, 1},       {0.5, 0.5, 0.5}};
+  for (std::size_t k = 0; k < 6; ++k) {
+    ASSERT_EQ(polygons[k].size(), 3u);
+    for (std::size_t a = 0; a < 3; ++a) {
+      // The first axis points up; 120 degrees between them.
+      const double angle = 2 * kPi / 3 * static_cast<double>(a);
+      EXPECT_NEAR(polygons[k][a].first, 180 * share[k][a] * std::sin(angle), 0.06) << k << a;
+      EXPECT_NEAR(polygons[k][a].second, -180 * share[k][a] * std::cos(angle), 0.06) << k << a;
+    }
+  }
+  EXPECT_NE(svg.find(">1. fine<"), std::string::npos);
+  EXPECT_NE(svg.find(">mean(friction):low<"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace papilla::tests
