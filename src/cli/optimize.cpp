@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "optim/mpi.h"
 #include "optim/search.h"
+#include "report/remarks.h"
 #include "report/results.h"
 #include "report/summary.h"
 
@@ -29,11 +30,13 @@ struct OptimizeOptions {
 };
 
 std::atomic<bool> interrupted{false};
+std::atomic<int> interrupted_by{0};
 
 // The first Ctrl-C ends after the running evaluation; a second one ends at once (the journal is
 // safe either way).
-extern "C" void on_interrupt(int) {
-  if (interrupted.exchange(true)) ::_exit(130);
+extern "C" void on_interrupt(int signal) {
+  interrupted_by = signal;
+  if (interrupted.exchange(true)) ::_exit(kSignalled + signal);
 }
 
 // A bar on a terminal, one line per tenth of the way otherwise.
@@ -84,7 +87,9 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
            {"method", r.method},
            {"why", r.why},
            {"evaluations", r.evaluations},
+           {"asked", r.asked},
            {"failures", r.failures},
+           {"remarks", run_remarks(study, problem, r)},
            {"interrupted", r.interrupted},
            {"feasible", r.any_feasible}};
   const auto score = [&](const Score& s) {
@@ -194,11 +199,15 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     context.note(fmt::format("{} of {}/journal could not be read any more and was done again",
                              counted(result.lost, "record"), run.folder));
   }
+  if (!result.interrupted) {
+    for (const std::string& remark : run_remarks(study, StudyProblem(study), result))
+      context.note("warning: " + remark);
+  }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result.interrupted) {
     context.note("interrupted; continue with: " + resume_command(options, run.folder));
-    return kWorkFailed;
+    return kSignalled + interrupted_by;
   }
   context.note(fmt::format("{} in {:.0f} s; results in {}/ ({})",
                            counted(result.evaluations, "evaluation"), seconds, run.folder,

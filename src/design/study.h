@@ -83,6 +83,7 @@ struct Search {
   int drafts = 0;       // besides; of the Gaussian process alone
   double time = 0;      // wall clock [s]; 0: no limit
   int jobs = 0;         // 0: all processors
+  double rounding = 10e-9;  // grid of the fab for the build sheet [m]; 0: none
 
   bool operator==(const Search&) const = default;
 };

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "design/study.h"
 #include "geometry/texture.h"
 #include "report/markup.h"
@@ -115,11 +116,12 @@ std::string optimize_page(const fs::path& root, const fs::path& design) {
 
 std::string rank_page(const fs::path& root) {
   Json ranking = parsed(root / "ranking.json"), candidates = Json::array();
-  std::vector<std::string> names;
+  std::vector<std::string> names, by;
   try {
     names.resize(ranking.at("candidates").size());
     for (const Json& c : ranking["candidates"])
       names.at(c.at("index").get<std::size_t>()) = c.at("name").get<std::string>();
+    for (const Json& c : ranking.at("criteria")) by.push_back(c.at("metric").get<std::string>());
   } catch (const std::exception& e) {
     throw InputError(fmt::format("{}: ranking.json is damaged: {}", root.string(), e.what()));
   }
@@ -132,7 +134,9 @@ std::string rank_page(const fs::path& root) {
     candidates.push_back(
         {{"name", names[i]}, {"toml", read_bytes(file)}, {"heights", picture_json(h.grid, h.z)}});
   }
-  return page_text(root, "", {kRankHtml, kRankScript, ""},
+  const std::string title =
+      fmt::format("{} designs by {}", names.size(), join_names(by, ", "));
+  return page_text(root, title, {kRankHtml, kRankScript, ""},
                    {{"ranking", std::move(ranking)}, {"candidates", std::move(candidates)}});
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "report/remarks.h"
 
 namespace papilla::report {
 namespace {
@@ -25,7 +26,7 @@ std::string best_text(const ResultFiles& f, const FinalDesign& best) {
                      f.pick.empty() || f.pick == "worst"
                          ? "the highest worst modulation over fingers and humidity"
                          : "picked by \"" + f.pick + "\"",
-                     r.stability.stable(r.best)
+                     !r.stability.judged(r.best) || r.stability.stable(r.best)
                          ? ""
                          : "; under other choices of the model its neighbours beat it, see below");
 }
@@ -155,6 +156,8 @@ std::string run_summary(const ResultFiles& f) {
     return out + fmt::format("Interrupted after {}; continue with --resume.\n",
                              counted(r.evaluations, "evaluation"));
   }
+  for (const std::string& remark : run_remarks(f.study, f.problem, r))
+    out.append("**").append(remark).append("**\n\n");
   out += fmt::format("Search: {} ({}). {}", r.method, r.why, counted(r.evaluations, "evaluation"));
   if (r.refused) out += fmt::format(", {} refused by the fabrication limits", r.refused);
   if (r.failures) out += fmt::format(", **{} failed** (history.csv says why)", r.failures);

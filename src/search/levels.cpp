@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "estimate/parameters.h"
 #include "forward/plan.h"
 
 namespace papilla::search {
@@ -14,6 +15,10 @@ constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came befo
 // Designs that the level between judges: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
+// Steps of the parameters: skins over all fingers, pixels.
+constexpr int kStepSkins = 12, kStepGrid = 64;
+// Where time is short: skins are given up first, down to these, then pixels, then more skins.
+constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;
 
 // For one design on its own: one finger, one choice of the model, a small step.
 Fidelity check_fidelity(const Study& study) {
@@ -61,15 +66,13 @@ Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
   return f;
 }
 
-Plan plan_of(const StudyProblem& problem, Stage stage) {
+// Of the study's own design: the same for all, so that they keep common skins.
+Plan plan_at(const StudyProblem& problem, const Fidelity& fidelity) {
   const Design& d = problem.study().design;
-  return make_plan({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture,
-                   stage_fidelity(problem, stage));
+  return make_plan({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture, fidelity);
 }
 
-}  // namespace
-
-Fidelity stage_fidelity(const StudyProblem& problem, Stage stage) {
+Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {
   const Study& study = problem.study();
   switch (stage) {
     case Stage::Search:
@@ -79,6 +82,7 @@ Fidelity stage_fidelity(const StudyProblem& problem, Stage stage) {
     case Stage::Narrow:
       return narrow_fidelity(study);
     case Stage::Confirm:
+    case Stage::Rounding:
     case Stage::Steps:
       return confirm_fidelity(study, problem.nominal_tasks());
     case Stage::Stability:
@@ -88,14 +92,37 @@ Fidelity stage_fidelity(const StudyProblem& problem, Stage stage) {
   return check_fidelity(study);
 }
 
+}  // namespace
+
+Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_seconds) {
+  Fidelity f = full_fidelity(problem, stage);
+  const auto too_dear = [&] {
+    return most_seconds > 0 && plan_at(problem, f).seconds() > most_seconds;
+  };
+  while (f.skins > kFewSkins && too_dear()) --f.skins;
+  while (f.grid > kFewPixels && too_dear()) f.grid /= 2;
+  while (f.skins > kFewestSkins && too_dear()) --f.skins;
+  return f;
+}
+
+Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
+  confirmed.skins = std::max(2, kStepSkins / static_cast<int>(problem.nominal_tasks()));
+  confirmed.grid = kStepGrid;
+  return confirmed;
+}
+
 std::size_t narrowings(const SearchProblem& p) {
   if (p.objectives > 2 || p.space.single_point()) return 0;
   return static_cast<std::size_t>(
       std::min(kMostNarrowings, p.evaluations / kEvaluationsPerNarrowing));
 }
 
-double relative_cost(const StudyProblem& problem, Stage stage) {
-  return plan_of(problem, stage).seconds() / plan_of(problem, Stage::Search).seconds();
+double task_price(const StudyProblem& problem, Stage stage, double most_seconds) {
+  const Fidelity f = stage_fidelity(problem, stage, most_seconds);
+  if (stage != Stage::Steps) return plan_at(problem, f).seconds();
+  const std::size_t steps = finger_steps(problem.tasks().front().finger).size();
+  const Fidelity few = step_fidelity(steps_fidelity(problem, f));
+  return 2.0 * static_cast<double>(steps) * plan_at(problem, few).seconds();
 }
 
 std::string search_plan(const Study& study) {
@@ -108,7 +135,9 @@ std::string search_plan(const Study& study) {
                   search.evaluations, study.search.seed);
   out += "tasks of an evaluation (finger, scenario):";
   for (const StudyTask& task : problem.tasks()) out += " [" + task.name + "]";
-  const auto level = [&](Stage stage) { return plan_of(problem, stage).text(); };
+  const auto level = [&](Stage stage) {
+    return plan_at(problem, stage_fidelity(problem, stage)).text();
+  };
   out += "\n\nsearch level:\n" + level(Stage::Search);
   if (narrowings(search) > 1) {
     out += fmt::format("\n{} of them and of their neighbours again, other skins:\n",

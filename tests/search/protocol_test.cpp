@@ -40,7 +40,7 @@ TEST(Protocol, AnAnswerComesBackInEveryBit) {
 }
 
 TEST(Protocol, ARequestAndAJudgementComeBack) {
-  const TaskRequest request{Stage::Steps, 7, true, {0.1, 1.0 / 3}};
+  const TaskRequest request{Stage::Steps, 7, true, {0.1, 1.0 / 3}, 2.5};
   EXPECT_EQ(decode_request(encode(request)), request);
   const Judgement judgement{{false, "min_wall: below 0.4 um", {}, {-0.5, 2}, {}}, 0};
   const auto back = decode_judgement(encode(judgement));

@@ -169,6 +169,12 @@ const intervals = {
     });
   },
 };
+// Ends of an axis that hold the bars of points, `half` either way.
+function around(points, at, half) {
+  const ends = points.filter((p) => isFinite(p[at])).flatMap((p) => [p[at] - (p[half] || 0), p[at] + (p[half] || 0)]);
+  const low = Math.min(...ends), high = Math.max(...ends), gap = 0.04 * (high - low || Math.abs(high) || 1);
+  return ends.length ? { suggestedMin: low - gap, suggestedMax: high + gap } : {};
+}
 // Room for the intervals of all datasets, and for the values `more`, on a value axis.
 function room(sets, more = []) {
   const all = sets.flatMap((s) => (s.interval || []).filter(Boolean).flat().concat(s.data.map((d) => typeof d === 'number' ? d : d.x))).concat(more).filter(isFinite);
