@@ -39,6 +39,21 @@ extern "C" void on_interrupt(int signal) {
   if (interrupted.exchange(true)) ::_exit(kSignalled + signal);
 }
 
+// A bar and a text in the columns of a terminal line.
+std::string terminal_line(double share, const std::string& text) {
+  constexpr int kBar = 12;
+  constexpr std::size_t kColumns = 79;  // the last one would wrap
+  const int full = static_cast<int>(share * kBar);
+  std::string line;
+  for (int i = 0; i < kBar; ++i) line += i < full ? "█" : "░";
+  line += ' ';
+  for (const std::string& word : split(text, ' ')) {
+    if (text_width(line) + text_width(word) + 1 > kColumns) return line + "…";
+    line += word.empty() ? "" : word + ' ';
+  }
+  return line;
+}
+
 // A bar on a terminal, one line per tenth of the way otherwise.
 class ProgressPrinter {
  public:
@@ -49,14 +64,11 @@ class ProgressPrinter {
     if (context_.quiet) return;
     const double share = p.total > 0 ? static_cast<double>(p.done) / p.total : 0;
     std::string text = fmt::format("{:<7} {:>3}/{}", p.stage, p.done, p.total);
-    if (!p.best.empty()) text += "  " + p.best;
+    // Before what may be cut off.
     if (p.seconds_left >= 0) text += fmt::format("  {:.0f} s left", p.seconds_left);
+    if (!p.best.empty()) text += "  " + p.best;
     if (terminal_) {
-      constexpr int kWidth = 24;
-      const int full = static_cast<int>(share * kWidth);
-      std::string bar;
-      for (int i = 0; i < kWidth; ++i) bar += i < full ? "█" : "░";
-      std::cerr << "\r\033[K" << bar << ' ' << text << std::flush;
+      std::cerr << "\r\033[K" << terminal_line(share, text) << std::flush;
       open_line_ = true;
       return;
     }
@@ -100,7 +112,7 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
                                          {"se", s.errors[k]},
                                          {"parameters", parameters ? Json(*parameters) : Json()}};
     }
-    j["worst_modulation"] = s.worst;
+    j["worst_modulation"] = problem.driven() ? Json(s.worst) : Json(nullptr);
     return j;
   };
   out["designs"] = Json::array();
@@ -156,6 +168,8 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     [[maybe_unused]] const auto* err = std::freopen("/dev/null", "w", stderr);
   }
   Study study = read_study(options.study, options.overrides);
+  for (const std::string& path : study.fallen_away)
+    context.note("warning: " + path + " of the base is left out: this kind of texture has no such number");
   if (options.jobs > 0) study.search.jobs = options.jobs;
   if (options.evaluations > 0) study.search.evaluations = options.evaluations;
   if (options.seed >= 0) study.search.seed = options.seed;

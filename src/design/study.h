@@ -98,6 +98,8 @@ struct Study {
   std::vector<Scenario> scenarios;
   std::vector<Scatter> scatter;
   Search search;
+  // Of a base's space and scatter, what goes with its kind of texture: "design_space.texture.rms".
+  std::vector<std::string> fallen_away;
 
   std::string file;     // as given
   std::string name;     // of the results folder: the file's stem, or its folder's for study.toml

@@ -38,7 +38,7 @@ std::string without_scripts(const fs::path& folder) {
   }
   if (fs::exists(folder / "ranking.txt"))
     text = "<pre>" + markup_text(read_bytes(folder / "ranking.txt")) + "</pre>\n";
-  return "<noscript><style>main > section, nav, .choice, #lead { display: none; }</style>\n" +
+  return "<noscript><style>main > section, nav, .choice, #lead, #facts { display: none; }</style>\n" +
          text + "</noscript>\n";
 }
 
@@ -83,7 +83,7 @@ Json parsed(const fs::path& file) {
 
 // A finished `papilla optimize`; `design` is the folder of the one the page is about.
 std::string optimize_page(const fs::path& root, const fs::path& design) {
-  for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md",
+  for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md", "run.json",
                            "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
     if (!fs::exists(root / name)) {
       throw InputError(fmt::format("{} has no {}: not the folder of a finished `papilla optimize`",
@@ -111,6 +111,7 @@ std::string optimize_page(const fs::path& root, const fs::path& design) {
   data["history"] = read_bytes(root / "history.csv");
   data["plan"] = read_bytes(root / "plan.txt");
   data["summary"] = read_bytes(root / "summary.md");
+  data["run"] = parsed(root / "run.json");
   return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data));
 }
 

@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "metrics/shown.h"
 #include "report/json.h"
 #include "report/page.h"
 #include "report/svg.h"
@@ -28,38 +29,23 @@ const std::string& state_name(FingerState state) {
   return finger_state_names()[static_cast<std::size_t>(state)];
 }
 
-// A criterion as a share of its mean over humidity has no unit.
-bool is_relative(const Criterion& c) {
-  return c.expression.summary == Summary::Variation || c.expression.summary == Summary::Range;
-}
-
-// How people read a criterion: its value in SI times `scale` is in `unit`.
-struct ShownUnit {
-  double scale;
-  std::string unit;
-};
-
-ShownUnit shown_unit(const Criterion& c) {
-  const std::string& unit = c.info().unit;
-  if (is_relative(c) || unit.empty()) return {1, ""};
-  if (unit == "N") return {1e3, "mN"};
-  if (unit == "m") return {1e9, "nm"};
-  if (unit == "m/Pa") return {1e12, "um/MPa"};
-  return {1, unit};
-}
-
 // A share of draws as it is known: never certain.
 std::string probability(double p) {
   return p > 0.999 ? ">0.999" : p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p);
 }
 
 std::string criterion_head(const Criterion& c) {
-  const std::string unit = shown_unit(c).unit;
+  const std::string unit = shown_unit(c.expression).unit;
   return c.text() + (unit.empty() ? "" : " " + unit);
 }
 
+// In SI, as in JSON and CSV.
+std::string si_unit(const Criterion& c) {
+  return shown_unit(c.expression).unit.empty() ? "" : c.info().unit;
+}
+
 std::string metric_cell(const Criterion& c, const Interval& i) {
-  const double scale = shown_unit(c).scale;
+  const double scale = shown_unit(c.expression).scale;
   return fmt::format("{:.4g} ± {:.2g}", i.value * scale, (i.high - i.low) / 2 * scale);
 }
 
@@ -276,7 +262,7 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
     by.push_back(c.text());
     criteria.push_back({{"metric", metric_text(c.expression)},
                         {"better", c.high ? "high" : "low"},
-                        {"unit", is_relative(c) ? "" : c.info().unit}});
+                        {"unit", si_unit(c)}});
   }
   Json conditions = Json::array();
   for (const ConditionDifference& d : ranking.conditions) {
@@ -307,7 +293,7 @@ std::string ranking_csv(const std::vector<std::string>& names, const RankOptions
                         const Ranking& ranking) {
   std::string out = "finger,rank,design,title";
   for (const Criterion& c : options.criteria) {
-    const std::string unit = is_relative(c) ? "" : c.info().unit;
+    const std::string unit = si_unit(c);
     out += fmt::format(",{0}{1},{0} low,{0} high,{0} p(best)", metric_text(c.expression),
                        unit.empty() ? "" : " [" + unit + "]");
   }

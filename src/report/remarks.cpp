@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
+#include <cstdlib>
 
 #include "base/check.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "forward/plan.h"
+#include "metrics/shown.h"
 
 namespace papilla::report {
 namespace {
@@ -57,9 +58,7 @@ std::string clock_remark(const Study& study, const OptimiseResult& r) {
     unsure.push_back(std::move(words.unsure));
   }
   return fmt::format("Stopped by the clock ({}) after {}. Unsure: {}.",
-                     study.search.time < 120
-                         ? format_number(study.search.time) + " s"
-                         : format_number(study.search.time / 60) + " min",
+                     duration(study.search.time),
                      join_names(did, "; "), join_names(unsure, "; "));
 }
 
@@ -93,8 +92,12 @@ std::string bound_remark(const Study& study, const StudyProblem& problem, const 
                                 at.upper ? "upper" : "lower", variable_text(v, at.bound));
   if (at.last) return out + ", the last value that the model takes.";
   std::vector<std::string> gains;
-  for (std::size_t k = 0; k < at.change.size(); ++k)
-    gains.push_back(fmt::format("{} {:+.2g}", problem.objectives()[k].name, at.change[k]));
+  for (std::size_t k = 0; k < at.change.size(); ++k) {
+    const StudyObjective& o = problem.objectives()[k];
+    const std::string unit = shown_unit(o.expression).unit;
+    gains.push_back(o.name + " " + shown_change(o.expression, at.change[k]) +
+                    (unit.empty() ? "" : " " + unit));
+  }
   if (gains.empty()) return out + ": widen it to see whether more helps.";
   const double unit = find_unit(v.unit)->to_si;
   const double step = std::strtod(fmt::format("{:.2g}", at.step / unit).c_str(), nullptr);

@@ -48,7 +48,7 @@ void pick(Run& run) {
     PickCandidate c;
     for (const StudyObjective& o : run.problem.objectives()) c.names.push_back(o.name);
     c.objectives = run.problem.outcome(f.confirmed).objectives;
-    c.worst = f.confirmed.worst;
+    if (run.problem.driven()) c.worst = f.confirmed.worst;
     front.push_back(std::move(c));
   }
   run.replay.picked();

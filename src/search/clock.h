@@ -27,9 +27,11 @@ inline constexpr std::size_t kParts = 9;
 // Expected seconds of each part in full.
 using PartSeconds = std::array<double, kParts>;
 
-// Until when a part that begins at `begin` may work [s]: its share of what is then left, or all that
-// the later parts do not want, whichever is later.
-double part_deadline(double limit, double begin, Part part, const PartSeconds& wanted);
+// Of the limit: what a part can count on, at most as long as it wants.
+double part_share(Part part);
+// Until when a part may work [s since the run began]: for each later one its share, or as long as it
+// wants where that is less, is kept.
+double part_deadline(double limit, Part part, const PartSeconds& wanted);
 
 class RunClock {
  public:
@@ -37,7 +39,7 @@ class RunClock {
 
   double seconds() const;  // since the run began
   bool limited() const { return limit_ > 0; }
-  void enter(Part part);
+  void enter(Part part) { part_ = part; }
   // Seconds that the present part may still take; infinite without a limit.
   double left(const PartSeconds& wanted) const;
 
@@ -45,7 +47,6 @@ class RunClock {
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double limit_ = 0;
   Part part_ = Part::Search;
-  double entered_ = 0;
 };
 
 }  // namespace papilla::search

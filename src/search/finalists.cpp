@@ -10,8 +10,6 @@
 namespace papilla::search {
 namespace {
 
-// Fewer than these are no level between: finalists then come from the search.
-constexpr std::size_t kFewNarrowed = 4;
 // So many designs are confirmed in the confirmation's time, however short; the price of each is cut
 // down to this share of what it is in full.
 constexpr double kFewConfirmed = 3, kLeastConfirmation = 0.02;

@@ -59,7 +59,7 @@ std::vector<AtBound> variables_at_bound(const StudyProblem& problem, const Point
       continue;
     // Measures of a texture that is not there lie nowhere.
     const std::string path = path_in(known, variable.path);
-    if (path.empty() || (variable.path.starts_with("texture.") && !decides_relief(variable.path) &&
+    if (path.empty() || (variable.path.starts_with("texture.") &&
                          !facts(part_at(design.texture, path)).relief.present))
       continue;
     AtBound at{k, upper, upper ? variable.high : variable.low, is_last(design, variable, upper),

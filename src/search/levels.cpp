@@ -6,6 +6,7 @@
 
 #include "estimate/parameters.h"
 #include "forward/plan.h"
+#include "search/stability.h"
 
 namespace papilla::search {
 namespace {
@@ -17,6 +18,9 @@ constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
 // Steps of the parameters: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
+// Peak of a worker, measured on patches of 128 to 1024 pixels a side: heights, gap, pressure, tractions,
+// field and their transforms.
+constexpr double kBytesOfProgram = 60e6, kBytesPerPixel = 400;
 // Where time is short: skins are given up first, down to these, then pixels, then more skins.
 constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;
 
@@ -123,6 +127,31 @@ double task_price(const StudyProblem& problem, Stage stage, double most_seconds)
   const std::size_t steps = finger_steps(problem.tasks().front().finger).size();
   const Fidelity few = step_fidelity(steps_fidelity(problem, f));
   return 2.0 * static_cast<double>(steps) * plan_at(problem, few).seconds();
+}
+
+StudyCost study_cost(const Study& study) {
+  const StudyProblem problem(study);
+  const SearchProblem search = search_problem(problem);
+  StudyCost out;
+  out.evaluations = search.evaluations;
+  out.tasks = static_cast<int>(problem.tasks().size());
+  out.narrowed = narrowings(search);
+  out.finalists = kFinalists + 1;
+  const auto price = [&](std::size_t tasks, Stage stage) {
+    return static_cast<double>(tasks) * task_price(problem, stage);
+  };
+  const std::size_t tasks = problem.tasks().size(), variables = search.space.size();
+  out.seconds = price(static_cast<std::size_t>(search.evaluations) * tasks, Stage::Search) +
+                price(out.narrowed * tasks, Stage::Narrow) +
+                // Finalists, the surface without texture twice, the rounded design.
+                price((out.finalists + 3) * tasks, Stage::Confirm) +
+                price(kFinalists * stability_variants(problem).size(), Stage::Stability) +
+                price((1 + 2 * variables) * tasks, Stage::Sensitivity);
+  if (problem.parameters_unknown().empty())
+    out.seconds += price(2 * problem.nominal_tasks(), Stage::Steps);
+  const Grid grid = plan_at(problem, stage_fidelity(problem, Stage::Confirm)).grid;
+  out.bytes = kBytesOfProgram + kBytesPerPixel * static_cast<double>(grid.size());
+  return out;
 }
 
 std::string search_plan(const Study& study) {

@@ -10,6 +10,8 @@
 namespace papilla::search {
 
 inline constexpr std::size_t kFinalists = 8;
+// Fewer than these are no level between: finalists then come from the search.
+inline constexpr std::size_t kFewNarrowed = 4;
 
 // most_seconds: of a task, as plans price it; fewer skins, then fewer pixels where it costs more; 0:
 // anything.
@@ -23,6 +25,15 @@ std::size_t narrowings(const SearchProblem& search);
 
 // Processor time of one task at a stage, as plans price it [s].
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds = 0);
+
+// What a search takes, as plans price it: all of it on one core of a usual machine.
+struct StudyCost {
+  int evaluations = 0, tasks = 0;  // of an evaluation
+  std::size_t narrowed = 0, finalists = 0;
+  double seconds = 0;
+  double bytes = 0;  // the largest patch of a worker, solved
+};
+StudyCost study_cost(const Study& study);
 
 // What will run, for plan.txt and people.
 std::string search_plan(const Study& study);

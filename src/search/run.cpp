@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "geometry/io/files.h"
+#include "metrics/shown.h"
 #include "optim/pareto.h"
 #include "search/levels.h"
 #include "search/pick.h"
@@ -25,18 +26,19 @@ constexpr double kSecondsOfFiles = 1;  // tables, pictures and the page
 constexpr double kPagePatches = 2, kUsualSkins = 16;
 
 // A rule that no front could meet is refused before the search.
-void check_pick_rule(const std::string& rule, const std::vector<StudyObjective>& objectives) {
+void check_pick_rule(const std::string& rule, const StudyProblem& problem) {
   if (rule.find_first_not_of("0123456789") == std::string::npos) return;
   PickCandidate any;
-  for (const StudyObjective& o : objectives) any.names.push_back(o.name);
-  any.objectives.assign(objectives.size(), 0.0);
+  for (const StudyObjective& o : problem.objectives()) any.names.push_back(o.name);
+  any.objectives.assign(any.names.size(), 0.0);
+  if (problem.driven()) any.worst = 0;
   pick_design(rule, {any});
 }
 
 // What can be refused before anything is written.
 std::string checked_folder(const OptimiseOptions& options, const StudyProblem& problem) {
   require_images();
-  check_pick_rule(options.pick, problem.objectives());
+  check_pick_rule(options.pick, problem);
   if (options.resume && !std::filesystem::exists(options.folder + "/journal"))
     throw InputError(options.folder + ": no run to continue here (no journal)");
   return options.folder;
@@ -71,8 +73,9 @@ std::string best_text(const std::vector<StudyObjective>& objectives,
     for (std::size_t i : front) value = std::min(value, history[i].outcome.objectives[k]);
     // The ends of a front are different designs.
     const char* before = !out.empty() ? ", " : front.size() > 1 ? "best of each: " : "best ";
-    out += fmt::format("{}{} {:.3f}", before, objectives[k].name,
-                       objectives[k].maximise ? -value : value);
+    out += fmt::format("{}{} {}", before, objectives[k].name,
+                       shown_value(objectives[k].expression,
+                                   objectives[k].maximise ? -value : value));
   }
   return out;
 }
@@ -173,7 +176,10 @@ PartSeconds Run::wanted() const {
                                 : static_cast<std::size_t>(std::count_if(
                                       result.finalists.begin(), result.finalists.end(),
                                       [](const FinalDesign& f) { return !f.folder.empty(); }));
-  set(Part::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
+  // A level between of too few designs is none: its time is the search's.
+  const bool enough = !clock.limited() || seconds_of_designs(kFewNarrowed, Stage::Narrow) <=
+                      part_share(Part::Narrow) * study.search.time;
+  if (enough) set(Part::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
   set(Part::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
   set(Part::Stability,
       seconds_of(front * stability_variants(problem).size(), Stage::Stability));

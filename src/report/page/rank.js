@@ -1,6 +1,6 @@
 // The page of `papilla rank`.
 const ranking = data.ranking;
-const tints = colours.concat(['#2aa9a9', '#b0467d']);
+const tints = colours.concat(dark ? ['#4fc4c4', '#e081b4'] : ['#1b8585', '#b0467d']);
 // A candidate keeps its colour in every chart and state.
 const tint = (c) => tints[c.index % tints.length];
 const percent = (v) => round(100 * v, 3);
