@@ -110,8 +110,8 @@ double student_t_cdf(double t, double degrees_of_freedom) {
   const double a = 0.5 * n, b = 0.5;
   if (t == 0 || !(x < 1)) return 0.5;
   // Both tails; the fraction converges on one side of the mean of the distribution.
-  const double tails = x < (a + 1) / (a + b + 2) ? incomplete_beta(a, b, x)
-                                                 : 1 - incomplete_beta(b, a, 1 - x);
+  const double tails =
+      x < (a + 1) / (a + b + 2) ? incomplete_beta(a, b, x) : 1 - incomplete_beta(b, a, 1 - x);
   return t > 0 ? 1 - 0.5 * tails : 0.5 * tails;
 }
 

@@ -36,8 +36,7 @@ std::string fish_script(Command program) {
   for (const Command command : program.commands()) {
     out += fmt::format("complete -c papilla -n __fish_use_subcommand -f -a {} -d {}\n",
                        command.name(), fish_word(command.meaning()));
-    const std::string seen =
-        fmt::format(" -n '__fish_seen_subcommand_from {}'", command.name());
+    const std::string seen = fmt::format(" -n '__fish_seen_subcommand_from {}'", command.name());
     options(seen, command);
     for (const Command piece : command.commands()) {
       out += fmt::format("complete -c papilla{} -f -a {} -d {}\n", seen, piece.name(),

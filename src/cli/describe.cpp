@@ -69,8 +69,9 @@ void add_describe(Command app, Context& context) {
                    "The JSON Schema of design and study files, for editors");
   command.add_option("--manuals", options->manuals, "Write the manual pages into this folder")
       .type_name("DIR");
-  command.on_chosen(
-      [&context, options, app] { context.action = [options, app] { return describe(*options, app); }; });
+  command.on_chosen([&context, options, app] {
+    context.action = [options, app] { return describe(*options, app); };
+  });
 }
 
 }  // namespace papilla::cli

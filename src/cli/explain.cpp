@@ -29,7 +29,8 @@ std::string study_text(const Study& study) {
     out += fmt::format("search.time ends it after {}: what follows the search shrinks first\n",
                        duration(study.search.time));
   for (const std::string& path : study.fallen_away)
-    out += "warning: " + path + " of the base is left out: this kind of texture has no such number\n";
+    out +=
+        "warning: " + path + " of the base is left out: this kind of texture has no such number\n";
   return out;
 }
 

@@ -36,8 +36,9 @@ std::string synopsis(const std::string& called, const Command& command) {
   std::string out = bold(called);
   for (const Command::OptionRow& row : command.options()) {
     if (!row.names.empty()) continue;
-    out += fmt::format(row.required ? " {}{}" : " [{}]{}", italic(row.value),
-                       row.repeatable ? "..." : "");
+    const std::string value = italic(row.value);
+    out += row.required ? fmt::format(" {}", value) : fmt::format(" [{}]", value);
+    if (row.repeatable) out += "...";
   }
   return out + (command.commands().empty() ? " [\\fIOPTIONS\\fR]\n" : " \\fIPIECE\\fR\n");
 }
@@ -56,9 +57,11 @@ std::string option_list(const Command& command) {
 }
 
 std::string ends() {
-  return ".SH EXIT STATUS\n0: success; 1: the work failed; 2: wrong input; 128 + N: ended by signal "
+  return ".SH EXIT STATUS\n0: success; 1: the work failed; 2: wrong input; 128 + N: ended by "
+         "signal "
          "N, 130 for Ctrl\\-C.\n"
-         ".SH ENVIRONMENT\n.TP\n.B PAPILLA_DESIGNS\nThe folder where bases are looked for.\n.TP\n.B "
+         ".SH ENVIRONMENT\n.TP\n.B PAPILLA_DESIGNS\nThe folder where bases are looked "
+         "for.\n.TP\n.B "
          "NO_COLOR\nNo colours on a terminal.\n";
 }
 
@@ -88,7 +91,8 @@ std::vector<ManualPage> manual_pages(Command program, const std::string& version
                         man_text(command.meaning()));
     out.push_back(command_page(command, version));
   }
-  out.insert(out.begin(), ManualPage{"papilla", text + ".SH OPTIONS\n" + option_list(program) + ends()});
+  out.insert(out.begin(),
+             ManualPage{"papilla", text + ".SH OPTIONS\n" + option_list(program) + ends()});
   return out;
 }
 

@@ -169,7 +169,8 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   }
   Study study = read_study(options.study, options.overrides);
   for (const std::string& path : study.fallen_away)
-    context.note("warning: " + path + " of the base is left out: this kind of texture has no such number");
+    context.note("warning: " + path +
+                 " of the base is left out: this kind of texture has no such number");
   if (options.jobs > 0) study.search.jobs = options.jobs;
   if (options.evaluations > 0) study.search.evaluations = options.evaluations;
   if (options.seed >= 0) study.search.seed = options.seed;

@@ -92,7 +92,9 @@ std::vector<Command::OptionRow> Command::options() const {
       for (const string& name : option->get_snames()) row.names.push_back("-" + name);
       for (const string& name : option->get_lnames()) row.names.push_back("--" + name);
       const bool flag = option->get_items_expected_max() == 0;
-      row.value = row.names.empty() ? option->get_single_name() : flag ? "" : option->get_type_name();
+      row.value = row.names.empty() ? option->get_single_name()
+                  : flag            ? ""
+                                    : option->get_type_name();
       row.meaning = option->get_description();
       row.required = option->get_required();
       row.repeatable = option->get_items_expected_max() > 1;

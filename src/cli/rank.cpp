@@ -92,9 +92,9 @@ int run(const Context& context, const RankCommand& command) {
   options.threads = command.jobs;
   if (!command.weights.empty()) options.weights = parse_weights(command.weights);
   const std::string unknown = parameters_unknown(candidates);
-  const bool asked = command.parameters ||
-                     std::any_of(designs.begin(), designs.end(),
-                                 [](const Design& d) { return d.accuracy.parameters; });
+  const bool asked =
+      command.parameters || std::any_of(designs.begin(), designs.end(),
+                                        [](const Design& d) { return d.accuracy.parameters; });
   options.parameters = asked || (unknown.empty() && !command.no_parameters);
   if (!options.parameters && !unknown.empty())
     context.note("what the fit of the finger leaves open is in no probability: " + unknown);
@@ -129,9 +129,10 @@ void add_rank(Command app, Context& context) {
                   "or friction:low,adhesion:low without a drive")
       .type_name("METRIC[:low|:high],...");
   command
-      .add_option("--weights", options->weights,
-                  "What each criterion counts in one score, e.g. 2,1; without them several criteria "
-                  "have no single order: who is beaten in all, and who is best in each")
+      .add_option(
+          "--weights", options->weights,
+          "What each criterion counts in one score, e.g. 2,1; without them several criteria "
+          "have no single order: who is beaten in all, and who is best in each")
       .type_name("NUMBER,...");
   command.add_option("--state", options->states, "Finger states: clean,natural,wet")
       .type_name("STATE,...");

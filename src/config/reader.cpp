@@ -145,9 +145,10 @@ struct BaseFiles {
     }
     const fs::path file = canonical(found);
     if (!allowed(file)) {
-      refuse(
-          fmt::format("\"{}\" lies outside this file's folder and the designs folder; name a folder "
-                      "that holds both in PAPILLA_DESIGNS", name.text));
+      refuse(fmt::format(
+          "\"{}\" lies outside this file's folder and the designs folder; name a folder "
+          "that holds both in PAPILLA_DESIGNS",
+          name.text));
     }
     if (std::find(open.begin(), open.end(), file) != open.end()) {
       refuse(fmt::format("\"{}\" is based on itself", name.text));
@@ -389,8 +390,9 @@ struct Document::State final : public FieldVisitor {
     const std::string unit = spec.unit;
     // 0.05 may be a share of one or of a hundred: both are shown, and what each means.
     if (unit == "%" && value > 0 && value <= 1)
-      return fmt::format("needs a unit: \"{} %\" if {} is a share of 1, \"{} %\" if it is in percent",
-                         format_number(100 * value), format_number(value), format_number(value));
+      return fmt::format(
+          "needs a unit: \"{} %\" if {} is a share of 1, \"{} %\" if it is in percent",
+          format_number(100 * value), format_number(value), format_number(value));
     return fmt::format("needs a unit, e.g. \"{} {}\"", format_number(value), unit);
   }
 

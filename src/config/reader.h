@@ -51,8 +51,10 @@ class Document {
   FieldVisitor& open(const std::string& path);
   void close();
 
-  // Asked for the key that an unknown one in a section may stand for, before near names are; "": none.
-  void set_hints(std::function<std::string(const std::string& key, const std::string& section)> hint);
+  // Asked for the key that an unknown one in a section may stand for, before near names are; "":
+  // none.
+  void set_hints(
+      std::function<std::string(const std::string& key, const std::string& section)> hint);
 
   // Reports unread keys, then throws InputError if anything was wrong.
   void finish();

@@ -200,8 +200,8 @@ class TargetRun {
       const int more = here ? skins - patches_.skins() : skins;
       if (more > 0 && !affordable(grid, estimator, more, !here)) return;
       const auto n = static_cast<double>(patch(grid).size());
-      const double cost = std::max(more, 0) *
-                          (estimator == Estimator::Area ? 3 : 1) * n * std::log2(n);
+      const double cost =
+          std::max(more, 0) * (estimator == Estimator::Area ? 3 : 1) * n * std::log2(n);
       if (cost < best.cost) best = {grid, estimator, skins, cost};
     });
     return best;

@@ -9,7 +9,8 @@ namespace papilla::metrics {
 ShownUnit shown_unit(const MetricExpression& e) {
   const std::string& unit = find_metric(e.metric)->unit;
   // As a share of its mean over humidity it has no unit.
-  if (e.summary == Summary::Variation || e.summary == Summary::Range || unit.empty()) return {1, ""};
+  if (e.summary == Summary::Variation || e.summary == Summary::Range || unit.empty())
+    return {1, ""};
   if (unit == "N") return {1e3, "mN"};
   if (unit == "m") return {1e9, "nm"};
   if (unit == "m/Pa") return {1e12, "um/MPa"};

@@ -35,9 +35,10 @@ struct RankOptions {
   int batch = 6;       // skins per step
   int max_skins = 96;  // per candidate and state
   int threads = 0;
-  // Also what the finger's fitted numbers leave open, Eq. ranking.5; parameters_unknown() is then "".
+  // Also what the finger's fitted numbers leave open, Eq. ranking.5; parameters_unknown() is then
+  // "".
   bool parameters = false;
-  bool any_conditions = false;  // candidates under other conditions are compared all the same
+  bool any_conditions = false;     // candidates under other conditions are compared all the same
   std::vector<std::string> names;  // of the candidates in messages; empty: their titles
   std::function<void(const std::string&)> note;  // progress for people; may be empty
 

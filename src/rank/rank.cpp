@@ -244,8 +244,8 @@ class StateRanker {
     for (std::size_t place = 0; place < order.size(); ++place) {
       const std::size_t i = order[place];
       RankedCandidate r = std::move(all[i]);
-      r.rank = place > 0 && out.back().tied_with_next ? out.back().rank
-                                                      : static_cast<int>(place) + 1;
+      r.rank =
+          place > 0 && out.back().tied_with_next ? out.back().rank : static_cast<int>(place) + 1;
       r.p_best = p[i];
       r.score = interval_of(scores.skins[i], scores.steps.empty() ? StepSamples{} : scores.steps[i])
                     .moved(unmet(scores.skins, i));

@@ -23,17 +23,17 @@ enum class Relation {
 struct RankedCandidate {
   std::size_t index = 0;  // into the designs as given
   int rank = 1;           // ties share the better rank; without a score 1 + how many are better
-  std::vector<Interval> metrics;         // one per criterion, in its unit
-  std::vector<double> p_best_by;         // one per criterion: probability of the best value of all
-  std::vector<Relation> over;            // of each design as given; Open for itself
+  std::vector<Interval> metrics;  // one per criterion, in its unit
+  std::vector<double> p_best_by;  // one per criterion: probability of the best value of all
+  std::vector<Relation> over;     // of each design as given; Open for itself
   int skins = 0;
   // Where there is one score:
   bool tied_with_next = false;
-  Interval score;                 // Eq. ranking.1; higher is better
-  Interval behind_best;           // score difference to the first, <= 0 up to noise; 0 for itself
-  Interval ahead_of_next;         // score difference to the next one; 0 for the last
-  double p_best = 0;              // probability of the highest score, Eq. ranking.3
-  double p_ahead = 0;             // probability of being ahead of the next one, Eq. ranking.4
+  Interval score;          // Eq. ranking.1; higher is better
+  Interval behind_best;    // score difference to the first, <= 0 up to noise; 0 for itself
+  Interval ahead_of_next;  // score difference to the next one; 0 for the last
+  double p_best = 0;       // probability of the highest score, Eq. ranking.3
+  double p_ahead = 0;      // probability of being ahead of the next one, Eq. ranking.4
 };
 
 // Two candidates whose order is open in a criterion, or in the score, although they met all skins.
@@ -46,13 +46,13 @@ struct StateRanking {
   FingerState state = FingerState::Clean;
   std::vector<RankedCandidate> candidates;  // best first
   std::vector<OpenPair> open;  // neighbours; empty: the order is known, in every criterion
-  int skins = 0;                            // solved
-  int equal_skins = 0;  // what everyone as often as the neediest candidate would have taken
+  int skins = 0;               // solved
+  int equal_skins = 0;         // what everyone as often as the neediest candidate would have taken
 };
 
 struct Ranking {
   std::vector<StateRanking> states;
-  std::vector<std::string> titles;               // of the designs as given
+  std::vector<std::string> titles;              // of the designs as given
   std::vector<ConditionDifference> conditions;  // empty unless any_conditions
   int skins = 0;                                // solved in all
   double seconds = 0;

@@ -39,7 +39,8 @@ struct Scores {
   // Probability that a is ahead of b: Student's error of the paired difference. Eq. ranking.4
   double probability_ahead(std::size_t a, std::size_t b) const;
   // Probability of each to have the highest score: scores of Student's distribution with the
-  // covariance of the common skins. Eq. ranking.3; 4000 draws of stream `index`, an error of 0.8 points at most.
+  // covariance of the common skins. Eq. ranking.3; 4000 draws of stream `index`, an error of 0.8
+  // points at most.
   std::vector<double> probabilities(std::uint64_t index) const;
 
  private:

@@ -80,6 +80,35 @@ std::string summary_section(const Calibration& c, const CalibrationResult& r) {
   return out;
 }
 
+// "shear strength known to 10 %": what the data say of each parameter, in words.
+std::vector<std::string> verdicts(const Calibration& c, const CalibrationResult& r) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < c.parameters.size(); ++i) {
+    const ParameterFit& f = r.fit.parameters[i];
+    const std::string& path = c.parameters[i].path;
+    if (f.data_share < kIdentified) {
+      out.push_back(
+          fmt::format("{} is not identified: {:.0f} % of what is known of it is the prior's", path,
+                      100 * (1 - f.data_share)));
+    } else if (f.at_bound || f.low_open || f.high_open) {
+      out.push_back(
+          fmt::format("{} is known to one side only: its interval ends at a bound", path));
+    } else {
+      out.push_back(
+          fmt::format("{} is known to {:.2g} %", path, 50 * (f.high - f.low) / std::abs(f.value)));
+    }
+  }
+  for (const FitDirection& d : r.fit.directions) {
+    std::vector<std::string> together;
+    for (std::size_t i = 0; i < d.weights.size(); ++i) {
+      if (std::abs(d.weights[i]) >= kInDirection) together.push_back(c.parameters[i].path);
+    }
+    if (d.singular_value < 1 && together.size() > 1)
+      out.push_back(join_names(together, " and ") + " are not told apart by these data");
+  }
+  return out;
+}
+
 std::string parameters_section(const Calibration& c, const CalibrationResult& r) {
   std::string out = fmt::format("\nVerdict: {}.\n", join_names(verdicts(c, r), "; "));
   out +=
@@ -99,33 +128,6 @@ std::string parameters_section(const Calibration& c, const CalibrationResult& r)
                        f.low_open ? " (bound)" : "", shown(p, f.high),
                        f.high_open ? " (bound)" : "", prior, 100 * f.data_share,
                        f.at_bound ? "; at its bound, interval by profile" : "");
-  }
-  return out;
-}
-
-// "shear strength known to 10 %": what the data say of each parameter, in words.
-std::vector<std::string> verdicts(const Calibration& c, const CalibrationResult& r) {
-  std::vector<std::string> out;
-  for (std::size_t i = 0; i < c.parameters.size(); ++i) {
-    const ParameterFit& f = r.fit.parameters[i];
-    const std::string& path = c.parameters[i].path;
-    if (f.data_share < kIdentified) {
-      out.push_back(fmt::format("{} is not identified: {:.0f} % of what is known of it is the prior's",
-                                path, 100 * (1 - f.data_share)));
-    } else if (f.at_bound || f.low_open || f.high_open) {
-      out.push_back(fmt::format("{} is known to one side only: its interval ends at a bound", path));
-    } else {
-      out.push_back(fmt::format("{} is known to {:.2g} %", path,
-                                50 * (f.high - f.low) / std::abs(f.value)));
-    }
-  }
-  for (const FitDirection& d : r.fit.directions) {
-    std::vector<std::string> together;
-    for (std::size_t i = 0; i < d.weights.size(); ++i) {
-      if (std::abs(d.weights[i]) >= kInDirection) together.push_back(c.parameters[i].path);
-    }
-    if (d.singular_value < 1 && together.size() > 1)
-      out.push_back(join_names(together, " and ") + " are not told apart by these data");
   }
   return out;
 }

@@ -49,11 +49,13 @@ const Glyph* glyph(char c) {
 class Sheet {
  public:
   Sheet(int width, int height)
-      : width_(width), rgb_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, 255) {}
+      : width_(width),
+        rgb_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, 255) {}
 
   void put(int x, int y, const std::array<std::uint8_t, 3>& c) {
     if (x >= 0 && x < width_)
-      std::copy(c.begin(), c.end(), rgb_.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * width_ + x));
+      std::copy(c.begin(), c.end(),
+                rgb_.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * width_ + x));
   }
   // `dots`: pixels of a dot.
   void write(int left, int top, int dots, const std::string& text) {
@@ -82,7 +84,8 @@ class Sheet {
 std::string in_legend(double value) { return fmt::format("{:.3g}", value + 0.0); }
 
 std::string length_text(double metres) {
-  return metres >= 1e-6 ? fmt::format("{:.3g} um", 1e6 * metres) : fmt::format("{:.3g} nm", 1e9 * metres);
+  return metres >= 1e-6 ? fmt::format("{:.3g} um", 1e6 * metres)
+                        : fmt::format("{:.3g} nm", 1e9 * metres);
 }
 
 }  // namespace
@@ -101,8 +104,9 @@ FieldPicture picture_with_legend(const Grid& grid, const std::vector<double>& va
   Sheet sheet(out.width, out.height);
   for (int y = 0; y < top; ++y) {
     for (int x = 0; x < out.width; ++x) {
-      const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) +
-                                  static_cast<std::size_t>(x));
+      const std::size_t at =
+          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) +
+               static_cast<std::size_t>(x));
       sheet.put(x, y, {field[at], field[at + 1], field[at + 2]});
     }
   }

@@ -17,8 +17,8 @@ struct FieldPicture {
 
 // What a field is shown as.
 struct FieldScale {
-  double scale = 1;  // shown = value * scale
-  std::string unit;  // of what is shown: of digits, e . + - % and the letters of nm, um, kPa, MPa
+  double scale = 1;   // shown = value * scale
+  std::string unit;   // of what is shown: of digits, e . + - % and the letters of nm, um, kPa, MPa
   bool root = false;  // colours by the square root above the least value: fields that are mostly 0
 };
 

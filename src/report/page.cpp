@@ -38,7 +38,8 @@ std::string without_scripts(const fs::path& folder) {
   }
   if (fs::exists(folder / "ranking.txt"))
     text = "<pre>" + markup_text(read_bytes(folder / "ranking.txt")) + "</pre>\n";
-  return "<noscript><style>main > section, nav, .choice, #lead, #facts { display: none; }</style>\n" +
+  return "<noscript><style>main > section, nav, .choice, #lead, #facts { display: none; "
+         "}</style>\n" +
          text + "</noscript>\n";
 }
 
@@ -135,8 +136,7 @@ std::string rank_page(const fs::path& root) {
     candidates.push_back(
         {{"name", names[i]}, {"toml", read_bytes(file)}, {"heights", picture_json(h.grid, h.z)}});
   }
-  const std::string title =
-      fmt::format("{} designs by {}", names.size(), join_names(by, ", "));
+  const std::string title = fmt::format("{} designs by {}", names.size(), join_names(by, ", "));
   return page_text(root, title, {kRankHtml, kRankScript, ""},
                    {{"ranking", std::move(ranking)}, {"candidates", std::move(candidates)}});
 }

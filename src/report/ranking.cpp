@@ -129,8 +129,9 @@ std::string end_text(const std::vector<std::string>& names, const RankOptions& o
     if (!options.scored()) both += fmt::format(" in {}", options.criteria[pair.criterion].text());
     open.push_back(std::move(both));
   }
-  return fmt::format("the budget of {} skins a design (--max-skins) is spent with the order open: {}",
-                     options.max_skins, join_names(open, "; "));
+  return fmt::format(
+      "the budget of {} skins a design (--max-skins) is spent with the order open: {}",
+      options.max_skins, join_names(open, "; "));
 }
 
 std::string state_table(const std::vector<std::string>& names, const RankOptions& options,

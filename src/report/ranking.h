@@ -21,8 +21,8 @@ std::string ranking_csv(const std::vector<std::string>& names, const RankOptions
 std::string radar_svg(const std::vector<std::string>& names, const RankOptions& options,
                       const StateRanking& state);
 
-// Table, CSV, JSON, radars of more than two criteria, the designs, and the page, in a folder that it
-// makes. Throws InputError.
+// Table, CSV, JSON, radars of more than two criteria, the designs, and the page, in a folder that
+// it makes. Throws InputError.
 void write_ranking(const std::string& folder, const std::vector<Regions>& candidates,
                    const std::vector<std::string>& names, const RankOptions& options,
                    const Ranking& ranking);

@@ -207,10 +207,9 @@ std::vector<Part> parts_of(const std::string& section) {
   for (const char* name : kStudySections) known.emplace_back(name);
   const std::string meant = key_for_word(section, "");
   const std::string near = meant.empty() ? nearest_name(section, known) : meant;
-  throw InputError(
-      near.empty()
-          ? fmt::format("no section `{}`; known: {}", section, join_names(known))
-          : fmt::format("no section `{}`, did you mean `{}`?", section, near));
+  throw InputError(near.empty()
+                       ? fmt::format("no section `{}`; known: {}", section, join_names(known))
+                       : fmt::format("no section `{}`, did you mean `{}`?", section, near));
 }
 
 // The parts of a section with the rows of one key, or of a section's section, alone.

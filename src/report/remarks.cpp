@@ -19,7 +19,9 @@ struct CutWords {
 };
 
 CutWords words_of(const ClockCut& cut, const Study& study) {
-  const auto of = [&](const char* what) { return fmt::format("{} of {} {}", cut.done, cut.of, what); };
+  const auto of = [&](const char* what) {
+    return fmt::format("{} of {} {}", cut.done, cut.of, what);
+  };
   switch (cut.part) {
     case Part::Search:
       return {of("evaluations"),
@@ -57,8 +59,7 @@ std::string clock_remark(const Study& study, const OptimiseResult& r) {
     did.push_back(std::move(words.did));
     unsure.push_back(std::move(words.unsure));
   }
-  return fmt::format("Stopped by the clock ({}) after {}. Unsure: {}.",
-                     duration(study.search.time),
+  return fmt::format("Stopped by the clock ({}) after {}. Unsure: {}.", duration(study.search.time),
                      join_names(did, "; "), join_names(unsure, "; "));
 }
 
@@ -71,7 +72,8 @@ std::string few_remark(const OptimiseResult& r) {
       return made + ": the search had nothing more to try.";
     case SearchEnd::Refusals:
       return made +
-             ": the limits of the shape refused ten times as many designs; loosen them or narrow the "
+             ": the limits of the shape refused ten times as many designs; loosen them or narrow "
+             "the "
              "design space.";
     case SearchEnd::Budget:
     case SearchEnd::Clock:  // said by the remark on the clock

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/text.h"
 #include "base/constants.h"
 #include "metrics/metrics.h"
 #include "report/svg.h"

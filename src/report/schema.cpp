@@ -49,7 +49,8 @@ Json quantity(const std::string& unit, double low, double high) {
 }
 
 Json object(Json properties) {
-  return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
+  return {
+      {"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
 Json text_list() {
@@ -205,8 +206,9 @@ Json by_path(Json value) {
 std::string metric_pattern() {
   std::vector<std::string> names;
   for (const MetricInfo& m : metric_list()) names.push_back(escaped(m.name));
-  return fmt::format("((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|{}\\(.*\\))\\s*\\)?",
-                     join_names(names, "|"), kVoltageFor);
+  return fmt::format(
+      "((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|{}\\(.*\\))\\s*\\)?",
+      join_names(names, "|"), kVoltageFor);
 }
 
 Json constraints_schema() {
@@ -216,7 +218,8 @@ Json constraints_schema() {
     known[kind.name]["description"] = kind.doc;
   }
   Json out = object(std::move(known));
-  out["patternProperties"] = {{fmt::format("^{}$", metric_pattern()), {{"type", {"string", "number"}}}}};
+  out["patternProperties"] = {
+      {fmt::format("^{}$", metric_pattern()), {{"type", {"string", "number"}}}}};
   return out;
 }
 
@@ -230,12 +233,11 @@ Json study_sections() {
   const Json interval{{"type", "array"}, {"items", value}, {"minItems", 2}, {"maxItems", 2}};
   const Json metric{{"type", "string"}, {"pattern", fmt::format("^\\s*{}\\s*$", metric_pattern())}};
   const Json metrics{{"anyOf", {metric, {{"type", "array"}, {"items", metric}, {"minItems", 1}}}}};
-  Json scenario = object({{"name", {{"type", "string"}}},
-                          {"weight", quantity("", 0, 1e6)},
-                          {"set", by_path(value)}});
+  Json scenario = object(
+      {{"name", {{"type", "string"}}}, {"weight", quantity("", 0, 1e6)}, {"set", by_path(value)}});
   scenario["required"] = {"name"};
-  Json fingers = object({{"fingers",
-                          {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}});
+  Json fingers =
+      object({{"fingers", {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}});
   fingers["required"] = {"fingers"};
   return {{"design_space", by_path({{"anyOf", {interval, choice}}})},
           {"objective", object({{"maximise", metrics},
@@ -254,7 +256,8 @@ Json study_sections() {
 std::string json_schema() {
   Json properties = properties_of(Design{});
   properties["base"] = {{"type", "string"}, {"description", "another file below this one"}};
-  for (auto& [key, schema] : study_sections().items()) properties[key] = schema;
+  const Json sections = study_sections();
+  for (const auto& [key, schema] : sections.items()) properties[key] = schema;
   return Json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "Papilla designs and studies"},
               {"type", "object"},

@@ -45,8 +45,8 @@ std::string finish_text(const ResultFiles& f) {
   for (std::size_t k = 0; k < own.size(); ++k) {
     const Variable& v = f.study.variables[k];
     if (v.path.starts_with("texture.") || own[k] == best[k]) continue;
-    out.push_back(fmt::format("{} {} to {}", v.path, variable_text(v, own[k]),
-                              variable_text(v, best[k])));
+    out.push_back(
+        fmt::format("{} {} to {}", v.path, variable_text(v, own[k]), variable_text(v, best[k])));
   }
   return join_names(out);
 }
@@ -57,8 +57,7 @@ std::string in_unit(double si, const std::string& unit, int digits) {
   return format_number(rounded) + (unit.empty() ? "" : " " + unit);
 }
 
-std::string tolerance_text(const SheetRow& row, const std::optional<double>& drift,
-                           bool at_least) {
+std::string tolerance_text(const SheetRow& row, const std::optional<double>& drift, bool at_least) {
   if (!row.free) return "fixed";
   if (!drift) return "not known";
   if (!(*drift > 0)) return "at its bound";
@@ -173,8 +172,9 @@ std::vector<SheetRow> sheet_rows(const ResultFiles& f) {
     const bool is_variable = variable != f.study.variables.end();
     const bool of_texture = path.starts_with("texture.");
     if (of_texture ? !relief : !is_variable) continue;
-    SheetRow row{path, known[i].unit, *known[i].value, *final[i].value, is_variable, {}, {},
-                 false, false, {}};
+    SheetRow row{
+        path, known[i].unit, *known[i].value, *final[i].value, is_variable, {}, {}, false, false,
+        {}};
     if (is_variable) {
       const auto k = static_cast<std::size_t>(variable - f.study.variables.begin());
       for (const VariableSensitivity& s : f.result.sensitivity) {
@@ -201,22 +201,23 @@ std::string sheet_text(const ResultFiles& f) {
                          tolerance_text(row, row.down, row.down_at_least),
                          tolerance_text(row, row.up, row.up_at_least)});
   }
-  out += "\nTolerance: the drift that costs no objective more than 5 % of its value, one dimension "
-         "at a time.";
+  out +=
+      "\nTolerance: the drift that costs no objective more than 5 % of its value, one dimension "
+      "at a time.";
   if (f.result.rounded) {
     std::vector<std::string> values;
     for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
       const StudyObjective& o = f.problem.objectives()[k];
       if (!f.result.rounded->confirmed.ok) continue;
-      values.push_back(fmt::format(
-          "{} {} where it had {}", o.name,
-          shown_value(o.expression, f.result.rounded->confirmed.values[k]),
-          shown_value(o.expression, best_of(f).confirmed.values[k])));
+      values.push_back(fmt::format("{} {} where it had {}", o.name,
+                                   shown_value(o.expression, f.result.rounded->confirmed.values[k]),
+                                   shown_value(o.expression, best_of(f).confirmed.values[k])));
     }
-    out += fmt::format(" Lengths are on a grid of {} (`search.rounding`), and the design was judged "
-                       "again so: {}{} (`best/build.toml`).",
-                       format_quantity(f.study.search.rounding, "nm"), join_names(values),
-                       f.result.rounded->feasible ? "" : "; **so it does not keep every constraint**");
+    out += fmt::format(
+        " Lengths are on a grid of {} (`search.rounding`), and the design was judged "
+        "again so: {}{} (`best/build.toml`).",
+        format_quantity(f.study.search.rounding, "nm"), join_names(values),
+        f.result.rounded->feasible ? "" : "; **so it does not keep every constraint**");
   }
   return out + "\n";
 }
@@ -244,7 +245,8 @@ std::string run_json(const ResultFiles& f) {
   step("flat, finish and drive of the study", r.flat_before);
   step(r.flat_before ? "flat, finish and drive of the best" : "flat", r.flat);
   step("best, textured", best_of(f).confirmed);
-  if (r.rounded && r.rounded->confirmed.ok) step("best, on the grid of the fab", r.rounded->confirmed);
+  if (r.rounded && r.rounded->confirmed.ok)
+    step("best, on the grid of the fab", r.rounded->confirmed);
   out["steps"] = std::move(steps);
   return out.dump(1) + "\n";
 }

@@ -72,9 +72,9 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
   out += "| difference made by the texture |";
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const MetricExpression& e = objectives[k].expression;
-    out += fmt::format(
-        " {} ± {}", shown_value(e, best.confirmed.values[k] - r.flat->values[k], true),
-        shown_error(e, difference_error(best.confirmed, *r.flat, k)));
+    out +=
+        fmt::format(" {} ± {}", shown_value(e, best.confirmed.values[k] - r.flat->values[k], true),
+                    shown_error(e, difference_error(best.confirmed, *r.flat, k)));
     if (const auto part = parameter_error(best.confirmed, *r.flat, k))
       out += fmt::format(" ({})", shown_error(e, *part));
     out += " |";
@@ -95,8 +95,9 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
 // Whether the accuracy asked for was reached, of each finger of the best design.
 std::string target_text(const ResultFiles& f, const FinalDesign& best) {
   if (!(f.study.design.accuracy.target > 0)) return {};
-  std::string out = fmt::format("\nAccuracy asked for (`accuracy.target`): {:.3g} %. Of the best design",
-                                100 * f.study.design.accuracy.target);
+  std::string out =
+      fmt::format("\nAccuracy asked for (`accuracy.target`): {:.3g} %. Of the best design",
+                  100 * f.study.design.accuracy.target);
   for (std::size_t t = 0; t < best.confirmed.reports.size(); ++t) {
     const auto response = nlohmann::json::parse(best.confirmed.reports[t]);
     const auto found = response.find("accuracy");
@@ -131,10 +132,10 @@ std::string sensitivity_text(const ResultFiles& f) {
     };
     out += fmt::format("| {} | {} {}", v.path, rounded(s.step / unit, 3), v.unit);
     for (std::size_t k = 0; k < objectives.size(); ++k) {
-      out += k < s.change.size()
-                 ? fmt::format(" | {}, {:.0f} %", shown_change(objectives[k].expression, s.change[k]),
-                               100 * s.share[k])
-                 : std::string(" | -");
+      out += k < s.change.size() ? fmt::format(" | {}, {:.0f} %",
+                                               shown_change(objectives[k].expression, s.change[k]),
+                                               100 * s.share[k])
+                                 : std::string(" | -");
     }
     const auto drift = [&](double value, bool beyond) {
       return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "", rounded(value / unit, 2),
@@ -219,7 +220,8 @@ std::string run_summary(const ResultFiles& f) {
   out += sensitivity_text(f);
   out += r.has_best()
              ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
-               "history.csv (every evaluation), run.json (how it ended, what to build), front/ and best/ "
+               "history.csv (every evaluation), run.json (how it ended, what to build), front/ and "
+               "best/ "
                "(design.toml, build.toml on the grid of the fab, metrics.json, "
                "heightmap.exr, heightmap.gsf, mask.tif (white is deep), preview.png), "
                "sensitivity.json, "
@@ -250,7 +252,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
       out.append(" | ").append(variable_text(study.variables[i], values[i]));
     }
     for (std::size_t k = 0; k < objectives.size(); ++k) {
-      out += fmt::format(" | {}", 
+      out += fmt::format(" | {}",
                          d.confirmed.ok ? with_errors(objectives[k], d.confirmed, k) : "failed");
     }
     out += driven ? fmt::format(" | {:.3f} |\n", d.confirmed.worst) : std::string(" |\n");

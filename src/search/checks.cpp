@@ -67,8 +67,7 @@ void pick(Run& run) {
 // and the study's own surface without texture where the search changed more than the texture.
 void compare_with_flat(Run& run) {
   const auto keep = [&](std::optional<Score>& to, const Point& unit) {
-    Score score =
-        run.replay.scores({unit}, Stage::Confirm, true, run.confirm_seconds).front();
+    Score score = run.replay.scores({unit}, Stage::Confirm, true, run.confirm_seconds).front();
     if (score.ok) to = std::move(score);
   };
   const Point own = run.problem.space().unit_of_study();

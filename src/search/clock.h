@@ -29,8 +29,8 @@ using PartSeconds = std::array<double, kParts>;
 
 // Of the limit: what a part can count on, at most as long as it wants.
 double part_share(Part part);
-// Until when a part may work [s since the run began]: for each later one its share, or as long as it
-// wants where that is less, is kept.
+// Until when a part may work [s since the run began]: for each later one its share, or as long as
+// it wants where that is less, is kept.
 double part_deadline(double limit, Part part, const PartSeconds& wanted);
 
 class RunClock {

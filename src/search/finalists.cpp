@@ -140,10 +140,14 @@ bool narrow(Run& run) {
   const auto left_for = [&](std::size_t designs) {
     return run.replay.replaying() || run.fits(run.seconds_of_designs(designs, Stage::Narrow));
   };
-  while (run.narrowed.size() < count && left_for(run.narrowed.size() == 0 ? kFewNarrowed : 1)) {
+  bool late = false;
+  while (run.narrowed.size() < count) {
+    late = !left_for(run.narrowed.size() == 0 ? kFewNarrowed : 1);
+    if (late) break;
     if (done_before) {
       asked.clear();
       if (const auto unit = run.replay.next_unit(Stage::Narrow)) asked.push_back(*unit);
+      late = asked.empty();  // the earlier run was
     } else if (asked.empty()) {
       asked = searcher->ask();
     }
@@ -158,7 +162,7 @@ bool narrow(Run& run) {
                  (run.clock.seconds() - from) / done * (static_cast<double>(count) - done) +
                      run.seconds_from(Part::Confirm));
   }
-  run.cut(Part::Narrow, run.narrowed.size(), count);
+  if (late) run.cut(Part::Narrow, run.narrowed.size(), count);
   return true;
 }
 
@@ -192,8 +196,7 @@ bool confirm(Run& run) {
     if (run.stopped()) return false;
     const auto next = run.replay.next();
     const bool recorded = next && next->stage == Stage::Confirm && !next->flat;
-    const bool fits =
-        done == 0 || run.fits(run.seconds_of_designs(1, Stage::Confirm));
+    const bool fits = done == 0 || run.fits(run.seconds_of_designs(1, Stage::Confirm));
     if (!recorded && (done_before || !fits)) break;
     run.result.finalists.push_back(finalist(run, chosen[done]));
     run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(total),

@@ -20,7 +20,7 @@ struct OneValue {
 struct AtBound {
   std::size_t variable = 0;
   bool upper = false;
-  double bound = 0;  // SI
+  double bound = 0;   // SI
   bool last = false;  // of all values that the model takes: no study can widen it
   double step = 0;    // what a widening is told for, SI; 0: not known
   // Of each objective for a step beyond the bound, the user's sign, as it goes inside the bound.

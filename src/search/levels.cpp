@@ -18,8 +18,8 @@ constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
 // Steps of the parameters: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
-// Peak of a worker, measured on patches of 128 to 1024 pixels a side: heights, gap, pressure, tractions,
-// field and their transforms.
+// Peak of a worker, measured on patches of 128 to 1024 pixels a side: heights, gap, pressure,
+// tractions, field and their transforms.
 constexpr double kBytesOfProgram = 60e6, kBytesPerPixel = 400;
 // Where time is short: skins are given up first, down to these, then pixels, then more skins.
 constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;

@@ -13,8 +13,8 @@ inline constexpr std::size_t kFinalists = 8;
 // Fewer than these are no level between: finalists then come from the search.
 inline constexpr std::size_t kFewNarrowed = 4;
 
-// most_seconds: of a task, as plans price it; fewer skins, then fewer pixels where it costs more; 0:
-// anything.
+// most_seconds: of a task, as plans price it; fewer skins, then fewer pixels where it costs more;
+// 0: anything.
 Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_seconds = 0);
 // Steps of the parameters of confirmed designs: fewer skins, shared out over the population.
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed);

@@ -100,9 +100,8 @@ bool Replay::finished(Stage stage, bool flat) const {
 }
 
 bool Replay::has(Stage stage, bool flat) const {
-  return std::any_of(requests_.begin(), requests_.end(), [&](const TaskRequest& r) {
-    return r.stage == stage && r.flat == flat;
-  });
+  return std::any_of(requests_.begin(), requests_.end(),
+                     [&](const TaskRequest& r) { return r.stage == stage && r.flat == flat; });
 }
 
 const Bytes& Replay::replayed(const TaskRequest& request) {
@@ -125,7 +124,8 @@ std::vector<TaskRequest> Replay::requests_of(const std::vector<Point>& units, St
                                              bool flat, double most_seconds) const {
   std::vector<TaskRequest> out;
   for (const Point& u : units) {
-    for (std::size_t t = 0; t < problem_.tasks().size(); ++t) out.push_back({stage, t, flat, u, most_seconds});
+    for (std::size_t t = 0; t < problem_.tasks().size(); ++t)
+      out.push_back({stage, t, flat, u, most_seconds});
   }
   return out;
 }

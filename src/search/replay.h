@@ -68,8 +68,8 @@ class Replay {
   const Spent& spent(Stage stage) const { return spent_[static_cast<std::size_t>(stage)]; }
 
  private:
-  std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage,
-                                       bool flat, double most_seconds) const;
+  std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage, bool flat,
+                                       double most_seconds) const;
   std::vector<TaskAnswer> ask(const std::vector<TaskRequest>& requests);
   std::vector<Score> scores_of(const std::vector<TaskAnswer>& answers) const;
   Judgement judgement(const Score& score) const;

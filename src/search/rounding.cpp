@@ -14,9 +14,7 @@ constexpr double kMostChange = 0.02;  // a step of the grid over the length
 constexpr double kFinest = 1e-12;     // [m]
 constexpr int kDigits = 3;
 
-bool is_length(const std::string& unit) {
-  return find_unit(unit)->same_dimension(*find_unit("m"));
-}
+bool is_length(const std::string& unit) { return find_unit(unit)->same_dimension(*find_unit("m")); }
 
 // As few decimals as the multiple has: 7.05e-6, not 7.050000000000001e-6.
 double multiple(double value, double step) {

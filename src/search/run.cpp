@@ -73,9 +73,9 @@ std::string best_text(const std::vector<StudyObjective>& objectives,
     for (std::size_t i : front) value = std::min(value, history[i].outcome.objectives[k]);
     // The ends of a front are different designs.
     const char* before = !out.empty() ? ", " : front.size() > 1 ? "best of each: " : "best ";
-    out += fmt::format("{}{} {}", before, objectives[k].name,
-                       shown_value(objectives[k].expression,
-                                   objectives[k].maximise ? -value : value));
+    out +=
+        fmt::format("{}{} {}", before, objectives[k].name,
+                    shown_value(objectives[k].expression, objectives[k].maximise ? -value : value));
   }
   return out;
 }
@@ -114,14 +114,14 @@ void write_files(Run& run, const StageSeconds& at) {
   const std::string rule = run.unmet_pick.empty() ? run.options.pick : "";
   if (run.options.writer)
     run.options.writer->write({run.folder, run.study, run.problem, run.history, run.result, rule});
-  write_bytes(run.folder + "/timing.json",
-              fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
-                          "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "
-                          "\"check_seconds\": {:.3f}, \"files_seconds\": {:.3f}, "
-                          "\"seconds_per_evaluation\": {:.4f}}}\n",
-                          at.search, at.narrow - at.search, at.confirm - at.narrow,
-                          checked - at.confirm, run.clock.seconds() - checked,
-                          run.seconds_of_designs(1, Stage::Search)));
+  write_bytes(
+      run.folder + "/timing.json",
+      fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
+                  "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "
+                  "\"check_seconds\": {:.3f}, \"files_seconds\": {:.3f}, "
+                  "\"seconds_per_evaluation\": {:.4f}}}\n",
+                  at.search, at.narrow - at.search, at.confirm - at.narrow, checked - at.confirm,
+                  run.clock.seconds() - checked, run.seconds_of_designs(1, Stage::Search)));
 }
 
 }  // namespace
@@ -147,8 +147,7 @@ double Run::seconds_of(std::size_t tasks, Stage stage) const {
   const auto count = static_cast<double>(tasks);
   // The rounded design is one more to confirm.
   const Stage like = stage == Stage::Rounding ? Stage::Confirm : stage;
-  if (const Replay::Spent& spent = replay.spent(like); spent.tasks > 0)
-    return count * spent.each();
+  if (const Replay::Spent& spent = replay.spent(like); spent.tasks > 0) return count * spent.each();
   for (const Stage timed : {Stage::Search, Stage::Narrow, Stage::Draft}) {
     const Replay::Spent& spent = replay.spent(timed);
     const bool whole = stage == Stage::Confirm || stage == Stage::Rounding;
@@ -170,7 +169,9 @@ double Run::seconds_of_designs(std::size_t designs, Stage stage) const {
 
 PartSeconds Run::wanted() const {
   PartSeconds out{};
-  const auto set = [&](Part part, double seconds) { out[static_cast<std::size_t>(part)] = seconds; };
+  const auto set = [&](Part part, double seconds) {
+    out[static_cast<std::size_t>(part)] = seconds;
+  };
   const std::size_t front = result.finalists.empty()
                                 ? kFinalists
                                 : static_cast<std::size_t>(std::count_if(
@@ -178,11 +179,10 @@ PartSeconds Run::wanted() const {
                                       [](const FinalDesign& f) { return !f.folder.empty(); }));
   // A level between of too few designs is none: its time is the search's.
   const bool enough = !clock.limited() || seconds_of_designs(kFewNarrowed, Stage::Narrow) <=
-                      part_share(Part::Narrow) * study.search.time;
+                                              part_share(Part::Narrow) * study.search.time;
   if (enough) set(Part::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
   set(Part::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
-  set(Part::Stability,
-      seconds_of(front * stability_variants(problem).size(), Stage::Stability));
+  set(Part::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
   set(Part::Flat, seconds_of_designs(2, Stage::Confirm));
   set(Part::Rounding, seconds_of_designs(1, Stage::Rounding));
   set(Part::Sensitivity, seconds_of_designs(1 + 2 * search.space.size(), Stage::Sensitivity));

@@ -53,7 +53,7 @@ struct FinalDesign {
 struct OptimiseResult {
   std::string method, why;
   int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
-  int lost = 0;  // damaged records of the resumed run, computed anew
+  int lost = 0;   // damaged records of the resumed run, computed anew
   int asked = 0;  // evaluations
   SearchEnd end = SearchEnd::Budget;
   std::vector<ClockCut> cuts;  // by the time limit, in the order of the run
@@ -67,8 +67,8 @@ struct OptimiseResult {
   std::size_t best = 0;                 // of the finalists: highest worst modulation, or as picked
   std::optional<Score> flat;            // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
-  std::optional<FinalDesign> rounded;   // the best on the grid of the fab, where that is another
-  Stability stability;               // of the order of the finalists on the front, in their order
+  std::optional<FinalDesign> rounded;  // the best on the grid of the fab, where that is another
+  Stability stability;                 // of the order of the finalists on the front, in their order
   std::vector<VariableSensitivity> sensitivity;  // of the best design
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
 

@@ -112,9 +112,8 @@ class Searching {
     if (!(timed > 0)) return -1;
     // Clock over evaluation time: what the searcher itself takes.
     const double overhead = std::max(1.0, run_.clock.seconds() / timed);
-    const double left =
-        overhead * run_.seconds_of_designs(budget_ - evaluated_, Stage::Search) +
-        run_.seconds_from(Part::Narrow);
+    const double left = overhead * run_.seconds_of_designs(budget_ - evaluated_, Stage::Search) +
+                        run_.seconds_from(Part::Narrow);
     const double limit = run_.study.search.time;
     return limit > 0 ? std::min(left, std::max(0.0, limit - run_.clock.seconds())) : left;
   }
@@ -136,8 +135,7 @@ void take_from_journal(Run& run) {
     run.add_to_history(before.evaluations[i].unit,
                        {before.evaluations[i].outcome, before.worst[i]});
   const bool all = run.result.evaluations >= run.search.evaluations;
-  const bool refused =
-      run.history.size() >= 10 * static_cast<std::size_t>(run.search.evaluations);
+  const bool refused = run.history.size() >= 10 * static_cast<std::size_t>(run.search.evaluations);
   run.result.end = all                   ? SearchEnd::Budget
                    : refused             ? SearchEnd::Refusals
                    : run.clock.limited() ? SearchEnd::Clock

@@ -27,7 +27,7 @@ struct Run {
   // the search took and what plans say of both; 0: nothing was timed yet.
   double seconds_of(std::size_t tasks, Stage stage) const;
   double seconds_of_designs(std::size_t designs, Stage stage) const;
-  PartSeconds wanted() const;         // of each part in full
+  PartSeconds wanted() const;          // of each part in full
   double seconds_from(Part on) const;  // wanted by this part and all that follow
   // Whether work of so many seconds still fits into the present part; true without a limit.
   bool fits(double seconds) const { return seconds <= clock.left(wanted()); }

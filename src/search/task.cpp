@@ -199,9 +199,9 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
       case Stage::Sensitivity:
         break;
     }
-    const bool confirmed =
-        request->stage == Stage::Confirm || request->stage == Stage::Rounding;
-    return encode(evaluate_task(problem, design, request->task, {fidelity, confirmed, text, request->most_seconds}));
+    const bool confirmed = request->stage == Stage::Confirm || request->stage == Stage::Rounding;
+    return encode(evaluate_task(problem, design, request->task,
+                                {fidelity, confirmed, text, request->most_seconds}));
   };
 }
 

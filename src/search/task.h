@@ -19,7 +19,7 @@ using ResponseText = std::function<std::string(const Response&)>;
 struct TaskWork {
   Fidelity fidelity;
   bool confirmed = false;
-  ResponseText text{};  // of a confirmed task; may be empty
+  ResponseText text{};      // of a confirmed task; may be empty
   double most_seconds = 0;  // on the way to the target, as plans price it; 0: any
 };
 

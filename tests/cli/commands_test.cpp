@@ -73,8 +73,9 @@ TEST(Program, CompletionOfFishKnowsEveryCommand) {
   const Workplace place;
   const Outcome fish = place.run("completion fish");
   ASSERT_EQ(fish.status, 0) << fish.err;
-  EXPECT_NE(fish.out.find("complete -c papilla -n __fish_use_subcommand -f -a optimize -d 'Search "),
-            std::string::npos)
+  EXPECT_NE(
+      fish.out.find("complete -c papilla -n __fish_use_subcommand -f -a optimize -d 'Search "),
+      std::string::npos)
       << fish.out;
   EXPECT_NE(fish.out.find("-n '__fish_seen_subcommand_from optimize' -l time -r -d '"),
             std::string::npos);
@@ -117,8 +118,9 @@ TEST(Explain, OfAStudySaysWhatItTakes) {
   const Workplace place;
   const Outcome run = place.run("explain " PAPILLA_DESIGNS_DIR "/electroadhesive_glass/study.toml");
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_NE(run.out.find("as a study: 100 evaluations of 4 tasks each, then 32 designs judged again"),
-            std::string::npos)
+  EXPECT_NE(
+      run.out.find("as a study: 100 evaluations of 4 tasks each, then 32 designs judged again"),
+      std::string::npos)
       << run.out;
   EXPECT_NE(run.out.find("MB a worker"), std::string::npos) << run.out;
 }

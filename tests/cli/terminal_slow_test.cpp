@@ -62,9 +62,8 @@ TEST(Json, OfExportReportAndDescribeIsOneObject) {
 TEST(Progress, FitsATerminalOfEightyColumns) {
   const Workplace place;
   if (place.shell("command -v script").status) GTEST_SKIP() << "needs script (bsdutils)";
-  const Outcome run = place.shell(
-      "script -qec '" PAPILLA_PROGRAM " optimize " PAPILLA_TEST_DATA
-      "/study/tiny.toml --out run' /dev/null");
+  const Outcome run = place.shell("script -qec '" PAPILLA_PROGRAM " optimize " PAPILLA_TEST_DATA
+                                  "/study/tiny.toml --out run' /dev/null");
   EXPECT_EQ(run.status, 0) << run.out;
   std::size_t bars = 0;
   for (std::size_t at = run.out.find("\033[K"); at != std::string::npos;

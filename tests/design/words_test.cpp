@@ -39,11 +39,12 @@ std::string mistakes(const std::string& text) {
 }
 
 TEST(Words, AreTheHintOfAnUnknownKey) {
-  EXPECT_NE(mistakes("[drive]\nvoltage = \"100 V\"\n").find(
-                "unknown key `voltage`, did you mean `drive.amplitude`?"),
+  EXPECT_NE(mistakes("[drive]\nvoltage = \"100 V\"\n")
+                .find("unknown key `voltage`, did you mean `drive.amplitude`?"),
             std::string::npos)
       << mistakes("[drive]\nvoltage = \"100 V\"\n");
-  EXPECT_NE(mistakes("[finger]\nstiffness = \"1 MPa\"\n").find("did you mean `finger.skin.layer_modulus`?"),
+  EXPECT_NE(mistakes("[finger]\nstiffness = \"1 MPa\"\n")
+                .find("did you mean `finger.skin.layer_modulus`?"),
             std::string::npos);
   // A slip of the keyboard is still one.
   EXPECT_NE(mistakes("[drive]\namplitud = \"100 V\"\n").find("did you mean `amplitude`?"),
@@ -52,9 +53,10 @@ TEST(Words, AreTheHintOfAnUnknownKey) {
 
 // "0.05" of one or of a hundred: both are shown, none is taken.
 TEST(Words, AShareWithoutAUnitIsAskedBack) {
-  EXPECT_NE(mistakes("[accuracy]\ntarget = \"0.05\"\n")
-                .find("needs a unit: \"5 %\" if 0.05 is a share of 1, \"0.05 %\" if it is in percent"),
-            std::string::npos)
+  EXPECT_NE(
+      mistakes("[accuracy]\ntarget = \"0.05\"\n")
+          .find("needs a unit: \"5 %\" if 0.05 is a share of 1, \"0.05 %\" if it is in percent"),
+      std::string::npos)
       << mistakes("[accuracy]\ntarget = \"0.05\"\n");
   EXPECT_EQ(mistakes("[accuracy]\ntarget = \"5 %\"\n"), "");
 }
@@ -78,8 +80,8 @@ TEST(Base, VariablesOfAnotherKindFallAwayWithIt) {
   ASSERT_EQ(study.variables.size(), 1u);
   EXPECT_EQ(study.variables[0].path, "surface.contact_angle");
   EXPECT_TRUE(study.scatter.empty());
-  EXPECT_EQ(study.fallen_away, (std::vector<std::string>{"design_space.texture.rms",
-                                                         "scatter.texture.rms"}));
+  EXPECT_EQ(study.fallen_away,
+            (std::vector<std::string>{"design_space.texture.rms", "scatter.texture.rms"}));
   // Its resolved file is the same study again.
   const Study again = parse_study(resolved_toml(study), "resolved.toml");
   EXPECT_EQ(again.variables, study.variables);

@@ -265,8 +265,9 @@ TEST(Rank, SeveralCriteriaWithoutWeightsHaveNoSingleOrder) {
   const std::string table = ranking_table({"one", "two", "twin"}, options, ranking);
   EXPECT_EQ(table.find("ahead of the next"), std::string::npos) << table;
   EXPECT_NE(table.find("no weights (--weights), so no single order"), std::string::npos) << table;
-  EXPECT_NE(table.find("skins a design (--max-skins) is spent with the order open: one and twin in"),
-            std::string::npos)
+  EXPECT_NE(
+      table.find("skins a design (--max-skins) is spent with the order open: one and twin in"),
+      std::string::npos)
       << table;
   const auto json = nlohmann::json::parse(ranking_json({"one", "two", "twin"}, options, ranking));
   EXPECT_FALSE(json["candidates"][0].contains("p_best"));
@@ -278,10 +279,12 @@ TEST(Rank, AnOrderThatIsKnownSaysSo) {
   const RankOptions options = by("modulation:high");
   const Ranking ranking = ranking_of(designs, options);
   EXPECT_TRUE(ranking.states.front().open.empty());
-  EXPECT_NE(ranking_table({"flat", "a4h600"}, options, ranking).find("the order is known; 12 patches"),
-            std::string::npos);
+  EXPECT_NE(
+      ranking_table({"flat", "a4h600"}, options, ranking).find("the order is known; 12 patches"),
+      std::string::npos);
   const std::string csv = ranking_csv({"flat", "a4h600"}, options, ranking);
-  EXPECT_TRUE(csv.starts_with("finger,rank,design,title,mean(modulation),mean(modulation) low,")) << csv;
+  EXPECT_TRUE(csv.starts_with("finger,rank,design,title,mean(modulation),mean(modulation) low,"))
+      << csv;
   EXPECT_NE(csv.find("\nclean,1,flat,"), std::string::npos) << csv;
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
 }

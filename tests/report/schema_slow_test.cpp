@@ -14,9 +14,9 @@ TEST(JsonSchema, AcceptsEveryDesignAndRefusesTwoHundredMutants) {
   if (place.shell("python3 -c 'import jsonschema, tomllib'").status)
     GTEST_SKIP() << "needs python3-jsonschema (scripts/setup --test)";
   ASSERT_EQ(place.shell("'" PAPILLA_PROGRAM "' describe --json-schema > schema.json").status, 0);
-  const Outcome run = place.shell("python3 " PAPILLA_SOURCE_DIR
-                                  "/tests/report/schema.py schema.json " PAPILLA_DESIGNS_DIR
-                                  " 24 200");
+  const Outcome run =
+      place.shell("python3 " PAPILLA_SOURCE_DIR
+                  "/tests/report/schema.py schema.json " PAPILLA_DESIGNS_DIR " 24 200");
   EXPECT_EQ(run.status, 0) << run.out << run.err;
   EXPECT_NE(run.out.find("200 mutants, 0 mistakes"), std::string::npos) << run.out;
 }

@@ -49,8 +49,7 @@ jobs = 2
 }
 
 TEST(Clock, ARunEndsInItsTimeAndHasSearchedForMostOfIt) {
-  const std::string folder =
-      (std::filesystem::path(testing::TempDir()) / "papilla_clock").string();
+  const std::string folder = (std::filesystem::path(testing::TempDir()) / "papilla_clock").string();
   std::filesystem::remove_all(folder);
   const Study study = pillars();
   std::vector<double> at;  // of each progress
@@ -59,11 +58,14 @@ TEST(Clock, ARunEndsInItsTimeAndHasSearchedForMostOfIt) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   };
   double searched = 0, longest = 0, before = 0;
-  const OptimiseResult r = optimise_to_folder(study, {folder, false, [&](const Progress& p) {
-                                                        longest = std::max(longest, clock() - before);
+  const OptimiseResult r = optimise_to_folder(study, {folder, false,
+                                                      [&](const Progress& p) {
+                                                        longest =
+                                                            std::max(longest, clock() - before);
                                                         before = clock();
                                                         if (p.stage == "search") searched = before;
-                                                      }, nullptr});
+                                                      },
+                                                      nullptr});
   const double used = clock();
   EXPECT_LE(used, 1.1 * study.search.time + longest);
   EXPECT_GE(searched, 0.4 * study.search.time);

@@ -125,8 +125,7 @@ TEST(Findings, TheSlopeAtALowerBoundIsTakenDownwards) {
   s.variable = 0;
   s.step = 0.35e-6;
   s.change = {0.01, -0.02};
-  const std::vector<AtBound> at =
-      variables_at_bound(problem, tried(problem, 3, 350, 50).unit, {s});
+  const std::vector<AtBound> at = variables_at_bound(problem, tried(problem, 3, 350, 50).unit, {s});
   ASSERT_EQ(at.size(), 1u);
   EXPECT_FALSE(at[0].upper);
   EXPECT_EQ(at[0].change, (std::vector<double>{-0.01, 0.02}));
