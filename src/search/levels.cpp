@@ -18,9 +18,9 @@ constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
 // Steps of the parameters: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
-// Peak of a worker, measured on patches of 128 to 1024 pixels a side: heights, gap, pressure,
-// tractions, field and their transforms.
-constexpr double kBytesOfProgram = 60e6, kBytesPerPixel = 400;
+// Peak of a process, measured at 128, 256, 512 and 1024 pixels a side (53, 62, 104 and 262 MB): heights,
+// gap, pressure, tractions, field and their transforms.
+constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
 // Where time is short: skins are given up first, down to these, then pixels, then more skins.
 constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;
 

@@ -16,9 +16,11 @@ constexpr int kDigits = 3;
 
 bool is_length(const std::string& unit) { return find_unit(unit)->same_dimension(*find_unit("m")); }
 
-// As few decimals as the multiple has: 7.05e-6, not 7.050000000000001e-6.
-double multiple(double value, double step) {
-  return std::strtod(fmt::format("{:.12g}", std::round(value / step) * step).c_str(), nullptr);
+// As a file would write it: 7.05 um, not 7.050000000000001.
+double multiple(double value, double step, const std::string& unit) {
+  const double shown = std::round(value / step) * step / find_unit(unit)->to_si;
+  return unit.empty() ? std::strtod(fmt::format("{:.12g}", shown).c_str(), nullptr)
+                      : parse_si(fmt::format("{:.12g} {}", shown, unit), unit);
 }
 
 double step_of(const Variable& v, double value, double grid) {
@@ -38,9 +40,9 @@ double step_of(const Variable& v, double value, double grid) {
 double on_grid(const Variable& v, double value, double grid) {
   if (value == 0 || !v.choices.empty() || v.is_kind() || v.is_levels()) return value;
   const double step = step_of(v, value, grid);
-  double out = multiple(value, step);
-  if (out > v.high) out = multiple(out - step, step);
-  if (out < v.low) out = multiple(out + step, step);
+  double out = multiple(value, step, v.unit);
+  if (out > v.high) out = multiple(out - step, step, v.unit);
+  if (out < v.low) out = multiple(out + step, step, v.unit);
   return out < v.low || out > v.high ? value : out;
 }
 

@@ -61,7 +61,7 @@ TEST(Words, AShareWithoutAUnitIsAskedBack) {
   EXPECT_EQ(mistakes("[accuracy]\ntarget = \"5 %\"\n"), "");
 }
 
-constexpr const char* kRough = R"(
+constexpr const char* kRough = R"toml(
 [texture]
 type = "random_rough"
 [design_space]
@@ -71,7 +71,7 @@ type = "random_rough"
 "texture.rms" = "5 nm"
 [objective]
 minimise = "mean(friction)"
-)";
+)toml";
 
 // What a base lets vary of its kind of texture goes with that kind, and the study says so.
 TEST(Base, VariablesOfAnotherKindFallAwayWithIt) {

@@ -14,7 +14,7 @@ namespace {
 // Pillars whose two scattering numbers make five tasks of each design: one design was searched in a
 // minute, and the run took 158 s.
 Study pillars() {
-  return parse_study(R"(schema_version = 1
+  return parse_study(R"toml(schema_version = 1
 title = "Pillars"
 [texture]
 type = "pillar_array"
@@ -44,7 +44,7 @@ minimise = "variation(modulation)"
 evaluations = 40
 time = "12 s"
 jobs = 2
-)",
+)toml",
                      "pillars.toml");
 }
 

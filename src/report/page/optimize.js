@@ -298,8 +298,8 @@ function showDimensions(d) {
 // From the study's flat surface to the best one, step by step.
 function showSteps() {
   const steps = run.steps || [], names = steps.length ? Object.keys(steps[0].objectives) : [];
-  const before = { 'flat, finish and drive of the best': 'finish', 'best, textured': 'texture', 'best, on the grid of the fab': 'rounding' };
-  table($('steps'), ['Surface'].concat(names, ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => withError(s.objectives[n]) + (i ? ` (${(s.objectives[n].value < steps[i - 1].objectives[n].value ? '−' : '+') + fixed(Math.abs(s.objectives[n].value - steps[i - 1].objectives[n].value))})` : '')), [i ? before[s.surface] || '' : ''])), names.map((n, i) => i + 1));
+  const before = { 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding' };
+  table($('steps'), ['Surface'].concat(names, ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => withError(s.objectives[n]) + (i ? ` (${signed(s.objectives[n].value - steps[i - 1].objectives[n].value)})` : '')), [i ? before[s.surface] || '' : ''])), names.map((n, i) => i + 1));
 }
 
 function showDesign() {
@@ -356,7 +356,7 @@ options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humid
 startSolid();
 select('best');
 showSteps();
-showSection($('stability'), 'Does the order hold?', 'One design on the front: there is no order to check.');
+showSection($('stability'), 'Does the order hold?', Object.keys(data.designs).length > 2 ? 'Whether the order holds under other choices of the model was not checked.' : 'One design on the front: there is no order to check.');
 showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;
 $('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What the fit of the finger leaves open is in no error here: ${known.status}.`
