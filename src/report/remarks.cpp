@@ -59,8 +59,10 @@ std::string clock_remark(const Study& study, const OptimiseResult& r) {
     did.push_back(std::move(words.did));
     unsure.push_back(std::move(words.unsure));
   }
-  return fmt::format("Stopped by the clock ({}) after {}. Unsure: {}.", duration(study.search.time),
-                     join_names(did, "; "), join_names(unsure, "; "));
+  const bool searching = r.cuts.front().part == Part::Search;
+  return fmt::format("{} by the clock ({}){} {}. Unsure: {}.", searching ? "Stopped" : "Cut short",
+                     duration(study.search.time), searching ? " after" : ":", join_names(did, "; "),
+                     join_names(unsure, "; "));
 }
 
 std::string few_remark(const OptimiseResult& r) {

@@ -22,14 +22,15 @@ using Json = nlohmann::ordered_json;
 
 const FinalDesign& best_of(const ResultFiles& f) { return f.result.finalists[f.result.best]; }
 
-// Objectives in which a design is better by more than the error: "mean(modulation) +0.031 ± 0.012".
-std::string gains(const ResultFiles& f, const Score& design, const Score& other) {
+// Objectives in which a design is better (else worse) by more than the error: "mean(modulation)
+// +0.031 ± 0.012".
+std::string changes(const ResultFiles& f, const Score& design, const Score& other, bool better) {
   std::vector<std::string> out;
   for (std::size_t k = 0; k < design.values.size(); ++k) {
     const StudyObjective& o = f.problem.objectives()[k];
     const double change = design.values[k] - other.values[k];
     const double error = difference_error(design, other, k);
-    if ((o.maximise ? change : -change) <= error) continue;
+    if ((o.maximise == better ? change : -change) <= error) continue;
     const std::string unit = shown_unit(o.expression).unit;
     out.push_back(fmt::format("{} {} ± {}{}", o.name, shown_value(o.expression, change, true),
                               shown_error(o.expression, error), unit.empty() ? "" : " " + unit));
@@ -60,7 +61,7 @@ std::string in_unit(double si, const std::string& unit, int digits) {
 std::string tolerance_text(const SheetRow& row, const std::optional<double>& drift, bool at_least) {
   if (!row.free) return "fixed";
   if (!drift) return "not known";
-  if (!(*drift > 0)) return "at its bound";
+  if (!(*drift > 0)) return "its bound is near";
   return fmt::format("{}{}", at_least ? "at least " : "", in_unit(*drift, row.unit, 2));
 }
 
@@ -137,13 +138,16 @@ std::string recommendation(const ResultFiles& f) {
       return fmt::format(
           "Leave it flat and change the finish ({}): {}; no texture of this search adds more than "
           "the error of the difference.",
-          finish_text(f), gains(f, r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before));
+          finish_text(f),
+          changes(f, r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before, true));
     case Advice::Texture:
       break;
   }
   const std::string finish = finish_text(f);
-  return fmt::format("Build {}: its texture adds {} to the same surface without it{}.",
-                     best_of(f).folder, gains(f, best_of(f).confirmed, *r.flat),
+  const std::string cost = changes(f, best_of(f).confirmed, *r.flat, false);
+  return fmt::format("Build {}: beside the same surface without it, its texture gains {}{}{}.",
+                     best_of(f).folder, changes(f, best_of(f).confirmed, *r.flat, true),
+                     cost.empty() ? "" : fmt::format(" and costs {}", cost),
                      finish.empty() ? "" : fmt::format("; the finish changes too ({})", finish));
 }
 
@@ -229,7 +233,12 @@ std::string run_json(const ResultFiles& f) {
            {"asked", r.asked},
            {"stopped_by_the_clock", !r.cuts.empty()},
            {"driven", f.problem.driven()},
-           {"remarks", run_remarks(f.study, f.problem, r)}};
+           {"remarks", run_remarks(f.study, f.problem, r)},
+           {"shown", Json::object()}};
+  for (const StudyObjective& o : f.problem.objectives()) {
+    const ShownUnit shown = shown_unit(o.expression);
+    out["shown"][o.name] = {{"scale", shown.scale}, {"unit", shown.unit}};
+  }
   if (r.interrupted || r.finalists.empty()) return out.dump(1) + "\n";
   out["advice"] = advice_name(advice_of(f));
   out["recommendation"] = recommendation(f);

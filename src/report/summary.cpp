@@ -140,7 +140,7 @@ std::string sensitivity_text(const ResultFiles& f) {
     const auto drift = [&](double value, bool beyond) {
       return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "", rounded(value / unit, 2),
                                      v.unit)
-                       : std::string("at its bound");
+                       : std::string("its bound is near");
     };
     out += " | " + drift(s.down, s.down_beyond) + " | " + drift(s.up, s.up_beyond) + " |\n";
   }

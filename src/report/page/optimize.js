@@ -147,13 +147,23 @@ const describe = (row) => variables.map((v) => {
 });
 const state = { design: 'best', finger: 'mean' };
 const run = data.run;
+// Objectives in the units that people read: forces in mN.
+const shownAs = (name) => (run.shown || {})[name] || { scale: 1, unit: '' };
+const called = (name) => name + (shownAs(name).unit ? ' [' + shownAs(name).unit + ']' : '');
+const change = (v, name) => { const s = shownAs(name), text = s.unit ? round(v * s.scale, 3) : fixed(v); return text.startsWith('-') ? '−' + text.slice(1) : '+' + text; };
+function quantity(q, name) {
+  const s = shownAs(name);
+  if (!q || !s.unit) return withError(q);
+  return round(q.value * s.scale, 4) + (q.se !== undefined && q.se !== null ? ' ± ' + round(q.se * s.scale, 2) : '') + (q.parameters ? ' (' + round(q.parameters * s.scale, 2) + ')' : '');
+}
 
 // best/ is a copy of a design of the front: the one with the same variables.
 const twin = Object.keys(data.designs).find((name) => name !== 'best' && JSON.stringify(data.designs[name].variables) === JSON.stringify(data.designs.best.variables)) || 'best';
 const shown = () => state.design === 'best' ? twin : state.design;
 
 function showPareto() {
-  const point = (row, se) => ({ x: +row[objectives[0]], y: +row[second], ex: se ? +row[objectives[0] + ' se'] || 0 : 0, ey: se ? +row[second + ' se'] || 0 : 0, row });
+  const sx = shownAs(objectives[0]).scale, sy = shownAs(second).scale;
+  const point = (row, se) => ({ x: sx * row[objectives[0]], y: sy * row[second], ex: se ? sx * row[objectives[0] + ' se'] || 0 : 0, ey: se ? sy * row[second + ' se'] || 0 : 0, row });
   const number = (row) => row[objectives[0]] !== '' && row[second] !== '';
   const front = finalists.filter((r) => r['on front'] === 'yes' && number(r)).sort((a, b) => a[objectives[0]] - b[objectives[0]]);
   const dominated = finalists.filter((r) => r['on front'] !== 'yes' && number(r));
@@ -167,7 +177,7 @@ function showPareto() {
   const flat = data.designs.best.flat;
   if (flat) {
     const q = (name) => name === 'worst modulation' ? { value: flat.worst_modulation, se: 0 } : flat.objectives[name];
-    sets.push({ label: 'flat', data: [{ x: q(objectives[0]).value, y: q(second).value, ex: q(objectives[0]).se, ey: q(second).se }], bars: true, pointRadius: 7, pointStyle: 'triangle', borderColor: faint.flat, backgroundColor: faint.flat });
+    sets.push({ label: 'flat', data: [{ x: sx * q(objectives[0]).value, y: sy * q(second).value, ex: sx * q(objectives[0]).se, ey: sy * q(second).se }], bars: true, pointRadius: 7, pointStyle: 'triangle', borderColor: faint.flat, backgroundColor: faint.flat });
   }
   const barred = sets.filter((s) => s.bars).flatMap((s) => s.data);
   draw('pareto', {
@@ -175,7 +185,7 @@ function showPareto() {
     data: { datasets: sets },
     plugins: [errorBars],
     options: {
-      scales: { x: axis(objectives[0], around(barred, 'x', 'ex')), y: axis(second, around(barred, 'y', 'ey')) },
+      scales: { x: axis(called(objectives[0]), around(barred, 'x', 'ex')), y: axis(called(second), around(barred, 'y', 'ey')) },
       onClick: (event, items, chart) => {
         const hit = items.map((i) => chart.data.datasets[i.datasetIndex].data[i.index]).find((p) => p.row && data.designs[p.row.design]);
         // After this event: selecting draws this chart anew.
@@ -198,9 +208,9 @@ function showPareto() {
 }
 function showFinalists() {
   const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : withError({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] })) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
   // Keys break where people read a break, not inside words.
-  const heading = (c) => c.replace(/([._(])/g, '$1\u200b');
+  const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
   finalists.forEach((r, i) => {
     const row = body.rows[i];
@@ -299,7 +309,7 @@ function showDimensions(d) {
 function showSteps() {
   const steps = run.steps || [], names = steps.length ? Object.keys(steps[0].objectives) : [];
   const before = { 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding' };
-  table($('steps'), ['Surface'].concat(names, ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => withError(s.objectives[n]) + (i ? ` (${signed(s.objectives[n].value - steps[i - 1].objectives[n].value)})` : '')), [i ? before[s.surface] || '' : ''])), names.map((n, i) => i + 1));
+  table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n)})` : '')), [i ? before[s.surface] || '' : ''])), names.map((n, i) => i + 1));
 }
 
 function showDesign() {
@@ -325,7 +335,7 @@ function showDesign() {
   // The difference has an error of its own: both met the same skins, droplets and grids.
   const lead = (d.flat || {}).difference || {};
   table($('numbers'), ['Result', label(state.design), 'flat', 'difference'],
-    Object.keys(d.objectives).map((name) => [name, withError(d.objectives[name]), flat ? withError(flat.objectives[name]) : '–', withError(lead[name])])
+    Object.keys(d.objectives).map((name) => [called(name), quantity(d.objectives[name], name), flat ? quantity(flat.objectives[name], name) : '–', quantity(lead[name], name)])
       .concat(run.driven ? [['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–', '']] : [])
       .concat([['oxide breakdown margin', round(d.oxide_breakdown_margin), '', '']])
       .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '', '']] : []), [1, 2, 3]);
@@ -347,7 +357,7 @@ function select(name) {
 const best = data.designs.best, flat = best.flat;
 $('lead').textContent = run.recommendation;
 run.remarks.forEach((text) => { const item = document.createElement('li'); item.textContent = text; $('remarks').appendChild(item); });
-$('facts').textContent = 'The best design has ' + Object.keys(best.objectives).map((n) => `${n} ${withError(best.objectives[n])}` + (flat ? ` (flat ${withError(flat.objectives[n])})` : '')).join(', ')
+$('facts').textContent = 'The best design has ' + Object.keys(best.objectives).map((n) => `${called(n)} ${quantity(best.objectives[n], n)}` + (flat ? ` (flat ${quantity(flat.objectives[n], n)})` : '')).join(', ')
   + (run.driven ? `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity' : '') + '.'
   + (best.feasible ? '' : ' It does not keep every constraint.');
 options($('design'), Object.keys(data.designs).map((n) => [n, n === 'best' && twin !== n ? `best (${label(twin)})` : label(n)]), select);

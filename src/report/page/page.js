@@ -14,7 +14,6 @@ const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ?
 // Three decimals; a zero has no sign.
 const fixed = (v) => v.toFixed(3).replace(/^-(0\.000)$/, '$1');
 const withError = (q) => q ? fixed(q.value) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') + (q.parameters ? ' (' + q.parameters.toFixed(3) + ')' : '') : '–';
-const signed = (v) => { const text = fixed(v); return text.startsWith('-') ? '−' + text.slice(1) : '+' + text; };
 function csv(text) {
   const rows = text.trim().split('\n').map((line) => line.split(','));
   const head = rows.shift();
