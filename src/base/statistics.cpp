@@ -109,7 +109,8 @@ double student_t_cdf(double t, double degrees_of_freedom) {
   const double n = degrees_of_freedom, x = n / (n + t * t);
   const double a = 0.5 * n, b = 0.5;
   if (t == 0) return 0.5;
-  // Nearly normal (Abramowitz & Stegun 26.7.8, an error of order 1/n^2), where the fraction loses digits.
+  // Nearly normal (Abramowitz & Stegun 26.7.8, an error of order 1/n^2), where the fraction loses
+  // digits.
   constexpr double kNearlyNormal = 1e5;
   if (n > kNearlyNormal) return normal_cdf(t * (1 - 0.25 / n) / std::sqrt(1 + 0.5 * t * t / n));
   // Both tails; the fraction converges on one side of the mean of the distribution.

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/text.h"
 #include "base/constants.h"
+#include "base/text.h"
 #include "metrics/metrics.h"
 #include "report/svg.h"
 

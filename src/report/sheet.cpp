@@ -253,7 +253,8 @@ std::string run_json(const ResultFiles& f) {
   };
   step("flat, finish and drive of the study", r.flat_before);
   step(r.flat_before ? "flat, finish and drive of the best" : "flat", r.flat);
-  if (facts(best_of(f).design.texture).relief.present) step("best, with its texture", best_of(f).confirmed);
+  if (facts(best_of(f).design.texture).relief.present)
+    step("best, with its texture", best_of(f).confirmed);
   if (r.rounded && r.rounded->confirmed.ok)
     step("best, on the grid of the fab", r.rounded->confirmed);
   out["steps"] = std::move(steps);

@@ -18,8 +18,8 @@ constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
 // Steps of the parameters: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
-// Peak of a process, measured at 128, 256, 512 and 1024 pixels a side (53, 62, 104 and 262 MB): heights,
-// gap, pressure, tractions, field and their transforms.
+// Peak of a process, measured at 128, 256, 512 and 1024 pixels a side (53, 62, 104 and 262 MB):
+// heights, gap, pressure, tractions, field and their transforms.
 constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
 // Where time is short: skins are given up first, down to these, then pixels, then more skins.
 constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;
@@ -91,6 +91,7 @@ Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {
       return confirm_fidelity(study, problem.nominal_tasks());
     case Stage::Stability:
     case Stage::Sensitivity:
+    case Stage::Done:
       break;
   }
   return check_fidelity(study);

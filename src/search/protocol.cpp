@@ -6,7 +6,7 @@ namespace papilla::search {
 namespace {
 
 // Enums end here.
-constexpr Stage kLastStage = Stage::Steps;
+constexpr Stage kLastStage = Stage::Done;
 constexpr TaskStatus::Kind kLastKind = TaskStatus::Kind::Threw;
 
 template <class E>

@@ -26,8 +26,9 @@ enum class Stage {
   Rounding,     // of the best design on the grid of the fab, as the confirmation
   Sensitivity,  // a small step of a variable
   Steps,        // what the fit of the fingers leaves open
+  Done,         // asks nothing: the run came to its end, whatever a clock cut of it
 };
-inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::Steps) + 1;
+inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::Done) + 1;
 
 struct TaskRequest {
   Stage stage = Stage::Search;

@@ -32,9 +32,11 @@ int place(Stage stage, bool flat) {
     case Stage::Sensitivity:
       return 6;
     case Stage::Steps:
+      return 7;
+    case Stage::Done:
       break;
   }
-  return 7;
+  return 8;
 }
 
 Journal open_journal(const StudyProblem& problem, const std::string& folder, bool resume) {
@@ -113,6 +115,11 @@ void Replay::record(const TaskRequest& request, const Bytes& payload) {
   journal_.append({encode(request), payload});
   requests_.push_back(request);
   ++next_;
+}
+
+void Replay::end() {
+  const TaskRequest done{Stage::Done, 0, false, Point(search_.space.size(), 0.0)};
+  if (!beside_journal_ && !replaying()) record(done, {});
 }
 
 std::size_t Replay::designs() const {

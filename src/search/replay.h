@@ -54,6 +54,8 @@ class Replay {
   // From now on answers depend on the picked design: they are asked anew, beside the journal, when
   // the earlier run picked another.
   void picked() { picked_ = true; }
+  // The run is at its end: continued, it asks nothing more.
+  void end();
 
   // Designs at a time that keep everyone busy; no more, so that a kill loses little.
   std::size_t designs() const;

@@ -105,6 +105,7 @@ StageSeconds run_stages(Run& run) {
   at.confirm = run.clock.seconds();
   on = on && check(run);
   run.result.interrupted = !on;
+  if (on) run.replay.end();
   return at;
 }
 

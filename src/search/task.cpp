@@ -197,6 +197,7 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
       case Stage::Confirm:
       case Stage::Rounding:
       case Stage::Sensitivity:
+      case Stage::Done:
         break;
     }
     const bool confirmed = request->stage == Stage::Confirm || request->stage == Stage::Rounding;
