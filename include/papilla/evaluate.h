@@ -16,7 +16,7 @@ namespace papilla::api {
 // docs/theory/accuracy.md
 struct ErrorParts {
   double sampling = 0;
-  std::optional<double> grid, solver, humidity, method, parameters;
+  std::optional<double> grid, solver, humidity, method, field, parameters;
   std::optional<double> water;  // a band common to all designs, no part of the total
 };
 

@@ -11,7 +11,7 @@ Quantity quantity_of(const Measured& m) {
   return {m.value,
           m.se(),
           {m.parts.sampling, m.parts.grid, m.parts.solver, m.parts.humidity, m.parts.method,
-           m.parts.parameters, m.parts.water}};
+           m.parts.field, m.parts.parameters, m.parts.water}};
 }
 
 Point point_of(const ResponsePoint& p) {

@@ -22,6 +22,8 @@ namespace {
 struct FieldCommand {
   std::string gap, texture, size, voltage, thickness = "500 nm", skin_layer = "0 nm";
   std::string strength = "1 GV/m", edge_radius = "0 nm", method = "spread", out_pressure;
+  std::string process = "conformal";
+  double step_coverage = 0;
   double permittivity = 3.9;
   bool dc = false, json = false;
 };
@@ -35,6 +37,11 @@ double not_negative(const std::string& text, const char* unit, const char* optio
 Heightmap read_map(const std::string& file, const std::string& size) {
   const double width = size.empty() ? 0 : not_negative(size, "um", "--size");
   return read_heightmap(file, width);
+}
+
+FilmProcess film_process(const FieldCommand& c) {
+  if (c.process == "planar") return FilmProcess::Planar;
+  return c.process == "directional" ? FilmProcess::Directional : FilmProcess::Conformal;
 }
 
 int solve(const FieldCommand& c) {
@@ -59,11 +66,13 @@ int solve(const FieldCommand& c) {
   Wetting dry;
   dry.grid = gap.grid;
   if (c.method == "full")
-    require_memory(80.0 * 64 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
+    require_memory(2000.0 * static_cast<double>(gap.grid.size()), "a field over " + c.gap);
 
   const auto begin = std::chrono::steady_clock::now();
   std::optional<CoveredSurface> covered;
-  if (texture) covered.emplace(*texture, p.dielectric_thickness);
+  if (texture)
+    covered.emplace(*texture, std::vector<FilmLayer>{{film_process(c), c.step_coverage,
+                                                      p.dielectric_thickness, c.permittivity}});
   const CoveredSurface* surface = covered ? &*covered : nullptr;
   const FieldSolution s = c.method == "local"    ? solve_local_field(given, surface, dry, p)
                           : c.method == "spread" ? solve_spread_field(given, surface, dry, p)
@@ -93,6 +102,15 @@ void add_solve_field(Command solve_command, Context& context) {
       .range(1.0, 1e5)
       .show_default();
   command.add_option("--strength", c->strength, "Its breakdown field").show_default();
+  command
+      .add_option(
+          "--process", c->process,
+          "Of the dielectric on --texture: conformal, directional, planar (surface.process)")
+      .one_of({"conformal", "directional", "planar"})
+      .show_default();
+  command.add_option("--step-coverage", c->step_coverage, "Of a directional dielectric")
+      .range(0.0, 1.0)
+      .show_default();
   command
       .add_option("--edge-radius", c->edge_radius,
                   "Of the electrode's edges below walls; 0: not stated")

@@ -20,6 +20,7 @@ Fidelity step_fidelity(const Fidelity& fidelity) {
   few.contact_tolerance = std::max(fidelity.contact_tolerance, kStepTolerance);
   few.estimator = Estimator::Load;
   few.control_skins = 0;
+  few.field_skins = 0;
   return few;
 }
 

@@ -59,7 +59,11 @@ Wetting rewet_timed(const Wetting& off, const Gap& gap, const WaterProperties& d
 FieldSolution solve_field_timed(const PatchProblem& problem, const Gap& gap, const Wetting& wetting,
                                 const FieldProblem& field, double tolerance, PatchResult& out) {
   const Timed timed(out.costs.seconds.field);
-  return solve_field(*problem.scene, gap, problem.surface, wetting, field, tolerance);
+  FieldSolution solution =
+      solve_field(*problem.scene, gap, problem.surface, wetting, field, tolerance);
+  for (double& p : solution.traction.value) p *= problem.field_correction;
+  solution.mean_pressure *= problem.field_correction;
+  return solution;
 }
 
 class PatchSolver {

@@ -23,7 +23,8 @@ struct PatchProblem {
   double relative_humidity = 0;
   double pressure = 0;  // mean preload on the patch [Pa]
   std::uint64_t droplet_index = 0;
-  double water_factor = 1;  // on the volume of water
+  double water_factor = 1;      // on the volume of water
+  double field_correction = 1;  // on the rule's pull
 };
 
 // The states behind the numbers.

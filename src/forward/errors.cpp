@@ -124,8 +124,9 @@ namespace {
 // The control skins of a set of patches, run again.
 class Controls {
  public:
-  Controls(const Scene& scene, const Texture& texture, const Fidelity& fidelity, int skins)
-      : scene_(scene), texture_(texture), fidelity_(fidelity), skins_(skins) {}
+  Controls(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+           const FieldRatios& field, int skins)
+      : scene_(scene), texture_(texture), fidelity_(fidelity), field_(field), skins_(skins) {}
 
   // As it was, by solved areas where it was by the load law, and on half the pixels.
   void run(PatchSet& patches) {
@@ -160,7 +161,7 @@ class Controls {
  private:
   PatchSet again(Fidelity changed, MeasuredError& error) const {
     changed.skins = skins_;
-    PatchSet set = solve_patches(scene_, texture_, changed);
+    PatchSet set = solve_patches(scene_, texture_, changed, field_);
     error.seconds += set.seconds;
     error.costs += set.costs();
     return set;
@@ -169,6 +170,7 @@ class Controls {
   const Scene& scene_;
   const Texture& texture_;
   const Fidelity& fidelity_;
+  const FieldRatios field_;
   int skins_;
 };
 
@@ -209,7 +211,7 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
   patches.controls = {};
   const int skins = std::min(fidelity.control_skins, patches.skins());
   if (skins < 2) return;
-  Controls again(scene, texture, fidelity, skins);
+  Controls again(scene, texture, fidelity, patches.field, skins);
   again.run(patches);
   const ControlRuns& controls = patches.controls;
   const Grid& pixels = patches.plan.grid;

@@ -14,14 +14,17 @@ Fidelity fidelity_level(const std::string& name) {
     f.contact_tolerance = 1e-3;
     f.field_tolerance = 1e-2;
     f.control_skins = 0;
+    f.field_skins = 0;
   } else if (name == "draft") {
     f.grid = 128;
     f.skins = 16;
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
+    f.field_skins = 1;
   } else if (name == "reference") {
     f.grid = 512;
     f.skins = 96;
+    f.field_skins = 6;
     f.contact_tolerance = 1e-6;
     f.field_tolerance = 1e-5;
     f.coupling_tolerance = 1e-3;

@@ -34,6 +34,7 @@ struct Fidelity {
   int bridge_nodes = 3;              // patch-pressure nodes of the Persson closure
   int control_skins = 4;  // run again on a coarser grid and with better methods, for the errors; 0:
                           // those parts stay unknown
+  int field_skins = 2;    // solved in 3-D, for what the field rule lacks; 0: not corrected
   int droplet_seeds = 1;  // placements of the droplets on each skin, averaged
   double load_exponent = 0.84;  // beta of the load-based estimator (Eq. friction.3)
   std::uint64_t seed = 1;       // of skins, offsets and droplets: common to all designs

@@ -32,8 +32,8 @@ class SkinRun {
     for (const double pressure : bridge.pressures()) {
       of_water.clear();
       for (const WaterMember& member : members_) {
-        const PatchProblem problem =
-            setup_.problem(height_, *kernels_[i], humidity, pressure, member);
+        PatchProblem problem = setup_.problem(height_, *kernels_[i], humidity, pressure, member);
+        problem.field_correction = set_.field[i].correction;
         of_water.push_back(
             solve_patch(problem, setup_.plan(), setup_.fidelity(), start_[patches.size()]));
       }
@@ -80,13 +80,16 @@ void PatchSet::add(const PatchSet& other) {
   seconds += other.seconds;
 }
 
-PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                       const FieldRatios& field) {
   const auto begin = std::chrono::steady_clock::now();
   const PatchSetup setup(scene, texture, fidelity);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
   PAPILLA_CHECK(!humidities.empty(), "one humidity at least");
   PatchSet set;
   set.plan = setup.plan();
+  set.field = field.empty() ? field_ratios(scene, texture, fidelity) : field;
+  PAPILLA_CHECK(set.field.size() == humidities.size(), "one field ratio per humidity");
   std::vector<std::shared_ptr<const ContactKernel>> kernels;
   for (const double rh : humidities) {
     kernels.push_back(contact_kernel(setup.scene(), set.plan.grid, rh));
@@ -133,6 +136,7 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
       response.without[k].back().samples = {};
       if (k < others.size()) others[k] = patches[k];
     }
+    add_field_error(set.field[i], fidelity.load_exponent, response.points.back());
     for (const MeasuredError& error : set.errors)
       add_measured_error(error, i, response.points.back());
   }

@@ -6,6 +6,7 @@
 
 #include "base/rooms.h"
 #include "forward/coupling.h"
+#include "forward/field_ratio.h"
 #include "forward/response.h"
 #include "forward/scale_bridge.h"
 
@@ -24,6 +25,7 @@ struct MeasuredError {
 struct PatchSet {
   Plan plan;
   std::vector<ScaleBridge> bridges;               // one per humidity
+  FieldRatios field;                              // one per humidity
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
   std::vector<MeasuredError> errors;              // of measure_errors, like the next
   ControlRuns controls;
@@ -36,9 +38,10 @@ struct PatchSet {
 };
 
 // Skins first_skin ... first_skin + skins - 1 of the fidelity, at each humidity. Parallel over
-// skins; the same bytes for any number of threads. Cost: skins x humidities x (1 or 3) contact
-// solves.
-PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+// skins; the same bytes for any number of threads. field: of other patches of the same scene;
+// empty: measured. Cost: skins x humidities x (1 or 3) contact solves, and `field_ratios`.
+PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                       const FieldRatios& field = {});
 
 // Friction, modulation and their causes at each humidity, of all skins and without each.
 Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches);

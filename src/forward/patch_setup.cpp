@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "forward/scene_terms.h"
 #include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 
@@ -27,7 +28,7 @@ PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelit
     : scene_(applied(scene)),
       fidelity_(fidelity),
       plan_(make_plan(scene_, texture, fidelity)),
-      surface_(generate(texture, plan_.grid), scene_.surface.dielectric_thickness()) {}
+      surface_(generate(texture, plan_.grid), film_of(scene_)) {}
 
 Heightmap PatchSetup::skin(int k) const {
   const int index = fidelity_.first_skin + k;

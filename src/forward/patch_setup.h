@@ -25,6 +25,7 @@ class PatchSetup {
   const Scene& scene() const { return scene_; }
   const Plan& plan() const { return plan_; }
   const Fidelity& fidelity() const { return fidelity_; }
+  const CoveredSurface& surface() const { return surface_; }
   const Heightmap& texture() const { return surface_.height; }
 
   // Skin k of the fidelity: common to every design, because its modes are keyed by integer index.

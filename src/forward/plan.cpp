@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/constants.h"
+#include "forward/field_ratio.h"
 #include "forward/scene_terms.h"
 #include "geometry/measured_map.h"
 #include "physics/capillary/facts.h"
@@ -97,9 +98,17 @@ constexpr const char* kUndriven = "the drive is at 0 V";
 
 Entry field(const Setting& s) {
   if (!s.plan.field) return PlanSkip{Piece::Field, kUndriven};
-  const FieldRule& rule = field_rule(field_method(s.scene.model));
-  return PlanStep{Piece::Field, rule.method, rule.accuracy, s.states * s.price.field,
-                  rule.usual_error};
+  const FieldMethod method = field_method(s.scene.model);
+  const FieldRule& rule = field_rule(method);
+  PlanStep step{Piece::Field, rule.method, rule.accuracy, s.states * s.price.field,
+                rule.usual_error};
+  if (field_corrected(s.scene, s.fidelity)) {
+    step.reason = fmt::format("scaled to the 3-D field of {} skin{}", s.fidelity.field_skins,
+                              s.fidelity.field_skins > 1 ? "s" : "");
+    step.error = kCorrectedFieldError;
+    step.seconds += field_ratio_seconds(s.scene, s.plan.grid, s.fidelity);
+  }
+  return step;
 }
 
 Entry electrowetting(const Setting& s) {

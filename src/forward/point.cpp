@@ -8,7 +8,6 @@
 #include "forward/scene_terms.h"
 #include "forward/water_band.h"
 #include "physics/contact/facts.h"
-#include "physics/electrostatics/rules.h"
 
 namespace papilla::forward {
 namespace {
@@ -142,8 +141,6 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
   }
   add_friction(point, macro.shear_strength * carrying, plan.field);
-  if (plan.field)
-    point.field_error = field_rule(field_method(scene.model)).error(point.wetted_fraction.value);
   add_solver_errors(point, patches);
   if (plan.water)
     add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);

@@ -24,6 +24,7 @@ struct ErrorParts {
   std::optional<double> solver{};      // tolerance of the contact solve
   std::optional<double> humidity{};    // quadrature over humidity (none at a point)
   std::optional<double> method{};      // load law in place of solved areas
+  std::optional<double> field{};       // of the pull, against the 3-D field
   std::optional<double> parameters{};  // of the finger, from the covariance of its fit
 
   // Half the band that the free choices of the droplets leave (mobility, number per volume; Eqs.
@@ -40,10 +41,11 @@ struct ErrorOrigin {
   bool in_total = true;
 };
 // Every part but sampling, in the order of reports.
-inline constexpr std::array<ErrorOrigin, 6> kErrorOrigins{{{"grid", &ErrorParts::grid},
+inline constexpr std::array<ErrorOrigin, 7> kErrorOrigins{{{"grid", &ErrorParts::grid},
                                                            {"solver", &ErrorParts::solver},
                                                            {"humidity", &ErrorParts::humidity},
                                                            {"method", &ErrorParts::method},
+                                                           {"field", &ErrorParts::field},
                                                            {"parameters", &ErrorParts::parameters},
                                                            {"water", &ErrorParts::water, false}}};
 
@@ -104,11 +106,10 @@ struct ResponsePoint : PointQuantities {
   double peak_oxide_field = 0;      // [V/m] mean over the layers
   double oxide_margin = kInfinity;  // least strength over field of a layer of the dielectric
   double peak_air_field = 0;        // [V/m]
-  double strength = 0;  // tau x load-carrying area [N]: of contact, F = strength x fraction
-  // Relative, of the pull by the field rule that was used; no part of the errors above, because the
-  // finger is fitted with that rule. Eq. electrostatics.15
-  double field_error = 0;
-  double bridge_water_share = 0;  // share of the water that sits in bridges
+  double strength = 0;          // tau x load-carrying area [N]: of contact, F = strength x fraction
+  double field_correction = 1;  // on the pull of the field rule. Eq. electrostatics.17
+  std::optional<double> field_error;  // relative, of the pull; none: not measured
+  double bridge_water_share = 0;      // share of the water that sits in bridges
   ModelStatus status;
   PatchSamples samples;
   std::vector<VoltageAnswer> voltages;  // one per target asked for

@@ -42,6 +42,15 @@ FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurfa
   return field_rule(field_method(scene.model)).solve(gap, surface, wetting, problem, tolerance);
 }
 
+std::vector<FilmLayer> film_of(const Scene& scene) {
+  std::vector<FilmLayer> film = film_layers(scene.surface);
+  if (scene.model.preset == Preset::M3) {
+    for (FilmLayer& layer : film)
+      layer = {FilmProcess::Directional, 0, layer.thickness, layer.permittivity};
+  }
+  return film;
+}
+
 FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   FieldProblem p;
   p.v_rms = scene.drive.v_rms();

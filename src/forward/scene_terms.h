@@ -32,6 +32,10 @@ bool retention_counts(const Scene& scene);
 // The rule in use: columns where the preset is the paper's, whose rules are made for them.
 FieldMethod field_method(const ModelOptions& model);
 
+// The film on the electrode. Preset m3 takes it as equally thick along z whatever the surface: its
+// columns have the thickness of a flat film.
+std::vector<FilmLayer> film_of(const Scene& scene);
+
 // The electrical problem of the scene at a humidity.
 FieldProblem field_problem(const Scene& scene, double relative_humidity);
 

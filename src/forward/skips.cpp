@@ -70,7 +70,7 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
     double load_off = 0, load_on = 0, waals = 0, kelvin = 0, pull = 0, next = 0;
     for (int k = 0; k < skins; ++k) {
       const PatchPicture p = picture_patch(once, texture, fidelity, rh, k);
-      const CoveredSurface surface(p.texture, scene.surface.dielectric_thickness());
+      const CoveredSurface surface(p.texture, film_of(scene));
       const Gap off{p.texture.grid, p.fields.off.gap}, on{p.texture.grid, p.fields.on.gap};
       if (off.value.empty() || on.value.empty()) continue;
       load_off += mean(p.fields.off.pressure);

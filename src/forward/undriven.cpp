@@ -21,7 +21,8 @@ Scene driven(const Scene& scene) {
 
 UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
                                  const Fidelity& fidelity)
-    : setup_(std::make_unique<const PatchSetup>(driven(scene), texture, fidelity)) {
+    : setup_(std::make_unique<const PatchSetup>(driven(scene), texture, fidelity)),
+      field_(field_ratios(driven(scene), texture, fidelity)) {
   const Grid& grid = setup_->plan().grid;
   kernel_ = contact_kernel(setup_->scene(), grid, humidity());
   pressures_ = ScaleBridge(setup_->scene(), fidelity, grid, humidity()).pressures();
@@ -65,6 +66,7 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
             PatchProblem problem =
                 setup_->problem(height_[k], *kernel_, humidity(), pressure, member);
             problem.scene = &scene;
+            problem.field_correction = field_.front().correction;
             of_water.push_back(drive_patch(problem, plan, fidelity, patches_[k][at++]));
           }
           patches.push_back(over_water(of_water));
@@ -72,7 +74,9 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
         results[k] = bridge.combine(patches);
       },
       fidelity.threads);
-  return response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
+  ResponsePoint point = response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
+  add_field_error(field_.front(), fidelity.load_exponent, point);
+  return point;
 }
 
 }  // namespace papilla::forward

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "forward/field_ratio.h"
 #include "forward/patch_setup.h"
 #include "forward/response.h"
 
@@ -25,6 +26,7 @@ class UndrivenPatches {
   double humidity() const { return setup_->scene().environment.relative_humidity[0]; }
 
   std::unique_ptr<const PatchSetup> setup_;
+  FieldRatios field_;  // of the one humidity
   std::shared_ptr<const ContactKernel> kernel_;
   std::vector<double> pressures_;
   std::vector<std::vector<double>> height_;          // one per skin

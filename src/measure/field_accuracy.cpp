@@ -56,8 +56,8 @@ struct FinePatch {
 
 FinePatch fine_patch(const Design& design, const PatchPicture& picture, int factor) {
   const Grid& grid = picture.texture.grid;
-  const double thickness = design.surface.dielectric_thickness();
-  FinePatch out{CoveredSurface(picture.texture, thickness),
+  const std::vector<FilmLayer> film = film_layers(design.surface);
+  FinePatch out{CoveredSurface(picture.texture, film),
                 {grid, picture.fields.off.gap},
                 picture.fields.wetting_on};
   if (factor == 1) return out;
@@ -66,7 +66,7 @@ FinePatch fine_patch(const Design& design, const PatchPicture& picture, int fact
   for (std::size_t i = 0; i < skin.size(); ++i)
     skin[i] = picture.texture.z[i] + picture.fields.off.gap[i];
   skin = refined(grid, skin, fine, factor);
-  out.surface = CoveredSurface(generate(design.texture, fine), thickness);
+  out.surface = CoveredSurface(generate(design.texture, fine), film);
   out.gap = {fine, std::vector<double>(fine.size())};
   out.wetting.grid = fine;
   if (!out.wetting.bridged.empty()) out.wetting.bridged.assign(fine.size(), 0);
@@ -99,7 +99,7 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
         picture_patch(scene, design.texture, fidelity, humidity, options.skin);
     const FieldProblem problem = field_problem(scene, humidity);
     const std::size_t first = rows.size();
-    const auto add = [&](const char* method, const FinePatch& patch, int levels, auto&& solve) {
+    const auto add = [&](const char* method, const FinePatch& patch, auto&& solve) {
       // Processor time; the least of up to five runs: other work on the machine only adds.
       FieldSolution result;
       double least = kInfinity, total = 0;
@@ -110,27 +110,24 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
         least = std::min(least, spent);
         total += spent;
       }
-      rows.push_back({sample, method, humidity, patch.gap.grid.nx, levels, result.mean_pressure, 0,
+      rows.push_back({sample, method, humidity, patch.gap.grid.nx, result.mean_pressure, 0,
                       least, result.ok ? "" : result.reason});
     };
     const FinePatch solved = fine_patch(design, picture, 1);
     for (const bool screening : {false, true}) {
       FieldProblem p = problem;
       p.screening = screening;
-      add(screening ? "screened" : "local", solved, 0, [&](const FinePatch& patch) {
+      add(screening ? "screened" : "local", solved, [&](const FinePatch& patch) {
         return solve_local_field(patch.gap, &patch.surface, patch.wetting, p);
       });
     }
-    add("spread", solved, 0, [&](const FinePatch& patch) {
+    add("spread", solved, [&](const FinePatch& patch) {
       return solve_spread_field(patch.gap, &patch.surface, patch.wetting, problem);
     });
     for (const int factor : options.refinements) {
-      PotentialOptions potential;
-      potential.levels = options.levels;
-      add("full", fine_patch(design, picture, factor), potential.levels,
-          [&](const FinePatch& patch) {
-            return solve_full_field(patch.gap, &patch.surface, patch.wetting, problem, potential);
-          });
+      add("full", fine_patch(design, picture, factor), [&](const FinePatch& patch) {
+        return solve_full_field(patch.gap, &patch.surface, patch.wetting, problem);
+      });
     }
     const double exact = rows.back().pull;
     for (std::size_t i = first; i < rows.size(); ++i)

@@ -14,22 +14,21 @@ namespace papilla::measure {
 struct FieldAccuracyRow {
   std::string sample, method;  // "local", "screened" (local with screening), "spread", "full"
   double relative_humidity = 0;
-  int pixels = 0, levels = 0;  // of the method's grid; levels of the 3-D potential
-  double pull = 0;             // [Pa] mean over the patch
-  double error = 0;            // pull / that of the finest full field, less 1
-  double seconds = 0;          // of the processor
-  std::string status;          // empty: sound
+  int pixels = 0;      // of the method's grid
+  double pull = 0;     // [Pa] mean over the patch
+  double error = 0;    // pull / that of the finest full field, less 1
+  double seconds = 0;  // of the processor
+  std::string status;  // empty: sound
 };
 
 struct FieldAccuracyOptions {
   int pixels = 128;                          // of the solved patch
   int skin = 0;                              // index of the skin
-  int levels = 64;                           // heights of the full field
   std::vector<int> refinements = {1, 2, 4};  // of the full field, the last is the reference
 };
 
-// Local rules and full field of one design at its humidities. Cost: of the finest 3-D solve, 64
-// nodes in height, 8 s per humidity at 512^2.
+// Local rules and full field of one design at its humidities. Cost: of the finest 3-D solve, 1 s
+// per humidity at 512^2.
 std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const Design& design,
                                              const FieldAccuracyOptions& options);
 

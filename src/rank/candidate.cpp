@@ -87,7 +87,9 @@ void Candidate::solve(const std::function<Finger(const Finger&)>& move, Fidelity
     Scene scene = scene_of(region);
     scene.finger.state = scene_.finger.state;
     scene.finger = move(scene.finger);
-    PatchSet more = solve_patches(scene, region.texture, fidelity);
+    // One region is one scene: what its field rule lacks is measured once.
+    PatchSet more =
+        solve_patches(scene, region.texture, fidelity, count == 1 ? patches.field : FieldRatios{});
     if (patches.skins() == 0) {
       patches = std::move(more);
     } else {

@@ -128,12 +128,12 @@ std::string coverage_json(const std::vector<CoverageRow>& rows) {
 
 std::string field_accuracy_csv(const std::vector<FieldAccuracyRow>& rows) {
   std::string out =
-      "sample,relative_humidity [%],method,pixels,levels,pull [kPa],error to the finest full field "
+      "sample,relative_humidity [%],method,pixels,pull [kPa],error to the finest full field "
       "[%],seconds,status\n";
   for (const FieldAccuracyRow& r : rows) {
-    out += fmt::format("{},{:.0f},{},{},{},{:.4g},{:.2f},{:.2g},{}\n", r.sample,
-                       100 * r.relative_humidity, r.method, r.pixels, r.levels, 1e-3 * r.pull,
-                       100 * r.error, r.seconds, r.status.empty() ? "ok" : r.status);
+    out += fmt::format("{},{:.0f},{},{},{:.4g},{:.2f},{:.2g},{}\n", r.sample,
+                       100 * r.relative_humidity, r.method, r.pixels, 1e-3 * r.pull, 100 * r.error,
+                       r.seconds, r.status.empty() ? "ok" : r.status);
   }
   return out;
 }

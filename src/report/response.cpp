@@ -62,7 +62,8 @@ std::string beside_target(const Response& response) {
   if (!v || v->value == 0) return {};
   std::string out;
   for (const auto& [name, part] :
-       {std::pair{"humidity", v->parts.humidity}, std::pair{"parameters", v->parts.parameters}}) {
+       {std::pair{"humidity", v->parts.humidity}, std::pair{"field", v->parts.field},
+        std::pair{"parameters", v->parts.parameters}}) {
     if (part && *part > 0) {
       out += fmt::format("{}{} {:.2g} %", out.empty() ? "" : ", ", name,
                          100 * *part / std::abs(v->value));
@@ -120,14 +121,17 @@ std::string modulation_lines(const Response& response) {
 // How far the field is from what air and dielectric hold, and what that says of the numbers.
 std::string field_lines(const Response& response) {
   std::string out;
-  double area = 0, share = 0, oxide = 0, margin = kInfinity, least = 1, most = 0;
+  double area = 0, share = 0, oxide = 0, margin = kInfinity, least = kInfinity, most = 0, error = 0;
+  bool measured = true;
   for (const ResponsePoint& p : response.points) {
     area = std::max(area, p.over_limit_area);
     share = std::max(share, p.over_limit_share);
     oxide = std::max(oxide, p.peak_oxide_field);
     margin = std::min(margin, p.oxide_margin);
-    least = std::min(least, p.field_error);
-    most = std::max(most, p.field_error);
+    least = std::min(least, p.field_correction);
+    most = std::max(most, p.field_correction);
+    measured = measured && p.field_error;
+    error = std::max(error, p.field_error.value_or(0));
   }
   out += fmt::format(
       "air beyond its breakdown field on up to {:.1f} % of the patch, {:.0f} % of the pull; "
@@ -141,12 +145,12 @@ std::string field_lines(const Response& response) {
         1 / margin, margin);
   }
   const bool physical = margin >= 1 && !beyond_contact(response);
-  const auto low = fmt::format("{:.0f}", 100 * least), high = fmt::format("{:.0f}", 100 * most);
-  if (physical) {
-    out += fmt::format(
-        "pull by this field rule: typically {} % from the refined 3-D field, as on the published "
-        "samples; on this texture: --check-field\n",
-        low == high ? low : low + " to " + high);
+  if (physical && measured) {
+    out +=
+        fmt::format("pull: field rule times {:.2f} to {:.2f}, by the 3-D field; good to {:.0f} %\n",
+                    least, most, 100 * error);
+  } else if (physical) {
+    out += "pull: by the field rule, its distance from the 3-D field not measured at this level\n";
   }
   return out;
 }

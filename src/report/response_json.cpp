@@ -99,7 +99,8 @@ Json point_json(const ResponsePoint& p, bool driven) {
   point["over_limit_share"] = json_number(p.over_limit_share);
   point["peak_air_field"] = json_number(p.peak_air_field);
   point["peak_oxide_field"] = json_number(p.peak_oxide_field);
-  point["field_error"] = json_number(p.field_error);
+  point["field_correction"] = json_number(p.field_correction);
+  point["field_error"] = p.field_error ? json_number(*p.field_error) : Json();
   point["oxide_margin"] = json_number(p.oxide_margin);
   for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
   point["status"] = p.status.sound() && driven && p.oxide_margin < 1

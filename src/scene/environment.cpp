@@ -23,6 +23,22 @@ void fields(FieldVisitor& v, Dielectric& s) {
   v.number({"strength", "V/um", 0, 1e6, "breakdown field", Source::Measured,
             "SiO2 1 GV/m at 50 nm (McPherson 2016)"},
            s.strength);
+  v.choice({"process", "how this layer was made; surface: as surface.process says"},
+           {"surface", "conformal", "directional", "planar"}, s.process);
+}
+
+FilmProcess Dielectric::made_by(FilmProcess of_surface) const {
+  switch (process) {
+    case LayerProcess::Surface:
+      return of_surface;
+    case LayerProcess::Conformal:
+      return FilmProcess::Conformal;
+    case LayerProcess::Directional:
+      return FilmProcess::Directional;
+    case LayerProcess::Planar:
+      return FilmProcess::Planar;
+  }
+  return of_surface;
 }
 
 double Surface::equivalent_thickness() const {
@@ -41,7 +57,20 @@ void fields(FieldVisitor& v, Surface& s) {
   v.number({"contact_angle", "deg", 0, 180, "contact angle of water at rest", Source::Paper,
             "M3: SiO2 50 deg"},
            s.contact_angle);
-  v.list({"dielectric", "layers between the electrode and the finger"}, s.dielectric);
+  v.list(
+      {"dielectric", "layers between the electrode and the finger, the one on the electrode first"},
+      s.dielectric);
+  v.choice(
+      {"process",
+       "how the dielectric was made. conformal: equally thick along the normal (thermal oxide, "
+       "atomic layers); directional: along z (evaporation, sputtering); planar: a flat "
+       "electrode, the texture cut into the film or imprinted on it (glass over ITO)",
+       Source::Choice, "the M3 samples are oxidised silicon"},
+      {"conformal", "directional", "planar"}, s.process);
+  v.number({"step_coverage", "", 0, 1,
+            "directional layers: thickness on side walls over that on top; 1 is conformal",
+            Source::Choice, "evaporation 0 to 0.2, sputtering 0.3 to 0.6"},
+           s.step_coverage);
   v.number({"electrode_edge_radius", "nm", 0, 1e6,
             "radius of the electrode's convex edges below walls, for the breakdown margin; 0: not "
             "stated, no edge factor",

@@ -18,13 +18,24 @@ struct Environment {
 };
 void fields(FieldVisitor& v, Environment& s);
 
+// How a layer came onto the electrode: what decides where the electrode lies below a texture.
+enum class FilmProcess {
+  Conformal,    // equal along the normal: thermal oxide, atomic layers
+  Directional,  // equal along z: evaporation, sputtering; side walls by the step coverage
+  Planar,       // a flat electrode; the texture is cut into the layer or imprinted on it
+};
+// What a layer says of itself: as its surface, or a process of its own.
+enum class LayerProcess { Surface, Conformal, Directional, Planar };
+
 struct Dielectric {
   std::string material = "SiO2";
   double thickness = 500e-9;
   double permittivity = 3.9;
   double resistivity = 1e14;
   double strength = 1e9;  // breakdown field [V/m]
+  LayerProcess process = LayerProcess::Surface;
 
+  FilmProcess made_by(FilmProcess of_surface) const;
   double equivalent_thickness() const { return thickness / permittivity; }
 
   bool operator==(const Dielectric&) const = default;
@@ -34,7 +45,9 @@ void fields(FieldVisitor& v, Dielectric& s);
 // The finish of the textured surface.
 struct Surface {
   double contact_angle = 0.8726646259971648;  // 50 deg
-  std::vector<Dielectric> dielectric = {Dielectric{}};
+  std::vector<Dielectric> dielectric = {Dielectric{}};  // the layer on the electrode first
+  FilmProcess process = FilmProcess::Conformal;
+  double step_coverage = 0;           // of directional layers: side wall / top
   double electrode_edge_radius = 0;  // convex edges under walls [m]; 0: none stated
   double refractive_index = 1.46;
   double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid

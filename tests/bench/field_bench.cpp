@@ -1,5 +1,5 @@
 // Cost and error of the field rules on the published samples: prints results/accuracy/field.csv.
-// Run by hand: ninja -C build field_bench && build/tests/field_bench [PIXELS FINEST LEVELS
+// Run by hand: ninja -C build field_bench && build/tests/field_bench [PIXELS FINEST
 // [SAMPLE...]]
 #include <fmt/format.h>
 
@@ -13,13 +13,12 @@
 int main(int argc, char** argv) {
   using namespace papilla::tests;
   FieldAccuracyOptions options;
-  if (argc > 3) {
+  if (argc > 2) {
     options.pixels = std::atoi(argv[1]);
     options.refinements.clear();
     for (int f = 1; f <= std::atoi(argv[2]); f *= 2) options.refinements.push_back(f);
-    options.levels = std::atoi(argv[3]);
   }
-  std::vector<std::string> samples(argv + std::min(argc, 4), argv + argc);
+  std::vector<std::string> samples(argv + std::min(argc, 3), argv + argc);
   if (samples.empty()) samples = {"flat", "a3h350", "a3h600", "a3h900", "a4h350", "a4h600"};
   bool head = true;
   for (const std::string& sample : samples) {

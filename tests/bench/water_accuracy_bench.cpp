@@ -59,7 +59,7 @@ Patches solve_dry(const std::string& folder, const std::string& file, double ang
     PatchPicture p = picture_patch(dry, design.texture, fidelity, rh, k);
     out.gaps.push_back({p.texture.grid, std::move(p.fields.off.gap)});
     out.grid = p.texture.grid;
-    out.surface.emplace(std::move(p.texture), scene.surface.dielectric_thickness());
+    out.surface.emplace(std::move(p.texture), film_layers(scene.surface));
   }
   const double area = out.grid.area();
   out.volume = water.volume_per_area(rh) * area;

@@ -172,7 +172,8 @@ TEST(LocalField, HoleArraysAreWithinTheStatedErrorOfTheStepRule) {
     const double exact = number(row, "F_over_eps0V2") * 1.0;
     const double local = solve_local_field(gap, nullptr, {}, p).mean_pressure / unit;
     EXPECT_NEAR(local, number(row, "F_local_over_eps0V2"), 3e-3 * local);
-    const CoveredSurface surface(texture, p.dielectric_thickness);
+    const CoveredSurface surface(texture,
+                                 {{FilmProcess::Conformal, 0, p.dielectric_thickness, 3.9}});
     const double error =
         std::abs(solve_local_field(gap, &surface, {}, p).mean_pressure / unit / exact - 1);
     if (g <= 0.2e-6) {
@@ -185,22 +186,62 @@ TEST(LocalField, HoleArraysAreWithinTheStatedErrorOfTheStepRule) {
   EXPECT_LT(worst_far, 0.031);
 }
 
-TEST(Electrode, LiesOneThicknessBelowFlatsAndBelowTheFootBehindWalls) {
-  Heightmap h{{40, 4, 4e-6, 0.4e-6}, std::vector<double>(160, 0.0)};
+// A wall of 0.6 um at x = 2 um and another at the seam: the land is at x > 2 um.
+Heightmap step() {
+  Heightmap h{{80, 4, 4e-6, 0.2e-6}, std::vector<double>(320, 0.0)};
   for (int iy = 0; iy < 4; ++iy) {
-    for (int ix = 0; ix < 20; ++ix) h(ix, iy) = -0.6e-6;
+    for (int ix = 0; ix < 40; ++ix) h(ix, iy) = -0.6e-6;
   }
-  const Heightmap e = electrode_below(h, 0.5e-6);
-  EXPECT_DOUBLE_EQ(e(10, 1), -1.1e-6);
-  EXPECT_DOUBLE_EQ(e(20, 1), -1.1e-6);  // within 0.5 um of the wall at x = 2 um
-  EXPECT_DOUBLE_EQ(e(24, 1), -1.1e-6);
-  EXPECT_DOUBLE_EQ(e(25, 1), -0.5e-6);
-  EXPECT_DOUBLE_EQ(e(34, 1), -0.5e-6);
-  EXPECT_DOUBLE_EQ(e(35, 1), -1.1e-6);  // the wall at the periodic seam
-  const CoveredSurface covered(h, 0.5e-6);
-  EXPECT_NEAR(covered.behind_walls[h.grid.index(24, 1)], 0.6e-6, 1e-15);
-  EXPECT_EQ(covered.behind_walls[h.grid.index(25, 1)], 0);
-  EXPECT_TRUE(CoveredSurface(h, 0).behind_walls.empty());
+  return h;
+}
+
+TEST(Electrode, OfAConformalFilmLiesOneBallBelow) {
+  const Heightmap e = below_layer(step(), 0.5e-6, 0.5e-6);
+  EXPECT_DOUBLE_EQ(e(20, 1), -1.1e-6);
+  EXPECT_DOUBLE_EQ(e(60, 1), -0.5e-6);  // 1 um from either wall
+  for (int ix = 40; ix < 60; ++ix) {
+    const double away = (ix - 39) * 0.05e-6;  // from the last pixel of the floor
+    const double ball = away < 0.5e-6 ? -0.6e-6 - std::sqrt(0.25e-12 - away * away) : 0;
+    EXPECT_NEAR(e(ix, 1), std::min(-0.5e-6, ball), 1e-15) << ix;
+  }
+}
+
+TEST(Electrode, OfAConformalFilmOnAPlaneOfAnySlopeLiesAtTheNormalDistance) {
+  // A roof of 45 degrees: away from its ridge and its valley the film is sqrt(2) d along z.
+  Heightmap h{{128, 2, 12.8e-6, 0.2e-6}, std::vector<double>(256)};
+  for (int iy = 0; iy < 2; ++iy) {
+    for (int ix = 0; ix < 128; ++ix) h(ix, iy) = 0.1e-6 * std::min(ix, 128 - ix);
+  }
+  const Heightmap e = below_layer(h, 0.5e-6, 0.5e-6);
+  EXPECT_NEAR(h(32, 0) - e(32, 0), std::sqrt(2.0) * 0.5e-6, 0.01e-6);  // the grid's chord
+  // Half the thickness on side walls: an ellipsoid, d sqrt(1 + (s tan)^2) along z.
+  const Heightmap half = below_layer(h, 0.5e-6, 0.25e-6);
+  EXPECT_NEAR(h(32, 0) - half(32, 0), 0.5e-6 * std::sqrt(1.25), 0.01e-6);
+}
+
+TEST(Electrode, FollowsTheProcessOfEachLayer) {
+  const std::size_t floor = step().grid.index(20, 1), land = step().grid.index(60, 1),
+                    edge = step().grid.index(44, 1);
+  const CoveredSurface vertical(step(), {{FilmProcess::Directional, 0, 0.5e-6, 3.9}});
+  const CoveredSurface covering(step(), {{FilmProcess::Directional, 1, 0.5e-6, 3.9}});
+  const CoveredSurface conformal(step(), {{FilmProcess::Conformal, 0, 0.5e-6, 3.9}});
+  EXPECT_NEAR(vertical.film[edge], 0.5e-6, 1e-18);
+  EXPECT_EQ(covering.film, conformal.film);
+  EXPECT_GT(conformal.film[edge], 0.9e-6);
+  const CoveredSurface planar(step(), {{FilmProcess::Planar, 0, 0.8e-6, 3.9}});
+  EXPECT_NEAR(planar.film[land], 0.8e-6, 1e-18);
+  EXPECT_NEAR(planar.film[floor], 0.2e-6, 1e-18);
+  EXPECT_NEAR(planar.dielectric[floor], 0.2e-6 / 3.9, 1e-18);
+  EXPECT_FALSE(planar.walls);
+  // Indium tin oxide below 0.3 um of one oxide and 0.7 um of another, under 10 nm of a
+  // fluoropolymer.
+  const CoveredSurface mixed(step(), {{FilmProcess::Planar, 0, 0.3e-6, 10},
+                                      {FilmProcess::Planar, 0, 0.7e-6, 4},
+                                      {FilmProcess::Conformal, 0, 10e-9, 2}});
+  EXPECT_NEAR(mixed.film[land], 1.01e-6, 1e-18);
+  EXPECT_NEAR(mixed.dielectric[land], 0.03e-6 + 0.175e-6 + 5e-9, 1e-18);
+  EXPECT_NEAR(mixed.dielectric[floor], 0.03e-6 + 0.025e-6 + 5e-9, 1e-18);
+  EXPECT_EQ(CoveredSurface(step(), {}).film[land], 0);
 }
 
 // Lost pull around a bridge, as the radius of a disc without pull beyond the bridge.

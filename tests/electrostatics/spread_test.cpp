@@ -84,16 +84,15 @@ Gap rough_gap(const Grid& grid, double rms, double least_wavelength) {
   return gap;
 }
 
-// The local rule is too low, this one too high, by no more than the table in the theory page says.
+// The local rule is too low by a tenth and more, this one meets the 3-D field.
 TEST(SpreadField, GathersTheFluxOfContactSpots) {
   const Gap gap = rough_gap({96, 96, 6e-6, 6e-6}, 250e-9, 600e-9);
   const FieldProblem p = glass();
   const double local = solve_local_field(gap, nullptr, {}, p).mean_pressure;
   const double spread = solve_spread_field(gap, nullptr, {}, p).mean_pressure;
   const double full = solve_full_field(gap, nullptr, {}, p).mean_pressure;
-  EXPECT_LT(local, 0.95 * full);
-  EXPECT_GT(spread, full);
-  EXPECT_LT(spread, 1.14 * full);
+  EXPECT_LT(local, 0.9 * full);
+  EXPECT_NEAR(spread, full, 0.03 * full);
 }
 
 // Without a layer on the skin the air's conductance spans orders of magnitude between a contact

@@ -9,56 +9,184 @@
 namespace papilla::electrostatics {
 namespace {
 
-// The foot of a wall: a neighbour stands higher by more than the distance to it.
-bool is_foot(const Heightmap& h, int ix, int iy) {
-  const Grid& g = h.grid;
-  const double z = h(ix, iy);
-  return std::max(h(ix + 1 < g.nx ? ix + 1 : 0, iy), h(ix > 0 ? ix - 1 : g.nx - 1, iy)) >
-             z + g.dx() ||
-         std::max(h(ix, iy + 1 < g.ny ? iy + 1 : 0), h(ix, iy > 0 ? iy - 1 : g.ny - 1)) >
-             z + g.dy();
+constexpr double kSame = 1e-12;          // [m] heights closer than this are one
+constexpr double kThinnestFilm = 1e-10;  // [m] of a planar film that its texture cuts through
+
+// Extremes of a periodic row over `reach` places either side: two passes of blocks as long as the
+// window, so that the cost does not depend on it.
+template <class Better>
+void extremes_along(const double* in, int n, int reach, Better&& better, std::vector<double>& ahead,
+                    std::vector<double>& behind, double* out) {
+  const int window = 2 * reach + 1;
+  const int padded = n + 2 * reach;
+  ahead.resize(padded);
+  behind.resize(padded);
+  const auto at = [&](int i) { return in[wrap(i - reach, n)]; };
+  for (int i = 0; i < padded; ++i) ahead[i] = i % window == 0 ? at(i) : better(ahead[i - 1], at(i));
+  for (int i = padded - 1; i >= 0; --i)
+    behind[i] = i % window == window - 1 || i == padded - 1 ? at(i) : better(behind[i + 1], at(i));
+  for (int i = 0; i < n; ++i) out[i] = better(behind[i], ahead[i + window - 1]);
+}
+
+// Extremes over the square of nx by ny places either side of each pixel.
+template <class Better>
+std::vector<double> extremes(const Grid& g, const std::vector<double>& z, int nx, int ny,
+                             Better&& better) {
+  std::vector<double> rows(z.size()), ahead, behind, column(g.ny), most(g.ny), out(z.size());
+  for (int iy = 0; iy < g.ny; ++iy)
+    extremes_along(&z[g.index(0, iy)], g.nx, nx, better, ahead, behind, &rows[g.index(0, iy)]);
+  for (int ix = 0; ix < g.nx; ++ix) {
+    for (int iy = 0; iy < g.ny; ++iy) column[iy] = rows[g.index(ix, iy)];
+    extremes_along(column.data(), g.ny, ny, better, ahead, behind, most.data());
+    for (int iy = 0; iy < g.ny; ++iy) out[g.index(ix, iy)] = most[iy];
+  }
+  return out;
+}
+
+int reach_of(double distance, double step, int n) {
+  return std::min(static_cast<int>(distance / step), (n - 1) / 2);
+}
+
+// Calls visit(pixel beside, squared distance) for the pixels within `radius` of one, nearest rows
+// first, until it returns false for a row.
+template <class Row>
+void for_each_row(int reach, Row&& row) {
+  if (!row(0)) return;
+  for (int j = 1; j <= reach; ++j) {
+    const bool north = row(j), south = row(-j);
+    if (!north && !south) return;
+  }
+}
+
+// Shortest distance from the surface to the electrode [m], where that is nearer beside a pixel than
+// below it.
+std::vector<double> nearest_electrode(const Heightmap& surface,
+                                      const std::vector<double>& electrode,
+                                      const std::vector<double>& film) {
+  const Grid& g = surface.grid;
+  const double thickest = *std::max_element(film.begin(), film.end());
+  const int nx = reach_of(thickest, g.dx(), g.nx), ny = reach_of(thickest, g.dy(), g.ny);
+  const std::vector<double> highest =
+      extremes(g, electrode, nx, ny, [](double a, double b) { return std::max(a, b); });
+  std::vector<double> out = film;
+  for (int iy = 0; iy < g.ny; ++iy) {
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const std::size_t i = g.index(ix, iy);
+      if (highest[i] <= electrode[i] + kSame) continue;
+      double best = square(film[i]);
+      const double z = surface.z[i];
+      for_each_row(ny, [&](int j) {
+        const double across = square(j * g.dy());
+        if (across >= best) return false;
+        const double* row = &electrode[g.index(0, wrap(iy + j, g.ny))];
+        for (int k = -nx; k <= nx; ++k) {
+          const double beside = across + square(k * g.dx());
+          if (beside < best) best = std::min(best, beside + square(z - row[wrap(ix + k, g.nx)]));
+        }
+        return true;
+      });
+      out[i] = std::sqrt(best);
+    }
+  }
+  return out;
+}
+
+// d/eps of columns whose parts lie in layers of these permittivities.
+void add_layer(std::vector<double>& dielectric, const std::vector<double>& upper,
+               const std::vector<double>& lower, double permittivity) {
+  for (std::size_t i = 0; i < dielectric.size(); ++i)
+    dielectric[i] += (upper[i] - lower[i]) / permittivity;
 }
 
 }  // namespace
 
-Heightmap electrode_below(const Heightmap& surface, double thickness) {
-  const Grid& g = surface.grid;
-  Heightmap electrode{g, surface.z};
-  for (double& z : electrode.z) z -= thickness;
-  if (thickness <= 0) return electrode;
-  // Distances count from the wall, half a pixel beyond the centre of its foot.
-  const double radius = thickness + 0.5 * std::min(g.dx(), g.dy());
-  const int nx = std::min(static_cast<int>(radius / g.dx()), (g.nx - 1) / 2);
-  const int ny = std::min(static_cast<int>(radius / g.dy()), (g.ny - 1) / 2);
-  for (int iy = 0; iy < g.ny; ++iy) {
-    for (int ix = 0; ix < g.nx; ++ix) {
-      if (!is_foot(surface, ix, iy)) continue;
-      const double level = surface(ix, iy) - thickness;
-      for (int j = -ny; j <= ny; ++j) {
-        const double across2 = square(radius) - square(j * g.dy());
-        const int width = std::min(static_cast<int>(std::sqrt(across2) / g.dx()), nx);
-        double* row = electrode.z.data() + g.index(0, wrap(iy + j, g.ny));
-        const auto lower = [&](int from, int to) {
-          for (int i = from; i < to; ++i) row[i] = std::min(row[i], level);
-        };
-        const int first = wrap(ix - width, g.nx), end = first + 2 * width + 1;
-        lower(first, std::min(end, g.nx));
-        lower(0, end - g.nx);
-      }
-    }
-  }
-  return electrode;
+std::vector<FilmLayer> film_layers(const Surface& surface) {
+  std::vector<FilmLayer> out;
+  for (const Dielectric& d : surface.dielectric)
+    out.push_back({d.made_by(surface.process), surface.step_coverage, d.thickness, d.permittivity});
+  return out;
 }
 
-CoveredSurface::CoveredSurface(Heightmap surface, double thickness) : height(std::move(surface)) {
-  if (thickness <= 0) return;
-  behind_walls = electrode_below(height, thickness).z;
-  bool any = false;
-  for (std::size_t i = 0; i < behind_walls.size(); ++i) {
-    behind_walls[i] = height.z[i] - behind_walls[i] - thickness;
-    any = any || behind_walls[i] > 1e-12;
+Heightmap below_layer(const Heightmap& surface, double thickness, double side_thickness) {
+  const Grid& g = surface.grid;
+  Heightmap below{g, surface.z};
+  for (double& z : below.z) z -= thickness;
+  const int nx = reach_of(side_thickness, g.dx(), g.nx),
+            ny = reach_of(side_thickness, g.dy(), g.ny);
+  if (thickness <= 0 || (nx == 0 && ny == 0)) return below;
+  const std::vector<double> lowest =
+      extremes(g, surface.z, nx, ny, [](double a, double b) { return std::min(a, b); });
+  // Height of the ellipsoid over its lowest point, by row.
+  std::vector<double> cap(static_cast<std::size_t>(2 * nx + 1) * (ny + 1));
+  for (int j = 0; j <= ny; ++j) {
+    for (int k = -nx; k <= nx; ++k) {
+      const double r2 = (square(k * g.dx()) + square(j * g.dy())) / square(side_thickness);
+      cap[static_cast<std::size_t>(j) * (2 * nx + 1) + k + nx] =
+          r2 < 1 ? thickness * (1 - std::sqrt(1 - r2)) : kInfinity;
+    }
   }
-  if (!any) behind_walls.clear();
+  for (int iy = 0; iy < g.ny; ++iy) {
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const std::size_t i = g.index(ix, iy);
+      if (lowest[i] >= surface.z[i] - kSame) continue;  // nothing beside is lower
+      double least = surface.z[i];
+      for_each_row(ny, [&](int j) {
+        const double* c = &cap[static_cast<std::size_t>(std::abs(j)) * (2 * nx + 1)];
+        if (lowest[i] + c[nx] >= least) return false;
+        const double* row = &surface.z[g.index(0, wrap(iy + j, g.ny))];
+        for (int k = -nx; k <= nx; ++k)
+          least = std::min(least, row[wrap(ix + k, g.nx)] + c[k + nx]);
+        return true;
+      });
+      below.z[i] = least - thickness;
+    }
+  }
+  return below;
+}
+
+CoveredSurface::CoveredSurface(Heightmap surface, const std::vector<FilmLayer>& layers)
+    : height(std::move(surface)), film(height.z.size(), 0), dielectric(film) {
+  double planar = 0;
+  for (const FilmLayer& l : layers) {
+    if (l.process == FilmProcess::Planar) planar += l.thickness;
+  }
+  Heightmap lower = height;
+  for (std::size_t k = layers.size(); k-- > 0;) {
+    const FilmLayer& l = layers[k];
+    if (l.process == FilmProcess::Planar) continue;
+    const double side = l.process == FilmProcess::Conformal ? 1 : l.step_coverage;
+    Heightmap next = below_layer(lower, l.thickness, side * l.thickness);
+    add_layer(dielectric, lower.z, next.z, l.permittivity);
+    lower = std::move(next);
+  }
+  if (planar > 0) {
+    double total = 0;
+    for (const FilmLayer& l : layers) total += l.thickness;
+    // The uppermost planar layer carries the texture; those below it are whole.
+    double top = -total;
+    const FilmLayer* cut = nullptr;
+    for (const FilmLayer& l : layers) {
+      if (l.process != FilmProcess::Planar) continue;
+      if (cut) {
+        for (double& d : dielectric) d += cut->thickness / cut->permittivity;
+        top += cut->thickness;
+      }
+      cut = &l;
+    }
+    for (std::size_t i = 0; i < lower.z.size(); ++i)
+      dielectric[i] += std::max(lower.z[i] - top, kThinnestFilm) / cut->permittivity;
+    for (double& z : lower.z) z = std::min(z - kThinnestFilm, -total);
+  }
+  for (std::size_t i = 0; i < film.size(); ++i) film[i] = height.z[i] - lower.z[i];
+  effective = dielectric;
+  if (film.empty() || *std::max_element(film.begin(), film.end()) <= 0) return;
+  const std::vector<double> near = nearest_electrode(height, lower.z, film);
+  for (std::size_t i = 0; i < film.size(); ++i) {
+    if (near[i] >= film[i] - kSame) continue;
+    walls = true;
+    const double beside = dielectric[i] * near[i] / film[i];
+    effective[i] = 2 * dielectric[i] * beside / (dielectric[i] + beside);
+  }
 }
 
 }  // namespace papilla::electrostatics

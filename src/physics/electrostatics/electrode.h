@@ -1,29 +1,44 @@
-// Where the electrode lies below a textured dielectric.
+// Where the electrode lies below a textured surface: what the making of the film decides.
 #pragma once
 
 #include <vector>
 
 #include "base/rooms.h"
 #include "geometry/heightmap.h"
+#include "scene/environment.h"
 
 namespace papilla::electrostatics {
 
-// Height of an electrode that a dielectric of a thickness [m] covers conformally with square
-// corners, below the finished surface: z - thickness on flats; behind a wall (a drop steeper than
-// 45 degrees between neighbouring pixels) the side of the wall is covered as thick, so that within
-// one thickness of its foot the electrode lies one thickness below the foot. Cost: wall pixels
-// times pixels in a disc of the thickness. Eq. electrostatics.2
-Heightmap electrode_below(const Heightmap& surface, double thickness);
+// One layer of the film on the electrode, and how it came there.
+struct FilmLayer {
+  FilmProcess process = FilmProcess::Conformal;
+  double step_coverage = 0;  // of a directional layer: side wall / top
+  double thickness = 0;      // [m] along the normal; directional: along z; planar: at height 0
+  double permittivity = 1;
+};
+// The layers of a finish, the one on the electrode first.
+std::vector<FilmLayer> film_layers(const Surface& surface);
 
-// A rigid finished surface and the dielectric below it: what the field rules know of a texture, the
-// same for every gap above it.
+// The surface below a layer: eroded by an ellipsoid as high as the layer is thick and as wide as it
+// covers side walls: a ball for a conformal layer, a vertical shift for one that covers none.
+// Heights are those of pixels, so a wall stands a pixel wide. Cost: pixels times pixels in a disc
+// of the thickness where the surface is rough, one pass where it is flat. Eq. electrostatics.2
+Heightmap below_layer(const Heightmap& surface, double thickness, double side_thickness);
+
+// A rigid finished surface and the film below it: what the field rules know of a texture, the same
+// for every gap above it. Per pixel.
 struct CoveredSurface {
-  // thickness: of the dielectric on flats [m]; 0: none.
-  CoveredSurface(Heightmap surface, double thickness);
+  // layers: the one on the electrode first; none: the surface is the electrode. Planar layers have
+  // a flat electrode and carry the texture, all others follow what they cover.
+  CoveredSurface(Heightmap surface, const std::vector<FilmLayer>& layers);
 
-  Heightmap height;  // [m]
-  // Dielectric [m] that a column behind a wall holds beyond the thickness; empty without walls.
-  std::vector<double> behind_walls;
+  Heightmap height;                // [m]
+  std::vector<double> film;        // dielectric of the column, along z [m]
+  std::vector<double> dielectric;  // d/eps of the column [m]
+  // d/eps that the rules of columns see: of the pressure half the column's, half that of the
+  // nearest place of the electrode [m]. Eq. electrostatics.2
+  std::vector<double> effective;
+  bool walls = false;  // the electrode is not flat and has edges
 };
 
 }  // namespace papilla::electrostatics

@@ -10,10 +10,6 @@
 
 namespace papilla::electrostatics {
 
-double spread_rule_error(double wetted) { return 0.09 - 0.26 * std::clamp(wetted, 0.0, 0.23); }
-
-double local_rule_error(double wetted) { return 0.2 + 0.66 * std::clamp(wetted, 0.0, 0.5); }
-
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting) {
   std::vector<double> column(grid.size(), 0);
   const double dx = grid.dx(), dy = grid.dy();
@@ -62,27 +58,20 @@ AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProb
 
 namespace {
 
-// The columns with the strongest field: squared distance in d/eps of the closest with air and
-// without [m^2]; whether there are bridges.
-struct ClosestColumns {
-  double air, touched;
-  bool bridged;
+// What the strongest fields stand in.
+struct Strongest {
+  double air2 = HUGE_VAL;  // least squared distance in d/eps of a column with air [m^2]
+  // Largest voltage over d/eps of a column's dielectric, per volt of the drive [1/m]; 0: none.
+  double dielectric = 0;
 };
 
-void set_peaks(const FieldProblem& p, bool walls, const ClosestColumns& closest,
-               double most_voltage, FieldSolution& out) {
-  if (closest.air < HUGE_VAL) out.peak_air_field = p.v_peak / std::sqrt(closest.air);
-  if (p.dielectric_thickness > 0) {
-    // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-    const double share = closest.bridged ? 1
-                         : most_voltage > 0
-                             ? most_voltage
-                             : p.dielectric / std::sqrt(std::min(closest.air, closest.touched));
-    out.peak_oxide_field = p.v_peak * share / p.dielectric_thickness;
-    if (walls && p.edge_radius > 0) {
-      out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
-    }
-  }
+void set_peaks(const FieldProblem& p, bool walls, const Strongest& strongest, FieldSolution& out) {
+  if (strongest.air2 < HUGE_VAL) out.peak_air_field = p.v_peak / std::sqrt(strongest.air2);
+  if (p.dielectric_thickness <= 0) return;
+  // Mean over the layers: that of a flat film with the same voltage over its d/eps.
+  out.peak_oxide_field = p.v_peak * strongest.dielectric * p.dielectric / p.dielectric_thickness;
+  if (walls && p.edge_radius > 0)
+    out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
 }
 
 }  // namespace
@@ -99,45 +88,37 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
     out.reason = "no dielectric anywhere: contact would short the drive";
     return out;
   }
-  const bool walls = surface && !surface->behind_walls.empty();
-  const double per_thickness =
-      p.dielectric_thickness > 0 ? p.dielectric / p.dielectric_thickness : 0;
   const double scale = 0.5 * kVacuumPermittivity * square(p.v_rms);
   const double cap = p.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
-  const double series = p.dielectric + p.skin_layer.real();
   const double quadrature = square(p.skin_layer.imag());
-  double sum = 0, over_sum = 0, least_air = HUGE_VAL, least_touched = HUGE_VAL;
+  double sum = 0, over_sum = 0;
   std::size_t over = 0;
-  bool bridged = false;
+  Strongest strongest;
   for (std::size_t i = 0; i < n; ++i) {
     const double open = factors.open.empty() ? 1 : factors.open[i];
+    const double film = surface ? surface->effective[i] : p.dielectric;
     if (open <= 0) {
-      bridged = true;
+      // Water leads around the skin's layer: under a bridge the dielectric carries everything.
+      if (film > 0) strongest.dielectric = std::max(strongest.dielectric, 1 / film);
       continue;
     }
     const double g = columns.air[i];
     if (g < 0) continue;
     const double gain = factors.gain.empty() ? 1 : factors.gain[i];
-    const double in_series =
-        columns.water.empty() ? series : series + columns.water[i] / kWaterPermittivity;
+    const double water = columns.water.empty() ? 0 : columns.water[i];
+    const double in_series = film + p.skin_layer.real() + water / kWaterPermittivity;
     const double distance2 = (square(g + in_series) + quadrature) / gain;
-    double pressure = scale / distance2;
-    if (walls && surface->behind_walls[i] > 0) {
-      const double behind =
-          square(g + in_series + surface->behind_walls[i] * per_thickness) + quadrature;
-      pressure = 0.5 * (pressure + scale * gain / behind);
-    }
-    pressure = std::min(pressure, cap) * open;
+    const double pressure = std::min(scale / distance2, cap) * open;
     out.traction.value[i] = pressure;
     sum += pressure;
+    const double share = factors.voltage.empty() ? film / std::sqrt(distance2) : factors.voltage[i];
+    if (film > 0) strongest.dielectric = std::max(strongest.dielectric, share / film);
     if (g > 0) {
-      least_air = std::min(least_air, distance2);
+      strongest.air2 = std::min(strongest.air2, distance2);
       if (square(p.v_peak * g) > square(air_breakdown_voltage(g)) * distance2) {
         ++over;
         over_sum += pressure;
       }
-    } else {
-      least_touched = std::min(least_touched, distance2);
     }
   }
   if (!std::isfinite(sum)) {
@@ -145,7 +126,7 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
     out.reason = "the pull is not finite";
     return out;
   }
-  set_peaks(p, walls, {least_air, least_touched, bridged}, factors.most_voltage, out);
+  set_peaks(p, surface && surface->walls, strongest, out);
   out.mean_pressure = sum / static_cast<double>(n);
   out.over_limit_area = static_cast<double>(over) / static_cast<double>(n);
   out.over_limit_share = sum > 0 ? over_sum / sum : 0;
@@ -156,7 +137,8 @@ FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
                                 const Wetting& wetting, const FieldProblem& p) {
   const std::vector<double> open =
       screening_factor(gap, wetting, p.dielectric_thickness, p.screening);
-  return pull(gap, surface, p, columns_above(gap, wetting, p), {.open = open, .gain = {}});
+  return pull(gap, surface, p, columns_above(gap, wetting, p),
+              {.open = open, .gain = {}, .voltage = {}});
 }
 
 }  // namespace papilla::electrostatics

@@ -12,7 +12,8 @@
 namespace papilla::electrostatics {
 
 struct FieldProblem {
-  double v_rms = 0, v_peak = 0;         // [V] across electrode and body
+  double v_rms = 0, v_peak = 0;  // [V] across electrode and body
+  // Of the film on a flat surface, and of one whose columns `CoveredSurface` does not tell:
   double dielectric = 0;                // sum of d/eps on the electrode [m]
   double dielectric_thickness = 0;      // sum of d [m]
   double edge_radius = 0;               // of the electrode's edges below walls [m]; 0: none stated
@@ -56,13 +57,6 @@ FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
 FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
                                  const Wetting& wetting, const FieldProblem& problem,
                                  double tolerance = 1e-4);
-
-// How far the local rule with screening is below the 3-D potential on rough skin, relative to the
-// pull: a law over the published samples at 15 to 75 % RH; wetted: share of the patch under
-// bridges. Eq. electrostatics.15
-double local_rule_error(double wetted);
-// How far the rule with spreading flux is above it, the same way. Eq. electrostatics.17
-double spread_rule_error(double wetted);
 
 // Height of the water of droplets that do not bridge, per pixel [m]: spherical caps on either side.
 std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting);

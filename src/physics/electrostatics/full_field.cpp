@@ -42,18 +42,15 @@ PotentialProblem potential_problem(const Gap& gap, const CoveredSurface* surface
   const std::size_t n = gap.grid.size();
   PotentialProblem potential;
   potential.grid = gap.grid;
-  const bool walls = surface && !surface->behind_walls.empty();
   potential.surface = surface ? surface->height.z : std::vector<double>(n, 0);
   potential.electrode.resize(n);
   potential.skin.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    potential.electrode[i] = potential.surface[i] - p.dielectric_thickness;
-    if (walls) potential.electrode[i] -= surface->behind_walls[i];
+    potential.electrode[i] =
+        potential.surface[i] - (surface ? surface->film[i] : p.dielectric_thickness);
     potential.skin[i] = potential.surface[i] + gap.value[i];
   }
-  if (p.dielectric_thickness > 0) {
-    potential.permittivity = p.dielectric_thickness / p.dielectric;
-  }
+  potential.dielectric = surface ? surface->dielectric : std::vector<double>(n, p.dielectric);
   potential.skin_layer = p.skin_layer.real();
   if (p.screening) potential.bridged = wetting.bridged;
   if (p.droplet_enhancement && !p.zero_under_droplets) add_droplets(gap, wetting, potential);
@@ -75,15 +72,15 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
   for (std::size_t i = 0; i < n; ++i) {
     if (!wetting.bridged.empty() && wetting.bridged[i]) continue;
     if (!hidden.empty() && hidden[i] > 0) continue;
-    double field = s.field[i];
-    if (p.skin_layer.imag() != 0) {
-      field /= std::hypot(1, s.flux[i] * p.skin_layer.imag());
-    }
-    const double pressure = std::min(scale * square(field), cap);
+    double square_field = s.square_field[i];
+    // Of the flux that the layer's real part leaves; for a flat stack exactly Eq. electrostatics.1.
+    square_field /= 1 + std::max(square_field, 0.0) * square(p.skin_layer.imag());
+    const double pressure = std::min(scale * square_field, cap);
     out.traction.value[i] = pressure;
     sum += pressure;
     const double g = gap.value[i];
-    if (g > 0 && p.v_peak * field * g > air_breakdown_voltage(g)) {
+    if (g > 0 && square_field > 0 &&
+        p.v_peak * std::sqrt(square_field) * g > air_breakdown_voltage(g)) {
       ++over;
       over_sum += pressure;
     }
@@ -94,6 +91,8 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
 }
 
 }  // namespace
+
+double full_field_seconds(const Grid& grid) { return 3e-6 * static_cast<double>(grid.size()); }
 
 FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
                                const Wetting& wetting, const FieldProblem& p,
@@ -111,8 +110,8 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
   add_pull(s, gap, wetting, p, out);
   out.peak_air_field = p.v_peak * s.peak_air;
   out.peak_oxide_field = p.v_peak * s.peak_dielectric;
-  const bool walls = surface && !surface->behind_walls.empty();
-  if (p.edge_radius > 0 && p.edge_radius < 2 * std::min(grid.dx(), grid.dy()) && walls) {
+  if (p.edge_radius > 0 && p.edge_radius < 2 * std::min(grid.dx(), grid.dy()) && surface &&
+      surface->walls) {
     out.peak_oxide_field =
         std::max(out.peak_oxide_field, p.v_peak / p.dielectric_thickness *
                                            corner_factor(p.dielectric_thickness, p.edge_radius));

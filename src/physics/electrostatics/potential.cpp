@@ -1,15 +1,15 @@
-// The potential on a grid of nodes: conjugate gradients with one multigrid cycle each, and the
-// fields that follow from it.
+// The potential on columns of nodes: conjugate gradients with one multigrid cycle each, and the
+// pull that follows from its energy.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "base/check.h"
-#include "physics/electrostatics/multigrid.h"
-#include "physics/electrostatics/potential_grid.h"
+#include "physics/electrostatics/column_operator.h"
+#include "physics/electrostatics/field_columns.h"
 
 namespace papilla::electrostatics {
 namespace {
@@ -27,61 +27,169 @@ double dot(const std::vector<double>& a, const std::vector<double>& b) {
   return s0 + s1 + s2 + s3;
 }
 
-PotentialSolution failed(PotentialSolution out, std::string reason) {
-  out.ok = false;
-  out.reason = std::move(reason);
-  return out;
+// The potential of a column at a height within one of its cells, by its two nodes.
+struct Interpolation {
+  int cell;
+  double upper;  // weight of the node above
+  double lower() const { return 1 - upper; }
+};
+Interpolation interpolate(const FieldColumns& c, std::size_t column, int cell, double z) {
+  const double low = c.z(column, cell);
+  return {cell, (z - low) / (c.z(column, cell + 1) - low)};
+}
+
+// The neighbour of a column across its eastern or northern face.
+struct Neighbour {
+  std::size_t column;
+  int ix, iy;
+  double step, width;
+  bool east;
+};
+
+template <class Visit>
+void for_each_face(const Grid& g, Visit&& visit) {
+  for (int iy = 0; iy < g.ny; ++iy) {
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const std::size_t i = g.index(ix, iy);
+      const int e = ix + 1 < g.nx ? ix + 1 : 0, n = iy + 1 < g.ny ? iy + 1 : 0;
+      if (g.nx > 1) visit(i, ix, iy, Neighbour{g.index(e, iy), e, iy, g.dx(), g.dy(), true});
+      if (g.ny > 1) visit(i, ix, iy, Neighbour{g.index(ix, n), ix, n, g.dy(), g.dx(), false});
+    }
+  }
+}
+
+int dielectric_cells(const PotentialProblem& p, const PotentialOptions& options) {
+  if (options.dielectric_cells > 0) return options.dielectric_cells;
+  double thickest = 0;
+  for (std::size_t i = 0; i < p.surface.size(); ++i)
+    thickest = std::max(thickest, p.surface[i] - p.electrode[i]);
+  const double pixels = thickest / std::min(p.grid.dx(), p.grid.dy());
+  return static_cast<int>(std::lround(std::clamp(2 + 0.5 * pixels, 4.0, 8.0)));
 }
 
 class PotentialSolver {
  public:
-  PotentialSolver(const PotentialProblem& problem, const PotentialOptions& options,
-                  std::vector<FieldColumn> columns)
-      : problem_(problem), options_(options), grid_(problem, std::move(columns), options.levels) {}
+  PotentialSolver(const PotentialProblem& problem, const PotentialOptions& options)
+      : problem_(problem),
+        options_(options),
+        columns_(problem, dielectric_cells(problem, options), options.air_cells),
+        unknowns_(columns_.nodes() - 2) {}
 
   PotentialSolution run(PotentialSolution out) {
+    ColumnMultigrid multigrid(assembled());
     start();
-    iterate(out);
+    iterate(multigrid, out);
     measure(out);
     return out;
   }
 
  private:
-  // Every column by itself.
-  void start() {
+  // Assembly of the energy's quadratic form, over eps0 dx.
+  ColumnOperator assembled() {
     const Grid& g = problem_.grid;
-    phi_.assign(grid_.electrode().size(), 0);
+    ColumnOperator a(g.nx, g.ny, unknowns_);
+    drive_.assign(a.size(), 0);
     for (int iy = 0; iy < g.ny; ++iy) {
       for (int ix = 0; ix < g.nx; ++ix) {
         const std::size_t i = g.index(ix, iy);
-        const FieldColumn& c = grid_.columns()[i];
-        const double total = c.total();
-        for (int k = grid_.first(i); k <= grid_.last(i); ++k) {
-          phi_[grid_.node(ix, iy, k)] = 1 - c.resistance(grid_.z(k)) / total;
+        for (int k = 0; k < columns_.top(i); ++k) {
+          join(a, {i, ix, iy, k}, {i, ix, iy, k + 1}, g.dy() / columns_.resistance(i, k));
+        }
+      }
+    }
+    for_each_face(g, [&](std::size_t i, int ix, int iy, const Neighbour& n) {
+      columns_.exchanges(i, n.column, n.step, n.width,
+                         [&](const Exchange& e) { add_exchange(a, e, i, ix, iy, n); });
+    });
+    return a;
+  }
+
+  struct Node {
+    std::size_t column;
+    int ix, iy, k;
+  };
+  // Adds c/2 (phi_a - phi_b)^2.
+  void join(ColumnOperator& m, const Node& a, const Node& b, double c) {
+    const bool fixed_a = columns_.fixed(a.column, a.k), fixed_b = columns_.fixed(b.column, b.k);
+    if (fixed_a && fixed_b) return;
+    if (fixed_a || fixed_b) {
+      const Node &free = fixed_a ? b : a, &body = fixed_a ? a : b;
+      m.add_body(free.ix, free.iy, free.k - 1, c);
+      drive_[m.index(free.ix, free.iy, free.k - 1)] += c * columns_.body_potential(body.k);
+    } else if (a.column == b.column) {
+      m.add_own(a.ix, a.iy, a.k - 1, b.k - 1, c);
+    } else if (a.iy == b.iy) {
+      m.add_east(a.ix, a.iy, a.k - 1, b.k - 1, c);
+    } else {
+      m.add_north(a.ix, a.iy, a.k - 1, b.k - 1, c);
+    }
+  }
+
+  // The square of a difference between interpolated potentials as conductances between nodes.
+  void add_exchange(ColumnOperator& m, const Exchange& e, std::size_t i, int ix, int iy,
+                    const Neighbour& n) {
+    const double c = e.conductance / problem_.grid.dx();
+    std::array<Node, 4> nodes;
+    std::array<double, 4> weight{};
+    int count = 0;
+    const auto put = [&](std::size_t column, int x, int y, int cell, double sign) {
+      const Interpolation at = interpolate(columns_, column, cell, e.middle);
+      nodes[count] = {column, x, y, cell};
+      weight[count++] = sign * at.lower();
+      nodes[count] = {column, x, y, cell + 1};
+      weight[count++] = sign * at.upper;
+    };
+    const auto put_body = [&](std::size_t column, int x, int y, double sign) {
+      nodes[count] = {column, x, y, e.body == Body::Electrode ? 0 : columns_.nodes() - 1};
+      weight[count++] = sign;
+    };
+    e.here >= 0 ? put(i, ix, iy, e.here, 1) : put_body(i, ix, iy, 1);
+    e.there >= 0 ? put(n.column, n.ix, n.iy, e.there, -1) : put_body(n.column, n.ix, n.iy, -1);
+    // The weights sum to zero: (sum w phi)^2 = - sum over pairs of w_p w_q (phi_p - phi_q)^2.
+    for (int p = 0; p < count; ++p) {
+      for (int q = p + 1; q < count; ++q) {
+        const double conductance = -c * weight[p] * weight[q];
+        if (conductance != 0) join(m, nodes[p], nodes[q], conductance);
+      }
+    }
+  }
+
+  // Every column by itself.
+  void start() {
+    const Grid& g = problem_.grid;
+    phi_.assign(drive_.size(), 0);
+    energy_ = 0;
+    for (int iy = 0; iy < g.ny; ++iy) {
+      for (int ix = 0; ix < g.nx; ++ix) {
+        const std::size_t i = g.index(ix, iy);
+        double total = 0, below = 0;
+        for (int k = 0; k < columns_.top(i); ++k) total += columns_.resistance(i, k);
+        energy_ += g.dy() / total;
+        for (int k = 1; k < columns_.top(i); ++k) {
+          below += columns_.resistance(i, k - 1);
+          phi_[node(ix, iy, k)] = 1 - below / total;
         }
       }
     }
   }
 
-  void iterate(PotentialSolution& out) {
+  void iterate(ColumnMultigrid& multigrid, PotentialSolution& out) {
     const std::size_t n = phi_.size();
-    Multigrid multigrid(grid_.take_conductances());
-    FieldLevel& f = multigrid.fine();
     std::vector<double> r(n), q(n), s(n, 0.0);
-    f.apply(phi_, q);
-    for (std::size_t o = 0; o < n; ++o) r[o] = grid_.electrode()[o] - q[o];
+    multigrid.fine().apply(phi_, q);
+    for (std::size_t o = 0; o < n; ++o) r[o] = drive_[o] - q[o];
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
-      for (std::size_t o = 0; o < n; ++o) f.b[o] = static_cast<float>(r[o]);
+      for (std::size_t o = 0; o < n; ++o) multigrid.b()[o] = static_cast<float>(r[o]);
       multigrid.cycle();
+      const std::vector<float>& z = multigrid.x();
       double rz = 0;
-      for (std::size_t o = 0; o < n; ++o) rz += r[o] * f.x[o];
-      charge(out);
-      out.residual = std::sqrt(std::max(rz, 0.0) / out.capacitance * problem_.grid.dx());
+      for (std::size_t o = 0; o < n; ++o) rz += r[o] * z[o];
+      out.residual = std::sqrt(std::max(rz, 0.0) / energy_);
       if (finished(out)) return;
       const double beta = out.iterations > 0 ? rz / old : 0;
-      for (std::size_t o = 0; o < n; ++o) s[o] = f.x[o] + beta * s[o];
-      f.apply(s, q);
+      for (std::size_t o = 0; o < n; ++o) s[o] = z[o] + beta * s[o];
+      multigrid.fine().apply(s, q);
       const double alpha = rz / dot(s, q);
       for (std::size_t o = 0; o < n; ++o) {
         phi_[o] += alpha * s[o];
@@ -106,99 +214,117 @@ class PotentialSolver {
     return true;
   }
 
-  // Charge of the electrode over eps0 [m].
-  void charge(PotentialSolution& out) const {
-    double sum = 0;
-    for (std::size_t o = 0; o < phi_.size(); ++o) sum += grid_.electrode()[o] * (1 - phi_[o]);
-    for (std::size_t i = 0; i < grid_.columns().size(); ++i) {
-      if (grid_.first(i) > grid_.last(i)) sum += problem_.grid.dy() / grid_.columns()[i].total();
-    }
-    out.capacitance = sum * problem_.grid.dx();
-  }
-
+  // Eq. electrostatics.14: the charge, and what it loses as the skin over each column rises. Nodes
+  // rise with the skin, each by its share; the potentials at the nodes are stationary.
   void measure(PotentialSolution& out) const {
     const Grid& g = problem_.grid;
-    for (int iy = 0; iy < g.ny; ++iy) {
-      for (int ix = 0; ix < g.nx; ++ix) {
-        const std::size_t i = g.index(ix, iy);
-        const FieldColumn& c = grid_.columns()[i];
-        const bool closed = grid_.first(i) > grid_.last(i);
-        const double flux = closed ? 1 / c.total() : flux_at_skin(ix, iy);
-        if (closed) out.peak_dielectric = std::max(out.peak_dielectric, flux / c.permittivity);
-        out.flux[i] = flux;
-        inner_fields(ix, iy, out);
-        if (c.bridged) continue;
-        out.field[i] = flux * std::sqrt(1 + square_slope(ix, iy));
-        if (c.skin > c.surface) out.peak_air = std::max(out.peak_air, out.field[i]);
+    std::vector<double> loss(g.size(), 0.0);  // -dC/dz of the skin over a column, over eps0 [m]
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      for (int k = 0; k < columns_.top(i); ++k) {
+        const double difference = phi(i, k) - phi(i, k + 1), r = columns_.resistance(i, k);
+        const double energy = g.dx() * g.dy() * square(difference) / r;
+        out.capacitance += energy;
+        if (k >= columns_.cells_below_surface())
+          loss[i] += energy / r * (columns_.rise(i, k + 1) - columns_.rise(i, k)) /
+                     columns_.permittivity(i, k);
       }
     }
-  }
-
-  // D/eps0 at the skin of a column with nodes.
-  double flux_at_skin(int ix, int iy) const {
-    const std::size_t i = problem_.grid.index(ix, iy);
-    const FieldColumn& c = grid_.columns()[i];
-    const int b = grid_.last(i);
-    // In air the gradient at the skin by a parabola through it and two nodes.
-    const int near =
-        c.skin - grid_.z(b) < 0.3 * (grid_.cell_high(b) - grid_.cell_low(b)) ? b - 1 : b;
-    if (!c.bridged && c.high == c.skin && near - 1 >= grid_.first(i) &&
-        grid_.z(near - 1) >= c.low) {
-      const double d1 = c.skin - grid_.z(near), d2 = c.skin - grid_.z(near - 1);
-      const double w1 = d2 / (d1 * (d2 - d1)), w2 = d1 / (d2 * (d2 - d1));
-      return (w1 * phi(ix, iy, near) - w2 * phi(ix, iy, near - 1)) / (1 + c.layer * (w1 - w2));
+    for_each_face(g, [&](std::size_t i, int, int, const Neighbour& n) {
+      columns_.exchanges(i, n.column, n.step, n.width,
+                         [&](const Exchange& e) { add_loss(e, i, n.column, loss, out); });
+    });
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      measure_dielectric(i, out);
+      if (columns_.bridged(i)) continue;
+      out.square_field[i] = loss[i] / (g.dx() * g.dy());
+      if (problem_.skin[i] > problem_.surface[i])
+        out.peak_air = std::max(out.peak_air, std::sqrt(std::max(out.square_field[i], 0.0)));
     }
-    return phi(ix, iy, b) / (c.total() - c.resistance(grid_.z(b)));
   }
 
-  double phi(int ix, int iy, int k) const { return phi_[grid_.node(ix, iy, k)]; }
-
-  // Squared slope of the skin; pixels beside water count by their own side.
-  double square_slope(int ix, int iy) const {
-    const Grid& g = problem_.grid;
-    const auto z = [&](int x, int y) {
-      return problem_.skin[g.index(wrap(x, g.nx), wrap(y, g.ny))];
+  // At a fixed height the potential of a column falls with its gradient times the rise of its
+  // nodes; where the neighbour is the skin, the way to it changes too.
+  void add_loss(const Exchange& e, std::size_t i, std::size_t j, std::vector<double>& loss,
+                PotentialSolution& out) const {
+    const auto value = [&](std::size_t column, int cell) {
+      if (cell < 0) return e.body == Body::Electrode ? 1.0 : 0.0;
+      const Interpolation at = interpolate(columns_, column, cell, e.middle);
+      return at.lower() * phi(column, cell) + at.upper * phi(column, cell + 1);
     };
-    const double sx = (z(ix + 1, iy) - z(ix - 1, iy)) / (2 * g.dx());
-    const double sy = (z(ix, iy + 1) - z(ix, iy - 1)) / (2 * g.dy());
-    return square(sx) + square(sy);
+    const double difference = value(i, e.here) - value(j, e.there);
+    out.capacitance += e.conductance * square(difference);
+    const auto falls = [&](std::size_t column, int cell, double sign) {
+      if (cell < columns_.cells_below_surface() || columns_.bridged(column)) return;
+      const Interpolation at = interpolate(columns_, column, cell, e.middle);
+      const double rise =
+          at.lower() * columns_.rise(column, cell) + at.upper * columns_.rise(column, cell + 1);
+      const double gradient = (phi(column, cell + 1) - phi(column, cell)) /
+                              (columns_.z(column, cell + 1) - columns_.z(column, cell));
+      loss[column] += sign * 2 * e.conductance * difference * gradient * rise;
+    };
+    falls(i, e.here, 1);
+    falls(j, e.there, -1);
+    if (e.body != Body::Skin) return;
+    const std::size_t own = e.here >= 0 ? i : j, other = e.here >= 0 ? j : i;
+    const double energy = e.conductance * square(difference) / e.jump;
+    loss[own] += energy * (1 - e.share) / e.share;
+    loss[other] += energy;
   }
 
-  // Largest fields at the nodes of a column.
-  void inner_fields(int ix, int iy, PotentialSolution& out) const {
+  // Largest field at the cells of a column's dielectric.
+  void measure_dielectric(std::size_t i, PotentialSolution& out) const {
     const Grid& g = problem_.grid;
-    const std::size_t i = g.index(ix, iy);
-    const FieldColumn& c = grid_.columns()[i];
-    const int ex = wrap(ix + 1, g.nx), wx = wrap(ix - 1, g.nx);
-    const int ny = wrap(iy + 1, g.ny), sy = wrap(iy - 1, g.ny);
-    for (int k = grid_.first(i); k < grid_.last(i); ++k) {
-      const double flux = (phi(ix, iy, k) - phi(ix, iy, k + 1)) /
-                          (c.resistance(grid_.z(k + 1)) - c.resistance(grid_.z(k)));
-      double across = 0;
-      for (auto [e, w, step] : {std::tuple{std::pair{ex, iy}, std::pair{wx, iy}, g.dx()},
-                                std::tuple{std::pair{ix, ny}, std::pair{ix, sy}, g.dy()}}) {
-        if (inside(e.first, e.second, k) && inside(w.first, w.second, k)) {
-          across += square((phi(e.first, e.second, k) - phi(w.first, w.second, k)) / (2 * step));
-        }
+    const int ix = static_cast<int>(i % g.nx), iy = static_cast<int>(i / g.nx);
+    for (int k = 0; k < columns_.cells_below_surface(); ++k) {
+      const double z = 0.5 * (columns_.z(i, k) + columns_.z(i, k + 1));
+      double field =
+          square((phi(i, k) - phi(i, k + 1)) / (columns_.z(i, k + 1) - columns_.z(i, k)));
+      for (const bool along_x : {true, false}) {
+        const auto beside = [&](int step) {
+          return g.index(wrap(ix + (along_x ? step : 0), g.nx),
+                         wrap(iy + (along_x ? 0 : step), g.ny));
+        };
+        const double across = (at_height(beside(1), z) - at_height(beside(-1), z)) /
+                              (2 * (along_x ? g.dx() : g.dy()));
+        field += square(across);
       }
-      if (grid_.z(k + 1) <= c.surface) {
-        const double e = std::hypot(flux / c.permittivity, std::sqrt(across));
-        out.peak_dielectric = std::max(out.peak_dielectric, e);
-      } else if (grid_.z(k) >= c.low && grid_.z(k + 1) <= c.high) {
-        out.peak_air = std::max(out.peak_air, std::hypot(flux, std::sqrt(across)));
-      }
+      out.peak_dielectric = std::max(out.peak_dielectric, std::sqrt(field));
     }
   }
-  bool inside(int ix, int iy, int k) const {
-    const std::size_t i = problem_.grid.index(ix, iy);
-    return k >= grid_.first(i) && k <= grid_.last(i);
+
+  double at_height(std::size_t column, double z) const {
+    if (z <= columns_.z(column, 0)) return 1;
+    for (int k = 0; k < columns_.top(column); ++k) {
+      if (z > columns_.z(column, k + 1)) continue;
+      const Interpolation at = interpolate(columns_, column, k, z);
+      return at.lower() * phi(column, k) + at.upper * phi(column, k + 1);
+    }
+    return 0;
+  }
+
+  std::size_t node(int ix, int iy, int k) const {
+    return (static_cast<std::size_t>(iy) * unknowns_ + (k - 1)) * problem_.grid.nx + ix;
+  }
+  double phi(std::size_t column, int k) const {
+    if (columns_.fixed(column, k)) return columns_.body_potential(k);
+    const int nx = problem_.grid.nx;
+    return phi_[node(static_cast<int>(column % nx), static_cast<int>(column / nx), k)];
   }
 
   const PotentialProblem& problem_;
   const PotentialOptions& options_;
-  PotentialGrid grid_;
-  std::vector<double> phi_;  // at the nodes
+  FieldColumns columns_;
+  int unknowns_;               // of a column
+  std::vector<double> drive_;  // of the electrode's volt
+  std::vector<double> phi_;    // at the nodes between the bodies
+  double energy_ = 0;          // of the columns by themselves, over eps0 dx: the residual's scale
 };
+
+PotentialSolution failed(PotentialSolution out, std::string reason) {
+  out.ok = false;
+  out.reason = std::move(reason);
+  return out;
+}
 
 }  // namespace
 
@@ -206,19 +332,20 @@ PotentialSolution solve_potential(const PotentialProblem& problem,
                                   const PotentialOptions& options) {
   const std::size_t n = problem.grid.size();
   PAPILLA_CHECK(problem.electrode.size() == n && problem.surface.size() == n &&
-                    problem.skin.size() == n && options.levels >= 3,
-                "heights on one grid");
+                    problem.skin.size() == n && options.dielectric_cells >= 0 &&
+                    options.air_cells >= 3,
+                "heights on one grid, and room for droplets in the air");
   PotentialSolution out;
-  out.flux.assign(n, 0);
-  out.field.assign(n, 0);
-  std::vector<FieldColumn> columns = columns_of(problem);
-  for (const FieldColumn& c : columns) {
-    if (!std::isfinite(c.total())) return failed(std::move(out), "a height is not finite");
-    if (c.total() <= 0) {
+  out.square_field.assign(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double total = problem.skin[i] - problem.electrode[i] + problem.skin_layer;
+    if (!std::isfinite(total) || !std::isfinite(problem.surface[i]))
+      return failed(std::move(out), "a height is not finite");
+    const bool bridged = !problem.bridged.empty() && problem.bridged[i];
+    if ((bridged ? problem.surface[i] - problem.electrode[i] : total) <= 0)
       return failed(std::move(out), "no dielectric anywhere: contact would short the drive");
-    }
   }
-  return PotentialSolver(problem, options, std::move(columns)).run(std::move(out));
+  return PotentialSolver(problem, options).run(std::move(out));
 }
 
 }  // namespace papilla::electrostatics

@@ -18,11 +18,11 @@ struct AirColumns {
 };
 AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProblem& p);
 
-// Factors on the pull of each pixel's series column; empty: 1.
+// Of each pixel's series column; empty: 1.
 struct FluxFactors {
-  const std::vector<double>& open;  // 0 in bridges, 1 far from them
-  const std::vector<double>& gain;  // of the squared flux
-  double most_voltage = 0;  // largest share of the voltage across the dielectric; 0: by the columns
+  const std::vector<double>& open;     // 0 in bridges, 1 far from them
+  const std::vector<double>& gain;     // of the squared flux
+  const std::vector<double>& voltage;  // share across the dielectric; empty: by the columns
 };
 // Eq. electrostatics.1 summed over the pixels, with the peak fields of Eqs. electrostatics.7, 8.
 // Not ok: a bare electrode, or a gap that is not finite. Cost: O(pixels).

@@ -10,10 +10,7 @@ namespace papilla::electrostatics {
 struct FieldRule {
   const char* method;    // for people: what is computed
   const char* accuracy;  // for people: how far the pull is off
-  double usual_error;    // of the pull, relative, before anything has run
-  // Error of the pull, relative, where bridges wet that share of the patch. Eq. electrostatics.15,
-  // 17
-  double (*error)(double wetted);
+  double usual_error;    // of the pull, relative, on textures of all kinds
   // Price of one patch on one core of a usual machine [s]; tolerance of the potential.
   double (*seconds)(const Grid& grid, double tolerance);
   FieldSolution (*solve)(const Gap& gap, const CoveredSurface* surface, const Wetting& wetting,

@@ -42,16 +42,23 @@ class Filter {
   SpectrumArray scratch_;
 };
 
-// phi for one volt on the electrode: K phi + c phi = eps/d, zero on wet pixels. Conjugate gradients
-// preconditioned by 1/(K + mean c) between weights that follow c. Eq. electrostatics.16
+// phi for one volt on the electrode: K phi + (1/D - eps/d + c) phi = 1/D, zero on wet pixels; K of
+// a flat layer of the mean thickness d, D the d/eps of each column. Conjugate gradients
+// preconditioned by 1/(K + mean of the rest) between weights that follow it. Eq. electrostatics.16
 class SurfacePotential {
  public:
+  // conductance: to the skin; dielectric: d/eps of the columns; may be one for all.
   SurfacePotential(const Grid& grid, const std::vector<double>& conductance,
-                   const std::vector<std::uint8_t>& wet, double thickness, double permittivity)
-      : filter_(grid),
-        c_(conductance),
-        dry_(conductance.size(), 1),
-        drive_(permittivity / thickness) {
+                   const std::vector<double>& dielectric, const std::vector<std::uint8_t>& wet,
+                   double thickness, double permittivity)
+      : filter_(grid), c_(conductance), dry_(conductance.size(), 1), drive_(conductance.size()) {
+    const double flat = permittivity / thickness;
+    for (std::size_t i = 0; i < c_.size(); ++i) {
+      drive_[i] = 1 / dielectric[dielectric.size() > 1 ? i : 0];
+      start_.push_back(drive_[i] / (drive_[i] + c_[i]));
+      // At least what keeps the sum with K positive.
+      c_[i] += drive_[i] - flat;
+    }
     for (std::size_t i = 0; i < wet.size(); ++i) {
       if (wet[i]) dry_[i] = 0;
     }
@@ -62,7 +69,7 @@ class SurfacePotential {
       const double qy = 2 * kPi * iy / grid.ly;
       for (int ix = 0; ix < half; ++ix) {
         const double q = std::sqrt(square(2 * kPi * ix / grid.lx) + square(qy));
-        const double k = q > 0 ? permittivity * q / std::tanh(q * thickness) : drive_;
+        const double k = q > 0 ? permittivity * q / std::tanh(q * thickness) : flat;
         for (int mirrored : {iy, (grid.ny - iy) % grid.ny}) {
           const std::size_t o = static_cast<std::size_t>(mirrored) * half + ix;
           kernel[o] = k * scale;
@@ -89,11 +96,11 @@ class SurfacePotential {
   RealArray solve(double tolerance, FieldSolution& out) {
     const std::size_t n = c_.size();
     RealArray phi(n), r(n), z(n), s(n, 0.0), q(n);
-    for (std::size_t i = 0; i < n; ++i) phi[i] = dry_[i] * drive_ / (drive_ + c_[i]);
+    for (std::size_t i = 0; i < n; ++i) phi[i] = dry_[i] * start_[i];
     apply(phi, q);
-    for (std::size_t i = 0; i < n; ++i) r[i] = dry_[i] * drive_ - q[i];
+    for (std::size_t i = 0; i < n; ++i) r[i] = dry_[i] * drive_[i] - q[i];
     // The first guess, good to a fraction, gives the scale of the residual.
-    const double energy = drive_ * dot(phi, dry_);
+    const double energy = dot(phi, drive_);
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
       for (std::size_t i = 0; i < n; ++i) q[i] = weight_[i] * r[i];
@@ -146,10 +153,11 @@ class SurfacePotential {
   }
 
   Filter filter_;
-  const std::vector<double>& c_;  // [1/m]
-  RealArray dry_;                 // 0 under bridges, 1 elsewhere
-  RealArray weight_;              // of the preconditioner, either side of 1/(K + mean c)
-  double drive_;
+  std::vector<double> c_;  // beside K [1/m]
+  RealArray dry_;          // 0 under bridges, 1 elsewhere
+  RealArray drive_;        // 1/D [1/m]
+  RealArray start_;        // the columns by themselves
+  RealArray weight_;       // of the preconditioner, either side of 1/(K + mean c)
   RealArray kernel_, inverse_;
 };
 
@@ -170,21 +178,24 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
   }
   FieldSolution status;
   const double permittivity = p.dielectric_thickness / p.dielectric;
-  SurfacePotential potential(gap.grid, conductance, wetting.bridged, p.dielectric_thickness,
-                             permittivity);
+  const std::vector<double> flat{p.dielectric};
+  const std::vector<double>& dielectric = surface ? surface->effective : flat;
+  const auto column = [&](std::size_t i) { return dielectric[surface ? i : 0]; };
+  const double mean = std::accumulate(dielectric.begin(), dielectric.end(), 0.0) /
+                      static_cast<double>(dielectric.size());
+  SurfacePotential potential(gap.grid, conductance, dielectric, wetting.bridged,
+                             permittivity * mean, permittivity);
   const RealArray phi = potential.solve(tolerance, status);
-  std::vector<double> gain(n);
-  double least = 1;
+  std::vector<double> gain(n), voltage(n);
   for (std::size_t i = 0; i < n; ++i) {
     // The flux over that of the column alone.
-    gain[i] = square(phi[i] * (1 + p.dielectric * conductance[i]));
-    least = std::min(least, phi[i]);
+    gain[i] = square(phi[i] * (1 + column(i) * conductance[i]));
+    const double flux = (1 - phi[i]) / column(i);
+    voltage[i] = (1 - phi[i]) / std::hypot(1, flux * p.skin_layer.imag());
   }
-  const double flux = (1 - least) / p.dielectric;  // through the dielectric where it carries most
-  const double voltage = (1 - least) / std::hypot(1, flux * p.skin_layer.imag());
   const std::vector<double> open = air_screening_factor(gap, wetting, p.screening);
   FieldSolution out =
-      pull(gap, surface, p, columns, {.open = open, .gain = gain, .most_voltage = voltage});
+      pull(gap, surface, p, columns, {.open = open, .gain = gain, .voltage = voltage});
   out.residual = status.residual;
   out.iterations = status.iterations;
   if (out.ok && !status.ok) {

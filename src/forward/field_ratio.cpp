@@ -1,0 +1,142 @@
+#include "forward/field_ratio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/statistics.h"
+#include "forward/patch_setup.h"
+#include "forward/scale_bridge.h"
+#include "forward/scene_terms.h"
+#include "physics/electrostatics/full_field.h"
+
+namespace papilla::forward {
+namespace {
+
+constexpr int kMostPixels = 128;  // along the window: the ratio does not follow the grid beyond
+// What pixels and cells of the 3-D field leave, and what one skin says of others: one standard
+// deviation over the table of docs/theory/electrostatics.md, relative.
+constexpr double kOfFullField = 0.02, kOfOneSkin = 0.03;
+
+struct Pulls {
+  double rule = 0, full = 0;  // [Pa]
+};
+
+Fidelity control_fidelity(const Fidelity& fidelity) {
+  Fidelity out = fidelity;
+  out.grid = std::min(fidelity.grid, kMostPixels);
+  out.most_pixels = std::max(64, fidelity.pixels_per_side() * out.grid / fidelity.grid);
+  out.skins = fidelity.field_skins;
+  out.estimator = Estimator::Load;
+  return out;
+}
+
+// One skin at every humidity.
+std::vector<Pulls> pulls_of(const PatchSetup& setup, int k) {
+  const Scene& scene = setup.scene();
+  const Heightmap skin = setup.skin(k);
+  const std::vector<double> height = setup.height(skin);
+  const std::vector<WaterMember> members = setup.water_members(k);
+  PatchStates start;
+  std::vector<Pulls> out;
+  for (const double rh : scene.environment.relative_humidity) {
+    const auto kernel = contact_kernel(scene, setup.plan().grid, rh);
+    const double pressure =
+        ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh).mean_pressure();
+    PatchFields fields;
+    solve_patch(setup.problem(height, *kernel, rh, pressure, members.front()), setup.plan(),
+                setup.fidelity(), start, &fields);
+    Pulls pulls;
+    pulls.rule = fields.pull.mean();
+    if (!fields.off.gap.empty()) {
+      const Gap gap{setup.plan().grid, fields.off.gap};
+      const FieldSolution full =
+          solve_full_field(gap, &setup.surface(), fields.wetting_on, field_problem(scene, rh));
+      if (full.ok) pulls.full = full.mean_pressure;
+    }
+    out.push_back(pulls);
+  }
+  return out;
+}
+
+FieldRatio ratio_of(const std::vector<double>& full, const std::vector<double>& rule,
+                    bool corrected) {
+  const double sum = std::accumulate(rule.begin(), rule.end(), 0.0);
+  FieldRatio out;
+  // Nothing pulls, in a flooded patch: nothing to correct.
+  if (!(sum > 0) || !(std::accumulate(full.begin(), full.end(), 0.0) > 0)) {
+    out.error = 1;
+    return out;
+  }
+  const Estimate e = ratio_estimate(full, rule);
+  if (!corrected) {
+    out.error = std::abs(1 / e.value - 1);
+    return out;
+  }
+  out.correction = e.value;
+  const double skins = kOfOneSkin / std::sqrt(static_cast<double>(full.size()));
+  out.error = std::hypot(kOfFullField, std::max(skins, full.size() > 1 ? e.se / e.value : 0));
+  return out;
+}
+
+}  // namespace
+
+bool field_corrected(const Scene& scene, const Fidelity& fidelity) {
+  return scene.drive.driven() && fidelity.field_skins > 0 && scene.model.preset != Preset::M3 &&
+         field_method(scene.model) == FieldMethod::Spread;
+}
+
+double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity) {
+  const double finer = std::max(1.0, static_cast<double>(fidelity.grid) / kMostPixels);
+  const Grid pixels{static_cast<int>(grid.nx / finer), static_cast<int>(grid.ny / finer), grid.lx,
+                    grid.ly};
+  return fidelity.field_skins * full_field_seconds(pixels) *
+         static_cast<double>(scene.environment.relative_humidity.size());
+}
+
+FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  const std::size_t humidities = scene.environment.relative_humidity.size();
+  FieldRatios out(humidities);
+  const FieldMethod method = field_method(scene.model);
+  if (!scene.drive.driven() || scene.model.preset == Preset::M3) return out;
+  if (method == FieldMethod::Full) {
+    for (FieldRatio& r : out) r.error = kOfFullField;
+    return out;
+  }
+  if (fidelity.field_skins == 0) return out;
+  const PatchSetup setup(scene, texture, control_fidelity(fidelity));
+  std::vector<std::vector<Pulls>> pulls(static_cast<std::size_t>(fidelity.field_skins));
+  parallel_for(
+      fidelity.field_skins, [&](int k) { pulls[static_cast<std::size_t>(k)] = pulls_of(setup, k); },
+      fidelity.threads);
+  for (std::size_t i = 0; i < humidities; ++i) {
+    std::vector<double> full, rule;
+    for (const std::vector<Pulls>& skin : pulls) {
+      full.push_back(skin[i].full);
+      rule.push_back(skin[i].rule);
+    }
+    out[i] = ratio_of(full, rule, method == FieldMethod::Spread);
+  }
+  return out;
+}
+
+void add_field_error(const FieldRatio& ratio, double load_exponent, ResponsePoint& point) {
+  point.field_correction = ratio.correction;
+  point.field_error = ratio.error;
+  if (!ratio.error) return;
+  const double e = *ratio.error;
+  point.electrostatic_force.parts.field = e * point.electrostatic_force.value;
+  const auto& on = point.samples.load_on;
+  const double load = std::accumulate(on.begin(), on.end(), 0.0);
+  const double pull =
+      load - std::accumulate(point.samples.load_off.begin(), point.samples.load_off.end(), 0.0);
+  // Of the area under the drive, and so of the friction of contact.
+  const double relative = load > 0 ? load_exponent * std::max(pull, 0.0) / load * e : 0;
+  point.area_fraction_on.parts.field = relative * point.area_fraction_on.value;
+  point.friction_on.parts.field =
+      relative * (point.friction_on.value - point.retention_force.value);
+  point.modulation.parts.field = relative * (1 + point.modulation.value);
+}
+
+}  // namespace papilla::forward

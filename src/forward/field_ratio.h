@@ -1,0 +1,36 @@
+// What the field rule lacks on this scene: the 3-D field on a few of its skins.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/rooms.h"
+#include "forward/fidelity.h"
+#include "forward/response.h"
+#include "geometry/texture.h"
+#include "scene/scene.h"
+
+namespace papilla::forward {
+
+// The pull by the 3-D field over that by the rule in use, at one humidity.
+struct FieldRatio {
+  double correction = 1;        // on the rule's pull
+  std::optional<double> error;  // relative, of the corrected pull; none where nothing was measured
+};
+using FieldRatios = std::vector<FieldRatio>;  // one per humidity of a scene
+
+// From fidelity.field_skins patches at rest with the water of the drive, on at most 128 pixels. The
+// rule with spreading flux is corrected; columns stay as asked for, with what they lack as their
+// error. Eq. electrostatics.17. Cost: one contact, water and 3-D field per skin and humidity.
+FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+// Whether the rule's pull will be corrected, the relative error of the pull then, and the price of
+// it [s] on one core.
+bool field_corrected(const Scene& scene, const Fidelity& fidelity);
+inline constexpr double kCorrectedFieldError = 0.03;
+double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity);
+
+// Adds what the pull's error leaves of the numbers of a point. Eq. electrostatics.17, friction.3
+void add_field_error(const FieldRatio& ratio, double load_exponent, ResponsePoint& point);
+
+}  // namespace papilla::forward
