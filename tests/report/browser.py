@@ -180,7 +180,7 @@ def inspect_calibrate(browser):
 FAINT = """
 const light = (c) => { const [r, g, b] = c.map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : Math.pow((v + 0.055) / 1.055, 2.4)); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
 const parse = (text) => { const m = /rgba?\\(([^)]*)\\)/.exec(text)[1].split(',').map(Number); return { rgb: m.slice(0, 3), a: m.length > 3 ? m[3] : 1 }; };
-const behind = (e) => { for (; e; e = e.parentElement) { const c = parse(getComputedStyle(e).backgroundColor); if (c.a > 0.5) return c.rgb; } return [255, 255, 255]; };
+const behind = (e) => { if (!e) return [255, 255, 255]; const c = parse(getComputedStyle(e).backgroundColor); if (c.a >= 1) return c.rgb; const below = behind(e.parentElement); return c.rgb.map((v, i) => c.a * v + (1 - c.a) * below[i]); };
 const bad = [], walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
 for (let n = walker.nextNode(); n; n = walker.nextNode()) {
   const e = n.parentElement, style = getComputedStyle(e);

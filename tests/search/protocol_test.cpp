@@ -58,10 +58,10 @@ TEST(Protocol, WhatIsCutOrOtherwiseWrittenIsNoAnswer) {
   Bytes other = whole;
   other.replace(other.find("p-2"), 3, "p-02");
   EXPECT_FALSE(decode_answer(other));
-  EXPECT_FALSE(decode_request("99 0 0 0"));  // no such stage
-  EXPECT_TRUE(decode_request("0 0 0 0"));
-  EXPECT_FALSE(decode_request("0 0 0 1000000000"));  // a list that is not there
-  EXPECT_FALSE(decode_request("0 0 2 0"));
+  EXPECT_FALSE(decode_request("99 0 0 0 0x0p+0"));  // no such stage
+  EXPECT_TRUE(decode_request("0 0 0 0 0x0p+0"));
+  EXPECT_FALSE(decode_request("0 0 0 1000000000 0x0p+0"));  // a list that is not there
+  EXPECT_FALSE(decode_request("0 0 2 0 0x0p+0"));
 }
 
 TEST(Protocol, AFailureOfAWorkerIsAStatus) {

@@ -47,7 +47,7 @@ function showMatrix() {
   for (let i = 0; i < n; ++i) {
     for (let k = 0; k < n; ++k) {
       const r = fit.correlation[i * n + k], c = body.rows[i].cells[k + 1];
-      c.style.backgroundColor = `rgba(${r > 0 ? '31,111,159' : '194,87,26'},${i === k ? 0.12 : 0.75 * Math.abs(r)})`;
+      c.style.backgroundColor = `rgba(${r > 0 ? '31,111,159' : '194,87,26'},${i === k ? 0.12 : 0.5 * Math.abs(r)})`;
       c.title = `${names[i]}, ${names[k]}: ${r.toFixed(3)}`;
     }
   }
