@@ -226,8 +226,9 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
   if (ranking.directions > 0) {
     out += fmt::format(
         "parameters of the finger in every interval and probability: {} directions of its "
-        "covariance, the same for all designs; {} skins, {} pixels. Finger's part: of the lead\n",
-        ranking.directions, ranking.step_skins, ranking.step_grid);
+        "covariance, the same for all designs; {} skins, {} pixels{}\n",
+        ranking.directions, ranking.step_skins, ranking.step_grid,
+        options.scored() ? ". Finger's part: of the lead" : "");
   }
   if (options.criteria.size() > 1 && options.scored())
     out +=

@@ -11,6 +11,8 @@ const likely = (p) => p > 0.999 ? '> 0.999' : p < 0.001 ? '< 0.001' : p.toFixed(
   const called = new Set(titles.filter(Boolean)).size === titles.length;
   ranking.states.forEach((s) => s.candidates.forEach((c) => { c.file = c.name; if (called) c.name = c.title; data.candidates[c.index].name = c.name; }));
 }
+// Beside a bar a long title gives way to the name of the file.
+const brief = (c) => c.name.length > 22 && c.file ? c.file : c.name;
 const listed = (names) => names.length > 1 ? names.slice(0, -1).join(', ') + ' and ' + names[names.length - 1] : names[0];
 const place = (list, i) => `${list[i].rank}${list.filter((c) => c.rank === list[i].rank).length > 1 ? '=' : ''}`;
 
@@ -19,7 +21,7 @@ function rowsChart(id, list, set, title, ends = {}) {
   canvas.parentElement.style.height = 90 + 34 * list.length + 'px';
   draw(id, {
     type: 'bar',
-    data: { labels: list.map((c) => c.name), datasets: [Object.assign({ backgroundColor: list.map(tint), maxBarThickness: 18 }, set)] },
+    data: { labels: list.map(brief), datasets: [Object.assign({ backgroundColor: list.map(tint), maxBarThickness: 18 }, set)] },
     plugins: [intervals],
     options: {
       indexAxis: 'y',
@@ -100,7 +102,7 @@ function showCriteria(list) {
 function showSure(state) {
   const list = state.candidates.slice(0, -1), whole = state.end.charAt(0).toUpperCase() + state.end.slice(1) + '.';
   if (ranking.scored) {
-    rowsChart('ahead', list.map((c, i) => Object.assign({}, c, { name: `${c.name} over ${state.candidates[i + 1].name}` })), {
+    rowsChart('ahead', list.map((c, i) => Object.assign({}, c, { name: `${brief(c)} over ${brief(state.candidates[i + 1])}`, file: '' })), {
       data: list.map((c) => 100 * c.ahead_of_next.value), interval: list.map((c) => [100 * c.ahead_of_next.low, 100 * c.ahead_of_next.high]),
       text: list.map((c) => `${percent(c.ahead_of_next.value)} % [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}], p(ahead) ${likely(c.p_ahead)}` + (c.tied_with_next ? ': tie' : '')),
     }, 'lead over the next [% of the score]');
