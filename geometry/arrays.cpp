@@ -95,6 +95,7 @@ TextureFacts array_facts(const FeatureArray& array, const WallSection& wall) {
           .open_share = relief ? share : 0.0,
           .rim_radius = relief ? std::optional(wall.edge_radius) : std::nullopt,
           .outline = array,
+          .scans = kNoScans,
           .quick_look = true};
 }
 

@@ -16,6 +16,7 @@
 #include "base/rooms.h"
 #include "config/fields.h"
 #include "geometry/heightmap.h"
+#include "geometry/scan.h"
 
 namespace papilla::geometry {
 
@@ -99,6 +100,8 @@ struct NoOutline {
 };
 using Outline = std::variant<FeatureArray, Contours, NoOutline>;
 
+inline const std::vector<ScanSource> kNoScans{};
+
 struct TextureFacts {
   Stated<Relief> relief;
   Stated<std::optional<UnitCell>> cell;  // none: aperiodic or flat
@@ -107,6 +110,7 @@ struct TextureFacts {
   Stated<std::optional<double>> open_share;  // projected share below the land
   Stated<std::optional<double>> rim_radius;  // least radius of convex rims [m]; none: no rims
   Stated<Outline> outline;                   // of what is deep, at any depth of it
+  Stated<std::vector<ScanSource>> scans;     // the measured maps that it is made of
   Stated<bool> quick_look;  // optics take a millisecond, whatever the numbers of this kind are
 
   double period() const { return cell ? cell->x : 0; }  // [m]; 0: aperiodic or flat

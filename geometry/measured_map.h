@@ -6,13 +6,16 @@
 
 #include "base/rooms.h"
 #include "geometry/heightmap.h"
+#include "geometry/scan.h"
 
 namespace papilla::geometry {
 
 // The map of the file, levelled, mended and made periodic, resampled on the grid: cut from the
-// middle. width [m]: where the file does not say. Throws InputError for a map smaller than `patch`
-// [m].
-Heightmap middle_of_map(const std::string& file, double width, double patch, const Grid& grid);
+// middle. Throws InputError for a map smaller than `patch` [m].
+Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid);
+
+// What was changed of the map before that. Read once, whoever asks.
+ScanChanges changes_of_map(const ScanSource& source);
 
 // A patch of a measured skin (Eq. geometry.5): a cut of the map at a random place, mirrored at
 // random, levelled and made periodic. Independent patches are cuts of the same map: they know no

@@ -59,16 +59,15 @@ class In : public ImageIn {
     const OIIO::ParamValue* p = own_.find_attribute(attribute, OIIO::TypeDesc::DOUBLE);
     return p ? std::optional(*static_cast<const double*>(p->data())) : std::nullopt;
   }
+  std::optional<float> single(const std::string& attribute) const override {
+    const OIIO::ParamValue* p = own_.find_attribute(attribute, OIIO::TypeDesc::FLOAT);
+    return p ? std::optional(*static_cast<const float*>(p->data())) : std::nullopt;
+  }
   std::string text(const std::string& attribute) const override {
     return own_.get_string_attribute(attribute);
   }
   std::string read_rows(int begin, int end, Sample sample, void* rows) override {
     return file_->read_scanlines(0, 0, begin, end, 0, 0, own_.nchannels, type_of(sample), rows)
-               ? ""
-               : file_->geterror();
-  }
-  std::string read_channel(int channel, float* pixels) override {
-    return file_->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, pixels)
                ? ""
                : file_->geterror();
   }

@@ -44,9 +44,9 @@ class ImageIn {
   virtual ~ImageIn() = default;
   virtual const ImageSpec& spec() const = 0;  // without the attributes
   virtual std::optional<double> number(const std::string& attribute) const = 0;  // doubles alone
+  virtual std::optional<float> single(const std::string& attribute) const = 0;   // floats alone
   virtual std::string text(const std::string& attribute) const = 0;
   virtual std::string read_rows(int begin, int end, Sample sample, void* rows) = 0;
-  virtual std::string read_channel(int channel, float* pixels) = 0;
 };
 
 class ImageCodec {
@@ -61,7 +61,7 @@ class ImageCodec {
 };
 
 // Version of the classes above: the module of another build is refused.
-constexpr int kCodecInterface = 1;
+constexpr int kCodecInterface = 2;
 
 // Loads the module on the first call. Throws std::runtime_error where it does not load.
 const ImageCodec& image_codec();

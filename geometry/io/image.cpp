@@ -1,4 +1,4 @@
-// EXR, TIFF and PNG.
+// EXR, TIFF and PNG written.
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -6,24 +6,20 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <future>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/units.h"
 #include "geometry/io/codec.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
-#include "geometry/io/raw.h"
 
 namespace papilla::geometry {
 namespace {
@@ -35,12 +31,6 @@ constexpr const char* kFixedDate = "2000:01:01 00:00:00";  // the same bytes on 
 std::string part_name(const std::string& path) {
   const fs::path p(path);
   return (p.parent_path() / (p.stem().string() + ".part" + p.extension().string())).string();
-}
-
-std::string lower_ending(const std::string& path) {
-  std::string ending = fs::path(path).extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
 }
 
 // Onto the disk, then to its name.
@@ -238,124 +228,6 @@ void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarit
   write_sixteen_bits(path, spec, h, range, polarity, binary);
 }
 
-// OpenEXR makes room for what a header claims before it reads it: no attribute may be longer than
-// the file. Throws InputError; what else is wrong with the file is for the library to say.
-void check_exr_header(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code error;
-  const auto bytes = static_cast<std::int64_t>(fs::file_size(path, error));
-  std::array<unsigned char, 8> start{};
-  file.read(reinterpret_cast<char*>(start.data()), start.size());
-  const auto fail = [&](const std::string& why) {
-    throw InputError("cannot read " + path + ": " + why);
-  };
-  if (!file || error || start[0] != 0x76 || start[1] != 0x2f || start[2] != 0x31 ||
-      start[3] != 0x01)
-    fail("no OpenEXR file");
-  if (start[5] & 0x18) fail("an OpenEXR file of several or deep parts");
-  const auto word = [&] {
-    std::array<unsigned char, 4> b{};
-    file.read(reinterpret_cast<char*>(b.data()), b.size());
-    return static_cast<std::int32_t>(b[0] | b[1] << 8 | b[2] << 16 |
-                                     static_cast<unsigned>(b[3]) << 24);
-  };
-  const auto text = [&] {
-    std::string out;
-    for (int c; out.size() < 256 && (c = file.get()) > 0;) out += static_cast<char>(c);
-    return out;
-  };
-  for (std::string name = text(); file && !name.empty(); name = text()) {
-    const std::string type = text();
-    const std::int32_t length = word();
-    const std::int64_t at = file.tellg();
-    if (!file || length < 0 || length > bytes - at) fail("the header is cut off");
-    if (name == "dataWindow" && type == "box2i" && length == 16) {
-      std::array<double, 4> box{};
-      for (double& v : box) v = word();
-      check_size(path, box[2] - box[0] + 1, box[3] - box[1] + 1);
-    }
-    file.seekg(at + length);
-  }
-  if (!file) fail("the header is cut off");
-}
-
-Heightmap read_image(const std::string& path, double width) {
-  // The reader of the ending alone: others would be tried on a broken file.
-  const bool exr = lower_ending(path) == ".exr";
-  if (exr) check_exr_header(path);
-  std::string why;
-  const auto in = image_codec().open(path, exr ? "openexr" : "tiff", why);
-  if (!in) throw InputError("cannot read " + path + ": " + why);
-  const ImageSpec& spec = in->spec();
-  check_size(path, spec.width, spec.height);
-  if (spec.depth != 1 || spec.channels.empty() || spec.channels.size() > 64) {
-    throw InputError("cannot read " + path + ": not a plane image of at most 64 channels");
-  }
-  // Deflate packs 1032 to 1 at best: a header that claims much more is not worth its memory.
-  std::error_code error;
-  const auto pixel_count = static_cast<double>(spec.width) * spec.height;
-  if (pixel_count > 2000 * static_cast<double>(fs::file_size(path, error)) || error) {
-    throw InputError("cannot read " + path + ": the data are cut off");
-  }
-  const auto named = std::find(spec.channels.rbegin(), spec.channels.rend(), "Y");
-  const auto channel =
-      named == spec.channels.rend() ? 0 : static_cast<int>(spec.channels.rend() - named) - 1;
-  std::vector<float> pixels(static_cast<std::size_t>(spec.width) * spec.height);
-  why = in->read_channel(channel, pixels.data());
-  if (!why.empty()) throw InputError("cannot read " + path + ": " + why);
-  Heightmap h;
-  h.grid = {spec.width, spec.height, width, width * spec.height / spec.width};
-  double scale = 1e-6, base = 0;  // float images hold micrometres
-  const auto unit = [&](const char* name, double otherwise) {
-    const std::string text = in->text(name);
-    const auto known = find_unit(text);
-    const double u = known && known->same_dimension(*find_unit("m")) ? known->to_si : 0;
-    return u > 0 ? u : otherwise;
-  };
-  if (const auto x = in->number("Gwy::XReal")) {
-    const double xy = unit("Gwy::XYUnit", 1);
-    h.grid.lx = *x * xy;
-    if (const auto y = in->number("Gwy::YReal")) h.grid.ly = *y * xy;
-    scale = unit("Gwy::ZUnit", 1e-6);
-  }
-  if (const std::string text = in->text("ImageDescription"); !text.empty() && text.front() == '{') {
-    const auto json = nlohmann::json::parse(text, nullptr, false);
-    const auto number = [&](const char* key, double& value) {
-      const auto it = json.find(key);
-      if (it == json.end() || !it->is_number()) return false;
-      value = *it;
-      return true;
-    };
-    double x = 0, y = 0, black = 0, white = 0;
-    if (number("size_x_m", x) && number("size_y_m", y)) {
-      h.grid.lx = x;
-      h.grid.ly = y;
-    }
-    if (spec.sample == Sample::U16) {
-      if (!number("black_m", black) || !number("white_m", white)) {
-        throw InputError("cannot read " + path + ": an integer image without its height scale");
-      }
-      base = black;
-      scale = white - black;
-    }
-  } else if (spec.sample == Sample::U16 || spec.sample == Sample::U8) {
-    throw InputError(
-        "cannot read " + path +
-        ": an integer image without its height scale; use a float image, .gsf or .npy");
-  }
-  h.z.resize(h.grid.size());
-  for (int iy = 0; iy < h.grid.ny; ++iy) {
-    for (int ix = 0; ix < h.grid.nx; ++ix) {
-      h(ix, iy) = base + scale * static_cast<double>(pixels[h.grid.index(ix, h.grid.ny - 1 - iy)]);
-    }
-  }
-  return h;
-}
-
-}  // namespace
-
-namespace {
-
 ImageSpec exr_spec(const Heightmap& h, int repeat, const FileInfo& info) {
   ImageSpec spec{.width = repeat * h.grid.nx, .height = repeat * h.grid.ny, .channels = {"Y"}};
   spec.attributes = {{"Gwy::XReal", repeat * h.grid.lx},
@@ -374,9 +246,13 @@ void write_exr(const std::string& path, const Heightmap& h, const FileInfo& info
 }
 
 void write_exr_repeated(const std::string& path, const Heightmap& h, int repeat,
-                        const FileInfo& info) {
+                        const FileInfo& info, const std::function<void(double)>& progress) {
   const double low = checked_range(path, h).low;
+  const auto rows = static_cast<double>(h.grid.ny) * repeat;
+  int written = 0;  // a row is asked for again when it is read back
   write_rows<float>(path, exr_spec(h, repeat, info), [&](int y, float* out) {
+    if (progress && y >= written && y % h.grid.ny == 0) progress(y / rows);
+    written = std::max(written, y);
     micrometre_row(h, low, y % h.grid.ny, out);
     for (int r = 1; r < repeat; ++r)
       std::copy_n(out, h.grid.nx, out + static_cast<std::ptrdiff_t>(r) * h.grid.nx);
@@ -398,31 +274,9 @@ void write_png16(const std::string& path, const Heightmap& h) {
 }
 
 DoseMap write_dose(const std::string& path, const Heightmap& h, const DoseCurve& curve) {
-  const double high = checked_range(path, h).high;
+  checked_range(path, h);
   DoseMap out;
-  std::vector<std::uint8_t> grey(h.z.size());
-  const auto& d = curve.depth;
-  for (int iy = 0; iy < h.grid.ny; ++iy) {
-    for (int ix = 0; ix < h.grid.nx; ++ix) {
-      const double depth = high - h(ix, iy);
-      double value = curve.grey.front();
-      if (depth < d.front() - 0.5e-9) {
-        ++out.shallow;
-      } else if (depth > d.back() + 0.5e-9) {
-        ++out.deep;
-        value = curve.grey.back();
-      } else if (depth > d.front()) {
-        const auto i = static_cast<std::size_t>(
-            std::min(std::upper_bound(d.begin(), d.end(), depth), d.end() - 1) - d.begin());
-        const double share = std::min(1.0, (depth - d[i - 1]) / (d[i] - d[i - 1]));
-        value = curve.grey[i - 1] + share * (curve.grey[i] - curve.grey[i - 1]);
-      }
-      grey[h.grid.index(ix, h.grid.ny - 1 - iy)] =
-          static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
-    }
-  }
-  const auto [a, b] = std::minmax_element(grey.begin(), grey.end());
-  out.lowest = *a, out.highest = *b;
+  const std::vector<std::uint8_t> grey = dose_levels(h, curve, out);
   ImageSpec spec{.width = h.grid.nx, .height = h.grid.ny};
   set_resolution(spec, h.grid);
   write_bytes_image(path, spec, grey);
@@ -450,46 +304,6 @@ void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polar
 void write_png_rgb(const std::string& path, int width, int height,
                    const std::vector<std::uint8_t>& rgb) {
   write_bytes_image(path, {.width = width, .height = height, .channels = {"", "", ""}}, rgb);
-}
-
-Heightmap read_heightmap(const std::string& path, double width) {
-  const std::string ending = lower_ending(path);
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) {
-    throw InputError("cannot read " + path +
-                     (fs::exists(path, error) ? ": not a file" : ": no such file"));
-  }
-  Heightmap h;
-  if (ending == ".npy") {
-    h = read_npy(path, width);
-  } else if (ending == ".gsf") {
-    h = read_gsf(path);
-  } else if (ending == ".exr" || ending == ".tif" || ending == ".tiff") {
-    h = read_image(path, width);
-  } else {
-    throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
-  }
-  if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
-    throw InputError(
-        "cannot read " + path +
-        ": the file does not say its lateral size; give it: texture.width of a measured "
-        "texture, the --size or --width of a command");
-  }
-  if (std::min(h.grid.lx, h.grid.ly) < 1e-12 || std::max(h.grid.lx, h.grid.ly) > 1e3) {
-    throw InputError(
-        fmt::format("cannot read {}: a lateral size of {:.3g} x {:.3g} m; expected 1 pm to 1 km",
-                    path, h.grid.lx, h.grid.ly));
-  }
-  const auto broken = [](double z) { return !std::isfinite(z); };
-  if (const auto first = std::find_if(h.z.begin(), h.z.end(), broken); first != h.z.end()) {
-    const auto at = static_cast<std::size_t>(first - h.z.begin());
-    const auto nx = static_cast<std::size_t>(h.grid.nx);
-    throw InputError(fmt::format(
-        "cannot read {}: {} of {} heights are no finite numbers, the first in column {} of row {} "
-        "(counted from 0, row 0 at y = 0)",
-        path, std::count_if(h.z.begin(), h.z.end(), broken), h.z.size(), at % nx, at / nx));
-  }
-  return h;
 }
 
 }  // namespace papilla::geometry

@@ -29,6 +29,8 @@ std::vector<double> distance_inside(const Grid& grid, const std::vector<std::uin
 // marching-squares contour through the pixel centres; closed at the border of the map.
 struct Polygon {
   std::vector<std::int32_t> x, y;
+
+  bool operator==(const Polygon&) const = default;
 };
 std::vector<Polygon> polygons_below(const Heightmap& h, double level);
 

@@ -6,7 +6,10 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <map>
 #include <vector>
 
@@ -15,6 +18,7 @@
 #include "base/memory.h"
 #include "base/units.h"
 #include "geometry/io/files.h"
+#include "geometry/io/height_rows.h"
 
 namespace papilla::geometry {
 namespace {
@@ -36,6 +40,130 @@ double real_value(const std::string& path, const std::map<std::string, std::stri
     broken(path, key + " is not a positive number");
   return value;
 }
+
+class PlainRows : public HeightRows {
+ public:
+  void next(double* heights) override {
+    const auto count = static_cast<std::size_t>(header_.nx);
+    if (single_) {
+      row_.resize(count);
+      get(row_.data(), count * sizeof(float));
+      for (std::size_t i = 0; i < count; ++i) heights[i] = scale_ * static_cast<double>(row_[i]);
+    } else {
+      get(heights, count * sizeof(double));
+      for (std::size_t i = 0; i < count; ++i) heights[i] *= scale_;
+    }
+  }
+
+ protected:
+  explicit PlainRows(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    std::error_code error;
+    size_ = std::filesystem::file_size(path, error);
+    if (error || !file_) broken(path, "it does not open");
+  }
+  // The first bytes of the file, as many as there are.
+  std::string head(std::size_t most) {
+    std::string out(std::min<std::uint64_t>(most, size_), '\0');
+    get(out.data(), out.size());
+    return out;
+  }
+  // The heights begin there.
+  void begin(std::uint64_t at) {
+    const std::uint64_t item = single_ ? sizeof(float) : sizeof(double);
+    const auto pixels = static_cast<std::uint64_t>(header_.nx) * static_cast<unsigned>(header_.ny);
+    if (size_ < at + item * pixels) broken(path_, "the data are cut off");
+    file_.seekg(static_cast<std::streamoff>(at));
+  }
+
+  std::string path_;
+  std::uint64_t size_ = 0;
+  bool single_ = false;  // 32-bit numbers
+  double scale_ = 1;     // to metres
+
+ private:
+  void get(void* to, std::size_t bytes) {
+    if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
+      broken(path_, "the data are cut off");
+  }
+
+  std::ifstream file_;
+  std::vector<float> row_;
+};
+
+std::string trimmed(std::string s) {
+  while (!s.empty() && s.back() == ' ') s.pop_back();
+  while (!s.empty() && s.front() == ' ') s.erase(0, 1);
+  return s;
+}
+
+class GsfRows : public PlainRows {
+ public:
+  explicit GsfRows(const std::string& path) : PlainRows(path) {
+    const std::string bytes = head(std::size_t{1} << 20);
+    if (!bytes.starts_with("Gwyddion Simple Field 1.0\n"))
+      broken(path, "not a Gwyddion Simple Field");
+    const std::size_t end = bytes.find('\0');
+    if (end == std::string::npos) broken(path, "the header does not end");
+    std::map<std::string, std::string> header;
+    std::size_t at = bytes.find('\n') + 1;
+    while (at < end) {
+      const std::size_t stop = std::min(bytes.find('\n', at), end);
+      const std::string line = bytes.substr(at, stop - at);
+      const std::size_t equals = line.find('=');
+      if (equals != std::string::npos)
+        header[trimmed(line.substr(0, equals))] = trimmed(line.substr(equals + 1));
+      at = stop + 1;
+    }
+    const double nx = real_value(path, header, "XRes"), ny = real_value(path, header, "YRes");
+    check_size(path, nx, ny);
+    const auto unit = [&](const char* key) {
+      const auto it = header.find(key);
+      const auto u = it == header.end() ? find_unit("m") : find_unit(it->second);
+      if (!u || !u->same_dimension(*find_unit("m")))
+        broken(path, std::string(key) + " is not a length unit");
+      return u->to_si;
+    };
+    const double xy = unit("XYUnits");
+    scale_ = unit("ZUnits");
+    single_ = true;
+    header_.nx = static_cast<int>(nx);
+    header_.ny = static_cast<int>(ny);
+    header_.lx = xy * real_value(path, header, "XReal");
+    header_.ly = xy * real_value(path, header, "YReal");
+    begin((end / 4 + 1) * 4);
+  }
+};
+
+class NpyRows : public PlainRows {
+ public:
+  explicit NpyRows(const std::string& path) : PlainRows(path) {
+    const std::string bytes = head(std::size_t{1} << 17);
+    if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY")) broken(path, "not a .npy file");
+    const bool first = bytes[6] == 1;
+    std::size_t length = 0;
+    const std::size_t at = first ? 10 : 12;
+    std::memcpy(&length, bytes.data() + 8, first ? 2 : 4);
+    if (bytes.size() < at + length) broken(path, "the header is cut off");
+    const std::string header = bytes.substr(at, length);
+    const bool f8 = header.find("'<f8'") != std::string::npos,
+               f4 = header.find("'<f4'") != std::string::npos;
+    if (!f8 && !f4) broken(path, "needs float64 or float32 numbers (little endian)");
+    if (header.find("'fortran_order': False") == std::string::npos)
+      broken(path, "needs C order (numpy.ascontiguousarray)");
+    const std::size_t open = header.find("'shape': (");
+    long rows = 0, columns = 0;
+    if (open == std::string::npos ||
+        std::sscanf(header.c_str() + open, "'shape': (%ld, %ld)", &rows, &columns) != 2) {
+      broken(path, "needs a two-dimensional array");
+    }
+    check_size(path, static_cast<double>(columns), static_cast<double>(rows));
+    single_ = !f8;
+    header_.nx = static_cast<int>(columns);
+    header_.ny = static_cast<int>(rows);
+    header_.top_first = false;
+    begin(at + length);
+  }
+};
 
 }  // namespace
 
@@ -65,54 +193,6 @@ void write_gsf(const std::string& path, const Heightmap& h, const FileInfo& info
   out.commit();
 }
 
-Heightmap read_gsf(const std::string& path) {
-  const std::string bytes = read_bytes(path);
-  if (!bytes.starts_with("Gwyddion Simple Field 1.0\n"))
-    broken(path, "not a Gwyddion Simple Field");
-  const std::size_t end = bytes.find('\0');
-  if (end == std::string::npos) broken(path, "the header does not end");
-  std::map<std::string, std::string> header;
-  std::size_t at = bytes.find('\n') + 1;
-  while (at < end) {
-    const std::size_t stop = std::min(bytes.find('\n', at), end);
-    const std::string line = bytes.substr(at, stop - at);
-    const std::size_t equals = line.find('=');
-    if (equals != std::string::npos) {
-      const auto trim = [](std::string s) {
-        while (!s.empty() && s.back() == ' ') s.pop_back();
-        while (!s.empty() && s.front() == ' ') s.erase(0, 1);
-        return s;
-      };
-      header[trim(line.substr(0, equals))] = trim(line.substr(equals + 1));
-    }
-    at = stop + 1;
-  }
-  const double nx = real_value(path, header, "XRes"), ny = real_value(path, header, "YRes");
-  check_size(path, nx, ny);
-  const auto unit = [&](const char* key) {
-    const auto it = header.find(key);
-    const auto u = it == header.end() ? find_unit("m") : find_unit(it->second);
-    if (!u || !u->same_dimension(*find_unit("m")))
-      broken(path, std::string(key) + " is not a length unit");
-    return u->to_si;
-  };
-  const double xy = unit("XYUnits"), z = unit("ZUnits");
-  Heightmap h;
-  h.grid = {static_cast<int>(nx), static_cast<int>(ny), xy * real_value(path, header, "XReal"),
-            xy * real_value(path, header, "YReal")};
-  const std::size_t data = (end / 4 + 1) * 4;
-  if (bytes.size() < data + 4 * h.grid.size()) broken(path, "the data are cut off");
-  h.z.resize(h.grid.size());
-  for (int iy = 0; iy < h.grid.ny; ++iy) {
-    for (int ix = 0; ix < h.grid.nx; ++ix) {
-      float value;
-      std::memcpy(&value, bytes.data() + data + 4 * h.grid.index(ix, h.grid.ny - 1 - iy), 4);
-      h(ix, iy) = z * static_cast<double>(value);
-    }
-  }
-  return h;
-}
-
 void write_npy(const std::string& path, const Heightmap& h) {
   std::string header = fmt::format(
       "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", h.grid.ny, h.grid.nx);
@@ -128,57 +208,12 @@ void write_npy(const std::string& path, const Heightmap& h) {
   out.commit();
 }
 
-Heightmap read_npy(const std::string& path, double width) {
-  const std::string bytes = read_bytes(path);
-  if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY")) broken(path, "not a .npy file");
-  const int major = bytes[6];
-  std::size_t length = 0, at = 0;
-  if (major == 1) {
-    std::uint16_t n;
-    std::memcpy(&n, bytes.data() + 8, 2);
-    length = n;
-    at = 10;
-  } else {
-    std::uint32_t n;
-    std::memcpy(&n, bytes.data() + 8, 4);
-    length = n;
-    at = 12;
-  }
-  if (bytes.size() < at + length) broken(path, "the header is cut off");
-  const std::string header = bytes.substr(at, length);
-  const bool f8 = header.find("'<f8'") != std::string::npos,
-             f4 = header.find("'<f4'") != std::string::npos;
-  if (!f8 && !f4) broken(path, "needs float64 or float32 numbers (little endian)");
-  if (header.find("'fortran_order': False") == std::string::npos)
-    broken(path, "needs C order (numpy.ascontiguousarray)");
-  const std::size_t open = header.find("'shape': (");
-  long rows = 0, columns = 0;
-  if (open == std::string::npos ||
-      std::sscanf(header.c_str() + open, "'shape': (%ld, %ld)", &rows, &columns) != 2) {
-    broken(path, "needs a two-dimensional array");
-  }
-  check_size(path, static_cast<double>(columns), static_cast<double>(rows));
-  if (!(width > 0))
-    broken(path,
-           "the file holds no lateral size; give it (texture.width of a measured texture, the size "
-           "option of a command)");
-  Heightmap h;
-  h.grid = {static_cast<int>(columns), static_cast<int>(rows), width,
-            width * static_cast<double>(rows) / static_cast<double>(columns)};
-  const std::size_t item = f8 ? 8 : 4;
-  if (bytes.size() < at + length + item * h.grid.size()) broken(path, "the data are cut off");
-  h.z.resize(h.grid.size());
-  const char* data = bytes.data() + at + length;
-  for (std::size_t i = 0; i < h.z.size(); ++i) {
-    if (f8) {
-      std::memcpy(&h.z[i], data + 8 * i, 8);
-    } else {
-      float value;
-      std::memcpy(&value, data + 4 * i, 4);
-      h.z[i] = static_cast<double>(value);
-    }
-  }
-  return h;
+std::unique_ptr<HeightRows> open_gsf_rows(const std::string& path) {
+  return std::make_unique<GsfRows>(path);
+}
+
+std::unique_ptr<HeightRows> open_npy_rows(const std::string& path) {
+  return std::make_unique<NpyRows>(path);
 }
 
 }  // namespace papilla::geometry

@@ -1,114 +1,27 @@
 // X3P (ISO 25178-72): a stored zip of main.xml, the heights as doubles and their MD5 sums.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
+#include <charconv>
 #include <cstdint>
-#include <cstring>
+#include <fstream>
 #include <functional>
+#include <iterator>
+#include <memory>
 #include <string>
 
 #include "base/error.h"
 #include "base/file_writer.h"
+#include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
+#include "geometry/io/raw.h"
+#include "geometry/io/sums.h"
 
 namespace papilla::geometry {
 namespace {
 
-std::string little(std::uint64_t value, int bytes) {
-  std::string out;
-  for (int i = 0; i < bytes; ++i) out += static_cast<char>((value >> (8 * i)) & 0xff);
-  return out;
-}
-
 // A file of the zip as pieces: called with a function that takes them, in order.
 using Pieces = std::function<void(const std::function<void(const void*, std::size_t)>&)>;
-
-class Crc32 {
- public:
-  Crc32() {
-    for (std::uint32_t i = 0; i < 256; ++i) {
-      std::uint32_t c = i;
-      for (int k = 0; k < 8; ++k) c = c & 1 ? 0xedb88320u ^ (c >> 1) : c >> 1;
-      table_[i] = c;
-    }
-  }
-  void add(const void* bytes, std::size_t size) {
-    const auto* b = static_cast<const unsigned char*>(bytes);
-    for (std::size_t i = 0; i < size; ++i) sum_ = table_[(sum_ ^ b[i]) & 0xff] ^ (sum_ >> 8);
-  }
-  std::uint32_t sum() const { return sum_ ^ 0xffffffffu; }
-
- private:
-  std::array<std::uint32_t, 256> table_{};
-  std::uint32_t sum_ = 0xffffffffu;
-};
-
-// RFC 1321; the format asks for it.
-class Md5 {
- public:
-  Md5() {
-    for (std::size_t i = 0; i < 64; ++i) {
-      sines_[i] = static_cast<std::uint32_t>(
-          std::floor(4294967296.0 * std::abs(std::sin(static_cast<double>(i + 1)))));
-    }
-  }
-  void add(const void* bytes, std::size_t size) {
-    const char* at = static_cast<const char*>(bytes);
-    size_ += size;
-    while (size > 0) {
-      const std::size_t n = std::min(size, block_.size() - held_);
-      std::memcpy(block_.data() + held_, at, n);
-      held_ += n, at += n, size -= n;
-      if (held_ == block_.size()) turn();
-    }
-  }
-  std::string finish() {
-    const std::string bits = little(8 * size_, 8);
-    add("\x80", 1);
-    while (held_ != 56) add("", 1);
-    add(bits.data(), bits.size());
-    std::string out;
-    for (const std::uint32_t v : sum_) {
-      for (const char b : little(v, 4)) out += fmt::format("{:02x}", static_cast<unsigned char>(b));
-    }
-    return out;
-  }
-
- private:
-  void turn() {
-    static constexpr std::array<int, 16> kTurns{7, 12, 17, 22, 5, 9,  14, 20,
-                                                4, 11, 16, 23, 6, 10, 15, 21};
-    held_ = 0;
-    std::array<std::uint32_t, 16> word{};
-    std::memcpy(word.data(), block_.data(), 64);
-    auto [a, b, c, d] = sum_;
-    for (std::uint32_t i = 0; i < 64; ++i) {
-      std::uint32_t f = 0, g = 0;
-      if (i < 16) {
-        f = (b & c) | (~b & d), g = i;
-      } else if (i < 32) {
-        f = (d & b) | (~d & c), g = (5 * i + 1) % 16;
-      } else if (i < 48) {
-        f = b ^ c ^ d, g = (3 * i + 5) % 16;
-      } else {
-        f = c ^ (b | ~d), g = 7 * i % 16;
-      }
-      const std::uint32_t x = a + f + sines_[i] + word[g];
-      const int turns = kTurns[4 * (i / 16) + i % 4];
-      a = d, d = c, c = b;
-      b += (x << turns) | (x >> (32 - turns));
-    }
-    sum_[0] += a, sum_[1] += b, sum_[2] += c, sum_[3] += d;
-  }
-
-  std::array<std::uint32_t, 64> sines_{};
-  std::array<std::uint32_t, 4> sum_{0x67452301u, 0xefcdab89u, 0x98badcfeu, 0x10325476u};
-  std::array<char, 64> block_{};
-  std::size_t held_ = 0;
-  std::uint64_t size_ = 0;
-};
 
 Pieces piece(const std::string& bytes) {
   return [&bytes](const auto& take) { take(bytes.data(), bytes.size()); };
@@ -152,6 +65,96 @@ class Zip {
   std::uint64_t size_ = 0, files_ = 0;
 };
 
+// The number between two tags of the XML, after `from`.
+double tagged(const std::string& path, const std::string& xml, const std::string& tag,
+              std::size_t from = 0) {
+  const std::string open = "<" + tag + ">";
+  const std::size_t at = xml.find(open, from);
+  double value = 0;
+  const char* end = xml.data() + xml.size();
+  if (at == std::string::npos ||
+      std::from_chars(xml.data() + at + open.size(), end, value).ec != std::errc{})
+    throw InputError("cannot read " + path + ": no number " + tag + " in main.xml");
+  return value;
+}
+
+class X3pRows : public HeightRows {
+ public:
+  explicit X3pRows(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+    const std::uint64_t length = enter("main.xml");
+    if (length > (1 << 20)) fail("a main.xml of more than 1 MB");
+    xml_.resize(length);
+    get(xml_.data(), length);
+    const double nx = tagged(path, xml_, "SizeX"), ny = tagged(path, xml_, "SizeY");
+    check_size(path, nx, ny);
+    header_.nx = static_cast<int>(nx);
+    header_.ny = static_cast<int>(ny);
+    header_.lx = nx * tagged(path, xml_, "Increment", xml_.find("<CX>"));
+    header_.ly = ny * tagged(path, xml_, "Increment", xml_.find("<CY>"));
+    if (xml_.find("<CZ><AxisType>A</AxisType><DataType>D</DataType>") == std::string::npos)
+      fail("its heights are no doubles");
+    scale_ = tagged(path, xml_, "Increment", xml_.find("<CZ>"));
+    const auto pixels = static_cast<std::uint64_t>(header_.nx) * static_cast<unsigned>(header_.ny);
+    if (enter("bindata/data.bin") != sizeof(double) * pixels)
+      fail("as many heights as pixels are due");
+  }
+
+  void next(double* heights) override {
+    const std::size_t bytes = static_cast<std::size_t>(header_.nx) * sizeof(double);
+    get(heights, bytes);
+    sum_.add(heights, bytes);
+    for (int ix = 0; ix < header_.nx; ++ix) heights[ix] *= scale_;
+    if (++row_ == header_.ny) check_sums();
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw InputError("cannot read " + path_ + ": " + why);
+  }
+  void get(void* to, std::size_t bytes) {
+    if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
+      fail("the data are cut off");
+  }
+  // Into the next file of the zip, which must have this name; its length.
+  std::uint64_t enter(const std::string& name) {
+    std::array<unsigned char, 30> head{};
+    get(head.data(), head.size());
+    const auto number = [&](std::size_t at, std::size_t bytes) {
+      std::uint64_t out = 0;
+      for (std::size_t i = bytes; i-- > 0;) out = out << 8 | head[at + i];
+      return out;
+    };
+    if (number(0, 4) != 0x04034b50) fail("no zip with " + name + " where it is due");
+    if (number(8, 2) != 0) fail("a compressed zip, which no X3P of ours is");
+    std::string found(number(26, 2), '\0'), extra(number(28, 2), '\0');
+    get(found.data(), found.size());
+    get(extra.data(), extra.size());
+    if (found != name) fail("a zip without " + name + " where it is due");
+    return number(18, 4);
+  }
+  void check_sums() {
+    if (xml_.find("<MD5ChecksumPointData>" + sum_.finish() + "<") == std::string::npos)
+      fail("the sum of its heights is another");
+    std::string sum(enter("md5checksum.hex"), '\0');
+    if (sum.size() > 256) fail("a sum of more than 256 letters");
+    get(sum.data(), sum.size());
+    if (!sum.starts_with(md5(piece(xml_)))) fail("the sum of main.xml is another");
+    std::string directory(4, '\0');
+    get(directory.data(), directory.size());
+    if (directory != "PK\x01\x02") fail("the data are cut off");
+    const std::string rest{std::istreambuf_iterator<char>(file_), {}};
+    constexpr std::size_t kEndOfZip = 22;
+    if (rest.size() < kEndOfZip || rest.substr(rest.size() - kEndOfZip, 4) != "PK\x05\x06")
+      fail("the data are cut off");
+  }
+
+  std::string path_, xml_;
+  std::ifstream file_;
+  double scale_ = 1;
+  int row_ = 0;
+  Md5 sum_;
+};
+
 }  // namespace
 
 void write_x3p(const std::string& path, const Heightmap& h) {
@@ -193,6 +196,10 @@ void write_x3p(const std::string& path, const Heightmap& h) {
   zip.add("md5checksum.hex", piece(sum));
   zip.finish();
   out.commit();
+}
+
+std::unique_ptr<HeightRows> open_x3p_rows(const std::string& path) {
+  return std::make_unique<X3pRows>(path);
 }
 
 }  // namespace papilla::geometry

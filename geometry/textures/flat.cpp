@@ -18,6 +18,7 @@ TextureFacts facts(const Flat&) {
           .open_share = 0.0,
           .rim_radius = std::nullopt,
           .outline = NoOutline{"the surface is flat, there are no outlines to write"},
+          .scans = kNoScans,
           .quick_look = true};
 }
 

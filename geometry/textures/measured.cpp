@@ -3,17 +3,27 @@
 #include "geometry/measured_map.h"
 
 namespace papilla::geometry {
+namespace {
+
+ScanSource source_of(const Measured3d& t) { return {t.file, t.width, t.fill, t.as_is}; }
+
+}  // namespace
 
 void fields(FieldVisitor& v, Measured3d& t) {
   v.path(
       {"file", "heightmap to import (.npy .gsf .exr .tif)", Source::Choice, "", Presence::Required},
       t.file);
   v.number({"width", "um", 0, 1e6, "lateral size of the map where the file does not say"}, t.width);
+  v.flag({"fill", "heights that are no numbers get the mean of those around them; else refused"},
+         t.fill);
+  v.flag({"as_is",
+          "neither levelled, mended nor blended: a surface that is known and repeats by itself"},
+         t.as_is);
   v.number({"patch", "um", 0.1, 1e4, "side of the simulated square, cut from the middle"}, t.patch);
 }
 
 Heightmap heights(const Measured3d& t, const Grid& grid) {
-  return middle_of_map(t.file, t.width, t.patch, grid);
+  return middle_of_map(source_of(t), t.patch, grid);
 }
 
 TextureProblems problems(const Measured3d&) { return {}; }
@@ -27,6 +37,7 @@ TextureFacts facts(const Measured3d& t) {
           .open_share = std::nullopt,
           .rim_radius = std::nullopt,
           .outline = Contours{},
+          .scans = std::vector{source_of(t)},
           .quick_look = false};
 }
 

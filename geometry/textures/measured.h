@@ -12,6 +12,8 @@ struct Measured3d {
 
   std::string file;      // .npy .gsf .exr .tif
   double width = 0;      // lateral size where the file does not say [m]
+  bool fill = false;     // heights that are no numbers get those around them
+  bool as_is = false;    // neither levelled nor mended
   double patch = 12e-6;  // side of the square that is simulated, cut from the middle
 
   bool operator==(const Measured3d&) const = default;

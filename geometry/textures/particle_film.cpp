@@ -129,6 +129,7 @@ TextureFacts facts(const ParticleFilm& t) {
           .rim_radius = std::nullopt,
           .outline = NoOutline{"a film of particles has no outline: its caps rise gradually from "
                                "the film, and nothing is etched"},
+          .scans = kNoScans,
           .quick_look = false};
 }
 

@@ -33,6 +33,7 @@ TextureFacts facts(const RandomRough& t) {
           .rim_radius = std::nullopt,
           .outline = NoOutline{"a random rough surface has no outline: its heights vary gradually, "
                                "none of them parts deep from high"},
+          .scans = kNoScans,
           .quick_look = false};
 }
 

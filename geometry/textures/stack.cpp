@@ -75,6 +75,13 @@ std::optional<double> rim_of(const std::vector<TextureFacts>& parts) {
   return least;
 }
 
+std::vector<ScanSource> scans_of(const std::vector<TextureFacts>& parts) {
+  std::vector<ScanSource> out;
+  for (const TextureFacts& part : parts)
+    out.insert(out.end(), part.scans.begin(), part.scans.end());
+  return out;
+}
+
 // Contours, if one part with relief has an outline; else why the last of them has none.
 Outline outline_of(const std::vector<TextureFacts>& parts) {
   Outline out = facts(Flat{}).outline;
@@ -135,6 +142,7 @@ TextureFacts facts(const Stack& t) {
           .open_share = std::nullopt,  // the parts overlap
           .rim_radius = rim_of(parts),
           .outline = outline_of(parts),
+          .scans = scans_of(parts),
           .quick_look = false};
 }
 

@@ -21,10 +21,13 @@ Exported export_files(const Design& design, const std::string& folder,
       throw rooms::InputError("polarity: expected white-high or white-deep, got " +
                               options.polarity);
     }
-    const Export done = export_with_record(design.inside().design(), inside, folder);
+    const rooms::Study& study = design.inside().study;
+    const Export done = export_with_record(study, inside, folder);
     Exported out;
     for (const ExportedFile& file : done.files) out.files.push_back(file.path);
     out.warnings = done.warnings;
+    const ExportVerdict verdict{verify_files(record_of(study, inside, done), done), {}};
+    for (const std::string& fault : fault_lines(verdict)) out.warnings.push_back(fault);
     out.heights = heights_of(done.heightmap);
     return out;
   });

@@ -77,7 +77,7 @@ Network design_network(const DriveCase& c, double& area) {
     }
   }
   Network n;
-  n.dielectric = stack(scene.surface.dielectric, area);
+  n.dielectric = stack(scene.surface.layers(), area);
   if (skin > 0) {
     const double capacitance = kVacuumPermittivity * area / skin;
     const double corner = scene.finger.electrical.corner_frequency;

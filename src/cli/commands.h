@@ -13,7 +13,9 @@ void add_evaluate(Command app, Context& context);
 void add_rank(Command app, Context& context);
 void add_explain(Command app, Context& context);
 void add_export(Command app, Context& context);
+void add_verify(Command app, Context& context);
 void add_report(Command app, Context& context);
+void add_surface(Command app, Context& context);
 void add_solve(Command app, Context& context);
 void add_reproduce(Command app, Context& context);
 void add_calibrate(Command app, Context& context);
@@ -39,7 +41,9 @@ inline constexpr std::array kCommands{
     add_rank,
     add_explain,
     add_export,
+    add_verify,
     add_report,
+    add_surface,
     add_solve,
     add_calibrate,
     add_reproduce,

@@ -10,6 +10,7 @@
 #include "base/files.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "config/describe.h"
 #include "config/writer.h"
 #include "design/study.h"
@@ -151,6 +152,7 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   if (!options.force) require_fitted_model(design, options.design.file, "run with --force");
   Fidelity fidelity = fidelity_of(design);
   fidelity.threads = options.jobs;
+  say_scans({design});
   const bool parameters = options.parameters || design.accuracy.parameters;
   if (!options.sweep.empty()) {
     return evaluate_sweep(context, parse_sweep(options.sweep, design), design, fidelity,

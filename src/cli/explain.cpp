@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "design/study.h"
 #include "estimate/target.h"
 #include "forward/skips.h"
@@ -37,6 +38,7 @@ std::string study_text(const Study& study) {
 int explain(const Context& context, const DesignOptions& options, bool measure) {
   const Study study = read_study(options.file, options.overrides);
   const Design& design = study.design;
+  say_scans({design});
   const TargetOptions target{.target = design.accuracy.target};
   const Fidelity fidelity = target.target > 0 ? pilot_fidelity(target) : fidelity_of(design);
   const Plan plan = measure ? measured_plan(scene_of(design), design.texture, fidelity)

@@ -1,17 +1,26 @@
 // papilla export DESIGN.toml: heightmap and mask files.
 #include "report/export.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
-#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/file_work.h"
+#include "cli/scan_options.h"
 #include "fabricate/formats.h"
 #include "fabricate/verify.h"
+#include "geometry/io/layout.h"
 #include "search/pick.h"
 
 namespace papilla::cli {
@@ -46,21 +55,37 @@ ExportSourceFile source_of(const ExportCommand& command) {
   return {named.string(), ""};
 }
 
+// "1 mm", or "110x62 mm", "110 mm x 62 mm": both sides; 0 where only one is given.
+std::pair<double, double> parse_sides(const std::string& text) {
+  constexpr std::string_view kTimes = "×";
+  const std::size_t times = text.find(kTimes), letter = text.find('x');
+  const std::size_t cross = std::min(times, letter);
+  if (cross == std::string::npos) return {parse_si(text, "um"), 0};
+  const std::string_view all = text, first = all.substr(0, cross),
+                         second = all.substr(cross + (cross == times ? kTimes.size() : 1));
+  const auto width = parse_quantity(first), height = parse_quantity(second);
+  // "110x62 mm": the unit of the second is that of both.
+  const bool bare = width && width->unit.empty() && height;
+  return {parse_si(bare ? fmt::format("{} {}", first, height->unit) : std::string(first), "um"),
+          parse_si(second, "um")};
+}
+
 ExportOptions options_of(const ExportCommand& command) {
   ExportOptions options;
   options.formats = command.formats;
   options.pixels = command.pixels;
   if (!command.size.empty()) {
-    options.size = parse_si(command.size, "um");
-    if (!(options.size > 0 && options.size <= 1))
-      throw InputError("--size: expected a length above 0 and up to 1 m");
+    std::tie(options.size, options.size_y) = parse_sides(command.size);
+    const auto allowed = [](double side) { return side > 0 && side <= 1; };
+    if (!allowed(options.size) || !(options.size_y == 0 || allowed(options.size_y)))
+      throw InputError("--size: expected lengths above 0 and up to 1 m");
   }
   if (!command.polarity.empty()) {
     options.polarity = command.polarity == "white-high" ? Polarity::WhiteHigh : Polarity::WhiteDeep;
   }
   options.repeat = command.repeat;
   options.levels = command.levels;
-  options.dose_curve = command.dose_curve;
+  if (!command.dose_curve.empty()) options.dose_curve = read_dose_curve(command.dose_curve);
   if (!command.shrink.empty()) options.bias.shrink = parse_si(command.shrink, "nm");
   if (!command.edge_rounding.empty())
     options.bias.edge_radius = parse_si(command.edge_rounding, "nm");
@@ -69,27 +94,31 @@ ExportOptions options_of(const ExportCommand& command) {
   return options;
 }
 
-int export_files(const ExportCommand& command) {
+int export_files(const Context& context, const ExportCommand& command) {
   const ExportSourceFile source = source_of(command);
   const Study study = read_study(source.design, command.design.overrides);
   const ExportOptions options = options_of(command);
+  say_scans({study.design});
   const double tolerance = parse_si(command.tolerance, "%");
   const std::string folder = !command.out.empty()     ? command.out
                              : !source.beside.empty() ? source.beside
                                                       : "results/" + study.name + "/export";
-  const Export result = export_with_record(study.design, options, folder);
-  for (const std::string& warning : result.warnings) std::cerr << "warning: " << warning << '\n';
-  std::optional<Verification> v;
-  if (command.verify) {
-    Study judged = study;  // the file is what the process turns into the design
-    judged.design.texture = compensated(study.design.texture, options.bias);
-    v = verify_export(judged, heights_file(result), tolerance);
+  Export result;
+  ExportVerdict verdict;
+  {
+    FileWork work(context, "writing");
+    result = export_with_record(study, options, folder, work.progress());
   }
-  std::cout << (command.design.json ? export_json(study.design, options, result, folder, v) + '\n'
-                                    : export_text(result, folder, v));
-  if (!v) return kSuccess;
-  for (const std::string& fault : v->faults) std::cerr << "not sound: " << fault << '\n';
-  return v->faults.empty() ? kSuccess : kWorkFailed;
+  for (const std::string& warning : result.warnings) std::cerr << "warning: " << warning << '\n';
+  {
+    FileWork work(context, "checking");
+    const ExportRecord record = record_of(study, options, result);
+    verdict.files = verify_files(record, result, work.progress());
+    if (command.verify) verdict.felt = verify_export(record, tolerance);
+  }
+  std::cout << (command.design.json ? export_json(study, options, result, folder, verdict) + '\n'
+                                    : export_text(result, folder, verdict));
+  return verdict_status(verdict);
 }
 
 }  // namespace
@@ -107,7 +136,8 @@ void add_export(Command app, Context& context) {
                   join_names(export_formats()) + "; default: what the texture allows")
       .separator(',');
   command.add_option("--size", options->size,
-                     "Side, rounded to whole periods, e.g. \"1 mm\"; default: about 12 um");
+                     "Side, or both of them, rounded to whole periods: \"1 mm\", \"110x62 mm\"; "
+                     "default: about 12 um");
   command.add_option("--pixels", options->pixels, "Pixels along x").range(8, 65536).show_default();
   command
       .add_option("--polarity", options->polarity,
@@ -115,17 +145,19 @@ void add_export(Command app, Context& context) {
       .one_of({"white-high", "white-deep"});
   command.add_option("--repeat", options->repeat, "EXR: the map so many times each way, streamed")
       .range(1, 4096);
-  command.add_option("--levels", options->levels, "GDSII of a free form: layers, one per level")
+  command.add_option("--levels", options->levels, "Layout of a free form: layers, one per level")
       .range(1, 64);
-  command.add_option("--facet-error", options->facet_error, "GDSII: of circles; default 2 nm");
+  command.add_option("--facet-error", options->facet_error, "Layouts: of circles; default 2 nm");
   command.add_option("--shrink", options->shrink,
                      "The process moves each wall into the hole by this; undone in the files");
   command.add_option("--edge-rounding", options->edge_rounding,
                      "The process rounds rims by this; left out of the files");
   command.add_option("--dose-curve", options->dose_curve, "CSV depth_nm,grey: writes dose.png")
       .type_name("FILE");
-  command.add_flag("--verify", options->verify,
-                   "Read the heights back, measure holes and walls, simulate again");
+  command.add_flag(
+      "--verify", options->verify,
+      "Also measure holes and walls in the written heights and simulate them (every file is "
+      "held against the design in any case)");
   command.add_option("--tolerance", options->tolerance, "Largest loss of merit of --verify")
       .show_default();
   command
@@ -133,8 +165,9 @@ void add_export(Command app, Context& context) {
                   "Folder; default results/NAME/export, of a folder FILE in FILE/export")
       .type_name("DIR");
   add_pick_option(command, options->pick);
-  command.on_chosen(
-      [&context, options] { context.action = [options] { return export_files(*options); }; });
+  command.on_chosen([&context, options] {
+    context.action = [&context, options] { return export_files(context, *options); };
+  });
 }
 
 }  // namespace papilla::cli

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -13,6 +14,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "optim/mpi.h"
 #include "optim/search.h"
 #include "report/remarks.h"
@@ -168,6 +170,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     [[maybe_unused]] const auto* err = std::freopen("/dev/null", "w", stderr);
   }
   Study study = read_study(options.study, options.overrides);
+  say_scans({study.design});
   for (const std::string& path : study.fallen_away)
     context.note("warning: " + path +
                  " of the base is left out: this kind of texture has no such number");
@@ -201,7 +204,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     std::cout << result_json(result, StudyProblem(study), run.folder, study).dump(2) << '\n';
   } else if (!result.interrupted) {
     std::string text = result_table(study, result);
-    if (result.has_best()) {
+    if (std::filesystem::exists(run.folder + "/best/mask.tif")) {
       text += fmt::format(
           "\nIn best/mask.tif white is deep; `papilla export {} --format mask --polarity "
           "white-high` "

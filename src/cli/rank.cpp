@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "report/ranking.h"
 
 namespace papilla::cli {
@@ -73,6 +74,7 @@ int run(const Context& context, const RankCommand& command) {
     designs.insert(designs.end(), regions.begin(), regions.end());
     candidates.push_back(std::move(regions));
   }
+  say_scans(designs);
   RankOptions options;
   const bool driven =
       std::all_of(designs.begin(), designs.end(), [](const Design& d) { return d.drive.driven(); });

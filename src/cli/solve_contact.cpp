@@ -11,15 +11,18 @@
 #include "base/memory.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "geometry/io/files.h"
 #include "physics/contact/contact.h"
 #include "report/pieces.h"
+#include "report/surface.h"
 
 namespace papilla::cli {
 namespace {
 
 struct ContactCommand {
-  std::string height, size, pressure, approach, modulus;
+  ScanOptions scan;
+  std::string pressure, approach, modulus;
   std::string layer_modulus, layer_thickness, bulk_modulus, counter_modulus;
   double layer_poisson = 0.5, bulk_poisson = 0.5, counter_poisson = 0.4;
   ContactMethod method = ContactMethod::Auto;
@@ -89,9 +92,8 @@ int solve(const ContactCommand& c) {
                                .max_iterations = c.max_iterations,
                                .method = c.method};
   if (options.hardness < 0) throw InputError("--hardness must not be negative");
-  const Heightmap h =
-      read_heightmap(c.height, c.size.empty() ? 0 : positive(c.size, "um", "--size"));
-  require_memory(150.0 * static_cast<double>(h.grid.size()), "a contact of " + c.height);
+  const auto [h, changes] = read_scan(c.scan.source());
+  require_memory(150.0 * static_cast<double>(h.grid.size()), "a contact of " + c.scan.file);
   const auto kernel = make_contact_kernel(h.grid, solid);
   const auto begin = std::chrono::steady_clock::now();
   const ContactSolution s = approach > 0 ? solve_approach(*kernel, h.z, approach, options)
@@ -102,7 +104,8 @@ int solve(const ContactCommand& c) {
   const ContactArea area = measure_area(*kernel, s, options.hardness);
   if (!c.out_pressure.empty()) write_npy(c.out_pressure, {h.grid, s.pressure});
   if (!c.out_gap.empty()) write_npy(c.out_gap, {h.grid, s.gap});
-  std::cout << (c.json ? contact_json(s, area, h, seconds) + '\n'
+  say_scan(c.scan.file, changes);
+  std::cout << (c.json ? with_scan(contact_json(s, area, h, seconds), c.scan.file, changes) + '\n'
                        : contact_text(s, area, h, seconds));
   return s.converged() ? kSuccess : kWorkFailed;
 }
@@ -113,10 +116,10 @@ void add_solve_contact(Command solve_command, Context& context) {
   Command command = solve_command.add_command(
       "contact", "Rough contact of a rigid surface with a layered elastic half-space");
   auto c = std::make_shared<ContactCommand>();
-  command.add_option("--height", c->height, "Heightmap (.npy .gsf .exr .tif), high touches first")
+  command
+      .add_option("--height", c->scan.file, "Heightmap (.npy .gsf .exr .tif), high touches first")
       .required();
-  command.add_option("--size", c->size,
-                     "Lateral size in x, where the file does not say: \"12 um\"");
+  add_scan_options(command, c->scan);
   command.add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"");
   command.add_option("--approach", c->approach,
                      "Or the rigid approach from first touch: \"120 nm\"");

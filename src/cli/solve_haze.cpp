@@ -1,28 +1,30 @@
 // papilla solve haze: how a design or a heightmap looks on glass.
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/scan_options.h"
 #include "design/study.h"
 #include "forward/appearance.h"
-#include "geometry/io/files.h"
 #include "report/pieces.h"
+#include "report/surface.h"
 
 namespace papilla::cli {
 namespace {
 
 struct HazeOptions {
   DesignOptions design;
-  std::string height, size;
+  ScanOptions scan;
   std::vector<std::string> angles;
   double index = 0, fill = 0;
 };
 
 int solve(const HazeOptions& options) {
-  if (options.design.file.empty() == options.height.empty())
+  if (options.design.file.empty() == options.scan.file.empty())
     throw InputError("expected a design FILE or --height FILE");
   std::vector<double> angles;
   for (const std::string& angle : options.angles) {
@@ -31,25 +33,32 @@ int solve(const HazeOptions& options) {
       throw InputError("--angle: expected 0 to 70 deg");
   }
   Optics o;
-  if (options.height.empty()) {
+  std::optional<ScanChanges> changes;
+  if (options.scan.file.empty()) {
     Design design = read_study(options.design.file, options.design.overrides).design;
     if (options.index > 0) design.surface.refractive_index = options.index;
     if (options.fill > 0) design.view.fill_index = options.fill;
     if (!angles.empty()) design.view.angles = angles;
     if (design.view.fill_index > design.surface.refractive_index)
       throw InputError("--fill-index: expected 1 to the glass's index");
+    say_scans({design});
     o = appearance_of(design);
   } else {
     OpticalMedia media;
     if (options.index > 0) media.index = options.index;
     if (options.fill > 0) media.fill = options.fill;
     if (media.fill > media.index) throw InputError("--fill-index: expected 1 to the glass's index");
-    const double width = options.size.empty() ? 0 : parse_si(options.size, "um");
     Light light;
     if (!angles.empty()) light.angles = angles;
-    o = phase_screen(read_heightmap(options.height, width), PixelEdges::Sloped, media, light);
+    const Scan scan = read_scan(options.scan.source());
+    changes = scan.changes;
+    say_scan(options.scan.file, *changes);
+    o = phase_screen(scan.map, PixelEdges::Sloped, media, light);
   }
-  std::cout << (options.design.json ? optics_json(o) + '\n' : optics_text(o));
+  const auto json = [&] {
+    return changes ? with_scan(optics_json(o), options.scan.file, *changes) : optics_json(o);
+  };
+  std::cout << (options.design.json ? json() + '\n' : optics_text(o));
   return o.refused() ? kWorkFailed : kSuccess;
 }
 
@@ -61,9 +70,9 @@ void add_solve_haze(Command solve_command, Context& context) {
   auto options = std::make_shared<HazeOptions>();
   command.add_option("file", options->design.file, "Design or study file").type_name("FILE");
   add_set_option(command, options->design.overrides);
-  command.add_option("--height", options->height, "Heightmap instead: .npy .gsf .exr .tif")
+  command.add_option("--height", options->scan.file, "Heightmap instead: .npy .gsf .exr .tif")
       .type_name("FILE");
-  command.add_option("--size", options->size, "Its width where the file does not say");
+  add_scan_options(command, options->scan);
   command.add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")
       .range(1.0, 5.0);
   command

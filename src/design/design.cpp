@@ -93,6 +93,28 @@ void drive_problems(const Drive& drive, const Surface& surface, Problems& out) {
   }
 }
 
+void film_problems(const Texture& texture, const Surface& surface, Problems& out) {
+  const int carrying = surface.carrying_layer();
+  for (int k = 0; k < carrying; ++k) {
+    if (surface.dielectric[static_cast<std::size_t>(k)].made_by(surface.process) !=
+        FilmProcess::Planar) {
+      out.push_back({fmt::format("surface.dielectric.{}.process", k),
+                     "a layer that follows the texture cannot lie below a planar one: list the "
+                     "layers from the electrode up, or make it planar"});
+    }
+  }
+  const std::optional<Planes> planes = facts(texture).relief.planes;
+  if (carrying < 0 || !planes) return;
+  const double thickness = surface.dielectric[static_cast<std::size_t>(carrying)].thickness;
+  if (-planes->low >= thickness) {
+    out.push_back(
+        {fmt::format("surface.dielectric.{}.thickness", carrying),
+         fmt::format("{}: the texture is cut {} deep into this planar layer and would reach its "
+                     "electrode; make it thicker, or the texture shallower",
+                     format_quantity(thickness, "nm"), format_quantity(-planes->low, "nm"))});
+  }
+}
+
 void view_problems(const View& view, const Surface& surface, Problems& out) {
   if (view.angles.empty()) out.push_back({"view.angles", "expected at least one angle"});
   if (view.fill_index > surface.refractive_index) {
@@ -158,6 +180,7 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   if (design.accuracy.grid > 0 && design.accuracy.grid < 16)
     out.push_back({"accuracy.grid", "expected 0 (by level) or at least 16 pixels"});
   drive_problems(design.drive, design.surface, out);
+  film_problems(design.texture, design.surface, out);
   view_problems(design.view, design.surface, out);
   return out;
 }

@@ -156,9 +156,11 @@ class VoltageSearch {
 
 double amplitude_limit(const Scene& scene, const Texture& texture) {
   const double radius = scene.surface.electrode_edge_radius;
-  const bool edges = radius > 0 && facts(texture).relief.present;
-  const double oxide =
-      dielectric_margin(scene.surface.dielectric, 1, edges ? radius : kInfinity);  // 1 V
+  const Relief relief = facts(texture).relief;
+  const bool edges = radius > 0 && relief.present;
+  const double deepest = relief.planes ? std::max(0.0, -relief.planes->low) : 0;
+  const double oxide = dielectric_margin(scene.surface.thinnest_layers(deepest), 1,
+                                         edges ? radius : kInfinity);  // 1 V
   const double source = scene.drive.source_compliance;
   return std::min({oxide, source > 0 ? source : kInfinity, kLargestAmplitude});
 }

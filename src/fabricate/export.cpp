@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "base/error.h"
 #include "base/memory.h"
@@ -33,32 +34,13 @@ std::string refusal(const ExportFormat& format, const TextureFacts& known,
     if (const std::string reason = undrawable(known); !reason.empty())
       return subject + ": " + reason;
   }
-  if (format.needs_dose_curve && options.dose_curve.empty())
+  if (format.needs_dose_curve && !options.dose_curve)
     return subject + " needs --dose-curve, a CSV of depth_nm,grey";
   if (format.needs_polarity && !options.polarity) {
     return subject +
            " needs a polarity: white-high (bright is high) or white-deep (bright is deep)";
   }
   return {};
-}
-
-std::vector<ExportFormat> chosen_formats(const Texture& texture, const ExportOptions& options) {
-  const TextureFacts known = facts(texture);
-  std::vector<ExportFormat> out;
-  if (options.formats.empty()) {
-    for (const ExportFormat& format : export_format_table()) {
-      if (format.asked_only || !refusal(format, known, options).empty()) continue;
-      if (format.needs_outline && !array_of(known)) continue;  // contours are on request
-      out.push_back(format);
-    }
-    return out;
-  }
-  for (const std::string& name : options.formats) {
-    out.push_back(find_export_format(name));
-    if (const std::string why = refusal(out.back(), known, options); !why.empty())
-      throw InputError(why);
-  }
-  return out;
 }
 
 // One cell of the lattice; sides of 0 where nothing repeats. Two periods along x hold two rows of a
@@ -76,7 +58,7 @@ Grid unit_cell(const Texture& texture, int pixels) {
   return cell;
 }
 
-// GDSII places whole cells on a grid of 1 nm, where a period that a search found never lies. All
+// Layouts place whole cells on a grid of 1 nm, where a period that a search found never lies. All
 // files of an export are of one texture, so that a map and a layout of it lie on each other.
 void snap_period(Texture& texture, std::vector<std::string>& warnings) {
   const double period = facts(texture).period(), nm = 1e9 * period;
@@ -89,40 +71,71 @@ void snap_period(Texture& texture, std::vector<std::string>& warnings) {
   Texture snapped = with(std::round(nm));
   if (!problems(snapped).empty()) snapped = with(std::ceil(nm));  // walls may be that thin
   for (const auto& [key, message] : problems(snapped))
-    throw InputError("on the 1 nm grid of GDSII: texture." + key + ": " + message);
+    throw InputError("on the 1 nm grid of layouts: texture." + key + ": " + message);
   const double after = 1e9 * facts(snapped).period();
   warnings.push_back(fmt::format(
-      "the period of {:.8g} nm is not on the 1 nm grid of GDSII: all files of this export, maps "
+      "the period of {:.8g} nm is not on the 1 nm grid of layouts: all files of this export, maps "
       "and layout, have {:.0f} nm, {:.2g} nm ({:.2g} %) {}",
       nm, after, std::abs(after - nm), 100 * std::abs(after / nm - 1),
       after > nm ? "more" : "less"));
   texture = snapped;
 }
 
-// Heights and masks of too few pixels move and round every edge.
-void judge_pixels(const Texture& texture, const Grid& grid, std::vector<std::string>& warnings) {
-  constexpr double kPixelsAcross = 4;
+// The remedy for pixels that are too large for the smallest hole or wall [m].
+std::string more_pixels(const Grid& grid, double pixels_across, double smallest) {
+  const double pixels = 2 * std::ceil(0.5 * grid.lx * pixels_across / smallest);
+  constexpr double kMost = 1 << 14;  // 2^28 of a square
+  return pixels <= kMost ? fmt::format("--pixels {:.0f} would do", pixels)
+                         : fmt::format(
+                               "that would take {:.0f} pixels a side: ask for a smaller "
+                               "--size (one period to be repeated) or a layout, --format "
+                               "gds or oasis",
+                               pixels);
+}
+
+// Edges are lost between pixels.
+bool too_coarse(const Texture& texture, const Grid& grid) {
+  const double smallest = facts(texture).margins.smallest();
+  return std::isfinite(smallest) && smallest > 0 && std::max(grid.dx(), grid.dy()) > 0.5 * smallest;
+}
+
+// Of too few pixels heights have their edges elsewhere, and what follows edges means nothing.
+void judge_pixels(const Texture& texture, const Grid& grid, bool follows_edges,
+                  std::vector<std::string>& warnings) {
   const double smallest = facts(texture).margins.smallest();
   const double pixel = std::max(grid.dx(), grid.dy());
-  if (!std::isfinite(smallest) || !(smallest > 0) || pixel <= smallest / kPixelsAcross) return;
-  const double pixels = 2 * std::ceil(0.5 * std::max(grid.lx, grid.ly) * kPixelsAcross / smallest);
-  constexpr double kMost = 1 << 14;  // 2^28 of a square
+  if (!std::isfinite(smallest) || !(smallest > 0)) return;
+  if (follows_edges && too_coarse(texture, grid)) {
+    throw InputError(fmt::format(
+        "a mask of these pixels means nothing: one is {:.3g} nm wide, more than half the smallest "
+        "hole or wall, {:.3g} nm; {}; or name other files, --format exr,tiff",
+        1e9 * pixel, 1e9 * smallest, more_pixels(grid, 4, smallest)));
+  }
+  if (pixel <= smallest / 4) return;
   warnings.push_back(fmt::format(
       "a pixel of {:.3g} nm is more than a quarter of the smallest hole or wall, {:.3g} nm: edges "
       "are not where the design has them; {}",
-      1e9 * pixel, 1e9 * smallest,
-      pixels <= kMost
-          ? fmt::format("--pixels {:.0f} would do", pixels)
-          : fmt::format(
-                "that would take {:.0f} pixels a side: ask for a smaller --size (one period "
-                "to be repeated) or a layout, --format gds",
-                pixels)));
+      1e9 * pixel, 1e9 * smallest, more_pixels(grid, 4, smallest)));
+}
+
+// A rectangle of whole periods, its pixels nearly square.
+Grid rectangle(const Texture& texture, const Grid& square, double size_y) {
+  const TextureFacts known = facts(texture);
+  if (known.free_patch.exact && !known.cell) return square;
+  Grid out = square;
+  out.ly = known.cell ? known.cell->y * std::max(1.0, std::round(size_y / known.cell->y))
+                      : known.free_patch.side(size_y);
+  constexpr double kMost = 1 << 29;  // more than any export has
+  const double half = std::min(kMost, std::round(0.5 * out.nx * out.ly / out.lx));
+  out.ny = 2 * std::max(1, static_cast<int>(half));
+  return out;
 }
 
 // The grid of the heights. Throws InputError above 2^28 pixels and for more than the memory holds.
 Grid export_grid(const Texture& texture, const Grid& cell, const ExportOptions& options) {
   Grid grid = patch_grid(texture, options.pixels, options.size > 0 ? options.size : kWindow);
   if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
+  if (options.size_y > 0) grid = rectangle(texture, grid, options.size_y);
   constexpr double kLargest = 1 << 28;
   if (static_cast<double>(grid.nx) * grid.ny > kLargest) {
     throw InputError(
@@ -137,9 +150,17 @@ Grid export_grid(const Texture& texture, const Grid& cell, const ExportOptions& 
 // Another side than asked for.
 void judge_size(Export& out, const ExportOptions& options) {
   const Grid& grid = out.heightmap.grid;
-  if (!(options.size > 0) || std::abs(grid.lx - options.size) <= 1e-6 * options.size) return;
+  const double size_y = options.size_y > 0 ? options.size_y : options.size;
+  const auto off = [](double made, double asked) { return std::abs(made - asked) > 1e-6 * asked; };
+  if (!(options.size > 0)) return;
+  // The height of a square is only that of its lattice.
+  if (!off(grid.lx, options.size) && (options.size_y == 0 || !off(grid.ly, size_y))) return;
+  const auto side = [&](double x, double y) {
+    return options.size_y > 0 ? fmt::format("{:.6g} x {:.6g} um", 1e6 * x, 1e6 * y)
+                              : fmt::format("{:.6g} um", 1e6 * x);
+  };
   out.warnings.push_back(fmt::format(
-      "{:.6g} um were asked for, {:.6g} um are written: {}", 1e6 * options.size, 1e6 * grid.lx,
+      "{} were asked for, {} are written: {}", side(options.size, size_y), side(grid.lx, grid.ly),
       out.cells_x > 0 ? "a whole number of periods"
       : facts(out.texture).free_patch.exact
           ? "a measured surface is its patch, texture.patch (`--repeat` tiles the EXR)"
@@ -173,37 +194,88 @@ Texture compensated(const Texture& texture, const ProcessBias& bias) {
   return out;
 }
 
-Export export_design(const Design& wanted, const ExportOptions& options,
-                     const std::string& folder) {
-  Design design = wanted;
-  design.texture = compensated(wanted.texture, options.bias);
-  const std::vector<ExportFormat> formats = chosen_formats(design.texture, options);
+std::vector<ExportFormat> chosen_formats(const Texture& texture, const ExportOptions& options) {
+  const TextureFacts known = facts(texture);
+  std::vector<ExportFormat> out;
+  if (options.formats.empty()) {
+    for (const ExportFormat& format : export_format_table()) {
+      if (format.asked_only || !refusal(format, known, options).empty()) continue;
+      if (format.needs_outline && !array_of(known)) continue;  // contours are on request
+      out.push_back(format);
+    }
+    return out;
+  }
+  for (const std::string& name : options.formats) {
+    out.push_back(find_export_format(name));
+    if (const std::string why = refusal(out.back(), known, options); !why.empty())
+      throw InputError(why);
+  }
+  return out;
+}
+
+namespace {
+
+bool any_of(const std::vector<ExportFormat>& formats, bool (*holds)(const ExportFormat&)) {
+  return std::any_of(formats.begin(), formats.end(), holds);
+}
+
+Export prepared(Texture drawn, const ExportOptions& options,
+                const std::vector<ExportFormat>& formats) {
   Export out;
-  out.texture = design.texture;
+  out.texture = std::move(drawn);
   const bool array = array_of(facts(out.texture)) != nullptr;
-  const bool layout =
-      std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f.needs_outline; });
+  const bool layout = any_of(formats, [](const ExportFormat& f) { return f.needs_outline; });
+  const bool mask = any_of(formats, [](const ExportFormat& f) { return f.follows_outline; });
+  const bool pixels = any_of(formats, [](const ExportFormat& f) { return f.has_pixels(); });
   if (layout && array) snap_period(out.texture, out.warnings);
   const Grid cell = unit_cell(out.texture, options.pixels);
   const Grid grid = export_grid(out.texture, cell, options);
+  const bool contours = layout && !array;
+  if (pixels || contours) judge_pixels(out.texture, grid, mask || contours, out.warnings);
   out.heightmap = generate(out.texture, grid);
   if (cell.lx > 0) {
     out.cells_x = static_cast<int>(std::lround(grid.lx / cell.lx));
     out.cells_y = static_cast<int>(std::lround(grid.ly / cell.ly));
   }
   judge_size(out, options);
-  const bool pixels =
-      std::any_of(formats.begin(), formats.end(), [](const auto& f) { return f.has_pixels(); });
-  if (pixels || (layout && !array)) judge_pixels(out.texture, grid, out.warnings);
+  return out;
+}
+
+}  // namespace
+
+Export prepare_export(const Design& design, const ExportOptions& options) {
+  Texture drawn = compensated(design.texture, options.bias);
+  const std::vector<ExportFormat> formats = chosen_formats(drawn, options);
+  return prepared(std::move(drawn), options, formats);
+}
+
+bool mask_shows(const Texture& texture, const ExportOptions& options) {
+  const TextureFacts known = facts(texture);
+  if (known.relief.present && !undrawable(known).empty()) return false;
+  return !too_coarse(texture, export_grid(texture, unit_cell(texture, options.pixels), options));
+}
+
+FileInfo info_of(const Design& design) {
+  return {design.title.empty() ? "papilla heightmap" : design.title, texture_name(design.texture)};
+}
+
+Export export_design(const Design& design, const ExportOptions& options, const std::string& folder,
+                     const FileProgress& progress) {
+  Texture drawn = compensated(design.texture, options.bias);
+  const std::vector<ExportFormat> formats = chosen_formats(drawn, options);
+  Export out = prepared(std::move(drawn), options, formats);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
     throw InputError(fmt::format("cannot make the folder {}: {}", folder, error.message()));
-  const FileInfo info{design.title.empty() ? "papilla heightmap" : design.title,
-                      texture_name(out.texture)};
+  const FileInfo info = info_of(design);
   for (const ExportFormat& format : formats) {
     const std::string path = folder + "/" + format.file;
-    format.write({out.heightmap, out.texture, options, info}, path, out);
+    const std::function<void(double)> share = [&](double done) {
+      if (progress) progress(path, done);
+    };
+    share(0);
+    format.write({out.heightmap, out.texture, options, info, share}, path, out);
     out.files.push_back({format.name, path});
   }
   return out;

@@ -1,12 +1,14 @@
 // A design as files for makers and for other programs.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
 #include "design/design.h"
+#include "geometry/io/drawing.h"
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
 
@@ -25,13 +27,14 @@ struct ExportOptions {
   std::vector<std::string> formats;
   // Wanted side [m], rounded to whole periods; 0: the window, two periods at least.
   double size = 0;
+  double size_y = 0;                 // of a rectangle; 0: as wide as high
   int pixels = 1024;                 // along x
   std::optional<Polarity> polarity;  // needed for tiff and mask
   int repeat = 1;                    // EXR: times in x and y, streamed
-  int levels = 1;                    // GDSII of textures that are no arrays: masks
-  double facet_error = 2e-9;         // GDSII: of circles [m]
+  int levels = 1;                    // layouts of textures that are no arrays: masks
+  double facet_error = 2e-9;         // layouts: of circles [m]
   ProcessBias bias;
-  std::string dose_curve;  // CSV depth_nm,grey: needed for dose
+  std::optional<DoseCurve> dose_curve;  // needed for dose
 };
 
 struct ExportedFile {
@@ -39,7 +42,7 @@ struct ExportedFile {
 };
 
 // What a texture that is no array became in a layout: polygons, one layer per level.
-struct GdsContours {
+struct LayoutContours {
   std::size_t polygons = 0;
   int levels = 1;
 };
@@ -49,9 +52,9 @@ struct Export {
   Texture texture;  // as drawn: the process undone, with a layout the period on its grid
   Heightmap heightmap;
   int cells_x = 0, cells_y = 0;  // unit cells along either side; 0: nothing repeats within
-  // What a GDSII layout holds, one of both; what a dose map holds.
-  std::optional<GdsArray> array;
-  std::optional<GdsContours> contours;
+  // What a layout holds, one of both; what a dose map holds.
+  std::optional<LayoutArray> array;
+  std::optional<LayoutContours> contours;
   std::optional<DoseMap> dose;
   std::vector<std::string> warnings;  // what the files hold otherwise than asked for
 };
@@ -59,10 +62,25 @@ struct Export {
 // Equal features that a layout repeats; null: none.
 const FeatureArray* array_of(const TextureFacts& known);
 
-// Writes heightmap.exr, heightmap.tif, mask.tif and so on into a folder, which it makes. With a
-// GDSII layout of an array the period of all files is the nearest whole nanometre, with a warning;
-// so there is one where a pixel is more than a quarter of the smallest hole or wall. Throws
+// Whether a mask of such pixels shows the texture: it has an outline, or is flat, and no pixel is
+// wider than half its smallest hole or wall.
+bool mask_shows(const Texture& texture, const ExportOptions& options);
+
+// All that an export is but its files: the texture as drawn on its grid. options.formats names the
+// files that are meant. With a layout of an array the period of all files is the nearest whole
+// nanometre, with a warning; so there is one where a pixel is more than a quarter of the smallest
+// hole or wall. Throws InputError.
+Export prepare_export(const Design& design, const ExportOptions& options);
+
+// What the files say of themselves.
+FileInfo info_of(const Design& design);
+
+// Told before each file, and during a long one: its name and the share that is done.
+using FileProgress = std::function<void(const std::string& file, double share)>;
+
+// Writes heightmap.exr, heightmap.tif, mask.tif and so on into a folder, which it makes. Throws
 // InputError; then files of the formats before stay.
-Export export_design(const Design& design, const ExportOptions& options, const std::string& folder);
+Export export_design(const Design& design, const ExportOptions& options, const std::string& folder,
+                     const FileProgress& progress = {});
 
 }  // namespace papilla::fabricate

@@ -3,16 +3,32 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "fabricate/checks.h"
 
 namespace papilla::fabricate {
 namespace {
 
+// An array as cell and array reference, anything else as contours of its heights.
+Layout draw(const ExportSource& s, Export& out) {
+  const Grid& grid = s.heightmap.grid;
+  const TextureFacts known = facts(s.texture);
+  if (const FeatureArray* array = array_of(known)) {
+    ArrayDrawing drawing = draw_array(*array, grid.lx, grid.ly, s.options.facet_error);
+    out.array = drawing.array;
+    return std::move(drawing.layout);
+  }
+  Layout layout = draw_contours(s.heightmap, s.options.levels);
+  out.contours = {layout.cells.back().polygons.size(), s.options.levels};
+  return layout;
+}
+
 void exr(const ExportSource& s, const std::string& path, Export&) {
   if (s.options.repeat > 1) {
-    write_exr_repeated(path, s.heightmap, s.options.repeat, s.info);
+    write_exr_repeated(path, s.heightmap, s.options.repeat, s.info, s.progress);
   } else {
     write_exr(path, s.heightmap, s.info);
   }
@@ -44,21 +60,18 @@ void png16(const ExportSource& s, const std::string& path, Export&) {
 
 void x3p(const ExportSource& s, const std::string& path, Export&) { write_x3p(path, s.heightmap); }
 
-// An array as cell and array reference, anything else as contours of its heights.
 void gds(const ExportSource& s, const std::string& path, Export& out) {
-  const Grid& grid = s.heightmap.grid;
-  const TextureFacts known = facts(s.texture);
-  if (const FeatureArray* array = array_of(known)) {
-    out.array = write_gds(path, *array, grid.lx, grid.ly, s.options.facet_error);
-  } else {
-    out.contours = {write_gds_mask(path, s.heightmap, s.options.levels), s.options.levels};
-  }
+  write_gds(path, draw(s, out));
+}
+
+void oasis(const ExportSource& s, const std::string& path, Export& out) {
+  write_oasis(path, draw(s, out));
 }
 
 void stl(const ExportSource& s, const std::string& path, Export&) { write_stl(path, s.heightmap); }
 
 void dose(const ExportSource& s, const std::string& path, Export& out) {
-  const DoseMap map = write_dose(path, s.heightmap, read_dose_curve(s.options.dose_curve));
+  const DoseMap map = write_dose(path, s.heightmap, *s.options.dose_curve);
   out.dose = map;
   if (map.deep == 0 && map.shallow == 0) return;
   const auto share = [&](std::size_t pixels) {
@@ -75,61 +88,83 @@ constexpr ExportFormat kFormats[]{
      .file = "heightmap.exr",
      .holds = "heights in um, 32-bit float, high is bright",
      .judged = 1,
-     .write = exr},
+     .write = exr,
+     .check = check_exr},
     {.name = "tiff",
      .file = "heightmap.tif",
      .holds = "heights in 16 bits between the lowest and the highest",
      .needs_polarity = true,
      .judged = 4,
-     .write = tiff},
+     .write = tiff,
+     .check = check_tiff},
     {.name = "tiff32",
      .file = "heightmap_float.tif",
      .holds = "heights in um, 32-bit float",
      .asked_only = true,
      .judged = 3,
-     .write = tiff32},
+     .write = tiff32,
+     .check = check_tiff32},
     {.name = "mask",
      .file = "mask.tif",
      .holds = "black and white: where the surface is below half its depth",
      .needs_polarity = true,
      .follows_outline = true,
-     .write = mask},
+     .write = mask,
+     .check = check_mask},
     {.name = "gsf",
      .file = "heightmap.gsf",
      .holds = "heights in m, 32-bit float, for Gwyddion",
      .judged = 2,
-     .write = gsf},
-    {.name = "npy", .file = "heightmap.npy", .holds = "heights in m, double", .write = npy},
+     .write = gsf,
+     .check = check_gsf},
+    {.name = "npy",
+     .file = "heightmap.npy",
+     .holds = "heights in m, double",
+     .write = npy,
+     .check = check_doubles},
     {.name = "png",
      .file = "preview.png",
      .holds = "a picture with a colour scale and a scale bar",
-     .write = png},
+     .write = png,
+     .check = check_preview},
     {.name = "png16",
      .file = "heightmap.png",
      .holds = "heights in 16 bits of grey, with size and height for Gwyddion",
      .asked_only = true,
-     .write = png16},
+     .write = png16,
+     .check = check_png16},
     {.name = "x3p",
      .file = "heightmap.x3p",
      .holds = "heights in m, double, as ISO 25178-72 has it",
      .asked_only = true,
-     .write = x3p},
+     .write = x3p,
+     .check = check_doubles},
     {.name = "gds",
      .file = "texture.gds",
      .holds = "polygons: one cell and an array reference of holes, pillars and grooves, contours "
               "of any other relief",
      .needs_outline = true,
-     .write = gds},
+     .write = gds,
+     .check = check_gds},
+    {.name = "oasis",
+     .file = "texture.oas",
+     .holds = "the polygons of `gds` as OASIS, without its limit of 32767 cells a side",
+     .needs_outline = true,
+     .asked_only = true,
+     .write = oasis,
+     .check = check_oasis},
     {.name = "stl",
      .file = "texture.stl",
      .holds = "triangles in um, one period on a closed block",
      .asked_only = true,
-     .write = stl},
+     .write = stl,
+     .check = check_stl},
     {.name = "dose",
      .file = "dose.png",
      .holds = "dose in 8 bits of grey, by the curve of --dose-curve",
      .needs_dose_curve = true,
-     .write = dose},
+     .write = dose,
+     .check = check_dose},
 };
 
 }  // namespace
@@ -153,7 +188,7 @@ const ExportFormat& find_export_format(const std::string& name) {
       fmt::format("unknown format \"{}\"; known: {}", name, join_names(export_formats())));
 }
 
-std::string heights_file(const Export& result) {
+std::string heights_file(const std::vector<ExportedFile>& files) {
   std::vector<ExportFormat> judged;
   for (const ExportFormat& format : kFormats) {
     if (format.judged > 0) judged.push_back(format);
@@ -162,13 +197,13 @@ std::string heights_file(const Export& result) {
             [](const ExportFormat& a, const ExportFormat& b) { return a.judged < b.judged; });
   std::string names;
   for (const ExportFormat& format : judged) {
-    for (const ExportedFile& file : result.files) {
+    for (const ExportedFile& file : files) {
       if (file.format == format.name) return file.path;
     }
     names += (names.empty() ? "" : &format == &judged.back() ? " or " : ", ");
     names += format.name;
   }
-  throw InputError("--verify needs a file of heights: " + names);
+  throw InputError("no file of heights to simulate: needs " + names);
 }
 
 }  // namespace papilla::fabricate

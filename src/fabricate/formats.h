@@ -17,6 +17,7 @@ struct ExportSource {
   const Texture& texture;  // as drawn
   const ExportOptions& options;
   const FileInfo& info;
+  const std::function<void(double)>& progress;  // the share of a long file; may be empty
 };
 
 struct ExportFormat {
@@ -29,8 +30,10 @@ struct ExportFormat {
   bool follows_outline = false;   // of a relief; what is flat has none and is drawn all the same
   bool needs_dose_curve = false;  // depth over grey
   bool asked_only = false;        // not among the files of an export that names no formats
-  int judged = 0;                 // when --verify takes its heights, 1 first; 0: never
+  int judged = 0;                 // when its heights are simulated again, 1 first; 0: never
   void (*write)(const ExportSource& source, const std::string& path, Export& out) = nullptr;
+  // What of a file is not as the source has it. Throws InputError for one that cannot be read.
+  std::vector<std::string> (*check)(const ExportSource& source, const std::string& path) = nullptr;
 
   bool has_pixels() const { return !needs_outline; }
 };
@@ -39,9 +42,13 @@ std::span<const ExportFormat> export_format_table();
 // Throws InputError, with the names that are known.
 const ExportFormat& find_export_format(const std::string& name);
 
+// The formats that an export writes: those that its options name, or all that the texture and the
+// polarity allow. Throws InputError for one that cannot be written.
+std::vector<ExportFormat> chosen_formats(const Texture& texture, const ExportOptions& options);
+
 // "exr", "tiff" and so on, in the order of the table.
 const std::vector<std::string>& export_formats();
 // The first file that holds heights to be read back. Throws InputError where there is none.
-std::string heights_file(const Export& result);
+std::string heights_file(const std::vector<ExportedFile>& files);
 
 }  // namespace papilla::fabricate

@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <utility>
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/text.h"
+#include "config/writer.h"
+#include "fabricate/formats.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "metrics/metrics.h"
@@ -20,7 +25,99 @@ double mean_of(const std::string& metric, const Response& response) {
   return value->value;
 }
 
+// The design beside the files of a run.
+FileVerdict verify_design(const ExportRecord& record, const std::string& path) {
+  if (read_design(path) == record.design) return {path, FileState::Sound, {}};
+  const std::vector<std::string> is = split(to_toml(read_design(path)), '\n'),
+                                 was = split(to_toml(record.design), '\n');
+  const auto [a, b] = std::mismatch(is.begin(), is.end(), was.begin(), was.end());
+  return {path,
+          FileState::Differs,
+          {fmt::format("is another design than the files were made from: `{}`, there `{}`",
+                       a == is.end() ? "" : *a, b == was.end() ? "" : *b)}};
+}
+
+FileVerdict verify_file(const ExportRecord& record, const Export& made, const ExportedFile& file,
+                        const FileProgress& progress) {
+  if (!std::filesystem::exists(file.path)) return {file.path, FileState::Missing, {"is missing"}};
+  try {
+    if (file.format == kDesignFormat) return verify_design(record, file.path);
+    const FileInfo info = info_of(record.design);
+    const std::function<void(double)> share = [&](double done) {
+      if (progress) progress(file.path, done);
+    };
+    share(0);
+    std::vector<std::string> faults =
+        find_export_format(file.format)
+            .check({made.heightmap, made.texture, record.options, info, share}, file.path);
+    const FileState state = faults.empty() ? FileState::Sound : FileState::Differs;
+    return {file.path, state, std::move(faults)};
+  } catch (const InputError& error) {
+    return {file.path, FileState::Unreadable, {error.what()}};
+  }
+}
+
+// Files of known names that the record does not have.
+std::vector<ExportedFile> strangers(const ExportRecord& record, const std::string& folder) {
+  std::vector<ExportedFile> out;
+  for (const ExportFormat& format : export_format_table()) {
+    const std::string path = folder + "/" + format.file;
+    const auto same = [&](const ExportedFile& file) { return file.path == path; };
+    if (std::filesystem::exists(path) &&
+        std::none_of(record.files.begin(), record.files.end(), same))
+      out.push_back({format.name, path});
+  }
+  return out;
+}
+
+FileVerdict verify_stranger(const ExportRecord& record, const Export& made,
+                            const ExportedFile& file, const FileProgress& progress) {
+  const ExportFormat& format = find_export_format(file.format);
+  FileVerdict out{file.path, FileState::Differs, {"is not among the files of this export"}};
+  if ((format.needs_polarity && !record.options.polarity) ||
+      (format.needs_dose_curve && !record.options.dose_curve))
+    return out;
+  const FileVerdict judged = verify_file(record, made, file, progress);
+  if (judged.state == FileState::Sound) return judged;
+  out.state = judged.state;
+  out.faults.insert(out.faults.end(), judged.faults.begin(), judged.faults.end());
+  return out;
+}
+
 }  // namespace
+
+std::vector<FileVerdict> verify_files(const ExportRecord& record, const Export& made,
+                                      const FileProgress& progress) {
+  std::vector<FileVerdict> out;
+  for (const ExportedFile& file : record.files)
+    out.push_back(verify_file(record, made, file, progress));
+  return out;
+}
+
+std::vector<FileVerdict> verify_folder(const std::string& folder, const std::string& file,
+                                       const FileProgress& progress) {
+  ExportRecord record = read_record(folder);
+  const Export made = prepare_export(record.design, record.options);
+  std::vector<ExportedFile> foreign = strangers(record, folder);
+  if (!file.empty()) {
+    const auto other = [&](const ExportedFile& f) { return f.path != folder + "/" + file; };
+    std::erase_if(record.files, other);
+    std::erase_if(foreign, other);
+    if (record.files.empty() && foreign.empty())
+      throw InputError(fmt::format("{}/{}: no file of the export in this folder", folder, file));
+  }
+  std::vector<FileVerdict> out = verify_files(record, made, progress);
+  for (const ExportedFile& f : foreign) out.push_back(verify_stranger(record, made, f, progress));
+  return out;
+}
+
+Verification verify_export(const ExportRecord& record, double tolerance) {
+  Study judged;
+  judged.design = record.design;
+  judged.design.texture = compensated(record.design.texture, record.options.bias);
+  judged.constraints = record.limits;
+  return verify_export(judged, heights_file(record.files), tolerance);
+}
 
 Verification verify_export(const Study& study, const std::string& file, double tolerance) {
   const Design& design = study.design;
@@ -48,6 +145,8 @@ Verification verify_export(const Study& study, const std::string& file, double t
   const double side = std::min(h.grid.lx, h.grid.ly);
   Measured3d map;
   map.file = file;
+  // A lattice repeats by itself: nothing is to be levelled, mended or blended.
+  map.as_is = facts(design.texture).cell.has_value();
   map.patch = side < 1.5 * plan.grid.lx ? side : plan.grid.lx;
   out.file = mean_of(metric, evaluate(scene, Texture{map}, fidelity));
   out.loss = std::abs(out.file - out.design) / std::abs(out.design);

@@ -1,4 +1,5 @@
-// An exported file judged as what a maker will get: read back, measured, simulated again.
+// Exported files judged as what a maker will get: each against the design that it was made from,
+// and one of them measured and simulated again.
 #pragma once
 
 #include <string>
@@ -6,9 +7,34 @@
 
 #include "base/rooms.h"
 #include "design/study.h"
+#include "fabricate/record.h"
 #include "geometry/io/mask.h"
 
 namespace papilla::fabricate {
+
+// --- against the design ---
+
+enum class FileState { Sound, Differs, Missing, Unreadable };
+
+struct FileVerdict {
+  std::string path;
+  FileState state = FileState::Sound;
+  std::vector<std::string> faults;  // what is wrong and by how much
+};
+
+// The files of a record against what the design has in their place: sides, pixels, polarity, depth,
+// critical dimension, polygons, every height to the rounding of the format. Cost: about that of
+// writing them; a strip of each is in memory.
+std::vector<FileVerdict> verify_files(const ExportRecord& record, const Export& made,
+                                      const FileProgress& progress = {});
+
+// The same of a folder that `papilla export` or a search wrote: made again from its record. Files
+// of a known name that the record does not have are judged too. file: of that name alone; empty:
+// all. Throws InputError where the folder has no record.
+std::vector<FileVerdict> verify_folder(const std::string& folder, const std::string& file = "",
+                                       const FileProgress& progress = {});
+
+// --- as a surface that is felt ---
 
 struct Verification {
   PixelMargins pixels;              // smallest hole and wall of the file
@@ -22,5 +48,8 @@ struct Verification {
 // min_wall of the study, kept to a pixel; the loss of merit at most `tolerance`. Cost: two
 // evaluations at draft level. Throws InputError for a file that cannot be read.
 Verification verify_export(const Study& study, const std::string& file, double tolerance);
+// The same of a record's most exact file of heights, of what the process makes of it. Throws
+// InputError where there is none.
+Verification verify_export(const ExportRecord& record, double tolerance);
 
 }  // namespace papilla::fabricate

@@ -301,7 +301,7 @@ class PatchSolver {
     out.peak_oxide_field = pull.peak_oxide_field;
     const Surface& surface = problem_.scene->surface;
     out.oxide_margin = dielectric_margin(
-        surface.dielectric, surface.dielectric_thickness() * pull.peak_oxide_field, kInfinity);
+        surface.layers(), surface.dielectric_thickness() * pull.peak_oxide_field, kInfinity);
     if (!pull.ok) out.status.note({Trouble::FieldUnsolved, 0, pull.reason});
   }
 

@@ -105,7 +105,9 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
     return out;
   }
   if (fidelity.field_skins == 0) return out;
-  const PatchSetup setup(scene, texture, control_fidelity(fidelity));
+  Scene at_rest = scene;  // both fields over the gap before the drive
+  at_rest.model.coupling = Coupling::OnePass;
+  const PatchSetup setup(at_rest, texture, control_fidelity(fidelity));
   std::vector<std::vector<Pulls>> pulls(static_cast<std::size_t>(fidelity.field_skins));
   parallel_for(
       fidelity.field_skins, [&](int k) { pulls[static_cast<std::size_t>(k)] = pulls_of(setup, k); },

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/text.h"
+#include "fabricate/record.h"
 #include "report/json.h"
 
 namespace papilla::report {
@@ -37,6 +39,41 @@ Json dose_json(const std::optional<DoseMap>& dose) {
           {"clipped_deep", dose->deep}};
 }
 
+std::string file_name(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+const char* text_of(FileState state) {
+  switch (state) {
+    case FileState::Sound:
+      return "sound";
+    case FileState::Differs:
+      return "differs";
+    case FileState::Missing:
+      return "missing";
+    case FileState::Unreadable:
+      return "unreadable";
+  }
+  return "";
+}
+
+Json verdict_files(const ExportVerdict& verdict) {
+  Json out = Json::array();
+  for (const FileVerdict& file : verdict.files) {
+    out.push_back(
+        {{"file", file_name(file.path)}, {"state", text_of(file.state)}, {"faults", file.faults}});
+  }
+  return out;
+}
+
+std::string felt_line(const Verification& v) {
+  return fmt::format(
+      "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, of the "
+      "design {:.4g}: {:.2g} % off\n",
+      1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel, v.merit, v.file,
+      v.design, 100 * v.loss);
+}
+
 Json verification_json(const Verification& v) {
   return {{"min_hole", json_number(v.pixels.min_hole)},
           {"min_wall", json_number(v.pixels.min_wall)},
@@ -48,15 +85,14 @@ Json verification_json(const Verification& v) {
           {"faults", v.faults}};
 }
 
-Json record(const Design& design, const ExportOptions& options, const Export& result) {
+Json record(const Study& study, const ExportOptions& options, const Export& result) {
+  const Design& design = study.design;
   const Heightmap& h = result.heightmap;
   const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
   const FabricationMargins margins = facts(result.texture).margins;
   Json files = Json::array();
-  for (const ExportedFile& file : result.files) {
-    files.push_back(
-        {{"format", file.format}, {"file", std::filesystem::path(file.path).filename().string()}});
-  }
+  for (const ExportedFile& file : result.files)
+    files.push_back({{"format", file.format}, {"file", file_name(file.path)}});
   return {{"schema", 1},
           {"title", design.title},
           {"texture", texture_name(result.texture)},
@@ -71,10 +107,11 @@ Json record(const Design& design, const ExportOptions& options, const Export& re
           {"aspect_ratio", json_number(margins.aspect_ratio)},
           {"process_shrink", options.bias.shrink},
           {"exr_repeat", options.repeat},
-          {"gds", layout_json(result)},
+          {"layout", layout_json(result)},
           {"dose", dose_json(result.dose)},
           {"files", files},
-          {"warnings", result.warnings}};
+          {"warnings", result.warnings},
+          {"made_from", Json::parse(record_json(record_of(study, options, result)))}};
 }
 
 std::string size_line(const Export& result) {
@@ -91,31 +128,68 @@ std::string size_line(const Export& result) {
 
 }  // namespace
 
-Export export_with_record(const Design& design, const ExportOptions& options,
-                          const std::string& folder) {
-  Export result = export_design(design, options, folder);
-  write_bytes(folder + "/export.json", record(design, options, result).dump(2) + "\n");
+Export export_with_record(const Study& study, const ExportOptions& options,
+                          const std::string& folder, const FileProgress& progress,
+                          const std::vector<ExportedFile>& beside) {
+  Export result = export_design(study.design, options, folder, progress);
+  result.files.insert(result.files.end(), beside.begin(), beside.end());
+  write_bytes(folder + "/" + kRecordName, record(study, options, result).dump(2) + "\n");
   return result;
 }
 
-std::string export_text(const Export& result, const std::string& folder,
-                        const std::optional<Verification>& v) {
-  std::string out;
-  for (const ExportedFile& file : result.files) out += file.path + '\n';
-  out += folder + "/export.json\n" + size_line(result);
-  if (!v) return out;
-  return out + fmt::format(
-                   "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, "
-                   "of the design {:.4g}: {:.2g} % off\n",
-                   1e6 * v->pixels.min_hole, 1e6 * v->pixels.min_wall, 1e6 * v->pixels.pixel,
-                   v->merit, v->file, v->design, 100 * v->loss);
+bool ExportVerdict::sound() const {
+  return std::all_of(files.begin(), files.end(),
+                     [](const FileVerdict& f) { return f.state == FileState::Sound; }) &&
+         (!felt || felt->faults.empty());
 }
 
-std::string export_json(const Design& design, const ExportOptions& options, const Export& result,
-                        const std::string& folder, const std::optional<Verification>& v) {
-  Json out = record(design, options, result);
+bool ExportVerdict::readable() const {
+  return std::none_of(files.begin(), files.end(),
+                      [](const FileVerdict& f) { return f.state == FileState::Unreadable; });
+}
+
+std::string export_text(const Export& result, const std::string& folder,
+                        const ExportVerdict& verdict) {
+  std::string out;
+  for (const ExportedFile& file : result.files) out += file.path + '\n';
+  out += folder + "/" + kRecordName + "\n" + size_line(result);
+  return verdict.felt ? out + felt_line(*verdict.felt) : out;
+}
+
+std::string export_json(const Study& study, const ExportOptions& options, const Export& result,
+                        const std::string& folder, const ExportVerdict& verdict) {
+  Json out = record(study, options, result);
   out["folder"] = folder;
-  if (v) out["verification"] = verification_json(*v);
+  out["verdict"] = verdict_files(verdict);
+  if (verdict.felt) out["verification"] = verification_json(*verdict.felt);
+  return out.dump(2);
+}
+
+std::vector<std::string> fault_lines(const ExportVerdict& verdict) {
+  std::vector<std::string> out;
+  for (const FileVerdict& file : verdict.files) {
+    for (const std::string& fault : file.faults) out.push_back(file.path + ": " + fault);
+  }
+  if (verdict.felt) out.insert(out.end(), verdict.felt->faults.begin(), verdict.felt->faults.end());
+  return out;
+}
+
+std::string verdict_text(const ExportVerdict& verdict) {
+  std::vector<std::vector<std::string>> rows;
+  for (const FileVerdict& file : verdict.files) rows.push_back({file.path, text_of(file.state)});
+  return aligned_table(rows, 2) + (verdict.felt ? felt_line(*verdict.felt) : "");
+}
+
+std::string verdict_json(const std::vector<std::pair<std::string, ExportVerdict>>& folders) {
+  Json out{{"schema", 1}, {"sound", true}, {"folders", Json::array()}};
+  for (const auto& [folder, verdict] : folders) {
+    if (!verdict.sound()) out["sound"] = false;
+    out["folders"].push_back(
+        {{"folder", folder},
+         {"sound", verdict.sound()},
+         {"files", verdict_files(verdict)},
+         {"verification", verdict.felt ? verification_json(*verdict.felt) : Json(nullptr)}});
+  }
   return out.dump(2);
 }
 

@@ -8,7 +8,7 @@
 
 #include "base/files.h"
 #include "config/writer.h"
-#include "geometry/io/files.h"
+#include "report/export.h"
 #include "report/json.h"
 #include "report/page.h"
 #include "report/response.h"
@@ -201,17 +201,22 @@ class Writer {
     return out.dump(1) + "\n";
   }
 
+  // Maps as `papilla export` writes them, with what `papilla verify` needs.
   void write_design_folder(const FinalDesign& d, const std::string& folder) const {
     fs::create_directories(folder);
     write_design(folder + "/design.toml", d.design);
     write_bytes(folder + "/metrics.json", metrics(d));
-    const Heightmap h = generate(d.design.texture, patch_grid(d.design.texture, kExportPixels));
-    FileInfo info;
-    info.title = d.design.title.empty() ? f_.study.name : d.design.title;
-    write_exr(folder + "/heightmap.exr", h, info);
-    write_gsf(folder + "/heightmap.gsf", h, info);
-    write_mask_tiff(folder + "/mask.tif", h, Polarity::WhiteDeep, info);
-    write_png(folder + "/preview.png", h);
+    Study study;
+    study.design = d.design;
+    study.constraints = f_.study.constraints;
+    ExportOptions options;
+    options.formats = {"exr", "gsf", "png"};
+    options.pixels = kExportPixels;
+    if (mask_shows(d.design.texture, options)) {
+      options.formats.push_back("mask");
+      options.polarity = Polarity::WhiteDeep;
+    }
+    export_with_record(study, options, folder, {}, {{kDesignFormat, folder + "/design.toml"}});
   }
 
   std::string sensitivity() const {

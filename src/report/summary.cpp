@@ -221,9 +221,9 @@ std::string run_summary(const ResultFiles& f) {
   out += r.has_best()
              ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
                "history.csv (every evaluation), run.json (how it ended, what to build), front/ and "
-               "best/ "
-               "(design.toml, build.toml on the grid of the fab, metrics.json, "
-               "heightmap.exr, heightmap.gsf, mask.tif (white is deep), preview.png), "
+               "best/ (design.toml, build.toml on the grid of the fab, metrics.json, "
+               "heightmap.exr, heightmap.gsf, preview.png, of textures with an outline mask.tif "
+               "(white is deep), export.json for `papilla verify`), "
                "sensitivity.json, "
                "resolved.toml (every value and where it came from), plan.txt, journal.\n"
              : "\nFiles: pareto.csv (finalists), history.csv (every evaluation), resolved.toml "

@@ -1,5 +1,6 @@
 #include "scene/environment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -23,11 +24,15 @@ void fields(FieldVisitor& v, Dielectric& s) {
   v.number({"strength", "V/um", 0, 1e6, "breakdown field", Source::Measured,
             "SiO2 1 GV/m at 50 nm (McPherson 2016)"},
            s.strength);
+}
+
+void fields(FieldVisitor& v, FilmDielectric& s) {
+  fields(v, static_cast<Dielectric&>(s));
   v.choice({"process", "how this layer was made; surface: as surface.process says"},
            {"surface", "conformal", "directional", "planar"}, s.process);
 }
 
-FilmProcess Dielectric::made_by(FilmProcess of_surface) const {
+FilmProcess FilmDielectric::made_by(FilmProcess of_surface) const {
   switch (process) {
     case LayerProcess::Surface:
       return of_surface;
@@ -45,6 +50,24 @@ double Surface::equivalent_thickness() const {
   double sum = 0;
   for (const Dielectric& layer : dielectric) sum += layer.equivalent_thickness();
   return sum;
+}
+
+std::vector<Dielectric> Surface::layers() const { return {dielectric.begin(), dielectric.end()}; }
+
+std::vector<Dielectric> Surface::thinnest_layers(double deepest) const {
+  std::vector<Dielectric> out = layers();
+  if (const int carrying = carrying_layer(); carrying >= 0) {
+    double& thickness = out[static_cast<std::size_t>(carrying)].thickness;
+    thickness = std::max(0.0, thickness - deepest);
+  }
+  return out;
+}
+
+int Surface::carrying_layer() const {
+  for (std::size_t k = dielectric.size(); k-- > 0;) {
+    if (dielectric[k].made_by(process) == FilmProcess::Planar) return static_cast<int>(k);
+  }
+  return -1;
 }
 
 double Surface::dielectric_thickness() const {

@@ -33,28 +33,42 @@ struct Dielectric {
   double permittivity = 3.9;
   double resistivity = 1e14;
   double strength = 1e9;  // breakdown field [V/m]
-  LayerProcess process = LayerProcess::Surface;
 
-  FilmProcess made_by(FilmProcess of_surface) const;
   double equivalent_thickness() const { return thickness / permittivity; }
 
   bool operator==(const Dielectric&) const = default;
 };
 void fields(FieldVisitor& v, Dielectric& s);
 
+// A layer below a texture.
+struct FilmDielectric : Dielectric {
+  LayerProcess process = LayerProcess::Surface;
+
+  FilmProcess made_by(FilmProcess of_surface) const;
+
+  bool operator==(const FilmDielectric&) const = default;
+};
+void fields(FieldVisitor& v, FilmDielectric& s);
+
 // The finish of the textured surface.
 struct Surface {
-  double contact_angle = 0.8726646259971648;  // 50 deg
-  std::vector<Dielectric> dielectric = {Dielectric{}};  // the layer on the electrode first
+  double contact_angle = 0.8726646259971648;                    // 50 deg
+  std::vector<FilmDielectric> dielectric = {FilmDielectric{}};  // the one on the electrode first
   FilmProcess process = FilmProcess::Conformal;
-  double step_coverage = 0;           // of directional layers: side wall / top
+  double step_coverage = 0;          // of directional layers: side wall / top
   double electrode_edge_radius = 0;  // convex edges under walls [m]; 0: none stated
   double refractive_index = 1.46;
   double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid
   double poisson = 0.4;  // theirs
 
-  double equivalent_thickness() const;  // sum of d/eps [m]
-  double dielectric_thickness() const;  // of all layers [m]
+  double equivalent_thickness() const;     // sum of d/eps [m]
+  double dielectric_thickness() const;     // of all layers [m]
+  std::vector<Dielectric> layers() const;  // without how they were made
+  // Those at the thinnest place of the film below a texture that lies that deep [m]: planar layers
+  // are thinner there.
+  std::vector<Dielectric> thinnest_layers(double deepest) const;
+  // The layer that a texture is cut into or imprinted on; -1: none is planar.
+  int carrying_layer() const;
   bool repels_water() const { return contact_angle > kPi / 2; }
 
   bool operator==(const Surface&) const = default;

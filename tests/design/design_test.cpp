@@ -52,6 +52,23 @@ TEST(Design, TheRelativesDifferInOneThing) {
   EXPECT_EQ(read_finger(kDesigns + "fingers/moist.toml").water.volume[3], 17.6e-18);
 }
 
+TEST(Design, ATextureStaysInsideThePlanarFilmThatCarriesIt) {
+  const std::string text =
+      "schema_version = 1\nbase = \"" + kDesigns + "m3_samples/a3h600.toml\"\n";
+  const std::string told = problems_of(text, {"surface.process=planar"});
+  EXPECT_NE(told.find("surface.dielectric.0.thickness: 500 nm: the texture is cut 600 nm deep"),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(problems_of(text, {"surface.process=planar", "surface.dielectric.0.thickness=700 nm"}),
+            "");
+  const std::string order =
+      problems_of(text + "[[surface.dielectric]]\nprocess = \"conformal\"\n" +
+                  "[[surface.dielectric]]\nthickness = \"900 nm\"\nprocess = \"planar\"\n");
+  EXPECT_NE(order.find("surface.dielectric.0.process: a layer that follows the texture cannot lie"),
+            std::string::npos)
+      << order;
+}
+
 TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
   for (const auto& [name, diameter, depth] :
        {std::tuple("a3h350", 3e-6, 350e-9), std::tuple("a3h600", 3e-6, 600e-9),

@@ -14,7 +14,9 @@
 #include "base/files.h"
 #include "base/rooms.h"
 #include "config/node.h"
+#include "geometry/io/drawing.h"
 #include "geometry/io/files.h"
+#include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
 
@@ -54,7 +56,7 @@ inline std::vector<FuzzTarget> file_targets(const std::string& folder) {
   std::vector<FuzzTarget> out;
   out.push_back(
       {"toml",
-       0.3,
+       0.24,
        {design_text("electroadhesive_glass/study.toml"), design_text("fingers/reference.toml")},
        [](const std::string& bytes) { parse_toml(bytes, "fuzz.toml"); }});
 
@@ -84,6 +86,20 @@ inline std::vector<FuzzTarget> file_targets(const std::string& folder) {
                      require_finite(1 / back.grid.area(), "the area");
                      for (double z : back.z) require_finite(z, "a height");
                    })});
+  }
+  const auto layout = draw_array(std::get<FeatureArray>(facts(texture).outline), 1e-4, 1e-4).layout;
+  write_gds(folder + "/good.gds", layout);
+  write_oasis(folder + "/good.oas", layout);
+  write_x3p(folder + "/good.x3p", h);
+  const std::vector<std::pair<std::string, std::function<void(const std::string&)>>> readers{
+      {"gds", [](const std::string& path) { read_gds(path); }},
+      {"oas", [](const std::string& path) { read_oasis(path); }},
+      {"x3p", [](const std::string& path) { whole_map(*open_x3p_rows(path), 0); }}};
+  for (const auto& [ending, read] : readers) {
+    out.push_back({ending,
+                   0.02,
+                   {read_bytes(folder + "/good." + ending)},
+                   from_file(folder + "/bad." + ending, read)});
   }
   return out;
 }

@@ -1,4 +1,4 @@
-"""Asks other programs what they see in exported files: clients.py gds|masks|gwyddion|images FOLDER. Prints facts as NAME VALUE."""
+"""Asks other programs what they see in exported files: clients.py gds|oasis|masks|gwyddion|images FOLDER. Prints facts as NAME VALUE."""
 import os
 import re
 import struct
@@ -37,11 +37,19 @@ print("oasis_layers", len(again.layer_infos()))
 """
 
 
-def gds(folder):
+def layout(path):
     with tempfile.NamedTemporaryFile("w", suffix=".py") as script:
         script.write(KLAYOUT)
         script.flush()
-        print(output("klayout", "-b", "-rd", f"f={folder}/texture.gds", "-r", script.name), end="")
+        print(output("klayout", "-b", "-rd", f"f={path}", "-r", script.name), end="")
+
+
+def gds(folder):
+    layout(f"{folder}/texture.gds")
+
+
+def oasis(folder):
+    layout(f"{folder}/texture.oas")
 
 
 def gwyddion(folder):

@@ -48,6 +48,25 @@ TEST(Klayout, ReadsTheArrayOfAScreenFromLessThanTwoKilobytes) {
   EXPECT_NEAR(number(facts, "area_1"), kPi * 2.25 * 2.25, 0.01);
 }
 
+// Both layouts of one export are one drawing, in square and hexagonal rows and as contours.
+TEST(Klayout, SeesInOasisWhatItSeesInGdsii) {
+  const Workplace place;
+  if (missing(place, "klayout python3")) GTEST_SKIP() << "needs klayout (scripts/setup --test)";
+  const std::string period = " --set 'texture.period=\"6 um\"' --set 'texture.diameter=\"4.5 um\"'";
+  for (const std::string& what :
+       {kDesign + period, kDesign + period + " --set texture.lattice=hexagonal",
+        std::string(kFilm) + "--levels 3"}) {
+    const Outcome run =
+        place.run("export " + what + " --format gds,oasis --size '90x60 um' --pixels 128 --out o");
+    ASSERT_EQ(run.status, 0) << run.err;
+    const Facts gds = ask(place, "gds", "o"), oasis = ask(place, "oasis", "o");
+    EXPECT_FALSE(gds.empty());
+    EXPECT_EQ(gds.size(), oasis.size());
+    for (const auto& [name, value] : gds)  // its unit of OASIS is off in the sixteenth digit
+      EXPECT_NEAR(number(oasis, name) / number(gds, name), 1, 1e-12) << name << " of " << what;
+  }
+}
+
 TEST(Klayout, SeesTheAreasOfAMaskWithALayerALevel) {
   const Workplace place;
   if (missing(place, "klayout python3")) GTEST_SKIP() << "needs klayout (scripts/setup --test)";

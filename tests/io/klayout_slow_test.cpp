@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/constants.h"
-#include "geometry/io/layout.h"
+#include "geometry/io/drawing.h"
 #include "geometry/texture.h"
 #include "tests/cli/program.h"
 
@@ -22,7 +22,7 @@ TEST(KlayoutMask, HasTheAreaOfTheHolesInSquareMicrometres) {
   holes.diameter = 4e-6;
   holes.wall_angle = kPi / 2;
   const Heightmap h = generate(Texture{holes}, patch_grid(Texture{holes}, 128, 12e-6));
-  write_gds_mask((place.path() / "texture.gds").string(), h, 1);
+  write_gds((place.path() / "texture.gds").string(), draw_contours(h, 1));
   const Outcome run = place.shell("python3 " PAPILLA_SOURCE_DIR "/tests/io/clients.py gds .");
   ASSERT_EQ(run.status, 0) << run.err;
   std::istringstream in(run.out);

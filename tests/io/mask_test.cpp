@@ -86,13 +86,13 @@ TEST(GdsMask, PolygonsCoverTheAreaBelowTheLevel) {
   EXPECT_NEAR(area / h.grid.area(), facts(texture).open_share.value(), 0.005);
 }
 
-TEST(GdsArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
+TEST(LayoutArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
   HoleArray holes;
   holes.period = 6.0004e-6;
-  EXPECT_THROW(write_gds(temporary("a.gds"), array_of(holes), 1e-4, 1e-4), InputError);
+  EXPECT_THROW(draw_array(array_of(holes), 1e-4, 1e-4), InputError);
   holes.period = 6e-6;
-  const GdsArray fine = write_gds(temporary("a.gds"), array_of(holes), 1e-4, 1e-4, 1e-9);
-  const GdsArray coarse = write_gds(temporary("b.gds"), array_of(holes), 1e-4, 1e-4, 50e-9);
+  const LayoutArray fine = draw_array(array_of(holes), 1e-4, 1e-4, 1e-9).array;
+  const LayoutArray coarse = draw_array(array_of(holes), 1e-4, 1e-4, 50e-9).array;
   EXPECT_GT(fine.sides, 2 * coarse.sides);
   for (const auto& [array, error] : {std::pair{fine, 1e-9}, {coarse, 50e-9}})
     EXPECT_LE(0.5 * holes.diameter * (1 - std::cos(kPi / array.sides)), error);
@@ -100,14 +100,15 @@ TEST(GdsArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
 }
 
 TEST(ExportedFiles, AllHaveThePeriodThatALayoutCanHold) {
-  Design design;
+  Study study;
+  Design& design = study.design;
   HoleArray holes;
   holes.period = 7997.3636e-9;
   design.texture.kind = holes;
   ExportOptions options;
   options.pixels = 256;
   const std::string folder = temporary("snapped");
-  const Export out = export_with_record(design, options, folder);  // the default formats
+  const Export out = export_with_record(study, options, folder);  // the default formats
   EXPECT_TRUE(std::filesystem::exists(folder + "/texture.gds"));
   EXPECT_TRUE(std::filesystem::exists(folder + "/export.json"));
   EXPECT_NEAR(out.heightmap.grid.lx / out.cells_x, 7997e-9, 1e-15);
@@ -142,14 +143,15 @@ TEST(ExportedFiles, PixelsTooLargeForAWallAreSaidWithThoseThatWouldDo) {
   EXPECT_TRUE(export_design(design, options, folder).warnings.empty());
 }
 
-TEST(GdsArray, HexagonsKeepTheirPlacesOverTheWholeArea) {
+TEST(LayoutArray, HexagonsKeepTheirPlacesOverTheWholeArea) {
   HoleArray holes;
   holes.lattice = Lattice::Hexagonal;
   for (const double period : {6e-6, 2.345e-6, 10e-6, 0.731e-6}) {
     holes.period = period;
     holes.diameter = 0.4 * period;
     for (const double size : {period, 1e-4, 15e-3}) {
-      const GdsArray a = write_gds(temporary("c.gds"), array_of(holes), size, size);
+      const auto [layout, a] = draw_array(array_of(holes), size, size);
+      write_gds(temporary("c.gds"), layout);
       EXPECT_LE(a.drift, 0.5e-9) << period << " " << size;
       EXPECT_NEAR(a.pitch_y * static_cast<double>(a.rows),
                   std::sqrt(3.0) * period * static_cast<double>(a.rows), 1e-9);

@@ -10,8 +10,8 @@
 
 #include "base/constants.h"
 #include "fabricate/export.h"
+#include "geometry/io/drawing.h"
 #include "geometry/io/files.h"
-#include "geometry/io/layout.h"
 #include "geometry/texture.h"
 #include "tests/io/gds_file.h"
 
@@ -35,7 +35,7 @@ TEST(WrittenGds, AMaskOfAMapHasTheHoleInMetres) {
   const HoleArray holes = one_hole();
   const Heightmap h = generate(Texture{holes}, patch_grid(Texture{holes}, 128, 12e-6));
   const std::string path = temporary("mask.gds");
-  ASSERT_GT(write_gds_mask(path, h, 1), 0u);
+  write_gds(path, draw_contours(h, 1));
   const GdsFile file(path);
   EXPECT_DOUBLE_EQ(file.metre, 1e-9);
   EXPECT_DOUBLE_EQ(file.user_unit, 1e-3);  // micrometres
@@ -54,12 +54,12 @@ TEST(WrittenGds, LevelsAreLayersOfWhatIsDeeper) {
   for (int y = 0; y < grid.ny; ++y)
     for (int x = 0; x < grid.nx; ++x) ramp(x, y) = -1e-6 * x / (grid.nx - 1);
   const std::string path = temporary("ramp.gds");
-  write_gds_mask(path, ramp, 2);
+  write_gds(path, draw_contours(ramp, 2));
   std::map<int, double> area;
   for (const GdsPolygon& p : GdsFile(path).polygons) area[p.layer] += p.area() / grid.area();
   EXPECT_NEAR(area[1], 0.75, 0.01);
   EXPECT_NEAR(area[2], 0.25, 0.01);
-  write_gds_mask(path, ramp, 1);
+  write_gds(path, draw_contours(ramp, 1));
   EXPECT_NEAR(GdsFile(path).area(), 0.5 * grid.area(), 0.01 * grid.area());
 }
 

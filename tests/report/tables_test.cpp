@@ -64,19 +64,20 @@ TEST(ExportFormats, EachHasAFileOfItsOwnAndALineInTheReference) {
   for (const ExportFormat& format : export_format_table()) {
     EXPECT_TRUE(files.insert(format.file).second) << format.file;
     EXPECT_NE(format.write, nullptr) << format.name;
+    EXPECT_NE(format.check, nullptr) << format.name;
     const std::string line = std::string("| `") + format.name + "` | `" + format.file + "`";
     EXPECT_NE(reference.find(line), std::string::npos) << line;
   }
-  EXPECT_EQ(files.size(), 12u);
+  EXPECT_EQ(files.size(), 13u);
   EXPECT_THROW(find_export_format("bmp"), InputError);
 }
 
 TEST(ExportFormats, AreJudgedByTheMostExactFileThereIs) {
   Export result;
   result.files = {{"png", "p"}, {"tiff", "t"}, {"gsf", "g"}};
-  EXPECT_EQ(heights_file(result), "g");
+  EXPECT_EQ(heights_file(result.files), "g");
   result.files = {{"png", "p"}};
-  EXPECT_THROW(heights_file(result), InputError);
+  EXPECT_THROW(heights_file(result.files), InputError);
 }
 
 }  // namespace

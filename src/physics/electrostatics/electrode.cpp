@@ -102,7 +102,7 @@ void add_layer(std::vector<double>& dielectric, const std::vector<double>& upper
 
 std::vector<FilmLayer> film_layers(const Surface& surface) {
   std::vector<FilmLayer> out;
-  for (const Dielectric& d : surface.dielectric)
+  for (const FilmDielectric& d : surface.dielectric)
     out.push_back({d.made_by(surface.process), surface.step_coverage, d.thickness, d.permittivity});
   return out;
 }

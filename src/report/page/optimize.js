@@ -378,6 +378,6 @@ const plan = best.plan;
 table($('modelled'), ['Modelled', 'How', 'Why', 'Error'], plan.steps.map((s) => [s.piece, s.method, s.reason, s.error ? round(100 * s.error, 2) + ' %' : '']), [3]);
 table($('skipped'), ['Not modelled', 'Why', 'Of friction'], plan.skipped.map((s) => [s.piece, s.reason, s.bound ? (s.estimate ? 'about ' : 'at most ') + round(100 * s.bound, 2) + ' %' : '']), [2]);
 $('plantext').textContent = data.plan;
-$('polarity').textContent = 'Bright is high in the EXR and the preview; white is deep in mask.tif.';
+$('polarity').textContent = 'Bright is high in the EXR and the preview; white is deep in mask.tif, which textures with an outline have.';
 window.addEventListener('beforeprint', render);
 finish({ select, solid });

@@ -1,0 +1,237 @@
+// EXR, TIFF and PNG read back, a strip of rows at a time.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "geometry/io/codec.h"
+#include "geometry/io/height_rows.h"
+#include "geometry/io/raw.h"
+
+namespace papilla::geometry {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr int kStripRows = 64;
+
+[[noreturn]] void broken(const std::string& path, const std::string& why) {
+  throw InputError("cannot read " + path + ": " + why);
+}
+
+// OpenEXR makes room for what a header claims before it reads it: no attribute may be longer than
+// the file. Throws InputError; what else is wrong with the file is for the library to say.
+void check_exr_header(const std::string& path, bool any_size) {
+  std::ifstream file(path, std::ios::binary);
+  std::error_code error;
+  const auto bytes = static_cast<std::int64_t>(fs::file_size(path, error));
+  std::array<unsigned char, 8> start{};
+  file.read(reinterpret_cast<char*>(start.data()), start.size());
+  if (!file || error || start[0] != 0x76 || start[1] != 0x2f || start[2] != 0x31 ||
+      start[3] != 0x01)
+    broken(path, "no OpenEXR file");
+  if (start[5] & 0x18) broken(path, "an OpenEXR file of several or deep parts");
+  const auto word = [&] {
+    std::array<unsigned char, 4> b{};
+    file.read(reinterpret_cast<char*>(b.data()), b.size());
+    return static_cast<std::int32_t>(b[0] | b[1] << 8 | b[2] << 16 |
+                                     static_cast<unsigned>(b[3]) << 24);
+  };
+  const auto text = [&] {
+    std::string out;
+    for (int c; out.size() < 256 && (c = file.get()) > 0;) out += static_cast<char>(c);
+    return out;
+  };
+  for (std::string name = text(); file && !name.empty(); name = text()) {
+    const std::string type = text();
+    const std::int32_t length = word();
+    const std::int64_t at = file.tellg();
+    if (!file || length < 0 || length > bytes - at) broken(path, "the header is cut off");
+    if (!any_size && name == "dataWindow" && type == "box2i" && length == 16) {
+      std::array<double, 4> box{};
+      for (double& v : box) v = word();
+      check_size(path, box[2] - box[0] + 1, box[3] - box[1] + 1);
+    }
+    file.seekg(at + length);
+  }
+  if (!file) broken(path, "the header is cut off");
+}
+
+// The image behind a file, with the reader of its ending alone: others would be tried on a broken
+// file.
+std::unique_ptr<ImageIn> open_image(const std::string& path, bool any_size) {
+  const std::string ending = lower_ending(path);
+  if (ending == ".exr") check_exr_header(path, any_size);
+  std::string why;
+  auto in = image_codec().open(path,
+                               ending == ".exr"   ? "openexr"
+                               : ending == ".png" ? "png"
+                                                  : "tiff",
+                               why);
+  if (!in) broken(path, why);
+  const ImageSpec& spec = in->spec();
+  if (!any_size) check_size(path, spec.width, spec.height);
+  if (spec.depth != 1 || spec.channels.empty() || spec.channels.size() > 64)
+    broken(path, "not a plane image of at most 64 channels");
+  // Deflate packs 1032 to 1 at best: a header that claims much more is not worth its memory.
+  std::error_code error;
+  const auto pixel_count = static_cast<double>(spec.width) * spec.height;
+  if (pixel_count > 2000 * static_cast<double>(fs::file_size(path, error)) || error)
+    broken(path, "the data are cut off");
+  return in;
+}
+
+// Sides by the tags that other programs take for the size [m].
+void read_tags(const ImageIn& in, std::optional<double>& x, std::optional<double>& y) {
+  const std::string unit = in.text("ResolutionUnit");
+  const double metres = unit == "cm"                     ? 1e-2
+                        : unit.starts_with("in")         ? 25.4e-3
+                        : unit == "m" || unit == "meter" ? 1
+                                                         : 0;
+  const auto rx = in.single("XResolution"), ry = in.single("YResolution");
+  if (metres > 0 && rx && ry && *rx > 0 && *ry > 0) {
+    x = in.spec().width * metres / static_cast<double>(*rx);
+    y = in.spec().height * metres / static_cast<double>(*ry);
+  }
+}
+
+class ImageRows : public HeightRows {
+ public:
+  ImageRows(const std::string& path, bool any_size)
+      : path_(path), in_(open_image(path, any_size)), spec_(in_->spec()) {
+    const auto named = std::find(spec_.channels.rbegin(), spec_.channels.rend(), "Y");
+    if (named != spec_.channels.rend())
+      channel_ = static_cast<std::size_t>(spec_.channels.rend() - named) - 1;
+    header_.nx = spec_.width;
+    header_.ny = spec_.height;
+    read_gwyddion_keys();
+    const bool whole = spec_.sample == Sample::U16 || spec_.sample == Sample::U8;
+    if (const std::string text = in_->text("ImageDescription");
+        !text.empty() && text.front() == '{') {
+      read_description(text);
+    } else if (whole && !read_gwyddion_heights()) {
+      broken(path_, "an integer image without its height scale; use a float image, .gsf or .npy");
+    }
+    if (whole) header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
+    read_tags(*in_, header_.tag_x, header_.tag_y);
+  }
+
+  void next(double* heights) override {
+    const std::size_t width = static_cast<std::size_t>(spec_.width) * spec_.channels.size();
+    const int in_strip = row_ % kStripRows;
+    if (in_strip == 0) {
+      const int end = std::min(row_ + kStripRows, spec_.height);
+      strip_.resize(static_cast<std::size_t>(end - row_) * width);
+      const std::string why = in_->read_rows(row_, end, Sample::F32, strip_.data());
+      if (!why.empty()) broken(path_, why);
+    }
+    ++row_;
+    const float* row = &strip_[static_cast<std::size_t>(in_strip) * width + channel_];
+    for (int ix = 0; ix < spec_.width; ++ix, row += spec_.channels.size())
+      heights[ix] = base_ + scale_ * static_cast<double>(*row);
+  }
+
+ private:
+  double unit(const char* name, double otherwise) const {
+    const auto known = find_unit(in_->text(name));
+    const double u = known && known->same_dimension(*find_unit("m")) ? known->to_si : 0;
+    return u > 0 ? u : otherwise;
+  }
+  void read_gwyddion_keys() {
+    const auto x = in_->number("Gwy::XReal");
+    if (!x) return;
+    const double xy = unit("Gwy::XYUnit", 1);
+    header_.lx = *x * xy;
+    if (const auto y = in_->number("Gwy::YReal")) header_.ly = *y * xy;
+    scale_ = unit("Gwy::ZUnit", 1e-6);
+  }
+  // Of a PNG the keys are texts.
+  bool read_gwyddion_heights() {
+    const auto number = [&](const char* name, double& value) {
+      const std::string text = in_->text(name);
+      const char* end = text.data() + text.size();
+      const auto [stop, error] = std::from_chars(text.data(), end, value);
+      return error == std::errc{} && stop == end;
+    };
+    double x = 0, y = 0, low = 0, high = 0;
+    if (!number("Gwy::XReal", x) || !number("Gwy::YReal", y) || !number("Gwy::ZMin", low) ||
+        !number("Gwy::ZMax", high))
+      return false;
+    header_.lx = x * unit("Gwy::XYUnit", 1);
+    header_.ly = y * unit("Gwy::XYUnit", 1);
+    base_ = low * unit("Gwy::ZUnit", 1);
+    scale_ = (high - low) * unit("Gwy::ZUnit", 1);
+    header_.polarity = scale_ >= 0 ? Polarity::WhiteHigh : Polarity::WhiteDeep;
+    return true;
+  }
+  void read_description(const std::string& text) {
+    const auto json = nlohmann::json::parse(text, nullptr, false);
+    const auto number = [&](const char* key, double& value) {
+      const auto it = json.find(key);
+      if (it == json.end() || !it->is_number()) return false;
+      value = *it;
+      return true;
+    };
+    double x = 0, y = 0, black = 0, white = 0;
+    if (number("size_x_m", x) && number("size_y_m", y)) {
+      header_.lx = x;
+      header_.ly = y;
+    }
+    if (const auto it = json.find("polarity"); it != json.end() && it->is_string()) {
+      if (*it == "white-is-high") header_.polarity = Polarity::WhiteHigh;
+      if (*it == "white-is-deep") header_.polarity = Polarity::WhiteDeep;
+    }
+    if (spec_.sample != Sample::U16) return;
+    if (!number("black_m", black) || !number("white_m", white))
+      broken(path_, "an integer image without its height scale");
+    base_ = black;
+    scale_ = white - black;
+  }
+
+  std::string path_;
+  std::unique_ptr<ImageIn> in_;
+  ImageSpec spec_;
+  std::size_t channel_ = 0;
+  double scale_ = 1e-6, base_ = 0;  // float images hold micrometres
+  int row_ = 0;
+  std::vector<float> strip_;
+};
+
+class CodecPicture : public PictureRows {
+ public:
+  explicit CodecPicture(const std::string& path) : path_(path), in_(open_image(path, true)) {
+    width = in_->spec().width;
+    height = in_->spec().height;
+    channels = static_cast<int>(in_->spec().channels.size());
+    read_tags(*in_, tag_x, tag_y);
+  }
+  void next(std::uint8_t* row) override {
+    if (const std::string why = in_->read_rows(row_, row_ + 1, Sample::U8, row); !why.empty())
+      broken(path_, why);
+    ++row_;
+  }
+
+ private:
+  std::string path_;
+  std::unique_ptr<ImageIn> in_;
+  int row_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<HeightRows> open_image_rows(const std::string& path, bool any_size) {
+  return std::make_unique<ImageRows>(path, any_size);
+}
+
+std::unique_ptr<PictureRows> open_picture_rows(const std::string& path) {
+  return std::make_unique<CodecPicture>(path);
+}
+
+}  // namespace papilla::geometry

@@ -1,0 +1,94 @@
+// Heightmaps from files, by their endings.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.h"
+#include "geometry/io/files.h"
+#include "geometry/io/height_rows.h"
+#include "geometry/io/raw.h"
+
+namespace papilla::geometry {
+
+namespace fs = std::filesystem;
+
+std::string lower_ending(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+namespace {
+
+void require_file(const std::string& path) {
+  std::error_code error;
+  if (fs::is_regular_file(path, error)) return;
+  throw InputError("cannot read " + path +
+                   (fs::exists(path, error) ? ": not a file" : ": no such file"));
+}
+
+}  // namespace
+
+std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size) {
+  require_file(path);
+  const std::string ending = lower_ending(path);
+  if (ending == ".npy") return open_npy_rows(path);
+  if (ending == ".gsf") return open_gsf_rows(path);
+  if (ending == ".x3p") return open_x3p_rows(path);
+  if (ending == ".exr" || ending == ".tif" || ending == ".tiff" || ending == ".png")
+    return open_image_rows(path, any_size);
+  throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
+}
+
+Heightmap whole_map(HeightRows& rows, double width) {
+  const MapHeader& said = rows.header();
+  Heightmap h;
+  h.grid = {said.nx, said.ny, said.lx > 0 ? said.lx : width,
+            said.ly > 0 ? said.ly : width * said.ny / said.nx};
+  h.z.resize(h.grid.size());
+  for (int row = 0; row < said.ny; ++row)
+    rows.next(&h.z[h.grid.index(0, said.top_first ? said.ny - 1 - row : row)]);
+  return h;
+}
+
+Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_numbers) {
+  require_file(path);
+  const std::string ending = lower_ending(path);
+  if (ending == ".png" || ending == ".x3p")
+    throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
+  const auto rows = open_height_rows(path);
+  if (ending == ".npy" && !(width > 0)) {
+    throw InputError("cannot read " + path +
+                     ": the file holds no lateral size; give it (texture.width of a measured "
+                     "texture, the size option of a command)");
+  }
+  const Heightmap h = whole_map(*rows, width);
+  if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
+    throw InputError(
+        "cannot read " + path +
+        ": the file does not say its lateral size; give it: texture.width of a measured "
+        "texture, the --size or --width of a command");
+  }
+  if (std::min(h.grid.lx, h.grid.ly) < 1e-12 || std::max(h.grid.lx, h.grid.ly) > 1e3) {
+    throw InputError(
+        fmt::format("cannot read {}: a lateral size of {:.3g} x {:.3g} m; expected 1 pm to 1 km",
+                    path, h.grid.lx, h.grid.ly));
+  }
+  if (not_numbers == NotNumbers::Kept) return h;
+  const auto broken = [](double z) { return !std::isfinite(z); };
+  if (const auto first = std::find_if(h.z.begin(), h.z.end(), broken); first != h.z.end()) {
+    const auto at = static_cast<std::size_t>(first - h.z.begin());
+    const auto nx = static_cast<std::size_t>(h.grid.nx);
+    throw InputError(fmt::format(
+        "cannot read {}: {} of {} heights are no finite numbers, the first in column {} of row {} "
+        "(counted from 0, row 0 at y = 0); to fill them from their neighbours: fill = true of a "
+        "measured texture, --fill of a command, or papilla surface FILE --fill --out FILLED.gsf",
+        path, std::count_if(h.z.begin(), h.z.end(), broken), h.z.size(), at % nx, at / nx));
+  }
+  return h;
+}
+
+}  // namespace papilla::geometry

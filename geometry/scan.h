@@ -1,0 +1,54 @@
+// A measured map as every command takes it: levelled, mended, filled where that is asked for; and
+// what was changed, in numbers and in the words that every command says.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "base/rooms.h"
+#include "geometry/heightmap.h"
+
+namespace papilla::geometry {
+
+struct ScanSource {
+  std::string file;    // .npy .gsf .exr .tif
+  double width = 0;    // where the file does not say [m]
+  bool fill = false;   // heights that are no numbers get those around them; else they are refused
+  bool as_is = false;  // neither levelled nor mended: a surface that is known and repeats
+
+  auto operator<=>(const ScanSource&) const = default;
+};
+
+// A rectangle and what lies in it [m].
+struct ScanPlace {
+  double x0 = 0, x1 = 0, y0 = 0, y1 = 0;
+};
+
+// Eq. geometry.4
+struct ScanChanges {
+  bool as_is = false;
+  double slope_x = 0, slope_y = 0;  // of the plane that was taken away
+  double rise = 0;                  // its highest less its lowest place over the map [m]
+  std::size_t pixels = 0;           // of the map
+  std::size_t replaced = 0;         // further than 8 median deviations from the median
+  double furthest = 0;              // of them from the median [m]
+  ScanPlace where;                  // that holds all of them
+  std::size_t filled = 0;           // were no numbers
+
+  double tilt() const;  // angle of the plane [rad]
+};
+
+struct Scan {
+  Heightmap map;
+  ScanChanges changes;
+};
+
+// Throws InputError for a file that cannot be read, that holds no size, or heights that are no
+// numbers and are not to be filled; for more than a fifth of those in any case.
+Scan read_scan(const ScanSource& source);
+
+// "scan.gsf: a plane of 0.31 deg (540 nm over the map) was taken away; 1 of 160000 pixels
+// (0.00062 %) was replaced, ..."
+std::string text(const std::string& file, const ScanChanges& changes);
+
+}  // namespace papilla::geometry

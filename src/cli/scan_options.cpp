@@ -1,0 +1,44 @@
+#include "cli/scan_options.h"
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <set>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "design/scans.h"
+
+namespace papilla::cli {
+
+ScanSource ScanOptions::source() const {
+  const double width = size.empty() ? 0 : parse_si(size, "um");
+  if (width < 0 || (!size.empty() && width == 0))
+    throw InputError(fmt::format("--size must be positive, got \"{}\"", size));
+  return {file, width, fill, as_is};
+}
+
+void add_scan_options(Command command, ScanOptions& options) {
+  command.add_option("--size", options.size,
+                     "Lateral size in x, where the file does not say: \"12 um\"");
+  command.add_flag("--fill", options.fill,
+                   "Heights that are no numbers get the mean of those around them");
+  command.add_flag(
+      "--as-is", options.as_is,
+      "Take no plane away and replace no pixel: a surface that is known, not measured");
+}
+
+void say_scan(const std::string& file, const ScanChanges& changes) {
+  std::cerr << text(file, changes) << std::endl;
+}
+
+void say_scans(const std::vector<Design>& designs) {
+  std::set<std::string> said;
+  for (const Design& design : designs) {
+    for (const DesignScan& scan : scans_of(design)) {
+      if (said.insert(text(scan.file, scan.changes)).second) say_scan(scan.file, scan.changes);
+    }
+  }
+}
+
+}  // namespace papilla::cli

@@ -1,0 +1,32 @@
+// What a folder of files was made from, so that any of them can be judged later: kept in its
+// export.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "design/study.h"
+#include "fabricate/export.h"
+
+namespace papilla::fabricate {
+
+inline constexpr const char* kRecordName = "export.json";
+// Among the files of a record: the design itself, beside those of the table of formats.
+inline constexpr const char* kDesignFormat = "design";
+
+struct ExportRecord {
+  Design design;          // as asked for: the process is undone in the files alone
+  ExportOptions options;  // formats: those of the files
+  std::vector<ExportedFile> files;
+  std::vector<Constraint> limits;  // of the study: min_hole, min_wall
+};
+
+ExportRecord record_of(const Study& study, const ExportOptions& options, const Export& result);
+
+// The member "made_from" of export.json.
+std::string record_json(const ExportRecord& record);
+// The record of a folder. Throws InputError where there is none or it cannot be read.
+ExportRecord read_record(const std::string& folder);
+
+}  // namespace papilla::fabricate

@@ -1,0 +1,85 @@
+// What is said of files that differ from their design.
+#include "fabricate/verify.h"
+
+#include "geometry/io/drawing.h"
+#include "tests/fabricate/exported_folder.h"
+
+namespace papilla::tests {
+namespace {
+
+// What a fault says: a number a maker can act on.
+std::string faults_of(const Folder& folder, const std::string& name) {
+  std::string out;
+  for (const FileVerdict& file : verify_folder(folder.path(), name)) {
+    for (const std::string& fault : file.faults) out += fault + "\n";
+  }
+  return out;
+}
+
+TEST(Verify, SaysWhatIsWrongAndByHowMuch) {
+  const Workplace place;
+  HoleArray holes;
+  holes.period = 6e-6, holes.diameter = 3e-6, holes.depth = 100e-9;
+  const Folder folder(place.path() / "f", Texture{holes}, Polarity::WhiteDeep);
+  const auto again = [&](const HoleArray& made, const char* format) {
+    const Heightmap h = generate(Texture{made}, folder.made().heightmap.grid);
+    write_again({format, folder.path() + "/" + find_export_format(format).file}, h, Texture{made},
+                folder.options());
+  };
+  HoleArray deep = holes;
+  deep.depth = 200e-9;  // twice as deep moves the friction by less than the 5 % allowed
+  again(deep, "exr");
+  EXPECT_NE(faults_of(folder, "heightmap.exr")
+                .find("its depth is 200 nm, the design's 100 nm: 100 % more"),
+            std::string::npos)
+      << faults_of(folder, "heightmap.exr");
+  HoleArray wide = holes;
+  wide.diameter = 3.3e-6;
+  again(wide, "mask");
+  EXPECT_NE(
+      faults_of(folder, "mask.tif").find("its critical dimension (width of the holes) is 3.3"),
+      std::string::npos)
+      << faults_of(folder, "mask.tif");
+  again(wide, "gds");
+  EXPECT_NE(
+      faults_of(folder, "texture.gds")
+          .find("its critical dimension (width of the holes) is 3.3 um, the design's 3 um: 10 "
+                "% more"),
+      std::string::npos)
+      << faults_of(folder, "texture.gds");
+  const std::set<std::string> named = folder.named();
+  EXPECT_EQ(named.size(), 3u);
+}
+
+// A row of hexagons off its place is seen in a layout whose polygons are all right.
+TEST(Verify, KnowsThePlaceOfEveryRow) {
+  const Workplace place;
+  HoleArray holes;
+  holes.period = 6e-6, holes.diameter = 3e-6, holes.lattice = Lattice::Hexagonal;
+  const Folder folder(place.path() / "f", Texture{holes}, Polarity::WhiteDeep);
+  const std::string path = folder.path() + "/texture.gds";
+  Layout layout = read_gds(path);
+  const auto block = std::find_if(layout.cells.begin(), layout.cells.end(),
+                                  [](const LayoutCell& c) { return c.name == "BLOCK"; });
+  ASSERT_NE(block, layout.cells.end());
+  block->references.at(1).x += 20;
+  write_gds(path, layout);
+  EXPECT_NE(faults_of(folder, "texture.gds").find("its holes are up to 20"), std::string::npos)
+      << faults_of(folder, "texture.gds");
+  block->references.pop_back();
+  write_gds(path, layout);
+  EXPECT_NE(faults_of(folder, "texture.gds").find("polygons, the design's"), std::string::npos)
+      << faults_of(folder, "texture.gds");
+}
+
+TEST(Verify, RefusesAFolderWithoutARecord) {
+  const Workplace place;
+  EXPECT_THROW(verify_folder(place.path().string()), InputError);
+  write_bytes((place.path() / kRecordName).string(), "{\"schema\": 1}");
+  EXPECT_THROW(verify_folder(place.path().string()), InputError);
+  write_bytes((place.path() / kRecordName).string(), "{\"made_from\": {\"design\": 3}}");
+  EXPECT_THROW(verify_folder(place.path().string()), InputError);
+}
+
+}  // namespace
+}  // namespace papilla::tests

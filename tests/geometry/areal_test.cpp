@@ -1,0 +1,187 @@
+// ISO 25178 against closed forms: waves, ramps, Gaussian heights, surfaces of a known likeness.
+#include "geometry/areal.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/constants.h"
+#include "geometry/roughness.h"
+
+namespace papilla::tests {
+namespace {
+
+Heightmap map_of(const Grid& grid, const std::function<double(double x, double y)>& height) {
+  Heightmap h{grid, std::vector<double>(grid.size())};
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) h(ix, iy) = height(grid.x(ix), grid.y(iy));
+  }
+  return h;
+}
+
+constexpr Grid kGrid{400, 300, 40e-6, 30e-6};
+
+// z = A cos(kx): Sq = A/sqrt 2, Sa = 2A/pi, Sku = 3/2, Sdq = A k / sqrt 2.
+TEST(Areal, AWaveHasItsClosedForms) {
+  const double a = 50e-9, wavelength = 5e-6, k = 2 * kPi / wavelength;
+  const ArealParameters p =
+      areal_parameters(map_of(kGrid, [&](double x, double) { return 3e-6 + a * std::cos(k * x); }));
+  EXPECT_NEAR(p.sq, a / std::sqrt(2.0), 1e-4 * a);
+  EXPECT_NEAR(p.sa, 2 * a / kPi, 1e-3 * a);
+  EXPECT_NEAR(p.sz, 2 * a * std::cos(0.5 * k * kGrid.dx()), 1e-4 * a);  // pixel centres
+  EXPECT_NEAR(p.ssk, 0, 1e-6);
+  EXPECT_NEAR(p.sku, 1.5, 1e-3);
+  // A difference over a pixel dx sees sin(k dx / 2) / (k dx / 2) of the slope.
+  const double half = 0.5 * k * kGrid.dx();
+  EXPECT_NEAR(p.sdq, a * k / std::sqrt(2.0) * std::sin(half) / half, 1e-3 * a * k);
+  EXPECT_NEAR(p.sdr, 0.5 * p.sdq * p.sdq, 2e-3 * p.sdq * p.sdq);  // small slopes
+  EXPECT_FALSE(p.sampling_limited);
+  // Its autocorrelation cos(kx) is 0.2 at arccos(0.2) / k, and never falls along y.
+  ASSERT_TRUE(p.sal);
+  EXPECT_NEAR(*p.sal, std::acos(0.2) / k, 0.02 * wavelength);
+  EXPECT_FALSE(p.str);
+  EXPECT_NEAR(std::min(p.std, kPi - p.std), 0, 1e-2);
+}
+
+TEST(Areal, TheDirectionIsThatOfTheWave) {
+  for (const double degrees : {30.0, 75.0, 120.0, 165.0}) {
+    const double angle = degrees * kPi / 180, k = 2 * kPi / 3e-6;
+    const ArealParameters p = areal_parameters(map_of(kGrid, [&](double x, double y) {
+      return 20e-9 * std::cos(k * (x * std::cos(angle) + y * std::sin(angle)));
+    }));
+    EXPECT_NEAR(p.std * 180 / kPi, degrees, 0.5);
+  }
+}
+
+// Height above a share m of the material: a straight line has no peaks and no valleys.
+TEST(Areal, ARampIsCoreAlone) {
+  const ArealParameters p =
+      areal_parameters(map_of(kGrid, [](double x, double) { return 0.01 * x; }));
+  EXPECT_NEAR(p.sk, 0.01 * 40e-6, 0.01 * 0.2e-6);
+  EXPECT_LT(p.spk, 0.005 * p.sk);
+  EXPECT_LT(p.svk, 0.005 * p.sk);
+  EXPECT_LT(p.smr1, 0.005);
+  EXPECT_GT(p.smr2, 0.995);
+}
+
+// The quantile of a Gaussian by bisection of its distribution.
+double quantile(double share) {
+  double low = -8, high = 8;
+  for (int i = 0; i < 80; ++i) {
+    const double x = 0.5 * (low + high);
+    (0.5 * std::erfc(-x / std::sqrt(2.0)) < share ? low : high) = x;
+  }
+  return 0.5 * (low + high);
+}
+
+// Gaussian heights: the flattest 40 % lie in the middle, Sk = (z(0.3) - z(0.7)) / 0.4 = 2.622 Sq;
+// Spk = Svk = 2 (phi(c) - c (1 - Phi(c))) / (1 - Phi(c)) at c = Sk / 2.
+TEST(Areal, GaussianHeightsHaveTheirMaterialShares) {
+  const double sigma = 10e-9;
+  Heightmap h{kGrid, std::vector<double>(kGrid.size())};
+  const auto n = static_cast<double>(h.z.size());
+  for (std::size_t i = 0; i < h.z.size(); ++i)  // in an order that is none
+    h.z[i * 7919 % h.z.size()] = sigma * quantile((static_cast<double>(i) + 0.5) / n);
+  const ArealParameters p = areal_parameters(h);
+  const double c = 0.5 * (quantile(0.7) - quantile(0.3)) / 0.4;
+  const double tail = 0.5 * std::erfc(c / std::sqrt(2.0));
+  const double phi = std::exp(-0.5 * c * c) / std::sqrt(2 * kPi);
+  EXPECT_NEAR(p.sk, 2 * c * sigma, 2e-3 * sigma);
+  EXPECT_NEAR(p.smr1, tail, 1e-3);
+  EXPECT_NEAR(p.smr2, 1 - tail, 1e-3);
+  EXPECT_NEAR(p.spk, 2 * (phi - c * tail) / tail * sigma, 5e-3 * sigma);
+  EXPECT_NEAR(p.svk, p.spk, 5e-3 * sigma);
+  EXPECT_NEAR(p.sku, 3, 0.01);
+}
+
+// A sum of equal cosines of many directions has the Bessel function as its autocorrelation:
+// J0(k r) = 0.2 at k r = 1.98. Stretched along y, its likeness is as stretched.
+TEST(Areal, TheLikenessOfRingsIsTheirBesselFunction) {
+  const Grid grid{512, 512, 51.2e-6, 51.2e-6};
+  const double k = 2 * kPi / 2e-6;
+  double root = 1.5;
+  while (std::cyl_bessel_j(0.0, root) > 0.2) root += 1e-4;
+  for (const double stretch : {1.0, 3.0}) {
+    const Heightmap h = map_of(grid, [&](double x, double y) {
+      double z = 0;
+      for (int i = 0; i < 64; ++i) {
+        const double angle = kPi * (i + 0.5) / 64;
+        z += std::cos(k * (x * std::cos(angle) + y / stretch * std::sin(angle)) + 2.4 * i * i);
+      }
+      return 1e-9 * z;
+    });
+    const ArealParameters p = areal_parameters(h);
+    ASSERT_TRUE(p.sal && p.str);
+    EXPECT_NEAR(*p.sal, root / k, 0.03 * root / k) << stretch;
+    EXPECT_NEAR(*p.str, 1 / stretch, 0.06 / stretch) << stretch;
+  }
+}
+
+// The spectrum that a random surface is made from (Eq. geometry.3): its plateau from the sum over
+// the modes of the reference patch, its slope below the roll-off.
+TEST(Spectrum, OfARandomSurfaceIsTheOneItWasMadeFrom) {
+  const Spectrum made{.rms = 20e-9, .roll_off = 4e-6, .hurst = 0.8, .cutoff = 0.4e-6};
+  const auto shape = [&](double q) {
+    return std::min(1.0, std::pow(q * made.roll_off / (2 * kPi), -3.6));
+  };
+  const double dq = 2 * kPi / made.reference_length;
+  double sum = 0;
+  for (int ky = -30; ky <= 30; ++ky) {
+    for (int kx = -30; kx <= 30; ++kx) {
+      const double k = std::hypot(kx, ky);
+      if (k > 0 && k <= 30) sum += shape(k * dq) * dq * dq;
+    }
+  }
+  const double plateau = made.rms * made.rms / sum;
+  const Heightmap h = random_surface(made, {1024, 1024, 96e-6, 96e-6}, 3, 0);
+  double logarithms = 0, count = 0;
+  for (const SpectrumRing& ring : radial_spectrum(h)) {
+    if (ring.wavelength > 8e-6 || ring.wavelength < 0.5e-6) continue;
+    const double share = ring.density / (plateau * shape(2 * kPi / ring.wavelength));
+    EXPECT_NEAR(share, 1, 0.3) << ring.wavelength;  // few modes a ring
+    logarithms += std::log(share), count += 1;
+  }
+  EXPECT_GE(count, 11);
+  EXPECT_NEAR(logarithms / count, 0, 0.06);
+}
+
+// A wave A cos(kx) bends by A k^2 / sqrt 2 along x; over all directions of an isotropic surface of
+// the same power 3/8 of k^4 counts: a tip of half the radius sees it, one of twice does not.
+TEST(Spectrum, ATipEndsTheBandWhereTheSurfaceBendsHalfAsMuch) {
+  const Spectrum made{.rms = 30e-9, .roll_off = 2e-6, .hurst = 0.6, .cutoff = 0.1e-6};
+  const Grid grid{512, 512, 24e-6, 24e-6};
+  const Heightmap h = random_surface(made, grid, 5, 0);
+  const std::vector<SpectrumRing> rings = radial_spectrum(h);
+  EXPECT_DOUBLE_EQ(known_band(h, rings, 0).shortest, 2 * grid.dx());
+  EXPECT_DOUBLE_EQ(known_band(h, rings, 0).longest, 6e-6);
+  // The rms curvature of the map itself down to a wavelength: second differences of the filtered
+  // spectrum, here by its closed form.
+  const auto bends = [&](double shortest) {
+    const double roll = 2 * kPi / made.roll_off, least = 2 * kPi / made.reference_length,
+                 most = 2 * kPi / shortest;
+    double variance = 0, curvature = 0;
+    for (double q = least; q < 2 * kPi / made.cutoff; q *= 1.001) {
+      const double c = q < roll ? 1 : std::pow(q / roll, -3.2);
+      variance += 2 * kPi * q * 0.001 * q * c;
+      if (q < most) curvature += 0.375 * 2 * kPi * q * 0.001 * q * std::pow(q, 4) * c;
+    }
+    return made.rms * std::sqrt(curvature / variance);
+  };
+  for (const double wavelength : {0.5e-6, 0.25e-6}) {
+    const KnownBand band = known_band(h, rings, 0.5 / bends(wavelength));
+    EXPECT_TRUE(band.by_tip);
+    EXPECT_NEAR(band.shortest / wavelength, 1, 0.3);  // rings are a quarter wide
+  }
+  EXPECT_FALSE(known_band(h, rings, 0.1 / bends(0.1e-6)).by_tip);
+}
+
+TEST(Histogram, SharesOfEqualBinsSumToOne) {
+  const std::vector<double> shares =
+      height_histogram(map_of(kGrid, [](double x, double) { return x; }), 40);
+  for (const double share : shares) EXPECT_NEAR(share, 1.0 / 40, 1e-9);
+}
+
+}  // namespace
+}  // namespace papilla::tests
