@@ -8,6 +8,7 @@
 // ImageDescription. GSF: float32 metres with size. NPY: float64 metres. PNG: coloured preview.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -57,5 +58,8 @@ void write_png_rgb(const std::string& path, int width, int height,
 // Field as colours (viridis-like), low to high, with a scale bar of a round length.
 std::vector<std::uint8_t> render_field(const Grid& grid, const std::vector<double>& values,
                                        int& width, int& height);
+// Its colours, 0 low to 1 high, and the length of its scale bar [m].
+std::array<std::uint8_t, 3> field_colour(double share);
+double scale_bar_length(const Grid& grid);
 
 }  // namespace papilla::geometry

@@ -11,18 +11,6 @@ namespace {
 constexpr std::array<std::array<double, 3>, 5> kColours{
     {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
 
-std::array<std::uint8_t, 3> colour(double share) {
-  const double position = std::clamp(share, 0.0, 1.0) * (kColours.size() - 1);
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(position), kColours.size() - 2);
-  const double t = position - static_cast<double>(i);
-  std::array<std::uint8_t, 3> rgb{};
-  for (std::size_t c = 0; c < 3; ++c) {
-    rgb[c] = static_cast<std::uint8_t>(
-        std::lround(kColours[i][c] + t * (kColours[i + 1][c] - kColours[i][c])));
-  }
-  return rgb;
-}
-
 // Largest of 1, 2, 5 x 10^n not above the length.
 double round_length(double length) {
   const double base = std::pow(10, std::floor(std::log10(length)));
@@ -33,6 +21,20 @@ double round_length(double length) {
 }
 
 }  // namespace
+
+double scale_bar_length(const Grid& grid) { return round_length(0.3 * grid.lx); }
+
+std::array<std::uint8_t, 3> field_colour(double share) {
+  const double position = std::clamp(share, 0.0, 1.0) * (kColours.size() - 1);
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(position), kColours.size() - 2);
+  const double t = position - static_cast<double>(i);
+  std::array<std::uint8_t, 3> rgb{};
+  for (std::size_t c = 0; c < 3; ++c) {
+    rgb[c] = static_cast<std::uint8_t>(
+        std::lround(kColours[i][c] + t * (kColours[i + 1][c] - kColours[i][c])));
+  }
+  return rgb;
+}
 
 std::vector<std::uint8_t> render_field(const Grid& grid, const std::vector<double>& values,
                                        int& width, int& height) {
@@ -48,11 +50,11 @@ std::vector<std::uint8_t> render_field(const Grid& grid, const std::vector<doubl
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double v = values[grid.index(x / zoom, grid.ny - 1 - y / zoom)];
-      put(x, y, colour(span > 0 ? (v - *low) / span : 1));
+      put(x, y, field_colour(span > 0 ? (v - *low) / span : 1));
     }
   }
   // White bar with a black rim, a round length near a quarter of the width.
-  const int bar = static_cast<int>(std::lround(round_length(0.3 * grid.lx) / grid.lx * width));
+  const int bar = static_cast<int>(std::lround(scale_bar_length(grid) / grid.lx * width));
   const int thick = std::max(3, height / 80), margin = std::max(4, height / 40);
   for (int y = height - margin - thick - 1; y <= height - margin; ++y) {
     for (int x = margin - 1; x <= margin + bar; ++x) {

@@ -11,21 +11,23 @@
 namespace papilla::api {
 
 struct RankOptions {
-  std::string by;           // "friction:low,variation(modulation):low"; empty: as `papilla rank`
-  std::string states;       // "clean,natural,wet"; empty: the fingers' own
-  int max_skins = 96;       // per candidate and state
-  int threads = 0;          // 0: all processors
-  bool parameters = false;  // also what the finger's fitted numbers leave open
+  std::string by;  // "friction:low,variation(modulation):low"; empty: as `papilla rank`
+  std::vector<double> weights;     // of the criteria; empty: several have no single score
+  std::string states;              // "clean,natural,wet"; empty: the fingers' own
+  int max_skins = 96;              // per candidate and state
+  int threads = 0;                 // 0: all processors
+  bool parameters = false;         // insist on what the finger's fitted numbers leave open
   bool any_conditions = false;     // compare designs under other conditions all the same
   std::vector<std::string> names;  // of the candidates; empty: their titles
   std::function<void(const std::string&)> progress;  // for people; may be empty
 };
 
 struct Ranked {
-  std::size_t index = 0;                // into the designs as given
-  int rank = 1;                         // ties share the better rank
-  double score = 0, low = 0, high = 0;  // 95 %
-  double p_best = 0;                    // probability of the highest score
+  std::size_t index = 0;  // into the designs as given
+  int rank = 1;  // ties share the better rank; without a score 1 + how many are better in all
+  std::vector<double> p_best_by;  // of each criterion: probability of the best value
+  // Where there is one score: with its 95 % interval, and the probability of the highest.
+  double score = 0, low = 0, high = 0, p_best = 0;
 };
 
 struct Ranking {

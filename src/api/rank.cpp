@@ -26,6 +26,7 @@ rooms::RankOptions inner(const std::vector<rooms::Design>& designs, const RankOp
   }
   out.max_skins = options.max_skins;
   out.threads = options.threads;
+  out.weights = options.weights;
   out.parameters = options.parameters;
   out.any_conditions = options.any_conditions;
   out.names = options.names;
@@ -45,13 +46,16 @@ Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
       for (const rooms::Design& design : candidates) inside.names.push_back(design.title);
     }
     if (inside.states.empty()) inside.states = {candidates.front().finger.state};
-    const rooms::Ranking ranking = rooms::ranking_of(candidates, inside);
+    std::vector<Regions> regions;
+    for (const rooms::Design& design : candidates) regions.push_back({design});
+    inside.parameters = inside.parameters || parameters_unknown(regions).empty();
+    const rooms::Ranking ranking = rooms::ranking_of(regions, inside);
     Ranking out;
     for (const StateRanking& state : ranking.states) {
       out.states.emplace_back();
       for (const RankedCandidate& c : state.candidates)
         out.states.back().push_back(
-            {c.index, c.rank, c.score.value, c.score.low, c.score.high, c.p_best});
+            {c.index, c.rank, c.p_best_by, c.score.value, c.score.low, c.score.high, c.p_best});
     }
     out.table = ranking_table(inside.names, inside, ranking);
     out.json = ranking_json(inside.names, inside, ranking);

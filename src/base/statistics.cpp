@@ -77,4 +77,46 @@ double student_t_quantile(double p, int degrees_of_freedom) {
          x * ((((79 * x2 + 776) * x2 + 1482) * x2 - 1920) * x2 - 945) / (92160 * n * n * n * n);
 }
 
+namespace {
+
+// Regularised incomplete beta function by its continued fraction (Abramowitz & Stegun 26.5.8,
+// evaluated by Lentz's method), x < (a + 1) / (a + b + 2).
+double incomplete_beta(double a, double b, double x) {
+  constexpr double kTiny = 1e-300;
+  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
+                                a * std::log(x) + b * std::log1p(-x)) /
+                       a;
+  const auto away_from_0 = [](double v) { return std::abs(v) < kTiny ? kTiny : v; };
+  double c = 1, d = 1 / away_from_0(1 - (a + b) * x / (a + 1)), sum = d;
+  for (int m = 1; m < 500; ++m) {
+    const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
+    const double odd = -(a + m) * (a + b + m) * x / ((a + 2 * m) * (a + 2 * m + 1));
+    double change = 1;
+    for (const double term : {even, odd}) {
+      d = 1 / away_from_0(1 + term * d);
+      c = away_from_0(1 + term / c);
+      change = c * d;
+      sum *= change;
+    }
+    if (std::abs(change - 1) < 1e-14) break;
+  }
+  return front * sum;
+}
+
+}  // namespace
+
+double student_t_cdf(double t, double degrees_of_freedom) {
+  const double n = degrees_of_freedom, x = n / (n + t * t);
+  const double a = 0.5 * n, b = 0.5;
+  if (t == 0) return 0.5;
+  // Nearly normal (Abramowitz & Stegun 26.7.8, an error of order 1/n^2), where the fraction loses
+  // digits.
+  constexpr double kNearlyNormal = 1e5;
+  if (n > kNearlyNormal) return normal_cdf(t * (1 - 0.25 / n) / std::sqrt(1 + 0.5 * t * t / n));
+  // Both tails; the fraction converges on one side of the mean of the distribution.
+  const double tails =
+      x < (a + 1) / (a + b + 2) ? incomplete_beta(a, b, x) : 1 - incomplete_beta(b, a, 1 - x);
+  return t > 0 ? 1 - 0.5 * tails : 0.5 * tails;
+}
+
 }  // namespace papilla::base

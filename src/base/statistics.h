@@ -25,5 +25,6 @@ double quantile(std::vector<double> values, double p);  // linear interpolation,
 double normal_cdf(double x);
 double normal_quantile(double p);
 double student_t_quantile(double p, int degrees_of_freedom);  // two-sided intervals: p = 0.975
+double student_t_cdf(double t, double degrees_of_freedom);    // to 1e-9; degrees > 0
 
 }  // namespace papilla::base

@@ -1,5 +1,7 @@
 #include "base/text.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -49,6 +51,12 @@ std::vector<std::string> split(std::string_view text, char separator) {
 
 std::string counted(long long count, std::string_view noun) {
   return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+}
+
+std::string fixed(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  return text.find_first_not_of("-0.") == std::string::npos ? text.substr(text.starts_with('-'))
+                                                            : text;
 }
 
 std::string join_names(const std::vector<std::string>& names, std::string_view separator) {

@@ -15,6 +15,8 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
 std::vector<std::string> split(std::string_view text, char separator);
 // "1 evaluation", "2 evaluations".
 std::string counted(long long count, std::string_view noun);
+// "0.612"; a zero has no sign: never "-0.000".
+std::string fixed(double value, int digits);
 std::string join_names(const std::vector<std::string>& names, std::string_view separator = ", ");
 
 // Columns on a terminal, of UTF-8 text.

@@ -97,6 +97,17 @@ std::optional<Unit> factor_unit(std::string_view name) {
 
 }  // namespace
 
+std::vector<std::string> unit_names(const Unit& like) {
+  std::vector<std::string> out;
+  for (const Base& base : kBases) {
+    for (const Prefix& prefix : kPrefixes) {
+      if (!base.unit.same_dimension(like) || (*prefix.symbol && !base.prefixes)) continue;
+      out.push_back(std::string(prefix.symbol) + base.symbol);
+    }
+  }
+  return out;
+}
+
 std::optional<Unit> find_unit(std::string_view name) {
   if (name.empty()) return Unit{};
   // factors separated by spaces or '*', one '/' at most: "ohm m", "mN/m", "1/um3"

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/rooms.h"
 
@@ -23,6 +24,8 @@ struct Unit {
 
 // "um", "MPa", "uN", "ohm m", "um3", "mN/m", "1/m", "%", "" ...; nothing if unknown.
 std::optional<Unit> find_unit(std::string_view name);
+// Names of one factor, with every prefix, of the same dimension: "um", "nm", ... ; of a share "%".
+std::vector<std::string> unit_names(const Unit& like);
 
 // "a length", "a voltage", ...: for messages.
 std::string dimension_name(const Unit& unit);

@@ -10,13 +10,54 @@
 namespace papilla::cli {
 namespace {
 
+// As one word of a fish script.
+std::string fish_word(const std::string& text) {
+  std::string out = "'";
+  for (char c : text) {
+    if (c == '\'' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + "'";
+}
+
+// One line a command, a piece and an option.
+std::string fish_script(Command program) {
+  std::string out = "# papilla completion fish\n";
+  const auto options = [&out](const std::string& when, const Command& command) {
+    for (const Command::OptionRow& row : command.options()) {
+      if (row.names.empty()) continue;
+      out += "complete -c papilla" + when;
+      for (const std::string& name : row.names)
+        out += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+      out += (row.value.empty() ? "" : " -r") + std::string(" -d ") + fish_word(row.meaning) + "\n";
+    }
+  };
+  options("", program);
+  for (const Command command : program.commands()) {
+    out += fmt::format("complete -c papilla -n __fish_use_subcommand -f -a {} -d {}\n",
+                       command.name(), fish_word(command.meaning()));
+    const std::string seen = fmt::format(" -n '__fish_seen_subcommand_from {}'", command.name());
+    options(seen, command);
+    for (const Command piece : command.commands()) {
+      out += fmt::format("complete -c papilla{} -f -a {} -d {}\n", seen, piece.name(),
+                         fish_word(piece.meaning()));
+    }
+  }
+  return out;
+}
+
 // Works in bash, and in zsh through bashcompinit.
 std::string script(Command program) {
   std::vector<std::string> names;
   std::string cases;
   for (const Command command : program.commands()) {
     names.push_back(command.name());
-    std::vector<std::string> words = command.option_names();
+    std::vector<std::string> words;
+    for (const Command::OptionRow& row : command.options()) {
+      for (const std::string& name : row.names) {
+        if (name.starts_with("--")) words.push_back(name);
+      }
+    }
     for (const Command piece : command.commands()) words.push_back(piece.name());
     cases += fmt::format("    {}) words=\"{}\" ;;\n", command.name(), join_names(words, " "));
   }
@@ -40,13 +81,13 @@ std::string script(Command program) {
 void add_completion(Command app, Context& context) {
   Command command = app.add_command("completion", "Print a script for shell completion");
   auto shell = std::make_shared<std::string>();
-  command.add_option("shell", *shell, "bash or zsh: source <(papilla completion bash)")
+  command.add_option("shell", *shell, "bash, zsh or fish: source <(papilla completion bash)")
       .required()
-      .one_of({"bash", "zsh"});
+      .one_of({"bash", "zsh", "fish"});
   command.on_chosen([app, &context, shell] {
     context.action = [app, shell] {
       if (*shell == "zsh") std::cout << "autoload -U +X bashcompinit && bashcompinit\n";
-      std::cout << script(app);
+      std::cout << (*shell == "fish" ? fish_script(app) : script(app));
       return kSuccess;
     };
   });

@@ -10,8 +10,9 @@
 
 namespace papilla::cli {
 
-// Exit status of the program.
-enum ExitStatus { kSuccess = 0, kWorkFailed = 1, kWrongInput = 2 };
+// Exit status of the program; ended by a signal: that much more than it (130: Ctrl-C), as shells
+// have it.
+enum ExitStatus { kSuccess = 0, kWorkFailed = 1, kWrongInput = 2, kSignalled = 128 };
 
 struct Context {
   bool quiet = false;

@@ -5,17 +5,29 @@
 
 #include "base/files.h"
 #include "cli/commands.h"
+#include "cli/manual.h"
 #include "report/reference.h"
+#include "report/schema.h"
 
 namespace papilla::cli {
 namespace {
 
 struct DescribeOptions {
-  std::string section, out;
-  bool markdown = false, json = false;
+  std::string section, out, manuals;
+  bool markdown = false, json = false, schema = false;
 };
 
-int describe(const DescribeOptions& options) {
+int describe(const DescribeOptions& options, const Command& program) {
+  if (options.schema) {
+    std::cout << json_schema() << '\n';
+    return kSuccess;
+  }
+  if (!options.manuals.empty()) {
+    std::filesystem::create_directories(options.manuals);
+    for (const ManualPage& page : manual_pages(program, PAPILLA_VERSION))
+      write_bytes(options.manuals + "/" + page.name + ".1", page.text);
+    return kSuccess;
+  }
   const auto format = options.markdown ? ReferenceFormat::Markdown : ReferenceFormat::Text;
   if (!options.out.empty()) {
     std::filesystem::create_directories(options.out);
@@ -48,13 +60,18 @@ void add_describe(Command app, Context& context) {
       app.add_command("describe", "The reference of every key: unit, range, default, source");
   auto options = std::make_shared<DescribeOptions>();
   command.add_option("section", options->section,
-                     "texture, surface, texture.depth, ...; all sections when left out");
+                     "texture, search, texture.depth, ...; all sections when left out");
   command.add_flag("--markdown", options->markdown, "Markdown tables");
   command.add_flag("--json", options->json, "One JSON object on standard output");
   command.add_option("--out", options->out, "Write one Markdown page a section into this folder")
       .type_name("DIR");
-  command.on_chosen(
-      [&context, options] { context.action = [options] { return describe(*options); }; });
+  command.add_flag("--json-schema", options->schema,
+                   "The JSON Schema of design and study files, for editors");
+  command.add_option("--manuals", options->manuals, "Write the manual pages into this folder")
+      .type_name("DIR");
+  command.on_chosen([&context, options, app] {
+    context.action = [options, app] { return describe(*options, app); };
+  });
 }
 
 }  // namespace papilla::cli

@@ -1,19 +1,39 @@
 // papilla explain FILE: what would be modelled, what not, why, at which cost and error.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
 #include <memory>
 
+#include "base/text.h"
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "design/study.h"
 #include "estimate/target.h"
 #include "forward/skips.h"
 #include "report/response.h"
+#include "search/levels.h"
 #include "search/tasks.h"
 
 namespace papilla::cli {
 namespace {
+
+// What `papilla optimize` would take.
+std::string study_text(const Study& study) {
+  const StudyCost cost = study_cost(study);
+  std::string out = fmt::format(
+      "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: about {} "
+      "on one core of a usual machine, and {:.0f} MB a worker\n",
+      counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
+      cost.finalists, duration(cost.seconds), std::ceil(1e-6 * cost.bytes));
+  if (study.search.time > 0)
+    out += fmt::format("search.time ends it after {}: what follows the search shrinks first\n",
+                       duration(study.search.time));
+  for (const std::string& path : study.fallen_away)
+    out +=
+        "warning: " + path + " of the base is left out: this kind of texture has no such number\n";
+  return out;
+}
 
 int explain(const Context& context, const DesignOptions& options, bool measure) {
   const Study study = read_study(options.file, options.overrides);
@@ -41,6 +61,7 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';
+  if (study.is_study()) text += study_text(study);
   context.print(text);
   return kSuccess;
 }

@@ -17,6 +17,7 @@
 #include "cli/scan_options.h"
 #include "optim/mpi.h"
 #include "optim/search.h"
+#include "report/remarks.h"
 #include "report/results.h"
 #include "report/summary.h"
 
@@ -31,11 +32,28 @@ struct OptimizeOptions {
 };
 
 std::atomic<bool> interrupted{false};
+std::atomic<int> interrupted_by{0};
 
 // The first Ctrl-C ends after the running evaluation; a second one ends at once (the journal is
 // safe either way).
-extern "C" void on_interrupt(int) {
-  if (interrupted.exchange(true)) ::_exit(130);
+extern "C" void on_interrupt(int signal) {
+  interrupted_by = signal;
+  if (interrupted.exchange(true)) ::_exit(kSignalled + signal);
+}
+
+// A bar and a text in the columns of a terminal line.
+std::string terminal_line(double share, const std::string& text) {
+  constexpr int kBar = 12;
+  constexpr std::size_t kColumns = 79;  // the last one would wrap
+  const int full = static_cast<int>(share * kBar);
+  std::string line;
+  for (int i = 0; i < kBar; ++i) line += i < full ? "█" : "░";
+  line += ' ';
+  for (const std::string& word : split(text, ' ')) {
+    if (text_width(line) + text_width(word) + 1 > kColumns) return line + "…";
+    line += word.empty() ? "" : word + ' ';
+  }
+  return line;
 }
 
 // A bar on a terminal, one line per tenth of the way otherwise.
@@ -48,14 +66,11 @@ class ProgressPrinter {
     if (context_.quiet) return;
     const double share = p.total > 0 ? static_cast<double>(p.done) / p.total : 0;
     std::string text = fmt::format("{:<7} {:>3}/{}", p.stage, p.done, p.total);
-    if (!p.best.empty()) text += "  " + p.best;
+    // Before what may be cut off.
     if (p.seconds_left >= 0) text += fmt::format("  {:.0f} s left", p.seconds_left);
+    if (!p.best.empty()) text += "  " + p.best;
     if (terminal_) {
-      constexpr int kWidth = 24;
-      const int full = static_cast<int>(share * kWidth);
-      std::string bar;
-      for (int i = 0; i < kWidth; ++i) bar += i < full ? "█" : "░";
-      std::cerr << "\r\033[K" << bar << ' ' << text << std::flush;
+      std::cerr << "\r\033[K" << terminal_line(share, text) << std::flush;
       open_line_ = true;
       return;
     }
@@ -86,7 +101,9 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
            {"method", r.method},
            {"why", r.why},
            {"evaluations", r.evaluations},
+           {"asked", r.asked},
            {"failures", r.failures},
+           {"remarks", run_remarks(study, problem, r)},
            {"interrupted", r.interrupted},
            {"feasible", r.any_feasible}};
   const auto score = [&](const Score& s) {
@@ -97,7 +114,7 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
                                          {"se", s.errors[k]},
                                          {"parameters", parameters ? Json(*parameters) : Json()}};
     }
-    j["worst_modulation"] = s.worst;
+    j["worst_modulation"] = problem.driven() ? Json(s.worst) : Json(nullptr);
     return j;
   };
   out["designs"] = Json::array();
@@ -154,6 +171,9 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   }
   Study study = read_study(options.study, options.overrides);
   say_scans({study.design});
+  for (const std::string& path : study.fallen_away)
+    context.note("warning: " + path +
+                 " of the base is left out: this kind of texture has no such number");
   if (options.jobs > 0) study.search.jobs = options.jobs;
   if (options.evaluations > 0) study.search.evaluations = options.evaluations;
   if (options.seed >= 0) study.search.seed = options.seed;
@@ -197,11 +217,15 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     context.note(fmt::format("{} of {}/journal could not be read any more and was done again",
                              counted(result.lost, "record"), run.folder));
   }
+  if (!result.interrupted) {
+    for (const std::string& remark : run_remarks(study, StudyProblem(study), result))
+      context.note("warning: " + remark);
+  }
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result.interrupted) {
     context.note("interrupted; continue with: " + resume_command(options, run.folder));
-    return kWorkFailed;
+    return kSignalled + interrupted_by;
   }
   context.note(fmt::format("{} in {:.0f} s; results in {}/ ({})",
                            counted(result.evaluations, "evaluation"), seconds, run.folder,

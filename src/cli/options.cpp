@@ -77,17 +77,36 @@ std::string Command::name() const { return app_->get_name(); }
 std::vector<Command> Command::commands() const {
   std::vector<Command> all;
   for (CLI::App* app : app_->get_subcommands([](CLI::App*) { return true; })) {
-    all.emplace_back(app);
+    if (!app->get_name().empty()) all.emplace_back(app);
   }
   return all;
 }
 
-std::vector<std::string> Command::option_names() const {
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app_->get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+std::string Command::meaning() const { return app_->get_description(); }
+
+std::vector<Command::OptionRow> Command::options() const {
+  std::vector<OptionRow> rows;
+  const auto add = [&rows](const CLI::App& app) {
+    for (const CLI::Option* option : app.get_options()) {
+      OptionRow row;
+      for (const string& name : option->get_snames()) row.names.push_back("-" + name);
+      for (const string& name : option->get_lnames()) row.names.push_back("--" + name);
+      const bool flag = option->get_items_expected_max() == 0;
+      row.value = row.names.empty() ? option->get_single_name()
+                  : flag            ? ""
+                                    : option->get_type_name();
+      row.meaning = option->get_description();
+      row.required = option->get_required();
+      row.repeatable = option->get_items_expected_max() > 1;
+      rows.push_back(std::move(row));
+    }
+  };
+  add(*app_);
+  // Groups of alternatives are commands without a name.
+  for (const CLI::App* group : app_->get_subcommands([](CLI::App*) { return true; })) {
+    if (group->get_name().empty()) add(*group);
   }
-  return names;
+  return rows;
 }
 
 CommandLine::CommandLine(const std::string& name, const std::string& version,

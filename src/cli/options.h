@@ -66,9 +66,18 @@ class Command {
   // Called after the command line is read, where this command was chosen.
   void on_chosen(const std::function<void()>& callback) const;
 
+  // A line of a manual: "--out DIR", what it does.
+  struct OptionRow {
+    std::vector<std::string> names;  // "-q", "--quiet"; empty: an argument by place
+    std::string value;               // "DIR"; "" of a flag; of an argument by place its name
+    std::string meaning;
+    bool required = false, repeatable = false;
+  };
+  std::vector<OptionRow> options() const;
+
   std::string name() const;
+  std::string meaning() const;
   std::vector<Command> commands() const;
-  std::vector<std::string> option_names() const;  // "--out"
 
  private:
   Option add_numbers(const std::string& name, const std::function<void(int)>& set,

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "base/units.h"
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "report/ranking.h"
@@ -17,9 +18,9 @@ namespace {
 
 struct RankCommand {
   std::vector<std::string> files, overrides;
-  std::string by, states, out;
+  std::string by, weights, states, out;
   int max_skins = 96, jobs = 0;
-  bool json = false, parameters = false, any_conditions = false;
+  bool json = false, parameters = false, no_parameters = false, any_conditions = false;
 };
 
 std::vector<FingerState> parse_states(const std::string& text) {
@@ -31,6 +32,12 @@ std::vector<FingerState> parse_states(const std::string& text) {
       throw InputError("\"" + word + "\" is no finger state; use " + join_names(names));
     out.push_back(static_cast<FingerState>(found - names.begin()));
   }
+  return out;
+}
+
+std::vector<double> parse_weights(const std::string& text) {
+  std::vector<double> out;
+  for (const std::string& word : split(text, ',')) out.push_back(parse_si(word, ""));
   return out;
 }
 
@@ -85,9 +92,14 @@ int run(const Context& context, const RankCommand& command) {
       command.states.empty() ? std::vector<FingerState>{first_state} : parse_states(command.states);
   options.max_skins = command.max_skins;
   options.threads = command.jobs;
-  options.parameters =
+  if (!command.weights.empty()) options.weights = parse_weights(command.weights);
+  const std::string unknown = parameters_unknown(candidates);
+  const bool asked =
       command.parameters || std::any_of(designs.begin(), designs.end(),
                                         [](const Design& d) { return d.accuracy.parameters; });
+  options.parameters = asked || (unknown.empty() && !command.no_parameters);
+  if (!options.parameters && !unknown.empty())
+    context.note("what the fit of the finger leaves open is in no probability: " + unknown);
   options.note = [&](const std::string& text) { context.note(text); };
   options.any_conditions = command.any_conditions;
   const std::vector<std::string> names = options.names = short_names(command.files);
@@ -118,17 +130,24 @@ void add_rank(Command app, Context& context) {
                   "Criteria, e.g. friction:low,variation(modulation):low; default modulation:high, "
                   "or friction:low,adhesion:low without a drive")
       .type_name("METRIC[:low|:high],...");
+  command
+      .add_option(
+          "--weights", options->weights,
+          "What each criterion counts in one score, e.g. 2,1; without them several criteria "
+          "have no single order: who is beaten in all, and who is best in each")
+      .type_name("NUMBER,...");
   command.add_option("--state", options->states, "Finger states: clean,natural,wet")
       .type_name("STATE,...");
   command.add_option("--max-skins", options->max_skins, "Most skins a candidate and state")
       .range(12, 100000);
   command.add_flag("--parameters", options->parameters,
-                   "Also what the finger's fitted numbers (its [[uncertainty]]) leave of each "
-                   "value and of each difference");
+                   "Insist on what the finger's fitted numbers (its [[uncertainty]]) leave of each "
+                   "value and difference: in every interval and probability where it is known");
+  command.add_flag("--no-parameters", options->no_parameters, "Leave that out");
   command.add_flag("--any-conditions", options->any_conditions,
                    "Also designs of different finger, air, drive or accuracy: the order is then "
                    "not of the surfaces alone");
-  command.add_option("--out", options->out, "Also write table, JSON, designs and report.html")
+  command.add_option("--out", options->out, "Also write table, CSV, JSON, designs and report.html")
       .type_name("DIR");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   add_set_option(command, options->overrides);

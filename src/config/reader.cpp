@@ -145,8 +145,10 @@ struct BaseFiles {
     }
     const fs::path file = canonical(found);
     if (!allowed(file)) {
-      refuse(
-          fmt::format("\"{}\" lies outside this file's folder and the designs folder", name.text));
+      refuse(fmt::format(
+          "\"{}\" lies outside this file's folder and the designs folder; name a folder "
+          "that holds both in PAPILLA_DESIGNS",
+          name.text));
     }
     if (std::find(open.begin(), open.end(), file) != open.end()) {
       refuse(fmt::format("\"{}\" is based on itself", name.text));
@@ -299,6 +301,7 @@ struct Document::State final : public FieldVisitor {
   std::map<std::string, const Node*> visited;             // tables whose keys were looked at
   std::vector<Frame> stack;
   std::vector<const Node*> lists;
+  std::function<std::string(const std::string&, const std::string&)> hint;
 
   const Frame& frame() const { return stack.back(); }
   bool reading() const override { return true; }
@@ -384,7 +387,13 @@ struct Document::State final : public FieldVisitor {
   }
 
   static std::string needs_unit(const NumberSpec& spec, double value) {
-    return fmt::format("needs a unit, e.g. \"{} {}\"", format_number(value), spec.unit);
+    const std::string unit = spec.unit;
+    // 0.05 may be a share of one or of a hundred: both are shown, and what each means.
+    if (unit == "%" && value > 0 && value <= 1)
+      return fmt::format(
+          "needs a unit: \"{} %\" if {} is a share of 1, \"{} %\" if it is in percent",
+          format_number(100 * value), format_number(value), format_number(value));
+    return fmt::format("needs a unit, e.g. \"{} {}\"", format_number(value), unit);
   }
 
   void number(const NumberSpec& spec, double& si) override {
@@ -574,7 +583,8 @@ struct Document::State final : public FieldVisitor {
       const std::vector<std::string>& names = known[path];
       for (const Node& child : table->children) {
         if (std::find(names.begin(), names.end(), child.key) != names.end()) continue;
-        const std::string near = nearest_name(child.key, names);
+        const std::string meant = hint ? hint(child.key, path) : std::string();
+        const std::string near = meant.empty() ? nearest_name(child.key, names) : meant;
         std::string message = fmt::format("unknown key `{}`", child.key);
         if (!near.empty()) {
           message += fmt::format(", did you mean `{}`?", near);
@@ -660,6 +670,11 @@ Document parse_document(const std::string& text, const std::string& file,
   BaseFiles bases{fs::current_path(), search_roots, {}};
   return Document(with_overrides_and_bases(parse_file_text(text, file), overrides,
                                            search_roots.empty() ? nullptr : &bases));
+}
+
+void Document::set_hints(
+    std::function<std::string(const std::string& key, const std::string& section)> hint) {
+  state_->hint = std::move(hint);
 }
 
 void Document::finish() {

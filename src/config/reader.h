@@ -10,6 +10,7 @@
 // folder or a root. A section whose `type` differs from its base's replaces it instead of merging.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -49,6 +50,11 @@ class Document {
   // Visits a struct at `path` ("" = the file's head); see read_section.
   FieldVisitor& open(const std::string& path);
   void close();
+
+  // Asked for the key that an unknown one in a section may stand for, before near names are; "":
+  // none.
+  void set_hints(
+      std::function<std::string(const std::string& key, const std::string& section)> hint);
 
   // Reports unread keys, then throws InputError if anything was wrong.
   void finish();

@@ -103,7 +103,9 @@ void read_design_space(StudyFile& file) {
   const PathMembers members = members_by_path(*space, true);
   read_kinds(file, members);
   for (const auto& [path, node] : members) {
-    if (path != "texture.type" && path != "texture.levels") read_variable(file, path, *node);
+    if (path != "texture.type" && path != "texture.levels" &&
+        !file.falls_away("design_space", path, *node))
+      read_variable(file, path, *node);
   }
 }
 
@@ -112,6 +114,7 @@ void read_scatter(StudyFile& file) {
   if (!section) return;
   const PathMembers members = members_by_path(*section);
   for (const auto& [path, node] : members) {
+    if (file.falls_away("scatter", path, *node)) continue;
     const NumberField* field = file.numbers.find(path, *node, "scatter");
     if (!field) continue;
     const std::string where = "scatter." + path;

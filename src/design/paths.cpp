@@ -40,8 +40,21 @@ PathMembers members_by_path(const Node& section, bool stop_at_choice) {
   return out;
 }
 
+void erase_member(Node& section, const std::string& path) {
+  std::erase_if(section.children, [&](const Node& child) { return child.key == path; });
+  for (Node& child : section.children) {
+    if (child.is_table() && path.starts_with(child.key + "."))
+      erase_member(child, path.substr(child.key.size() + 1));
+  }
+}
+
 KnownNumbers::KnownNumbers(Document& document, Design& design)
     : document_(document), numbers_(number_fields(design)) {}
+
+bool KnownNumbers::has(const std::string& path) const {
+  return std::any_of(numbers_.begin(), numbers_.end(),
+                     [&](const NumberField& known) { return known.path == path; });
+}
 
 void KnownNumbers::add(const std::vector<NumberField>& more) {
   for (const NumberField& field : more) {

@@ -28,12 +28,16 @@ Design with_settings(Design design, const std::vector<Setting>& settings);
 using PathMembers = std::vector<std::pair<std::string, const Node*>>;
 PathMembers members_by_path(const Node& section, bool stop_at_choice = false);
 
+// Takes a member away, by its full path.
+void erase_member(Node& section, const std::string& path);
+
 // The numbers that a section may name.
 class KnownNumbers {
  public:
   // Both have to outlive this.
   KnownNumbers(Document& document, Design& design);
 
+  bool has(const std::string& path) const;
   // Numbers of another kind of texture, by paths that are not known yet.
   void add(const std::vector<NumberField>& more);
   // Null, and a mistake at the node, where no number has this path.

@@ -21,6 +21,9 @@ void fields(FieldVisitor& v, Search& s) {
   v.integer({"drafts", "cheap evaluations that steer the bayesian search"}, 0, 10000, s.drafts);
   v.number({"time", "min", 0, 1e6, "largest wall-clock time; 0: no limit"}, s.time);
   v.integer({"jobs", "evaluations at a time; 0: one per processor"}, 0, 4096, s.jobs);
+  v.number({"rounding", "nm", 0, 1e5,
+            "grid of the fab: the best design is judged again with its lengths on it; 0: not"},
+           s.rounding);
 }
 
 const std::vector<ConstraintKind>& constraint_kinds() {

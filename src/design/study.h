@@ -79,10 +79,11 @@ struct Scatter {
 struct Search {
   std::string method = "auto";
   int seed = 1;
-  int evaluations = 0;  // 0: as many as the time allows, or the method's default
-  int drafts = 0;       // besides; of the Gaussian process alone
-  double time = 0;      // wall clock [s]; 0: no limit
-  int jobs = 0;         // 0: all processors
+  int evaluations = 0;      // 0: as many as the time allows, or the method's default
+  int drafts = 0;           // besides; of the Gaussian process alone
+  double time = 0;          // wall clock [s]; 0: no limit
+  int jobs = 0;             // 0: all processors
+  double rounding = 10e-9;  // grid of the fab for the build sheet [m]; 0: none
 
   bool operator==(const Search&) const = default;
 };
@@ -97,6 +98,8 @@ struct Study {
   std::vector<Scenario> scenarios;
   std::vector<Scatter> scatter;
   Search search;
+  // Of a base's space and scatter, what goes with its kind of texture: "design_space.texture.rms".
+  std::vector<std::string> fallen_away;
 
   std::string file;     // as given
   std::string name;     // of the results folder: the file's stem, or its folder's for study.toml

@@ -7,6 +7,7 @@
 
 #include "base/text.h"
 #include "config/writer.h"
+#include "design/words.h"
 #include "scene/uncertainty.h"
 
 namespace papilla::design {
@@ -106,6 +107,16 @@ void StudyFile::keep(const std::string& path) {
   if (const Node* node = document.take(path)) study.study_sections.set(path, *node);
 }
 
+bool StudyFile::falls_away(const std::string& section, const std::string& path, const Node& node) {
+  const auto type = document.origins().find("texture.type");
+  if (!path.starts_with("texture.") || numbers.has(path) || type == document.origins().end() ||
+      type->second.file == node.key_place.file)
+    return false;
+  study.fallen_away.push_back(section + "." + path);
+  if (Node* kept = study.study_sections.find(section)) erase_member(*kept, path);
+  return true;
+}
+
 void StudyFile::only(const Node& section, const std::string& path,
                      const std::vector<std::string>& names) {
   for (const Node& child : section.children) {
@@ -121,6 +132,7 @@ void StudyFile::only(const Node& section, const std::string& path,
 namespace {
 
 Study study_of(Document document, const std::string& path) {
+  document.set_hints(key_for_word);
   Study study;
   study.file = path;
   study.name = study_name(path);

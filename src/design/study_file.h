@@ -23,6 +23,9 @@ struct StudyFile {
   // is no section.
   const Node* section(const std::string& path);
   void keep(const std::string& path);
+  // What a base says of a number that its kind of texture has and the one that stands above it has
+  // not: it goes with that kind, and the study says so.
+  bool falls_away(const std::string& section, const std::string& path, const Node& node);
   // A mistake at each key of a section that is not among the names.
   void only(const Node& section, const std::string& path, const std::vector<std::string>& names);
 };

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "forward/plan.h"
 #include "metrics/metrics.h"
 
 namespace papilla::estimate {
@@ -45,6 +46,10 @@ class TargetRun {
         break;
       }
       const Choice choice = cheapest();
+      if (!(choice.cost < kInfinity)) {
+        report_.end = TargetEnd::TimeSpent;
+        break;
+      }
       if (choice.grid != fidelity_.grid || choice.estimator != fidelity_.estimator) {
         if (++plans > kMostPlans) {
           report_.end = TargetEnd::PlanUnsettled;
@@ -117,6 +122,7 @@ class TargetRun {
                 mean->parts.method.value_or(0) / value_, mean->parts.solver.value_or(0) / value_};
     }
     seconds_ += seconds;
+    spent_ += price(fidelity_.grid, fidelity_.estimator, patches_.skins() - before, before == 0);
     costs_ += patches_.costs(before);
     if (before == 0) {
       for (const MeasuredError& e : patches_.errors) {
@@ -165,6 +171,20 @@ class TargetRun {
     return parts_.sampling * std::sqrt(static_cast<double>(patches_.skins()));
   }
 
+  // Expected of so many skins [s]; first: with the controls that measure the errors.
+  double price(int grid, Estimator estimator, int skins, bool first) const {
+    Fidelity f = fidelity_;
+    if (!first) f.control_skins = 0;
+    f.grid = grid;
+    f.estimator = estimator;
+    f.skins = skins;
+    return make_plan(scene_, texture_, f).seconds();
+  }
+  bool affordable(int grid, Estimator estimator, int skins, bool first) const {
+    return !(options_.most_seconds > 0) ||
+           spent_ + price(grid, estimator, skins, first) <= options_.most_seconds;
+  }
+
   // The cheapest plan inside a target; cost infinite: none. share: of its square that all but
   // sampling may take in a plan other than the present one. Eq. accuracy.6: work = skins x solves x
   // n^2 log n.
@@ -177,16 +197,19 @@ class TargetRun {
       const double needed = square(scatter()) / (square(target) - known);
       const int skins = std::max(kFewestSkins, static_cast<int>(std::ceil(std::min(needed, 1e6))));
       if (skins > std::max(options_.most_skins, kFewestSkins)) return;
+      const int more = here ? skins - patches_.skins() : skins;
+      if (more > 0 && !affordable(grid, estimator, more, !here)) return;
       const auto n = static_cast<double>(patch(grid).size());
-      const double cost = std::max(here ? skins - patches_.skins() : skins, 0) *
-                          (estimator == Estimator::Area ? 3 : 1) * n * std::log2(n);
+      const double cost =
+          std::max(more, 0) * (estimator == Estimator::Area ? 3 : 1) * n * std::log2(n);
       if (cost < best.cost) best = {grid, estimator, skins, cost};
     });
     return best;
   }
 
   // Where the target is out of reach, the cheapest plan next to the least error within the limits:
-  // who asks for more than can be had gets no less than who asks for that.
+  // who asks for more than can be had gets no less than who asks for that. Where time is short the
+  // nearest plan to the target that it is enough for and that gains something; or none.
   Choice cheapest() const {
     const Choice asked = inside(options_.target, kSystematicShare);
     if (asked.cost < kInfinity) return asked;
@@ -195,8 +218,14 @@ class TargetRun {
       least = std::min(least, systematic(grid, estimator) +
                                   square(scatter()) / std::max(options_.most_skins, kFewestSkins));
     });
-    const double reachable = kNearEnough * std::sqrt(least);
-    return inside(std::max(reachable, options_.target), 1);
+    const double reachable = std::max(kNearEnough * std::sqrt(least), options_.target);
+    Choice near = inside(reachable, 1);
+    for (double error = reachable; near.cost == kInfinity && options_.most_seconds > 0;) {
+      error *= kNearEnough;
+      if (error >= parts_.total()) break;
+      near = inside(error, 1);
+    }
+    return near;
   }
 
   void limits_reached(const Parts& parts) {
@@ -223,6 +252,7 @@ class TargetRun {
   TargetReport report_;
   PatchCosts costs_;
   double seconds_ = 0;
+  double spent_ = 0;  // as plans price it [s]
 };
 
 }  // namespace

@@ -14,6 +14,7 @@ struct TargetOptions {
   int first_skin = 0;
   std::uint64_t seed = 1;
   int threads = 0;
+  double most_seconds = 0;  // as plans price them (forward/plan.h), never by the clock; 0: any
 };
 
 // What the pilot runs.

@@ -253,14 +253,14 @@ void set_resolution(Plan& plan, const Skin& skin, const Texture& texture,
   plan.warning = unresolved_skin(plan, fidelity, plan.skin_cutoff);
 }
 
+}  // namespace
+
 std::string duration(double seconds) {
   if (seconds < 10) return fmt::format("{:.2g} s", seconds);
   if (seconds <= 120) return fmt::format("{:.0f} s", seconds);
   if (seconds <= 2 * 3600) return fmt::format("{:.0f} min", seconds / 60);
   return fmt::format("{:.0f} h", seconds / 3600);
 }
-
-}  // namespace
 
 const char* PlanStep::name() const { return row(piece).modelled; }
 const char* PlanSkip::name() const { return row(piece).skipped; }

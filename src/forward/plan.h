@@ -68,6 +68,9 @@ struct Plan {
   bool operator==(const Plan&) const = default;
 };
 
+// "0.4 s", "100 s", "5 min": expected times for people.
+std::string duration(double seconds);
+
 Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
 
 }  // namespace papilla::forward

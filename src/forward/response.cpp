@@ -65,6 +65,8 @@ std::string text(const TargetReport& report) {
       return fmt::format(
           "not reached: {} {:.2g} % is the largest part; at most {} pixels, {} skins",
           report.largest_part, 100 * report.largest_share, report.largest_grid, report.most_skins);
+    case TargetEnd::TimeSpent:
+      return "not reached: the time limit of the run left no more";
   }
   PAPILLA_CHECK(false, "an end without words");
   return {};

@@ -68,6 +68,7 @@ enum class TargetEnd {
   NoRelativeError,  // the quantity is zero
   PlanUnsettled,    // each plan, once measured, asks for another
   LimitsReached,    // of pixels and skins
+  TimeSpent,        // what the run could afford
 };
 
 }  // namespace papilla::forward

@@ -28,14 +28,21 @@ using Regions = std::vector<Design>;
 
 struct RankOptions {
   std::vector<Criterion> criteria;
+  // What each criterion counts in the score; empty: no score but of one criterion alone. Several
+  // criteria are then a trade-off: who is beaten in all that is known, and who is best in each.
+  std::vector<double> weights;
   std::vector<FingerState> states;
   int batch = 6;       // skins per step
   int max_skins = 96;  // per candidate and state
   int threads = 0;
-  bool parameters = false;      // also what the finger's fitted numbers leave open, Eq. ranking.5
-  bool any_conditions = false;  // candidates under other conditions are compared all the same
+  // Also what the finger's fitted numbers leave open, Eq. ranking.5; parameters_unknown() is then
+  // "".
+  bool parameters = false;
+  bool any_conditions = false;     // candidates under other conditions are compared all the same
   std::vector<std::string> names;  // of the candidates in messages; empty: their titles
   std::function<void(const std::string&)> note;  // progress for people; may be empty
+
+  bool scored() const { return criteria.size() == 1 || !weights.empty(); }
 };
 
 }  // namespace papilla::rank

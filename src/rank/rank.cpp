@@ -23,7 +23,7 @@ class StateRanker {
     for (const Regions& c : candidates) candidates_.emplace_back(c, state, options);
   }
 
-  // Everyone gets a batch; then only neighbours in the order whose difference is open.
+  // Everyone gets a batch; then only neighbours in an order whose difference is open.
   StateRanking run() {
     for (Candidate& c : candidates_) c.extend();
     for (std::ptrdiff_t said = 0;;) {
@@ -40,17 +40,35 @@ class StateRanker {
   }
 
  private:
+  // Scores of candidates and the order that they say: by one criterion, or by the sum of all.
+  struct Board {
+    std::vector<double> scale;  // what a unit of each criterion is worth, Eq. ranking.1
+    Scores scores;
+    std::vector<std::size_t> order;
+  };
+
   // The difference of two that is open is over the skins that both have, so the one with more of
   // them waits.
   std::vector<bool> open_candidates() const {
     std::vector<bool> open(candidates_.size(), false);
-    for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
-      if (scores_.decided(order_[i], order_[i + 1])) continue;
-      const int a = candidates_[order_[i]].skins(), b = candidates_[order_[i + 1]].skins();
-      if (a <= b) open[order_[i]] = true;
-      if (b <= a) open[order_[i + 1]] = true;
+    for (const OpenPair& pair : open_pairs()) {
+      const int a = candidates_[pair.first].skins(), b = candidates_[pair.second].skins();
+      if (a <= b) open[pair.first] = true;
+      if (b <= a) open[pair.second] = true;
     }
     return open;
+  }
+
+  std::vector<OpenPair> open_pairs() const {
+    std::vector<OpenPair> out;
+    for (std::size_t k = 0; k < boards_.size(); ++k) {
+      const std::vector<std::size_t>& order = boards_[k].order;
+      for (std::size_t i = 0; i + 1 < order.size(); ++i) {
+        if (!boards_[k].scores.decided(order[i], order[i + 1]))
+          out.push_back({order[i], order[i + 1], k});
+      }
+    }
+    return out;
   }
 
   // A batch more for each that is open, as long as it may; false where none may.
@@ -64,50 +82,95 @@ class StateRanker {
     return more;
   }
 
-  // What a unit of each criterion is worth in the score. Eq. ranking.1
-  std::vector<double> score_scale() const {
-    const std::size_t criteria = options_.criteria.size();
+  // What a unit of each criterion is worth, all criteria by themselves. Eq. ranking.1
+  std::vector<double> unit_scale() const {
     std::vector<double> out;
-    for (std::size_t c = 0; c < criteria; ++c) {
+    for (std::size_t c = 0; c < options_.criteria.size(); ++c) {
       double typical = 0;
       for (const Candidate& x : candidates_)
         typical +=
             std::abs(mean_estimate(x.samples(c)).value) / static_cast<double>(candidates_.size());
-      out.push_back((options_.criteria[c].high ? 1 : -1) / (typical > 0 ? typical : 1) /
-                    static_cast<double>(criteria));
+      out.push_back((options_.criteria[c].high ? 1 : -1) / (typical > 0 ? typical : 1));
     }
     return out;
   }
 
+  // One board a criterion, and the score's in front where there is one of several.
+  std::vector<Board> empty_boards() const {
+    const std::vector<double> scale = unit_scale();
+    std::vector<Board> out;
+    if (options_.scored()) {
+      double sum = 0;
+      for (std::size_t c = 0; c < scale.size(); ++c) sum += weight(c);
+      out.emplace_back();
+      for (std::size_t c = 0; c < scale.size(); ++c)
+        out.back().scale.push_back(scale[c] * weight(c) / sum);
+      return out;
+    }
+    for (std::size_t c = 0; c < scale.size(); ++c) out.push_back(criterion_board(scale, c));
+    return out;
+  }
+
+  static Board criterion_board(const std::vector<double>& scale, std::size_t criterion) {
+    Board out;
+    out.scale.assign(scale.size(), 0);
+    out.scale[criterion] = scale[criterion];
+    return out;
+  }
+
+  double weight(std::size_t criterion) const {
+    return options_.weights.empty() ? 1 : options_.weights[criterion];
+  }
+
   // Scores per skin, and the order that they say. Eq. ranking.1
-  void score() {
-    const std::vector<double> scale = score_scale();
-    scores_.skins.clear();
+  void fill(Board& board) const {
     for (const Candidate& x : candidates_) {
       std::vector<double> s(static_cast<std::size_t>(x.skins()), 0);
-      for (std::size_t c = 0; c < scale.size(); ++c) {
-        for (std::size_t k = 0; k < s.size(); ++k) s[k] += scale[c] * x.samples(c)[k];
+      for (std::size_t c = 0; c < board.scale.size(); ++c) {
+        for (std::size_t k = 0; k < s.size(); ++k) s[k] += board.scale[c] * x.samples(c)[k];
       }
-      scores_.skins.push_back(std::move(s));
+      board.scores.skins.push_back(std::move(s));
     }
-    order_ = scores_.order();
+    board.order = board.scores.order();
+  }
+
+  void score() {
+    boards_ = empty_boards();
+    for (Board& board : boards_) fill(board);
   }
 
   // Scores over the steps of the finger, the same for all candidates. Eq. ranking.5
-  void step() {
-    note("parameters of the finger");
-    const std::vector<double> scale = score_scale();
-    for (Candidate& x : candidates_) {
-      x.step();
+  void add_steps(Board& board) const {
+    for (const Candidate& x : candidates_) {
       StepSamples s = x.steps(0);
       for (std::size_t k = 0; k < s.size(); ++k) {
         for (std::size_t i = 0; i < s[k].size(); ++i) {
           s[k][i] = 0;
-          for (std::size_t c = 0; c < scale.size(); ++c) s[k][i] += scale[c] * x.steps(c)[k][i];
+          for (std::size_t c = 0; c < board.scale.size(); ++c)
+            s[k][i] += board.scale[c] * x.steps(c)[k][i];
         }
       }
-      scores_.steps.push_back(std::move(s));
+      board.scores.steps.push_back(std::move(s));
     }
+  }
+
+  void step() {
+    note("parameters of the finger");
+    for (Candidate& x : candidates_) x.step();
+    for (Board& board : boards_) add_steps(board);
+  }
+
+  // Each criterion alone, with the steps where they were asked for.
+  std::vector<Board> criteria_boards() const {
+    if (!options_.scored() || options_.criteria.size() == 1) return boards_;
+    const std::vector<double> scale = unit_scale();
+    std::vector<Board> out;
+    for (std::size_t c = 0; c < scale.size(); ++c) {
+      out.push_back(criterion_board(scale, c));
+      fill(out.back());
+      if (options_.parameters) add_steps(out.back());
+    }
+    return out;
   }
 
   StateRanking result() const {
@@ -119,31 +182,38 @@ class StateRanker {
       most = std::max(most, c.skins());
     }
     out.equal_skins = most * static_cast<int>(candidates_.size());
-    const std::vector<double> p = scores_.probabilities(static_cast<std::uint64_t>(state_));
-    for (std::size_t place = 0; place < order_.size(); ++place) {
-      RankedCandidate r = at_place(place);
-      if (place > 0 && out.candidates.back().tied_with_next) r.rank = out.candidates.back().rank;
-      r.p_best = p[r.index];
-      out.candidates.push_back(std::move(r));
+    out.open = open_pairs();
+    const std::vector<Board> boards = criteria_boards();
+    std::vector<RankedCandidate> all;
+    for (std::size_t i = 0; i < candidates_.size(); ++i) all.push_back(candidate(i, boards));
+    for (std::size_t c = 0; c < boards.size(); ++c) {
+      const std::vector<double> p = boards[c].scores.probabilities(stream(c));
+      for (RankedCandidate& r : all) r.p_best_by.push_back(p[r.index]);
     }
+    out.candidates = options_.scored() ? by_score(std::move(all)) : by_dominance(std::move(all));
     return out;
   }
 
-  RankedCandidate at_place(std::size_t place) const {
-    const std::size_t i = order_[place];
+  std::uint64_t stream(std::size_t criterion) const {
+    return static_cast<std::uint64_t>(state_) + 16 * criterion;
+  }
+
+  RankedCandidate candidate(std::size_t i, const std::vector<Board>& boards) const {
     RankedCandidate r;
     r.index = i;
-    r.rank = static_cast<int>(place) + 1;
     r.skins = candidates_[i].skins();
-    r.score =
-        interval_of(scores_.skins[i], scores_.steps.empty() ? StepSamples{} : scores_.steps[i])
-            .moved(unmet(scores_.skins, i));
-    if (place > 0) r.behind_best = scores_.difference(i, order_.front());
-    if (place + 1 < order_.size()) {
-      const std::size_t next = order_[place + 1];
-      r.ahead_of_next = scores_.difference(i, next);
-      r.tied_with_next = !scores_.decided(i, next);
-      r.p_ahead = scores_.probability_ahead(i, next);
+    for (std::size_t j = 0; j < candidates_.size(); ++j) {
+      bool ahead = false, behind = false;
+      for (const Board& board : boards) {
+        if (i == j) continue;
+        const Interval d = board.scores.difference(i, j);
+        ahead = ahead || d.low > 0;
+        behind = behind || d.high < 0;
+      }
+      r.over.push_back(ahead && behind ? Relation::TradeOff
+                       : ahead         ? Relation::Better
+                       : behind        ? Relation::Worse
+                                       : Relation::Open);
     }
     for (std::size_t c = 0; c < options_.criteria.size(); ++c) {
       std::vector<std::vector<double>> samples;
@@ -154,6 +224,43 @@ class StateRanker {
     return r;
   }
 
+  // Those that nobody beats come first, then by how many do; in the order of the first criterion.
+  std::vector<RankedCandidate> by_dominance(std::vector<RankedCandidate> all) const {
+    std::vector<RankedCandidate> out;
+    for (const std::size_t i : boards_.front().order) {
+      out.push_back(std::move(all[i]));
+      RankedCandidate& r = out.back();
+      r.rank += static_cast<int>(std::count(r.over.begin(), r.over.end(), Relation::Worse));
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const auto& a, const auto& b) { return a.rank < b.rank; });
+    return out;
+  }
+
+  std::vector<RankedCandidate> by_score(std::vector<RankedCandidate> all) const {
+    const auto& [scale, scores, order] = boards_.front();
+    const std::vector<double> p = scores.probabilities(stream(0));
+    std::vector<RankedCandidate> out;
+    for (std::size_t place = 0; place < order.size(); ++place) {
+      const std::size_t i = order[place];
+      RankedCandidate r = std::move(all[i]);
+      r.rank =
+          place > 0 && out.back().tied_with_next ? out.back().rank : static_cast<int>(place) + 1;
+      r.p_best = p[i];
+      r.score = interval_of(scores.skins[i], scores.steps.empty() ? StepSamples{} : scores.steps[i])
+                    .moved(unmet(scores.skins, i));
+      if (place > 0) r.behind_best = scores.difference(i, order.front());
+      if (place + 1 < order.size()) {
+        const std::size_t next = order[place + 1];
+        r.ahead_of_next = scores.difference(i, next);
+        r.tied_with_next = !scores.decided(i, next);
+        r.p_ahead = scores.probability_ahead(i, next);
+      }
+      out.push_back(std::move(r));
+    }
+    return out;
+  }
+
   void note(const std::string& text) const {
     if (options_.note)
       options_.note(finger_state_names()[static_cast<std::size_t>(state_)] + ": " + text);
@@ -162,33 +269,46 @@ class StateRanker {
   const RankOptions& options_;
   FingerState state_;
   std::vector<Candidate> candidates_;
-  Scores scores_;
-  std::vector<std::size_t> order_;
+  std::vector<Board> boards_;
 };
 
 // What the steps of the finger's parameters are run with, the same for all candidates.
 void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
+  if (const std::string why = parameters_unknown(candidates); !why.empty()) throw InputError(why);
   const Design& first = candidates.front().front();
   out.directions = static_cast<int>(finger_steps(first.finger).size());
   const Fidelity few = step_fidelity(fidelity_of(first));
   out.step_skins = few.skins;
   out.step_grid = few.grid;
-  for (const Regions& regions : candidates) {
-    for (const Design& d : regions) {
-      if (d.finger.uncertainty != first.finger.uncertainty)
-        throw InputError(fmt::format(
-            "\"{}\" and \"{}\" are of fingers with other [[uncertainty]]: what their parameters "
-            "do to a difference is not known",
-            first.title, d.title));
-    }
-  }
 }
 
 }  // namespace
 
+std::string parameters_unknown(const std::vector<Regions>& candidates) {
+  const Design& first = candidates.front().front();
+  if (first.finger.uncertainty.empty()) return unknown_parameters(first.finger);
+  for (const Regions& regions : candidates) {
+    for (const Design& d : regions) {
+      if (d.finger.uncertainty != first.finger.uncertainty)
+        return fmt::format(
+            "\"{}\" and \"{}\" are of fingers with other [[uncertainty]]: what their parameters "
+            "do to a difference is not known",
+            first.title, d.title);
+    }
+  }
+  return {};
+}
+
 Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Ranking out;
+  if (!options.weights.empty() && options.weights.size() != options.criteria.size())
+    throw InputError(fmt::format("{} weights for {} criteria: one for each is needed",
+                                 options.weights.size(), options.criteria.size()));
+  for (const double w : options.weights) {
+    if (!(w > 0)) throw InputError("a weight is more than 0; leave a criterion of weight 0 out");
+  }
+  for (const Regions& regions : candidates) out.titles.push_back(regions.front().title);
   out.conditions = condition_differences(candidates, options);
   if (!options.any_conditions) require_same_conditions(out.conditions);
   if (options.parameters) plan_steps(candidates, out);

@@ -2,6 +2,7 @@
 // with more skins only where the order is open. Equations ranking.N: docs/theory/ranking.md.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/rooms.h"
@@ -11,34 +12,56 @@
 
 namespace papilla::rank {
 
+// How two candidates compare over all criteria.
+enum class Relation {
+  Better,    // ahead in one criterion at least, behind in none, as far as intervals tell
+  Worse,     // the other way round
+  TradeOff,  // ahead in one, behind in another
+  Open,      // no difference is told from none
+};
+
 struct RankedCandidate {
   std::size_t index = 0;  // into the designs as given
-  int rank = 1;           // ties share the better rank
-  bool tied_with_next = false;
-  Interval score;                 // Eq. ranking.1; higher is better
-  Interval behind_best;           // score difference to the first, <= 0 up to noise; 0 for itself
-  Interval ahead_of_next;         // score difference to the next one; 0 for the last
-  double p_best = 0;              // probability of the highest score, Eq. ranking.3
-  double p_ahead = 0;             // probability of being ahead of the next one, Eq. ranking.4
+  int rank = 1;           // ties share the better rank; without a score 1 + how many are better
   std::vector<Interval> metrics;  // one per criterion, in its unit
+  std::vector<double> p_best_by;  // one per criterion: probability of the best value of all
+  std::vector<Relation> over;     // of each design as given; Open for itself
   int skins = 0;
+  // Where there is one score:
+  bool tied_with_next = false;
+  Interval score;          // Eq. ranking.1; higher is better
+  Interval behind_best;    // score difference to the first, <= 0 up to noise; 0 for itself
+  Interval ahead_of_next;  // score difference to the next one; 0 for the last
+  double p_best = 0;       // probability of the highest score, Eq. ranking.3
+  double p_ahead = 0;      // probability of being ahead of the next one, Eq. ranking.4
+};
+
+// Two candidates whose order is open in a criterion, or in the score, although they met all skins.
+struct OpenPair {
+  std::size_t first = 0, second = 0;  // into the designs as given
+  std::size_t criterion = 0;          // 0 where there is one score
 };
 
 struct StateRanking {
   FingerState state = FingerState::Clean;
   std::vector<RankedCandidate> candidates;  // best first
-  int skins = 0;                            // solved
-  int equal_skins = 0;  // what everyone as often as the neediest candidate would have taken
+  std::vector<OpenPair> open;  // neighbours; empty: the order is known, in every criterion
+  int skins = 0;               // solved
+  int equal_skins = 0;         // what everyone as often as the neediest candidate would have taken
 };
 
 struct Ranking {
   std::vector<StateRanking> states;
+  std::vector<std::string> titles;              // of the designs as given
   std::vector<ConditionDifference> conditions;  // empty unless any_conditions
   int skins = 0;                                // solved in all
   double seconds = 0;
   // Steps of the finger's parameters: independent directions, and what their steps were run with.
   int directions = 0, step_skins = 0, step_grid = 0;  // 0: not asked for
 };
+
+// Why the finger's fitted numbers are not known, or not alike, for these candidates; "": they are.
+std::string parameters_unknown(const std::vector<Regions>& candidates);
 
 // Throws InputError when the candidates are under other conditions (unless any_conditions), when a
 // criterion is not defined for a design (modulation without a drive), and for parameters of fingers

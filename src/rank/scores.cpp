@@ -98,9 +98,14 @@ bool Scores::decided(std::size_t a, std::size_t b) const {
 }
 
 double Scores::probability_ahead(std::size_t a, std::size_t b) const {
-  const Estimate e = mean_estimate(minus(skins[a], skins[b]));
+  const std::vector<double> paired = minus(skins[a], skins[b]);
+  const Estimate e = mean_estimate(paired);
   const double se = std::hypot(e.se, step_error(step_difference(a, b)));
-  return se > 0 ? normal_cdf(e.value / se) : e.value > 0 ? 1 : 0.5;
+  if (!(se > 0)) return e.value > 0 ? 1 : 0.5;
+  // Few skins know their own scatter badly; the finger's part is as good as normal.
+  const double freedom = static_cast<double>(paired.size()) - 1;
+  return e.se > 0 ? student_t_cdf(e.value / se, freedom * std::pow(se / e.se, 4))
+                  : normal_cdf(e.value / se);
 }
 
 std::vector<double> Scores::probabilities(std::uint64_t index) const {
@@ -112,13 +117,20 @@ std::vector<double> Scores::probabilities(std::uint64_t index) const {
   std::vector<double> z(scatter.front().size());
   std::vector<double> finger(moves.empty() ? 0 : moves.front().size());
   std::vector<std::size_t> winners;
+  // As Student's distribution of the two in front: few skins know their own scatter badly.
+  const std::vector<std::size_t> front = order();
+  const int freedom =
+      static_cast<int>(std::min(skins[front[0]].size(), skins[front[1 % m]].size())) - 1;
   for (int draw = 0; draw < kDraws; ++draw) {
     for (double& v : z) v = random.normal();
     for (double& v : finger) v = random.normal();
+    double squares = 0;
+    for (int k = 0; k < freedom; ++k) squares += square(random.normal());
+    const double wider = freedom > 0 ? std::sqrt(freedom / squares) : 1;
     double highest = -kInfinity;
     for (std::size_t i = 0; i < m; ++i) {
       double v = means[i];
-      for (std::size_t k = 0; k < z.size(); ++k) v += scatter[i][k] * z[k];
+      for (std::size_t k = 0; k < z.size(); ++k) v += wider * scatter[i][k] * z[k];
       for (std::size_t k = 0; k < finger.size(); ++k) v += moves[i][k] * finger[k];
       if (v < highest) continue;
       if (v > highest) winners.clear();

@@ -36,10 +36,11 @@ struct Scores {
   // Score of a minus b over the skins that both have, and over the steps of the finger.
   Interval difference(std::size_t a, std::size_t b) const;
   bool decided(std::size_t a, std::size_t b) const;  // the interval of the difference leaves out 0
-  // Probability that a is ahead of b: normal error of the paired difference. Eq. ranking.4
+  // Probability that a is ahead of b: Student's error of the paired difference. Eq. ranking.4
   double probability_ahead(std::size_t a, std::size_t b) const;
-  // Probability of each to have the highest score: normal scores with the covariance of the common
-  // skins. Eq. ranking.3; 4000 draws of stream `index`, an error of 0.8 points at most.
+  // Probability of each to have the highest score: scores of Student's distribution with the
+  // covariance of the common skins. Eq. ranking.3; 4000 draws of stream `index`, an error of 0.8
+  // points at most.
   std::vector<double> probabilities(std::uint64_t index) const;
 
  private:

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/io/files.h"
+#include "report/legend.h"
 
 namespace papilla::report {
 namespace {
@@ -21,20 +22,21 @@ void write_field_pictures(const std::string& folder, const Design& design,
     const PatchPicture picture =
         picture_patch(scene_of(design), design.texture, fidelity, humidity);
     const Grid& grid = picture.texture.grid;
-    const auto write = [&](const char* name, const std::vector<double>& values) {
+    const auto write = [&](const char* name, const std::vector<double>& values,
+                           const FieldScale& shown) {
       if (values.size() != grid.size()) return;
       const std::string path = fmt::format("{}/{}_{:.0f}", folder, name, 100 * humidity);
-      int width = 0, height = 0;
-      const auto rgb = render_field(grid, values, width, height);
-      write_png_rgb(path + ".png", width, height, rgb);
+      const FieldPicture drawn = picture_with_legend(grid, values, shown);
+      write_png_rgb(path + ".png", drawn.width, drawn.height, drawn.rgb);
       write_npy(path + ".npy", Heightmap{grid, values});
     };
-    write("gap", picture.fields.off.gap);
-    write("pressure_off", picture.fields.off.pressure);
-    write("pressure_on", picture.fields.on.pressure);
-    write("pull", picture.fields.pull.value);
+    const FieldScale nm{1e9, "nm"}, kpa{1e-3, "kPa"}, pressure{1e-6, "MPa", true};
+    write("gap", picture.fields.off.gap, nm);
+    write("pressure_off", picture.fields.off.pressure, pressure);
+    write("pressure_on", picture.fields.on.pressure, pressure);
+    write("pull", picture.fields.pull.value, kpa);
     const auto& bridged = picture.fields.wetting_off.bridged;
-    write("water", std::vector<double>(bridged.begin(), bridged.end()));
+    write("water", std::vector<double>(bridged.begin(), bridged.end()), {});
   }
 }
 

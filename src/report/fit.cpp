@@ -15,6 +15,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kIdentified = 0.5;   // share of the data in what is known of a parameter
+constexpr double kInDirection = 0.2;  // weight of a parameter that belongs to a direction
+
 std::string shown(const CalibrationParameter& p, double si) {
   const auto unit = find_unit(p.unit);
   const double value = si / (unit ? unit->to_si : 1);
@@ -51,7 +54,7 @@ bool is_fitted(const Calibration& c, const std::string& id) {
 std::string direction_text(const Calibration& c, const FitDirection& d) {
   std::string out;
   for (std::size_t i = 0; i < d.weights.size(); ++i) {
-    if (std::abs(d.weights[i]) < 0.2) continue;
+    if (std::abs(d.weights[i]) < kInDirection) continue;
     out += fmt::format("{}{:+.2f} {}", out.empty() ? "" : " ", d.weights[i], c.parameters[i].path);
   }
   return out;
@@ -77,8 +80,38 @@ std::string summary_section(const Calibration& c, const CalibrationResult& r) {
   return out;
 }
 
+// "shear strength known to 10 %": what the data say of each parameter, in words.
+std::vector<std::string> verdicts(const Calibration& c, const CalibrationResult& r) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < c.parameters.size(); ++i) {
+    const ParameterFit& f = r.fit.parameters[i];
+    const std::string& path = c.parameters[i].path;
+    if (f.data_share < kIdentified) {
+      out.push_back(
+          fmt::format("{} is not identified: {:.0f} % of what is known of it is the prior's", path,
+                      100 * (1 - f.data_share)));
+    } else if (f.at_bound || f.low_open || f.high_open) {
+      out.push_back(
+          fmt::format("{} is known to one side only: its interval ends at a bound", path));
+    } else {
+      out.push_back(
+          fmt::format("{} is known to {:.2g} %", path, 50 * (f.high - f.low) / std::abs(f.value)));
+    }
+  }
+  for (const FitDirection& d : r.fit.directions) {
+    std::vector<std::string> together;
+    for (std::size_t i = 0; i < d.weights.size(); ++i) {
+      if (std::abs(d.weights[i]) >= kInDirection) together.push_back(c.parameters[i].path);
+    }
+    if (d.singular_value < 1 && together.size() > 1)
+      out.push_back(join_names(together, " and ") + " are not told apart by these data");
+  }
+  return out;
+}
+
 std::string parameters_section(const Calibration& c, const CalibrationResult& r) {
-  std::string out =
+  std::string out = fmt::format("\nVerdict: {}.\n", join_names(verdicts(c, r), "; "));
+  out +=
       "\n## Parameters\n\n| parameter | start | fitted | 95 % interval | prior | from the data, % "
       "|\n"
       "|---|---|---|---|---|---|\n";
@@ -267,6 +300,7 @@ std::string calibration_json(const Calibration& c, const CalibrationResult& r,
               {"title", c.title},
               {"converged", r.fit.converged},
               {"warning", calibration_warning(r)},
+              {"verdicts", verdicts(c, r)},
               {"chi2_before", r.chi2_before},
               {"chi2", r.fit.chi2},
               {"prior_chi2", r.fit.prior_chi2},

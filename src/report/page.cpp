@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "design/study.h"
 #include "geometry/texture.h"
 #include "report/markup.h"
@@ -37,7 +38,8 @@ std::string without_scripts(const fs::path& folder) {
   }
   if (fs::exists(folder / "ranking.txt"))
     text = "<pre>" + markup_text(read_bytes(folder / "ranking.txt")) + "</pre>\n";
-  return "<noscript><style>main > section, nav, .choice, #lead { display: none; }</style>\n" +
+  return "<noscript><style>main > section, nav, .choice, #lead, #facts { display: none; "
+         "}</style>\n" +
          text + "</noscript>\n";
 }
 
@@ -82,7 +84,7 @@ Json parsed(const fs::path& file) {
 
 // A finished `papilla optimize`; `design` is the folder of the one the page is about.
 std::string optimize_page(const fs::path& root, const fs::path& design) {
-  for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md",
+  for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md", "run.json",
                            "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
     if (!fs::exists(root / name)) {
       throw InputError(fmt::format("{} has no {}: not the folder of a finished `papilla optimize`",
@@ -110,16 +112,18 @@ std::string optimize_page(const fs::path& root, const fs::path& design) {
   data["history"] = read_bytes(root / "history.csv");
   data["plan"] = read_bytes(root / "plan.txt");
   data["summary"] = read_bytes(root / "summary.md");
+  data["run"] = parsed(root / "run.json");
   return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data));
 }
 
 std::string rank_page(const fs::path& root) {
   Json ranking = parsed(root / "ranking.json"), candidates = Json::array();
-  std::vector<std::string> names;
+  std::vector<std::string> names, by;
   try {
     names.resize(ranking.at("candidates").size());
     for (const Json& c : ranking["candidates"])
       names.at(c.at("index").get<std::size_t>()) = c.at("name").get<std::string>();
+    for (const Json& c : ranking.at("criteria")) by.push_back(c.at("metric").get<std::string>());
   } catch (const std::exception& e) {
     throw InputError(fmt::format("{}: ranking.json is damaged: {}", root.string(), e.what()));
   }
@@ -132,7 +136,8 @@ std::string rank_page(const fs::path& root) {
     candidates.push_back(
         {{"name", names[i]}, {"toml", read_bytes(file)}, {"heights", picture_json(h.grid, h.z)}});
   }
-  return page_text(root, "", {kRankHtml, kRankScript, ""},
+  const std::string title = fmt::format("{} designs by {}", names.size(), join_names(by, ", "));
+  return page_text(root, title, {kRankHtml, kRankScript, ""},
                    {{"ranking", std::move(ranking)}, {"candidates", std::move(candidates)}});
 }
 

@@ -4,7 +4,11 @@
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <string>
+#include <tuple>
+#include <utility>
+#include <variant>
 
 #include "base/files.h"
 #include "base/sha256.h"
@@ -28,6 +32,42 @@ std::string base64(const std::vector<std::uint8_t>& bytes) {
     for (std::size_t k = 0; k < 4; ++k) out += k <= left ? kDigits[v >> (18 - 6 * k) & 63] : '=';
   }
   return out;
+}
+
+// Values as bytes between the lowest and the highest.
+Json bytes_json(const Grid& grid, const std::vector<double>& values) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double span = *high - *low;
+  std::vector<std::uint8_t> bytes;
+  for (double v : values) {
+    bytes.push_back(span > 0 ? static_cast<std::uint8_t>(std::lround(255 * (v - *low) / span)) : 0);
+  }
+  return {{"nx", grid.nx}, {"ny", grid.ny}, {"lx", grid.lx},         {"ly", grid.ly},
+          {"low", *low},   {"high", *high}, {"bytes", base64(bytes)}};
+}
+
+// Heights along the middle of a row of features, on pixels that draw their walls as they are; null
+// for a texture that is not drawn of shapes on a lattice.
+Json section_json(const Texture& texture) {
+  constexpr int kPixels = 4096, kRows = 256;
+  const TextureFacts of = facts(texture);
+  if (!of.cell || !std::holds_alternative<FeatureArray>(of.outline)) return nullptr;
+  const Grid cell = patch_grid(texture, kPixels);
+  const Heightmap h = generate(texture, {kPixels, kRows, cell.lx, cell.ly});
+  // The row that the features cover most: through their middle.
+  const double open = *of.open_share;
+  const auto row_mean = [&](int y) {
+    const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, y));
+    return std::accumulate(begin, begin + kPixels, 0.0);
+  };
+  int middle = 0;
+  double most = row_mean(0);
+  for (int y = 1; y < kRows; ++y) {
+    const double mean = row_mean(y);
+    if (open < 0.5 ? mean < most : mean > most) std::tie(middle, most) = std::pair(y, mean);
+  }
+  const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, middle));
+  return bytes_json({kPixels, 1, cell.lx, h.grid.dy()}, {begin, begin + kPixels});
 }
 
 // What the charts need of a response.
@@ -58,15 +98,7 @@ Json picture_json(const Grid& grid, const std::vector<double>& values) {
       mean.push_back(sum / (step * step));
     }
   }
-  const auto [low, high] = std::minmax_element(mean.begin(), mean.end());
-  const double span = *high - *low;
-  std::vector<std::uint8_t> bytes;
-  for (double v : mean) {
-    bytes.push_back(span > 0 ? static_cast<std::uint8_t>(std::lround(255 * (v - *low) / span)) : 0);
-  }
-  return {
-      {"nx", nx},    {"ny", ny},      {"lx", nx * step * grid.dx()}, {"ly", ny * step * grid.dy()},
-      {"low", *low}, {"high", *high}, {"bytes", base64(bytes)}};
+  return bytes_json({nx, ny, nx * step * grid.dx(), ny * step * grid.dy()}, mean);
 }
 
 Json design_json(const fs::path& folder, bool with_flat) {
@@ -89,6 +121,9 @@ Json design_json(const fs::path& folder, bool with_flat) {
   out["toml"] = read_bytes(folder / "design.toml");
   const Heightmap h = read_heightmap(folder / "heightmap.gsf");
   out["heights"] = picture_json(h.grid, h.z);
+  if (Json section = section_json(read_design((folder / "design.toml").string()).texture);
+      !section.is_null())
+    out["section"] = std::move(section);
   return out;
 }
 

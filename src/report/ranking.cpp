@@ -14,9 +14,11 @@
 #include "base/files.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "metrics/shown.h"
 #include "report/json.h"
 #include "report/page.h"
 #include "report/svg.h"
+#include "report/tables.h"
 
 namespace papilla::report {
 namespace {
@@ -27,46 +29,41 @@ const std::string& state_name(FingerState state) {
   return finger_state_names()[static_cast<std::size_t>(state)];
 }
 
-// A criterion as a share of its mean over humidity has no unit.
-bool is_relative(const Criterion& c) {
-  return c.expression.summary == Summary::Variation || c.expression.summary == Summary::Range;
+// A share of draws as it is known: never certain.
+std::string probability(double p) {
+  return p > 0.999 ? ">0.999" : p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p);
 }
 
-// How people read a criterion: its value in SI times `scale` is in `unit`.
-struct ShownUnit {
-  double scale;
-  std::string unit;
-};
-
-ShownUnit shown_unit(const Criterion& c) {
-  const std::string& unit = c.info().unit;
-  if (is_relative(c) || unit.empty()) return {1, ""};
-  if (unit == "N") return {1e3, "mN"};
-  if (unit == "m") return {1e9, "nm"};
-  if (unit == "m/Pa") return {1e12, "um/MPa"};
-  return {1, unit};
+std::string criterion_head(const Criterion& c) {
+  const std::string unit = shown_unit(c.expression).unit;
+  return c.text() + (unit.empty() ? "" : " " + unit);
 }
 
-std::vector<std::string> table_head(const RankOptions& options) {
+// In SI, as in JSON and CSV.
+std::string si_unit(const Criterion& c) {
+  return shown_unit(c.expression).unit.empty() ? "" : c.info().unit;
+}
+
+std::string metric_cell(const Criterion& c, const Interval& i) {
+  const double scale = shown_unit(c.expression).scale;
+  return fmt::format("{:.4g} ± {:.2g}", i.value * scale, (i.high - i.low) / 2 * scale);
+}
+
+// One score: who leads by how much.
+std::vector<std::string> score_head(const RankOptions& options) {
   std::vector<std::string> head{"rank", "design"};
-  for (const Criterion& c : options.criteria) {
-    const std::string unit = shown_unit(c).unit;
-    head.push_back(c.text() + (unit.empty() ? "" : " " + unit));
-  }
+  for (const Criterion& c : options.criteria) head.push_back(criterion_head(c));
   head.push_back("ahead of the next, %");
   if (options.parameters) head.push_back("finger's part");
   for (const char* name : {"p(ahead)", "p(best)", "skins"}) head.push_back(name);
   return head;
 }
 
-std::vector<std::string> table_row(const std::string& name, const RankOptions& options,
+std::vector<std::string> score_row(const std::string& name, const RankOptions& options,
                                    const RankedCandidate& r, bool last) {
   std::vector<std::string> row{fmt::format("{:>3}{}", r.rank, r.tied_with_next ? "=" : " "), name};
-  for (std::size_t c = 0; c < r.metrics.size(); ++c) {
-    const double scale = shown_unit(options.criteria[c]).scale;
-    row.push_back(fmt::format("{:.4g} ± {:.2g}", r.metrics[c].value * scale,
-                              (r.metrics[c].high - r.metrics[c].low) / 2 * scale));
-  }
+  for (std::size_t c = 0; c < r.metrics.size(); ++c)
+    row.push_back(metric_cell(options.criteria[c], r.metrics[c]));
   const Interval& ahead = r.ahead_of_next;
   row.push_back(last ? std::string("-")
                      : fmt::format("{:.1f} [{:.1f}, {:.1f}]", 100 * ahead.value, 100 * ahead.low,
@@ -75,19 +72,80 @@ std::vector<std::string> table_row(const std::string& name, const RankOptions& o
     row.push_back(
         last ? std::string("-")
              : fmt::format("±{:.1f}", 100 * normal_quantile(0.975) * ahead.parameters.value_or(0)));
-  row.push_back(last ? std::string("-") : fmt::format("{:.3f}", r.p_ahead));
-  row.push_back(fmt::format("{:.3f}", r.p_best));
+  row.push_back(last ? std::string("-") : probability(r.p_ahead));
+  row.push_back(probability(r.p_best));
   row.push_back(fmt::format("{}", r.skins));
   return row;
 }
 
+std::string relation_text(Relation relation) {
+  switch (relation) {
+    case Relation::Better:
+      return "better";
+    case Relation::Worse:
+      return "worse";
+    case Relation::TradeOff:
+      return "trade-off";
+    case Relation::Open:
+      break;
+  }
+  return "open";
+}
+
+// Several criteria and no weights: each criterion by itself, and who is beaten by whom.
+std::string dominance_tables(const std::vector<std::string>& names, const RankOptions& options,
+                             const StateRanking& state) {
+  std::vector<std::vector<std::string>> rows{{"rank", "design"}}, pairs{{"row against column"}};
+  for (const Criterion& c : options.criteria) {
+    rows[0].push_back(criterion_head(c));
+    rows[0].push_back("p(best)");
+  }
+  rows[0].push_back("skins");
+  for (const RankedCandidate& r : state.candidates) {
+    std::vector<std::string>& row = rows.emplace_back();
+    row = {fmt::format("{:>3}", r.rank), names[r.index]};
+    for (std::size_t c = 0; c < r.metrics.size(); ++c) {
+      row.push_back(metric_cell(options.criteria[c], r.metrics[c]));
+      row.push_back(probability(r.p_best_by[c]));
+    }
+    row.push_back(fmt::format("{}", r.skins));
+    pairs[0].push_back(names[r.index]);
+    std::vector<std::string>& pair = pairs.emplace_back();
+    pair.push_back(names[r.index]);
+    for (const RankedCandidate& other : state.candidates)
+      pair.push_back(&other == &r ? "-" : relation_text(r.over[other.index]));
+  }
+  return aligned_table(rows, 2) + "\n" + aligned_table(pairs, 1) + "\n";
+}
+
+// Whether more skins would say more, in words.
+std::string end_text(const std::vector<std::string>& names, const RankOptions& options,
+                     const StateRanking& state) {
+  if (state.open.empty())
+    return options.scored() ? "the order is known" : "the order is known in every criterion";
+  std::vector<std::string> open;
+  for (const OpenPair& pair : state.open) {
+    std::string both = fmt::format("{} and {}", names[pair.first], names[pair.second]);
+    if (!options.scored()) both += fmt::format(" in {}", options.criteria[pair.criterion].text());
+    open.push_back(std::move(both));
+  }
+  return fmt::format(
+      "the budget of {} skins a design (--max-skins) is spent with the order open: {}",
+      options.max_skins, join_names(open, "; "));
+}
+
 std::string state_table(const std::vector<std::string>& names, const RankOptions& options,
                         const StateRanking& state) {
-  std::vector<std::vector<std::string>> rows{table_head(options)};
-  for (const RankedCandidate& r : state.candidates)
-    rows.push_back(table_row(names[r.index], options, r, &r == &state.candidates.back()));
-  std::string out = "finger " + state_name(state.state) + "\n" + aligned_table(rows, 2);
-  out += fmt::format("{} patches of skin tried", state.skins);
+  std::string out = "finger " + state_name(state.state) + "\n";
+  if (options.scored()) {
+    std::vector<std::vector<std::string>> rows{score_head(options)};
+    for (const RankedCandidate& r : state.candidates)
+      rows.push_back(score_row(names[r.index], options, r, &r == &state.candidates.back()));
+    out += aligned_table(rows, 2);
+  } else {
+    out += dominance_tables(names, options, state);
+  }
+  out += fmt::format("{}; {} patches of skin tried", end_text(names, options, state), state.skins);
   if (state.skins < state.equal_skins)
     out += fmt::format(" (more where two designs are close; {} with as many for every design)",
                        state.equal_skins);
@@ -101,30 +159,43 @@ Json interval_json(const Interval& i) {
           {"parameters", json_number(i.parameters)}};
 }
 
-Json candidate_json(const std::string& name, const RankOptions& options, const RankedCandidate& r) {
-  Json metrics = Json::object();
-  for (std::size_t c = 0; c < r.metrics.size(); ++c)
-    metrics[metric_text(options.criteria[c].expression)] = interval_json(r.metrics[c]);
-  return {{"name", name},
-          {"index", r.index},
-          {"rank", r.rank},
-          {"tied_with_next", r.tied_with_next},
-          {"score", interval_json(r.score)},
-          {"behind_best", interval_json(r.behind_best)},
-          {"ahead_of_next", interval_json(r.ahead_of_next)},
-          {"p_ahead", r.p_ahead},
-          {"p_best", r.p_best},
-          {"metrics", metrics},
-          {"skins", r.skins}};
+Json candidate_json(const std::string& name, const std::string& title, const RankOptions& options,
+                    const RankedCandidate& r) {
+  Json metrics = Json::object(), best = Json::object(), over = Json::array();
+  for (std::size_t c = 0; c < r.metrics.size(); ++c) {
+    const std::string metric = metric_text(options.criteria[c].expression);
+    metrics[metric] = interval_json(r.metrics[c]);
+    best[metric] = r.p_best_by[c];
+  }
+  for (const Relation relation : r.over) over.push_back(relation_text(relation));
+  Json out{{"name", name}, {"title", title}, {"index", r.index}, {"rank", r.rank}};
+  if (options.scored()) {
+    out["tied_with_next"] = r.tied_with_next;
+    out["score"] = interval_json(r.score);
+    out["behind_best"] = interval_json(r.behind_best);
+    out["ahead_of_next"] = interval_json(r.ahead_of_next);
+    out["p_ahead"] = r.p_ahead;
+    out["p_best"] = r.p_best;
+  }
+  out["metrics"] = std::move(metrics);
+  out["p_best_by"] = std::move(best);
+  out["over"] = std::move(over);
+  out["skins"] = r.skins;
+  return out;
 }
 
 Json state_json(const std::vector<std::string>& names, const RankOptions& options,
-                const StateRanking& state) {
-  Json candidates = Json::array();
+                const Ranking& ranking, const StateRanking& state) {
+  Json candidates = Json::array(), open = Json::array();
   for (const RankedCandidate& r : state.candidates)
-    candidates.push_back(candidate_json(names[r.index], options, r));
+    candidates.push_back(candidate_json(names[r.index], ranking.titles[r.index], options, r));
+  for (const OpenPair& pair : state.open)
+    open.push_back({{"designs", {names[pair.first], names[pair.second]}},
+                    {"by", options.scored() ? "score" : options.criteria[pair.criterion].text()}});
   return {{"state", state_name(state.state)},
           {"candidates", candidates},
+          {"open", open},
+          {"end", end_text(names, options, state)},
           {"skins", state.skins},
           {"equal_skins", state.equal_skins}};
 }
@@ -155,13 +226,21 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
   if (ranking.directions > 0) {
     out += fmt::format(
         "parameters of the finger in every interval and probability: {} directions of its "
-        "covariance, the same for all designs; {} skins, {} pixels. Finger's part: of the lead\n",
-        ranking.directions, ranking.step_skins, ranking.step_grid);
+        "covariance, the same for all designs; {} skins, {} pixels{}\n",
+        ranking.directions, ranking.step_skins, ranking.step_grid,
+        options.scored() ? ". Finger's part: of the lead" : "");
   }
-  if (options.criteria.size() > 1)
+  if (options.criteria.size() > 1 && options.scored())
     out +=
-        "ahead of the next: by the mean over criteria of what each is better by, in parts of the "
-        "candidates' mean size\n";
+        "ahead of the next: by the weighted mean over criteria of what each is better by, in parts "
+        "of the candidates' mean size\n";
+  if (!options.scored())
+    out +=
+        "no weights (--weights), so no single order: rank 1 is beaten by nobody, rank 2 by one. "
+        "Better: ahead in a criterion and behind in none, as far as the intervals tell; open: no "
+        "difference is told from none\n";
+  if (!options.parameters)
+    out += "what the fit of the finger leaves open is in no interval and no probability\n";
   int fewest = std::numeric_limits<int>::max();
   for (const StateRanking& state : ranking.states) {
     for (const RankedCandidate& r : state.candidates) fewest = std::min(fewest, r.skins);
@@ -180,12 +259,12 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
                          const Ranking& ranking) {
   Json states = Json::array(), by = Json::array(), criteria = Json::array();
   for (const StateRanking& state : ranking.states)
-    states.push_back(state_json(names, options, state));
+    states.push_back(state_json(names, options, ranking, state));
   for (const Criterion& c : options.criteria) {
     by.push_back(c.text());
     criteria.push_back({{"metric", metric_text(c.expression)},
                         {"better", c.high ? "high" : "low"},
-                        {"unit", is_relative(c) ? "" : c.info().unit}});
+                        {"unit", si_unit(c)}});
   }
   Json conditions = Json::array();
   for (const ConditionDifference& d : ranking.conditions) {
@@ -200,6 +279,8 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
   }
   return Json{{"schema", 1},
               {"by", by},
+              {"weights", options.weights},
+              {"scored", options.scored()},
               {"conditions_differ", conditions},
               {"criteria", criteria},
               {"candidates", states.front()["candidates"]},
@@ -208,6 +289,41 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
               {"skins", ranking.skins},
               {"seconds", ranking.seconds}}
       .dump(2);
+}
+
+std::string ranking_csv(const std::vector<std::string>& names, const RankOptions& options,
+                        const Ranking& ranking) {
+  std::string out = "finger,rank,design,title";
+  for (const Criterion& c : options.criteria) {
+    const std::string unit = si_unit(c);
+    out += fmt::format(",{0}{1},{0} low,{0} high,{0} p(best)", metric_text(c.expression),
+                       unit.empty() ? "" : " [" + unit + "]");
+  }
+  out += options.scored() ? ",score,score low,score high,p(best),p(ahead)" : ",beaten by";
+  out += ",skins\n";
+  for (const StateRanking& state : ranking.states) {
+    for (const RankedCandidate& r : state.candidates) {
+      out += fmt::format("{},{},{},{}", state_name(state.state), r.rank, csv_cell(names[r.index]),
+                         csv_cell(ranking.titles[r.index]));
+      for (std::size_t c = 0; c < r.metrics.size(); ++c) {
+        const Interval& i = r.metrics[c];
+        out += fmt::format(",{:.6g},{:.6g},{:.6g},{:.4g}", i.value, i.low, i.high, r.p_best_by[c]);
+      }
+      if (options.scored()) {
+        out += fmt::format(",{:.6g},{:.6g},{:.6g},{:.4g},", r.score.value, r.score.low,
+                           r.score.high, r.p_best);
+        if (&r != &state.candidates.back()) out += fmt::format("{:.4g}", r.p_ahead);
+      } else {
+        std::vector<std::string> beaten;
+        for (std::size_t i = 0; i < r.over.size(); ++i) {
+          if (r.over[i] == Relation::Worse) beaten.push_back(names[i]);
+        }
+        out += fmt::format(",{}", csv_cell(join_names(beaten, "; ")));
+      }
+      out += fmt::format(",{}\n", r.skins);
+    }
+  }
+  return out;
 }
 
 std::string radar_svg(const std::vector<std::string>& names, const RankOptions& options,
@@ -258,6 +374,7 @@ void write_ranking(const std::string& folder, const std::vector<Regions>& candid
     throw InputError({Problem{folder, 0, 0, "", "no such folder can be made: " + error.message()}});
   }
   write_bytes(folder + "/ranking.txt", ranking_table(names, options, ranking));
+  write_bytes(folder + "/ranking.csv", ranking_csv(names, options, ranking));
   write_bytes(folder + "/ranking.json", ranking_json(names, options, ranking) + "\n");
   if (options.criteria.size() > 2) {
     for (const StateRanking& state : ranking.states)

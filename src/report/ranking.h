@@ -14,12 +14,15 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
                           const Ranking& ranking);
 std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
                          const Ranking& ranking);
+// A line per finger state and candidate, SI units.
+std::string ranking_csv(const std::vector<std::string>& names, const RankOptions& options,
+                        const Ranking& ranking);
 // One polygon per candidate over the criteria, for a finger state; larger is better on every axis.
 std::string radar_svg(const std::vector<std::string>& names, const RankOptions& options,
                       const StateRanking& state);
 
-// Table, JSON, radars of more than two criteria, the designs, and the page, in a folder that it
-// makes. Throws InputError.
+// Table, CSV, JSON, radars of more than two criteria, the designs, and the page, in a folder that
+// it makes. Throws InputError.
 void write_ranking(const std::string& folder, const std::vector<Regions>& candidates,
                    const std::vector<std::string>& names, const RankOptions& options,
                    const Ranking& ranking);

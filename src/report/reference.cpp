@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -11,6 +12,7 @@
 #include "cases/persson.h"
 #include "config/describe.h"
 #include "design/study.h"
+#include "design/words.h"
 #include "fabricate/formats.h"
 #include "metrics/metrics.h"
 
@@ -53,6 +55,14 @@ const char* about(const std::string& section) {
   if (section == "persson") return "A case of `papilla solve persson`.";
   if (section == "circuit") return "A case of `papilla solve drive`.";
   if (section == "study") return "The sections that only a study has.";
+  if (section == "search") return "How a study is searched, and for how long.";
+  if (section == "design_space") return "What the search may change.";
+  if (section == "objective") return "What is wanted.";
+  if (section == "constraints") return "What a design has to keep.";
+  if (section == "population") return "The fingers that a design is judged on.";
+  if (section == "scenarios") return "States of the product that count beside each other.";
+  if (section == "scatter") return "How far fabrication may miss.";
+  if (section == "base") return "Another file below this one.";
   if (section == "export") {
     return "The files of `papilla export`, by the names that `--format` takes. Without it: those "
            "that need nothing that is missing.";
@@ -129,6 +139,25 @@ std::vector<Part> study_reference() {
   return {{"", rows, true}, {"search", field_rows(Search{}, "search")}};
 }
 
+// The sections that only a study has, by themselves.
+constexpr std::array kStudySections{"design_space", "objective", "constraints", "population",
+                                    "scenarios",    "scatter",   "search",      "base"};
+
+// One of them; empty for another name.
+std::vector<Part> study_section(const std::string& section) {
+  if (std::find(kStudySections.begin(), kStudySections.end(), section) == kStudySections.end())
+    return {};
+  std::vector<Part> out;
+  for (Part part : study_reference()) {
+    part.heading.clear();
+    std::erase_if(part.rows, [&](const FieldRow& row) {
+      return row.path != section && !row.path.starts_with(section + ".");
+    });
+    if (!part.rows.empty()) out.push_back(std::move(part));
+  }
+  return out;
+}
+
 std::vector<Part> metrics_reference() {
   std::vector<FieldRow> rows;
   for (const MetricInfo& metric : metric_list()) {
@@ -173,11 +202,14 @@ std::vector<Part> parts_of(const std::string& section) {
   if (section == "metrics") return metrics_reference();
   if (section == "study") return study_reference();
   if (section == "export") return export_reference();
-  const std::string near = nearest_name(section, reference_sections());
-  throw InputError(
-      near.empty()
-          ? fmt::format("no section `{}`; known: {}", section, join_names(reference_sections()))
-          : fmt::format("no section `{}`, did you mean `{}`?", section, near));
+  if (auto parts = study_section(section); !parts.empty()) return parts;
+  std::vector<std::string> known = reference_sections();
+  for (const char* name : kStudySections) known.emplace_back(name);
+  const std::string meant = key_for_word(section, "");
+  const std::string near = meant.empty() ? nearest_name(section, known) : meant;
+  throw InputError(near.empty()
+                       ? fmt::format("no section `{}`; known: {}", section, join_names(known))
+                       : fmt::format("no section `{}`, did you mean `{}`?", section, near));
 }
 
 // The parts of a section with the rows of one key, or of a section's section, alone.
@@ -193,7 +225,8 @@ std::vector<Part> parts_of_key(const std::string& key) {
     if (!part.rows.empty()) out.push_back(std::move(part));
   }
   if (!out.empty()) return out;
-  const std::string near = nearest_name(key, names);
+  const std::string meant = key_for_word(key.substr(key.rfind('.') + 1), section);
+  const std::string near = meant.empty() ? nearest_name(key, names) : meant;
   throw InputError(near.empty()
                        ? fmt::format("no key `{}`; `papilla describe {}` lists them", key, section)
                        : fmt::format("no key `{}`, did you mean `{}`?", key, near));

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/text.h"
 #include "metrics/metrics.h"
 #include "report/svg.h"
 
@@ -72,7 +73,7 @@ std::string beside_target(const Response& response) {
 }
 
 std::string with_error(const Measured& m, double scale, int digits) {
-  return fmt::format("{:.{}f} ±{:.{}f}", m.value * scale, digits, m.se() * scale, digits);
+  return fmt::format("{} ±{:.{}f}", fixed(m.value * scale, digits), m.se() * scale, digits);
 }
 
 // The table over humidity.

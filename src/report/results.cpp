@@ -12,6 +12,7 @@
 #include "report/json.h"
 #include "report/page.h"
 #include "report/response.h"
+#include "report/sheet.h"
 #include "report/summary.h"
 
 namespace papilla::report {
@@ -49,6 +50,8 @@ class Writer {
     if (f_.result.has_best())
       write_design_folder(f_.result.finalists[f_.result.best], f_.folder + "/best");
     write_bytes(f_.folder + "/sensitivity.json", sensitivity());
+    if (f_.result.rounded) write_design(f_.folder + "/best/build.toml", built_design(f_));
+    write_bytes(f_.folder + "/run.json", run_json(f_));
     write_bytes(f_.folder + "/summary.md", run_summary(f_));
   }
 
@@ -68,6 +71,14 @@ class Writer {
     return out;
   }
 
+  // Without a drive there is no modulation.
+  std::string worst_text(bool ok, double worst) const {
+    return ok && f_.problem.driven() ? fmt::format("{:.6g}", worst) : std::string();
+  }
+  Json worst_json(const Score& score) const {
+    return f_.problem.driven() ? Json(json_number(score.worst)) : Json(nullptr);
+  }
+
   std::string history() const {
     const auto& objectives = f_.problem.objectives();
     std::string out = "evaluation" + variable_header();
@@ -82,7 +93,7 @@ class Writer {
                                                                    : e.outcome.objectives[k])
                    : std::string(",");
       }
-      out += e.outcome.ok ? fmt::format(",{:.6g}", f_.history.worst[i]) : std::string(",");
+      out.append(",").append(worst_text(e.outcome.ok, f_.history.worst[i]));
       out +=
           fmt::format(",{},{:.6g},{}\n", e.outcome.feasible() ? "yes" : "no",
                       f_.result.hypervolumes[i], e.outcome.ok ? "ok" : csv_text(e.outcome.reason));
@@ -106,7 +117,7 @@ class Writer {
         out += k < searched.values.size() ? fmt::format(",{:.6g}", searched.values[k])
                                           : std::string(",");
       }
-      out += fmt::format(",{:.6g},{},{},{},{}\n", c.worst,
+      out += fmt::format(",{},{},{},{},{}\n", worst_text(true, c.worst),
                          std::isfinite(c.oxide_margin) ? fmt::format("{:.4g}", c.oxide_margin) : "",
                          feasible ? "yes" : "no", front ? "yes" : "no",
                          c.ok ? "ok" : csv_text(c.reason));
@@ -155,7 +166,7 @@ class Writer {
     out["variables"] = variables;
     out["objectives"] = score_json(d.confirmed);
     out["objectives_at_search_level"] = score_json(d.searched);
-    out["worst_modulation"] = json_number(d.confirmed.worst);
+    out["worst_modulation"] = worst_json(d.confirmed);
     out["oxide_breakdown_margin"] = json_number(d.confirmed.oxide_margin);
     out["feasible"] = d.feasible;
     const Stability& stability = f_.result.stability;
@@ -167,7 +178,7 @@ class Writer {
     }
     if (f_.result.flat)
       out["flat"] = {{"objectives", score_json(*f_.result.flat)},
-                     {"worst_modulation", json_number(f_.result.flat->worst)},
+                     {"worst_modulation", worst_json(*f_.result.flat)},
                      {"difference", differences(d.confirmed, *f_.result.flat)},
                      {"no_better", no_better(f_.problem.objectives(), d.confirmed, *f_.result.flat)
                                        ? Json(kNoBetter)

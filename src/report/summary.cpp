@@ -4,28 +4,43 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "base/text.h"
 #include "base/units.h"
+#include "metrics/shown.h"
+#include "report/remarks.h"
+#include "report/sheet.h"
 
 namespace papilla::report {
 namespace {
 
 // "0.612 ± 0.014 (0.051)": its own error, in brackets the one that parameters leave.
-std::string with_errors(const Score& score, std::size_t k) {
-  std::string out = fmt::format("{:.3f} ± {:.3f}", score.values[k], score.errors[k]);
+std::string with_errors(const StudyObjective& o, const Score& score, std::size_t k) {
+  std::string out = fmt::format("{} ± {}", shown_value(o.expression, score.values[k]),
+                                shown_error(o.expression, score.errors[k]));
   if (const auto parameters = parameter_error(score, k))
-    out += fmt::format(" ({:.3f})", *parameters);
+    out += fmt::format(" ({})", shown_error(o.expression, *parameters));
   return out;
+}
+
+// Of an objective: "mean(adhesion) [mN]", "distance(modulation)" as it is named.
+std::string heading(const StudyObjective& o) {
+  const std::string unit = shown_unit(o.expression).unit;
+  return o.name + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+// What decides which of the front is the best, in words.
+std::string rule_text(const ResultFiles& f) {
+  if (!f.pick.empty() && f.pick != "worst") return "picked by \"" + f.pick + "\"";
+  return f.problem.driven() ? "the highest worst modulation over fingers and humidity"
+                            : "the knee of the front: the least sum of its scaled objectives";
 }
 
 std::string best_text(const ResultFiles& f, const FinalDesign& best) {
   const OptimiseResult& r = f.result;
-  return fmt::format("\n`best/` is {}: {}{}.\n", best.folder,
-                     f.pick.empty() || f.pick == "worst"
-                         ? "the highest worst modulation over fingers and humidity"
-                         : "picked by \"" + f.pick + "\"",
-                     r.stability.stable(r.best)
+  return fmt::format("\n`best/` is {}: {}{}.\n", best.folder, rule_text(f),
+                     !r.stability.judged(r.best) || r.stability.stable(r.best)
                          ? ""
                          : "; under other choices of the model its neighbours beat it, see below");
 }
@@ -38,15 +53,16 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
   std::string out = "\n## What the texture does, and what the finish does\n\n| surface |";
   std::string rule = "|---|";
   for (const auto& o : objectives) {
-    out += " " + o.name + " |";
+    out += fmt::format(" {} |", heading(o));
     rule += "---|";
   }
-  out += " worst modulation |\n" + rule + "---|\n";
+  const bool driven = f.problem.driven();
+  out += (driven ? " worst modulation |\n" : "\n") + rule + (driven ? "---|\n" : "\n");
   const auto row = [&](const char* name, const Score& s) {
     out += fmt::format("| {} |", name);
     for (std::size_t k = 0; k < objectives.size(); ++k)
-      out += fmt::format(" {} |", with_errors(s, k));
-    out += fmt::format(" {:.3f} |\n", s.worst);
+      out += fmt::format(" {} |", with_errors(objectives[k], s, k));
+    out += driven ? fmt::format(" {:.3f} |\n", s.worst) : "\n";
   };
   if (no_better(objectives, best.confirmed, *r.flat))
     out = "\n**" + std::string(kNoBetter) + "**\n" + out;
@@ -55,14 +71,17 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
   row("best design", best.confirmed);
   out += "| difference made by the texture |";
   for (std::size_t k = 0; k < objectives.size(); ++k) {
-    out += fmt::format(" {:+.3f} ± {:.3f}", best.confirmed.values[k] - r.flat->values[k],
-                       difference_error(best.confirmed, *r.flat, k));
+    const MetricExpression& e = objectives[k].expression;
+    out +=
+        fmt::format(" {} ± {}", shown_value(e, best.confirmed.values[k] - r.flat->values[k], true),
+                    shown_error(e, difference_error(best.confirmed, *r.flat, k)));
     if (const auto part = parameter_error(best.confirmed, *r.flat, k))
-      out += fmt::format(" ({:.3f})", *part);
+      out += fmt::format(" ({})", shown_error(e, *part));
     out += " |";
   }
+  out += driven ? " |\n" : "\n";
   out +=
-      " |\n\n± of the difference is from both on the same skins, droplets and grid, skin by "
+      "\n± of the difference is from both on the same skins, droplets and grid, skin by "
       "skin: what moves both alike is not in it (the larger of both where their numbers of skins "
       "differ).\n";
   if (r.flat_before) {
@@ -71,6 +90,24 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
         "third the texture.\n";
   }
   return out;
+}
+
+// Whether the accuracy asked for was reached, of each finger of the best design.
+std::string target_text(const ResultFiles& f, const FinalDesign& best) {
+  if (!(f.study.design.accuracy.target > 0)) return {};
+  std::string out =
+      fmt::format("\nAccuracy asked for (`accuracy.target`): {:.3g} %. Of the best design",
+                  100 * f.study.design.accuracy.target);
+  for (std::size_t t = 0; t < best.confirmed.reports.size(); ++t) {
+    const auto response = nlohmann::json::parse(best.confirmed.reports[t]);
+    const auto found = response.find("accuracy");
+    if (found == response.end() || !found->at("reached").is_number()) continue;
+    out += fmt::format("{} {}: {:.2g} % of {}, {}", t > 0 ? ";" : "", f.problem.tasks()[t].name,
+                       100 * found->at("reached").get<double>(),
+                       found->at("quantity").get<std::string>(),
+                       found->at("status").get<std::string>());
+  }
+  return out + ".\n";
 }
 
 std::string sensitivity_text(const ResultFiles& f) {
@@ -83,7 +120,7 @@ std::string sensitivity_text(const ResultFiles& f) {
       "if every "
       "variable scattered so. Tolerance: the drift that costs no objective more than 5 % of its "
       "value.\n\n| variable | step";
-  for (const StudyObjective& o : objectives) out += " | " + o.name + ", share";
+  for (const StudyObjective& o : objectives) out += fmt::format(" | {}, share", heading(o));
   out += " | tolerance down | up |\n|---|---";
   for (std::size_t k = 0; k < objectives.size(); ++k) out += "|---";
   out += "|---|---|\n";
@@ -95,14 +132,15 @@ std::string sensitivity_text(const ResultFiles& f) {
     };
     out += fmt::format("| {} | {} {}", v.path, rounded(s.step / unit, 3), v.unit);
     for (std::size_t k = 0; k < objectives.size(); ++k) {
-      out += k < s.change.size()
-                 ? fmt::format(" | {:+.4f}, {:.0f} %", s.change[k], 100 * s.share[k])
-                 : std::string(" | -");
+      out += k < s.change.size() ? fmt::format(" | {}, {:.0f} %",
+                                               shown_change(objectives[k].expression, s.change[k]),
+                                               100 * s.share[k])
+                                 : std::string(" | -");
     }
     const auto drift = [&](double value, bool beyond) {
       return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "", rounded(value / unit, 2),
                                      v.unit)
-                       : std::string("at its bound");
+                       : std::string("its bound is near");
     };
     out += " | " + drift(s.down, s.down_beyond) + " | " + drift(s.up, s.up_beyond) + " |\n";
   }
@@ -131,8 +169,10 @@ std::string stability_text(const ResultFiles& f) {
     out += "| " + v.name;
     for (std::size_t i = 0; i < v.values.size(); ++i) {
       out += " |";
-      for (std::size_t k = 0; k < std::min<std::size_t>(2, v.values[i].size()); ++k)
-        out += fmt::format("{}{:.3f}", k == 0 ? " " : ", ", v.values[i][k]);
+      for (std::size_t k = 0; k < std::min<std::size_t>(2, v.values[i].size()); ++k) {
+        out += k == 0 ? " " : ", ";
+        out += shown_value(objectives[k].expression, v.values[i][k]);
+      }
       out += v.on_front[i] ? " *" : "";
     }
     out += " |\n";
@@ -155,6 +195,8 @@ std::string run_summary(const ResultFiles& f) {
     return out + fmt::format("Interrupted after {}; continue with --resume.\n",
                              counted(r.evaluations, "evaluation"));
   }
+  for (const std::string& remark : run_remarks(f.study, f.problem, r))
+    out.append("**").append(remark).append("**\n\n");
   out += fmt::format("Search: {} ({}). {}", r.method, r.why, counted(r.evaluations, "evaluation"));
   if (r.refused) out += fmt::format(", {} refused by the fabrication limits", r.refused);
   if (r.failures) out += fmt::format(", **{} failed** (history.csv says why)", r.failures);
@@ -168,15 +210,18 @@ std::string run_summary(const ResultFiles& f) {
            ". The one that violates them least is shown; loosen a constraint or widen the design "
            "space.\n\n";
   }
+  if (r.has_best()) out += sheet_text(f) + "\n";
   out += result_table(f.study, r);
   const FinalDesign& best = r.finalists[r.best];
+  out += target_text(f, best);
   if (best.on_front) out += best_text(f, best);
   if (r.flat && best.confirmed.ok) out += gain_text(f, best);
   out += stability_text(f);
   out += sensitivity_text(f);
   out += r.has_best()
              ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
-               "history.csv (every evaluation), front/ and best/ (design.toml, metrics.json, "
+               "history.csv (every evaluation), run.json (how it ended, what to build), front/ and "
+               "best/ (design.toml, build.toml on the grid of the fab, metrics.json, "
                "heightmap.exr, heightmap.gsf, preview.png, of textures with an outline mask.tif "
                "(white is deep), export.json for `papilla verify`), "
                "sensitivity.json, "
@@ -193,9 +238,11 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
                     study.design.accuracy.level_name() + "\":\n\n| design";
   for (const Variable& v : study.variables) out += " | " + v.path;
   for (const StudyObjective& o : objectives)
-    out += fmt::format(" | {} {}", o.maximise ? "max" : "min", o.name);
-  out += " | worst modulation |\n|";
-  for (std::size_t i = 0; i < study.variables.size() + objectives.size() + 2; ++i) out += "---|";
+    out += fmt::format(" | {} {}", o.maximise ? "max" : "min", heading(o));
+  const bool driven = problem.driven();
+  out += driven ? " | worst modulation |\n|" : " |\n|";
+  const std::size_t columns = study.variables.size() + objectives.size() + (driven ? 2 : 1);
+  for (std::size_t i = 0; i < columns; ++i) out += "---|";
   out += "\n";
   for (const FinalDesign& d : result.finalists) {
     out += "| " + (!d.folder.empty() ? d.folder : d.feasible ? "(dominated)" : "(infeasible)");
@@ -205,9 +252,10 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
       out.append(" | ").append(variable_text(study.variables[i], values[i]));
     }
     for (std::size_t k = 0; k < objectives.size(); ++k) {
-      out += fmt::format(" | {}", d.confirmed.ok ? with_errors(d.confirmed, k) : "failed");
+      out += fmt::format(" | {}",
+                         d.confirmed.ok ? with_errors(objectives[k], d.confirmed, k) : "failed");
     }
-    out += fmt::format(" | {:.3f} |\n", d.confirmed.worst);
+    out += driven ? fmt::format(" | {:.3f} |\n", d.confirmed.worst) : std::string(" |\n");
   }
   const std::string unknown = problem.parameters_unknown();
   if (!unknown.empty())

@@ -1,18 +1,30 @@
 // The last stage of a run: what is said of the front and the best beside their numbers.
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 
 #include "base/error.h"
 #include "search/levels.h"
 #include "search/pick.h"
+#include "search/rounding.h"
 #include "search/stages.h"
 
 namespace papilla::search {
 namespace {
 
+// Steps of the progress bar beside the designs of the front.
+constexpr int kOtherChecks = 4;
+
+std::size_t on_front(const OptimiseResult& result) {
+  return static_cast<std::size_t>(std::count_if(result.finalists.begin(), result.finalists.end(),
+                                                [](const auto& f) { return !f.folder.empty(); }));
+}
+
 // step: after each design; false: interrupted.
 bool check_stability(Run& run, const std::function<void()>& step) {
   const std::size_t variants = stability_variants(run.problem).size();
+  const double seconds = run.seconds_of(on_front(run.result) * variants, Stage::Stability);
+  if (!run.begin(Part::Stability, Stage::Stability, false, seconds)) return true;
   std::vector<std::vector<TaskAnswer>> answers;
   // The front comes first.
   for (const FinalDesign& f : run.result.finalists) {
@@ -36,7 +48,7 @@ void pick(Run& run) {
     PickCandidate c;
     for (const StudyObjective& o : run.problem.objectives()) c.names.push_back(o.name);
     c.objectives = run.problem.outcome(f.confirmed).objectives;
-    c.worst = f.confirmed.worst;
+    if (run.problem.driven()) c.worst = f.confirmed.worst;
     front.push_back(std::move(c));
   }
   run.replay.picked();
@@ -55,18 +67,35 @@ void pick(Run& run) {
 // and the study's own surface without texture where the search changed more than the texture.
 void compare_with_flat(Run& run) {
   const auto keep = [&](std::optional<Score>& to, const Point& unit) {
-    Score score = run.replay.scores({unit}, Stage::Confirm, true).front();
+    Score score = run.replay.scores({unit}, Stage::Confirm, true, run.confirm_seconds).front();
     if (score.ok) to = std::move(score);
   };
   const Point own = run.problem.space().unit_of_study();
   const Point& best = run.result.finalists[run.result.best].unit;
-  keep(run.result.flat, best);
   bool finish_differs = false;
   for (std::size_t k = 0; k < own.size(); ++k) {
     finish_differs = finish_differs ||
                      (!run.study.variables[k].path.starts_with("texture.") && own[k] != best[k]);
   }
+  const double seconds = run.seconds_of_designs(finish_differs ? 2 : 1, Stage::Confirm);
+  if (!run.begin(Part::Flat, Stage::Confirm, true, seconds)) return;
+  keep(run.result.flat, best);
   if (finish_differs) keep(run.result.flat_before, own);
+}
+
+// The best design as the fab draws it, at the level of the confirmation.
+void round_best(Run& run) {
+  const FinalDesign& best = run.result.finalists[run.result.best];
+  if (!(run.study.search.rounding > 0) || !best.confirmed.ok) return;
+  FinalDesign r;
+  r.unit = rounded(run.problem, best.unit);
+  if (r.unit == best.unit || !run.begin(Part::Rounding, Stage::Rounding, false,
+                                        run.seconds_of_designs(1, Stage::Rounding)))
+    return;
+  r.design = run.problem.space().design(r.unit);
+  r.confirmed = run.replay.scores({r.unit}, Stage::Rounding, false, run.confirm_seconds).front();
+  r.feasible = r.confirmed.ok && run.problem.feasible(r.confirmed, r.unit);
+  run.result.rounded = std::move(r);
 }
 
 // The best design moved by a step along each continuous variable.
@@ -74,7 +103,9 @@ void find_sensitivity(Run& run) {
   const FinalDesign& best = run.result.finalists[run.result.best];
   if (!best.confirmed.ok) return;
   const std::vector<SensitivityMove> moves = sensitivity_moves(run.problem, best.unit);
-  if (moves.empty()) return;
+  if (moves.empty() || !run.begin(Part::Sensitivity, Stage::Sensitivity, false,
+                                  run.seconds_of_designs(moves.size() + 1, Stage::Sensitivity)))
+    return;
   std::vector<Point> points{best.unit};
   for (const SensitivityMove& move : moves) points.push_back(move.unit);
   const std::vector<Score> scores = run.replay.scores(points, Stage::Sensitivity);
@@ -88,7 +119,10 @@ void find_parameters(Run& run, Score& score, const Point& unit, bool flat) {
     return;
   std::vector<TaskRequest> requests;
   for (std::size_t t = 0; t < run.problem.nominal_tasks(); ++t)
-    requests.push_back({Stage::Steps, t, flat, unit});
+    requests.push_back({Stage::Steps, t, flat, unit, run.confirm_seconds});
+  if (!run.begin(Part::Parameters, Stage::Steps, flat,
+                 run.seconds_of(requests.size(), Stage::Steps)))
+    return;
   run.problem.add_steps(score, run.replay.answers(requests));
 }
 
@@ -97,19 +131,22 @@ void find_parameters(Run& run, Score& score, const Point& unit, bool flat) {
 bool check(Run& run) {
   OptimiseResult& result = run.result;
   if (result.finalists.empty()) return true;
-  int done = 0, total = kOtherChecks;
-  for (const FinalDesign& f : result.finalists) total += !f.folder.empty();
-  const double from = run.seconds();
+  int done = 0;
+  const int total = kOtherChecks + static_cast<int>(on_front(result));
+  const double from = run.clock.seconds();
   const auto step = [&](int by = 1) {
     done += by;
-    run.progress("check", done, total, (run.seconds() - from) / done * (total - done));
+    run.progress("check", done, total, (run.clock.seconds() - from) / done * (total - done));
   };
   if (!check_stability(run, [&] { step(); }) || run.stopped()) return false;
   pick(run);
   if (facts(run.study.design.texture).relief.present) compare_with_flat(run);
   step();
+  round_best(run);
   find_sensitivity(run);
   step(2);
+  result.at_bound =
+      variables_at_bound(run.problem, result.finalists[result.best].unit, result.sensitivity);
   FinalDesign& best = result.finalists[result.best];
   find_parameters(run, best.confirmed, best.unit, false);
   if (result.flat) find_parameters(run, *result.flat, best.unit, true);

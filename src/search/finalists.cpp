@@ -10,6 +10,10 @@
 namespace papilla::search {
 namespace {
 
+// So many designs are confirmed in the confirmation's time, however short; the price of each is cut
+// down to this share of what it is in full.
+constexpr double kFewConfirmed = 3, kLeastConfirmation = 0.02;
+
 // Which designs of one level to judge at the next.
 std::vector<std::size_t> chosen_of(const SearchProblem& search, const JudgedDesigns& designs,
                                    std::size_t most) {
@@ -48,10 +52,11 @@ std::vector<Point> to_confirm(const Run& run, const JudgedDesigns& below) {
     if (e.outcome.ok && (!first || e.outcome.objectives[0] < first->outcome.objectives[0]))
       first = &e;
   }
+  // Second: where time is short, that much is known.
   const auto flat = first ? run.problem.space().flattened(first->unit) : std::nullopt;
   if (flat && run.search.feasible_before_evaluation(*flat) &&
       std::find(out.begin(), out.end(), *flat) == out.end())
-    out.push_back(*flat);
+    out.insert(out.begin() + 1, *flat);
   return out;
 }
 
@@ -75,7 +80,7 @@ FinalDesign finalist(Run& run, const Point& unit) {
   f.unit = unit;
   f.design = run.problem.space().design(unit);
   f.searched = searched_score(run, unit);
-  f.confirmed = run.replay.scores({unit}, Stage::Confirm).front();
+  f.confirmed = run.replay.scores({unit}, Stage::Confirm, false, run.confirm_seconds).front();
   f.feasible = f.confirmed.ok && run.problem.feasible(f.confirmed, unit);
   return f;
 }
@@ -129,12 +134,20 @@ bool narrow(Run& run) {
   std::vector<Point> asked;
   for (std::size_t i : chosen_of(run.search, run.history, count / 2))
     asked.push_back(run.history.evaluations[i].unit);
+  run.clock.enter(Part::Narrow);
   const bool done_before = run.replay.finished(Stage::Narrow);
-  const double from = run.seconds();
+  const double from = run.clock.seconds();
+  const auto left_for = [&](std::size_t designs) {
+    return run.replay.replaying() || run.fits(run.seconds_of_designs(designs, Stage::Narrow));
+  };
+  bool late = false;
   while (run.narrowed.size() < count) {
+    late = !left_for(run.narrowed.size() == 0 ? kFewNarrowed : 1);
+    if (late) break;
     if (done_before) {
       asked.clear();
       if (const auto unit = run.replay.next_unit(Stage::Narrow)) asked.push_back(*unit);
+      late = asked.empty();  // the earlier run was
     } else if (asked.empty()) {
       asked = searcher->ask();
     }
@@ -146,24 +159,51 @@ bool narrow(Run& run) {
     asked.erase(asked.begin());
     const auto done = static_cast<double>(run.narrowed.size());
     run.progress("narrow", static_cast<int>(done), static_cast<int>(count),
-                 (run.seconds() - from) / done * (static_cast<double>(count) - done));
+                 (run.clock.seconds() - from) / done * (static_cast<double>(count) - done) +
+                     run.seconds_from(Part::Confirm));
   }
+  if (late) run.cut(Part::Narrow, run.narrowed.size(), count);
   return true;
 }
 
+namespace {
+
+// What the confirmation may cost a task, so that the first designs fit into its time.
+double confirm_budget(const Run& run) {
+  if (const auto next = run.replay.next(); next && next->stage == Stage::Confirm)
+    return next->most_seconds;
+  const double full = run.seconds_of_designs(1, Stage::Confirm);
+  if (!run.clock.limited() || !(full > 0)) return 0;
+  const double each = std::max(0.0, run.clock.left(run.wanted())) / kFewConfirmed;
+  const bool any_cost = run.study.design.accuracy.target > 0;  // a target's is known afterwards
+  return any_cost || each < full
+             ? std::max(kLeastConfirmation, each / full) * run.price(Stage::Confirm, 0)
+             : 0;
+}
+
+}  // namespace
+
 bool confirm(Run& run) {
+  run.clock.enter(Part::Confirm);
   const std::vector<Point> chosen =
-      to_confirm(run, run.narrowed.size() == 0 ? run.history : run.narrowed);
+      to_confirm(run, run.narrowed.size() < kFewNarrowed ? run.history : run.narrowed);
+  run.confirm_seconds = confirm_budget(run);
+  run.result.confirmed_with = stage_fidelity(run.problem, Stage::Confirm, run.confirm_seconds);
   const std::size_t total = chosen.size();
-  const double from = run.seconds();
-  run.progress("confirm", 0, static_cast<int>(total), run.seconds_to_confirm());
-  for (std::size_t done = 1; done <= total; ++done) {
+  const bool done_before = run.replay.finished(Stage::Confirm);
+  run.progress("confirm", 0, static_cast<int>(total), run.seconds_from(Part::Confirm));
+  for (std::size_t done = 0; done < total; ++done) {
     if (run.stopped()) return false;
-    run.result.finalists.push_back(finalist(run, chosen[done - 1]));
-    const double each = (run.seconds() - from) / static_cast<double>(done);
-    run.progress("confirm", static_cast<int>(done), static_cast<int>(total),
-                 each * static_cast<double>(2 * total - done + kOtherChecks));
+    const auto next = run.replay.next();
+    const bool recorded = next && next->stage == Stage::Confirm && !next->flat;
+    const bool fits = done == 0 || run.fits(run.seconds_of_designs(1, Stage::Confirm));
+    if (!recorded && (done_before || !fits)) break;
+    run.result.finalists.push_back(finalist(run, chosen[done]));
+    run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(total),
+                 run.seconds_of_designs(total - done - 1, Stage::Confirm) +
+                     run.seconds_from(Part::Stability));
   }
+  run.cut(Part::Confirm, run.result.finalists.size(), total);
   judge(run);
   return true;
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "estimate/parameters.h"
 #include "forward/plan.h"
+#include "search/stability.h"
 
 namespace papilla::search {
 namespace {
@@ -14,6 +16,13 @@ constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came befo
 // Designs that the level between judges: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
+// Steps of the parameters: skins over all fingers, pixels.
+constexpr int kStepSkins = 12, kStepGrid = 64;
+// Peak of a process, measured at 128, 256, 512 and 1024 pixels a side (53, 62, 104 and 262 MB):
+// heights, gap, pressure, tractions, field and their transforms.
+constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
+// Where time is short: skins are given up first, down to these, then pixels, then more skins.
+constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;
 
 // For one design on its own: one finger, one choice of the model, a small step.
 Fidelity check_fidelity(const Study& study) {
@@ -61,15 +70,13 @@ Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
   return f;
 }
 
-Plan plan_of(const StudyProblem& problem, Stage stage) {
+// Of the study's own design: the same for all, so that they keep common skins.
+Plan plan_at(const StudyProblem& problem, const Fidelity& fidelity) {
   const Design& d = problem.study().design;
-  return make_plan({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture,
-                   stage_fidelity(problem, stage));
+  return make_plan({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture, fidelity);
 }
 
-}  // namespace
-
-Fidelity stage_fidelity(const StudyProblem& problem, Stage stage) {
+Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {
   const Study& study = problem.study();
   switch (stage) {
     case Stage::Search:
@@ -79,13 +86,34 @@ Fidelity stage_fidelity(const StudyProblem& problem, Stage stage) {
     case Stage::Narrow:
       return narrow_fidelity(study);
     case Stage::Confirm:
+    case Stage::Rounding:
     case Stage::Steps:
       return confirm_fidelity(study, problem.nominal_tasks());
     case Stage::Stability:
     case Stage::Sensitivity:
+    case Stage::Done:
       break;
   }
   return check_fidelity(study);
+}
+
+}  // namespace
+
+Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_seconds) {
+  Fidelity f = full_fidelity(problem, stage);
+  const auto too_dear = [&] {
+    return most_seconds > 0 && plan_at(problem, f).seconds() > most_seconds;
+  };
+  while (f.skins > kFewSkins && too_dear()) --f.skins;
+  while (f.grid > kFewPixels && too_dear()) f.grid /= 2;
+  while (f.skins > kFewestSkins && too_dear()) --f.skins;
+  return f;
+}
+
+Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
+  confirmed.skins = std::max(2, kStepSkins / static_cast<int>(problem.nominal_tasks()));
+  confirmed.grid = kStepGrid;
+  return confirmed;
 }
 
 std::size_t narrowings(const SearchProblem& p) {
@@ -94,8 +122,37 @@ std::size_t narrowings(const SearchProblem& p) {
       std::min(kMostNarrowings, p.evaluations / kEvaluationsPerNarrowing));
 }
 
-double relative_cost(const StudyProblem& problem, Stage stage) {
-  return plan_of(problem, stage).seconds() / plan_of(problem, Stage::Search).seconds();
+double task_price(const StudyProblem& problem, Stage stage, double most_seconds) {
+  const Fidelity f = stage_fidelity(problem, stage, most_seconds);
+  if (stage != Stage::Steps) return plan_at(problem, f).seconds();
+  const std::size_t steps = finger_steps(problem.tasks().front().finger).size();
+  const Fidelity few = step_fidelity(steps_fidelity(problem, f));
+  return 2.0 * static_cast<double>(steps) * plan_at(problem, few).seconds();
+}
+
+StudyCost study_cost(const Study& study) {
+  const StudyProblem problem(study);
+  const SearchProblem search = search_problem(problem);
+  StudyCost out;
+  out.evaluations = search.evaluations;
+  out.tasks = static_cast<int>(problem.tasks().size());
+  out.narrowed = narrowings(search);
+  out.finalists = kFinalists + 1;
+  const auto price = [&](std::size_t tasks, Stage stage) {
+    return static_cast<double>(tasks) * task_price(problem, stage);
+  };
+  const std::size_t tasks = problem.tasks().size(), variables = search.space.size();
+  out.seconds = price(static_cast<std::size_t>(search.evaluations) * tasks, Stage::Search) +
+                price(out.narrowed * tasks, Stage::Narrow) +
+                // Finalists, the surface without texture twice, the rounded design.
+                price((out.finalists + 3) * tasks, Stage::Confirm) +
+                price(kFinalists * stability_variants(problem).size(), Stage::Stability) +
+                price((1 + 2 * variables) * tasks, Stage::Sensitivity);
+  if (problem.parameters_unknown().empty())
+    out.seconds += price(2 * problem.nominal_tasks(), Stage::Steps);
+  const Grid grid = plan_at(problem, stage_fidelity(problem, Stage::Confirm)).grid;
+  out.bytes = kBytesOfProgram + kBytesPerPixel * static_cast<double>(grid.size());
+  return out;
 }
 
 std::string search_plan(const Study& study) {
@@ -108,7 +165,9 @@ std::string search_plan(const Study& study) {
                   search.evaluations, study.search.seed);
   out += "tasks of an evaluation (finger, scenario):";
   for (const StudyTask& task : problem.tasks()) out += " [" + task.name + "]";
-  const auto level = [&](Stage stage) { return plan_of(problem, stage).text(); };
+  const auto level = [&](Stage stage) {
+    return plan_at(problem, stage_fidelity(problem, stage)).text();
+  };
   out += "\n\nsearch level:\n" + level(Stage::Search);
   if (narrowings(search) > 1) {
     out += fmt::format("\n{} of them and of their neighbours again, other skins:\n",

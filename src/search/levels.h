@@ -10,18 +10,30 @@
 namespace papilla::search {
 
 inline constexpr std::size_t kFinalists = 8;
-// Flat surface, sensitivity and parameters cost about as much as confirming so many designs; the
-// stability of a design on the front as much as one.
-inline constexpr int kOtherChecks = 4;
+// Fewer than these are no level between: finalists then come from the search.
+inline constexpr std::size_t kFewNarrowed = 4;
 
-Fidelity stage_fidelity(const StudyProblem& problem, Stage stage);
+// most_seconds: of a task, as plans price it; fewer skins, then fewer pixels where it costs more;
+// 0: anything.
+Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_seconds = 0);
+// Steps of the parameters of confirmed designs: fewer skins, shared out over the population.
+Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed);
 
 // How many designs the level between search and confirmation judges: where there is a model of the
 // front.
 std::size_t narrowings(const SearchProblem& search);
 
-// Processor time of a design at a stage over that of one of the search.
-double relative_cost(const StudyProblem& problem, Stage stage);
+// Processor time of one task at a stage, as plans price it [s].
+double task_price(const StudyProblem& problem, Stage stage, double most_seconds = 0);
+
+// What a search takes, as plans price it: all of it on one core of a usual machine.
+struct StudyCost {
+  int evaluations = 0, tasks = 0;  // of an evaluation
+  std::size_t narrowed = 0, finalists = 0;
+  double seconds = 0;
+  double bytes = 0;  // the largest patch of a worker, solved
+};
+StudyCost study_cost(const Study& study);
 
 // What will run, for plan.txt and people.
 std::string search_plan(const Study& study);

@@ -44,10 +44,12 @@ std::size_t knee(const std::vector<PickCandidate>& front) {
 
 std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate>& front) {
   if (front.empty()) throw InputError("--pick: the front has no design");
-  if (rule.empty() || rule == "worst") {
-    return largest(front.size(), [&](std::size_t i) { return front[i].worst; });
-  }
-  if (rule == "knee") return knee(front);
+  const bool driven = front[0].worst.has_value();
+  if (rule == "worst" && !driven)
+    throw InputError("--pick worst: without a drive there is no modulation; use \"knee\"");
+  if (rule == "knee" || (rule.empty() && !driven)) return knee(front);
+  if (rule.empty() || rule == "worst")
+    return largest(front.size(), [&](std::size_t i) { return front[i].worst.value_or(0); });
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(rule.data(), rule.data() + rule.size(), number);
   if (error == std::errc{} && end == rule.data() + rule.size()) {
@@ -89,7 +91,8 @@ std::string picked_design_file(const std::string& results, const std::string& ru
         const double v = value.at("value").get<double>();
         c.objectives.push_back(value.at("maximise").get<bool>() ? -v : v);
       }
-      c.worst = metrics.at("worst_modulation").get<double>();
+      if (const auto& worst = metrics.at("worst_modulation"); !worst.is_null())
+        c.worst = worst.get<double>();
       front.push_back(std::move(c));
       files.push_back((folder / "design.toml").string());
     }

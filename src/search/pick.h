@@ -1,6 +1,7 @@
 // Which design of a front is shown first.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,11 @@ namespace papilla::search {
 struct PickCandidate {
   std::vector<std::string> names;  // of the objectives: "mean(modulation)"
   std::vector<double> objectives;  // minimised
-  double worst = 0;                // lowest modulation over fingers and humidity
+  std::optional<double> worst{};   // lowest modulation over fingers and humidity; none: undriven
 };
 
-// Index of the design of a front (in the order of its folders) by a rule: "worst" (or empty) has
+// Index of the design of a front (in the order of its folders) by a rule: "worst" (or empty, where
+// there is a drive; "knee" where not) has
 // the highest worst modulation; "knee" the least sum of objectives, each
 // scaled to the front's extent; "mean(modulation)", or the beginning of an objective's name, the
 // best of that objective; "3" is front/03. Throws InputError for anything else.

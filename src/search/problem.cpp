@@ -23,6 +23,14 @@ StudyProblem::StudyProblem(const Study& study)
                    tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.nominal(); })),
                study.scatter.size(), study.design.environment.weights} {}
 
+bool StudyProblem::driven() const {
+  return std::any_of(study_.variables.begin(), study_.variables.end(),
+                     [](const Variable& v) { return v.path.starts_with("drive."); }) ||
+         std::any_of(tasks_.begin(), tasks_.end(), [&](const StudyTask& t) {
+           return task_design(study_, study_.design, t).drive.driven();
+         });
+}
+
 std::string StudyProblem::parameters_unknown() const {
   for (std::size_t t = 0; t < nominal_tasks(); ++t) {
     if (tasks_[t].finger.uncertainty.empty()) return unknown_parameters(tasks_[t].finger);

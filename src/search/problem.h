@@ -28,6 +28,8 @@ class StudyProblem {
   const StudyGoals& goals() const { return goals_; }
   const std::vector<StudyObjective>& objectives() const { return goals_.objectives; }
   const StudyConstraints& constraints() const { return constraints_; }
+  // Somewhere a voltage is applied: designs have a modulation.
+  bool driven() const;
   // Why the parameters' part of confirmed designs is not known; "" when it is.
   std::string parameters_unknown() const;
 

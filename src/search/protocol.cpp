@@ -6,7 +6,7 @@ namespace papilla::search {
 namespace {
 
 // Enums end here.
-constexpr Stage kLastStage = Stage::Steps;
+constexpr Stage kLastStage = Stage::Done;
 constexpr TaskStatus::Kind kLastKind = TaskStatus::Kind::Threw;
 
 template <class E>
@@ -18,7 +18,7 @@ bool within(E value, E last) {
 
 template <class Codec>
 void members(Codec& c, TaskRequest& r) {
-  code_all(c, r.stage, r.task, r.flat, r.unit);
+  code_all(c, r.stage, r.task, r.flat, r.unit, r.most_seconds);
 }
 template <class Codec>
 void members(Codec& c, TaskStatus& s) {

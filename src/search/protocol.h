@@ -14,7 +14,7 @@
 namespace papilla::search {
 
 // Raised when the meaning or the order of what is encoded changes: part of the journal's key.
-constexpr int kProtocol = 4;
+constexpr int kProtocol = 5;
 
 // What a design is asked for, each at its level (levels.h).
 enum class Stage {
@@ -23,15 +23,21 @@ enum class Stage {
   Narrow,       // between search and confirmation
   Confirm,      // of the finalists, at the study's accuracy
   Stability,    // one finger or another choice of the model
+  Rounding,     // of the best design on the grid of the fab, as the confirmation
   Sensitivity,  // a small step of a variable
   Steps,        // what the fit of the fingers leaves open
+  Done,         // asks nothing: the run came to its end, whatever a clock cut of it
 };
+inline constexpr std::size_t kStages = static_cast<std::size_t>(Stage::Done) + 1;
 
 struct TaskRequest {
   Stage stage = Stage::Search;
   std::size_t task = 0;  // of the study; of Stability the variant
   bool flat = false;     // the design without its relief
   Point unit;
+  // What the task may cost, as plans price it [s]: fewer skins and pixels than the stage's where a
+  // run is short of time; 0: anything.
+  double most_seconds = 0;
 
   bool operator==(const TaskRequest&) const = default;
 };

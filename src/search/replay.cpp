@@ -14,6 +14,31 @@ namespace {
 
 TaskRequest search_key(const Point& unit) { return {Stage::Search, 0, false, unit}; }
 
+// The place of a stage in the course of a run: drafts are part of the search, and the surface
+// without its relief comes after the order under other models.
+int place(Stage stage, bool flat) {
+  switch (stage) {
+    case Stage::Search:
+    case Stage::Draft:
+      return 0;
+    case Stage::Narrow:
+      return 1;
+    case Stage::Confirm:
+      return flat ? 4 : 2;
+    case Stage::Stability:
+      return 3;
+    case Stage::Rounding:
+      return 5;
+    case Stage::Sensitivity:
+      return 6;
+    case Stage::Steps:
+      return 7;
+    case Stage::Done:
+      break;
+  }
+  return 8;
+}
+
 Journal open_journal(const StudyProblem& problem, const std::string& folder, bool resume) {
   try {
     return Journal(folder + "/journal", text_hash(problem.identity()), resume);
@@ -62,16 +87,23 @@ bool Replay::searching() const {
          requests_[next_].stage == Stage::Draft;
 }
 
+std::optional<TaskRequest> Replay::next() const {
+  return replaying() ? std::optional(requests_[next_]) : std::nullopt;
+}
+
 std::optional<Point> Replay::next_unit(Stage stage) const {
   if (!replaying() || requests_[next_].stage != stage) return std::nullopt;
   return requests_[next_].unit;
 }
 
-bool Replay::finished(Stage stage) const {
-  if (requests_.empty()) return false;
-  const Stage last = requests_.back().stage;
-  if (last == Stage::Search || last == Stage::Draft) return false;
-  return stage == Stage::Search || last != stage;
+bool Replay::finished(Stage stage, bool flat) const {
+  return !requests_.empty() &&
+         place(requests_.back().stage, requests_.back().flat) > place(stage, flat);
+}
+
+bool Replay::has(Stage stage, bool flat) const {
+  return std::any_of(requests_.begin(), requests_.end(),
+                     [&](const TaskRequest& r) { return r.stage == stage && r.flat == flat; });
 }
 
 const Bytes& Replay::replayed(const TaskRequest& request) {
@@ -85,25 +117,36 @@ void Replay::record(const TaskRequest& request, const Bytes& payload) {
   ++next_;
 }
 
+void Replay::end() {
+  const TaskRequest done{Stage::Done, 0, false, Point(search_.space.size(), 0.0)};
+  if (!beside_journal_ && !replaying()) record(done, {});
+}
+
 std::size_t Replay::designs() const {
   const std::size_t tasks = problem_.tasks().size();
   return (team_->size() + tasks - 1) / tasks + 1;
 }
 
 std::vector<TaskRequest> Replay::requests_of(const std::vector<Point>& units, Stage stage,
-                                             bool flat) const {
+                                             bool flat, double most_seconds) const {
   std::vector<TaskRequest> out;
   for (const Point& u : units) {
-    for (std::size_t t = 0; t < problem_.tasks().size(); ++t) out.push_back({stage, t, flat, u});
+    for (std::size_t t = 0; t < problem_.tasks().size(); ++t)
+      out.push_back({stage, t, flat, u, most_seconds});
   }
   return out;
 }
 
 std::vector<TaskAnswer> Replay::ask(const std::vector<TaskRequest>& requests) {
+  if (requests.empty()) return {};
   std::vector<Bytes> bytes;
   for (const TaskRequest& r : requests) bytes.push_back(encode(r));
   std::vector<TaskAnswer> out;
+  const auto from = std::chrono::steady_clock::now();
   for (const WorkAnswer& answer : team_->answer(bytes)) out.push_back(task_answer(answer));
+  Spent& spent = spent_[static_cast<std::size_t>(requests.front().stage)];
+  spent.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  spent.tasks += static_cast<int>(requests.size());
   return out;
 }
 
@@ -138,10 +181,7 @@ std::vector<Judgement> Replay::searched(const std::vector<Point>& units) {
   std::vector<Point> fresh;
   std::copy_if(remaining.begin(), remaining.end(), std::back_inserter(fresh),
                [&](const Point& u) { return search_.feasible_before_evaluation(u); });
-  const auto from = std::chrono::steady_clock::now();
-  const std::vector<Score> scores = scores_of(ask(requests_of(fresh, Stage::Search, false)));
-  seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-  fresh_ += static_cast<int>(fresh.size());
+  const std::vector<Score> scores = scores_of(ask(requests_of(fresh, Stage::Search, false, 0)));
   std::size_t next = 0;
   for (const Point& unit : remaining) {
     out.push_back(search_.feasible_before_evaluation(unit) ? judgement(scores[next++])
@@ -177,8 +217,9 @@ std::vector<TaskAnswer> Replay::answers(const std::vector<TaskRequest>& requests
   return out;
 }
 
-std::vector<Score> Replay::scores(const std::vector<Point>& units, Stage stage, bool flat) {
-  return scores_of(answers(requests_of(units, stage, flat)));
+std::vector<Score> Replay::scores(const std::vector<Point>& units, Stage stage, bool flat,
+                                  double most_seconds) {
+  return scores_of(answers(requests_of(units, stage, flat, most_seconds)));
 }
 
 JudgedDesigns Replay::judged(const std::vector<Point>& units, Stage stage) {

@@ -2,6 +2,7 @@
 // workers, and then recorded.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,10 +32,14 @@ class Replay {
   // The next record is one of the search, or there is none: a resumed search stops where its
   // confirmation began.
   bool searching() const;
+  // What the next record answers.
+  std::optional<TaskRequest> next() const;
   // The design of the next record where it is of this stage.
   std::optional<Point> next_unit(Stage stage) const;
-  // Whether the journal goes beyond a stage: nothing of it is left to ask.
-  bool finished(Stage stage) const;
+  // Whether the journal goes beyond a stage: nothing of it is left to ask. flat: of the surfaces
+  // without their relief.
+  bool finished(Stage stage, bool flat = false) const;
+  bool has(Stage stage, bool flat = false) const;  // a record of it
 
   // Judgements of the search.
   std::vector<Judgement> searched(const std::vector<Point>& units);
@@ -42,24 +47,31 @@ class Replay {
   JudgedDesigns searched_before();
 
   std::vector<TaskAnswer> answers(const std::vector<TaskRequest>& requests);
-  // Every task of every design, of another stage than the search's own.
-  std::vector<Score> scores(const std::vector<Point>& units, Stage stage, bool flat = false);
+  // Every task of every design, of another stage than the search's own. most_seconds: of a task.
+  std::vector<Score> scores(const std::vector<Point>& units, Stage stage, bool flat = false,
+                            double most_seconds = 0);
   JudgedDesigns judged(const std::vector<Point>& units, Stage stage);
   // From now on answers depend on the picked design: they are asked anew, beside the journal, when
   // the earlier run picked another.
   void picked() { picked_ = true; }
+  // The run is at its end: continued, it asks nothing more.
+  void end();
 
   // Designs at a time that keep everyone busy; no more, so that a kill loses little.
   std::size_t designs() const;
   std::size_t workers() const { return team_->size(); }
-  // Clock and number of the search's evaluations that were not replayed.
-  int fresh() const { return fresh_; }
-  double seconds() const { return seconds_; }
-  double seconds_each() const { return fresh_ > 0 ? seconds_ / fresh_ : 0; }
+  // Clock and number of a stage's tasks that were not replayed.
+  struct Spent {
+    double seconds = 0;
+    int tasks = 0;
+
+    double each() const { return tasks > 0 ? seconds / tasks : 0; }
+  };
+  const Spent& spent(Stage stage) const { return spent_[static_cast<std::size_t>(stage)]; }
 
  private:
-  std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage,
-                                       bool flat) const;
+  std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage, bool flat,
+                                       double most_seconds) const;
   std::vector<TaskAnswer> ask(const std::vector<TaskRequest>& requests);
   std::vector<Score> scores_of(const std::vector<TaskAnswer>& answers) const;
   Judgement judgement(const Score& score) const;
@@ -82,8 +94,7 @@ class Replay {
   std::vector<TaskRequest> requests_;  // of the journal's records
   std::size_t next_ = 0;
   bool picked_ = false, beside_journal_ = false;
-  double seconds_ = 0;
-  int fresh_ = 0;
+  std::array<Spent, kStages> spent_{};
 };
 
 }  // namespace papilla::search

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "geometry/io/files.h"
+#include "metrics/shown.h"
 #include "optim/pareto.h"
 #include "search/levels.h"
 #include "search/pick.h"
@@ -19,19 +21,24 @@
 namespace papilla::search {
 namespace {
 
+constexpr double kSecondsOfFiles = 1;  // tables, pictures and the page
+// A patch of one skin, by one process where stages have several; skins of a confirmed task.
+constexpr double kPagePatches = 2, kUsualSkins = 16;
+
 // A rule that no front could meet is refused before the search.
-void check_pick_rule(const std::string& rule, const std::vector<StudyObjective>& objectives) {
+void check_pick_rule(const std::string& rule, const StudyProblem& problem) {
   if (rule.find_first_not_of("0123456789") == std::string::npos) return;
   PickCandidate any;
-  for (const StudyObjective& o : objectives) any.names.push_back(o.name);
-  any.objectives.assign(objectives.size(), 0.0);
+  for (const StudyObjective& o : problem.objectives()) any.names.push_back(o.name);
+  any.objectives.assign(any.names.size(), 0.0);
+  if (problem.driven()) any.worst = 0;
   pick_design(rule, {any});
 }
 
 // What can be refused before anything is written.
 std::string checked_folder(const OptimiseOptions& options, const StudyProblem& problem) {
   require_images();
-  check_pick_rule(options.pick, problem.objectives());
+  check_pick_rule(options.pick, problem);
   if (options.resume && !std::filesystem::exists(options.folder + "/journal"))
     throw InputError(options.folder + ": no run to continue here (no journal)");
   return options.folder;
@@ -66,8 +73,9 @@ std::string best_text(const std::vector<StudyObjective>& objectives,
     for (std::size_t i : front) value = std::min(value, history[i].outcome.objectives[k]);
     // The ends of a front are different designs.
     const char* before = !out.empty() ? ", " : front.size() > 1 ? "best of each: " : "best ";
-    out += fmt::format("{}{} {:.3f}", before, objectives[k].name,
-                       objectives[k].maximise ? -value : value);
+    out +=
+        fmt::format("{}{} {}", before, objectives[k].name,
+                    shown_value(objectives[k].expression, objectives[k].maximise ? -value : value));
   }
   return out;
 }
@@ -90,33 +98,38 @@ struct StageSeconds {
 StageSeconds run_stages(Run& run) {
   StageSeconds at;
   bool on = search_designs(run);
-  at.search = run.seconds();
+  at.search = run.clock.seconds();
   on = on && narrow(run);
-  at.narrow = run.seconds();
+  at.narrow = run.clock.seconds();
   on = on && confirm(run);
-  at.confirm = run.seconds();
+  at.confirm = run.clock.seconds();
   on = on && check(run);
   run.result.interrupted = !on;
+  if (on) run.replay.end();
   return at;
 }
 
 void write_files(Run& run, const StageSeconds& at) {
+  const double checked = run.clock.seconds();
   run.result.hypervolumes = hypervolume_shares(run.history.evaluations);
   const std::string rule = run.unmet_pick.empty() ? run.options.pick : "";
   if (run.options.writer)
     run.options.writer->write({run.folder, run.study, run.problem, run.history, run.result, rule});
-  write_bytes(run.folder + "/timing.json",
-              fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
-                          "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "
-                          "\"check_seconds\": {:.3f}, \"seconds_per_evaluation\": {:.4f}}}\n",
-                          at.search, at.narrow - at.search, at.confirm - at.narrow,
-                          run.seconds() - at.confirm, run.replay.seconds_each()));
+  write_bytes(
+      run.folder + "/timing.json",
+      fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
+                  "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "
+                  "\"check_seconds\": {:.3f}, \"files_seconds\": {:.3f}, "
+                  "\"seconds_per_evaluation\": {:.4f}}}\n",
+                  at.search, at.narrow - at.search, at.confirm - at.narrow, checked - at.confirm,
+                  run.clock.seconds() - checked, run.seconds_of_designs(1, Stage::Search)));
 }
 
 }  // namespace
 
 Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi)
-    : study(of),
+    : clock(of.search.time),
+      study(of),
       options(how),
       problem(of),
       search(search_problem(problem)),
@@ -125,22 +138,79 @@ Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi)
       lock(folder),
       replay(problem, search, folder, how.resume, make_team(problem, how, mpi)) {}
 
-double Run::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
 void Run::progress(const char* stage, int done, int total, double left) const {
   if (!options.progress) return;
   options.progress(
       {stage, done, total, best_text(problem.objectives(), history.evaluations), left});
 }
 
-double Run::seconds_of(std::size_t designs, Stage stage) const {
-  return replay.seconds_each() * static_cast<double>(designs) * relative_cost(problem, stage);
+double Run::seconds_of(std::size_t tasks, Stage stage) const {
+  const auto count = static_cast<double>(tasks);
+  // The rounded design is one more to confirm.
+  const Stage like = stage == Stage::Rounding ? Stage::Confirm : stage;
+  if (const Replay::Spent& spent = replay.spent(like); spent.tasks > 0) return count * spent.each();
+  for (const Stage timed : {Stage::Search, Stage::Narrow, Stage::Draft}) {
+    const Replay::Spent& spent = replay.spent(timed);
+    const bool whole = stage == Stage::Confirm || stage == Stage::Rounding;
+    const double limit = whole ? confirm_seconds : 0;
+    if (spent.tasks > 0) return count * spent.each() * price(stage, limit) / price(timed, 0);
+  }
+  return 0;
 }
 
-double Run::seconds_to_confirm() const {
-  return seconds_of(2 * kFinalists + kOtherChecks, Stage::Confirm);
+double Run::price(Stage stage, double most_seconds) const {
+  const auto [at, is_new] = prices_.try_emplace({stage, most_seconds}, 0);
+  if (is_new) at->second = task_price(problem, stage, most_seconds);
+  return at->second;
+}
+
+double Run::seconds_of_designs(std::size_t designs, Stage stage) const {
+  return seconds_of(designs * problem.tasks().size(), stage);
+}
+
+PartSeconds Run::wanted() const {
+  PartSeconds out{};
+  const auto set = [&](Part part, double seconds) {
+    out[static_cast<std::size_t>(part)] = seconds;
+  };
+  const std::size_t front = result.finalists.empty()
+                                ? kFinalists
+                                : static_cast<std::size_t>(std::count_if(
+                                      result.finalists.begin(), result.finalists.end(),
+                                      [](const FinalDesign& f) { return !f.folder.empty(); }));
+  // A level between of too few designs is none: its time is the search's.
+  const bool enough = !clock.limited() || seconds_of_designs(kFewNarrowed, Stage::Narrow) <=
+                                              part_share(Part::Narrow) * study.search.time;
+  if (enough) set(Part::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
+  set(Part::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
+  set(Part::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
+  set(Part::Flat, seconds_of_designs(2, Stage::Confirm));
+  set(Part::Rounding, seconds_of_designs(1, Stage::Rounding));
+  set(Part::Sensitivity, seconds_of_designs(1 + 2 * search.space.size(), Stage::Sensitivity));
+  if (problem.parameters_unknown().empty())
+    set(Part::Parameters, seconds_of(2 * problem.nominal_tasks(), Stage::Steps));
+  // The page solves a patch of the best design at each humidity, and files are written.
+  set(Part::Files, kSecondsOfFiles + seconds_of(1, Stage::Confirm) * kPagePatches / kUsualSkins);
+  return out;
+}
+
+double Run::seconds_from(Part on) const {
+  const PartSeconds all = wanted();
+  return std::accumulate(all.begin() + static_cast<std::ptrdiff_t>(on), all.end(), 0.0);
+}
+
+bool Run::begin(Part part, Stage stage, bool flat, double seconds) {
+  clock.enter(part);
+  if (replay.has(stage, flat)) return true;
+  if (!replay.finished(stage, flat) && fits(seconds)) return true;
+  cut(part, 0, 1);
+  return false;
+}
+
+void Run::cut(Part part, std::size_t done, std::size_t of) {
+  const bool known = std::any_of(result.cuts.begin(), result.cuts.end(),
+                                 [part](const ClockCut& c) { return c.part == part; });
+  if (clock.limited() && done < of && !known) result.cuts.push_back({part, done, of});
 }
 
 bool Run::add_to_history(const Point& unit, const Judgement& judgement) {
@@ -170,6 +240,7 @@ OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
   run.result.lost = run.replay.lost();
   run.result.method = run.method.name;
   run.result.why = run.method.why;
+  run.result.asked = run.search.evaluations;
   write_bytes(run.folder + "/resolved.toml", resolved_toml(study));
   write_bytes(run.folder + "/plan.txt", search_plan(study));
   const StageSeconds at = run_stages(run);

@@ -10,6 +10,8 @@
 
 #include "base/rooms.h"
 #include "forward/response.h"
+#include "search/clock.h"
+#include "search/findings.h"
 #include "search/problem.h"
 #include "search/protocol.h"
 #include "search/sensitivity.h"
@@ -22,6 +24,20 @@ struct Progress {
   int done = 0, total = 0;
   std::string best;         // best values so far, for people
   double seconds_left = 0;  // < 0: not known yet
+};
+
+// Why the search ended.
+enum class SearchEnd {
+  Budget,     // as many evaluations as were asked for
+  Exhausted,  // the method had nothing more to try
+  Refusals,   // the limits of the shape refused ten times the budget
+  Clock,
+};
+
+// A part of the run that the clock cut: evaluations, designs, or 0 of 1 where it was left out.
+struct ClockCut {
+  Part part = Part::Search;
+  std::size_t done = 0, of = 0;
 };
 
 struct FinalDesign {
@@ -37,7 +53,13 @@ struct FinalDesign {
 struct OptimiseResult {
   std::string method, why;
   int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
-  int lost = 0;  // damaged records of the resumed run, computed anew
+  int lost = 0;   // damaged records of the resumed run, computed anew
+  int asked = 0;  // evaluations
+  SearchEnd end = SearchEnd::Budget;
+  std::vector<ClockCut> cuts;  // by the time limit, in the order of the run
+  std::vector<OneValue> one_value;
+  std::vector<AtBound> at_bound;  // of the best design
+  Fidelity confirmed_with;        // of the finalists
   bool interrupted = false;
   bool any_feasible = false;
   std::vector<std::string> never_kept;  // constraints that no design of the search keeps
@@ -45,7 +67,8 @@ struct OptimiseResult {
   std::size_t best = 0;                 // of the finalists: highest worst modulation, or as picked
   std::optional<Score> flat;            // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
-  Stability stability;               // of the order of the finalists on the front, in their order
+  std::optional<FinalDesign> rounded;  // the best on the grid of the fab, where that is another
+  Stability stability;                 // of the order of the finalists on the front, in their order
   std::vector<VariableSensitivity> sensitivity;  // of the best design
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
 

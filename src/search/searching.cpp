@@ -16,11 +16,24 @@ class Searching {
         budget_(static_cast<std::size_t>(run.search.evaluations)) {}
 
   bool run() {
-    while (evaluated_ < budget_ && run_.history.size() < 10 * budget_ && run_.replay.searching()) {
+    SearchEnd& end = run_.result.end;
+    end = SearchEnd::Budget;
+    while (evaluated_ < budget_ && run_.replay.searching()) {
+      if (run_.history.size() >= 10 * budget_) {
+        end = SearchEnd::Refusals;
+        break;
+      }
       const std::vector<Point> asked = searcher_->ask();
-      if (asked.empty()) break;
-      const End end = searcher_->asks_drafts() ? draft(asked) : evaluate(asked);
-      if (end != End::Told) return end == End::OutOfTime;
+      if (asked.empty()) {
+        end = SearchEnd::Exhausted;
+        break;
+      }
+      const End told = searcher_->asks_drafts() ? draft(asked) : evaluate(asked);
+      if (told == End::OutOfTime) {
+        end = SearchEnd::Clock;
+        break;
+      }
+      if (told == End::Interrupted) return false;
     }
     return true;
   }
@@ -33,6 +46,8 @@ class Searching {
     std::vector<Evaluation> batch;
     while (batch.size() < units.size()) {
       if (run_.stopped_before_next()) return End::Interrupted;
+      // Some of each round, however short the time.
+      if (!batch.empty() && !next_is_draft()) break;
       const auto begin = units.begin() + static_cast<std::ptrdiff_t>(batch.size());
       const std::size_t count = std::min(units.size() - batch.size(), 4 * run_.replay.workers());
       const std::vector<Point> some(begin, begin + static_cast<std::ptrdiff_t>(count));
@@ -49,8 +64,8 @@ class Searching {
     std::vector<Evaluation> batch;
     while (batch.size() < asked.size() && evaluated_ < budget_ && run_.replay.searching()) {
       if (run_.stopped_before_next()) return End::Interrupted;
-      if (!run_.replay.replaying() && evaluated_ > 0 && out_of_time()) return End::OutOfTime;
       const std::vector<Point> units = next_of(asked, batch.size());
+      if (units.empty()) return End::OutOfTime;
       const std::vector<Judgement> judgements = run_.replay.searched(units);
       for (std::size_t i = 0; i < units.size(); ++i) {
         evaluated_ += run_.add_to_history(units[i], judgements[i]);
@@ -63,12 +78,18 @@ class Searching {
     return End::Told;
   }
 
-  // Those to evaluate together. One at a time from the journal, which may end or change stage
-  // within the batch.
+  // A draft of the journal, or one that the clock allows: half of the search's time is for others.
+  bool next_is_draft() const {
+    if (run_.replay.replaying()) return run_.replay.next_unit(Stage::Draft).has_value();
+    return run_.fits(2 * run_.seconds_of_designs(run_.search.evaluations, Stage::Search));
+  }
+
+  // Those to evaluate together; none: the time is over. One at a time from the journal, which may
+  // end or change stage within the batch.
   std::vector<Point> next_of(const std::vector<Point>& asked, std::size_t from) const {
     std::vector<Point> out;
     std::size_t counted = evaluated_;
-    const std::size_t most = run_.replay.replaying() ? 1 : run_.replay.designs();
+    const std::size_t most = run_.replay.replaying() ? 1 : affordable();
     for (std::size_t i = from; i < asked.size() && out.size() < most && counted < budget_; ++i) {
       out.push_back(asked[i]);
       counted += run_.search.feasible_before_evaluation(asked[i]);
@@ -76,21 +97,25 @@ class Searching {
     return out;
   }
 
-  double seconds_after_search() const {
-    return run_.seconds_of(narrowings(run_.search), Stage::Narrow) + run_.seconds_to_confirm();
-  }
-  bool out_of_time() const {
-    const double limit = run_.study.search.time;
-    return limit > 0 && run_.seconds() + seconds_after_search() > limit;
+  // Designs that the time is enough for, at most as many as keep everyone busy. The first one is
+  // evaluated alone where there is a limit: what it takes is not known.
+  std::size_t affordable() const {
+    const std::size_t busy = run_.replay.designs();
+    if (!run_.clock.limited()) return busy;
+    if (evaluated_ == 0) return 1;
+    std::size_t count = busy;
+    while (count > 0 && !run_.fits(run_.seconds_of_designs(count, Stage::Search))) --count;
+    return count;
   }
   double seconds_left() const {
-    const Replay& replay = run_.replay;
-    if (replay.fresh() == 0) return -1;
+    const double timed = run_.replay.spent(Stage::Search).seconds;
+    if (!(timed > 0)) return -1;
     // Clock over evaluation time: what the searcher itself takes.
-    const double overhead =
-        replay.seconds() > 0 ? std::max(1.0, run_.seconds() / replay.seconds()) : 1;
-    return static_cast<double>(budget_ - evaluated_) * replay.seconds_each() * overhead +
-           seconds_after_search();
+    const double overhead = std::max(1.0, run_.clock.seconds() / timed);
+    const double left = overhead * run_.seconds_of_designs(budget_ - evaluated_, Stage::Search) +
+                        run_.seconds_from(Part::Narrow);
+    const double limit = run_.study.search.time;
+    return limit > 0 ? std::min(left, std::max(0.0, limit - run_.clock.seconds())) : left;
   }
 
   Run& run_;
@@ -101,12 +126,35 @@ class Searching {
 
 }  // namespace
 
-bool search_designs(Run& run) {
-  if (!run.replay.finished(Stage::Search)) return Searching(run).run();
+namespace {
+
+// A search that went on to its confirmation is over: why, follows from what it left.
+void take_from_journal(Run& run) {
   const JudgedDesigns before = run.replay.searched_before();
   for (std::size_t i = 0; i < before.size(); ++i)
     run.add_to_history(before.evaluations[i].unit,
                        {before.evaluations[i].outcome, before.worst[i]});
+  const bool all = run.result.evaluations >= run.search.evaluations;
+  const bool refused = run.history.size() >= 10 * static_cast<std::size_t>(run.search.evaluations);
+  run.result.end = all                   ? SearchEnd::Budget
+                   : refused             ? SearchEnd::Refusals
+                   : run.clock.limited() ? SearchEnd::Clock
+                                         : SearchEnd::Exhausted;
+}
+
+}  // namespace
+
+bool search_designs(Run& run) {
+  run.clock.enter(Part::Search);
+  if (run.replay.finished(Stage::Search)) {
+    take_from_journal(run);
+  } else if (!Searching(run).run()) {
+    return false;
+  }
+  if (run.result.end == SearchEnd::Clock)
+    run.cut(Part::Search, static_cast<std::size_t>(run.result.evaluations),
+            static_cast<std::size_t>(run.search.evaluations));
+  run.result.one_value = one_value_variables(run.problem, run.history.evaluations);
   return true;
 }
 

@@ -21,7 +21,8 @@ struct Stability {
   std::vector<StabilityVariant> variants;
   std::vector<int> times_on_front;  // of a design, over the variants
 
-  // On the front in two thirds of the variants at least.
+  bool judged(std::size_t design) const { return design < times_on_front.size(); }
+  // On the front in two thirds of the variants at least; of a judged design.
   bool stable(std::size_t design) const {
     return 3 * times_on_front[design] >= 2 * static_cast<int>(variants.size());
   }

@@ -1,11 +1,13 @@
 // The stages of a run, one after another, and what they share.
 #pragma once
 
-#include <chrono>
+#include <map>
 #include <string>
+#include <utility>
 
 #include "base/rooms.h"
 #include "optim/mpi.h"
+#include "search/clock.h"
 #include "search/folder.h"
 #include "search/replay.h"
 #include "search/run.h"
@@ -16,19 +18,28 @@ struct Run {
   // Refuses what can be refused before anything is written. Throws InputError.
   Run(const Study& study, const OptimiseOptions& options, const MpiSession& mpi);
 
-  double seconds() const;  // since the run began
   bool stopped() const { return options.stop && options.stop->load(); }
   // Before a new evaluation: what the journal answers costs nothing.
   bool stopped_before_next() const { return !replay.replaying() && stopped(); }
   // left: expected seconds to the end; < 0: not known.
   void progress(const char* stage, int done, int total, double left) const;
-  // Expected of so many designs at a stage, by what one of the search took.
-  double seconds_of(std::size_t designs, Stage stage) const;
-  double seconds_to_confirm() const;  // and check
+  // Expected of so many tasks at a stage: by what those took that were done, else by what one of
+  // the search took and what plans say of both; 0: nothing was timed yet.
+  double seconds_of(std::size_t tasks, Stage stage) const;
+  double seconds_of_designs(std::size_t designs, Stage stage) const;
+  PartSeconds wanted() const;          // of each part in full
+  double seconds_from(Part on) const;  // wanted by this part and all that follow
+  // Whether work of so many seconds still fits into the present part; true without a limit.
+  bool fits(double seconds) const { return seconds <= clock.left(wanted()); }
+  // Whether to begin a part that is done whole or not at all: as the journal says, else the clock.
+  bool begin(Part part, Stage stage, bool flat, double seconds);
+  // Where the clock cut a part.
+  void cut(Part part, std::size_t done, std::size_t of);
+  double price(Stage stage, double most_seconds) const;  // task_price, computed once
   // Whether the design was evaluated, not refused before.
   bool add_to_history(const Point& unit, const Judgement& judgement);
 
-  const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  RunClock clock;
   const Study& study;
   const OptimiseOptions& options;
   const StudyProblem problem;
@@ -39,8 +50,12 @@ struct Run {
   Replay replay;
 
   JudgedDesigns history, narrowed;  // of the search; of the level between
+  double confirm_seconds = 0;       // that a confirmed task may cost, as plans price it; 0: any
   OptimiseResult result;
   std::string unmet_pick;  // why the rule of options.pick fits no design of the front
+
+ private:
+  mutable std::map<std::pair<Stage, double>, double> prices_;
 };
 
 // Each returns false where the run was interrupted.

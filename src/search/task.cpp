@@ -15,9 +15,6 @@
 namespace papilla::search {
 namespace {
 
-// Steps of the parameters of confirmed designs: skins over all fingers, pixels.
-constexpr int kStepSkins = 12, kStepGrid = 64;
-
 // Root mean square distance from the target over humidity. Eq. search.11
 double distance(const StudyObjective& o, const Response& response) {
   double sum = 0, total = 0;
@@ -52,13 +49,6 @@ Texture without_relief(const Design& textured) {
   return depth || !facts(flat.texture).relief.present ? flat.texture : Texture{};
 }
 
-// Skins are shared out over the population, as in the search.
-Fidelity steps_fidelity(const StudyProblem& problem, Fidelity fidelity) {
-  fidelity.skins = std::max(2, kStepSkins / static_cast<int>(problem.nominal_tasks()));
-  fidelity.grid = kStepGrid;
-  return fidelity;
-}
-
 std::vector<StepSamples> steps_of(const StudyGoals& goals, const Response& response) {
   std::vector<StepSamples> out;
   for (const StudyObjective& o : goals.objectives) out.push_back(steps_of(o, response));
@@ -89,7 +79,8 @@ Response respond(const Scene& scene, const Design& d, const TaskWork& work) {
                             {.target = d.accuracy.target,
                              .first_skin = work.fidelity.first_skin,
                              .seed = work.fidelity.seed,
-                             .threads = work.fidelity.threads});
+                             .threads = work.fidelity.threads,
+                             .most_seconds = work.most_seconds});
 }
 
 // A summary of the response; else the answer is that it is not defined.
@@ -191,7 +182,7 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
   return [&problem, threads, text](const Bytes& bytes) {
     const auto request = decode_request(bytes);
     PAPILLA_CHECK(request, "a request as it was encoded");
-    Fidelity fidelity = stage_fidelity(problem, request->stage);
+    Fidelity fidelity = stage_fidelity(problem, request->stage, request->most_seconds);
     fidelity.threads = threads;
     Design design = problem.space().design(request->unit);
     if (request->flat) design.texture = without_relief(design);
@@ -204,11 +195,14 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
       case Stage::Draft:
       case Stage::Narrow:
       case Stage::Confirm:
+      case Stage::Rounding:
       case Stage::Sensitivity:
+      case Stage::Done:
         break;
     }
-    const bool confirmed = request->stage == Stage::Confirm;
-    return encode(evaluate_task(problem, design, request->task, {fidelity, confirmed, text}));
+    const bool confirmed = request->stage == Stage::Confirm || request->stage == Stage::Rounding;
+    return encode(evaluate_task(problem, design, request->task,
+                                {fidelity, confirmed, text, request->most_seconds}));
   };
 }
 

@@ -19,7 +19,8 @@ using ResponseText = std::function<std::string(const Response&)>;
 struct TaskWork {
   Fidelity fidelity;
   bool confirmed = false;
-  ResponseText text{};  // of a confirmed task; may be empty
+  ResponseText text{};      // of a confirmed task; may be empty
+  double most_seconds = 0;  // on the way to the target, as plans price it; 0: any
 };
 
 TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std::size_t task,

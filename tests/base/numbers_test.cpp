@@ -9,6 +9,8 @@
 #include "base/parallel.h"
 #include "base/quadrature.h"
 #include "base/random.h"
+#include "base/statistics.h"
+#include "base/text.h"
 
 namespace papilla::tests {
 namespace {
@@ -136,6 +138,28 @@ TEST(ParallelFor, CallsEachOnceWhateverTheThreads) {
         50, [&](int i) { ++calls[static_cast<std::size_t>(i)]; }, threads);
     EXPECT_EQ(calls, std::vector<int>(50, 1));
   }
+}
+
+// Tables of Student's distribution (Abramowitz & Stegun 26.10), and its closed forms at 1 and 2.
+TEST(Statistics, StudentsDistributionHasItsTabulatedValues) {
+  EXPECT_NEAR(student_t_cdf(2.571, 5), 0.975, 2e-5);
+  EXPECT_NEAR(student_t_cdf(4.032, 5), 0.995, 2e-5);
+  EXPECT_NEAR(student_t_cdf(1.812, 10), 0.95, 5e-5);
+  EXPECT_NEAR(student_t_cdf(3.385, 30), 0.999, 2e-6);
+  for (double t : {-30.0, -1.7, -0.01, 0.0, 0.3, 2.5, 400.0}) {
+    EXPECT_NEAR(student_t_cdf(t, 1), 0.5 + std::atan(t) / std::acos(-1.0), 1e-10) << t;
+    EXPECT_NEAR(student_t_cdf(t, 2), 0.5 + t / (2 * std::sqrt(2 + t * t)), 1e-10) << t;
+    EXPECT_NEAR(student_t_cdf(t, 1e9), normal_cdf(t), 1e-9) << t;
+    EXPECT_NEAR(student_t_cdf(t, 0.9999e5), student_t_cdf(t, 1.0001e5), 1e-9) << t;
+  }
+}
+
+TEST(Text, AZeroHasNoSign) {
+  EXPECT_EQ(fixed(-0.0001, 3), "0.000");
+  EXPECT_EQ(fixed(0.0, 3), "0.000");
+  EXPECT_EQ(fixed(-0.0006, 3), "-0.001");
+  EXPECT_EQ(fixed(12.5, 1), "12.5");
+  EXPECT_EQ(fixed(-10.0, 0), "-10");
 }
 
 }  // namespace

@@ -68,6 +68,63 @@ TEST(Program, CompletionIsValidShell) {
   EXPECT_EQ(bash.out, "explain\n") << bash.err;
 }
 
+// One line a command and an option, in words that fish reads; every option of the program is there.
+TEST(Program, CompletionOfFishKnowsEveryCommand) {
+  const Workplace place;
+  const Outcome fish = place.run("completion fish");
+  ASSERT_EQ(fish.status, 0) << fish.err;
+  EXPECT_NE(
+      fish.out.find("complete -c papilla -n __fish_use_subcommand -f -a optimize -d 'Search "),
+      std::string::npos)
+      << fish.out;
+  EXPECT_NE(fish.out.find("-n '__fish_seen_subcommand_from optimize' -l time -r -d '"),
+            std::string::npos);
+  EXPECT_NE(fish.out.find("-n '__fish_seen_subcommand_from solve' -f -a haze"), std::string::npos);
+  std::istringstream lines(fish.out);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_TRUE(line.starts_with('#') || line.starts_with("complete -c papilla ")) << line;
+}
+
+TEST(Program, ManualPagesAreOfTheCommandsThemselves) {
+  const Workplace place;
+  ASSERT_EQ(place.run("describe --manuals man").status, 0);
+  const std::string page = file_text(place.path() / "man/papilla-optimize.1");
+  EXPECT_TRUE(page.starts_with(".TH \"papilla\\-optimize\" \"1\"")) << page;
+  EXPECT_NE(page.find("\\fB\\-\\-time\\fR"), std::string::npos) << page;
+  EXPECT_NE(page.find("130 for Ctrl"), std::string::npos);
+  EXPECT_NE(file_text(place.path() / "man/papilla.1").find(".BR papilla\\-rank (1)"),
+            std::string::npos);
+  EXPECT_NE(file_text(place.path() / "man/papilla-solve.1").find("papilla solve haze"),
+            std::string::npos);
+}
+
+TEST(Describe, KnowsTheSectionsOfStudiesAndTheWordsOfTheField) {
+  const Workplace place;
+  for (const char* section : {"search", "objective", "design_space", "constraints", "population",
+                              "scenarios", "scatter", "base"}) {
+    const Outcome run = place.run(std::string("describe ") + section);
+    EXPECT_EQ(run.status, 0) << section << run.err;
+    EXPECT_NE(run.out.find(std::string("\n") + section), std::string::npos) << run.out;
+  }
+  EXPECT_EQ(place.run("describe search").out.find("constraints."), std::string::npos);
+  EXPECT_NE(place.run("describe search.time").out.find("wall-clock"), std::string::npos);
+  EXPECT_NE(place.run("describe voltage").err.find("did you mean `drive.amplitude`?"),
+            std::string::npos);
+  EXPECT_NE(place.run("describe drive.voltage").err.find("did you mean `drive.amplitude`?"),
+            std::string::npos);
+}
+
+TEST(Explain, OfAStudySaysWhatItTakes) {
+  const Workplace place;
+  const Outcome run = place.run("explain " PAPILLA_DESIGNS_DIR "/electroadhesive_glass/study.toml");
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_NE(
+      run.out.find("as a study: 100 evaluations of 4 tasks each, then 32 designs judged again"),
+      std::string::npos)
+      << run.out;
+  EXPECT_NE(run.out.find("MB a worker"), std::string::npos) << run.out;
+}
+
 TEST(Explain, NamesWhatItSkipsAndWhy) {
   const Workplace place;
   const Outcome undriven = place.run("explain " + kSample + " --set drive.amplitude=0V");

@@ -89,7 +89,7 @@ TEST(Optimize, AnInterruptEndsTidilyAndIsResumed) {
   const Outcome ended = place.shell(kOptimize + " --out run & run=$!; " + kUntilJournal +
                                     "sleep 0.4; "
                                     "kill -INT $run; wait $run");
-  EXPECT_EQ(ended.status, 1) << ended.err;
+  EXPECT_EQ(ended.status, 130) << ended.err;
   const std::string summary = file_text(place.path() / "run/summary.md");
   EXPECT_NE(summary.find("continue with --resume"), std::string::npos) << summary;
   ASSERT_EQ(place.shell(kOptimize + " --out run --resume").status, 0);

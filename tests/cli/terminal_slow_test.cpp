@@ -59,6 +59,24 @@ TEST(Json, OfExportReportAndDescribeIsOneObject) {
   EXPECT_EQ(surface.at("tables").at(0).at("keys").at(0).at("key"), "surface.contact_angle");
 }
 
+// A line of 80 columns would wrap, and a bar that wraps scrolls.
+TEST(Progress, FitsATerminalOfEightyColumns) {
+  const Workplace place;
+  if (place.shell("command -v script").status) GTEST_SKIP() << "needs script (bsdutils)";
+  const Outcome run = place.shell("script -qec '" PAPILLA_PROGRAM " optimize " PAPILLA_TEST_DATA
+                                  "/study/tiny.toml --out run' /dev/null");
+  EXPECT_EQ(run.status, 0) << run.out;
+  std::size_t bars = 0;
+  for (std::size_t at = run.out.find("\033[K"); at != std::string::npos;
+       at = run.out.find("\033[K", at + 1)) {
+    const std::size_t end = run.out.find_first_of("\r\n", at);
+    const std::string line = run.out.substr(at + 3, end == std::string::npos ? end : end - at - 3);
+    EXPECT_LE(text_width(line), 79u) << line;
+    ++bars;
+  }
+  EXPECT_GE(bars, 3u);
+}
+
 TEST(Colours, AreForTerminalsAndStopAtNoColor) {
   const Workplace place;
   const std::string explain = "explain " PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml";

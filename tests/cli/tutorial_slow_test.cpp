@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -30,6 +32,34 @@ std::vector<Block> blocks_of(const std::string& page) {
   }
   EXPECT_FALSE(open);
   return out;
+}
+
+// The grid's part of F_off in percent, mean over the humidities.
+double grid_part(const Workplace& place, const std::string& level) {
+  const Outcome run = place.run("evaluate first.toml --json --set accuracy.level=" + level);
+  EXPECT_EQ(run.status, 0) << run.err;
+  const auto points = nlohmann::json::parse(run.out).at("points");
+  double sum = 0;
+  for (const auto& p : points) {
+    const auto& friction = p.at("F_off");
+    sum += friction.at("parts").at("grid").get<double>() / friction.at("value").get<double>();
+  }
+  return 100 * sum / static_cast<double>(points.size());
+}
+
+// Numbers in its sentences are those of the program.
+TEST(Tutorial, ItsNumbersAreWhatTheProgramSays) {
+  const Workplace place;
+  const std::string page = file_text(PAPILLA_SOURCE_DIR "/docs/tutorial.md");
+  for (const Block& block : blocks_of(page)) {
+    if (block.head == "toml first.toml") place.write("first.toml", block.text);
+  }
+  std::smatch said;
+  ASSERT_TRUE(std::regex_search(
+      page, said,
+      std::regex("the grid leaves\\s+(\\d+) % of `F_off` at `draft`, (\\d+) % at `design`")));
+  EXPECT_NEAR(std::stod(said[1]), grid_part(place, "draft"), 1);
+  EXPECT_NEAR(std::stod(said[2]), grid_part(place, "design"), 1);
 }
 
 TEST(Tutorial, EveryBlockWorksAsWritten) {

@@ -1,26 +1,15 @@
-<<<<<<< HEAD
 // What is said of files that differ from their design.
 #include "fabricate/verify.h"
 
 #include "geometry/io/drawing.h"
 #include "tests/fabricate/exported_folder.h"
-=======
-// An exported file judged as what a maker will get.
-#include "fabricate/verify.h"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
 
 #include "base/constants.h"
 #include "fabricate/export.h"
->>>>>>> mutants
 
 namespace papilla::tests {
 namespace {
 
-<<<<<<< HEAD
 // What a fault says: a number a maker can act on.
 std::string faults_of(const Folder& folder, const std::string& name) {
   std::string out;
@@ -93,7 +82,8 @@ TEST(Verify, RefusesAFolderWithoutARecord) {
   EXPECT_THROW(verify_folder(place.path().string()), InputError);
   write_bytes((place.path() / kRecordName).string(), "{\"made_from\": {\"design\": 3}}");
   EXPECT_THROW(verify_folder(place.path().string()), InputError);
-=======
+}
+
 TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   Study study;
   study.design.environment.relative_humidity = {0.35};
@@ -121,7 +111,6 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   EXPECT_NE(narrow.faults[0].find(" um, below 2.5 um (pixel 0.062 um)"), std::string::npos)
       << narrow.faults[0];
   EXPECT_EQ(verify_export(study, file, 0).faults.size(), 1u + (narrow.loss > 0));
->>>>>>> mutants
 }
 
 }  // namespace

@@ -28,9 +28,14 @@ TEST(Ahead, WhatTheFingerLeavesOpenIsInTheProbability) {
   const double lead = open.ahead_of_next.value, finger = *open.ahead_of_next.parameters;
   EXPECT_EQ(lead, own.ahead_of_next.value);
   EXPECT_GT(finger, 0.5 * lead);
-  // The skins' part: what the probability without the finger says.
-  const double skins = lead / normal_quantile(own.p_ahead);
-  EXPECT_NEAR(open.p_ahead, normal_cdf(lead / std::hypot(skins, finger)), 1e-6);
+  // The skins' part: what the probability without the finger says, of six skins.
+  double low = 0.01 * lead, high = 100 * lead;
+  for (int k = 0; k < 100; ++k) {
+    const double middle = std::sqrt(low * high);
+    (student_t_cdf(lead / middle, 5) > own.p_ahead ? low : high) = middle;
+  }
+  const double both = std::hypot(low, finger);
+  EXPECT_NEAR(open.p_ahead, student_t_cdf(lead / both, 5 * std::pow(both / low, 4)), 1e-6);
   EXPECT_LT(open.p_ahead, own.p_ahead - 0.05);
 }
 

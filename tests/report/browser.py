@@ -1,7 +1,8 @@
 """Opens a report in headless Chromium: browser.py PAGE.html [PICTURE_FOLDER]. Exit 0: all as it should be.
 
 Every chart has drawn something, nothing is written to the console, nothing is asked of the network, pointing and
-selecting work, no sideways scrolling at 400 px, the page prints.
+selecting work, the page prints. In light and dark, at 1100 and 380 px: no sideways scrolling, no table cut, text of
+enough contrast (WCAG 2.1: 4.5, large text 3), a name for every canvas, choice and region.
 """
 import base64
 import json
@@ -17,7 +18,7 @@ import urllib.request
 # The charts that a page must have, by what it calls itself.
 CHARTS = {
     "Papilla report": ["section", "humidity", "pareto", "budget", "progress"],
-    "Papilla report: ranking": ["score", "best", "criterion0", "criterion1", "together", "ahead"],
+    "Papilla report: ranking": ["criterion0", "criterion1", "together"],
     "Papilla report: fit of a finger": ["widths", "directions", "misses", "held"],
 }
 
@@ -101,6 +102,13 @@ const seen = new Set(); for (let i = 0; i < d.length; i += 4) seen.add(d[i] << 1
 
 def inspect_optimize(browser):
     headings = "return [...document.querySelectorAll('#stability h2, #sensitivity h2')].map(h => h.textContent)"
+    advice = browser.run("return document.getElementById('lead').textContent")
+    check(re.match("Build|Leave it flat|Whether", advice), f"no recommendation: {advice}")
+    check(browser.run("return document.querySelectorAll('#steps tbody tr').length") >= 2, "no steps from flat to best")
+    held = browser.run("""
+        const c = papilla.charts.pareto, sets = c.data.datasets.filter(s => s.bars).flatMap(s => s.data);
+        return sets.every(p => p.x - p.ex >= c.scales.x.min && p.x + p.ex <= c.scales.x.max && p.y - p.ey >= c.scales.y.min && p.y + p.ey <= c.scales.y.max)""")
+    check(held, "error bars leave the chart of the trade-offs")
     check("What the best design is sensitive to" in browser.run(headings), f"headings {browser.run(headings)}")
     check(browser.run("return document.querySelectorAll('#sensitivity tbody tr').length") >= 2, "no sensitivities")
     cut = "return [...document.querySelectorAll('#numbers, #finalists')].map(t => t.parentElement.scrollWidth - t.parentElement.clientWidth)"
@@ -146,7 +154,11 @@ def point_at(browser, chart, spot):
 
 
 def inspect_rank(browser):
-    point_at(browser, "score", bar(browser, "score"))
+    scored = "score" in browser.run("return Object.keys(papilla.charts)")
+    chart = "score" if scored else "criterion0"
+    point_at(browser, chart, bar(browser, chart))
+    pairs = browser.run("return document.querySelectorAll('#pairs tbody tr').length")
+    check((pairs >= 2) != scored, f"{pairs} rows of who beats whom, scored {scored}")
     before = browser.run("return document.getElementById('lead').textContent")
     browser.run("const s = document.getElementById('finger'); s.value = '1'; s.dispatchEvent(new Event('change'))")
     after = browser.run("return document.getElementById('lead').textContent")
@@ -164,12 +176,58 @@ def inspect_calibrate(browser):
         check(browser.run(f"return document.querySelectorAll('#{name} tbody tr').length") >= 2, f"table {name} is empty")
 
 
+# Texts whose colour is too near to what is behind them, with the ratio.
+FAINT = """
+const light = (c) => { const [r, g, b] = c.map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : Math.pow((v + 0.055) / 1.055, 2.4)); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+const parse = (text) => { const m = /rgba?\\(([^)]*)\\)/.exec(text)[1].split(',').map(Number); return { rgb: m.slice(0, 3), a: m.length > 3 ? m[3] : 1 }; };
+const behind = (e) => { if (!e) return [255, 255, 255]; const c = parse(getComputedStyle(e).backgroundColor); if (c.a >= 1) return c.rgb; const below = behind(e.parentElement); return c.rgb.map((v, i) => c.a * v + (1 - c.a) * below[i]); };
+const bad = [], walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+for (let n = walker.nextNode(); n; n = walker.nextNode()) {
+  const e = n.parentElement, style = getComputedStyle(e);
+  if (!n.textContent.trim() || ['SCRIPT', 'STYLE', 'NOSCRIPT', 'OPTION'].includes(e.tagName) || !e.getClientRects().length) continue;
+  const a = light(parse(style.color).rgb), b = light(behind(e)), ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+  const size = parseFloat(style.fontSize), large = size >= 24 || (size >= 18.66 && +style.fontWeight >= 700);
+  if (ratio < (large ? 3 : 4.5)) bad.push(ratio.toFixed(2) + ' ' + n.textContent.trim().slice(0, 30));
+}
+return bad;
+"""
+NAMELESS = """
+return [...document.querySelectorAll('canvas:not([aria-label]), .scroll:not([aria-label])')].map(e => e.id || e.className)
+  .concat([...document.querySelectorAll('select')].filter(s => !s.labels.length).map(s => s.id))
+  .concat(document.documentElement.lang && document.title ? [] : ['page']);
+"""
+CUT = """
+return [...document.querySelectorAll('.scroll')].filter(b => b.scrollWidth > b.clientWidth + 1 && b.getClientRects().length).map(b => b.firstElementChild.id || 'table');
+"""
+
+
+def inspect_looks(browser, page):
+    for scheme in ["dark", "light"]:
+        browser.call("POST", "/goog/cdp/execute", {"cmd": "Emulation.setEmulatedMedia", "params": {
+            "features": [{"name": "prefers-color-scheme", "value": scheme}]}})
+        for width in [1100, 380]:
+            browser.metrics(width, 900)
+            browser.call("POST", "/url", {"url": "file://" + os.path.abspath(page)})
+            check(browser.run("return document.documentElement.dataset.charts"), f"the script ended early in {scheme}")
+            paper = browser.run("return getComputedStyle(document.body).backgroundColor")
+            check((paper == "rgb(255, 255, 255)") == (scheme == "light"), f"{scheme} on {paper}")
+            # Charts take the new width a frame later.
+            wide = "return document.documentElement.scrollWidth"
+            check(eventually(lambda: browser.run(wide) <= width), f"{browser.run(wide)} px wide at {width} px")
+            faint, nameless = browser.run(FAINT), browser.run(NAMELESS)
+            check(not faint, f"too faint in {scheme} at {width} px: {faint}")
+            check(not nameless, f"without a name: {nameless}")
+            cut = browser.run(CUT) if width == 380 else []
+            check(not cut, f"tables cut at {width} px: {cut}")
+            browser.picture(f"{scheme}_{width}.png")
+
+
 def inspect(browser, page):
+    inspect_looks(browser, page)
     browser.metrics(1100, 900)
     browser.call("POST", "/url", {"url": "file://" + os.path.abspath(page)})
     kind = browser.run("return document.querySelector('.kicker').textContent")
     check(browser.run("return document.documentElement.dataset.charts"), "the page script ended early")
-    browser.picture("wide.png")
     charts = browser.run("return Object.keys(papilla.charts)")
     check(set(CHARTS[kind]) <= set(charts), f"charts {charts}")
     for name in charts:
@@ -179,11 +237,6 @@ def inspect(browser, page):
     {"Papilla report": inspect_optimize, "Papilla report: ranking": inspect_rank,
      "Papilla report: fit of a finger": inspect_calibrate}[kind](browser)
 
-    browser.metrics(400, 800)
-    wide = "return document.documentElement.scrollWidth"
-    # Charts take the new width a frame later.
-    check(eventually(lambda: browser.run(wide) <= 400), f"{browser.run(wide)} px wide at 400 px")
-    browser.picture("narrow.png")
     paper = base64.b64decode(browser.call("POST", "/print", {}))
     check(paper.startswith(b"%PDF") and len(paper) > 20000, "does not print")
 

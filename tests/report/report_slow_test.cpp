@@ -113,7 +113,7 @@ TEST(Report, OfARankingIsDrawnAndTheSameByTheCommand) {
   const std::string designs = PAPILLA_SOURCE_DIR "/designs/coatings/";
   for (const auto& [by, folder] :
        {std::pair("friction:low,adhesion:low", "two"),
-        std::pair("friction:low,adhesion:low,compliance:high", "three")}) {
+        std::pair("friction:low,adhesion:low,compliance:high --weights 2,1,1", "three")}) {
     const Outcome run = place.run("-q rank " + designs + "fine.toml " + designs + "hard.toml " +
                                   designs + "sparse.toml --by " + by +
                                   " --state clean,natural --set accuracy.level=draft --max-skins "

@@ -40,7 +40,7 @@ TEST(Protocol, AnAnswerComesBackInEveryBit) {
 }
 
 TEST(Protocol, ARequestAndAJudgementComeBack) {
-  const TaskRequest request{Stage::Steps, 7, true, {0.1, 1.0 / 3}};
+  const TaskRequest request{Stage::Steps, 7, true, {0.1, 1.0 / 3}, 2.5};
   EXPECT_EQ(decode_request(encode(request)), request);
   const Judgement judgement{{false, "min_wall: below 0.4 um", {}, {-0.5, 2}, {}}, 0};
   const auto back = decode_judgement(encode(judgement));
@@ -58,10 +58,10 @@ TEST(Protocol, WhatIsCutOrOtherwiseWrittenIsNoAnswer) {
   Bytes other = whole;
   other.replace(other.find("p-2"), 3, "p-02");
   EXPECT_FALSE(decode_answer(other));
-  EXPECT_FALSE(decode_request("99 0 0 0"));  // no such stage
-  EXPECT_TRUE(decode_request("0 0 0 0"));
-  EXPECT_FALSE(decode_request("0 0 0 1000000000"));  // a list that is not there
-  EXPECT_FALSE(decode_request("0 0 2 0"));
+  EXPECT_FALSE(decode_request("99 0 0 0 0x0p+0"));  // no such stage
+  EXPECT_TRUE(decode_request("0 0 0 0 0x0p+0"));
+  EXPECT_FALSE(decode_request("0 0 0 1000000000 0x0p+0"));  // a list that is not there
+  EXPECT_FALSE(decode_request("0 0 2 0 0x0p+0"));
 }
 
 TEST(Protocol, AFailureOfAWorkerIsAStatus) {

@@ -33,7 +33,7 @@ function showParameters() {
     data: parameters.map((p) => width(p, p.value)), interval: parameters.map((p) => [width(p, p.low), width(p, p.high)]),
     text: parameters.map((p) => `${shown(p, p.value)}, 95 %: ${shown(p, p.low)} to ${shown(p, p.high)}`),
   };
-  const prior = { data: parameters.map(() => [-1, 1]), backgroundColor: '#d9dde3', barPercentage: 0.9, label: 'prior ±1', text: parameters.map(priorText) };
+  const prior = { data: parameters.map(() => [-1, 1]), backgroundColor: ink('line'), barPercentage: 0.9, label: 'prior ±1', text: parameters.map(priorText) };
   rowsChart('widths', parameters.map((p) => p.path), [Object.assign(set, { label: 'fitted, 95 % interval' }), prior], axis('prior widths from the prior', room([set], [-2, 2])));
   table($('values'), ['Parameter', 'Start', 'Fitted', '95 % interval', 'Prior', 'From the data [%]'], parameters.map((p) => [
     p.path, shown(p, p.start), shown(p, p.value), `${shown(p, p.low)}${p.low_open ? ' (bound)' : ''} to ${shown(p, p.high)}${p.high_open ? ' (bound)' : ''}`,
@@ -47,7 +47,7 @@ function showMatrix() {
   for (let i = 0; i < n; ++i) {
     for (let k = 0; k < n; ++k) {
       const r = fit.correlation[i * n + k], c = body.rows[i].cells[k + 1];
-      c.style.backgroundColor = `rgba(${r > 0 ? '31,111,159' : '194,87,26'},${i === k ? 0.12 : 0.75 * Math.abs(r)})`;
+      c.style.backgroundColor = `rgba(${r > 0 ? '31,111,159' : '194,87,26'},${i === k ? 0.12 : 0.5 * Math.abs(r)})`;
       c.title = `${names[i]}, ${names[k]}: ${r.toFixed(3)}`;
     }
   }
@@ -67,7 +67,7 @@ function showResiduals() {
   const rows = fit.residuals, miss = (r, v) => (r.low !== null && v < r.low ? v - r.low : r.high !== null && v > r.high ? v - r.high : 0) / Math.hypot(r.sd, r.sampling_sd);
   const names = rows.map((r) => r.source), clip = (v) => Math.min(Math.max(v, -6), 6);
   const set = (label, key, tint) => ({ label, backgroundColor: tint, maxBarThickness: 9, data: rows.map((r) => clip(miss(r, r[key]))), text: rows.map((r) => `${label} the fit: ${r.what} ${round(r[key], 4)}, miss ${miss(r, r[key]).toFixed(2)} sd`) });
-  rowsChart('misses', names, [set('before', 'before', '#b9c0ca'), set('after', 'after', colours[0])], axis('miss [standard deviations]', { min: -6, max: 6 }));
+  rowsChart('misses', names, [set('before', 'before', faint.searched), set('after', 'after', colours[0])], axis('miss [standard deviations]', { min: -6, max: 6 }));
   const band = (r) => r.low === r.high ? round(r.low, 4) : r.high === null ? 'above ' + round(r.low) : r.low === null ? 'below ' + round(r.high) : `${round(r.low)} to ${round(r.high)}`;
   table($('residualtable'), ['Source', 'Quantity', 'Data', 'sd', 'Sampling of the model', 'Before', 'After', 'Miss [sd]'],
     rows.map((r) => [r.source, r.what, band(r), round(r.sd), round(r.sampling_sd, 2), round(r.before, 4), round(r.after, 4), r.residual.toFixed(2)]), [2, 3, 4, 5, 6, 7]);
@@ -82,7 +82,7 @@ function showClaims() {
     const set = (label, key, tint) => ({ label, backgroundColor: tint, maxBarThickness: 22, data: groups.map((g) => share(g, key)), text: groups.map((g) => `${label}: ${g.filter((c) => c[key]).length} of ${g.length}`) });
     draw('held', {
       type: 'bar',
-      data: { labels: groups.map((g, i) => `${i ? 'held out' : 'fitted'} (${g.length})`), datasets: [set('before', 'held_before', '#b9c0ca'), set('after', 'holds', colours[0])] },
+      data: { labels: groups.map((g, i) => `${i ? 'held out' : 'fitted'} (${g.length})`), datasets: [set('before', 'held_before', faint.searched), set('after', 'holds', colours[0])] },
       options: { indexAxis: 'y', scales: { x: axis('claims that hold [%]', { min: 0, max: 100 }), y: { grid: { display: false } } }, plugins: { tooltip: { callbacks: { label: (item) => item.dataset.text[item.dataIndex] } } } },
     });
     table($('claimtable'), ['', 'Claim', 'Fitted or held out', 'Before', 'After'],
@@ -93,7 +93,7 @@ function showClaims() {
     + (mu.length === 4 ? ` Friction coefficient on flat glass at 0.2 N: ${mu.map((v) => v.toFixed(2)).join(', ')} at 15, 35, 55, 75 % RH (published on screens at 1 N: 0.2 and 0.4).` : '');
 }
 
-$('lead').textContent = (fit.warning ? `Warning: ${fit.warning}. ` : '') + `${fit.residuals.length} numbers, ${parameters.length} parameters: χ² of the data ${round(fit.chi2_before)} before, ${round(fit.chi2)} after, of the priors ${round(fit.prior_chi2)}; ${fit.degrees_of_freedom} degrees of freedom. `
+$('lead').textContent = (fit.warning ? `Warning: ${fit.warning}. ` : '') + (fit.verdicts || []).map((v) => v.charAt(0).toUpperCase() + v.slice(1) + '. ').join('') + `${fit.residuals.length} numbers, ${parameters.length} parameters: χ² of the data ${round(fit.chi2_before)} before, ${round(fit.chi2)} after, of the priors ${round(fit.prior_chi2)}; ${fit.degrees_of_freedom} degrees of freedom. `
   + (fit.converged ? 'The fit converged' : 'The fit stopped early') + ` after ${fit.evaluations} evaluations of the model.`;
 showParameters();
 showMatrix();

@@ -11,7 +11,7 @@ function startSolid() {
     return;
   }
   solid.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-  solid.renderer.setClearColor(0xf5f6f8);
+  solid.renderer.setClearColor(ink('tint'));
   solid.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
   box.appendChild(solid.renderer.domElement);
   solid.scene = new THREE.Scene();
@@ -112,7 +112,7 @@ function showHumidity() {
   const pick = (list, key) => state.finger === 'mean' ? meanPoints(list, key) : (list[+state.finger] || {})[key];
   const sets = curve(label(state.design), pick(tasks, 'points') || [], colours[0]);
   const flat = pick(flats, 'flat');
-  if (flat) sets.push(...curve('flat', flat, flatColour, [6, 4]));
+  if (flat) sets.push(...curve('flat', flat, faint.flat, [6, 4]));
   draw('humidity', {
     type: 'line',
     data: { datasets: sets },
@@ -138,20 +138,32 @@ const finalists = csv(data.pareto), history = csv(data.history);
 const heads = data.pareto.split('\n')[0].split(',');
 const objectives = heads.filter((h) => heads.includes(h + ' se'));
 const variables = heads.slice(1, heads.indexOf(objectives[0]));
-const second = objectives[1] || 'worst modulation';
+// One objective of an undriven surface has nothing to be traded for.
+const second = objectives[1] || (data.run.driven ? 'worst modulation' : objectives[0]);
 const label = (name) => name === 'best' ? 'best' : name.replace('front/', 'design ');
 const describe = (row) => variables.map((v) => {
   const unit = / \[(.*)\]$/.exec(v);
   return `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${round(+row[v])}${unit ? ' ' + unit[1] : ''}`;
 });
 const state = { design: 'best', finger: 'mean' };
+const run = data.run;
+// Objectives in the units that people read: forces in mN.
+const shownAs = (name) => (run.shown || {})[name] || { scale: 1, unit: '' };
+const called = (name) => name + (shownAs(name).unit ? ' [' + shownAs(name).unit + ']' : '');
+const change = (v, name) => { const s = shownAs(name), text = s.unit ? round(v * s.scale, 3) : fixed(v); return text.startsWith('-') ? '−' + text.slice(1) : '+' + text; };
+function quantity(q, name) {
+  const s = shownAs(name);
+  if (!q || !s.unit) return withError(q);
+  return round(q.value * s.scale, 4) + (q.se !== undefined && q.se !== null ? ' ± ' + round(q.se * s.scale, 2) : '') + (q.parameters ? ' (' + round(q.parameters * s.scale, 2) + ')' : '');
+}
 
 // best/ is a copy of a design of the front: the one with the same variables.
 const twin = Object.keys(data.designs).find((name) => name !== 'best' && JSON.stringify(data.designs[name].variables) === JSON.stringify(data.designs.best.variables)) || 'best';
 const shown = () => state.design === 'best' ? twin : state.design;
 
 function showPareto() {
-  const point = (row, se) => ({ x: +row[objectives[0]], y: +row[second], ex: se ? +row[objectives[0] + ' se'] || 0 : 0, ey: se ? +row[second + ' se'] || 0 : 0, row });
+  const sx = shownAs(objectives[0]).scale, sy = shownAs(second).scale;
+  const point = (row, se) => ({ x: sx * row[objectives[0]], y: sy * row[second], ex: se ? sx * row[objectives[0] + ' se'] || 0 : 0, ey: se ? sy * row[second + ' se'] || 0 : 0, row });
   const number = (row) => row[objectives[0]] !== '' && row[second] !== '';
   const front = finalists.filter((r) => r['on front'] === 'yes' && number(r)).sort((a, b) => a[objectives[0]] - b[objectives[0]]);
   const dominated = finalists.filter((r) => r['on front'] !== 'yes' && number(r));
@@ -159,20 +171,21 @@ function showPareto() {
   const sets = [
     { label: 'shown on this page', data: chosen.map((r) => point(r)), pointRadius: 12, pointHoverRadius: 12, borderWidth: 2.5, backgroundColor: 'transparent', borderColor: colours[1] },
     { label: 'front, confirmed', data: front.map((r) => point(r, true)), bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] },
-    { label: 'confirmed, dominated', data: dominated.map((r) => point(r, true)), pointRadius: 3.5, pointStyle: 'rect', borderColor: '#c3b1d4', backgroundColor: '#c3b1d4' },
-    { label: 'searched (cheaper level, biased)', hidden: front.length + dominated.length > 0, data: history.filter((r) => r.status === 'ok' && number(r)).map((r) => point(r)), pointRadius: 3, borderColor: '#b9c0ca', backgroundColor: '#b9c0ca' },
+    { label: 'confirmed, dominated', data: dominated.map((r) => point(r, true)), pointRadius: 3.5, pointStyle: 'rect', borderColor: faint.dominated, backgroundColor: faint.dominated },
+    { label: 'searched (cheaper level, biased)', hidden: front.length + dominated.length > 0, data: history.filter((r) => r.status === 'ok' && number(r)).map((r) => point(r)), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
   ];
   const flat = data.designs.best.flat;
   if (flat) {
     const q = (name) => name === 'worst modulation' ? { value: flat.worst_modulation, se: 0 } : flat.objectives[name];
-    sets.push({ label: 'flat', data: [{ x: q(objectives[0]).value, y: q(second).value, ex: q(objectives[0]).se, ey: q(second).se }], bars: true, pointRadius: 7, pointStyle: 'triangle', borderColor: '#565c66', backgroundColor: '#565c66' });
+    sets.push({ label: 'flat', data: [{ x: sx * q(objectives[0]).value, y: sy * q(second).value, ex: sx * q(objectives[0]).se, ey: sy * q(second).se }], bars: true, pointRadius: 7, pointStyle: 'triangle', borderColor: faint.flat, backgroundColor: faint.flat });
   }
+  const barred = sets.filter((s) => s.bars).flatMap((s) => s.data);
   draw('pareto', {
     type: 'scatter',
     data: { datasets: sets },
     plugins: [errorBars],
     options: {
-      scales: { x: axis(objectives[0]), y: axis(second) },
+      scales: { x: axis(called(objectives[0]), around(barred, 'x', 'ex')), y: axis(called(second), around(barred, 'y', 'ey')) },
       onClick: (event, items, chart) => {
         const hit = items.map((i) => chart.data.datasets[i.datasetIndex].data[i.index]).find((p) => p.row && data.designs[p.row.design]);
         // After this event: selecting draws this chart anew.
@@ -194,16 +207,18 @@ function showPareto() {
   });
 }
 function showFinalists() {
-  const columns = ['design'].concat(variables, objectives, ['worst modulation', 'feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : withError({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] })) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
+  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
   // Keys break where people read a break, not inside words.
-  const heading = (c) => c.replace(/([._(])/g, '$1\u200b');
+  const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
   finalists.forEach((r, i) => {
     const row = body.rows[i];
     if (!data.designs[r.design]) return;
     row.className = 'pick' + (r.design === shown() ? ' chosen' : '');
     row.onclick = () => select(r.design);
+    row.tabIndex = 0;
+    row.onkeydown = (e) => { if (e.key === 'Enter') select(r.design); };
   });
 }
 
@@ -270,8 +285,31 @@ function showMaps(index) {
     caption.textContent = map.name + (map.unit ? ' [' + map.unit + ']' : '');
     figure.append(canvas, caption);
     box.appendChild(figure);
-    drawMap(canvas, map, map.unit, 1);
+    const root = map.name.includes('pressure');
+    if (root) caption.textContent += ', colours by the square root';
+    drawMap(canvas, map, map.unit, 1, undefined, root);
   });
+}
+
+// The build sheet of the best design; other designs have their dimensions alone.
+function showDimensions(d) {
+  const words = (path) => path.replace(/^texture\./, '').replace(/_/g, ' ');
+  const sheet = state.design === 'best' || state.design === twin ? run.sheet : null;
+  if (!sheet) {
+    const rows = sectionOf(d.toml, 'texture'), angle = /contact_angle = "([\d.]+) deg"/.exec(d.toml);
+    if (angle) rows.push(['contact angle of the surface', round(+angle[1], 3) + ' °']);
+    table($('dimensions'), ['Dimension', 'As searched'], rows, [1]);
+    return;
+  }
+  const people = (text) => text.replace(/um\b/, 'µm').replace(/ deg\b/, '°');
+  table($('dimensions'), ['Dimension', 'Build', 'Tolerance down', 'up', 'As searched'],
+    sheet.map((r) => [words(r.name) + (r.bound ? ` (on the ${r.bound} bound)` : ''), people(r.text.build), people(r.text.down), people(r.text.up), people(`${round(r.value, 6)} ${r.unit}`)]), [1, 2, 3, 4]);
+}
+// From the study's flat surface to the best one, step by step.
+function showSteps() {
+  const steps = run.steps || [], names = steps.length ? Object.keys(steps[0].objectives) : [];
+  const before = { 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding' };
+  table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n)})` : '')), [i ? before[s.surface] || '' : ''])), names.map((n, i) => i + 1));
 }
 
 function showDesign() {
@@ -284,23 +322,22 @@ function showDesign() {
     if (sum < low - 1e-15) [row, low] = [y, sum];
   }
   drawMap($('top'), map, 'nm', 1e9, row);
-  const line = [];
-  for (let x = 0; x < map.nx; ++x) line.push({ x: (x + 0.5) * map.lx / map.nx * 1e6, y: values[row * map.nx + x] * 1e9 });
+  // Along the middle of a feature on its own fine pixels where the texture is a lattice, else along the row.
+  const fine = d.section && decode(d.section), n = fine ? d.section.nx : map.nx, line = [];
+  for (let x = 0; x < n; ++x) line.push({ x: (x + 0.5) * map.lx / n * 1e6, y: (fine ? fine[x] : values[row * map.nx + x]) * 1e9 });
   draw('section', {
     type: 'line',
     data: { datasets: [{ label: 'height', data: line, borderColor: colours[0], backgroundColor: colours[0] + '22', fill: 'start', pointRadius: 0, borderWidth: 2 }] },
     options: { parsing: false, plugins: { legend: { display: false } }, scales: { x: axis('along the section [µm]', { type: 'linear', max: map.lx * 1e6, min: 0 }), y: axis('height [nm]') } },
   });
-  const rows = sectionOf(d.toml, 'texture');
-  const angle = /contact_angle = "([\d.]+) deg"/.exec(d.toml);
-  if (angle) rows.push(['contact angle of the surface', round(+angle[1], 3) + ' °']);
-  table($('dimensions'), ['Dimension', 'Value'], rows, [1]);
+  showDimensions(d);
   const flat = data.designs.best.flat;
   // The difference has an error of its own: both met the same skins, droplets and grids.
   const lead = (d.flat || {}).difference || {};
   table($('numbers'), ['Result', label(state.design), 'flat', 'difference'],
-    Object.keys(d.objectives).map((name) => [name, withError(d.objectives[name]), flat ? withError(flat.objectives[name]) : '–', withError(lead[name])])
-      .concat([['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–', ''], ['oxide breakdown margin', round(d.oxide_breakdown_margin), '', '']])
+    Object.keys(d.objectives).map((name) => [called(name), quantity(d.objectives[name], name), flat ? quantity(flat.objectives[name], name) : '–', quantity(lead[name], name)])
+      .concat(run.driven ? [['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–', '']] : [])
+      .concat([['oxide breakdown margin', round(d.oxide_breakdown_margin), '', '']])
       .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '', '']] : []), [1, 2, 3]);
   $('toml').textContent = d.toml;
 }
@@ -318,15 +355,18 @@ function select(name) {
 
 // ---- the page ----
 const best = data.designs.best, flat = best.flat;
-$('lead').textContent = 'The best design has ' + Object.keys(best.objectives).map((n) => `${n} ${withError(best.objectives[n])}` + (flat ? ` (flat ${withError(flat.objectives[n])})` : '')).join(', ')
-  + `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity.'
-  + (best.feasible ? '' : ' It does not keep every constraint.') + (flat && flat.no_better ? ' ' + flat.no_better : '');
+$('lead').textContent = run.recommendation;
+run.remarks.forEach((text) => { const item = document.createElement('li'); item.textContent = text; $('remarks').appendChild(item); });
+$('facts').textContent = 'The best design has ' + Object.keys(best.objectives).map((n) => `${called(n)} ${quantity(best.objectives[n], n)}` + (flat ? ` (flat ${quantity(flat.objectives[n], n)})` : '')).join(', ')
+  + (run.driven ? `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity' : '') + '.'
+  + (best.feasible ? '' : ' It does not keep every constraint.');
 options($('design'), Object.keys(data.designs).map((n) => [n, n === 'best' && twin !== n ? `best (${label(twin)})` : label(n)]), select);
 options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
 options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
 startSolid();
 select('best');
-showSection($('stability'), 'Does the order hold?', 'One design on the front: there is no order to check.');
+showSteps();
+showSection($('stability'), 'Does the order hold?', Object.keys(data.designs).length > 2 ? 'Whether the order holds under other choices of the model was not checked.' : 'One design on the front: there is no order to check.');
 showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;
 $('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What the fit of the finger leaves open is in no error here: ${known.status}.`

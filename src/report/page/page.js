@@ -1,13 +1,19 @@
 // What every page has: numbers, tables, maps, charts, the list of files.
 const data = JSON.parse(document.getElementById('data').textContent);
 const $ = (id) => document.getElementById(id);
-const colours = ['#1f6f9f', '#c2571a', '#3a7d44', '#7a4fa3', '#b8901f', '#8a8f98'];
-const flatColour = '#8a8f98';
+// Colours of the page in the light or the dark that the reader has chosen.
+const dark = matchMedia('(prefers-color-scheme: dark)').matches && !matchMedia('print').matches;
+const ink = (name) => getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
+const colours = dark ? ['#5fb0e0', '#f0955b', '#7cc488', '#bb9bdf', '#dfbc58', '#a9b0ba'] : ['#1f6f9f', '#c2571a', '#3a7d44', '#7a4fa3', '#8f6d0c', '#6f757e'];
+const faint = dark ? { flat: '#c3c9d2', dominated: '#9a86b3', searched: '#77808d' } : { flat: '#565c66', dominated: '#9a7fb5', searched: '#8a94a3' };
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => location.reload());
 const charts = {};
 
 // ---- numbers and tables ----
-const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits));
-const withError = (q) => q ? q.value.toFixed(3) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') + (q.parameters ? ' (' + q.parameters.toFixed(3) + ')' : '') : '–';
+const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits) + 0);
+// Three decimals; a zero has no sign.
+const fixed = (v) => v.toFixed(3).replace(/^-(0\.000)$/, '$1');
+const withError = (q) => q ? fixed(q.value) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') + (q.parameters ? ' (' + q.parameters.toFixed(3) + ')' : '') : '–';
 function csv(text) {
   const rows = text.trim().split('\n').map((line) => line.split(','));
   const head = rows.shift();
@@ -25,10 +31,14 @@ function table(element, head, rows, numeric = []) {
     const row = element.createTHead().insertRow();
     head.forEach((text, i) => cell(row, 'th', text, numeric.includes(i)));
   }
+  element.classList.toggle('folds', Boolean(head));
   const body = element.createTBody();
   rows.forEach((values) => {
     const row = body.insertRow();
-    values.forEach((text, i) => cell(row, 'td', text, numeric.includes(i)));
+    values.forEach((text, i) => {
+      cell(row, 'td', text, numeric.includes(i));
+      if (head) row.lastChild.dataset.label = head[i];
+    });
   });
   return body;
 }
@@ -57,7 +67,8 @@ function roundLength(limit) {
   return power * (limit >= 5 * power ? 5 : limit >= 2 * power ? 2 : 1);
 }
 const micrometres = (m) => m >= 1e-6 ? round(m * 1e6) + ' µm' : round(m * 1e9) + ' nm';
-function drawMap(canvas, map, unit, scale, line) {
+// root: colours by the square root above the least value, for maps that are nearly all zero.
+function drawMap(canvas, map, unit, scale, line, root) {
   const values = decode(map), side = 480, height = Math.round(side * map.ly / map.lx);
   canvas.width = side;
   canvas.height = height + 46;
@@ -66,12 +77,12 @@ function drawMap(canvas, map, unit, scale, line) {
   pixels.height = map.ny;
   const image = new ImageData(map.nx, map.ny), span = map.high - map.low;
   for (let i = 0; i < values.length; ++i) {
-    const rgb = colour(span > 0 ? (values[i] - map.low) / span : 0.5);
+    const share = span > 0 ? (values[i] - map.low) / span : 0.5, rgb = colour(root ? Math.sqrt(share) : share);
     image.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * i);
   }
   pixels.getContext('2d').putImageData(image, 0, 0);
   const c = canvas.getContext('2d');
-  c.fillStyle = '#fff';
+  c.fillStyle = ink('paper');
   c.fillRect(0, 0, canvas.width, canvas.height);
   c.imageSmoothingEnabled = false;
   c.drawImage(pixels, 0, 0, side, height);
@@ -85,17 +96,17 @@ function drawMap(canvas, map, unit, scale, line) {
     c.setLineDash([]);
   }
   const bar = roundLength(map.lx / 3), width = bar / map.lx * side;
-  c.fillStyle = '#1d2129';
+  c.fillStyle = ink('ink');
   c.fillRect(2, height + 12, width, 5);
   c.font = '17px sans-serif';
   c.textBaseline = 'alphabetic';
   c.fillText(micrometres(bar), 2, height + 38);
   for (let x = 0; x < 170; ++x) {
-    const rgb = colour(x / 169);
+    const rgb = colour(root ? Math.sqrt(x / 169) : x / 169);
     c.fillStyle = `rgb(${rgb.join()})`;
     c.fillRect(side - 172 + x, height + 9, 1, 10);
   }
-  c.fillStyle = '#1d2129';
+  c.fillStyle = ink('ink');
   c.textAlign = 'left';
   c.fillText(round(map.low * scale), side - 172, height + 38);
   c.textAlign = 'right';
@@ -112,7 +123,8 @@ function drawMap(canvas, map, unit, scale, line) {
 // ---- charts ----
 Chart.defaults.font.family = getComputedStyle(document.body).fontFamily;
 Chart.defaults.font.size = 13;
-Chart.defaults.color = '#3c434e';
+Chart.defaults.color = ink('soft');
+Chart.defaults.borderColor = ink('line');
 Chart.defaults.animation = false;
 Chart.defaults.maintainAspectRatio = false;
 const axis = (text, more = {}) => Object.assign({ title: { display: true, text } }, more);
@@ -153,7 +165,7 @@ const intervals = {
       if (!set.interval || !chart.isDatasetVisible(k)) return;
       c.save();
       c.beginPath();
-      c.strokeStyle = '#1d2129';
+      c.strokeStyle = ink('ink');
       c.lineWidth = 1.5;
       chart.getDatasetMeta(k).data.forEach((item, i) => {
         if (!set.interval[i]) return;
@@ -169,6 +181,12 @@ const intervals = {
     });
   },
 };
+// Ends of an axis that hold the bars of points, `half` either way.
+function around(points, at, half) {
+  const ends = points.filter((p) => isFinite(p[at])).flatMap((p) => [p[at] - (p[half] || 0), p[at] + (p[half] || 0)]);
+  const low = Math.min(...ends), high = Math.max(...ends), gap = 0.04 * (high - low || Math.abs(high) || 1);
+  return ends.length ? { suggestedMin: low - gap, suggestedMax: high + gap } : {};
+}
 // Room for the intervals of all datasets, and for the values `more`, on a value axis.
 function room(sets, more = []) {
   const all = sets.flatMap((s) => (s.interval || []).filter(Boolean).flat().concat(s.data.map((d) => typeof d === 'number' ? d : d.x))).concat(more).filter(isFinite);
@@ -210,7 +228,22 @@ function prefix(unit, values) {
 }
 
 // ---- the end of every page ----
+// Names for those who hear the page or walk it by keys.
+function nameParts() {
+  document.querySelectorAll('canvas').forEach((canvas) => {
+    const figure = canvas.closest('figure'), caption = figure && figure.querySelector('figcaption'), heading = canvas.closest('section') && canvas.closest('section').querySelector('h2');
+    canvas.setAttribute('role', 'img');
+    canvas.setAttribute('aria-label', (caption && caption.textContent) || (heading && heading.textContent) || 'chart');
+  });
+  document.querySelectorAll('.scroll').forEach((box) => {
+    const heading = box.closest('section') && box.closest('section').querySelector('h2');
+    box.tabIndex = 0;
+    box.setAttribute('role', 'region');
+    box.setAttribute('aria-label', heading ? heading.textContent : 'table');
+  });
+}
 function finish(more = {}) {
+  nameParts();
   $('version').textContent = data.version;
   table($('filelist'), ['File', 'Bytes', 'SHA-256'], data.files.map((f) => [f.name, f.bytes.toLocaleString('en'), f.sha256]), [1]);
   window.addEventListener('beforeprint', () => { Object.values(charts).forEach((c) => c.resize()); });

@@ -1,9 +1,19 @@
 // The page of `papilla rank`.
 const ranking = data.ranking;
-const tints = colours.concat(['#2aa9a9', '#b0467d']);
+const tints = colours.concat(dark ? ['#4fc4c4', '#e081b4'] : ['#1b8585', '#b0467d']);
 // A candidate keeps its colour in every chart and state.
 const tint = (c) => tints[c.index % tints.length];
 const percent = (v) => round(100 * v, 3);
+const likely = (p) => p > 0.999 ? '> 0.999' : p < 0.001 ? '< 0.001' : p.toFixed(3);
+// Designs are called by their titles where these tell them apart.
+{
+  const first = ranking.states[0].candidates, titles = first.map((c) => c.title);
+  const called = new Set(titles.filter(Boolean)).size === titles.length;
+  ranking.states.forEach((s) => s.candidates.forEach((c) => { c.file = c.name; if (called) c.name = c.title; data.candidates[c.index].name = c.name; }));
+}
+// Beside a bar a long title gives way to the name of the file.
+const brief = (c) => c.name.length > 22 && c.file ? c.file : c.name;
+const listed = (names) => names.length > 1 ? names.slice(0, -1).join(', ') + ' and ' + names[names.length - 1] : names[0];
 const place = (list, i) => `${list[i].rank}${list.filter((c) => c.rank === list[i].rank).length > 1 ? '=' : ''}`;
 
 function rowsChart(id, list, set, title, ends = {}) {
@@ -11,7 +21,7 @@ function rowsChart(id, list, set, title, ends = {}) {
   canvas.parentElement.style.height = 90 + 34 * list.length + 'px';
   draw(id, {
     type: 'bar',
-    data: { labels: list.map((c) => c.name), datasets: [Object.assign({ backgroundColor: list.map(tint), maxBarThickness: 18 }, set)] },
+    data: { labels: list.map(brief), datasets: [Object.assign({ backgroundColor: list.map(tint), maxBarThickness: 18 }, set)] },
     plugins: [intervals],
     options: {
       indexAxis: 'y',
@@ -21,15 +31,30 @@ function rowsChart(id, list, set, title, ends = {}) {
   });
 }
 
-function showOrder(list) {
-  rowsChart('score', list, { data: list.map((c) => c.score.value), interval: list.map((c) => [c.score.low, c.score.high]), text: list.map((c) => `${round(c.score.value)} [${round(c.score.low)}, ${round(c.score.high)}]`) }, 'score');
-  rowsChart('best', list, { data: list.map((c) => 100 * c.p_best), text: list.map((c) => percent(c.p_best) + ' %') }, 'probability of being best [%]', { min: 0, max: 100 });
+function criteriaColumns(list) {
   const scales = ranking.criteria.map((k) => prefix(k.unit, list.map((c) => c.metrics[k.metric].value)));
-  const head = ['place', 'design'].concat(ranking.criteria.map((k, i) => k.metric + ' (' + k.better + ')' + (scales[i].unit ? ' [' + scales[i].unit + ']' : '')), ['ahead of the next [%]', 'p(ahead)', 'p(best)', 'skins']);
+  const value = (c, k, m) => { const q = c.metrics[k.metric], s = scales[m].scale; return `${round(q.value * s, 4)} ± ${round((q.high - q.low) / 2 * s, 2)}`; };
+  return { head: ranking.criteria.map((k, i) => k.metric + ' (' + k.better + ')' + (scales[i].unit ? ' [' + scales[i].unit + ']' : '')), value };
+}
+
+function showScore(list) {
+  $('dominance').style.display = 'none';
+  rowsChart('score', list, { data: list.map((c) => c.score.value), interval: list.map((c) => [c.score.low, c.score.high]), text: list.map((c) => `${round(c.score.value)} [${round(c.score.low)}, ${round(c.score.high)}]`) }, 'score');
+  rowsChart('best', list, { data: list.map((c) => 100 * c.p_best), text: list.map((c) => likely(c.p_best)) }, 'probability of being best [%]', { min: 0, max: 100 });
+  const columns = criteriaColumns(list);
+  const head = ['place', 'design'].concat(columns.head, ['ahead of the next [%]', 'p(ahead)', 'p(best)', 'skins']);
   table($('places'), head, list.map((c, i) => [place(list, i), c.name]
-    .concat(ranking.criteria.map((k, m) => { const q = c.metrics[k.metric], s = scales[m].scale; return `${round(q.value * s, 4)} ± ${round((q.high - q.low) / 2 * s, 2)}`; }))
-    .concat(i + 1 < list.length ? [`${percent(c.ahead_of_next.value)} [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}]` + (c.tied_with_next ? ': tie' : ''), c.p_ahead.toFixed(3)] : ['', ''])
-    .concat([c.p_best.toFixed(3), c.skins])), head.map((h, i) => i).slice(2));
+    .concat(ranking.criteria.map((k, m) => columns.value(c, k, m)))
+    .concat(i + 1 < list.length ? [`${percent(c.ahead_of_next.value)} [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}]` + (c.tied_with_next ? ': tie' : ''), likely(c.p_ahead)] : ['–', '–'])
+    .concat([likely(c.p_best), c.skins])), head.map((h, i) => i).slice(2));
+}
+
+function showDominance(list) {
+  $('scored').style.display = $('leads').style.display = 'none';
+  const columns = criteriaColumns(list);
+  const head = ['place', 'design'].concat(ranking.criteria.flatMap((k, m) => [columns.head[m], 'p(best)']), ['skins']);
+  table($('places'), head, list.map((c) => [c.rank, c.name].concat(ranking.criteria.flatMap((k, m) => [columns.value(c, k, m), likely(c.p_best_by[k.metric])]), [c.skins])), head.map((h, i) => i).slice(2));
+  table($('pairs'), ['row against column'].concat(list.map((c) => c.name)), list.map((c) => [c.name].concat(list.map((o) => o === c ? '–' : c.over[o.index]))));
 }
 
 function showCriteria(list) {
@@ -56,7 +81,7 @@ function showCriteria(list) {
       data: { datasets: list.map((c) => ({ label: c.name, data: [point(c)], bars: true, pointRadius: 6, pointHoverRadius: 8, borderColor: tint(c), backgroundColor: tint(c) })) },
       plugins: [errorBars],
       options: {
-        scales: { x: axis(a.metric + (pa.unit ? ' [' + pa.unit + ']' : '')), y: axis(b.metric + (pb.unit ? ' [' + pb.unit + ']' : '')) },
+        scales: { x: axis(a.metric + (pa.unit ? ' [' + pa.unit + ']' : ''), around(list.map(point), 'x', 'ex')), y: axis(b.metric + (pb.unit ? ' [' + pb.unit + ']' : ''), around(list.map(point), 'y', 'ey')) },
         plugins: { legend: { labels: { usePointStyle: true, boxHeight: 7 } }, tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${round(item.raw.x)} ± ${round(item.raw.ex, 2)}, ${round(item.raw.y)} ± ${round(item.raw.ey, 2)}` } } },
       },
     });
@@ -75,13 +100,16 @@ function showCriteria(list) {
 }
 
 function showSure(state) {
-  const list = state.candidates.slice(0, -1);
-  rowsChart('ahead', list.map((c, i) => Object.assign({}, c, { name: `${c.name} over ${state.candidates[i + 1].name}` })), {
-    data: list.map((c) => 100 * c.ahead_of_next.value), interval: list.map((c) => [100 * c.ahead_of_next.low, 100 * c.ahead_of_next.high]),
-    text: list.map((c) => `${percent(c.ahead_of_next.value)} % [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}], p(ahead) ${c.p_ahead.toFixed(3)}` + (c.tied_with_next ? ': tie' : '')),
-  }, 'lead over the next [% of the score]');
-  $('skins').textContent = `${state.skins} patches of skin were tried` + (state.skins < state.equal_skins ? `, more where two candidates are close; ${state.equal_skins} with as many for every candidate.` : '.')
-    + (ranking.parameters ? ' Every interval and probability holds what the fit of the finger leaves open, which moves all candidates together: of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '');
+  const list = state.candidates.slice(0, -1), whole = state.end.charAt(0).toUpperCase() + state.end.slice(1) + '.';
+  if (ranking.scored) {
+    rowsChart('ahead', list.map((c, i) => Object.assign({}, c, { name: `${brief(c)} over ${brief(state.candidates[i + 1])}`, file: '' })), {
+      data: list.map((c) => 100 * c.ahead_of_next.value), interval: list.map((c) => [100 * c.ahead_of_next.low, 100 * c.ahead_of_next.high]),
+      text: list.map((c) => `${percent(c.ahead_of_next.value)} % [${percent(c.ahead_of_next.low)}, ${percent(c.ahead_of_next.high)}], p(ahead) ${likely(c.p_ahead)}` + (c.tied_with_next ? ': tie' : '')),
+    }, 'lead over the next [% of the score]');
+  }
+  $('skins').textContent = `${whole} ${state.skins} patches of skin were tried` + (state.skins < state.equal_skins ? `, more where two candidates are close; ${state.equal_skins} with as many for every candidate.` : '.')
+    + (!ranking.parameters ? ' What the fit of the finger leaves open is in no interval and no probability.'
+      : ' Every interval and probability holds what the fit of the finger leaves open, which moves all candidates together' + (ranking.scored ? ': of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '.'));
 }
 
 function showCompared() {
@@ -104,10 +132,16 @@ function showCompared() {
 function select(index) {
   const state = ranking.states[+index], list = state.candidates, first = list.filter((c) => c.rank === 1), names = first.map((c) => c.name);
   document.documentElement.dataset.state = state.state;
-  $('lead').textContent = names.length > 1
-    ? `On the ${state.state} finger ${names.slice(0, -1).join(', ')} and ${names[names.length - 1]} are tied for the first place; ${names[0]} is best with a probability of ${percent(first[0].p_best)} %.`
-    : `On the ${state.state} finger ${names[0]} is best, with a probability of ${percent(first[0].p_best)} %; it leads ${list[1].name} by ${percent(first[0].ahead_of_next.value)} % [${percent(first[0].ahead_of_next.low)}, ${percent(first[0].ahead_of_next.high)}] of the score.`;
-  showOrder(list);
+  const who = `On the ${state.state} finger `;
+  if (!ranking.scored) {
+    const bests = ranking.criteria.map((k) => { const c = list.reduce((a, o) => o.p_best_by[k.metric] > a.p_best_by[k.metric] ? o : a); return `${c.name} in ${k.metric} (probability ${likely(c.p_best_by[k.metric])})`; });
+    $('lead').textContent = who + (names.length > 1 ? `no weights settle the trade-off: nobody beats ${listed(names)}.` : `${names[0]} is beaten by nobody, and all others are.`) + ' Best: ' + listed(bests) + '.';
+  } else if (names.length > 1) {
+    $('lead').textContent = who + `${listed(names)} are tied for the first place; ${names[0]} is best with a probability of ${likely(first[0].p_best)}.`;
+  } else {
+    $('lead').textContent = who + `${names[0]} is best, with a probability of ${likely(first[0].p_best)}; it leads ${list[1].name} by ${percent(first[0].ahead_of_next.value)} % [${percent(first[0].ahead_of_next.low)}, ${percent(first[0].ahead_of_next.high)}] of the score.`;
+  }
+  (ranking.scored ? showScore : showDominance)(list);
   showCriteria(list);
   showSure(state);
 }

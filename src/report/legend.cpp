@@ -1,0 +1,125 @@
+#include "report/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "geometry/io/files.h"
+
+namespace papilla::report {
+namespace {
+
+constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
+
+// Seven rows of five dots each, a bit a dot, the left one first.
+using Glyph = std::array<std::uint8_t, kGlyphHeight>;
+
+const Glyph* glyph(char c) {
+  static const std::map<char, Glyph> glyphs{
+      {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}},
+      {'1', {0x04, 0x0c, 0x04, 0x04, 0x04, 0x04, 0x0e}},
+      {'2', {0x0e, 0x11, 0x01, 0x02, 0x04, 0x08, 0x1f}},
+      {'3', {0x1f, 0x02, 0x04, 0x02, 0x01, 0x11, 0x0e}},
+      {'4', {0x02, 0x06, 0x0a, 0x12, 0x1f, 0x02, 0x02}},
+      {'5', {0x1f, 0x10, 0x1e, 0x01, 0x01, 0x11, 0x0e}},
+      {'6', {0x06, 0x08, 0x10, 0x1e, 0x11, 0x11, 0x0e}},
+      {'7', {0x1f, 0x01, 0x02, 0x04, 0x08, 0x08, 0x08}},
+      {'8', {0x0e, 0x11, 0x11, 0x0e, 0x11, 0x11, 0x0e}},
+      {'9', {0x0e, 0x11, 0x11, 0x0f, 0x01, 0x02, 0x0c}},
+      {'.', {0x00, 0x00, 0x00, 0x00, 0x00, 0x0c, 0x0c}},
+      {'-', {0x00, 0x00, 0x00, 0x1f, 0x00, 0x00, 0x00}},
+      {'+', {0x00, 0x04, 0x04, 0x1f, 0x04, 0x04, 0x00}},
+      {'%', {0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03}},
+      {'e', {0x00, 0x00, 0x0e, 0x11, 0x1f, 0x10, 0x0e}},
+      {'n', {0x00, 0x00, 0x16, 0x19, 0x11, 0x11, 0x11}},
+      {'m', {0x00, 0x00, 0x1a, 0x15, 0x15, 0x15, 0x15}},
+      {'u', {0x00, 0x00, 0x11, 0x11, 0x11, 0x13, 0x0d}},
+      {'k', {0x10, 0x10, 0x12, 0x14, 0x18, 0x14, 0x12}},
+      {'M', {0x11, 0x1b, 0x15, 0x15, 0x11, 0x11, 0x11}},
+      {'P', {0x1e, 0x11, 0x11, 0x1e, 0x10, 0x10, 0x10}},
+      {'a', {0x00, 0x00, 0x0e, 0x01, 0x0f, 0x11, 0x0f}},
+  };
+  const auto found = glyphs.find(c);
+  return found == glyphs.end() ? nullptr : &found->second;
+}
+
+class Sheet {
+ public:
+  Sheet(int width, int height)
+      : width_(width),
+        rgb_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3, 255) {}
+
+  void put(int x, int y, const std::array<std::uint8_t, 3>& c) {
+    if (x >= 0 && x < width_)
+      std::copy(c.begin(), c.end(),
+                rgb_.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * width_ + x));
+  }
+  // `dots`: pixels of a dot.
+  void write(int left, int top, int dots, const std::string& text) {
+    for (char c : text) {
+      if (const Glyph* g = glyph(c)) {
+        for (int y = 0; y < kGlyphHeight * dots; ++y) {
+          for (int x = 0; x < kGlyphWidth * dots; ++x) {
+            if ((*g)[static_cast<std::size_t>(y / dots)] >> (kGlyphWidth - 1 - x / dots) & 1)
+              put(left + x, top + y, {0, 0, 0});
+          }
+        }
+      }
+      left += (kGlyphWidth + 1) * dots;
+    }
+  }
+  static int text_width(const std::string& text, int dots) {
+    return static_cast<int>(text.size()) * (kGlyphWidth + 1) * dots;
+  }
+  std::vector<std::uint8_t> take() { return std::move(rgb_); }
+
+ private:
+  int width_;
+  std::vector<std::uint8_t> rgb_;
+};
+
+std::string in_legend(double value) { return fmt::format("{:.3g}", value + 0.0); }
+
+std::string length_text(double metres) {
+  return metres >= 1e-6 ? fmt::format("{:.3g} um", 1e6 * metres)
+                        : fmt::format("{:.3g} nm", 1e9 * metres);
+}
+
+}  // namespace
+
+FieldPicture picture_with_legend(const Grid& grid, const std::vector<double>& values,
+                                 const FieldScale& shown) {
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const auto share = [&](double v) { return shown.root ? std::sqrt(v) : v; };
+  std::vector<double> coloured = values;
+  for (double& v : coloured) v = *high > *low ? share((v - *low) / (*high - *low)) : 1;
+  FieldPicture out;
+  const std::vector<std::uint8_t> field = render_field(grid, coloured, out.width, out.height);
+  const int dots = std::max(1, out.width / 256), line = (kGlyphHeight + 3) * dots;
+  const int top = out.height;
+  out.height += 3 * line;
+  Sheet sheet(out.width, out.height);
+  for (int y = 0; y < top; ++y) {
+    for (int x = 0; x < out.width; ++x) {
+      const std::size_t at =
+          3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) +
+               static_cast<std::size_t>(x));
+      sheet.put(x, y, {field[at], field[at + 1], field[at + 2]});
+    }
+  }
+  for (int x = 0; x < out.width; ++x) {
+    const auto c = field_colour(share(static_cast<double>(x) / std::max(1, out.width - 1)));
+    for (int y = top + dots; y < top + line; ++y) sheet.put(x, y, c);
+  }
+  const std::string most = fmt::format("{} {}", in_legend(*high * shown.scale), shown.unit);
+  sheet.write(dots, top + line + 2 * dots, dots, in_legend(*low * shown.scale));
+  sheet.write(out.width - Sheet::text_width(most, dots), top + line + 2 * dots, dots, most);
+  sheet.write(dots, top + 2 * line + dots, dots, length_text(scale_bar_length(grid)));
+  out.rgb = sheet.take();
+  return out;
+}
+
+}  // namespace papilla::report

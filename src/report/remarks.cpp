@@ -1,0 +1,128 @@
+#include "report/remarks.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "base/check.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "forward/plan.h"
+#include "metrics/shown.h"
+
+namespace papilla::report {
+namespace {
+
+// What a cut part did, and what is unsure without the rest.
+struct CutWords {
+  std::string did, unsure;
+};
+
+CutWords words_of(const ClockCut& cut, const Study& study) {
+  const auto of = [&](const char* what) {
+    return fmt::format("{} of {} {}", cut.done, cut.of, what);
+  };
+  switch (cut.part) {
+    case Part::Search:
+      return {of("evaluations"),
+              fmt::format("the best of {} may lie where no design was tried",
+                          counted(static_cast<int>(study.variables.size()), "variable"))};
+    case Part::Narrow:
+      return {of("designs judged again before the confirmation"),
+              "a better design may have been passed over for one with lucky skins"};
+    case Part::Confirm:
+      return {of("finalists confirmed"), "those left out may be as good"};
+    case Part::Stability:
+      return {"the order under other models not checked",
+              "other choices of the model may order the designs otherwise"};
+    case Part::Flat:
+      return {"the surface without texture not computed",
+              "whether the texture helps at all is not known"};
+    case Part::Rounding:
+      return {"the rounded design not evaluated", "what rounding does is not known"};
+    case Part::Sensitivity:
+      return {"the sensitivity not computed", "tolerances are not known"};
+    case Part::Parameters:
+      return {"the finger's parameters not varied", "what they leave open is not known"};
+    case Part::Files:
+      break;
+  }
+  PAPILLA_CHECK(false, "a part without words");
+  return {};
+}
+
+std::string clock_remark(const Study& study, const OptimiseResult& r) {
+  if (r.cuts.empty()) return {};
+  std::vector<std::string> did, unsure;
+  for (const ClockCut& cut : r.cuts) {
+    CutWords words = words_of(cut, study);
+    did.push_back(std::move(words.did));
+    unsure.push_back(std::move(words.unsure));
+  }
+  const bool searching = r.cuts.front().part == Part::Search;
+  return fmt::format("{} by the clock ({}){} {}. Unsure: {}.", searching ? "Stopped" : "Cut short",
+                     duration(study.search.time), searching ? " after" : ":", join_names(did, "; "),
+                     join_names(unsure, "; "));
+}
+
+std::string few_remark(const OptimiseResult& r) {
+  if (r.evaluations >= r.asked) return {};
+  const std::string made =
+      fmt::format("{} where {} were asked for", counted(r.evaluations, "evaluation"), r.asked);
+  switch (r.end) {
+    case SearchEnd::Exhausted:
+      return made + ": the search had nothing more to try.";
+    case SearchEnd::Refusals:
+      return made +
+             ": the limits of the shape refused ten times as many designs; loosen them or narrow "
+             "the "
+             "design space.";
+    case SearchEnd::Budget:
+    case SearchEnd::Clock:  // said by the remark on the clock
+      break;
+  }
+  return {};
+}
+
+std::string one_value_remark(const Study& study, const OneValue& one, int evaluations) {
+  const Variable& v = study.variables[one.variable];
+  return fmt::format("{} took one value only, {}, in {}: what it does is not known.", v.path,
+                     variable_text(v, one.value), counted(evaluations, "evaluation"));
+}
+
+std::string bound_remark(const Study& study, const StudyProblem& problem, const AtBound& at) {
+  const Variable& v = study.variables[at.variable];
+  std::string out = fmt::format("The best design has {} on its {} bound, {}", v.path,
+                                at.upper ? "upper" : "lower", variable_text(v, at.bound));
+  if (at.last) return out + ", the last value that the model takes.";
+  std::vector<std::string> gains;
+  for (std::size_t k = 0; k < at.change.size(); ++k) {
+    const StudyObjective& o = problem.objectives()[k];
+    const std::string unit = shown_unit(o.expression).unit;
+    gains.push_back(o.name + " " + shown_change(o.expression, at.change[k]) +
+                    (unit.empty() ? "" : " " + unit));
+  }
+  if (gains.empty()) return out + ": widen it to see whether more helps.";
+  const double unit = find_unit(v.unit)->to_si;
+  const double step = std::strtod(fmt::format("{:.2g}", at.step / unit).c_str(), nullptr);
+  return out + fmt::format(": widened by {} {}, as it goes inside the bound, {}.",
+                           format_number(step), v.unit, join_names(gains));
+}
+
+}  // namespace
+
+std::vector<std::string> run_remarks(const Study& study, const StudyProblem& problem,
+                                     const OptimiseResult& result) {
+  std::vector<std::string> out;
+  const auto add = [&out](std::string text) {
+    if (!text.empty()) out.push_back(std::move(text));
+  };
+  add(clock_remark(study, result));
+  add(few_remark(result));
+  for (const OneValue& one : result.one_value)
+    add(one_value_remark(study, one, result.evaluations));
+  for (const AtBound& at : result.at_bound) add(bound_remark(study, problem, at));
+  return out;
+}
+
+}  // namespace papilla::report

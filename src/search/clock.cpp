@@ -1,0 +1,32 @@
+#include "search/clock.h"
+
+#include <algorithm>
+
+#include "base/constants.h"
+
+namespace papilla::search {
+namespace {
+
+// Of the limit, part by part: half is the search's.
+constexpr PartSeconds kShares{0.50, 0.12, 0.16, 0.03, 0.06, 0.03, 0.04, 0.02, 0.04};
+
+}  // namespace
+
+double part_share(Part part) { return kShares[static_cast<std::size_t>(part)]; }
+
+double part_deadline(double limit, Part part, const PartSeconds& wanted) {
+  double out = limit;
+  for (std::size_t later = static_cast<std::size_t>(part) + 1; later < kParts; ++later)
+    out -= std::min(wanted[later], kShares[later] * limit);
+  return out;
+}
+
+double RunClock::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+double RunClock::left(const PartSeconds& wanted) const {
+  return limited() ? part_deadline(limit_, part_, wanted) - seconds() : kInfinity;
+}
+
+}  // namespace papilla::search

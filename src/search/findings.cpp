@@ -1,0 +1,77 @@
+#include "search/findings.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "design/families.h"
+
+namespace papilla::search {
+namespace {
+
+constexpr double kAtBound = 1e-6;  // of the interval
+
+// The bound is the model's own limit of the number.
+bool is_last(const Design& design, const Variable& variable, bool upper) {
+  Design copy = design;
+  const std::vector<NumberField> known = number_fields(copy);
+  const std::string path = path_in(known, variable.path);
+  if (path.empty()) return false;
+  const NumberField field = find_number_field(known, path);
+  const double unit = find_unit(field.unit)->to_si;
+  const double limit = (upper ? field.high : field.low) * unit;
+  const double bound = upper ? variable.high : variable.low;
+  return upper ? bound >= limit : bound <= limit;
+}
+
+}  // namespace
+
+std::vector<OneValue> one_value_variables(const StudyProblem& problem,
+                                          const std::vector<Evaluation>& history) {
+  std::vector<std::vector<double>> tried;
+  for (const Evaluation& e : history) {
+    if (e.outcome.ok) tried.push_back(problem.space().value(e.unit));
+  }
+  std::vector<OneValue> out;
+  if (tried.size() < 2) return out;
+  for (std::size_t k = 0; k < problem.space().size(); ++k) {
+    const Dimension& d = problem.space().cube().dimensions[k];
+    const bool could_move = d.choices.empty() ? d.high > d.low : d.choices.size() > 1;
+    const bool moved = std::any_of(tried.begin(), tried.end(),
+                                   [&](const auto& v) { return v[k] != tried.front()[k]; });
+    if (could_move && !moved) out.push_back({k, tried.front()[k]});
+  }
+  return out;
+}
+
+std::vector<AtBound> variables_at_bound(const StudyProblem& problem, const Point& best,
+                                        const std::vector<VariableSensitivity>& sensitivity) {
+  const Study& study = problem.study();
+  const Design design = problem.space().design(best);
+  Design own = design;
+  const std::vector<NumberField> known = number_fields(own);
+  std::vector<AtBound> out;
+  for (std::size_t k = 0; k < best.size(); ++k) {
+    const Variable& variable = study.variables[k];
+    const bool upper = best[k] >= 1 - kAtBound;
+    if (!problem.space().cube().dimensions[k].choices.empty() || variable.high <= variable.low ||
+        (!upper && best[k] > kAtBound))
+      continue;
+    // Measures of a texture that is not there lie nowhere.
+    const std::string path = path_in(known, variable.path);
+    if (path.empty() || (variable.path.starts_with("texture.") &&
+                         !facts(part_at(design.texture, path)).relief.present))
+      continue;
+    AtBound at{k, upper, upper ? variable.high : variable.low, is_last(design, variable, upper),
+               0, {}};
+    for (const VariableSensitivity& s : sensitivity) {
+      if (s.variable != k || s.change.empty()) continue;
+      at.step = s.step;
+      for (double change : s.change) at.change.push_back(upper ? change : -change);
+    }
+    out.push_back(std::move(at));
+  }
+  return out;
+}
+
+}  // namespace papilla::search

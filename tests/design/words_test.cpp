@@ -1,0 +1,100 @@
+#include "design/words.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "design/study.h"
+#include "report/reference.h"
+
+namespace papilla::tests {
+namespace {
+
+TEST(Words, EachStandsForAKeyOfTheReference) {
+  for (const Word& w : words()) {
+    std::string path = w.key;
+    if (path == "surface.dielectric.0.thickness") path = "surface.dielectric";  // of a list's item
+    EXPECT_NO_THROW(reference_section(path, ReferenceFormat::Text)) << w.word << ": " << w.key;
+  }
+}
+
+TEST(Words, TheSectionDecides) {
+  EXPECT_EQ(key_for_word("voltage", "drive"), "drive.amplitude");
+  EXPECT_EQ(key_for_word("voltage", ""), "drive.amplitude");
+  EXPECT_EQ(key_for_word("stiffness", "finger"), "finger.skin.layer_modulus");
+  EXPECT_EQ(key_for_word("stiffness", "finger.skin"), "finger.skin.layer_modulus");
+  EXPECT_EQ(key_for_word("stiffness", "surface"), "surface.modulus");
+  EXPECT_EQ(key_for_word("roughness", "texture"), "texture.rms");
+  EXPECT_EQ(key_for_word("xyzzy", "finger"), "");
+}
+
+std::string mistakes(const std::string& text) {
+  try {
+    parse_study("schema_version = 1\n" + text, "design.toml");
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Words, AreTheHintOfAnUnknownKey) {
+  EXPECT_NE(mistakes("[drive]\nvoltage = \"100 V\"\n")
+                .find("unknown key `voltage`, did you mean `drive.amplitude`?"),
+            std::string::npos)
+      << mistakes("[drive]\nvoltage = \"100 V\"\n");
+  EXPECT_NE(mistakes("[finger]\nstiffness = \"1 MPa\"\n")
+                .find("did you mean `finger.skin.layer_modulus`?"),
+            std::string::npos);
+  // A slip of the keyboard is still one.
+  EXPECT_NE(mistakes("[drive]\namplitud = \"100 V\"\n").find("did you mean `amplitude`?"),
+            std::string::npos);
+}
+
+// "0.05" of one or of a hundred: both are shown, none is taken.
+TEST(Words, AShareWithoutAUnitIsAskedBack) {
+  EXPECT_NE(
+      mistakes("[accuracy]\ntarget = \"0.05\"\n")
+          .find("needs a unit: \"5 %\" if 0.05 is a share of 1, \"0.05 %\" if it is in percent"),
+      std::string::npos)
+      << mistakes("[accuracy]\ntarget = \"0.05\"\n");
+  EXPECT_EQ(mistakes("[accuracy]\ntarget = \"5 %\"\n"), "");
+}
+
+constexpr const char* kRough = R"toml(
+[texture]
+type = "random_rough"
+[design_space]
+"texture.rms" = ["5 nm", "200 nm"]
+"surface.contact_angle" = ["40 deg", "80 deg"]
+[scatter]
+"texture.rms" = "5 nm"
+[objective]
+minimise = "mean(friction)"
+)toml";
+
+// What a base lets vary of its kind of texture goes with that kind, and the study says so.
+TEST(Base, VariablesOfAnotherKindFallAwayWithIt) {
+  const Study study = parse_study(std::string("schema_version = 1\n") + kRough, "rough.toml",
+                                  {"texture.type=hole_array"});
+  ASSERT_EQ(study.variables.size(), 1u);
+  EXPECT_EQ(study.variables[0].path, "surface.contact_angle");
+  EXPECT_TRUE(study.scatter.empty());
+  EXPECT_EQ(study.fallen_away,
+            (std::vector<std::string>{"design_space.texture.rms", "scatter.texture.rms"}));
+  // Its resolved file is the same study again.
+  const Study again = parse_study(resolved_toml(study), "resolved.toml");
+  EXPECT_EQ(again.variables, study.variables);
+  EXPECT_TRUE(again.fallen_away.empty());
+}
+
+// In one file it is a mistake.
+TEST(Base, AVariableOfAnotherKindBesideTheKindIsRefused) {
+  std::string text = kRough;
+  text.replace(text.find("random_rough"), 12, "hole_array");
+  EXPECT_NE(mistakes(text).find("`texture.rms` is no number of this design"), std::string::npos);
+  EXPECT_EQ(mistakes(kRough), "");
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,173 @@
+#include "search/clock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "report/remarks.h"
+#include "report/sheet.h"
+#include "search/findings.h"
+#include "search/levels.h"
+#include "search/rounding.h"
+#include "search/run.h"
+
+namespace papilla::tests {
+namespace {
+
+Study holes() {
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml");
+  study.population.clear();
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  return study;
+}
+
+PartSeconds all(double seconds) {
+  PartSeconds out;
+  out.fill(seconds);
+  return out;
+}
+
+TEST(Clock, TheSearchKeepsHalfHoweverMuchTheRestWants) {
+  EXPECT_DOUBLE_EQ(part_deadline(60, Part::Search, all(1e6)), 30);
+  // What the rest does not want is the search's: eight parts of 1 s.
+  EXPECT_DOUBLE_EQ(part_deadline(60, Part::Search, all(1)), 52);
+  EXPECT_DOUBLE_EQ(part_deadline(60, Part::Files, all(1e6)), 60);
+}
+
+TEST(Clock, SharesAreTheWholeAndDeadlinesRise) {
+  double sum = 0, before = 0;
+  for (std::size_t p = 0; p < kParts; ++p) {
+    sum += part_share(static_cast<Part>(p));
+    const double deadline = part_deadline(100, static_cast<Part>(p), all(1e6));
+    EXPECT_NEAR(deadline, 100 * sum, 1e-9);
+    EXPECT_GT(deadline, before);
+    before = deadline;
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+// Skins first, then pixels, then more skins; the price is kept where it can be.
+TEST(Clock, AConfirmationShrinksToItsPrice) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  const Fidelity full = stage_fidelity(problem, Stage::Confirm);
+  const double price = task_price(problem, Stage::Confirm);
+  EXPECT_EQ(stage_fidelity(problem, Stage::Confirm, price).skins, full.skins);
+  const Fidelity less = stage_fidelity(problem, Stage::Confirm, 0.7 * price);
+  EXPECT_LT(less.skins, full.skins);
+  EXPECT_EQ(less.grid, full.grid);
+  EXPECT_LE(task_price(problem, Stage::Confirm, 0.7 * price), 0.7 * price);
+  const Fidelity least = stage_fidelity(problem, Stage::Confirm, 1e-9);
+  EXPECT_EQ(least.skins, 4);
+  EXPECT_EQ(least.grid, 64);
+  EXPECT_EQ(least.first_skin, full.first_skin);
+}
+
+Evaluation tried(const StudyProblem& problem, double period_um, double depth_nm, double angle_deg) {
+  Evaluation e;
+  e.unit = problem.space().unit(
+      {period_um * 1e-6, 3e-6, depth_nm * 1e-9, angle_deg * std::acos(-1.0) / 180});
+  e.outcome.ok = true;
+  e.outcome.objectives = {-0.5, 0.1};
+  return e;
+}
+
+// The search that never moved, of which nothing was said.
+TEST(Findings, AVariableOfOneValueIsNamed) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  std::vector<Evaluation> history{tried(problem, 4, 100, 50), tried(problem, 4, 200, 50),
+                                  tried(problem, 4, 300, 60)};
+  const std::vector<OneValue> one = one_value_variables(problem, history);
+  ASSERT_EQ(one.size(), 2u);
+  EXPECT_EQ(study.variables[one[0].variable].path, "texture.period");
+  EXPECT_NEAR(one[0].value, 4e-6, 1e-12);
+  EXPECT_EQ(study.variables[one[1].variable].path, "texture.diameter");
+  history.back().unit[0] += 0.1;
+  EXPECT_EQ(one_value_variables(problem, history).size(), 1u);
+  history.back().outcome.ok = false;  // what failed has shown nothing
+  EXPECT_EQ(one_value_variables(problem, history).size(), 3u);
+}
+
+TEST(Findings, ABoundIsNamedWithWhatWideningGives) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  const Point best = tried(problem, 10, 350, 80).unit;  // period and angle at their upper bounds
+  VariableSensitivity s;
+  s.variable = 0;
+  s.step = 0.35e-6;
+  s.change = {0.01, -0.02};
+  s.share = {1, 1};
+  const std::vector<AtBound> at = variables_at_bound(problem, best, {s});
+  ASSERT_EQ(at.size(), 2u);
+  EXPECT_EQ(study.variables[at[0].variable].path, "texture.period");
+  EXPECT_TRUE(at[0].upper);
+  EXPECT_FALSE(at[0].last);
+  EXPECT_EQ(at[0].change, s.change);
+  EXPECT_EQ(study.variables[at[1].variable].path, "surface.contact_angle");
+  OptimiseResult result;
+  result.asked = result.evaluations = 40;
+  result.at_bound = at;
+  const std::vector<std::string> remarks = run_remarks(study, problem, result);
+  ASSERT_EQ(remarks.size(), 2u);
+  EXPECT_EQ(remarks[0],
+            "The best design has texture.period on its upper bound, 10 um: widened by 0.35 um, as "
+            "it goes inside the bound, mean(modulation) +0.01, variation(modulation) -0.02.");
+  EXPECT_NE(remarks[1].find("widen it to see whether more helps"), std::string::npos);
+}
+
+// At a lower bound a widening goes the other way than a step up.
+TEST(Findings, TheSlopeAtALowerBoundIsTakenDownwards) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  VariableSensitivity s;
+  s.variable = 0;
+  s.step = 0.35e-6;
+  s.change = {0.01, -0.02};
+  const std::vector<AtBound> at = variables_at_bound(problem, tried(problem, 3, 350, 50).unit, {s});
+  ASSERT_EQ(at.size(), 1u);
+  EXPECT_FALSE(at[0].upper);
+  EXPECT_EQ(at[0].change, (std::vector<double>{-0.01, 0.02}));
+}
+
+TEST(Remarks, TheClockComesFirstAndSaysWhatItLeavesUnsure) {
+  Study study = holes();
+  study.search.time = 60;
+  const StudyProblem problem(study);
+  OptimiseResult result;
+  result.evaluations = 12;
+  result.asked = 40;
+  result.end = SearchEnd::Clock;
+  result.cuts = {{Part::Search, 12, 40}, {Part::Confirm, 3, 9}, {Part::Sensitivity, 0, 1}};
+  const std::vector<std::string> remarks = run_remarks(study, problem, result);
+  ASSERT_EQ(remarks.size(), 1u);
+  EXPECT_TRUE(remarks[0].starts_with(
+      "Stopped by the clock (60 s) after 12 of 40 evaluations; 3 of 9 finalists confirmed"))
+      << remarks[0];
+  EXPECT_NE(remarks[0].find("tolerances are not known"), std::string::npos);
+  result.cuts.clear();
+  result.end = SearchEnd::Exhausted;
+  EXPECT_EQ(run_remarks(study, problem, result).at(0),
+            "12 evaluations where 40 were asked for: the search had nothing more to try.");
+}
+
+TEST(Rounding, LengthsGoToTheGridAndSmallOnesToAFinerOne) {
+  const Variable period{"texture.period", "um", 3e-6, 10e-6, {}};
+  EXPECT_DOUBLE_EQ(on_grid(period, 7.048326377461542e-6, 10e-9), 7.05e-6);
+  const Variable depth{"texture.depth", "nm", 0, 1e-6, {}};
+  EXPECT_DOUBLE_EQ(on_grid(depth, 103.4e-9, 10e-9), 103e-9);
+  EXPECT_DOUBLE_EQ(on_grid(depth, 0, 10e-9), 0);
+  EXPECT_DOUBLE_EQ(on_grid(depth, 996e-9, 10e-9), 1000e-9);
+  // Within its interval: 10 um is out, 9.99 um in.
+  const Variable narrow{"texture.period", "um", 3e-6, 9.998e-6, {}};
+  EXPECT_DOUBLE_EQ(on_grid(narrow, 9.998e-6, 10e-9), 9.99e-6);
+  const double degree = std::acos(-1.0) / 180;
+  const Variable angle{"surface.contact_angle", "deg", 30 * degree, 80 * degree, {}};
+  EXPECT_NEAR(on_grid(angle, 63.43 * degree, 10e-9), 63 * degree, 1e-12);
+  const Variable volts{"drive.amplitude", "V", 10, 500, {}};
+  EXPECT_DOUBLE_EQ(on_grid(volts, 187.65, 10e-9), 188);
+}
+
+}  // namespace
+}  // namespace papilla::tests
