@@ -23,28 +23,28 @@ CutWords words_of(const ClockCut& cut, const Study& study) {
     return fmt::format("{} of {} {}", cut.done, cut.of, what);
   };
   switch (cut.part) {
-    case Part::Search:
+    case RunPart::Search:
       return {of("evaluations"),
               fmt::format("the best of {} may lie where no design was tried",
                           counted(static_cast<int>(study.variables.size()), "variable"))};
-    case Part::Narrow:
+    case RunPart::Narrow:
       return {of("designs judged again before the confirmation"),
               "a better design may have been passed over for one with lucky skins"};
-    case Part::Confirm:
+    case RunPart::Confirm:
       return {of("finalists confirmed"), "those left out may be as good"};
-    case Part::Stability:
+    case RunPart::Stability:
       return {"the order under other models not checked",
               "other choices of the model may order the designs otherwise"};
-    case Part::Flat:
+    case RunPart::Flat:
       return {"the surface without texture not computed",
               "whether the texture helps at all is not known"};
-    case Part::Rounding:
+    case RunPart::Rounding:
       return {"the rounded design not evaluated", "what rounding does is not known"};
-    case Part::Sensitivity:
+    case RunPart::Sensitivity:
       return {"the sensitivity not computed", "tolerances are not known"};
-    case Part::Parameters:
+    case RunPart::Parameters:
       return {"the finger's parameters not varied", "what they leave open is not known"};
-    case Part::Files:
+    case RunPart::Files:
       break;
   }
   PAPILLA_CHECK(false, "a part without words");
@@ -59,7 +59,7 @@ std::string clock_remark(const Study& study, const OptimiseResult& r) {
     did.push_back(std::move(words.did));
     unsure.push_back(std::move(words.unsure));
   }
-  const bool searching = r.cuts.front().part == Part::Search;
+  const bool searching = r.cuts.front().part == RunPart::Search;
   return fmt::format("{} by the clock ({}){} {}. Unsure: {}.", searching ? "Stopped" : "Cut short",
                      duration(study.search.time), searching ? " after" : ":", join_names(did, "; "),
                      join_names(unsure, "; "));

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kNumber = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
 
-std::string escaped(const std::string& text) {
+std::string regex_escaped(const std::string& text) {
   std::string out;
   for (char c : text) {
     if (std::string_view(".^$|()[]{}*+?\\").find(c) != std::string_view::npos) out += '\\';
@@ -32,7 +32,7 @@ std::string escaped(const std::string& text) {
 // Units that mean the same: all names of one factor; of several any words, which the reader judges.
 std::string unit_pattern(const std::string& unit) {
   std::vector<std::string> names;
-  for (const std::string& name : unit_names(*find_unit(unit))) names.push_back(escaped(name));
+  for (const std::string& name : unit_names(*find_unit(unit))) names.push_back(regex_escaped(name));
   if (names.empty()) return "[^0-9\\s].*";
   return fmt::format("({})", join_names(names, "|"));
 }
@@ -205,7 +205,7 @@ Json by_path(Json value) {
 
 std::string metric_pattern() {
   std::vector<std::string> names;
-  for (const MetricInfo& m : metric_list()) names.push_back(escaped(m.name));
+  for (const MetricInfo& m : metric_list()) names.push_back(regex_escaped(m.name));
   return fmt::format(
       "((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|{}\\(.*\\))\\s*\\)?",
       join_names(names, "|"), kVoltageFor);

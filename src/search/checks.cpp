@@ -24,7 +24,7 @@ std::size_t on_front(const OptimiseResult& result) {
 bool check_stability(Run& run, const std::function<void()>& step) {
   const std::size_t variants = stability_variants(run.problem).size();
   const double seconds = run.seconds_of(on_front(run.result) * variants, Stage::Stability);
-  if (!run.begin(Part::Stability, Stage::Stability, false, seconds)) return true;
+  if (!run.begin(RunPart::Stability, Stage::Stability, false, seconds)) return true;
   std::vector<std::vector<TaskAnswer>> answers;
   // The front comes first.
   for (const FinalDesign& f : run.result.finalists) {
@@ -78,7 +78,7 @@ void compare_with_flat(Run& run) {
                      (!run.study.variables[k].path.starts_with("texture.") && own[k] != best[k]);
   }
   const double seconds = run.seconds_of_designs(finish_differs ? 2 : 1, Stage::Confirm);
-  if (!run.begin(Part::Flat, Stage::Confirm, true, seconds)) return;
+  if (!run.begin(RunPart::Flat, Stage::Confirm, true, seconds)) return;
   keep(run.result.flat, best);
   if (finish_differs) keep(run.result.flat_before, own);
 }
@@ -89,7 +89,7 @@ void round_best(Run& run) {
   if (!(run.study.search.rounding > 0) || !best.confirmed.ok) return;
   FinalDesign r;
   r.unit = rounded(run.problem, best.unit);
-  if (r.unit == best.unit || !run.begin(Part::Rounding, Stage::Rounding, false,
+  if (r.unit == best.unit || !run.begin(RunPart::Rounding, Stage::Rounding, false,
                                         run.seconds_of_designs(1, Stage::Rounding)))
     return;
   r.design = run.problem.space().design(r.unit);
@@ -103,7 +103,7 @@ void find_sensitivity(Run& run) {
   const FinalDesign& best = run.result.finalists[run.result.best];
   if (!best.confirmed.ok) return;
   const std::vector<SensitivityMove> moves = sensitivity_moves(run.problem, best.unit);
-  if (moves.empty() || !run.begin(Part::Sensitivity, Stage::Sensitivity, false,
+  if (moves.empty() || !run.begin(RunPart::Sensitivity, Stage::Sensitivity, false,
                                   run.seconds_of_designs(moves.size() + 1, Stage::Sensitivity)))
     return;
   std::vector<Point> points{best.unit};
@@ -120,7 +120,7 @@ void find_parameters(Run& run, Score& score, const Point& unit, bool flat) {
   std::vector<TaskRequest> requests;
   for (std::size_t t = 0; t < run.problem.nominal_tasks(); ++t)
     requests.push_back({Stage::Steps, t, flat, unit, run.confirm_seconds});
-  if (!run.begin(Part::Parameters, Stage::Steps, flat,
+  if (!run.begin(RunPart::Parameters, Stage::Steps, flat,
                  run.seconds_of(requests.size(), Stage::Steps)))
     return;
   run.problem.add_steps(score, run.replay.answers(requests));

@@ -12,9 +12,9 @@ constexpr PartSeconds kShares{0.50, 0.12, 0.16, 0.03, 0.06, 0.03, 0.04, 0.02, 0.
 
 }  // namespace
 
-double part_share(Part part) { return kShares[static_cast<std::size_t>(part)]; }
+double part_share(RunPart part) { return kShares[static_cast<std::size_t>(part)]; }
 
-double part_deadline(double limit, Part part, const PartSeconds& wanted) {
+double part_deadline(double limit, RunPart part, const PartSeconds& wanted) {
   double out = limit;
   for (std::size_t later = static_cast<std::size_t>(part) + 1; later < kParts; ++later)
     out -= std::min(wanted[later], kShares[later] * limit);

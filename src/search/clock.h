@@ -11,7 +11,7 @@
 namespace papilla::search {
 
 // What a run does, in this order.
-enum class Part {
+enum class RunPart {
   Search,
   Narrow,
   Confirm,
@@ -28,10 +28,10 @@ inline constexpr std::size_t kParts = 9;
 using PartSeconds = std::array<double, kParts>;
 
 // Of the limit: what a part can count on, at most as long as it wants.
-double part_share(Part part);
+double part_share(RunPart part);
 // Until when a part may work [s since the run began]: for each later one its share, or as long as
 // it wants where that is less, is kept.
-double part_deadline(double limit, Part part, const PartSeconds& wanted);
+double part_deadline(double limit, RunPart part, const PartSeconds& wanted);
 
 class RunClock {
  public:
@@ -39,14 +39,14 @@ class RunClock {
 
   double seconds() const;  // since the run began
   bool limited() const { return limit_ > 0; }
-  void enter(Part part) { part_ = part; }
+  void enter(RunPart part) { part_ = part; }
   // Seconds that the present part may still take; infinite without a limit.
   double left(const PartSeconds& wanted) const;
 
  private:
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   double limit_ = 0;
-  Part part_ = Part::Search;
+  RunPart part_ = RunPart::Search;
 };
 
 }  // namespace papilla::search

@@ -134,7 +134,7 @@ bool narrow(Run& run) {
   std::vector<Point> asked;
   for (std::size_t i : chosen_of(run.search, run.history, count / 2))
     asked.push_back(run.history.evaluations[i].unit);
-  run.clock.enter(Part::Narrow);
+  run.clock.enter(RunPart::Narrow);
   const bool done_before = run.replay.finished(Stage::Narrow);
   const double from = run.clock.seconds();
   const auto left_for = [&](std::size_t designs) {
@@ -160,9 +160,9 @@ bool narrow(Run& run) {
     const auto done = static_cast<double>(run.narrowed.size());
     run.progress("narrow", static_cast<int>(done), static_cast<int>(count),
                  (run.clock.seconds() - from) / done * (static_cast<double>(count) - done) +
-                     run.seconds_from(Part::Confirm));
+                     run.seconds_from(RunPart::Confirm));
   }
-  if (late) run.cut(Part::Narrow, run.narrowed.size(), count);
+  if (late) run.cut(RunPart::Narrow, run.narrowed.size(), count);
   return true;
 }
 
@@ -184,14 +184,14 @@ double confirm_budget(const Run& run) {
 }  // namespace
 
 bool confirm(Run& run) {
-  run.clock.enter(Part::Confirm);
+  run.clock.enter(RunPart::Confirm);
   const std::vector<Point> chosen =
       to_confirm(run, run.narrowed.size() < kFewNarrowed ? run.history : run.narrowed);
   run.confirm_seconds = confirm_budget(run);
   run.result.confirmed_with = stage_fidelity(run.problem, Stage::Confirm, run.confirm_seconds);
   const std::size_t total = chosen.size();
   const bool done_before = run.replay.finished(Stage::Confirm);
-  run.progress("confirm", 0, static_cast<int>(total), run.seconds_from(Part::Confirm));
+  run.progress("confirm", 0, static_cast<int>(total), run.seconds_from(RunPart::Confirm));
   for (std::size_t done = 0; done < total; ++done) {
     if (run.stopped()) return false;
     const auto next = run.replay.next();
@@ -201,9 +201,9 @@ bool confirm(Run& run) {
     run.result.finalists.push_back(finalist(run, chosen[done]));
     run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(total),
                  run.seconds_of_designs(total - done - 1, Stage::Confirm) +
-                     run.seconds_from(Part::Stability));
+                     run.seconds_from(RunPart::Stability));
   }
-  run.cut(Part::Confirm, run.result.finalists.size(), total);
+  run.cut(RunPart::Confirm, run.result.finalists.size(), total);
   judge(run);
   return true;
 }

@@ -170,7 +170,7 @@ double Run::seconds_of_designs(std::size_t designs, Stage stage) const {
 
 PartSeconds Run::wanted() const {
   PartSeconds out{};
-  const auto set = [&](Part part, double seconds) {
+  const auto set = [&](RunPart part, double seconds) {
     out[static_cast<std::size_t>(part)] = seconds;
   };
   const std::size_t front = result.finalists.empty()
@@ -180,26 +180,26 @@ PartSeconds Run::wanted() const {
                                       [](const FinalDesign& f) { return !f.folder.empty(); }));
   // A level between of too few designs is none: its time is the search's.
   const bool enough = !clock.limited() || seconds_of_designs(kFewNarrowed, Stage::Narrow) <=
-                                              part_share(Part::Narrow) * study.search.time;
-  if (enough) set(Part::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
-  set(Part::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
-  set(Part::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
-  set(Part::Flat, seconds_of_designs(2, Stage::Confirm));
-  set(Part::Rounding, seconds_of_designs(1, Stage::Rounding));
-  set(Part::Sensitivity, seconds_of_designs(1 + 2 * search.space.size(), Stage::Sensitivity));
+                                              part_share(RunPart::Narrow) * study.search.time;
+  if (enough) set(RunPart::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
+  set(RunPart::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
+  set(RunPart::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
+  set(RunPart::Flat, seconds_of_designs(2, Stage::Confirm));
+  set(RunPart::Rounding, seconds_of_designs(1, Stage::Rounding));
+  set(RunPart::Sensitivity, seconds_of_designs(1 + 2 * search.space.size(), Stage::Sensitivity));
   if (problem.parameters_unknown().empty())
-    set(Part::Parameters, seconds_of(2 * problem.nominal_tasks(), Stage::Steps));
+    set(RunPart::Parameters, seconds_of(2 * problem.nominal_tasks(), Stage::Steps));
   // The page solves a patch of the best design at each humidity, and files are written.
-  set(Part::Files, kSecondsOfFiles + seconds_of(1, Stage::Confirm) * kPagePatches / kUsualSkins);
+  set(RunPart::Files, kSecondsOfFiles + seconds_of(1, Stage::Confirm) * kPagePatches / kUsualSkins);
   return out;
 }
 
-double Run::seconds_from(Part on) const {
+double Run::seconds_from(RunPart on) const {
   const PartSeconds all = wanted();
   return std::accumulate(all.begin() + static_cast<std::ptrdiff_t>(on), all.end(), 0.0);
 }
 
-bool Run::begin(Part part, Stage stage, bool flat, double seconds) {
+bool Run::begin(RunPart part, Stage stage, bool flat, double seconds) {
   clock.enter(part);
   if (replay.has(stage, flat)) return true;
   if (!replay.finished(stage, flat) && fits(seconds)) return true;
@@ -207,7 +207,7 @@ bool Run::begin(Part part, Stage stage, bool flat, double seconds) {
   return false;
 }
 
-void Run::cut(Part part, std::size_t done, std::size_t of) {
+void Run::cut(RunPart part, std::size_t done, std::size_t of) {
   const bool known = std::any_of(result.cuts.begin(), result.cuts.end(),
                                  [part](const ClockCut& c) { return c.part == part; });
   if (clock.limited() && done < of && !known) result.cuts.push_back({part, done, of});

@@ -36,7 +36,7 @@ enum class SearchEnd {
 
 // A part of the run that the clock cut: evaluations, designs, or 0 of 1 where it was left out.
 struct ClockCut {
-  Part part = Part::Search;
+  RunPart part = RunPart::Search;
   std::size_t done = 0, of = 0;
 };
 

@@ -113,7 +113,7 @@ class Searching {
     // Clock over evaluation time: what the searcher itself takes.
     const double overhead = std::max(1.0, run_.clock.seconds() / timed);
     const double left = overhead * run_.seconds_of_designs(budget_ - evaluated_, Stage::Search) +
-                        run_.seconds_from(Part::Narrow);
+                        run_.seconds_from(RunPart::Narrow);
     const double limit = run_.study.search.time;
     return limit > 0 ? std::min(left, std::max(0.0, limit - run_.clock.seconds())) : left;
   }
@@ -145,14 +145,14 @@ void take_from_journal(Run& run) {
 }  // namespace
 
 bool search_designs(Run& run) {
-  run.clock.enter(Part::Search);
+  run.clock.enter(RunPart::Search);
   if (run.replay.finished(Stage::Search)) {
     take_from_journal(run);
   } else if (!Searching(run).run()) {
     return false;
   }
   if (run.result.end == SearchEnd::Clock)
-    run.cut(Part::Search, static_cast<std::size_t>(run.result.evaluations),
+    run.cut(RunPart::Search, static_cast<std::size_t>(run.result.evaluations),
             static_cast<std::size_t>(run.search.evaluations));
   run.result.one_value = one_value_variables(run.problem, run.history.evaluations);
   return true;

@@ -27,14 +27,14 @@ struct Run {
   // the search took and what plans say of both; 0: nothing was timed yet.
   double seconds_of(std::size_t tasks, Stage stage) const;
   double seconds_of_designs(std::size_t designs, Stage stage) const;
-  PartSeconds wanted() const;          // of each part in full
-  double seconds_from(Part on) const;  // wanted by this part and all that follow
+  PartSeconds wanted() const;             // of each part in full
+  double seconds_from(RunPart on) const;  // wanted by this part and all that follow
   // Whether work of so many seconds still fits into the present part; true without a limit.
   bool fits(double seconds) const { return seconds <= clock.left(wanted()); }
   // Whether to begin a part that is done whole or not at all: as the journal says, else the clock.
-  bool begin(Part part, Stage stage, bool flat, double seconds);
+  bool begin(RunPart part, Stage stage, bool flat, double seconds);
   // Where the clock cut a part.
-  void cut(Part part, std::size_t done, std::size_t of);
+  void cut(RunPart part, std::size_t done, std::size_t of);
   double price(Stage stage, double most_seconds) const;  // task_price, computed once
   // Whether the design was evaluated, not refused before.
   bool add_to_history(const Point& unit, const Judgement& judgement);

@@ -1,11 +1,10 @@
 // What is said of files that differ from their design.
 #include "fabricate/verify.h"
 
-#include "geometry/io/drawing.h"
-#include "tests/fabricate/exported_folder.h"
-
 #include "base/constants.h"
 #include "fabricate/export.h"
+#include "geometry/io/drawing.h"
+#include "tests/fabricate/exported_folder.h"
 
 namespace papilla::tests {
 namespace {

@@ -132,7 +132,7 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
   r.appearance->haze = 0.0123, r.appearance->transmittance = 0.912, r.appearance->gloss = 0.87;
   r.appearance->colour_shift = 0.0021;
   const std::string table = response_table(r);
-  for (const std::string line :
+  for (const std::string& line :
        {std::string(
             "modulation 0.5 at 35 % RH: 123.4 ±5.0 V (±: sampling, grid; not in ±: field, solver, "
             "method, parameters, water)\n"),

@@ -29,17 +29,17 @@ PartSeconds all(double seconds) {
 }
 
 TEST(Clock, TheSearchKeepsHalfHoweverMuchTheRestWants) {
-  EXPECT_DOUBLE_EQ(part_deadline(60, Part::Search, all(1e6)), 30);
+  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Search, all(1e6)), 30);
   // What the rest does not want is the search's: eight parts of 1 s.
-  EXPECT_DOUBLE_EQ(part_deadline(60, Part::Search, all(1)), 52);
-  EXPECT_DOUBLE_EQ(part_deadline(60, Part::Files, all(1e6)), 60);
+  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Search, all(1)), 52);
+  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Files, all(1e6)), 60);
 }
 
 TEST(Clock, SharesAreTheWholeAndDeadlinesRise) {
   double sum = 0, before = 0;
   for (std::size_t p = 0; p < kParts; ++p) {
-    sum += part_share(static_cast<Part>(p));
-    const double deadline = part_deadline(100, static_cast<Part>(p), all(1e6));
+    sum += part_share(static_cast<RunPart>(p));
+    const double deadline = part_deadline(100, static_cast<RunPart>(p), all(1e6));
     EXPECT_NEAR(deadline, 100 * sum, 1e-9);
     EXPECT_GT(deadline, before);
     before = deadline;
@@ -139,7 +139,7 @@ TEST(Remarks, TheClockComesFirstAndSaysWhatItLeavesUnsure) {
   result.evaluations = 12;
   result.asked = 40;
   result.end = SearchEnd::Clock;
-  result.cuts = {{Part::Search, 12, 40}, {Part::Confirm, 3, 9}, {Part::Sensitivity, 0, 1}};
+  result.cuts = {{RunPart::Search, 12, 40}, {RunPart::Confirm, 3, 9}, {RunPart::Sensitivity, 0, 1}};
   const std::vector<std::string> remarks = run_remarks(study, problem, result);
   ASSERT_EQ(remarks.size(), 1u);
   EXPECT_TRUE(remarks[0].starts_with(
