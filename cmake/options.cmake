@@ -27,6 +27,17 @@ elseif(PAPILLA_NATIVE)
   check_cxx_compiler_flag(-march=native PAPILLA_HAS_MARCH_NATIVE)
   if(PAPILLA_HAS_MARCH_NATIVE)
     target_compile_options(papilla_options INTERFACE -march=native)
+    # GCC 12.2 with AVX-512 stores 1 in place of the 0 here (docs/decisions, 15).
+    include(CheckCXXSourceRuns)
+    set(CMAKE_REQUIRED_FLAGS "-O3 -march=native")
+    check_cxx_source_runs("
+      #include <vector>
+      __attribute__((noinline)) std::vector<double> list() { return {1, 1, 1, 0}; }
+      int main() { return list()[3] != 0; }" PAPILLA_LISTS_ARE_STORED_RIGHT)
+    unset(CMAKE_REQUIRED_FLAGS)
+    if(NOT PAPILLA_LISTS_ARE_STORED_RIGHT)
+      target_compile_options(papilla_options INTERFACE -fno-tree-slp-vectorize)
+    endif()
   endif()
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -fno-math-errno")

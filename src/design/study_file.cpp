@@ -109,8 +109,9 @@ void StudyFile::keep(const std::string& path) {
 
 bool StudyFile::falls_away(const std::string& section, const std::string& path, const Node& node) {
   const auto type = document.origins().find("texture.type");
-  if (!path.starts_with("texture.") || numbers.has(path) || type == document.origins().end() ||
-      type->second.file == node.key_place.file)
+  const bool asked_for = node.key_place.line == 0;  // on the command line, of this study
+  if (asked_for || !path.starts_with("texture.") || numbers.has(path) ||
+      type == document.origins().end() || type->second.file == node.key_place.file)
     return false;
   study.fallen_away.push_back(section + "." + path);
   if (Node* kept = study.study_sections.find(section)) erase_member(*kept, path);

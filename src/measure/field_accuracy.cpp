@@ -110,8 +110,8 @@ std::vector<FieldAccuracyRow> field_accuracy(const std::string& sample, const De
         least = std::min(least, spent);
         total += spent;
       }
-      rows.push_back({sample, method, humidity, patch.gap.grid.nx, result.mean_pressure, 0,
-                      least, result.ok ? "" : result.reason});
+      rows.push_back({sample, method, humidity, patch.gap.grid.nx, result.mean_pressure, 0, least,
+                      result.ok ? "" : result.reason});
     };
     const FinePatch solved = fine_patch(design, picture, 1);
     for (const bool screening : {false, true}) {

@@ -156,7 +156,7 @@ TEST(Evaluate, BeyondBreakdownItsNumbersMeanNothing) {
   const auto status = nlohmann::json::parse(json.out)["points"][0]["status"].get<std::string>();
   EXPECT_NE(status.find("nothing physical"), std::string::npos) << status;
   const Outcome sound = place.run("evaluate " + kSample + kDraft + "--voltage-for 0.3");
-  EXPECT_NE(sound.out.find("V (±: sampling, solver; not in ±: grid"), std::string::npos)
+  EXPECT_NE(sound.out.find("V (±: sampling, solver, field; not in ±: grid"), std::string::npos)
       << sound.out;
 }
 

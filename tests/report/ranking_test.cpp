@@ -23,17 +23,21 @@ struct Ranked {
   Ranked() {
     options.criteria = parse_criteria("friction:low,variation(friction),compliance:high");
     options.parameters = true;
+    options.weights = {1, 1, 1};
     RankedCandidate first, second;
     first.index = 1, first.rank = 1, first.tied_with_next = true;
     first.score = {0.3, 0.2, 0.4}, first.behind_best = {0, 0, 0};
     first.ahead_of_next = {0.12, 0.04, 0.2, 0.05};
     first.p_ahead = 0.9, first.p_best = 0.8, first.skins = 24;
+    first.p_best_by = second.p_best_by = {0.5, 0.5, 0.5};
+    first.over = second.over = {Relation::Open, Relation::Open};
     first.metrics = {{0.1, 0.09, 0.11}, {0.25, 0.2, 0.3}, {3e-12, 2e-12, 4e-12}};
     second.index = 0, second.rank = 2;
     second.score = {0.1, 0, 0.2}, second.behind_best = {-0.12, -0.2, -0.04};
     second.p_best = 0.2, second.skins = 18;
     second.metrics = {{0.2, 0.18, 0.22}, {-0.5, -0.6, -0.4}, {1.5e-12, 1e-12, 2e-12}};
     ranking.states = {{FingerState::Natural, {first, second}, {}, 42, 48}};
+    ranking.titles = {"Hard coat", "Fine coat"};
     ranking.skins = 42, ranking.seconds = 6.54;
     ranking.directions = 3, ranking.step_skins = 8, ranking.step_grid = 64;
   }
@@ -62,7 +66,8 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
   EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "-0.5 ± 0.1", "1.5 ± 0.5", "-", "-",
                                     "-", "0.200", "18"}));
   EXPECT_EQ(lines[4],
-            "42 patches of skin tried (more where two designs are close; 48 with as many for every "
+            "the order is known; 42 patches of skin tried (more where two designs are close; 48 "
+            "with as many for every "
             "design)");
   EXPECT_NE(table.find("3 directions of its covariance, the same for all designs; 8 skins, 64 "
                        "pixels"),
@@ -85,6 +90,10 @@ TEST(RankingReport, ForProgramsIsInSi) {
        {"ahead_of_next", {{"value", 0.12}, {"low", 0.04}, {"high", 0.2}, {"parameters", 0.05}}},
        {"p_ahead", 0.9},
        {"p_best", 0.8},
+       {"p_best_by",
+        {{"mean(friction)", 0.5}, {"variation(friction)", 0.5}, {"mean(compliance)", 0.5}}},
+       {"over", {"open", "open"}},
+       {"title", "Fine coat"},
        {"metrics",
         {{"mean(friction)",
           {{"value", 0.1}, {"low", 0.09}, {"high", 0.11}, {"parameters", nullptr}}},

@@ -59,7 +59,7 @@ TEST(ResponseReport, TheTableHasEachNumberUnderItsHead) {
       "105.0 ±8.0     106.0 ±9.0       7.2       110\n"
       "modulation █  mean 0.102 ±0.005  worst 0.102 ±0.005\n"
       "error of the mean modulation: sampling 4.9 %; parameters not asked for (--parameters); not "
-      "measured: grid, field, solver, humidity, method, water\n"
+      "measured: grid, solver, humidity, method, field, water\n"
       "air beyond its breakdown field on up to 2.1 % of the patch, 22 % of the pull; peak field in "
       "the dielectric 230 V/um\n"
       "pull: field rule times 0.94 to 0.94, by the 3-D field; good to 6 %\n"))
@@ -113,7 +113,7 @@ TEST(ResponseReport, ErrorsAreNamedWithTheirShares) {
                                   .water = 0.04};
   EXPECT_NE(response_table(r).find("sampling 5.0 %, grid 10 %, solver 0.5 %, method 2.5 %, "
                                    "parameters 15 %; not in ±: water 20 %, common to all designs; "
-                                   "not measured: field, humidity\n"),
+                                   "not measured: humidity, field\n"),
             std::string::npos)
       << response_table(r);
 }
@@ -134,8 +134,8 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
   const std::string table = response_table(r);
   for (const std::string& line :
        {std::string(
-            "modulation 0.5 at 35 % RH: 123.4 ±5.0 V (±: sampling, grid; not in ±: field, solver, "
-            "method, parameters, water)\n"),
+            "modulation 0.5 at 35 % RH: 123.4 ±5.0 V (±: sampling, grid; not in ±: solver, method, "
+            "field, parameters, water)\n"),
         "modulation 2 at 35 % RH: " + text(ends) + " first (modulation 0.75)\n",
         std::string("accuracy 2 % asked for, 1.5 % of mean(modulation): reached (96 pixels, 5 "
                     "skins, solved areas)\n"),

@@ -54,10 +54,10 @@ TEST(Clock, AConfirmationShrinksToItsPrice) {
   const Fidelity full = stage_fidelity(problem, Stage::Confirm);
   const double price = task_price(problem, Stage::Confirm);
   EXPECT_EQ(stage_fidelity(problem, Stage::Confirm, price).skins, full.skins);
-  const Fidelity less = stage_fidelity(problem, Stage::Confirm, 0.7 * price);
+  const Fidelity less = stage_fidelity(problem, Stage::Confirm, 0.85 * price);
   EXPECT_LT(less.skins, full.skins);
   EXPECT_EQ(less.grid, full.grid);
-  EXPECT_LE(task_price(problem, Stage::Confirm, 0.7 * price), 0.7 * price);
+  EXPECT_LE(task_price(problem, Stage::Confirm, 0.85 * price), 0.85 * price);
   const Fidelity least = stage_fidelity(problem, Stage::Confirm, 1e-9);
   EXPECT_EQ(least.skins, 4);
   EXPECT_EQ(least.grid, 64);
