@@ -25,6 +25,17 @@ std::vector<std::pair<double, double>> with_errors(const std::string& text) {
   return out;
 }
 
+// Which of the readings of a reason its claim shows: the place of the nearest number.
+std::size_t shown(const std::string& model, const std::string& reason) {
+  const auto one = with_errors(model), of = with_errors(reason);
+  if (one.empty() || of.empty()) return 0;
+  std::size_t at = 0;
+  for (std::size_t k = 1; k < of.size(); ++k) {
+    if (std::abs(of[k].first - one[0].first) < std::abs(of[at].first - one[0].first)) at = k;
+  }
+  return at;
+}
+
 TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
   std::map<std::string, std::vector<std::string>> table;
   const std::string path = std::string(PAPILLA_SOURCE_DIR) + "/results/reproduction/claims.csv";
@@ -38,8 +49,12 @@ TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
   for (const ClaimResult& r : reproduce(options)) {
     const std::vector<std::string>& then = table.at(r.claim->id);
     const auto compare = [&](const Judgement& now, std::size_t at) {
-      const auto few = with_errors(now.model + "; " + now.reason),
-                 all = with_errors(then.at(at + 3) + "; " + then.at(at + 4));
+      // A claim of several readings shows the one that is nearest to failing: another may be with
+      // fewer skins.
+      const bool same = shown(now.model, now.reason) == shown(then.at(at + 3), then.at(at + 4));
+      const auto few = with_errors(same ? now.model + "; " + now.reason : now.reason),
+                 all =
+                     with_errors(same ? then.at(at + 3) + "; " + then.at(at + 4) : then.at(at + 4));
       ASSERT_EQ(few.size(), all.size()) << r.claim->id << ": " << now.reason;
       for (std::size_t k = 0; k < few.size(); ++k) {
         const double rounding = 0.01 * std::abs(all[k].first);
@@ -47,7 +62,7 @@ TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
             << r.claim->id << ", number " << k << ": " << now.reason;
         ++compared;
       }
-      if (then.at(at + 1).empty()) return;
+      if (!same || then.at(at + 1).empty()) return;
       const double value = std::stod(then.at(at + 1)), se = then.at(at + 2).empty()
                                                                 ? 0.02 * std::abs(value)
                                                                 : std::stod(then.at(at + 2));
