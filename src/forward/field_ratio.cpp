@@ -37,7 +37,7 @@ std::vector<Pulls> pulls_of(const PatchSetup& setup, int k) {
   const Scene& scene = setup.scene();
   const Heightmap skin = setup.skin(k);
   const std::vector<double> height = setup.height(skin);
-  const std::vector<WaterMember> members = setup.water_members(k);
+  const WaterMember mean{1, static_cast<std::uint64_t>(setup.fidelity().first_skin + k)};
   PatchStates start;
   std::vector<Pulls> out;
   for (const double rh : scene.environment.relative_humidity) {
@@ -45,8 +45,8 @@ std::vector<Pulls> pulls_of(const PatchSetup& setup, int k) {
     const double pressure =
         ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh).mean_pressure();
     PatchFields fields;
-    solve_patch(setup.problem(height, *kernel, rh, pressure, members.front()), setup.plan(),
-                setup.fidelity(), start, &fields);
+    solve_patch(setup.problem(height, *kernel, rh, pressure, mean), setup.plan(), setup.fidelity(),
+                start, &fields);
     Pulls pulls;
     pulls.rule = fields.pull.mean();
     if (!fields.off.gap.empty()) {

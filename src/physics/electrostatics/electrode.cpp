@@ -47,8 +47,8 @@ int reach_of(double distance, double step, int n) {
   return std::min(static_cast<int>(distance / step), (n - 1) / 2);
 }
 
-// Calls visit(pixel beside, squared distance) for the pixels within `radius` of one, nearest rows
-// first, until it returns false for a row.
+// Calls row(j) for j = 0, 1, -1, 2, -2 ... up to `reach`, until both rows of a distance say that
+// nothing beyond can matter.
 template <class Row>
 void for_each_row(int reach, Row&& row) {
   if (!row(0)) return;

@@ -38,22 +38,21 @@ struct FieldSolution {
   std::string reason;  // when not ok
 };
 
-// p = eps0/2 (V_rms / |g + sum d/eps + h_SC|)^2 per pixel (Eq. electrostatics.1), zero in bridges,
-// faded around them (Eq. electrostatics.3), raised over droplets that do not bridge (Eq.
-// electrostatics.4); behind walls the mean of the rules with uniform and with column-wise
-// dielectric (Eq. electrostatics.2; within 1.4 % of the 3-D field on the arrays of the M3 paper for
-// gaps up to 0.2 um, 3 % up to 1 um). surface: the rigid one below the gap, for its walls;
-// may be null. Not ok: a bare electrode, or a gap that is not finite. Cost: O(pixels), 0.3
-// ms at 128^2.
+// p = eps0/2 (V_rms / |g + D + h_SC|)^2 per pixel (Eq. electrostatics.1), D the d/eps of the column
+// (Eq. electrostatics.2), zero in bridges, faded around them (Eq. electrostatics.3), raised over
+// droplets that do not bridge (Eq. electrostatics.4). surface: the rigid one below the gap, for its
+// film; null: the flat film of the problem. Not ok: a bare electrode, or a gap that is not finite.
+// Cost: O(pixels), 0.3 ms at 128^2.
 FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
                                 const Wetting& wetting, const FieldProblem& problem);
 
 // The local rule with the flux free to spread sideways in the dielectric: the potential phi on its
-// surface solves K phi + phi/(g + h_SC) = (eps/d) V, K = eps q coth(q d), phi = 0 under bridges
-// (Eq. electrostatics.16); the pull is the local one with the flux phi/(g + h_SC), faded beside
-// water by tanh^2 over the pixel's own gap. Conjugate gradients in the energy norm, two FFT pairs
-// an iteration, about 6 iterations to 1e-4. Without a dielectric: the local rule. Not ok: as the
-// local rule, or the iteration limit. Options, walls, caps and droplets as there.
+// surface solves K phi + (1/D - eps/d) phi + phi/(g + h_SC) = V/D, K = eps q coth(q d), d the mean
+// thickness, phi = 0 under bridges (Eq. electrostatics.16); the pull is the local one with the flux
+// phi/(g + h_SC), faded beside water by tanh^2 over the pixel's own gap. Conjugate gradients in the
+// energy norm, two FFT pairs an iteration, about 6 iterations to 1e-4. Without a dielectric: the
+// local rule. Not ok: as the local rule, or the iteration limit. Options, caps and droplets as
+// there.
 FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
                                  const Wetting& wetting, const FieldProblem& problem,
                                  double tolerance = 1e-4);
