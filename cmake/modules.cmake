@@ -13,31 +13,49 @@ function(papilla_unity name)
   endforeach()
 endfunction()
 
+# Rooms that read, arrange and print: what they take is the compiler's time, not the processor's (docs/architecture.md).
+set(PAPILLA_ROOMS_THAT_TALK config design published calibrate claims measure cases report cli api)
+set(PAPILLA_TALKING_OPTIONS $<$<CONFIG:Release>:-O1>)
+
 # papilla_library(NAME FOLDER... LIBS target...): every .cpp of the folders, one library. Other programs see its public
 # headers alone; our own program and tests link papilla_inside, which adds the internal headers and what those include.
 function(papilla_library name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
-  set(sources)
   foreach(folder ${ARG_UNPARSED_ARGUMENTS})
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-    list(APPEND sources ${found})
+    cmake_path(GET folder FILENAME room)
+    if(room IN_LIST PAPILLA_ROOMS_THAT_TALK)
+      list(APPEND talking ${found})
+    else()
+      list(APPEND computing ${found})
+    endif()
   endforeach()
-  add_library(${name} ${sources})
-  papilla_unity(${name} ${ARG_UNPARSED_ARGUMENTS})
+  add_library(papilla_headers INTERFACE)
+  target_include_directories(papilla_headers INTERFACE ${CMAKE_SOURCE_DIR}/include)
+  target_link_libraries(papilla_headers INTERFACE papilla_options fmt::fmt OpenMP::OpenMP_CXX Eigen3::Eigen
+                        nlohmann_json::nlohmann_json)
+  add_library(papilla_talking OBJECT ${talking})
+  target_compile_options(papilla_talking PRIVATE ${PAPILLA_TALKING_OPTIONS})
+  add_library(${name} ${computing} $<TARGET_OBJECTS:papilla_talking>)
   set_target_properties(${name} PROPERTIES OUTPUT_NAME papilla EXPORT_NAME papilla VERSION ${PROJECT_VERSION}
                         SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})  # no stable ABI before 1.0
   target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}/include>
                                             $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${name} PUBLIC cxx_std_20)
-  target_link_libraries(${name} PRIVATE $<BUILD_INTERFACE:papilla_options> ${ARG_LIBS})
-  if(BUILD_SHARED_LIBS)  # calls within the library are direct, as in a static one
-    target_compile_options(${name} PRIVATE -fno-semantic-interposition)
+  foreach(part ${name} papilla_talking)
+    papilla_unity(${part} ${ARG_UNPARSED_ARGUMENTS})
+    target_link_libraries(${part} PRIVATE $<BUILD_INTERFACE:papilla_headers> ${ARG_LIBS})
+    if(BUILD_SHARED_LIBS)  # calls within the library are direct, as in a static one
+      target_compile_options(${part} PRIVATE -fno-semantic-interposition)
+      set_target_properties(${part} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    endif()
+  endforeach()
+  if(BUILD_SHARED_LIBS)
     target_link_options(${name} PRIVATE LINKER:-Bsymbolic-functions)
   endif()
 
   add_library(papilla_inside INTERFACE)
-  target_link_libraries(papilla_inside INTERFACE ${name} papilla_options fmt::fmt OpenMP::OpenMP_CXX Eigen3::Eigen
-                        nlohmann_json::nlohmann_json)
+  target_link_libraries(papilla_inside INTERFACE ${name} papilla_headers)
 endfunction()
 
 # papilla_embed(module OUT name file ...): each file becomes `extern const std::string_view name` in namespace papilla.

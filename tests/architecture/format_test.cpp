@@ -34,5 +34,15 @@ TEST(Sources, HaveNoUnfinishedMarks) {
   }
 }
 
+// Two tests at a time that write one name read each other's file, now and then.
+TEST(Sources, OfTestsWriteBelowAFolderOfTheirOwn) {
+  for (const std::string& file : source_files({"tests"}, {".h", ".cpp"})) {
+    if (file == "tests/architecture/format_test.cpp" || file == "tests/temporary.h") continue;
+    const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
+    for (const char* shared : {"TempDir()", "temp_directory_path", "\"/tmp"})
+      EXPECT_EQ(text.find(shared), std::string::npos) << file << " writes to " << shared;
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -14,6 +14,7 @@
 
 #include "geometry/io/files.h"
 #include "geometry/texture.h"
+#include "tests/temporary.h"
 
 namespace {
 
@@ -50,9 +51,7 @@ int main(int argc, char** argv) {
   const papilla::tests::Texture texture{holes};
   const papilla::tests::Heightmap h =
       papilla::tests::generate(texture, papilla::tests::patch_grid(texture, pixels, 240e-6));
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / "papilla-export-bench";
-  std::filesystem::create_directories(folder);
+  const std::filesystem::path folder = papilla::tests::temporary("");
   const std::string ours = folder / "ours.exr", theirs = folder / "theirs.exr";
 
   papilla::tests::write_exr(ours, h, {});

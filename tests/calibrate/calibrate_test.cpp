@@ -14,6 +14,7 @@
 #include "design/design.h"
 #include "forward/forward.h"
 #include "report/fit.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -27,9 +28,8 @@ Calibration read(const std::string& path) { return read_calibration(path, m3_cla
 class Calibrate : public testing::Test {
  protected:
   Calibrate() {
-    folder_ = testing::TempDir() + "papilla_calibrate_" +
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    std::filesystem::remove_all(folder_);
+    folder_ =
+        temporary("calibrate_") + testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(folder_);
   }
   std::string write(const std::string& name, const std::string& text) const {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/io/files.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -51,7 +52,7 @@ TEST(SolveBridge, ARupturedBridgeIsNullAndWrongInputIsRefused) {
 
 TEST(SolveDroplets, ReadsAGapAndDrawsAPicture) {
   Heightmap gap{{64, 64, 12e-6, 12e-6}, std::vector<double>(64 * 64, 100e-9)};
-  const std::string folder = testing::TempDir();
+  const std::string folder = temporary("");
   write_gsf(folder + "gap.gsf", gap, {});
   int status = -1;
   const auto json = nlohmann::json::parse(output("droplets --gap " + folder +

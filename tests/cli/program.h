@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/rooms.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 
@@ -26,22 +27,13 @@ inline std::string file_text(const std::filesystem::path& path) {
   return buffer.str();
 }
 
-// A folder of its own for one test, removed at the end.
+// A folder of its own for one test.
 class Workplace {
  public:
-  Workplace() {
-    std::string name =
-        std::filesystem::temp_directory_path() / ("papilla-cli-" + std::string(6, 'X'));
-    path_ = mkdtemp(name.data());
-  }
-  ~Workplace() { std::filesystem::remove_all(path_); }
-  Workplace(const Workplace&) = delete;
-  Workplace& operator=(const Workplace&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
   std::string write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
+    std::filesystem::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name, std::ios::binary) << text;
     return name;
   }
   // papilla ARGUMENTS in this folder; output is captured outside it.
@@ -49,8 +41,8 @@ class Workplace {
     return shell("'" PAPILLA_PROGRAM "' " + arguments);
   }
   Outcome shell(const std::string& command) const {
-    const std::string log = path_.string() + ".log";
-    const int code = std::system(("cd '" + path_.string() + "' && ( " + command + " ) > '" + log +
+    const std::string log = path().string() + ".log";
+    const int code = std::system(("cd '" + path().string() + "' && ( " + command + " ) > '" + log +
                                   ".out' 2> '" + log + ".err' < /dev/null")
                                      .c_str());
     Outcome result{WIFEXITED(code) ? WEXITSTATUS(code) : -1, file_text(log + ".out"),
@@ -62,14 +54,14 @@ class Workplace {
   int entries() const {
     int count = 0;
     for ([[maybe_unused]] const auto& entry :
-         std::filesystem::recursive_directory_iterator(path_)) {
+         std::filesystem::recursive_directory_iterator(path())) {
       ++count;
     }
     return count;
   }
 
  private:
-  std::filesystem::path path_;
+  TemporaryFolder folder_;
 };
 
 }  // namespace papilla::tests

@@ -9,6 +9,7 @@
 #include "config/writer.h"
 #include "scene/environment.h"
 #include "scene/finger.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -70,8 +71,7 @@ Whole read_whole(const std::string& text, const std::vector<std::string>& overri
 
 class Folder {
  public:
-  explicit Folder(const std::string& name)
-      : path_(fs::path(testing::TempDir()) / ("papilla_" + name)) {
+  explicit Folder(const std::string& name) : path_(temporary(name)) {
     fs::remove_all(path_);
     fs::create_directories(path_);
   }

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "tests/temporary.h"
+
 namespace papilla {
 namespace {
 
@@ -16,15 +18,13 @@ namespace fs = std::filesystem;
 class Consumer : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    std::string name =
-        (fs::temp_directory_path() / "papilla_consumer_").string() + std::string(6, 'X');
-    place_ = mkdtemp(name.data());
+    place_ = tests::temporary("place");
+    fs::create_directories(place_);
     ASSERT_EQ(run("DESTDIR=" + place_ +
                   "/stage cmake --install " PAPILLA_BUILD_DIR " --prefix /opt/papilla"),
               0);
     fs::rename(place_ + "/stage/opt/papilla", place_ + "/tree");
   }
-  static void TearDownTestSuite() { fs::remove_all(place_); }
 
   // Nothing of the source tree, by name or by environment.
   static int run(const std::string& command) {

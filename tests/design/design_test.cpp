@@ -9,6 +9,7 @@
 #include "config/writer.h"
 #include "design/study.h"
 #include "report/reference.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -19,7 +20,7 @@ const std::string kDesigns = PAPILLA_SOURCE_DIR "/designs/";
 const std::string kStudy = kDesigns + "electroadhesive_glass/study.toml";
 
 std::string written(const std::string& name, const std::string& text) {
-  const fs::path folder = fs::path(testing::TempDir()) / "papilla_design_test";
+  const fs::path folder = temporary("design_test");
   fs::create_directories(folder);
   const std::string path = (folder / name).string();
   std::ofstream(path) << text;

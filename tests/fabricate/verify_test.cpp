@@ -5,6 +5,7 @@
 #include "fabricate/export.h"
 #include "geometry/io/drawing.h"
 #include "tests/fabricate/exported_folder.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -94,7 +95,7 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   options.formats = {"gsf"};
   options.size = 12e-6;
   options.pixels = 192;
-  const std::string folder = testing::TempDir() + "papilla_verify";
+  const std::string folder = temporary("verify");
   const std::string file = export_design(study.design, options, folder).files.at(0).path;
   const Verification sound = verify_export(study, file, 0.2);
   EXPECT_TRUE(sound.faults.empty()) << sound.faults.front();

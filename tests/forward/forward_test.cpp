@@ -10,6 +10,7 @@
 #include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 #include "metrics/metrics.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -359,7 +360,7 @@ TEST(SkinMap, OfTheSpectrumGivesWhatTheSpectrumGives) {
   Scene scene = driven_scene();
   scene.environment.relative_humidity = {0.15};
   const Skin& skin = scene.finger.skin;
-  const std::string file = testing::TempDir() + "papilla_skin.gsf";
+  const std::string file = temporary("skin.gsf");
   const Grid wide{512, 512, 48e-6, 48e-6};
   write_gsf(file, random_surface({skin.rms, skin.roll_off, skin.hurst, skin.cutoff}, wide, 7, 0),
             {});
@@ -380,7 +381,7 @@ TEST(SkinMap, OfTheSpectrumGivesWhatTheSpectrumGives) {
 }
 
 TEST(SkinMap, IsCutAnywhereAndRepeatsWithoutAStep) {
-  const std::string file = testing::TempDir() + "papilla_skin_cut.gsf";
+  const std::string file = temporary("skin_cut.gsf");
   Heightmap tilted = random_surface({256e-9, 3.7e-6, 0.8, 200e-9}, {256, 256, 30e-6, 30e-6}, 7, 0);
   for (int iy = 0; iy < 256; ++iy) {
     for (int ix = 0; ix < 256; ++ix) tilted(ix, iy) += 0.5 * tilted.grid.x(ix);

@@ -17,27 +17,12 @@
 
 #include "base/random.h"
 #include "tests/fuzz/study_targets.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
 
 constexpr unsigned kHangSeconds = 20;
-
-class Folder {
- public:
-  Folder() {
-    std::string name =
-        std::filesystem::temp_directory_path() / ("papilla-fuzz-" + std::string(6, 'X'));
-    folder_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(folder_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string path() const { return folder_.string(); }
-
- private:
-  std::filesystem::path folder_;
-};
 
 std::size_t below(RandomStream& random, std::size_t n) {
   return std::min(n - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(n)));
@@ -136,7 +121,7 @@ void fuzz(const FuzzTarget& target, std::size_t count) {
 }
 
 TEST(Fuzz, ReadersReturnOrRefuse) {
-  const Folder place;
+  const TemporaryFolder place;
   for (const int signal : {SIGALRM, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     ::signal(signal, on_death);
   // A crash or a hang ends the program: the zeros of a row that is printed are counts.

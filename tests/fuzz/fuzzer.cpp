@@ -12,14 +12,13 @@
 #else
 #include "tests/fuzz/targets.h"
 #endif
+#include "tests/temporary.h"
 
 namespace {
 
 const papilla::tests::FuzzTarget& target() {
   static const papilla::tests::FuzzTarget chosen = [] {
-    std::string folder =
-        std::filesystem::temp_directory_path() / ("papilla-fuzzer-" + std::string(6, 'X'));
-    if (mkdtemp(folder.data()) == nullptr) std::abort();
+    const std::string folder = papilla::tests::temporary("");
 #ifdef PAPILLA_FUZZ_STUDY
     std::vector<papilla::tests::FuzzTarget> targets = papilla::tests::study_targets(folder);
 #else

@@ -14,6 +14,7 @@
 #include "base/files.h"
 #include "geometry/io/drawing.h"
 #include "geometry/texture.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -62,8 +63,6 @@ double polygon_area(const GdsRecord& xy) {  // nm^2
   }
   return 0.5 * std::abs(sum);
 }
-
-std::string temporary(const char* name) { return testing::TempDir() + "papilla_" + name; }
 
 // A structure: its own polygons and what it places, how often.
 struct Structure {

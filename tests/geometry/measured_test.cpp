@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "geometry/io/files.h"
 #include "geometry/texture.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -32,7 +33,7 @@ Heightmap cut_of(const std::string& name,
       map(ix, iy) = change(x, y, wave(x, y));
     }
   }
-  const std::string file = testing::TempDir() + "papilla_measured_" + name + ".npy";
+  const std::string file = temporary(name + ".npy");
   write_npy(file, map);
   Measured3d measured;
   measured.file = file;

@@ -11,6 +11,7 @@
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
 #include "geometry/textures/particle_film.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -205,7 +206,7 @@ TEST(Measured, HeightsInAnotherUnitAreRefused) {
   Heightmap map{grid, std::vector<double>(grid.size())};
   for (std::size_t i = 0; i < map.z.size(); ++i)
     map.z[i] = static_cast<double>(i % 7);  // um, not m
-  const std::string path = testing::TempDir() + "papilla_unit.npy";
+  const std::string path = temporary("unit.npy");
   write_npy(path, map);
   Measured3d measured;
   measured.file = path;

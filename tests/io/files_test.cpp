@@ -14,22 +14,16 @@
 #include "base/error.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
 
 class Files : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() /
-              ("papilla_files_" + std::to_string(::getpid()) + "_" +
-               ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string path(const std::string& name) const { return folder_.path() / name; }
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
 };
 
 Heightmap holes() {
@@ -148,7 +142,7 @@ TEST_F(Files, AFailedWriteLeavesTheOldFile) {
   EXPECT_THROW(write_bytes(path("pipe"), "new"), InputError);
   EXPECT_THROW(write_exr(path("pipe"), holes(), {}), InputError);
   EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
-  EXPECT_THROW(write_bytes(folder_.string(), "new"), InputError);
+  EXPECT_THROW(write_bytes(folder_.path().string(), "new"), InputError);
   std::filesystem::create_symlink(path("x.txt"), path("link.txt"));
   write_bytes(path("link.txt"), "through");
   EXPECT_TRUE(std::filesystem::is_symlink(path("link.txt")));

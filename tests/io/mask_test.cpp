@@ -14,13 +14,10 @@
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
 #include "report/export.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
-
-std::string temporary(const std::string& name) {
-  return testing::TempDir() + "papilla_mask_" + name;
-}
 
 FeatureArray array_of(const HoleArray& holes) {
   return std::get<FeatureArray>(facts(holes).outline);

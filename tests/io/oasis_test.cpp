@@ -9,13 +9,10 @@
 #include "base/random.h"
 #include "geometry/io/drawing.h"
 #include "geometry/texture.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
-
-std::string temporary(const std::string& name) {
-  return testing::TempDir() + "papilla_oasis_" + name;
-}
 
 Layout square_at(std::int32_t x, std::int32_t y) {
   Layout out;

@@ -7,13 +7,10 @@
 
 #include "geometry/io/files.h"
 #include "geometry/io/layout.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
-
-std::string temporary(const std::string& name) {
-  return testing::TempDir() + "papilla_sizes_" + name;
-}
 
 Heightmap oblong() {
   const Grid grid{24, 10, 6e-6, 4e-6};

@@ -14,13 +14,10 @@
 #include "geometry/io/files.h"
 #include "geometry/texture.h"
 #include "tests/io/gds_file.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
-
-std::string temporary(const std::string& name) {
-  return testing::TempDir() + "papilla_written_" + name;
-}
 
 HoleArray one_hole() {
   HoleArray holes;

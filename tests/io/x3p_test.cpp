@@ -7,6 +7,7 @@
 #include <string>
 
 #include "geometry/io/layout.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -28,7 +29,7 @@ print(*["%.17g" % v for v in struct.unpack("<%dd" % (nx * ny), data)])
 
 TEST(X3p, IsReadByAnotherLanguageWithAllItsSums) {
   if (std::system("command -v python3 > /dev/null") != 0) GTEST_SKIP() << "needs python3";
-  const std::string folder = testing::TempDir();
+  const std::string folder = temporary("");
   std::ofstream(folder + "papilla_x3p.py") << kReader;
   for (const int nx : {3, 7, 50}) {  // below a block of the sum, across its end, several
     const Grid grid{nx, 4, 6e-6, 2e-6};

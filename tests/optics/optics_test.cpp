@@ -11,6 +11,7 @@
 #include "forward/appearance.h"
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -291,7 +292,7 @@ TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
   const Texture rough{RandomRough{.rms = 60e-9}};
   const Heightmap map = generate(rough, patch_grid(rough, 256, 60e-6));
   Measured3d measured;
-  measured.file = testing::TempDir() + "papilla_look.npy";
+  measured.file = temporary("look.npy");
   measured.width = map.grid.lx;
   measured.patch = 50e-6;
   write_npy(measured.file, map);

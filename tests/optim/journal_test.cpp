@@ -1,24 +1,20 @@
 #include "optim/journal.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
 
 class JournalFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    path_ =
-        (std::filesystem::temp_directory_path() / ("papilla_journal_" + std::to_string(::getpid())))
-            .string();
-  }
+  void SetUp() override { path_ = temporary("journal"); }
   void TearDown() override { std::filesystem::remove(path_); }
   std::string bytes() const {
     std::stringstream out;

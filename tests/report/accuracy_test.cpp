@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "report/tables.h"
 #include "tests/report/same_json.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -34,7 +35,7 @@ TEST(AccuracyReport, OfASweepHasEveryQuantityUnderItsName) {
   EXPECT_NE(line.find("-3.00 %"), std::string::npos) << line;
   EXPECT_LT(line.find("-3.00 %"), line.find("-6.00 %"));
   EXPECT_TRUE(line.ends_with("       345      21.5     1.25\n")) << line;
-  const std::string path = testing::TempDir() + "papilla_sweeps.csv";
+  const std::string path = temporary("sweeps.csv");
   write_bytes(path, accuracy_csv({r}, "# made up\n"));
   const CsvTable table = read_csv(path);
   const auto json = nlohmann::json::parse(accuracy_json({r}))["sweeps"][0];
@@ -92,7 +93,7 @@ TEST(AccuracyReport, OfCoverageIsTheShareInside) {
                                     {"error_quantile", s.error_quantile},
                                     {"rms_error_over_stated", s.rms_ratio}})
     EXPECT_EQ(json.at(name), value) << name;
-  const std::string path = testing::TempDir() + "papilla_coverage.csv";
+  const std::string path = temporary("coverage.csv");
   write_bytes(path, coverage_csv(rows, "# made up\n"));
   const CsvTable table = read_csv(path);
   EXPECT_EQ(table.numbers("inside"), (std::vector<double>{1, 1, 1, 0}));

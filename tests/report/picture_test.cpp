@@ -11,6 +11,7 @@
 
 #include "report/droplets.h"
 #include "report/page_data.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -82,7 +83,7 @@ TEST(DropletPictures, ShowEachDropletWhereItIsInTheColourOfItsState) {
   before.droplets = {droplet(2e-6, 3e-6, DropletState::OnSkin)};
   after.droplets = {droplet(6e-6, 3e-6, DropletState::Bridge),
                     droplet(3e-6, 1e-6, DropletState::OnSubstrate)};
-  const std::string path = testing::TempDir() + "papilla_droplets.png";
+  const std::string path = temporary("droplets.png");
   write_droplet_picture(path, gap, before, after);
   const auto image = OIIO::ImageInput::open(path);
   ASSERT_TRUE(image);
@@ -130,7 +131,7 @@ TEST(DropletPictures, AFilmCoversItsPixels) {
   film.status = WettingStatus::Film;
   film.film.assign(gap.grid.size(), FilmPixel::None);
   film.film[gap.grid.index(40, 20)] = FilmPixel::Film;
-  const std::string path = testing::TempDir() + "papilla_film.png";
+  const std::string path = temporary("film.png");
   write_droplet_picture(path, gap, none, film);
   const auto image = OIIO::ImageInput::open(path);
   ASSERT_TRUE(image);

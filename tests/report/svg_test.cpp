@@ -15,6 +15,7 @@
 #include "report/accuracy.h"
 #include "report/front.h"
 #include "report/response.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -187,7 +188,7 @@ TEST(SvgPictures, FrictionOverHumidityWithTwoStandardErrors) {
 }
 
 TEST(SvgPictures, AFrontIsWhatItsTablesHold) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "papilla_front";
+  const std::filesystem::path folder = temporary("front");
   std::filesystem::create_directories(folder);
   write_bytes(folder / "pareto.csv",
               "design,up,up se,down,down se,on front\n"

@@ -14,13 +14,13 @@
 #include "fabricate/formats.h"
 #include "report/json.h"
 #include "report/reference.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
 
 std::string written(const std::string& text) {
-  const std::string path =
-      (std::filesystem::temp_directory_path() / "papilla_tables_test.csv").string();
+  const std::string path = temporary("table.csv");
   write_bytes(path, text);
   return path;
 }

@@ -7,6 +7,7 @@
 #include "base/files.h"
 #include "report/results.h"
 #include "search/run.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -49,7 +50,7 @@ jobs = 2
 }
 
 TEST(Clock, ARunEndsInItsTimeAndHasSearchedForMostOfIt) {
-  const std::string folder = (std::filesystem::path(testing::TempDir()) / "papilla_clock").string();
+  const std::string folder = temporary("clock");
   std::filesystem::remove_all(folder);
   const Study study = pillars();
   std::vector<double> at;  // of each progress

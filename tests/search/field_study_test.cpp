@@ -11,6 +11,7 @@
 #include "search/problem.h"
 #include "search/run.h"
 #include "search/task.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string study_file(const std::string& name, const std::string& sections) {
-  const fs::path file = fs::path(testing::TempDir()) / (name + ".toml");
+  const fs::path file = temporary(name + ".toml");
   std::ofstream(file) << "schema_version = 1\n"
                          "[texture]\ntype = \"hole_array\"\n"
                          "[finger]\nbase = \"fingers/reference.toml\"\n"
@@ -44,7 +45,7 @@ TEST(FieldStudy, TheStrongestModulationKeepsTheMarginOfTheOxide) {
       "[objective]\nmaximise = \"mean(modulation)\"\n"
       "[constraints]\noxide_breakdown_margin = 2.0\n[search]\nevaluations = 10\ndrafts = 10\n"));
   OptimiseOptions options;
-  options.folder = (fs::path(testing::TempDir()) / "papilla_margin").string();
+  options.folder = temporary("margin");
   fs::remove_all(options.folder);
   const OptimiseResult result = optimise_to_folder(study, options);
   ASSERT_FALSE(result.finalists.empty());

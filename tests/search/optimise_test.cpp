@@ -15,6 +15,7 @@
 #include "search/pick.h"
 #include "search/run.h"
 #include "search/task.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -35,7 +36,7 @@ Study small_study() {
 std::string response_text(const Response& response) { return response_json(response, false); }
 
 std::string fresh_folder(const std::string& name) {
-  const fs::path folder = fs::path(testing::TempDir()) / ("papilla_optimise_" + name);
+  const fs::path folder = temporary(name);
   fs::remove_all(folder);
   return folder.string();
 }
@@ -518,7 +519,7 @@ TEST(Results, DifferencesAreSaidToBeBetterKnownWhereTheyAre) {
             std::string::npos)
       << table;
 
-  const std::string folder = testing::TempDir() + "papilla_results", pick;
+  const std::string folder = temporary("results"), pick;
   std::filesystem::create_directories(folder);
   write_results({folder, study, problem, {}, result, pick});
   const std::string summary = read_bytes(folder + "/summary.md");

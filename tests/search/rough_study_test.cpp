@@ -8,6 +8,7 @@
 #include "design/study.h"
 #include "search/problem.h"
 #include "search/run.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -18,7 +19,7 @@ rms = "60 nm"
 
 // A study of this texture and these variables at one humidity.
 Study study_of(const std::string& texture, const std::string& variables) {
-  const std::string path = testing::TempDir() + "papilla_rough_study.toml";
+  const std::string path = temporary("rough_study.toml");
   write_bytes(path, "schema_version = 1\n[texture]\n" + texture + R"toml(
 [surface]
 contact_angle = "50 deg"
@@ -105,7 +106,7 @@ TEST(RoughStudy, AFlatRoughSurfaceIsNoHole) {
 TEST(RoughStudy, ASearchMakesAllEvaluationsThatItWasAskedFor) {
   const Study study = study_of(kRough, R"("texture.rms" = ["5 nm", "200 nm"])");
   OptimiseOptions options;
-  options.folder = testing::TempDir() + "papilla_rough_search";
+  options.folder = temporary("rough_search");
   std::filesystem::remove_all(options.folder);
   const OptimiseResult result = optimise(study, options);
   EXPECT_EQ(result.evaluations, 5);
