@@ -218,6 +218,29 @@ TEST(Droplets, BridgeUnderASphereHasTheExactForce) {
   RecordProperty("worst_percent", std::to_string(100 * worst));
 }
 
+// Droplets look for low energies, and would find what a grid makes of a wall one pixel wide.
+TEST(Droplets, WaterBesideAWallHasALimitUnderRefinement) {
+  const double side = 12e-6, deep = 900e-9;
+  std::vector<double> force;
+  for (int n : {128, 256, 512}) {
+    const Grid g{n, n, side, side};
+    Gap gap{g, std::vector<double>(g.size())};
+    for (int iy = 0; iy < n; ++iy) {
+      for (int ix = 0; ix < n; ++ix) {
+        const double x = g.x(ix), y = g.y(iy);
+        const double waves = std::cos(2 * kPi * x / 4e-6) + std::cos(2 * kPi * y / 3e-6);
+        const double from_hole = std::hypot(std::fmod(x, 6e-6) - 3e-6, std::fmod(y, 6e-6) - 3e-6);
+        gap.value[g.index(ix, iy)] = 150e-9 + 60e-9 * waves + (from_hole < 1.5e-6 ? deep : 0);
+      }
+    }
+    force.push_back(0);
+    for (std::uint64_t seed = 1; seed <= 16; ++seed)
+      force.back() += settle_droplets(gap, 6e-18, {}, {}, seed, 0).capillary_force;
+  }
+  EXPECT_NEAR(force[1] / force[2], 1, 0.04);
+  EXPECT_NEAR(force[0] / force[2], 1, 0.04);
+}
+
 TEST(Droplets, TractionSumsToTheForce) {
   const Gap gap = rough_gap(128, 200e-9, 4);
   for (double v : {0.3e-18, 3e-18, 15e-18}) {

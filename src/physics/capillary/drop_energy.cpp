@@ -14,6 +14,9 @@ constexpr double kLargestTilt = kPi / 4;
 // Slope of the rim at which half of the exact flat bridge's remainder has faded [rad].
 constexpr double kFlatTilt = kPi / 12;
 
+// How far the rim is moved for the change of the energy with its radius, by that radius.
+constexpr double kForceStep = 0.04;
+
 // Under a bowl the exact flat bridge's remainder fades (fitted on sphere and plate).
 double flatness(const GapTable::Rim& rim) {
   return 1 / (1 + square(std::atan(rim.slope) / kFlatTilt));
@@ -96,8 +99,7 @@ double DropEnergy::force(const Drop& d) const {
   const GapTable::Rim rim{d.edge_gap, d.edge_slope};
   double tilt;
   const double fixed = 2 * kPi * r * meniscus_at(rim, tilt);
-  // Over about a pixel: the slope of a bilinear gap jumps from cell to cell.
-  const double step = std::min(0.2 * r, std::max(0.02 * r, 0.5 * grid_.dx()));
+  const double step = kForceStep * r;
   const GapTable::Rim out = table_.rim(d.x, d.y, r + step, rule);
   const GapTable::Rim in = table_.rim(d.x, d.y, r - step, rule);
   const BridgeTable::Value beyond = beyond_slab(d.volume, r);

@@ -13,6 +13,10 @@ namespace {
 constexpr std::array<int, 16> kCounts = {8,   12,  16,  24,  32,  48,  64,   96,
                                          128, 192, 256, 384, 512, 768, 1024, 1536};
 
+// Half the distance of the two circles that give gap and slope of a rim, by its radius: wide
+// enough that what a wall adds depends on the wall and not on the pixel (docs/theory/capillary.md).
+constexpr double kRimHalfWidth = 0.07;
+
 struct Nodes {
   // Chords: t = cos(j pi / (N + 1)), half width sin(...), weight pi / (N + 1) (Gauss-Chebyshev of
   // the second kind: exact for the disc of a constant gap).
@@ -99,8 +103,11 @@ inline double GapTable::row_integral(int iy, double u) const {
 }
 
 double GapTable::at(double x, double y) const {
-  const Cell cx = locate(x * inverse_dx_ - 0.5, grid_.nx);
-  const Cell cy = locate(y * inverse_dy_ - 0.5, grid_.ny);
+  return bilinear(x * inverse_dx_ - 0.5, y * inverse_dy_ - 0.5);
+}
+
+double GapTable::bilinear(double u, double v) const {
+  const Cell cx = locate(u, grid_.nx), cy = locate(v, grid_.ny);
   const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
   const Node* a = &node_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
   const Node* b = &node_[static_cast<std::size_t>(next) * stride_ + cx.index];
@@ -110,7 +117,8 @@ double GapTable::at(double x, double y) const {
 }
 
 GapTable::Rule GapTable::rule(double radius) const {
-  return {count_index(0.75 * radius * inverse_dy_ + 6), count_index(3 * radius * inverse_dx_ + 6)};
+  return {count_index(0.75 * radius * inverse_dy_ + 6),
+          count_index(4.5 * radius * inverse_dx_ + 6)};
 }
 
 bool GapTable::inside(double u0, double v0, double ru, double rv) const {
@@ -157,44 +165,36 @@ double GapTable::disc_volume(double x, double y, double radius, const Rule& rule
   return sum * grid_.dx() * radius;
 }
 
-GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule) const {
+double GapTable::ring(double x, double y, double radius, const Rule& rule) const {
   const Nodes& n = nodes()[rule.rim_points];
   const double u0 = x * inverse_dx_ - 0.5, v0 = y * inverse_dy_ - 0.5;
   const double ru = radius * inverse_dx_, rv = radius * inverse_dy_;
   const int count = static_cast<int>(n.cosine.size());
   const double *cosine = n.cosine.data(), *sine = n.sine.data();
-  double sum = 0, slope_x = 0, slope_y = 0;
-  if (inside(u0, v0, ru, rv)) {
-    const Node* node = node_.data();
-    const int stride = stride_;
+  const Node* node = node_.data();
+  double sum = 0;
+  if (inside(u0, v0, ru, rv)) {  // no wrapping
     for (int j = 0; j < count; ++j) {
       const double u = u0 + ru * cosine[j], v = v0 + rv * sine[j];
       const int ix = static_cast<int>(u), iy = static_cast<int>(v);
-      const double fx = u - ix, fy = v - iy;
-      const int k = iy * stride + ix;
-      const double dlow = node[k + 1].value - node[k].value;
-      const double dhigh = node[k + stride + 1].value - node[k + stride].value;
-      const double low = node[k].value + fx * dlow, high = node[k + stride].value + fx * dhigh;
-      sum += low + fy * (high - low);
-      slope_x += (dlow + fy * (dhigh - dlow)) * cosine[j];
-      slope_y += (high - low) * sine[j];
+      const Node* a = node + iy * stride_ + ix;
+      const Node* b = a + stride_;
+      const double fx = u - ix, low = a[0].value + fx * (a[1].value - a[0].value);
+      sum += low + (v - iy) * (b[0].value + fx * (b[1].value - b[0].value) - low);
     }
   } else {
-    for (int j = 0; j < count; ++j) {
-      const Cell cx = locate(u0 + ru * cosine[j], grid_.nx);
-      const Cell cy = locate(v0 + rv * sine[j], grid_.ny);
-      const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
-      const Node* a = &node_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
-      const Node* b = &node_[static_cast<std::size_t>(next) * stride_ + cx.index];
-      const double dlow = a[1].value - a[0].value, dhigh = b[1].value - b[0].value;
-      const double low = a[0].value + cx.fraction * dlow, high = b[0].value + cx.fraction * dhigh;
-      sum += low + cy.fraction * (high - low);
-      slope_x += (dlow + cy.fraction * (dhigh - dlow)) * cosine[j];
-      slope_y += (high - low) * sine[j];
-    }
+    for (int j = 0; j < count; ++j) sum += bilinear(u0 + ru * cosine[j], v0 + rv * sine[j]);
   }
-  const double inverse = 1.0 / count;
-  return {sum * inverse, (slope_x * inverse_dx_ + slope_y * inverse_dy_) * inverse};
+  return sum / count;
+}
+
+// From two circles around the rim, exact for a bowl. Where the circle crosses a wall, slopes of
+// single pixels would be what the grid makes of a jump; the difference of two means has a limit.
+GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule) const {
+  const double half = kRimHalfWidth * radius;
+  const double in = ring(x, y, radius - half, rule), out = ring(x, y, radius + half, rule);
+  const double slope = (out - in) / (2 * half);
+  return {0.5 * (in + out) - 0.5 * kRimHalfWidth * half * slope, slope};
 }
 
 }  // namespace papilla::capillary

@@ -16,7 +16,7 @@ class GapTable {
 
   struct Rim {
     double gap;    // mean on the circle [m]
-    double slope;  // of that mean along the radius [-]
+    double slope;  // of that mean along the radius [-], over 14 % of it
   };
   // How finely a disc of one size is sampled; the same rule for every disc of about that radius.
   struct Rule {
@@ -35,7 +35,9 @@ class GapTable {
 
  private:
   double row_integral(int iy, double u) const;
-  bool inside(double u0, double v0, double ru, double rv) const;  // needs no wrapping
+  double bilinear(double u, double v) const;                               // [m]; places in pixels
+  double ring(double x, double y, double radius, const Rule& rule) const;  // mean on a circle [m]
+  bool inside(double u0, double v0, double ru, double rv) const;           // needs no wrapping
 
   Grid grid_;
   double floor_;
