@@ -15,6 +15,12 @@ constexpr int kSmallestGrid = 16;  // of the control run on half the pixels; bel
 constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
 // Contact areas: of the octaves left out, so many at least.
 constexpr double kFewestOctaves = 0.6;
+// Features of so many pixels are resolved, of so many not at all: the last halving of the pixel
+// then says what is missing, whole (lands and holes are off by a share of a pixel: first order).
+constexpr double kResolvedFeature = 24, kCoarseFeature = 12;
+// Below so many, half the pixels show next to nothing of them: more than the step is missing, in
+// proportion (200 nm holes at 2.1 pixels: 10 % from half the pixels, 21 % to the limit).
+constexpr double kLostFeature = 4;
 // By the load law the modulation's way to the limit is part of its method error; half of that way
 // is taken as not known. Eq. accuracy.2
 constexpr double kUnknownShare = 0.5;
@@ -54,6 +60,13 @@ double left_out(double step, double octaves) { return 1 - std::pow(1 + step, -oc
 // 0.2 % at 2.1, 4.3, 8.5 pixels for the shortest (results/bench/contact_area.csv).
 double resolved_area_error(double pixels_per_cutoff) {
   return 0.023 * std::pow(2.13 / pixels_per_cutoff, 1.5);
+}
+
+// What of the step from half the pixels is missing to the limit for features of so many pixels: 0
+// where they are resolved. Eq. accuracy.2
+double missing_of_features(double pixels) {
+  return std::clamp((kResolvedFeature - pixels) / (kResolvedFeature - kCoarseFeature), 0.0, 1.0) *
+         std::max(1.0, kLostFeature / pixels);
 }
 
 // Numbers of one origin at each humidity, each given the larger of its own and the root mean square
@@ -97,14 +110,15 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
   // With the load law, grids are compared by solved areas: its own steps between grids are partly
   // what it lacks against them. Eq. accuracy.2
   if (!runs.coarse.points.empty()) {
-    out.grid = samples_of(fine.without.size(), [&](int k) { return halving(k, fine); });
-    const double step = grid_error(out.grid);
+    out.halving = samples_of(fine.without.size(), [&](int k) { return halving(k, fine); });
+    const double step = grid_error(out.halving);
     double missing = kOtherToLimit;
     if (to_limit) missing *= kUnknownShare;
     if (quantity == GridLaw::Pull) missing = kPullToLimit;
     if (quantity == GridLaw::Area && step > 0)
       missing = left_out(step, std::max(runs.octaves, kFewestOctaves)) / step;
-    for (double& change : out.grid) change *= missing;
+    missing = std::max(missing, runs.coarse_features);
+    for (const double change : out.halving) out.grid.push_back(missing * change);
   }
   // Eq. accuracy.3
   if (load_law) {
@@ -136,6 +150,7 @@ class Controls {
     out.own = respond(scene_, fidelity_, first);
     out.octaves =
         std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
+    out.coarse_features = missing_of_features(patches.plan.feature_pixels);
     Fidelity resolved = fidelity_;
     if (fidelity_.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
       resolved.estimator = Estimator::Area;
@@ -186,7 +201,11 @@ void state_errors(const ControlRuns& controls, std::size_t m, double resolved, M
       return std::optional((points[i].*quantity.value).value);
     };
     const ControlledChange change = controlled_change(controls, quantity.grid, number);
-    of_grid.push_back(grid_error(change.grid));
+    // The step over a grid that resolves the cut-off says how much the area depends on that, not
+    // how well it is resolved; that of coarse features counts on any.
+    const bool of_texture = quantity.grid == GridLaw::Area && controls.octaves == 0;
+    of_grid.push_back(of_texture ? controls.coarse_features * grid_error(change.halving)
+                                 : grid_error(change.grid));
     of_method.push_back(method_error(change.method));
     law.push_back((own[i].*quantity.value).value);
     fine.push_back(load_law ? (controls.areas.points[i].*quantity.value).value : law.back());
@@ -195,10 +214,7 @@ void state_errors(const ControlRuns& controls, std::size_t m, double resolved, M
   level_out(of_method, law);
   for (std::size_t i = 0; i < own.size(); ++i) {
     grid.size[i][m] = of_grid[i];
-    // The step over a grid that resolves the cut-off says how much the area depends on that, not
-    // how well it is resolved.
-    if (quantity.grid == GridLaw::Area)
-      grid.size[i][m] = std::hypot(controls.octaves > 0 ? of_grid[i] : 0, resolved);
+    if (quantity.grid == GridLaw::Area) grid.size[i][m] = std::hypot(of_grid[i], resolved);
     method.size[i][m] = of_method[i];
   }
 }

@@ -25,6 +25,7 @@ using Reading = std::function<std::optional<double>(const std::vector<ResponsePo
 // defined.
 struct ControlledChange {
   std::vector<double> grid, method;
+  std::vector<double> halving;  // of the grid, all of the step from half the pixels
 };
 ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
                                    const Reading& number);

@@ -18,6 +18,23 @@
 namespace papilla::forward {
 namespace {
 
+// Lands and holes of few pixels have another width than the texture's.
+std::string coarse_features(const Plan& plan, const Fidelity& fidelity, double smallest) {
+  constexpr double kFewPixels = 8;
+  constexpr int kLargestKey = 4096;
+  if (!(plan.feature_pixels < kFewPixels)) return {};
+  int grid = fidelity.grid;
+  double pixels = plan.feature_pixels;
+  for (; pixels < kFewPixels && grid < kLargestKey; grid *= 2) pixels *= 2;
+  return fmt::format(
+      "the smallest feature of the texture, {:.3g} nm, is {:.2g} pixels wide: its friction is "
+      "known "
+      "as well as its error part `grid` says and not better; {}",
+      1e9 * smallest, plan.feature_pixels,
+      pixels >= kFewPixels ? fmt::format("accuracy.grid = {} gives it {:.2g}", grid, pixels)
+                           : fmt::format("no grid up to {} resolves it", kLargestKey));
+}
+
 // A patch so much longer than the window that its pixels, limited in number, drop waves of the skin
 // that every level keeps on the window.
 std::string unresolved_skin(const Plan& plan, const Fidelity& fidelity, double cutoff) {
@@ -250,7 +267,11 @@ void set_resolution(Plan& plan, const Skin& skin, const Texture& texture,
       skin.map.empty() ? skin.cutoff : measured_skin_cutoff(skin.map, skin.map_width);
   plan.effective_cutoff = std::max({plan.skin_cutoff, 2 * kWindow / fidelity.grid,
                                     2 * std::max(plan.grid.dx(), plan.grid.dy())});
-  plan.warning = unresolved_skin(plan, fidelity, plan.skin_cutoff);
+  const double smallest = facts(texture).margins.smallest();
+  plan.feature_pixels = smallest / std::max(plan.grid.dx(), plan.grid.dy());
+  for (std::string said : {unresolved_skin(plan, fidelity, plan.skin_cutoff),
+                           coarse_features(plan, fidelity, smallest)})
+    if (!said.empty()) plan.warnings.push_back(std::move(said));
 }
 
 }  // namespace
@@ -316,7 +337,7 @@ std::string Plan::text() const {
     out += '\n';
   }
   out += "expected " + duration(seconds()) + " on one core\n";
-  if (!warning.empty()) out += "warning: " + warning + '\n';
+  for (const std::string& said : warnings) out += "warning: " + said + '\n';
   return out;
 }
 

@@ -55,7 +55,9 @@ struct Plan {
   Grid grid;
   double skin_cutoff = 0;       // shortest wavelength of the finger's skin [m]
   double effective_cutoff = 0;  // shortest skin wavelength on this grid [m]
-  std::string warning;          // for people: why this is not the finger's skin; empty: it is
+  double feature_pixels = 0;    // across the smallest feature of the texture; infinite: none
+  // For people: why this is not the finger's skin, why not the texture. Empty: they are.
+  std::vector<std::string> warnings;
 
   // The decisions as data, for the forward model.
   bool field = false;            // electrostatics and electrowetting

@@ -255,7 +255,7 @@ std::string response_table(const Response& response) {
   out += voltage_lines(response);
   if (response.accuracy.target > 0) out += target_lines(response);
   if (!response.parameters.steps.empty()) out += parameter_line(response.parameters);
-  if (!response.plan.warning.empty()) out += "warning: " + response.plan.warning + "\n";
+  for (const std::string& said : response.plan.warnings) out += "warning: " + said + "\n";
   if (const auto troubles = response.troubles(); !troubles.empty())
     out += "note: " + text(troubles) + "\n";
   return out;

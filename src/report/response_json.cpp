@@ -62,7 +62,8 @@ Json plan_json(const Plan& plan) {
       {"grid",
        {{"nx", plan.grid.nx}, {"ny", plan.grid.ny}, {"lx", plan.grid.lx}, {"ly", plan.grid.ly}}},
       {"effective_cutoff", plan.effective_cutoff},
-      {"warning", plan.warning},
+      {"feature_pixels", json_number(plan.feature_pixels)},
+      {"warnings", plan.warnings},
       {"seconds", plan.seconds()},
       {"steps", steps},
       {"skipped", skipped}};

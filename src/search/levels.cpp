@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "estimate/parameters.h"
 #include "forward/plan.h"
@@ -23,6 +24,17 @@ constexpr int kStepSkins = 12, kStepGrid = 64;
 constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
 // Where time is short: skins are given up first, down to these, then pixels, then more skins.
 constexpr int kFewSkins = 8, kFewestSkins = 4, kFewPixels = 64;
+// Pixels of the search: so many across the smallest feature of the space (docs/theory/search.md).
+constexpr int kSearchPixels = 64, kMostSearchPixels = 256;
+constexpr double kPixelsPerFeature = 2;
+
+int search_grid(const StudyProblem& problem) {
+  int grid = kSearchPixels;
+  while (grid < kMostSearchPixels &&
+         kWindow / grid > problem.smallest_feature() / kPixelsPerFeature)
+    grid *= 2;
+  return grid;
+}
 
 // For one design on its own: one finger, one choice of the model, a small step.
 Fidelity check_fidelity(const Study& study) {
@@ -34,27 +46,28 @@ Fidelity check_fidelity(const Study& study) {
 // The cheapest that ranks designs as well as other skins at the level above do: sixteen skins in
 // all, four per finger at least (results/bench/search_levels.csv). More designs for the same time
 // find more than surer numbers do (docs/theory/search.md).
-Fidelity search_fidelity(const Study& study) {
+Fidelity search_fidelity(const StudyProblem& problem) {
+  const Study& study = problem.study();
   Fidelity f = check_fidelity(study);
   f.level = "steer";
-  f.grid = 64;
+  f.grid = search_grid(problem);
   f.skins = std::max(4, 16 / std::max(1, static_cast<int>(study.population.size())));
   return f;
 }
 
 // Every finger, two skins: what half of that cost knows best.
-Fidelity draft_fidelity(const Study& study) {
-  Fidelity f = search_fidelity(study);
+Fidelity draft_fidelity(const StudyProblem& problem) {
+  Fidelity f = search_fidelity(problem);
   f.skins = 2;
   return f;
 }
 
 // Between search and confirmation: two thirds of the search's scatter about design level, at a
 // tenth of the confirmation's cost (`search_bench scatter`, results/bench/search_scatter.csv).
-Fidelity narrow_fidelity(const Study& study) {
-  Fidelity f = search_fidelity(study);
+Fidelity narrow_fidelity(const StudyProblem& problem) {
+  Fidelity f = search_fidelity(problem);
   f.level = "narrow";
-  f.grid = 128;
+  f.grid = std::min(2 * f.grid, kMostSearchPixels);
   f.first_skin = kNarrowSkins;
   f.skins *= 2;
   return f;
@@ -80,11 +93,11 @@ Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {
   const Study& study = problem.study();
   switch (stage) {
     case Stage::Search:
-      return search_fidelity(study);
+      return search_fidelity(problem);
     case Stage::Draft:
-      return draft_fidelity(study);
+      return draft_fidelity(problem);
     case Stage::Narrow:
-      return narrow_fidelity(study);
+      return narrow_fidelity(problem);
     case Stage::Confirm:
     case Stage::Rounding:
     case Stage::Steps:
@@ -168,7 +181,14 @@ std::string search_plan(const Study& study) {
   const auto level = [&](Stage stage) {
     return plan_at(problem, stage_fidelity(problem, stage)).text();
   };
-  out += "\n\nsearch level:\n" + level(Stage::Search);
+  out += "\n\nsearch level";
+  if (std::isfinite(problem.smallest_feature())) {
+    const double feature = problem.smallest_feature();
+    const int grid = stage_fidelity(problem, Stage::Search).grid;
+    out += fmt::format(" (the smallest feature of the space, {:.3g} nm, is {:.2g} pixels wide)",
+                       1e9 * feature, feature / (kWindow / grid));
+  }
+  out += ":\n" + level(Stage::Search);
   if (narrowings(search) > 1) {
     out += fmt::format("\n{} of them and of their neighbours again, other skins:\n",
                        narrowings(search)) +

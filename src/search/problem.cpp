@@ -3,14 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 
+#include "base/random.h"
 #include "config/writer.h"
 #include "scene/uncertainty.h"
 #include "search/protocol.h"
 
 namespace papilla::search {
+namespace {
+
+// Corners of the space, as small features lie there, and places inside.
+double smallest_feature_of(const DesignSpace& space, const StudyConstraints& constraints) {
+  constexpr int kPlaces = 1000;
+  constexpr std::size_t kMostCorners = 8;  // variables of which all corners are asked
+  const std::size_t n = space.size();
+  const int corners = 1 << std::min(n, kMostCorners);
+  RandomStream random(1, "smallest feature");
+  double out = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < corners + kPlaces; ++k) {
+    Point unit(n);
+    for (std::size_t v = 0; v < n; ++v) {
+      const bool at_corner = k < corners && v < kMostCorners;
+      unit[v] = at_corner ? static_cast<double>((k >> v) & 1) : random.uniform();
+    }
+    unit = space.snapped(unit);
+    const std::vector<double> limits = constraints.geometry(unit);
+    if (std::any_of(limits.begin(), limits.end(), [](double v) { return v > 0; })) continue;
+    out = std::min(out, facts(space.design(unit).texture).margins.smallest());
+  }
+  return out;
+}
+
+}  // namespace
 
 StudyProblem::StudyProblem(const Study& study)
     : study_(study),
@@ -21,7 +48,8 @@ StudyProblem::StudyProblem(const Study& study)
       scoring_{goals_, tasks_,
                static_cast<std::size_t>(std::count_if(
                    tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.nominal(); })),
-               study.scatter.size(), study.design.environment.weights} {}
+               study.scatter.size(), study.design.environment.weights},
+      smallest_feature_(smallest_feature_of(space_, constraints_)) {}
 
 bool StudyProblem::driven() const {
   return std::any_of(study_.variables.begin(), study_.variables.end(),

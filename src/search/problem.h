@@ -30,6 +30,9 @@ class StudyProblem {
   const StudyConstraints& constraints() const { return constraints_; }
   // Somewhere a voltage is applied: designs have a modulation.
   bool driven() const;
+  // Of the designs that keep the limits on shapes: the smallest feature [m] that a search meets, from
+  // a thousand of them; infinite where they have none.
+  double smallest_feature() const { return smallest_feature_; }
   // Why the parameters' part of confirmed designs is not known; "" when it is.
   std::string parameters_unknown() const;
 
@@ -53,6 +56,7 @@ class StudyProblem {
   StudyGoals goals_;
   StudyConstraints constraints_;
   Scoring scoring_;
+  double smallest_feature_;
 };
 
 // Evaluations that a study gets when nothing else is said.

@@ -116,6 +116,40 @@ TEST(StatedErrors, AreasLackTheOctavesThatTheGridLeavesOut) {
   }
 }
 
+// Where the texture's features are few pixels wide all of the step counts, for every law.
+TEST(StatedErrors, CoarseFeaturesLeaveTheWholeStepOpen) {
+  for (const PointQuantity& q : kPointQuantities) {
+    ControlRuns runs;
+    runs.own = steady(q.value, 2.0);
+    runs.coarse = steady(q.value, 2.4);
+    runs.coarse_features = 1;
+    EXPECT_NEAR(grid_part(runs, q.value), 0.2, 1e-12);
+    runs.coarse_features = 2;
+    EXPECT_NEAR(grid_part(runs, q.value), 0.4, 1e-12);
+  }
+}
+
+// Pillars of 4 and of 2 pixels on a skin that every grid resolves: the part reaches to the number
+// of eight times finer pixels, and is next to nothing where features are resolved.
+TEST(StatedErrors, TheGridPartKnowsTheTexturesFeatures) {
+  Scene scene;
+  scene.finger.skin.cutoff = 1.5e-6;
+  scene.environment.relative_humidity = {0};
+  scene.drive.amplitude = 0;
+  for (const double width : {0.75e-6, 0.375e-6}) {
+    const Texture texture{PillarArray{.period = 2 * width, .diameter = width, .height = 200e-9}};
+    Fidelity f = fidelity_level("search");
+    f.skins = f.control_skins = 4;
+    f.grid = 64;
+    const Measured coarse = evaluate(scene, texture, f).points[0].area_fraction_off;
+    f.grid = 512;
+    const Measured fine = evaluate(scene, texture, f).points[0].area_fraction_off;
+    const double off = std::abs(coarse.value / fine.value - 1);
+    EXPECT_LT(off, 1.5 * coarse.parts.grid.value() / coarse.value) << width;
+    EXPECT_LT(fine.parts.grid.value(), 0.05 * fine.value);
+  }
+}
+
 TEST(StatedErrors, TheLoadLawIsJudgedBySolvedAreas) {
   const Member friction = &ResponsePoint::friction_off;
   ControlRuns runs;

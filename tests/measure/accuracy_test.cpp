@@ -135,10 +135,11 @@ TEST(Errors, OfALongPatchAreOfHalfItsPixels) {
   const Response r = evaluate(driven(), texture, f);
   EXPECT_EQ(r.plan.grid.nx, 128);
   EXPECT_GT(r.points[0].friction_off.parts.grid.value(), 0.01 * r.points[0].friction_off.value);
-  EXPECT_NE(r.plan.warning.find("accuracy.grid = 640"), std::string::npos) << r.plan.warning;
+  ASSERT_EQ(r.plan.warnings.size(), 1u);
+  EXPECT_NE(r.plan.warnings[0].find("accuracy.grid = 640"), std::string::npos);
   f.most_pixels = 0;
   EXPECT_EQ(make_plan(driven(), texture, f).grid.nx, 640);
-  EXPECT_EQ(make_plan(driven(), texture, f).warning, "");
+  EXPECT_TRUE(make_plan(driven(), texture, f).warnings.empty());
   f.grid = 4096;  // the largest of accuracy.grid
   EXPECT_EQ(make_plan(driven(), Texture{}, f).grid.nx, 4096);
 }

@@ -38,6 +38,8 @@ Response driven() {
   r.fidelity.contact_tolerance = 2e-4;
   r.plan.grid = {96, 48, 12e-6, 6e-6};
   r.plan.effective_cutoff = 2.5e-7;
+  r.plan.feature_pixels = 8.5;
+  r.plan.warnings = {"a smoother skin"};
   r.plan.steps = {{Piece::Contact, "dense", "why", 1.5, 0.01}, {Piece::Water, "w", "x", 0.5, 0}};
   r.plan.skipped = {{Piece::Kelvin, "small", 0.002, false}};
   r.contact_solves = 12;
@@ -195,7 +197,8 @@ TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
   expect_same(json["plan"],
               {{"grid", {{"nx", 96}, {"ny", 48}, {"lx", 12e-6}, {"ly", 6e-6}}},
                {"effective_cutoff", 2.5e-7},
-               {"warning", ""},
+               {"feature_pixels", 8.5},
+               {"warnings", {"a smoother skin"}},
                {"seconds", 2},
                {"steps",
                 {{{"piece", "contact"},
