@@ -21,14 +21,6 @@ double lattice_distance(Lattice lattice, double period, double x, double y) {
   return std::min(a, b);
 }
 
-// Share of the area inside the features.
-double feature_share(const FeatureArray& a) {
-  if (a.shape == FeatureArray::Shape::Line) return a.width / a.period;
-  const double cell = a.lattice == Lattice::Square ? a.period * a.period
-                                                   : 0.5 * std::sqrt(3.0) * a.period * a.period;
-  return kPi / 4 * a.width * a.width / cell;
-}
-
 FabricationMargins array_margins(const FeatureArray& a, const WallSection& wall) {
   const double gap = a.period - a.width;
   const double hole = (a.deep ? a.width : gap) - 2 * wall.run();  // at its floor
@@ -81,6 +73,13 @@ Heightmap round_features(const FeatureArray& array, const WallSection& wall, con
     }
   }
   return out;
+}
+
+double feature_share(const FeatureArray& a) {
+  if (a.shape == FeatureArray::Shape::Line) return a.width / a.period;
+  const double cell = a.lattice == Lattice::Square ? a.period * a.period
+                                                   : 0.5 * std::sqrt(3.0) * a.period * a.period;
+  return kPi / 4 * a.width * a.width / cell;
 }
 
 TextureFacts array_facts(const FeatureArray& array, const WallSection& wall) {

@@ -26,6 +26,7 @@ void lattice_field(FieldVisitor& v, Lattice& lattice);
 Heightmap round_features(const FeatureArray& array, const WallSection& wall, const Grid& grid,
                          const std::function<double(double, double)>& height);
 
+double feature_share(const FeatureArray& array);  // of the area, inside the features
 TextureFacts array_facts(const FeatureArray& array, const WallSection& wall);
 
 // Features that overlap, and walls that meet before the depth is reached.

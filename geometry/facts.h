@@ -107,7 +107,7 @@ struct TextureFacts {
   Stated<std::optional<UnitCell>> cell;  // none: aperiodic or flat
   Stated<FreePatch> free_patch;
   Stated<FabricationMargins> margins;
-  Stated<std::optional<double>> open_share;  // projected share below the land
+  Stated<std::optional<double>> open_share;  // projected share below half the depth
   Stated<std::optional<double>> rim_radius;  // least radius of convex rims [m]; none: no rims
   Stated<Outline> outline;                   // of what is deep, at any depth of it
   Stated<std::vector<ScanSource>> scans;     // the measured maps that it is made of

@@ -8,6 +8,7 @@
 
 #include "base/rooms.h"
 #include "geometry/facts.h"
+#include "geometry/textures/cap_array.h"
 #include "geometry/textures/flat.h"
 #include "geometry/textures/grating.h"
 #include "geometry/textures/hole_array.h"
@@ -16,12 +17,15 @@
 #include "geometry/textures/pillar_array.h"
 #include "geometry/textures/random_rough.h"
 #include "geometry/textures/stack.h"
+#include "geometry/textures/v_grooves.h"
+#include "geometry/textures/waves.h"
 
 namespace papilla::geometry {
 
 // The one list of kinds. The first has no relief: searches take it as the flat end of the list.
 struct Texture {
-  std::variant<Flat, HoleArray, PillarArray, Grating, RandomRough, ParticleFilm, Measured3d, Stack>
+  std::variant<Flat, HoleArray, PillarArray, Grating, VGrooves, Waves, CapArray, RandomRough,
+               ParticleFilm, Measured3d, Stack>
       kind;
 
   bool operator==(const Texture&) const = default;

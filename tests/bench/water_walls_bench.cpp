@@ -69,7 +69,7 @@ Skins solve(const std::string& folder, const Case& c, double rh, int grid, int s
 void print(int grid, double rh, const Case& c, const char* rule, const std::vector<double>& force,
            const std::vector<double>& shallow) {
   const Estimate mean = mean_estimate(force), change = ratio_estimate(force, shallow);
-  fmt::print("{},{},{},{:.0f},{},{},{:.4f},{:.4f},{:.1f},{:.1f}\n", grid, force.size(), c.file,
+  fmt::print("{},{},{},{:.0f},{:.0f},{},{:.4f},{:.4f},{:.1f},{:.1f}\n", grid, force.size(), c.file,
              c.wall, 100 * rh, rule, mean.value, mean.se, 100 * (change.value - 1),
              100 * change.se);
 }

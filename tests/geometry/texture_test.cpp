@@ -107,6 +107,81 @@ TEST(PillarArray, IsTheHoleArrayUpsideDown) {
   EXPECT_GE(*std::min_element(h.z.begin(), h.z.end()), -1e-20);
 }
 
+double mean_height(const Heightmap& h) {
+  return std::accumulate(h.z.begin(), h.z.end(), 0.0) / static_cast<double>(h.z.size());
+}
+
+double share_below(const Heightmap& h, double level) {
+  return static_cast<double>(
+             std::count_if(h.z.begin(), h.z.end(), [&](double z) { return z < level; })) /
+         static_cast<double>(h.z.size());
+}
+
+// Pixels that do not divide the period, and grooves from narrow ones to sharp ridges.
+TEST(VGrooves, RemoveTheirTriangles) {
+  for (const double width : {0.7e-6, 2e-6, 3e-6}) {
+    const VGrooves grooves{.period = 3e-6, .width = width, .depth = 400e-9};
+    const Heightmap h = generate(Texture{grooves}, Grid{130, 4, 12e-6, 1e-6});
+    EXPECT_NEAR(mean_height(h), -400e-9 * width / (2 * 3e-6), 1e-15);
+    EXPECT_NEAR(share_below(h, -200e-9), 0.5 * width / 3e-6, 2.0 / 130 * 4);
+  }
+  // Along a wall the height falls by the slope.
+  const Heightmap h = generate(Texture{VGrooves{.period = 3e-6, .width = 3e-6, .depth = 600e-9}},
+                               Grid{300, 4, 3e-6, 1e-6});
+  EXPECT_NEAR(h(60, 0) - h(50, 0), -0.4 * 10 * h.grid.dx(), 1e-15);
+  EXPECT_NEAR(h(240, 0) - h(250, 0), -0.4 * 10 * h.grid.dx(), 1e-15);
+}
+
+TEST(Waves, HaveTheRmsOfCosines) {
+  for (const auto directions : {Waves::Directions::One, Waves::Directions::Both}) {
+    const Waves waves{.directions = directions, .period = 4e-6, .depth = 300e-9};
+    const Heightmap h = generate(Texture{waves}, Grid{256, 256, 12e-6, 12e-6});
+    const double rms = 300e-9 / (directions == Waves::Directions::One ? std::sqrt(8.0) : 4.0);
+    double square_sum = 0;
+    for (double z : h.z) square_sum += square(z + 150e-9);
+    EXPECT_NEAR(mean_height(h), -150e-9, 1e-15);
+    EXPECT_NEAR(std::sqrt(square_sum / static_cast<double>(h.z.size())), rms, 1e-3 * rms);
+    EXPECT_NEAR(share_below(h, -150e-9), 0.5, 0.02);
+    EXPECT_EQ(directions == Waves::Directions::Both, h(5, 7) != h(5, 40));
+    // The radius of a crest, from its second difference.
+    const double step = h.grid.dx();
+    const double bend = (h(255, 255) + h(1, 255) - 2 * h(0, 255)) / square(step);
+    EXPECT_NEAR(-bend * *facts(Texture{waves}).rim_radius, 1, 0.01);
+  }
+}
+
+TEST(CapArray, HasTheVolumeOfItsSpheres) {
+  for (const Lattice lattice : {Lattice::Square, Lattice::Hexagonal}) {
+    for (const double depth : {100e-9, 1e-6}) {  // shallow ones, half spheres
+      CapArray caps{.lattice = lattice, .period = 3e-6, .diameter = 2e-6, .depth = depth};
+      const double cap = kPi / 6 * depth * (3 * square(1e-6) + square(depth));
+      const double cell = 9e-12 * (lattice == Lattice::Square ? 1 : std::sqrt(0.75));
+      const Heightmap dimples = generate(Texture{caps}, patch_grid(Texture{caps}, 256));
+      EXPECT_NEAR(mean_height(dimples), -cap / cell, 0.005 * cap / cell);
+      caps.form = CapArray::Form::Domes;
+      const Heightmap domes = generate(Texture{caps}, patch_grid(Texture{caps}, 256));
+      for (std::size_t i = 0; i < domes.z.size(); ++i) ASSERT_EQ(domes.z[i], -dimples.z[i]);
+      // What lies above half the height is discs of the width that the facts state.
+      const double above = 1 - share_below(domes, 0.5 * depth);
+      const double width = facts(Texture{caps}).margins.min_wall;
+      EXPECT_NEAR(above, kPi / 4 * square(width) / cell, 0.03 * above);
+    }
+  }
+}
+
+TEST(CapArray, ContradictionsAreNamed) {
+  const auto keys = [](const CapArray& caps) {
+    std::vector<std::string> out;
+    for (const auto& [key, message] : problems(Texture{caps})) out.push_back(key);
+    return out;
+  };
+  EXPECT_EQ(keys({.period = 3e-6, .diameter = 2e-6, .depth = 1.1e-6}),
+            (std::vector<std::string>{"depth"}));
+  EXPECT_EQ(keys({.period = 2e-6, .diameter = 2.5e-6, .depth = 0.1e-6}),
+            (std::vector<std::string>{"diameter"}));
+  EXPECT_TRUE(keys({}).empty());
+}
+
 TEST(Grating, HasItsFill) {
   Texture t{Grating{.period = 4e-6, .width = 1.3e-6, .depth = 2e-7, .wall_angle = kPi / 2}};
   EXPECT_NEAR(mean(generate(t, patch_grid(t, 128))), -2e-7 * 1.3 / 4, 1e-12);
