@@ -269,7 +269,7 @@ TEST(Rank, SeveralCriteriaWithoutWeightsHaveNoSingleOrder) {
   EXPECT_EQ(table.find("ahead of the next"), std::string::npos) << table;
   EXPECT_NE(table.find("no weights (--weights), so no single order"), std::string::npos) << table;
   EXPECT_NE(
-      table.find("skins a design (--max-skins) is spent with the order open: one and twin in"),
+      table.find("skins per design (--max-skins) is spent with the order open: one and twin in"),
       std::string::npos)
       << table;
   const auto json = nlohmann::json::parse(ranking_json({"one", "two", "twin"}, options, ranking));
