@@ -151,7 +151,8 @@ std::string correlations_section(const Calibration& c, const CalibrationResult& 
 std::string directions_section(const Calibration& c, const CalibrationResult& r) {
   std::string out =
       "\n## What the data tell apart\n\nSingular directions of the data, in prior widths; below 1 "
-      "the prior decides.\n\n| standard deviations per prior width | direction | |\n|---|---|---|\n";
+      "the prior decides.\n\n| standard deviations per prior width | direction | "
+      "|\n|---|---|---|\n";
   for (const FitDirection& d : r.fit.directions) {
     out += fmt::format("| {:.3g} | {} | {} |\n", d.singular_value, direction_text(c, d),
                        d.singular_value < 1 ? "not identified" : "");

@@ -131,8 +131,8 @@ class Row {
   std::vector<double> area_, ratio_, stated_, contacts_, seconds_, pairs_;
 };
 
-// Rows of one scene, coarse grids first. Throws InputError for another scene. Cost of the defaults: loaded
-// some 20 s, light some 10 s.
+// Rows of one scene, coarse grids first. Throws InputError for another scene. Cost of the defaults:
+// loaded some 20 s, light some 10 s.
 std::vector<AreaErrorRow> area_error_against_time(const std::string& scene,
                                                   const AreaErrorOptions& options) {
   const Case c = case_of(scene);
