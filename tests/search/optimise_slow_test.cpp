@@ -41,13 +41,17 @@ struct FinishedRun {
     result = optimise_to_folder(study, {folder, false, progress, nullptr});
   }
   std::string file(const std::string& name) const { return read_bytes(folder + "/" + name); }
-  // Another folder with the first `share` of its journal and nothing else.
-  std::string cut(const std::string& name, double share) const {
+  // Another folder with its journal, or the first records of it and a torn one, and nothing else.
+  std::string journal_alone(const std::string& name, int records = 0) const {
     const std::string to = fresh_folder(name), journal = file("journal");
+    std::size_t end = journal.size();
+    if (records > 0) {
+      end = journal.find('\n');  // of the heading
+      for (int k = 0; k < records; ++k) end = journal.find('\n', end + 1);
+      end += 60;
+    }
     fs::create_directories(to);
-    write_bytes(
-        to + "/journal",
-        journal.substr(0, static_cast<std::size_t>(share * static_cast<double>(journal.size()))));
+    write_bytes(to + "/journal", journal.substr(0, end));
     return to;
   }
 };
@@ -94,7 +98,7 @@ TEST(OptimiseOfOneRun, ALimitOnTheLookIsKept) {
 // the checks, with another number of workers.
 TEST(OptimiseOfOneRun, CutAndInterruptedItEndsInTheSameBytes) {
   const FinishedRun& run = run_of_all();
-  const std::string folder = run.cut("resumed", 0.04);
+  const std::string folder = run.journal_alone("resumed", 8);
   Study again = run.study;
   again.search.jobs = 1;
   std::atomic<bool> stop{false};
@@ -127,7 +131,7 @@ TEST(OptimiseOfOneRun, IsNotOverwrittenNorContinuedAsAnotherStudy) {
 // What a finished run judged is in its journal: another choice is made without a new evaluation.
 TEST(OptimiseOfOneRun, AnotherPickNeedsNoNewSearch) {
   const FinishedRun& run = run_of_all();
-  const std::string folder = run.cut("pick", 1), front = run.file("pareto.csv");
+  const std::string folder = run.journal_alone("pick"), front = run.file("pareto.csv");
   OptimiseOptions options{folder, true, {}, nullptr, "mean"};
   const OptimiseResult second = optimise_to_folder(run.study, options);
   EXPECT_EQ(read_bytes(folder + "/journal"), run.file("journal"));
@@ -155,7 +159,7 @@ TEST(OptimiseOfOneRun, AnotherPickNeedsNoNewSearch) {
 // A rule that fits no design of the front costs a run without results nothing but the rule.
 TEST(OptimiseOfOneRun, ResultsAreWrittenBeforeARuleOfPickIsRefused) {
   const FinishedRun& run = run_of_all();
-  OptimiseOptions options{run.cut("unmet", 1), true, {}, nullptr, "99"};
+  OptimiseOptions options{run.journal_alone("unmet"), true, {}, nullptr, "99"};
   try {
     optimise_to_folder(run.study, options);
     FAIL();
