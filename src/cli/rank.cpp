@@ -138,7 +138,7 @@ void add_rank(Command app, Context& context) {
       .type_name("NUMBER,...");
   command.add_option("--state", options->states, "Finger states: clean,natural,wet")
       .type_name("STATE,...");
-  command.add_option("--max-skins", options->max_skins, "Most skins a candidate and state")
+  command.add_option("--max-skins", options->max_skins, "Most skins per candidate and state")
       .range(12, 100000);
   command.add_flag("--parameters", options->parameters,
                    "Insist on what the finger's fitted numbers (its [[uncertainty]]) leave of each "

@@ -138,7 +138,7 @@ void fields(FieldVisitor& v, AccuracySettings& s) {
   v.integer(
       {"grid",
        "pixels along 12 um of the patch, for features finer than eight pixels; a longer patch "
-       "has at most this many a side, or 1024; 0: by level"},
+       "has at most this many per side, or 1024; 0: by level"},
       0, 4096, s.grid);
   v.number({"target", "%", 0, 100, "instead of a level: standard error of the modulation; 0: none"},
            s.target);

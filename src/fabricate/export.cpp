@@ -87,7 +87,7 @@ std::string more_pixels(const Grid& grid, double pixels_across, double smallest)
   constexpr double kMost = 1 << 14;  // 2^28 of a square
   return pixels <= kMost ? fmt::format("--pixels {:.0f} would do", pixels)
                          : fmt::format(
-                               "that would take {:.0f} pixels a side: ask for a smaller "
+                               "that would take {:.0f} pixels per side: ask for a smaller "
                                "--size (one period to be repeated) or a layout, --format "
                                "gds or oasis",
                                pixels);

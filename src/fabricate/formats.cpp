@@ -148,7 +148,7 @@ constexpr ExportFormat kFormats[]{
      .check = check_gds},
     {.name = "oasis",
      .file = "texture.oas",
-     .holds = "the polygons of `gds` as OASIS, without its limit of 32767 cells a side",
+     .holds = "the polygons of `gds` as OASIS, without its limit of 32767 cells per side",
      .needs_outline = true,
      .asked_only = true,
      .write = oasis,

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <mutex>
+#include <memory>
 
+#include "base/cache.h"
 #include "base/constants.h"
 #include "geometry/roughness.h"
 
@@ -19,6 +19,17 @@ constexpr double kTrusted = 2e-6;  // narrower features: compare with a rigorous
 // A shorter patch has no order that parts what leaves within 2.5 deg from haze.
 const double kLeastPatch = 2 * visible_wavelengths().back() / std::sin(kHazeAngle);
 constexpr double kTrustedSlope = 20 * kPi / 180;  // of a thin screen (docs/theory/optics.md)
+
+constexpr std::size_t kMostLooks = 32;
+
+// What a look depends on.
+struct Seen {
+  Texture texture;
+  double index;
+  View view;
+
+  bool operator==(const Seen&) const = default;
+};
 
 void warn(Optics& o, const std::string& text) {
   o.warning += (o.warning.empty() ? "" : "; ") + text;
@@ -119,26 +130,11 @@ std::string optics_refusal(const Texture& texture, double index, const View& vie
 }
 
 Optics appearance(const Texture& texture, double index, const View& view) {
-  struct Answer {
-    Texture texture;
-    double index;
-    View view;
-    Optics optics;
-  };
-  static std::mutex mutex;
-  static std::deque<Answer> kept;  // newest first
-  constexpr std::size_t kKept = 32;
-  {
-    const std::lock_guard lock(mutex);
-    for (const Answer& a : kept) {
-      if (a.texture == texture && a.index == index && a.view == view) return a.optics;
-    }
-  }
-  Optics out = computed(texture, index, view);
-  const std::lock_guard lock(mutex);
-  kept.push_front({texture, index, view, out});
-  if (kept.size() > kKept) kept.pop_back();
-  return out;
+  // Fingers, scenarios and variants of the model ask for the look of the same texture, which of
+  // rough glass takes longer than an evaluation of a search.
+  static Cache<Seen, Optics> kept(kMostLooks, kInfinity);
+  return *kept.get({texture, index, view}, 0,
+                   [&] { return std::make_shared<const Optics>(computed(texture, index, view)); });
 }
 
 }  // namespace papilla::forward

@@ -56,7 +56,8 @@ std::string unresolved_skin(const Plan& plan, const Fidelity& fidelity, double c
                 "accuracy.grid = {} to {:.0f} nm",
                 1e6 * period, kLargestKey, 1e9 * std::max(cutoff, 2 * side / kLargestKey));
   return fmt::format(
-      "the patch is {:.3g} um long and has {} pixels a side, so its skin has no waves below {:.0f} "
+      "the patch is {:.3g} um long and has {} pixels per side, so its skin has no waves below "
+      "{:.0f} "
       "nm (the finger's end at {:.0f} nm): this is a smoother skin, its contact area and friction "
       "are not the finger's; {}",
       1e6 * side, std::max(plan.grid.nx, plan.grid.ny), 1e9 * plan.effective_cutoff, 1e9 * cutoff,

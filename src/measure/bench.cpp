@@ -130,7 +130,7 @@ class Bench {
     const auto k = kernel(grid);
     const ContactSolution s =
         solve_contact(*k, h, design_.finger.patch_pressure(0.15), {}, {.tolerance = 1e-5});
-    rows_.push_back({fmt::format("memory of a loaded contact, {}²", pixels), "bytes a pixel",
+    rows_.push_back({fmt::format("memory of a loaded contact, {}²", pixels), "bytes per pixel",
                      (peak_bytes() - before) / n, 150});
     const auto per_pixel = [&](int side) {
       const auto kk = kernel(square_grid(side));
@@ -138,7 +138,7 @@ class Bench {
       return pair_seconds(*kk) / (m * std::log2(m));
     };
     const double small = per_pixel(256);
-    timed(fmt::format("FFT pair a pixel and log n, {}² over 256²", pixels), "",
+    timed(fmt::format("FFT pair per pixel and log n, {}² over 256²", pixels), "",
           per_pixel(pixels) / small, 3);
   }
 
@@ -184,7 +184,7 @@ class Bench {
     timed("design-level evaluation, processor time of its two threads", "s", spent, 8);
     const Response r = respond(scene, level, patches);
     const auto k = kernel(patches.plan.grid);
-    timed("design level over its floor of two pairs a solve, processor time", "",
+    timed("design level over its floor of two pairs per solve, processor time", "",
           spent / (2 * r.contact_solves * pair_seconds(*k)), 4);
     Fidelity part = level;
     part.skins = 8;

@@ -32,7 +32,7 @@ const std::vector<Entry>& entries() {
       {{"contact_area", "", "contact fraction of the load-carrying patches, drive off",
         Better::Neither, false},
        &PointQuantities::area_fraction_off},
-      {{"bridges", "", "capillary bridges a patch", Better::Neither, false},
+      {{"bridges", "", "capillary bridges per patch", Better::Neither, false},
        &PointQuantities::bridges},
       {{"wetted_fraction", "", "bridged share of the patch", Better::Neither, false},
        &PointQuantities::wetted_fraction},

@@ -37,7 +37,7 @@ std::string misfit_text(const CalibrationResult& r) {
     if (std::abs(r.fit.residuals[i]) > std::abs(r.fit.residuals[worst])) worst = i;
   }
   return fmt::format(
-      "the fitted finger does not explain the data: χ² a degree of freedom is {:.3g}, where 1 is "
+      "the fitted finger does not explain the data: χ² per degree of freedom is {:.3g}, where 1 is "
       "expected; the worst is {} ({}), {:+.1f} standard deviations. Check units and the stated "
       "standard deviations, or let more parameters move; do not use this finger",
       misfit(r), r.rows[worst].source, r.rows[worst].what, r.fit.residuals[worst]);
@@ -151,7 +151,8 @@ std::string correlations_section(const Calibration& c, const CalibrationResult& 
 std::string directions_section(const Calibration& c, const CalibrationResult& r) {
   std::string out =
       "\n## What the data tell apart\n\nSingular directions of the data, in prior widths; below 1 "
-      "the prior decides.\n\n| standard deviations a prior width | direction | |\n|---|---|---|\n";
+      "the prior decides.\n\n| standard deviations per prior width | direction | "
+      "|\n|---|---|---|\n";
   for (const FitDirection& d : r.fit.directions) {
     out += fmt::format("| {:.3g} | {} | {} |\n", d.singular_value, direction_text(c, d),
                        d.singular_value < 1 ? "not identified" : "");

@@ -130,7 +130,7 @@ std::string end_text(const std::vector<std::string>& names, const RankOptions& o
     open.push_back(std::move(both));
   }
   return fmt::format(
-      "the budget of {} skins a design (--max-skins) is spent with the order open: {}",
+      "the budget of {} skins per design (--max-skins) is spent with the order open: {}",
       options.max_skins, join_names(open, "; "));
 }
 

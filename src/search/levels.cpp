@@ -19,7 +19,7 @@ constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
 // Steps of the parameters: skins over all fingers, pixels.
 constexpr int kStepSkins = 12, kStepGrid = 64;
-// Peak of a process, measured at 128, 256, 512 and 1024 pixels a side (53, 62, 104 and 262 MB):
+// Peak of a process, measured at 128, 256, 512 and 1024 pixels per side (53, 62, 104 and 262 MB):
 // heights, gap, pressure, tractions, field and their transforms.
 constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
 // Where time is short: skins are given up first, down to these, then pixels, then more skins.

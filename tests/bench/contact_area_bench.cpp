@@ -21,7 +21,7 @@ namespace {
 
 struct AreaErrorRow {
   std::string scene;      // "loaded": the reference finger at 15 % RH; "light": 15 kPa
-  std::string method;     // "pixels", "perimeter", "near-edge", "refined" (near-edge on points)
+  std::string method;     // "pixels", "perimeter", "near-edge"
   int grid = 0;           // pixels along the patch on which the area is measured
   double per_cutoff = 0;  // pixels per cut-off wavelength
   double contacts = 0;    // pixels under pressure, mean over skins
@@ -112,7 +112,6 @@ class Row {
     seconds_.push_back(seconds);
     pairs_.push_back(pairs);
   }
-  std::size_t size() const { return area_.size(); }
   AreaErrorRow done() {
     const Estimate area = mean_estimate(area_), ratio = mean_estimate(ratio_);
     const double root = std::sqrt(static_cast<double>(area_.size()));
@@ -132,9 +131,8 @@ class Row {
   std::vector<double> area_, ratio_, stated_, contacts_, seconds_, pairs_;
 };
 
-// Rows of one scene, coarse grids first. "refined" rows of the light scene start from the solution
-// on a grid four times coarser. Throws InputError for another scene. Cost of the defaults: loaded
-// some 20 s, light some 10 s.
+// Rows of one scene, coarse grids first. Throws InputError for another scene. Cost of the defaults:
+// loaded some 20 s, light some 10 s.
 std::vector<AreaErrorRow> area_error_against_time(const std::string& scene,
                                                   const AreaErrorOptions& options) {
   const Case c = case_of(scene);
@@ -157,9 +155,6 @@ std::vector<AreaErrorRow> area_error_against_time(const std::string& scene,
     const auto kernel = make_contact_kernel(grid, c.solid);
     std::vector<Row> row;
     for (const char* method : kMethods) row.emplace_back(scene, method, n, per_cutoff(grid));
-    const Grid fine = square_grid(4 * n);
-    const bool refine = scene == "light" && 4 * n <= options.largest;
-    Row refined(scene, "refined", 4 * n, per_cutoff(fine));
     for (int k = 0; k < options.skins; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const Heightmap h = skin(grid, k);
@@ -167,21 +162,8 @@ std::vector<AreaErrorRow> area_error_against_time(const std::string& scene,
       for (std::size_t m = 0; m < row.size(); ++m) {
         row[m].add(s.by[m], reference[at], m == 2 ? s.stated : 0, s.contacts, s.seconds, s.pairs);
       }
-      if (!refine) continue;
-      const auto target = make_contact_kernel(fine, c.solid);
-      const Heightmap points = skin(fine, k);  // of the skin, whatever the state: not counted
-      const double begin = now();
-      const RefinedContact low =
-          refine_contact({*kernel, h.z, {}, c.pressure, s.low}, *target, points.z);
-      const double seconds = s.seconds + now() - begin;
-      const RefinedContact high =
-          refine_contact({*kernel, h.z, {}, kMoreLoad * c.pressure, s.high}, *target, points.z);
-      if (!low.ok || !high.ok) continue;
-      refined.add({low.area.near_edge, high.area.near_edge}, reference[at],
-                  low.area.se / low.area.near_edge, low.contacts, seconds, s.pairs);
     }
     for (Row& r : row) rows.push_back(r.done());
-    if (refined.size() > 1) rows.push_back(refined.done());
   }
   return rows;
 }

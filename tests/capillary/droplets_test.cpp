@@ -67,6 +67,33 @@ TEST(Droplets, NoWaterIsDry) {
   EXPECT_TRUE(w.bridged.empty());
 }
 
+// What is reported of all water is the sum over the bridges that are listed.
+TEST(Droplets, TheSumsAreThoseOfTheirBridges) {
+  const Gap gap = rough_gap(96, 120e-9, 5);
+  WaterProperties water;
+  water.hysteresis = 0.3;
+  const Wetting w = settle_droplets(gap, 0.05e-18, water, {}, 1, 0);
+  ASSERT_EQ(w.status, WettingStatus::Discs);
+  int bridges = 0;
+  double force = 0, volume = 0, area = 0;
+  for (const Droplet& d : w.droplets) {
+    if (d.state != DropletState::Bridge) continue;
+    ++bridges;
+    force += d.force, volume += d.volume, area += kPi * d.radius * d.radius;
+  }
+  ASSERT_GT(bridges, 1);
+  EXPECT_LT(static_cast<std::size_t>(bridges), w.droplets.size());
+  EXPECT_EQ(w.bridges, bridges);
+  EXPECT_NEAR(w.capillary_force, force, 1e-12 * std::abs(force));
+  EXPECT_NEAR(w.bridge_volume, volume, 1e-12 * volume);
+  EXPECT_NEAR(w.wetted_fraction, area / gap.grid.area(), 1e-12);
+  EXPECT_GT(w.retention, 0);
+  // The pixels under them are as many as their discs hold, to their borders.
+  const auto pixels = std::accumulate(w.bridged.begin(), w.bridged.end(), 0.0);
+  EXPECT_NEAR(pixels / static_cast<double>(gap.grid.size()), w.wetted_fraction,
+              0.1 * w.wetted_fraction);
+}
+
 TEST(Droplets, OneBridgeInAFlatGapHasTheExactForce) {
   const Gap gap = flat_gap(128, 100e-9);
   WaterProperties water;

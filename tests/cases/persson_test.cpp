@@ -40,6 +40,25 @@ TEST(MeanFieldFile, AConductingGapTakesNoVoltageAtDc) {
   EXPECT_GT(dc.point.on.pull.pull, 0);
 }
 
+// Layers and a lossless skin lie in series at any frequency; a gap that conducts adds its share in
+// quadrature.
+TEST(MeanFieldFile, ALosslessSkinAddsItsThicknessToThatOfTheLayers) {
+  const std::vector<std::string> skin{"interface.lossy_skin=false",
+                                      "interface.skin_equivalent=128 nm"};
+  const auto thickness = [&](std::vector<std::string> more) {
+    more.insert(more.end(), skin.begin(), skin.end());
+    return read_mean_field(kWrist, more).interface.thickness(5e-6, 1e3);
+  };
+  const double both = 1e-6 / 3.9 + 128e-9;
+  EXPECT_NEAR(thickness({}).real(), both, 1e-15);
+  EXPECT_EQ(thickness({}).imag(), 0);
+  const auto leaky = thickness({"interface.gap_resistivity=1e6 ohm m"});
+  EXPECT_NEAR(leaky.real(), both, 1e-15);
+  EXPECT_NEAR(leaky.imag() / both, 1 / (2 * kPi * 1e3 * kVacuumPermittivity * 1e6), 1e-9);
+  const MeanFieldCase c = read_mean_field(kWrist, skin);
+  EXPECT_NEAR(c.interface.thickness(5e-6, 0).real(), both, 1e-15);
+}
+
 TEST(MeanFieldFile, CapacitanceIsThatOfTheGapsInSeriesWithTheLayers) {
   // Pressed flat, only the layers are left.
   const MeanFieldResult r = solve_mean_field(

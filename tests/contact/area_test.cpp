@@ -124,48 +124,5 @@ TEST(Area, OfALayerThinnerThanAPixelIsThatOfTheBulk) {
               1e-3 * exact);
 }
 
-// The points near contact alone give the area of the whole fine grid, with tractions too.
-TEST(Area, RefinedOnPointsIsThatOfTheWholeFineGrid) {
-  const LayeredSolid skin{200e6, 0.5, 1e-6, 25e6, 0.5};
-  const Spectrum spectrum{330e-9, 12e-6, 0.8, 50e-9};
-  const Grid grid{128, 128, 12e-6, 12e-6}, fine{512, 512, 12e-6, 12e-6};
-  const auto kernel = make_contact_kernel(grid, skin), target = make_contact_kernel(fine, skin);
-  for (std::uint64_t k = 0; k < 4; ++k) {
-    const Heightmap h = random_surface(spectrum, grid, 5, k);
-    const Heightmap points = random_surface(spectrum, fine, 5, k);
-    std::vector<double> traction, fine_traction;
-    if (k % 2 == 1) {  // smooth, as fields and capillary tractions beyond their edges are
-      for (const Grid* g : {&grid, &fine}) {
-        std::vector<double>& t = g == &grid ? traction : fine_traction;
-        for (int iy = 0; iy < g->ny; ++iy) {
-          for (int ix = 0; ix < g->nx; ++ix) {
-            t.push_back(10e3 * (1 + std::sin(2 * kPi * g->x(ix) / g->lx)));
-          }
-        }
-      }
-    }
-    const ContactOptions options{.tolerance = 1e-10};
-    const ContactSolution coarse = solve_contact(*kernel, h.z, 15e3, traction, options);
-    const RefinedContact refined =
-        refine_contact({*kernel, h.z, traction, 15e3, coarse}, *target, points.z);
-    ASSERT_TRUE(refined.ok) << refined.reason;
-    const ContactArea exact =
-        measure_area(*target, solve_contact(*target, points.z, 15e3, fine_traction, options));
-    EXPECT_NEAR(refined.area.near_edge, exact.near_edge, 1e-4 * exact.near_edge) << k;
-    EXPECT_NEAR(refined.area.se, exact.se, 1e-2 * exact.se) << k;
-  }
-}
-
-TEST(Area, RefinementOfMuchContactSaysNo) {
-  const LayeredSolid skin{66e6, 0.5, 1e-6, 60e6, 0.5};
-  const Grid grid{64, 64, 12e-6, 12e-6}, fine{256, 256, 12e-6, 12e-6};
-  const auto kernel = make_contact_kernel(grid, skin), target = make_contact_kernel(fine, skin);
-  const std::vector<double> flat(grid.size(), 0), fine_flat(fine.size(), 0);
-  const ContactSolution s = solve_contact(*kernel, flat, 1e5, {}, {});
-  const RefinedContact refined = refine_contact({*kernel, flat, {}, 1e5, s}, *target, fine_flat);
-  EXPECT_FALSE(refined.ok);
-  EXPECT_FALSE(refined.reason.empty());
-}
-
 }  // namespace
 }  // namespace papilla::tests

@@ -110,6 +110,50 @@ TEST(Sparse, StatesUnderTractionsTakeOnePairOfTheirOwnGridAndAreCertified) {
   EXPECT_LE(pairs, 10);
 }
 
+// Pixels, sides and tractions that differ along x and y: rows are not taken for columns.
+TEST(Sparse, OnOblongPixelsItIsTheDenseSolution) {
+  const Grid grid{160, 96, 12e-6, 9e-6};
+  const auto kernel = make_contact_kernel(grid, {200e6, 0.5, 1e-6, 25e6, 0.5});
+  const Heightmap skin = random_surface({330e-9, 12e-6, 0.8, 100e-9}, grid, 3, 2);
+  std::vector<double> traction(grid.size());
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix)
+      traction[grid.index(ix, iy)] = 8e3 * (1 + std::sin(2 * kPi * ix / grid.nx)) * iy / grid.ny;
+  }
+  const ContactOptions tight{.tolerance = 1e-11, .method = ContactMethod::Dense};
+  ContactSolution previous = solve_contact(*kernel, skin.z, 15e3, {}, {.tolerance = 1e-8});
+  EXPECT_EQ(previous.method, ContactMethod::Sparse);
+  EXPECT_LT(difference(previous.pressure, solve_contact(*kernel, skin.z, 15e3, {}, tight).pressure),
+            1e-4);
+  const ContactSolution warm =
+      solve_contact(*kernel, skin.z, 15e3, traction, {.tolerance = 1e-8}, &previous);
+  EXPECT_EQ(warm.method, ContactMethod::Sparse);
+  const ContactSolution dense = solve_contact(*kernel, skin.z, 15e3, traction, tight);
+  EXPECT_LT(difference(warm.pressure, dense.pressure), 1e-4);
+  EXPECT_LT(difference(warm.gap, dense.gap), 1e-6);
+  EXPECT_NEAR(warm.shift, dense.shift, 1e-6 * std::abs(dense.shift));
+  EXPECT_NEAR(mean(warm.pressure), 15e3 + mean(traction), 1e-6 * 15e3);
+}
+
+// Heights that are no numbers, of another grid, and approaches that do not exist.
+TEST(Approach, WhatHasNoSolutionIsInvalid) {
+  const Grid grid{32, 32, 6e-6, 6e-6};
+  const auto kernel = make_contact_kernel(grid, {1e6, 0.5, 0, 1e6, 0.5});
+  const Heightmap skin = random_surface({1e-7, 3e-6, 0.8, 4e-7}, grid, 1, 3);
+  const auto status = [&](const std::vector<double>& height, double approach) {
+    return solve_approach(*kernel, height, approach, {}).status;
+  };
+  EXPECT_EQ(status(skin.z, 5e-8), ContactStatus::Converged);
+  std::vector<double> broken = skin.z, shorter = skin.z;
+  broken[7] = std::nan("");
+  shorter.pop_back();
+  EXPECT_EQ(status(broken, 5e-8), ContactStatus::Invalid);
+  EXPECT_EQ(status(shorter, 5e-8), ContactStatus::Invalid);
+  EXPECT_EQ(status(skin.z, std::nan("")), ContactStatus::Invalid);
+  EXPECT_EQ(status(skin.z, -1e-9), ContactStatus::NoLoad);  // they do not touch yet
+  EXPECT_EQ(status(skin.z, 1e-5), ContactStatus::Invalid);  // beyond full contact
+}
+
 TEST(Sparse, FallsBackToTheDenseSolverWhereMuchTouches) {
   const Grid grid{64, 64, 6e-6, 6e-6};
   const auto kernel = make_contact_kernel(grid, {1e6, 0.5, 0, 1e6, 0.5});

@@ -280,6 +280,23 @@ TEST(Plan, TheShortestWaveIsTwoPixelsOfTheCoarserDirection) {
   EXPECT_TRUE(oblong);
 }
 
+// Skins and humidities are priced alike, pixels by what a transform of them costs at least.
+TEST(Plan, ThePriceGrowsWithEverySkinAndHumidity) {
+  Scene scene = driven_scene();
+  scene.environment.relative_humidity = {0.35};
+  Fidelity f = fidelity_level("search");
+  const auto seconds = [&] { return make_plan(scene, Texture{HoleArray{}}, f).seconds(); };
+  const double one = seconds();
+  f.skins *= 3;
+  EXPECT_NEAR(seconds(), 3 * one, 1e-9 * one);
+  scene.environment.relative_humidity = {0.35, 0.45, 0.55, 0.75};
+  EXPECT_NEAR(seconds(), 12 * one, 1e-9 * one);
+  f.grid *= 2;
+  EXPECT_GT(seconds(), 4 * 12 * one * 0.5);
+  scene.drive.amplitude = 0;  // no field to solve
+  EXPECT_LT(seconds(), 4 * 12 * one);
+}
+
 TEST(Fidelity, AnUnknownLevelIsRefused) { EXPECT_THROW(fidelity_level("best"), InputError); }
 
 TEST(ScaleBridge, ClosuresGiveTheSameFrictionWithoutVoltage) {

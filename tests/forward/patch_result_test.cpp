@@ -37,6 +37,9 @@ TEST(PatchMembers, OfWaterAreMeansPeaksAndSummedCosts) {
   EXPECT_EQ(out.oxide_margin, members[0].oxide_margin);
   EXPECT_EQ(out.costs.contact_solves, 4);
   EXPECT_EQ(out.costs.fft_pairs, 61);
+  EXPECT_EQ(out.costs.seconds.contact, 2);
+  EXPECT_EQ(out.costs.seconds.water, 4);
+  EXPECT_EQ(out.costs.seconds.field, 6);
 }
 
 TEST(PatchMembers, OfPatchPressuresAreWeightedByTheirShares) {

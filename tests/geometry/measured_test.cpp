@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "base/constants.h"
 #include "geometry/io/files.h"
+#include "geometry/measured_map.h"
 #include "geometry/texture.h"
 #include "tests/temporary.h"
 
@@ -73,6 +75,42 @@ TEST(MeasuredMap, ASpikeIsMendedByItsNeighboursUpAndDown) {
     });
     EXPECT_LT(largest_difference(h, cut_of("plain", as_it_is)), 1e-9) << spike;
   }
+}
+
+// Every cut of a map as skin lies somewhere in it, as it is or mirrored along a side, its sides
+// never swapped: an oblique wave keeps both of its lengths, and its hand half of the time.
+TEST(MeasuredMap, CutsOfASkinAreOfTheMapAndAnywhereInIt) {
+  const Grid whole{300, 240, 30e-6, 24e-6}, grid{100, 100, 10e-6, 10e-6};
+  Heightmap map{whole, std::vector<double>(whole.size())};
+  for (int iy = 0; iy < whole.ny; ++iy) {
+    for (int ix = 0; ix < whole.nx; ++ix)
+      map(ix, iy) = 1e-7 * std::cos(2 * kPi * (whole.x(ix) / 2e-6 + whole.y(iy) / 1.6e-6));
+  }
+  const std::string file = temporary("ridges.npy");
+  write_npy(file, map);
+  int rising = 0, falling = 0;
+  std::vector<double> phases;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const Heightmap h = measured_skin(file, whole.lx, grid, 5, k);
+    // Between the bands that may be blended: the share of either hand, and where its crest lies.
+    std::complex<double> down = 0, up = 0;
+    for (int iy = 10; iy < 90; ++iy) {
+      for (int ix = 10; ix < 90; ++ix) {
+        const double x = 2 * kPi * grid.x(ix) / 2e-6, y = 2 * kPi * grid.y(iy) / 1.6e-6;
+        down += h(ix, iy) * std::polar(1.0, x + y);
+        up += h(ix, iy) * std::polar(1.0, x - y);
+      }
+    }
+    const bool is_down = std::abs(down) > std::abs(up);
+    const double amplitude = 2 * std::max(std::abs(down), std::abs(up)) / 6400;
+    EXPECT_NEAR(amplitude, 1e-7, 5e-9) << k;  // a cut of the map, nothing beyond its border
+    (is_down ? falling : rising) += 1;
+    phases.push_back(std::arg(is_down ? down : up));
+  }
+  EXPECT_GT(falling, 8);  // mirrored along one side as often as not
+  EXPECT_GT(rising, 8);
+  std::sort(phases.begin(), phases.end());
+  for (std::size_t i = 1; i < phases.size(); ++i) EXPECT_LT(phases[i] - phases[i - 1], 1.5);
 }
 
 TEST(MeasuredMap, RepeatsWithoutAStep) {

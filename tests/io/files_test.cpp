@@ -81,6 +81,36 @@ TEST_F(Files, GsfExrAndTiffKeepSizeAndHeights) {
   }
 }
 
+// Sides, pixels and heights that differ along x and y: nothing is turned, mirrored or swapped.
+TEST_F(Files, AnObliqueMapOnOblongPixelsComesBackInEveryFormat) {
+  Heightmap h{{48, 30, 9e-6, 5e-6}, std::vector<double>(48 * 30)};
+  for (int iy = 0; iy < 30; ++iy) {
+    for (int ix = 0; ix < 48; ++ix) h(ix, iy) = 1e-9 * (3 * ix + 11 * iy + (ix == 7 ? 40 : 0));
+  }
+  const double span = 1e-9 * (3 * 47 + 11 * 29);
+  write_npy(path("h.npy"), h);
+  write_gsf(path("h.gsf"), h, {});
+  write_exr(path("h.exr"), h, {});
+  write_tiff_float(path("f.tif"), h, {});
+  write_tiff16(path("high.tif"), h, Polarity::WhiteHigh, {});
+  write_tiff16(path("deep.tif"), h, Polarity::WhiteDeep, {});
+  for (const char* name : {"h.npy", "h.gsf", "h.exr", "f.tif", "high.tif", "deep.tif"}) {
+    const bool sized = std::string(name) != "h.npy";
+    const Heightmap back = read_heightmap(path(name), sized ? 0 : h.grid.lx);
+    ASSERT_EQ(back.grid.nx, 48) << name;
+    ASSERT_EQ(back.grid.ny, 30) << name;
+    EXPECT_NEAR(back.grid.lx, 9e-6, 1e-11) << name;
+    // NPY holds no size: its pixels are taken for square.
+    EXPECT_NEAR(back.grid.ly, sized ? 5e-6 : 30 * 9e-6 / 48, 1e-11) << name;
+    for (int iy = 0; iy < 30; ++iy) {
+      for (int ix = 0; ix < 48; ++ix) {
+        ASSERT_NEAR(back(ix, iy) - back(0, 0), h(ix, iy) - h(0, 0), span / 65535)
+            << name << " " << ix << " " << iy;
+      }
+    }
+  }
+}
+
 TEST_F(Files, TheSameHeightmapGivesTheSameBytes) {
   const Heightmap h = holes();
   for (const char* name : {"a.exr", "a.tif", "a.gsf", "a.png"}) {

@@ -49,6 +49,53 @@ TEST(Promising, AddsMoreHypervolumeThanPointsSpreadAlongTheFront) {
   EXPECT_GT(volume(three), 0.95 * best);
 }
 
+// Eq. search.12 by hand: each next adds most, the last no less than a hundredth, the next would.
+TEST(Promising, EndsWhereTheNextWouldAddLessThanAHundredth) {
+  std::vector<Evaluation> all;
+  for (int i = 0; i <= 40; ++i) all.push_back(seen({i / 40.0}, on_curve(i / 40.0)));
+  const std::vector<std::size_t> chosen = promising(box(1), all, all.size());
+  const auto volume = [&](const std::vector<std::size_t>& of) {
+    std::vector<std::vector<double>> points;
+    for (std::size_t i : of) points.push_back(all[i].outcome.objectives);
+    return hypervolume(points, {1.1, 1.1});
+  };
+  const auto best_gain = [&](std::vector<std::size_t> of) {
+    const double before = volume(of);
+    double most = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      of.push_back(i);
+      most = std::max(most, volume(of) - before);
+      of.pop_back();
+    }
+    return most;
+  };
+  std::vector<std::size_t> greedy;
+  while (greedy.empty() || best_gain(greedy) >= 0.01 * volume(greedy)) {
+    const double most = best_gain(greedy), before = volume(greedy);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      greedy.push_back(i);
+      if (volume(greedy) - before >= most * (1 - 1e-12)) break;
+      greedy.pop_back();
+    }
+  }
+  EXPECT_GT(chosen.size(), 3u);
+  EXPECT_LT(chosen.size(), 15u);
+  EXPECT_EQ(chosen.size(), greedy.size());
+  EXPECT_NEAR(volume(chosen), volume(greedy), 0.01 * volume(greedy));
+}
+
+// The ends first, then the largest gaps; more than there are is all of them.
+TEST(SpreadPoints, HalveTheLargestGap) {
+  const std::vector<std::vector<double>> line{{0, 8}, {1, 7}, {2, 6}, {4, 4}, {7, 1}, {8, 0}};
+  EXPECT_EQ(spread_points(line, 2), (std::vector<std::size_t>{0, 5}));
+  EXPECT_EQ(spread_points(line, 3), (std::vector<std::size_t>{0, 3, 5}));
+  EXPECT_EQ(spread_points(line, 4), (std::vector<std::size_t>{0, 2, 3, 5}));
+  EXPECT_EQ(spread_points(line, 6).size(), 6u);
+  EXPECT_EQ(spread_points(line, 60).size(), 6u);
+  EXPECT_EQ(spread_points(line, 6, 0.2).size(), 4u);  // 1 and 7 are nearer than a fifth
+  EXPECT_TRUE(spread_points({}, 3).empty());
+}
+
 TEST(Promising, LuckOfOneAmongLikeDesignsDoesNotWin) {
   double chosen_volume = 0, spread_volume = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {

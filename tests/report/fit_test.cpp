@@ -86,7 +86,7 @@ TEST(FitReport, AMisfitNamesItsWorstRow) {
   f.r.fit.residuals = {1, -40, 2};
   f.r.fit.chi2 = 1605;
   const std::string warning = calibration_warning(f.r);
-  EXPECT_NE(warning.find("χ² a degree of freedom is 53"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("χ² per degree of freedom is 53"), std::string::npos) << warning;
   EXPECT_NE(warning.find("the worst is M2 (ratio), -40.0 standard deviations"), std::string::npos)
       << warning;
 }

@@ -11,7 +11,7 @@
 namespace papilla::tests {
 namespace {
 
-// A run that one test of this program makes and all of them read.
+// A run that all tests of the suite read.
 const Workplace& finished_run() {
   static const Workplace place;
   static const Outcome run =
@@ -23,7 +23,7 @@ const Workplace& finished_run() {
   return place;
 }
 
-TEST(Report, IsWrittenByOptimizeAndTheSameByTheCommand) {
+TEST(ReportOfOneRun, IsWrittenByOptimizeAndTheSameByTheCommand) {
   const Workplace& place = finished_run();
   const std::string page = file_text(place.path() / "run/report.html");
   const Outcome again = place.run("report run --out again.html");
@@ -38,7 +38,7 @@ TEST(Report, IsWrittenByOptimizeAndTheSameByTheCommand) {
   EXPECT_EQ(page.find("timing.json"), std::string::npos);  // nothing that depends on the clock
 }
 
-TEST(Report, HoldsTheTablesOfTheSummaryForABrowserWithoutScripts) {
+TEST(ReportOfOneRun, HoldsTheTablesOfTheSummaryForABrowserWithoutScripts) {
   const std::string page = file_text(finished_run().path() / "run/report.html");
   const std::size_t begin = page.find("<noscript>"), end = page.find("</noscript>");
   ASSERT_NE(end, std::string::npos);
@@ -50,7 +50,7 @@ TEST(Report, HoldsTheTablesOfTheSummaryForABrowserWithoutScripts) {
   EXPECT_EQ(plain.find("|"), std::string::npos);
 }
 
-TEST(Export, OfARunStaysInItsFolder) {
+TEST(ReportOfOneRun, ExportsStayInItsFolder) {
   const Workplace& place = finished_run();
   const std::string how = " --format mask --polarity white-deep --pixels 64";
   for (const auto& [source, to] :
@@ -65,7 +65,7 @@ TEST(Export, OfARunStaysInItsFolder) {
     std::filesystem::remove_all(place.path() / folder);
 }
 
-TEST(Verify, OfARunJudgesTheBestDesignAndTheFront) {
+TEST(ReportOfOneRun, VerifyJudgesTheBestDesignAndTheFront) {
   const Workplace& place = finished_run();
   const Outcome sound = place.run("verify run --geometry");
   EXPECT_EQ(sound.status, 0) << sound.err;
@@ -104,7 +104,7 @@ void expect_drawn(const Workplace& place, const std::string& page) {
   EXPECT_EQ(run.status, 0) << run.err;
 }
 
-TEST(Report, IsDrawnByABrowserWithoutErrorOrNetwork) {
+TEST(ReportOfOneRun, IsDrawnByABrowserWithoutErrorOrNetwork) {
   expect_drawn(finished_run(), "run/report.html");
 }
 

@@ -38,10 +38,9 @@ std::size_t ActiveSet::find(int pixel) const {
                                             : pixel_.size();
 }
 
-double ActiveSet::gap(int i, double initial_gap) const {
-  const int x = i % kernel_.grid().nx, y = i / kernel_.grid().nx;
-  double v = initial_gap - shift_;
-  for (std::size_t k : set_) v += influence(x, y, k) * pressure_[k];
+double ActiveSet::gap(std::size_t k) const {
+  double v = gap_[k] - shift_;
+  for (std::size_t j : set_) v += influence(x_[k], y_[k], j) * pressure_[j];
   return v;
 }
 
@@ -85,7 +84,7 @@ bool ActiveSet::balance(double load, double slack, std::size_t limit) {
     for (std::size_t k = 0; k < pixel_.size(); ++k) {
       if (next < m && set_[next] == k) {
         ++next;
-      } else if (gap(pixel_[k], gap_[k]) < -slack) {
+      } else if (gap(k) < -slack) {
         touching_[k] = true;
         changed = true;
       }

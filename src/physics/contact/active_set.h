@@ -35,9 +35,7 @@ class ActiveSet {
   double pressure(std::size_t k) const { return pressure_[k]; }
   double shift() const { return shift_; }
   const std::vector<std::size_t>& touching() const { return set_; }
-  double gap_at(std::size_t k) const { return gap(pixel_[k], gap_[k]); }
-  // Gap of any pixel with that initial gap [m].
-  double gap(int i, double initial_gap) const;
+  double gap(std::size_t k) const;  // [m]
 
  private:
   void sort(std::vector<std::pair<int, bool>>& members);

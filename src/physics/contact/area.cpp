@@ -1,10 +1,26 @@
+// The contact area of a solution, by three estimators.
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
-#include "physics/contact/area_of_pixels.h"
+#include "base/constants.h"
+#include "physics/contact/contact.h"
 
 namespace papilla::contact {
+namespace {
 
+// What the estimators sum up over the contact's pixels.
+struct AreaSums {
+  double pixels = 0;
+  double edges = 0, elastic_edges = 0;  // sides towards free pixels; those of pixels below the cap
+  double polygon = 0;                   // area within the crossings [pixels]
+  double euler = 0;                     // islands less their holes
+};
+
+// Where the contact edge crosses between a contact pixel (pressure p) and its free neighbour (gap
+// g), as a fraction d in (0, 1) of their distance from the contact pixel: p = c sqrt(d) inside and
+// gap = (4c/3E*) s^1.5 outside with s = 1 - d. Eq. contact.7
 double edge_position(double p, double g, double modulus, double pixel) {
   // (1-d)^1.5 = r sqrt(d) with x = 1-d: x^3 + r^2 x - r^2 = 0, one real root (Cardano), in (0, 1).
   const double r = 3 * modulus * g / (4 * p * pixel), r2 = r * r;
@@ -14,6 +30,8 @@ double edge_position(double p, double g, double modulus, double pixel) {
   return std::clamp(1 - x, 0.0, 1.0);
 }
 
+// Area of the contact part of the square whose corners are four pixel centres (in order round it);
+// cross[k] is the edge position on side k -> k+1 measured from its contact end. Unit square.
 double cell_area(const bool in[4], const double cross[4]) {
   static constexpr double kX[4] = {0, 1, 1, 0}, kY[4] = {0, 0, 1, 1};
   const int count = in[0] + in[1] + in[2] + in[3];
@@ -47,6 +65,7 @@ double cell_area(const bool in[4], const double cross[4]) {
   return 0.5 * std::abs(sum);
 }
 
+// Eqs. contact.5-8
 ContactArea area_from(const AreaSums& s, const Grid& grid) {
   ContactArea area;
   if (s.pixels == 0) return area;
@@ -66,16 +85,92 @@ ContactArea area_from(const AreaSums& s, const Grid& grid) {
   return area;
 }
 
+// hardness: cap on the pressure [Pa], or 0.
+class AreaOfPixels {
+ public:
+  AreaOfPixels(const ContactKernel& kernel, const ContactSolution& solution, double hardness)
+      : grid_(kernel.grid()), pressure_(solution.pressure), gap_(solution.gap) {
+    // The modulus that a pixel's edge feels: of the layer, or of what a layer thinner than a pixel
+    // lies on.
+    const double q = 0.5 * kPi / std::max(grid_.dx(), grid_.dy());
+    modulus_ = 2 / (q * compliance(kernel.solid(), q));
+    // At the cap the pressure ends in a step, which may lie anywhere between the pixels.
+    cap_ = hardness > 0 ? (1 - 1e-6) * hardness : kInfinity;
+  }
+
+  ContactArea measure() const {
+    AreaSums sums;
+    for (std::size_t i = 0; i < pressure_.size(); ++i) {
+      if (pressure_[i] > 0) add(i, sums);
+    }
+    return area_from(sums, grid_);
+  }
+
+ private:
+  void add(std::size_t pixel, AreaSums& sums) const {
+    const int ix = static_cast<int>(pixel) % grid_.nx, iy = static_cast<int>(pixel) / grid_.nx;
+    const bool elastic = pressure_[pixel] < cap_;
+    ++sums.pixels;
+    std::size_t near[3][3];
+    for (int dy = 0; dy < 3; ++dy) {
+      for (int dx = 0; dx < 3; ++dx) {
+        near[dy][dx] = grid_.index(wrap(ix + dx - 1, grid_.nx), wrap(iy + dy - 1, grid_.ny));
+      }
+    }
+    for (std::size_t j : {near[0][1], near[1][0], near[1][2], near[2][1]}) {
+      if (pressure_[j] > 0) continue;
+      ++sums.edges;
+      if (elastic) ++sums.elastic_edges;
+    }
+    // The four squares of pixel centres round this one, each at the last of its contact pixels.
+    for (int dy = grid_.ny == 1 ? 1 : 0; dy < 2; ++dy) {
+      for (int dx = grid_.nx == 1 ? 1 : 0; dx < 2; ++dx) {
+        const std::size_t corner[4] = {near[dy][dx], near[dy][dx + 1], near[dy + 1][dx + 1],
+                                       near[dy + 1][dx]};
+        add_square(corner, pixel, sums);
+      }
+    }
+  }
+
+  void add_square(const std::size_t corner[4], std::size_t pixel, AreaSums& sums) const {
+    bool in[4];
+    std::size_t last = 0;
+    for (int k = 0; k < 4; ++k) {
+      in[k] = pressure_[corner[k]] > 0;
+      if (in[k]) last = std::max(last, corner[k]);
+    }
+    if (last != pixel) return;
+    double cross[4] = {0, 0, 0, 0};
+    for (int k = 0; k < 4; ++k) {
+      const int next = (k + 1) % 4;
+      if (in[k] != in[next]) {
+        cross[k] = crossing(corner[k], corner[next], k % 2 == 0 ? grid_.dx() : grid_.dy());
+      }
+    }
+    sums.polygon += cell_area(in, cross);
+    const int count = in[0] + in[1] + in[2] + in[3];  // Gray 1971, pixels joined at corners
+    if (count == 1) sums.euler += 0.25;
+    if (count == 3) sums.euler -= 0.25;
+    if (count == 2 && in[0] == in[2]) sums.euler -= 0.5;
+  }
+
+  double crossing(std::size_t a, std::size_t b, double pixel) const {
+    if (!(pressure_[a] > 0)) std::swap(a, b);
+    const double p = pressure_[a];
+    return p >= cap_ ? 0.5 : edge_position(p, gap_[b], modulus_, pixel);
+  }
+
+  const Grid& grid_;
+  const std::vector<double>& pressure_;  // [Pa]
+  const std::vector<double>& gap_;       // [m]
+  double modulus_, cap_;
+};
+
+}  // namespace
+
 ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& solution,
                          double hardness) {
-  const std::vector<double>& p = solution.pressure;
-  std::vector<int> contact;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (p[i] > 0) contact.push_back(static_cast<int>(i));
-  }
-  const auto pressure = [&](std::size_t i) { return p[i]; };
-  const auto gap = [&](std::size_t i) { return solution.gap[i]; };
-  return AreaOfPixels(kernel, pressure, gap, hardness).measure(contact);
+  return AreaOfPixels(kernel, solution, hardness).measure();
 }
 
 }  // namespace papilla::contact

@@ -142,30 +142,4 @@ struct ContactArea {
 ContactArea measure_area(const ContactKernel& kernel, const ContactSolution& solution,
                          double hardness = 0);
 
-// The area of a light contact on a finer grid: solved again there on the points near contact only,
-// with the exact influence of the fine grid's pixels on one another.
-struct RefinedContact {
-  bool ok = false;
-  std::string reason;  // why not
-  ContactArea area;
-  int contacts = 0, points = 0;  // under pressure; looked at
-};
-
-// A solution on a coarse grid and what it solves, without a hardness.
-struct CoarseContact {
-  const ContactKernel& kernel;
-  std::span<const double> height;    // [m], a value per coarse pixel
-  std::span<const double> traction;  // [Pa], the same, or empty
-  double mean_pressure;              // [Pa]
-  const ContactSolution& solution;
-};
-
-// fine: a kernel of the same solid on a grid several times finer, fine_height: the heights on it
-// [m]. Points that penetrate join until none does, among the neighbours of the contact and twice
-// the points watched. Not ok: more than 2048 fine contact pixels are expected (solve the fine grid
-// instead), or the coarse solution did not converge. Cost: far below one transform pair of the fine
-// grid up to some 500 contacts.
-RefinedContact refine_contact(const CoarseContact& coarse, const ContactKernel& fine,
-                              std::span<const double> fine_height);
-
 }  // namespace papilla::contact

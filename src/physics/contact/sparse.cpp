@@ -90,7 +90,7 @@ class CandidateSolver {
     for (std::size_t k = 0; k < set_.size(); ++k) {
       double& rise = rise_[set_.pixel(k)];
       before_[k] = rise;
-      rise = -problem_.height[set_.pixel(k)] - (set_.gap_at(k) + set_.shift());
+      rise = -problem_.height[set_.pixel(k)] - (set_.gap(k) + set_.shift());
     }
   }
 

@@ -59,8 +59,8 @@ function showDirections() {
   rowsChart('directions', list.map((d) => main(d) + (d.weights.filter((w) => Math.abs(w) >= 0.2).length > 1 ? ' …' : '')), [{
     data: list.map((d) => d.singular_value), backgroundColor: list.map((d) => d.singular_value < 1 ? colours[1] : colours[0]), maxBarThickness: 18,
     text: list.map((d) => `${round(d.singular_value)}: ${text(d)}`),
-  }], axis('standard deviations a prior width', { type: 'logarithmic' }));
-  table($('directiontable'), ['Standard deviations a prior width', 'Direction', ''], list.map((d) => [round(d.singular_value), text(d), d.singular_value < 1 ? 'not identified: the prior decides' : '']), [0]);
+  }], axis('standard deviations per prior width', { type: 'logarithmic' }));
+  table($('directiontable'), ['Standard deviations per prior width', 'Direction', ''], list.map((d) => [round(d.singular_value), text(d), d.singular_value < 1 ? 'not identified: the prior decides' : '']), [0]);
 }
 
 function showResiduals() {

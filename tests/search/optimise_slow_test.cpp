@@ -1,0 +1,303 @@
+// Whole runs of small studies: what they write, that they go on from anywhere, what they refuse.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "report/results.h"
+#include "search/pick.h"
+#include "search/run.h"
+#include "search/task.h"
+#include "tests/search/small_study.h"
+
+namespace papilla::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A run that the tests of its suite read: with drafts, whose records are not the search's, and a
+// limit on the look.
+struct FinishedRun {
+  Study study = small_study();
+  std::string folder = fresh_folder("whole");
+  std::vector<std::string> stages;  // in their order
+  int narrowed = 0;                 // designs of the level between
+  OptimiseResult result;
+
+  FinishedRun() {
+    study.search.evaluations = 9;
+    study.search.drafts = 6;
+    study.constraints.push_back({"haze", 0.03, false});
+    study.design.surface.refractive_index = 1.52;
+    const auto progress = [this](const Progress& p) {
+      if (stages.empty() || stages.back() != p.stage) stages.push_back(p.stage);
+      if (p.stage == "narrow") narrowed = p.total;
+    };
+    result = optimise_to_folder(study, {folder, false, progress, nullptr});
+  }
+  std::string file(const std::string& name) const { return read_bytes(folder + "/" + name); }
+  // Another folder with its journal, or the first records of it and a torn one, and nothing else.
+  std::string journal_alone(const std::string& name, int records = 0) const {
+    const std::string to = fresh_folder(name), journal = file("journal");
+    std::size_t end = journal.size();
+    if (records > 0) {
+      end = journal.find('\n');  // of the heading
+      for (int k = 0; k < records; ++k) end = journal.find('\n', end + 1);
+      end += 60;
+    }
+    fs::create_directories(to);
+    write_bytes(to + "/journal", journal.substr(0, end));
+    return to;
+  }
+};
+
+const FinishedRun& run_of_all() {
+  static const FinishedRun run;
+  return run;
+}
+
+TEST(OptimiseOfOneRun, WritesItsResults) {
+  const FinishedRun& run = run_of_all();
+  EXPECT_EQ(run.result.evaluations, 9);
+  EXPECT_TRUE(run.result.any_feasible);
+  for (const char* file :
+       {"resolved.toml", "plan.txt", "journal", "timing.json", "pareto.csv", "history.csv",
+        "summary.md", "sensitivity.json", "best/design.toml", "best/metrics.json",
+        "best/heightmap.exr", "best/mask.tif", "front/01/design.toml"}) {
+    EXPECT_TRUE(fs::exists(run.folder + "/" + file)) << file;
+  }
+  ASSERT_FALSE(run.result.sensitivity.empty());
+  double shares = 0;
+  for (const VariableSensitivity& s : run.result.sensitivity) shares += s.share[0];
+  EXPECT_NEAR(shares, 1, 1e-12);
+  EXPECT_EQ(read_design(run.folder + "/best/design.toml"),
+            run.result.finalists[run.result.best].design);
+}
+
+// The level between judges a third as many designs as the search.
+TEST(OptimiseOfOneRun, FinalistsComeFromALevelBetween) {
+  EXPECT_EQ(run_of_all().stages,
+            (std::vector<std::string>{"draft", "search", "narrow", "confirm", "check"}));
+  EXPECT_EQ(run_of_all().narrowed, 3);
+}
+
+TEST(OptimiseOfOneRun, ALimitOnTheLookIsKept) {
+  for (const FinalDesign& f : run_of_all().result.finalists) {
+    if (f.feasible) {
+      EXPECT_LE(appearance_of(f.design).haze, 0.03);
+    }
+  }
+}
+
+// A journal cut in the middle of a record, as by a kill; then interrupted in the search and before
+// the checks, with another number of workers.
+TEST(OptimiseOfOneRun, CutAndInterruptedItEndsInTheSameBytes) {
+  const FinishedRun& run = run_of_all();
+  const std::string folder = run.journal_alone("resumed", 8);
+  Study again = run.study;
+  again.search.jobs = 1;
+  std::atomic<bool> stop{false};
+  const auto in_search = [&](const Progress& p) { stop = p.stage == "search" && p.done >= 5; };
+  const auto before_checks = [&](const Progress& p) {
+    stop = p.stage == "confirm" && p.done == p.total;
+  };
+  EXPECT_TRUE(optimise_to_folder(again, {folder, true, in_search, &stop}).interrupted);
+  const auto length = fs::file_size(folder + "/journal");
+  EXPECT_LT(length, run.file("journal").size());
+  stop = false;
+  EXPECT_TRUE(optimise_to_folder(again, {folder, true, before_checks, &stop}).interrupted);
+  EXPECT_GT(fs::file_size(folder + "/journal"), length);
+  const OptimiseResult result = optimise_to_folder(again, {folder, true, {}, nullptr});
+  EXPECT_FALSE(result.interrupted);
+  EXPECT_EQ(result.evaluations, 9);
+  for (const char* file :
+       {"journal", "pareto.csv", "history.csv", "summary.md", "best/metrics.json"})
+    EXPECT_EQ(read_bytes(folder + "/" + file), run.file(file)) << file;
+}
+
+TEST(OptimiseOfOneRun, IsNotOverwrittenNorContinuedAsAnotherStudy) {
+  const FinishedRun& run = run_of_all();
+  EXPECT_THROW(optimise_to_folder(run.study, {run.folder, false, {}, nullptr}), InputError);
+  Study other = run.study;
+  other.search.seed = 2;
+  EXPECT_THROW(optimise_to_folder(other, {run.folder, true, {}, nullptr}), InputError);
+}
+
+// What a finished run judged is in its journal: another choice is made without a new evaluation.
+TEST(OptimiseOfOneRun, AnotherPickNeedsNoNewSearch) {
+  const FinishedRun& run = run_of_all();
+  const std::string folder = run.journal_alone("pick"), front = run.file("pareto.csv");
+  OptimiseOptions options{folder, true, {}, nullptr, "mean"};
+  const OptimiseResult second = optimise_to_folder(run.study, options);
+  EXPECT_EQ(read_bytes(folder + "/journal"), run.file("journal"));
+  EXPECT_EQ(read_bytes(folder + "/pareto.csv"), front);
+  ASSERT_TRUE(second.finalists[second.best].on_front);
+  for (const FinalDesign& f : second.finalists) {
+    if (!f.on_front) continue;
+    EXPECT_LE(f.confirmed.values[0], second.finalists[second.best].confirmed.values[0]);
+  }
+  EXPECT_EQ(read_design(picked_design_file(folder, "mean")), second.finalists[second.best].design);
+  EXPECT_EQ(read_design(picked_design_file(folder, "")), second.finalists[second.best].design);
+  options.pick = "best of all";
+  EXPECT_THROW(optimise_to_folder(run.study, options), InputError);
+  // Neither a number beyond the front nor an interruption takes what is there.
+  const std::string best = read_bytes(folder + "/best/design.toml"),
+                    summary = read_bytes(folder + "/summary.md");
+  options.pick = "99";
+  EXPECT_THROW(optimise_to_folder(run.study, options), InputError);
+  std::atomic<bool> stop{true};
+  EXPECT_TRUE(optimise_to_folder(run.study, {folder, true, {}, &stop, "variation"}).interrupted);
+  EXPECT_EQ(read_bytes(folder + "/best/design.toml"), best);
+  EXPECT_EQ(read_bytes(folder + "/summary.md"), summary);
+}
+
+// A rule that fits no design of the front costs a run without results nothing but the rule.
+TEST(OptimiseOfOneRun, ResultsAreWrittenBeforeARuleOfPickIsRefused) {
+  const FinishedRun& run = run_of_all();
+  OptimiseOptions options{run.journal_alone("unmet"), true, {}, nullptr, "99"};
+  try {
+    optimise_to_folder(run.study, options);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("is written with the usual choice"), std::string::npos)
+        << e.what();
+  }
+  EXPECT_EQ(read_bytes(options.folder + "/best/design.toml"), run.file("best/design.toml"));
+  EXPECT_TRUE(fs::exists(options.folder + "/report.html"));
+}
+
+// Nothing was evaluated, so nothing is best so far; the result says which limit no design keeps.
+TEST(Optimise, ASpaceThatNeverKeepsALimitEndsInASummary) {
+  Study study = small_study();
+  study.search.evaluations = 2;
+  study.constraints = {{"min_wall", 5.5e-6, true}, {"aspect_ratio", 3, false}};
+  study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}}};
+  for (const char* method : {"nsga2", "bobyqa"}) {
+    const bool several = std::string(method) == "nsga2";
+    study.objective.minimise.clear();
+    if (several) study.objective.minimise = {"variation(modulation)"};
+    study.search.method = method;
+    const std::string folder = fresh_folder(std::string("never_") + method);
+    int said = 0;
+    const auto progress = [&](const Progress& p) {
+      said += p.best == "none keeps every constraint yet";
+    };
+    const OptimiseResult result = optimise_to_folder(study, {folder, false, progress, nullptr});
+    EXPECT_GT(said, 0);
+    EXPECT_EQ(result.evaluations, 0);
+    EXPECT_FALSE(result.any_feasible);
+    ASSERT_EQ(result.finalists.size(), 1u) << method;  // the one that violates least
+    EXPECT_FALSE(result.finalists[0].feasible);
+    EXPECT_EQ(result.never_kept, std::vector<std::string>{"min_wall (at least 5.5 um)"}) << method;
+    EXPECT_NE(read_bytes(folder + "/summary.md").find("keeps min_wall (at least 5.5 um)"),
+              std::string::npos);
+  }
+}
+
+// The one shown is the least violating of all that were evaluated, and not on any front.
+TEST(Optimise, TheNearestToAnImpossibleLimitIsShown) {
+  Study study = small_study();
+  study.search.evaluations = 6;
+  study.search.method = "nsga2";
+  study.variables = {{"texture.diameter", "um", 1e-6, 4.9e-6, {}},
+                     {"texture.depth", "nm", 100e-9, 1e-6, {}}};
+  study.constraints = {{"min_wall", 1.5e-6, true}, {"worst(modulation)", 5, true}};
+  const std::string folder = fresh_folder("nearest");
+  const OptimiseResult result = optimise_to_folder(study, {folder, false, {}, nullptr});
+  EXPECT_FALSE(result.any_feasible);
+  EXPECT_EQ(result.never_kept, std::vector<std::string>{"worst(modulation) (at least 5)"});
+  ASSERT_TRUE(result.has_best());
+  const FinalDesign& best = result.finalists[result.best];
+  EXPECT_FALSE(best.on_front);
+  EXPECT_EQ(best.folder, "best");
+  EXPECT_TRUE(fs::exists(folder + "/report.html"));
+  EXPECT_FALSE(fs::exists(folder + "/front"));
+  double highest = 0;  // at the search level
+  std::string line, row;
+  std::istringstream history(read_bytes(folder + "/history.csv"));
+  const auto cells = [](const std::string& text) {
+    std::istringstream in(text);
+    std::vector<std::string> out;
+    for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
+    return out;
+  };
+  while (std::getline(history, line)) {
+    const auto c = cells(line);
+    if (c.back() != "ok" || std::stod(c[c.size() - 4]) <= highest) continue;
+    highest = std::stod(c[c.size() - 4]);
+    row = c[1] + "," + c[2];
+  }
+  EXPECT_NE(read_bytes(folder + "/pareto.csv").find("best," + row), std::string::npos) << row;
+  EXPECT_EQ(read_bytes(folder + "/pareto.csv").find(",yes,ok"), std::string::npos);
+}
+
+TEST(Optimise, OneEvaluationHasAFinalist) {
+  Study study = small_study();
+  study.search.evaluations = 1;
+  const std::string folder = fresh_folder("few");
+  EXPECT_TRUE(optimise_to_folder(study, {folder, false, {}, nullptr}).has_best());
+  EXPECT_TRUE(fs::exists(folder + "/report.html"));
+}
+
+TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
+  Study study = small_study();
+  study.variables = {{"texture.diameter", "um", 3e-6, 3e-6, {3e-6}}};
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("point"), false, {}, nullptr});
+  EXPECT_EQ(result.evaluations, 1);
+  EXPECT_TRUE(result.any_feasible);
+}
+
+TEST(Optimise, ATargetIsMetByLeastSquares) {
+  Study study = small_study();
+  study.objective = {};
+  study.objective.targets = {{"modulation", 0.45}};
+  study.constraints.clear();
+  study.variables = {{"texture.depth", "nm", 0, 1e-6, {}}, {"drive.amplitude", "V", 100, 220, {}}};
+  study.search.evaluations = 12;
+  const OptimiseResult result =
+      optimise_to_folder(study, {fresh_folder("target"), false, {}, nullptr});
+  EXPECT_EQ(result.method, "least_squares");
+  ASSERT_FALSE(result.finalists.empty());
+  const StudyProblem problem(study);
+  const Score own =
+      problem.score({evaluate_task(problem, study.design, 0, {fidelity_level("search")})});
+  EXPECT_LT(result.finalists[0].searched.values[0], own.values[0]);
+}
+
+// A relief that nobody feels is no better than none: both are judged on the same skins.
+TEST(Optimise, TheSurfaceWithoutTextureIsJudgedOnTheSkinsOfTheTexture) {
+  Study study = small_study();
+  for (Variable& v : study.variables) {
+    if (v.path == "texture.depth") {
+      v.low = 2.5e-9;
+      v.high = 3e-9;
+    }
+  }
+  // Under a risk, over humidities and fingers, as without.
+  for (const char* risk : {"", "mean - 2 std"}) {
+    study.objective.risk = risk;
+    const OptimiseResult r =
+        optimise_to_folder(study, {fresh_folder("relief"), false, {}, nullptr});
+    ASSERT_TRUE(r.flat && r.has_best());
+    const Score& best = r.finalists[r.best].confirmed;
+    for (std::size_t k = 0; k < best.values.size(); ++k)
+      EXPECT_NEAR(r.flat->values[k], best.values[k], 0.05 * best.values[k]) << k;
+    // Skin by skin the two are nearly one; the bar of the difference knows.
+    for (std::size_t k = 0; k < best.values.size(); ++k) {
+      const double error = difference_error(best, *r.flat, k);
+      EXPECT_GT(error, 0) << k;
+      // A risk takes each humidity alone, where the droplets of a skin may settle otherwise.
+      EXPECT_LT(error, (*risk ? 0.8 : 0.3) * std::min(best.errors[k], r.flat->errors[k])) << k;
+      EXPECT_EQ(difference_error(best, best, k), 0) << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,234 @@
+// Scores, outcomes and slopes of a study from answers that are written down here: no contact is
+// solved.
+#include "search/score.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "base/constants.h"
+#include "search/levels.h"
+#include "search/sensitivity.h"
+
+namespace papilla::tests {
+namespace {
+
+Study default_study() {
+  return read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml");
+}
+
+// Two scenarios of unlike weight, felt by one finger, at two humidities of unlike weight.
+Study weighted_study() {
+  Study study = default_study();
+  study.population.clear();
+  study.scenarios = {{"new", 3, {}}, {"worn", 1, {}}};
+  study.design.environment.relative_humidity = {0.2, 0.7};
+  study.design.environment.weights = {1, 4};
+  return study;
+}
+
+// The answer of a task with these numbers at each humidity, alike for every objective.
+TaskAnswer answer(const StudyProblem& problem, const std::vector<double>& points) {
+  TaskAnswer out;
+  for (std::size_t k = 0; k < problem.objectives().size(); ++k) {
+    const double mean =
+        std::accumulate(points.begin(), points.end(), 0.0) / static_cast<double>(points.size());
+    out.objectives.push_back({mean, 0.1 * mean, points});
+  }
+  return out;
+}
+
+TEST(Scores, WeighTasksAndAddTheirErrorsByWeight) {
+  const Study study = weighted_study();
+  const StudyProblem problem(study);
+  const Score score = problem.score({answer(problem, {0.2, 0.4}), answer(problem, {0.5, 0.9})});
+  ASSERT_TRUE(score.ok) << score.reason;
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(score.values[k], (3 * 0.3 + 0.7) / 4, 1e-12);
+    EXPECT_NEAR(score.errors[k], (3 * 0.03 + 0.07) / 4, 1e-12);
+  }
+}
+
+// What a study maximises is minimised with the other sign; what it minimises stays.
+TEST(Scores, OnlyWhatIsMaximisedChangesItsSignForTheSearcher) {
+  const Study study = default_study();
+  const StudyProblem problem(study);
+  ASSERT_TRUE(problem.objectives()[0].maximise);
+  ASSERT_FALSE(problem.objectives()[1].maximise);
+  Score score;
+  score.ok = true;
+  score.values = {0.6, 0.2};
+  score.oxide_margin = 10;
+  const Outcome outcome = problem.outcome(score);
+  EXPECT_TRUE(outcome.ok);
+  EXPECT_EQ(outcome.objectives, (std::vector<double>{-0.6, 0.2}));
+  score.ok = false;
+  score.reason = "why";
+  EXPECT_FALSE(problem.outcome(score).ok);
+  EXPECT_EQ(problem.outcome(score).reason, "why");
+}
+
+// A target's residuals: their squares sum to that of the distance, each on its side of the target.
+TEST(Scores, ResidualsOfATargetSumToItsSquaredDistance) {
+  Study study = weighted_study();
+  study.objective = {};
+  study.objective.targets = {{"modulation", 0.5}};
+  const StudyProblem problem(study);
+  const std::vector<std::vector<double>> points{{0.2, 0.4}, {0.5, 0.9}};
+  const Score score = problem.score({answer(problem, points[0]), answer(problem, points[1])});
+  ASSERT_TRUE(score.ok) << score.reason;
+  ASSERT_EQ(score.residuals.size(), 4u);
+  EXPECT_EQ(problem.residuals(), 4u);
+  double sum = 0, squares = 0;
+  for (std::size_t t = 0; t < 2; ++t) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double weight = (t == 0 ? 3.0 : 1.0) * (i == 0 ? 1.0 : 4.0) / 20,
+                   r = points[t][i] - 0.5;
+      EXPECT_NEAR(score.residuals[2 * t + i], std::sqrt(weight) * r, 1e-12) << t << i;
+      sum += square(score.residuals[2 * t + i]);
+      squares += weight * r * r;
+    }
+  }
+  EXPECT_NEAR(score.values[0], std::sqrt(squares), 1e-12);
+  EXPECT_NEAR(sum, squares, 1e-12);
+}
+
+// The bad side over tasks, but not over those without weight.
+TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
+  Study study = weighted_study();
+  study.scenarios.push_back({"broken", 0, {}});
+  study.constraints = {{"mean(friction)", 0.05, false}, {"mean(contact_area)", 0.1, true}};
+  const StudyProblem problem(study);
+  std::vector<TaskAnswer> answers(3, answer(problem, {0.2, 0.4}));
+  const double worst[] = {0.3, 0.2, 0.01}, margin[] = {2, 3, 0.5};
+  const std::vector<double> limited[] = {{0.04, 0.3}, {0.06, 0.2}, {9, 0}};
+  for (std::size_t t = 0; t < 3; ++t) {
+    answers[t].worst = worst[t], answers[t].oxide_margin = margin[t];
+    answers[t].limited = limited[t];
+    answers[t].look = TaskLook{t == 1 ? 0.1 : 0.02, 0.9, 0.5, 0};
+  }
+  const Score score = problem.score(answers);
+  EXPECT_EQ(score.worst, 0.2);
+  EXPECT_EQ(score.oxide_margin, 2);
+  EXPECT_EQ(score.limited, (std::vector<double>{0.06, 0.2}));
+  ASSERT_TRUE(score.look);
+  EXPECT_EQ(score.look->haze, 0.1);
+}
+
+// Of a model that is linear in every variable the slopes come back, in SI and with their sign; a
+// tenth of the way that costs half a value costs a twentieth of it.
+TEST(Slopes, OfALinearModelAreItsOwn) {
+  const Study study = default_study();
+  const StudyProblem problem(study);
+  const DesignSpace& space = problem.space();
+  const Point centre = space.unit({6e-6, 3e-6, 400e-9, 1.1});
+  const std::vector<double> at = space.value(centre);
+  const std::vector<std::vector<double>> slope{{0.02e6, -0.05e6, -2e5, 0.1},
+                                               {-0.01e6, 0.03e6, -5e5, 0.3}};
+  const auto scored = [&](const Point& unit) {
+    const std::vector<double> v = space.value(unit);
+    Score s;
+    s.ok = true;
+    s.values = {0.5, 0.25};
+    for (std::size_t o = 0; o < 2; ++o) {
+      for (std::size_t k = 0; k < v.size(); ++k) s.values[o] += slope[o][k] * (v[k] - at[k]);
+    }
+    return s;
+  };
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, centre);
+  ASSERT_EQ(moves.size(), 8u);
+  std::vector<Score> moved;
+  for (const SensitivityMove& m : moves) moved.push_back(scored(m.unit));
+  const auto found = sensitivity(problem, centre, moves, scored(centre), moved);
+  ASSERT_EQ(found.size(), 4u);
+  double squares[2] = {0, 0};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const VariableSensitivity& s = found[k];
+    EXPECT_EQ(s.variable, k);
+    const double range = space.cube().dimensions[k].high - space.cube().dimensions[k].low;
+    EXPECT_NEAR(s.step, 0.05 * range, 1e-9 * range);
+    for (std::size_t o = 0; o < 2; ++o) {
+      EXPECT_NEAR(s.change[o] / s.step, slope[o][k], 1e-6 * std::abs(slope[o][k])) << k << o;
+      squares[o] += square(s.change[o]);
+    }
+    // The first is maximised, the second minimised: each loses where its slope says.
+    const double lost[2] = {0.05 * 0.5 / std::abs(slope[0][k]),
+                            0.05 * 0.25 / std::abs(slope[1][k])};
+    double down = kInfinity, up = kInfinity;
+    (slope[0][k] > 0 ? down : up) = lost[0];
+    double& other = slope[1][k] > 0 ? up : down;
+    other = std::min(other, lost[1]);
+    EXPECT_NEAR(s.down, std::min(down, s.step), 1e-6 * s.step) << k;
+    EXPECT_NEAR(s.up, std::min(up, s.step), 1e-6 * s.step) << k;
+    EXPECT_EQ(s.down_beyond, down > s.step) << k;
+    EXPECT_EQ(s.up_beyond, up > s.step) << k;
+  }
+  for (const VariableSensitivity& s : found) {
+    for (std::size_t o = 0; o < 2; ++o)
+      EXPECT_NEAR(s.share[o], square(s.change[o]) / squares[o], 1e-12);
+  }
+}
+
+TEST(Levels, OneDesignInThreeIsJudgedAgainAndNoMoreThan32) {
+  SearchProblem p;
+  p.space.dimensions.assign(2, Dimension{});
+  p.objectives = 2;
+  for (const auto& [evaluations, again] :
+       {std::pair(2, 0u), {3, 1u}, {9, 3u}, {96, 32u}, {300, 32u}}) {
+    p.evaluations = evaluations;
+    EXPECT_EQ(narrowings(p), again) << evaluations;
+  }
+  p.objectives = 3;
+  EXPECT_EQ(narrowings(p), 0u);
+}
+
+// Skins: sixteen over all fingers in a search, twice as many of others between, fresh ones at last.
+TEST(Levels, NoTwoJudgeOnTheSameSkins) {
+  Study study = default_study();
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  for (const std::size_t fingers : {1u, 4u}) {
+    study.population.assign(fingers, study.design.finger);
+    const StudyProblem problem(study);
+    const Fidelity search = stage_fidelity(problem, Stage::Search),
+                   between = stage_fidelity(problem, Stage::Narrow),
+                   confirmed = stage_fidelity(problem, Stage::Confirm);
+    EXPECT_EQ(search.skins * static_cast<int>(fingers), 16);
+    EXPECT_EQ(between.skins, 2 * search.skins);
+    EXPECT_EQ(between.grid, 2 * search.grid);
+    EXPECT_EQ(confirmed.skins, fingers == 1 ? 16 : 10);
+    EXPECT_EQ(search.first_skin, 0);
+    EXPECT_GT(between.first_skin, search.first_skin + search.skins);
+    EXPECT_GT(confirmed.first_skin, between.first_skin + between.skins);
+    EXPECT_EQ(steps_fidelity(problem, confirmed).skins, 12 / static_cast<int>(fingers));
+  }
+}
+
+// A number that the study's own kind of texture does not have starts in the middle of its range.
+TEST(Space, TheStudysOwnDesignIsItsPointAndUnknownNumbersStartInTheMiddle) {
+  Study study = default_study();
+  const StudyProblem problem(study);
+  const DesignSpace& space = problem.space();
+  EXPECT_EQ(space.design(space.unit_of_study()), study.design);
+  study.design.texture = Texture{};  // flat: it has no diameter
+  study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}},
+                     {"surface.contact_angle", "deg", 0.7, 1.5, {}}};
+  const StudyProblem flat(study);
+  const std::vector<double> value = flat.space().value(flat.space().unit_of_study());
+  EXPECT_NEAR(value[0], 2.5e-6, 1e-15);
+  EXPECT_NEAR(value[1], study.design.surface.contact_angle, 1e-12);
+}
+
+// Only a limit on the look makes a search ask for looks before it evaluates.
+TEST(Space, LooksAreAskedForBeforeAnEvaluationOnlyWhereTheyAreLimited) {
+  Study study = default_study();
+  EXPECT_FALSE(search_problem(StudyProblem{study}).costly_constraints);
+  study.constraints.push_back({"haze", 0.03, false});
+  study.design.surface.refractive_index = 1.52;
+  const StudyProblem problem(study);
+  EXPECT_TRUE(problem.constraints().limits_look());
+  EXPECT_EQ(search_problem(problem).costly_constraints(problem.space().unit_of_study()).size(), 1u);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,31 @@
+// A study that is small enough for a test, and a folder for its run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/rooms.h"
+#include "design/study.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+
+// One finger at two humidities.
+inline Study small_study() {
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml");
+  study.population.clear();
+  study.design.environment.relative_humidity = {0.35, 0.75};
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  study.search.evaluations = 6;
+  study.search.jobs = 2;
+  return study;
+}
+
+// That nothing is in yet.
+inline std::string fresh_folder(const std::string& name) {
+  const std::filesystem::path folder = temporary(name);
+  std::filesystem::remove_all(folder);
+  return folder.string();
+}
+
+}  // namespace papilla::tests
