@@ -26,6 +26,9 @@ std::size_t narrowings(const SearchProblem& search);
 // Processor time of one task at a stage, as plans price it [s].
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds = 0);
 
+// What shipped studies took of their price on a quiet machine (docs/theory/search.md).
+inline constexpr double kLeastOfPrice = 0.6, kMostOfPrice = 1.25;
+
 // What a search takes, as plans price it: all of it on one core of a usual machine.
 struct StudyCost {
   int evaluations = 0, tasks = 0;  // of an evaluation

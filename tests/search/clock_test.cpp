@@ -111,10 +111,42 @@ TEST(Findings, ABoundIsNamedWithWhatWideningGives) {
   result.at_bound = at;
   const std::vector<std::string> remarks = run_remarks(study, problem, result);
   ASSERT_EQ(remarks.size(), 2u);
-  EXPECT_EQ(remarks[0],
-            "The best design has texture.period on its upper bound, 10 um: widened by 0.35 um, as "
-            "it goes inside the bound, mean(modulation) +0.01, variation(modulation) -0.02.");
+  EXPECT_EQ(
+      remarks[0],
+      "The best design has texture.period on its upper bound, 10 um; 0.35 um beyond it, going "
+      "on as inside, would change mean(modulation) +0.01, variation(modulation) -0.02.");
   EXPECT_NE(remarks[1].find("widen it to see whether more helps"), std::string::npos);
+}
+
+// What the finish does takes a second surface, for which there may be no time.
+TEST(Sheet, WithoutTheStudysOwnSurfaceTheFinishIsNotJudged) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  const auto score = [](double mean, double variation) {
+    Score s;
+    s.ok = true;
+    s.values = {mean, variation};
+    s.errors = {0.01, 0.01};
+    return s;
+  };
+  OptimiseResult result;
+  FinalDesign best;
+  best.unit = tried(problem, 5, 300, 70).unit;  // the study's own angle is 50 deg
+  best.design = problem.space().design(best.unit);
+  best.confirmed = score(0.5, 0.3);
+  best.on_front = best.feasible = true;
+  best.folder = "front/01";
+  result.finalists = {best};
+  result.any_feasible = true;
+  result.flat = score(0.6, 0.2);
+  const JudgedDesigns history;
+  const ResultFiles files{"", study, problem, history, result, ""};
+  EXPECT_EQ(advice_of(files), Advice::Finish);
+  EXPECT_NE(recommendation(files).find("What the finish does (surface.contact_angle 50 deg to 70"),
+            std::string::npos)
+      << recommendation(files);
+  result.flat_before = score(0.4, 0.4);
+  EXPECT_EQ(recommendation(files).find("not known"), std::string::npos) << recommendation(files);
 }
 
 // At a lower bound a widening goes the other way than a step up.
