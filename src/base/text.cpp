@@ -73,9 +73,9 @@ std::string with_error(double value, double error) {
   const double shown = std::strtod(fmt::format("{:.1e}", error).c_str(), nullptr);
   const int decimals = 1 - static_cast<int>(std::floor(std::log10(shown) + 1e-9));
   if (decimals > 6) return fmt::format("{:.4g} ± {:.2g}", value, error);
-  const double step = std::pow(10.0, std::max(0, -decimals));
+  const double step = std::pow(10.0, -decimals);  // of whole numbers, where there are no decimals
   const auto text = [&](double v) {
-    return fixed(std::round(v / step) * step, std::max(0, decimals));
+    return decimals < 0 ? fixed(std::round(v / step) * step, 0) : fixed(v, decimals);
   };
   return text(value) + " ± " + text(shown);
 }

@@ -163,6 +163,23 @@ TEST(Findings, TheSlopeAtALowerBoundIsTakenDownwards) {
   EXPECT_EQ(at[0].change, (std::vector<double>{-0.01, 0.02}));
 }
 
+// A period begins at 10 nm: a step of 350 nm below 100 nm is none.
+TEST(Findings, NoStepGoesBeyondWhatTheModelTakes) {
+  Study study = holes();
+  study.variables[0].low = 100e-9;
+  const StudyProblem problem(study);
+  VariableSensitivity s;
+  s.variable = 0;
+  s.step = 0.35e-6;
+  s.change = {0.01};
+  const std::vector<AtBound> at =
+      variables_at_bound(problem, tried(problem, 0.1, 350, 50).unit, {s});
+  ASSERT_EQ(at.size(), 1u);
+  EXPECT_FALSE(at[0].last);
+  EXPECT_NEAR(at[0].step, 90e-9, 1e-15);
+  EXPECT_NEAR(at[0].change[0], -0.01 * 90 / 350, 1e-9);
+}
+
 TEST(Remarks, TheClockComesFirstAndSaysWhatItLeavesUnsure) {
   Study study = holes();
   study.search.time = 60;

@@ -14,8 +14,8 @@ const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ?
 // "640 ± 130": both as far as the second digit of the error.
 function withBar(value, error) {
   if (!(error > 0) || !isFinite(error) || !isFinite(value)) return `${round(value, 4)} ± ${round(error, 2)}`;
-  const shown = +error.toPrecision(2), decimals = 1 - Math.floor(Math.log10(shown) + 1e-9), step = Math.pow(10, Math.max(0, -decimals));
-  const text = (v) => (Math.round(v / step) * step).toFixed(Math.min(Math.max(0, decimals), 12));
+  const shown = +error.toPrecision(2), decimals = 1 - Math.floor(Math.log10(shown) + 1e-9), step = Math.pow(10, -decimals);
+  const text = (v) => decimals < 0 ? String(Math.round(v / step) * step) : v.toFixed(Math.min(decimals, 12));
   return `${text(value)} ± ${text(shown)}`;
 }
 // Three decimals; a zero has no sign.
