@@ -45,7 +45,7 @@ function table(element, head, rows, numeric = []) {
     values.forEach((text, i) => {
       cell(row, 'td', text, numeric.includes(i));
       // Where a heading may break beside a card's cell.
-      if (head) row.lastChild.dataset.label = head[i].replace('(', '(\u200b');
+      if (head) row.lastChild.dataset.label = head[i].replace(/([(._])/g, '$1\u200b');
     });
   });
   return body;
