@@ -6,9 +6,13 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/parallel.h"
 
 namespace papilla::geometry {
 namespace {
+
+// Maps of more are of exports, which have all processors to themselves.
+constexpr std::size_t kPixelsOfPatches = std::size_t{1} << 20;
 
 // Distance to the nearest lattice point [m].
 double lattice_distance(Lattice lattice, double period, double x, double y) {
@@ -55,11 +59,12 @@ Heightmap round_features(const FeatureArray& array, const WallSection& wall, con
     return lattice_distance(array.lattice, array.period, x, y);
   };
   constexpr int kSplit = 4;
-  for (int iy = 0; iy < grid.ny; ++iy) {
+  const double reach = wall.reach() + pixel;
+  const auto fill_row = [&](int iy) {
     for (int ix = 0; ix < grid.nx; ++ix) {
       const double x = grid.x(ix), y = grid.y(iy);
       const double r = distance(x, y);
-      if (std::abs(r - 0.5 * array.width) > wall.reach() + pixel) {
+      if (std::abs(r - 0.5 * array.width) > reach) {
         out(ix, iy) = height(r, pixel);
         continue;
       }
@@ -71,6 +76,11 @@ Heightmap round_features(const FeatureArray& array, const WallSection& wall, con
       }
       out(ix, iy) = sum / (kSplit * kSplit);
     }
+  };
+  if (grid.size() > kPixelsOfPatches) {
+    parallel_for(grid.ny, fill_row);
+  } else {
+    for (int iy = 0; iy < grid.ny; ++iy) fill_row(iy);
   }
   return out;
 }

@@ -120,6 +120,8 @@ Scan read_scan(const ScanSource& source) {
   Heightmap& h = out.map;
   ScanChanges& changes = out.changes;
   changes.as_is = source.as_is;
+  changes.width = h.grid.lx;
+  changes.height = h.grid.ly;
   changes.pixels = h.z.size();
   Sound sound(h.z.size());
   for (std::size_t i = 0; i < sound.size(); ++i) sound[i] = std::isfinite(h.z[i]);

@@ -27,6 +27,7 @@ struct ScanPlace {
 // Eq. geometry.4
 struct ScanChanges {
   bool as_is = false;
+  double width = 0, height = 0;     // sides of the map [m]
   double slope_x = 0, slope_y = 0;  // of the plane that was taken away
   double rise = 0;                  // its highest less its lowest place over the map [m]
   std::size_t pixels = 0;           // of the map

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <numeric>
 
 namespace papilla::base {
@@ -57,6 +59,25 @@ std::string fixed(double value, int digits) {
   const std::string text = fmt::format("{:.{}f}", value, digits);
   return text.find_first_not_of("-0.") == std::string::npos ? text.substr(text.starts_with('-'))
                                                             : text;
+}
+
+std::string significant(double value, int digits) {
+  const std::string rounded = fmt::format("{:.{}g}", value, digits);
+  return fmt::format("{}", std::strtod(rounded.c_str(), nullptr) + 0.0);
+}
+
+std::string with_error(double value, double error) {
+  if (!(error > 0) || !std::isfinite(error) || !std::isfinite(value))
+    return significant(value, 4) + " ± " + significant(error, 2);
+  // Of the rounded error: 0.0998 is 0.10.
+  const double shown = std::strtod(fmt::format("{:.1e}", error).c_str(), nullptr);
+  const int decimals = 1 - static_cast<int>(std::floor(std::log10(shown) + 1e-9));
+  if (decimals > 6) return fmt::format("{:.4g} ± {:.2g}", value, error);
+  const double step = std::pow(10.0, -decimals);  // of whole numbers, where there are no decimals
+  const auto text = [&](double v) {
+    return decimals < 0 ? fixed(std::round(v / step) * step, 0) : fixed(v, decimals);
+  };
+  return text(value) + " ± " + text(shown);
 }
 
 std::string join_names(const std::vector<std::string>& names, std::string_view separator) {

@@ -17,6 +17,10 @@ std::vector<std::string> split(std::string_view text, char separator);
 std::string counted(long long count, std::string_view noun);
 // "0.612"; a zero has no sign: never "-0.000".
 std::string fixed(double value, int digits);
+// So many digits, without an exponent where people write none: "1670", never "1.67e+03".
+std::string significant(double value, int digits);
+// "640 ± 130": both as far as the second digit of the error.
+std::string with_error(double value, double error);
 std::string join_names(const std::vector<std::string>& names, std::string_view separator = ", ");
 
 // Columns on a terminal, of UTF-8 text.

@@ -132,10 +132,11 @@ std::optional<std::array<double, 2>> forces_of(const std::vector<std::string>& c
 }  // namespace
 
 void fields(FieldVisitor& v, GapSettings& s) {
-  v.number({"distance", "um", 1e-4, 1e4, "plane gap", Source::Paper, "seed 004: 250 pF on 30 mm2"},
-           s.distance);
+  v.number(
+      {"distance", "um", 1e-4, 1e4, "plane gap", Source::Paper, "Shultz 2018: 250 pF on 30 mm2"},
+      s.distance);
   v.number({"resistivity", "ohm m", 0, 1e30, "of the gap; 0: an insulator", Source::Paper,
-            "seed 004: 17 Mohm"},
+            "Shultz 2018: 17 Mohm"},
            s.resistivity);
   v.number({"permittivity", "", 1, 1e4, "of the gap"}, s.permittivity);
   v.path({"design", "take gap, surface, skin and area from the solved patches of this design"},
@@ -149,20 +150,21 @@ void fields(FieldVisitor& v, CoatingSettings& s) {
 }
 
 void fields(FieldVisitor& v, SkinLayerSettings& s) {
-  v.number({"thickness", "um", 0, 1e5, "stratum corneum", Source::Paper, "seed 001"}, s.thickness);
-  v.number({"permittivity", "", 1, 1e6, "its permittivity", Source::Paper, "seed 001"},
+  v.number({"thickness", "um", 0, 1e5, "stratum corneum", Source::Paper, "Sirin 2019"},
+           s.thickness);
+  v.number({"permittivity", "", 1, 1e6, "its permittivity", Source::Paper, "Sirin 2019"},
            s.permittivity);
   v.number({"resistivity", "ohm m", 0, 1e30, "its resistivity; 0: an insulator", Source::Paper,
-            "seed 001"},
+            "Sirin 2019"},
            s.resistivity);
 }
 
 void fields(FieldVisitor& v, DriveTouch& s) {
   v.number({"load", "N", 0, 1e3, "normal force"}, s.load);
-  v.number({"area", "mm2", 1e-6, 1e6, "electrical contact area", Source::Paper, "seed 004"},
+  v.number({"area", "mm2", 1e-6, 1e6, "electrical contact area", Source::Paper, "Shultz 2018"},
            s.area);
   v.number({"coefficient", "", 0, 10, "friction = coefficient (load + pull)", Source::Paper,
-            "seed 004: about 0.2"},
+            "Shultz 2018: about 0.2"},
            s.coefficient);
   v.number(
       {"real_area", "mm2", 0, 1e6, "area in true contact, for the onset of sliding; 0: not known"},
@@ -180,7 +182,7 @@ void fields(FieldVisitor& v, Tones& s) {
 
 void fields(FieldVisitor& v, SourceSettings& s) {
   v.number({"shunt", "Mohm", 0, 1e12, "resistance across a current source; 0: none", Source::Paper,
-            "seed 004: keeps charge from building up"},
+            "Shultz 2018: keeps charge from building up"},
            s.shunt);
 }
 

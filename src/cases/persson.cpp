@@ -19,17 +19,17 @@ PowerSpectrum SpectrumSettings::spectrum() const {
 }
 
 void fields(FieldVisitor& v, SpectrumSettings& s) {
-  v.number({"rms", "um", 1e-6, 1e6, "rms height", Source::Fit, "skin of the wrist, seed 001"},
+  v.number({"rms", "um", 1e-6, 1e6, "rms height", Source::Fit, "skin of the wrist, Sirin 2019"},
            s.rms);
-  v.number({"lowest", "1/m", 1e-3, 1e12, "lowest wave number", Source::Paper, "seed 001"},
+  v.number({"lowest", "1/m", 1e-3, 1e12, "lowest wave number", Source::Paper, "Sirin 2019"},
            s.lowest);
   v.number({"roll_off", "1/m", 1e-3, 1e12, "flat below this wave number", Source::Fit,
-            "to the printed numbers of seed 001"},
+            "to the printed numbers of Sirin 2019"},
            s.roll_off);
   v.number({"cutoff", "1/m", 1e-3, 1e12, "highest wave number", Source::Fit,
-            "to the printed numbers of seed 001"},
+            "to the printed numbers of Sirin 2019"},
            s.cutoff);
-  v.number({"hurst", "", 0.01, 1, "Hurst exponent", Source::Paper, "seed 001"}, s.hurst);
+  v.number({"hurst", "", 0.01, 1, "Hurst exponent", Source::Paper, "Sirin 2019"}, s.hurst);
   v.number({"scale", "", 1e-12, 1e12, "factor of the whole spectrum"}, s.scale);
   v.numbers({"wave_number", "1/m", 1e-3, 1e12, "knots of a measured spectrum instead"},
             s.wave_number);
@@ -39,15 +39,16 @@ void fields(FieldVisitor& v, SpectrumSettings& s) {
 
 void fields(FieldVisitor& v, SolidSettings& s) {
   v.number({"modulus", "MPa", 1e-6, 1e7, "Young's modulus of the stratum corneum", Source::Paper,
-            "seed 001"},
+            "Sirin 2019"},
            s.solid.layer_modulus);
-  v.number({"poisson", "", 0, 0.5, "its Poisson ratio", Source::Paper, "seed 001"},
+  v.number({"poisson", "", 0, 0.5, "its Poisson ratio", Source::Paper, "Sirin 2019"},
            s.solid.layer_poisson);
-  v.number({"thickness", "um", 0, 1e6, "its thickness", Source::Paper, "seed 001"},
+  v.number({"thickness", "um", 0, 1e6, "its thickness", Source::Paper, "Sirin 2019"},
            s.solid.layer_thickness);
-  v.number({"bulk_modulus", "kPa", 1e-6, 1e10, "Young's modulus below", Source::Paper, "seed 001"},
-           s.solid.bulk_modulus);
-  v.number({"bulk_poisson", "", 0, 0.5, "Poisson ratio below", Source::Paper, "seed 001"},
+  v.number(
+      {"bulk_modulus", "kPa", 1e-6, 1e10, "Young's modulus below", Source::Paper, "Sirin 2019"},
+      s.solid.bulk_modulus);
+  v.number({"bulk_poisson", "", 0, 0.5, "Poisson ratio below", Source::Paper, "Sirin 2019"},
            s.solid.bulk_poisson);
   v.number({"hardness", "MPa", 0, 1e6, "yields at this pressure; 0: elastic"}, s.hardness);
 }
@@ -73,7 +74,7 @@ void fields(FieldVisitor& v, InterfaceSettings& s) {
   v.number({"skin_equivalent", "nm", 0, 1e7, "d/eps of the skin where it is lossless"},
            s.skin_equivalent);
   v.flag({"lossy_skin", "skin by frequency (printed anchors) with the layer's thickness",
-          Source::Paper, "seed 001"},
+          Source::Paper, "Sirin 2019"},
          s.lossy_skin);
   v.number({"gap_resistivity", "ohm m", 0, 1e30, "of the gap; 0: insulating"}, s.gap_resistivity);
 }
@@ -81,11 +82,11 @@ void fields(FieldVisitor& v, InterfaceSettings& s) {
 void fields(FieldVisitor& v, TouchSettings& s) {
   v.number({"load", "N", 0, 1e3, "normal force"}, s.load);
   v.number({"area", "mm2", 1e-6, 1e6, "nominal contact area", Source::Estimate, "1 cm2"}, s.area);
-  v.number({"shear_strength", "MPa", 0, 1e4, "of true contact", Source::Paper, "seed 001"},
+  v.number({"shear_strength", "MPa", 0, 1e4, "of true contact", Source::Paper, "Sirin 2019"},
            s.shear_strength);
   v.number(
       {"finite_size_pressure", "kPa", 0, 1e6,
-       "below it the gaps stay as they are there; 0: infinite body", Source::Paper, "seed 001"},
+       "below it the gaps stay as they are there; 0: infinite body", Source::Paper, "Sirin 2019"},
       s.finite_size_pressure);
 }
 

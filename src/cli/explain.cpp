@@ -22,10 +22,16 @@ namespace {
 std::string study_text(const Study& study) {
   const StudyCost cost = study_cost(study);
   std::string out = fmt::format(
-      "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: about {} "
-      "on one core of a usual machine, and {:.0f} MB a worker\n",
+      "as a study: {} of {} each, then {} designs judged again, {} finalists and checks: {} to {} "
+      "of one core of a usual machine, more on a busy one, and {:.0f} MB a worker\n",
       counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
-      cost.finalists, duration(cost.seconds), std::ceil(1e-6 * cost.bytes));
+      cost.finalists, duration(kLeastOfPrice * cost.seconds), duration(kMostOfPrice * cost.seconds),
+      std::ceil(1e-6 * cost.bytes));
+  out += fmt::format("it searches on {0} x {0} pixels along 12 um", cost.pixels);
+  if (std::isfinite(cost.feature))
+    out += fmt::format(", the smallest feature of its space, {:.3g} nm, is {:.2g} of them wide",
+                       1e9 * cost.feature, cost.feature_pixels);
+  out += '\n';
   if (study.search.time > 0)
     out += fmt::format("search.time ends it after {}: what follows the search shrinks first\n",
                        duration(study.search.time));

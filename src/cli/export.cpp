@@ -97,6 +97,13 @@ ExportOptions options_of(const ExportCommand& command) {
 int export_files(const Context& context, const ExportCommand& command) {
   const ExportSourceFile source = source_of(command);
   const Study study = read_study(source.design, command.design.overrides);
+  if (const auto rounded = std::filesystem::path(source.design).replace_filename("build.toml");
+      !source.beside.empty() && std::filesystem::exists(rounded)) {
+    context.note(
+        "as the search left it; on the grid of the fab, as the build sheet has it: "
+        "papilla export " +
+        rounded.string());
+  }
   const ExportOptions options = options_of(command);
   say_scans({study.design});
   const double tolerance = parse_si(command.tolerance, "%");
@@ -114,7 +121,10 @@ int export_files(const Context& context, const ExportCommand& command) {
     FileWork work(context, "checking");
     const ExportRecord record = record_of(study, options, result);
     verdict.files = verify_files(record, result, work.progress());
-    if (command.verify) verdict.felt = verify_export(record, tolerance);
+    if (command.verify) {
+      work.progress()("how the heights of " + folder + " feel", 0);
+      verdict.felt = verify_export(record, tolerance);
+    }
   }
   std::cout << (command.design.json ? export_json(study, options, result, folder, verdict) + '\n'
                                     : export_text(result, folder, verdict));

@@ -178,7 +178,11 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   if (options.evaluations > 0) study.search.evaluations = options.evaluations;
   if (options.seed >= 0) study.search.seed = options.seed;
   if (!options.time.empty()) {
-    study.search.time = parse_si(options.time, "min");
+    try {
+      study.search.time = parse_si(options.time, "min");
+    } catch (const InputError& error) {
+      throw InputError(std::string("--time: ") + error.what());
+    }
     if (!(study.search.time > 0))
       throw InputError("--time: expected more than 0 min, got " + options.time);
   }
@@ -196,6 +200,10 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   ::sigaction(SIGINT, &action, nullptr);
   ::sigaction(SIGTERM, &action, nullptr);
 
+  context.note(
+      "search: many designs quickly; narrow: the best and their neighbours again, more precisely; "
+      "confirm: the finalists at the study's accuracy; check: without texture, other models, "
+      "tolerances");
   const auto begin = std::chrono::steady_clock::now();
   const OptimiseResult result = optimise_to_folder(study, run);
   if (launched_rank() > 0) return kSuccess;
@@ -211,6 +219,8 @@ int optimize(const OptimizeOptions& options, const Context& context) {
           "writes the other.\n",
           shell_word(run.folder));
     }
+    if (const std::string advice = recommendation_of(run.folder); !advice.empty())
+      text += "\n" + advice + "\n";
     context.print(text);
   }
   if (result.lost > 0) {
@@ -227,11 +237,12 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     context.note("interrupted; continue with: " + resume_command(options, run.folder));
     return kSignalled + interrupted_by;
   }
+  const std::string best = result.has_best()
+                               ? fmt::format("report.html, summary.md, pareto.csv, best/ is {}",
+                                             result.finalists[result.best].folder)
+                               : "summary.md, pareto.csv, history.csv";
   context.note(fmt::format("{} in {:.0f} s; results in {}/ ({})",
-                           counted(result.evaluations, "evaluation"), seconds, run.folder,
-                           result.has_best()
-                               ? "report.html, summary.md, pareto.csv, best/design.toml"
-                               : "summary.md, pareto.csv, history.csv"));
+                           counted(result.evaluations, "evaluation"), seconds, run.folder, best));
   if (!result.any_feasible) {
     context.note(result.finalists.empty()
                      ? "no design could be evaluated; history.csv says why for each"

@@ -36,7 +36,8 @@ void say_scans(const std::vector<Design>& designs) {
   std::set<std::string> said;
   for (const Design& design : designs) {
     for (const DesignScan& scan : scans_of(design)) {
-      if (said.insert(text(scan.file, scan.changes)).second) say_scan(scan.file, scan.changes);
+      if (const auto [line, is_new] = said.insert(text(scan)); is_new)
+        std::cerr << *line << std::endl;
     }
   }
 }

@@ -77,7 +77,9 @@ ExportVerdict judge(const Context& context, const VerifyCommand& command, const 
       return judged.path == file.path && there(judged);
     });
   });
-  if (holds_heights(record)) verdict.felt = verify_export(record, parse_si(command.tolerance, "%"));
+  if (!holds_heights(record)) return verdict;
+  work.progress()("how the heights of " + place.folder + " feel", 0);
+  verdict.felt = verify_export(record, parse_si(command.tolerance, "%"));
   return verdict;
 }
 

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 
 #include "base/check.h"
@@ -49,6 +51,9 @@ const Node* find_path(const Node& root, const std::string& path) {
   return node;
 }
 
+constexpr std::array<std::string_view, 6> kMapEndings{".gsf", ".npy",  ".exr",
+                                                      ".tif", ".tiff", ".x3p"};
+
 std::string read_text(const std::string& path) {
   constexpr std::uintmax_t kLargest = 16 << 20;
   std::error_code error;
@@ -56,6 +61,14 @@ std::string read_text(const std::string& path) {
   if (!fs::exists(status)) throw InputError({Problem{path, 0, 0, "", "no such file"}});
   if (fs::is_directory(status)) {
     throw InputError({Problem{path, 0, 0, "", "is a folder, expected a TOML file"}});
+  }
+  const std::string ending = fs::path(path).extension().string();
+  if (std::find(kMapEndings.begin(), kMapEndings.end(), ending) != kMapEndings.end()) {
+    throw InputError(
+        {Problem{path, 0, 0, "",
+                 "is a map of heights, expected a TOML file; `papilla surface " + path +
+                     "` shows it, and a design has it as `texture.file` of "
+                     "`texture.type = \"measured\"`"}});
   }
   if (fs::is_regular_file(status) && fs::file_size(path, error) > kLargest) {
     throw InputError({Problem{path, 0, 0, "", "larger than 16 MiB, expected a TOML file"}});

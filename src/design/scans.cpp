@@ -1,15 +1,32 @@
 #include "design/scans.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "geometry/measured_map.h"
 
 namespace papilla::design {
 
+std::string text(const DesignScan& scan) {
+  const ScanChanges& c = scan.changes;
+  std::string out = geometry::text(scan.file, c);
+  if (scan.taken > 0 && scan.taken < (1 - 1e-9) * std::max(c.width, c.height)) {
+    out += fmt::format(
+        "; of its {:.4g} x {:.4g} um the middle {:.4g} um are the texture "
+        "(texture.patch)",
+        1e6 * c.width, 1e6 * c.height, 1e6 * scan.taken);
+  }
+  return out;
+}
+
 std::vector<DesignScan> scans_of(const Design& design) {
-  std::vector<ScanSource> sources = facts(design.texture).scans;
-  if (const Skin& skin = design.finger.skin; !skin.map.empty())
-    sources.push_back({skin.map, skin.map_width});
+  const TextureFacts known = facts(design.texture);
   std::vector<DesignScan> out;
-  for (const ScanSource& source : sources) out.push_back({source.file, changes_of_map(source)});
+  for (const ScanSource& source : known.scans)
+    out.push_back({source.file, changes_of_map(source), known.free_patch.exact.value_or(0)});
+  if (const Skin& skin = design.finger.skin; !skin.map.empty())
+    out.push_back({skin.map, changes_of_map({skin.map, skin.map_width})});
   return out;
 }
 

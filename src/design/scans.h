@@ -13,7 +13,11 @@ namespace papilla::design {
 struct DesignScan {
   std::string file;
   ScanChanges changes;
+  double taken = 0;  // side of the square from the middle of the map that the texture is [m]
 };
+
+// What was changed of it, and where a part alone is taken.
+std::string text(const DesignScan& scan);
 
 // Of its texture and of its skin; reads the files. Throws InputError.
 std::vector<DesignScan> scans_of(const Design& design);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "base/units.h"
 #include "config/writer.h"
 #include "optim/search.h"
@@ -45,7 +46,7 @@ std::string variable_text(const Variable& variable, double value, bool plain) {
   if (variable.is_kind()) return texture_kinds()[static_cast<std::size_t>(value)];
   const double shown = value / find_unit(variable.unit)->to_si;
   if (plain) return fmt::format("{:.6g}", shown);
-  return fmt::format("{:.3g}{}", shown, variable.unit.empty() ? "" : " " + variable.unit);
+  return significant(shown, 3) + (variable.unit.empty() ? "" : " " + variable.unit);
 }
 
 std::string resolved_toml(const Study& study) {

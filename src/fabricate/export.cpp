@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "fabricate/formats.h"
 
 namespace papilla::fabricate {
@@ -106,16 +107,18 @@ void judge_pixels(const Texture& texture, const Grid& grid, bool follows_edges,
   const double pixel = std::max(grid.dx(), grid.dy());
   if (!std::isfinite(smallest) || !(smallest > 0)) return;
   if (follows_edges && too_coarse(texture, grid)) {
-    throw InputError(fmt::format(
-        "a mask of these pixels means nothing: one is {:.3g} nm wide, more than half the smallest "
-        "hole or wall, {:.3g} nm; {}; or name other files, --format exr,tiff",
-        1e9 * pixel, 1e9 * smallest, more_pixels(grid, 4, smallest)));
+    throw InputError(
+        fmt::format("a mask of these pixels means nothing: a pixel of {} nm is more than half the "
+                    "smallest hole "
+                    "or wall, {} nm; {}; or name other files, --format exr,tiff",
+                    significant(1e9 * pixel, 3), significant(1e9 * smallest, 3),
+                    more_pixels(grid, 4, smallest)));
   }
   if (pixel <= smallest / 4) return;
   warnings.push_back(fmt::format(
-      "a pixel of {:.3g} nm is more than a quarter of the smallest hole or wall, {:.3g} nm: edges "
+      "a pixel of {} nm is more than a quarter of the smallest hole or wall, {} nm: edges "
       "are not where the design has them; {}",
-      1e9 * pixel, 1e9 * smallest, more_pixels(grid, 4, smallest)));
+      significant(1e9 * pixel, 3), significant(1e9 * smallest, 3), more_pixels(grid, 4, smallest)));
 }
 
 // A rectangle of whole periods, its pixels nearly square.

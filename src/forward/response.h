@@ -183,8 +183,8 @@ struct Resampled {
 struct ControlRuns {
   Resampled own, areas, coarse;
   double octaves = 0;  // of the skin's spectrum that the grid of `own` leaves out
-  // Of the step from half the pixels, what is missing to the limit as the texture's features are few
-  // pixels wide: 0 where they are resolved.
+  // Of the step from half the pixels, what is missing to the limit as the texture's features are
+  // few pixels wide: 0 where they are resolved.
   double coarse_features = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -67,11 +68,13 @@ Json verdict_files(const ExportVerdict& verdict) {
 }
 
 std::string felt_line(const Verification& v) {
-  return fmt::format(
-      "smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); {} {:.4g}, of the "
-      "design {:.4g}: {:.2g} % off\n",
-      1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel, v.merit, v.file,
-      v.design, 100 * v.loss);
+  const std::string edges =
+      std::isfinite(v.pixels.min_hole) || std::isfinite(v.pixels.min_wall)
+          ? fmt::format("smallest hole {:.3g} um, smallest wall {:.3g} um (pixel {:.2g} um); ",
+                        1e6 * v.pixels.min_hole, 1e6 * v.pixels.min_wall, 1e6 * v.pixels.pixel)
+          : std::string();
+  return edges + fmt::format("{} {:.4g}, of the design {:.4g}: {:.2g} % off\n", v.merit, v.file,
+                             v.design, 100 * v.loss);
 }
 
 Json verification_json(const Verification& v) {

@@ -46,7 +46,7 @@ std::string si_unit(const Criterion& c) {
 
 std::string metric_cell(const Criterion& c, const Interval& i) {
   const double scale = shown_unit(c.expression).scale;
-  return fmt::format("{:.4g} ± {:.2g}", i.value * scale, (i.high - i.low) / 2 * scale);
+  return with_error(i.value * scale, (i.high - i.low) / 2 * scale);
 }
 
 // One score: who leads by how much.

@@ -187,6 +187,20 @@ std::vector<Part> export_reference() {
   return {{"", rows, true}};
 }
 
+std::vector<Part> parts_of(const std::string& section);
+
+// "texture.depth" for "depth": the first key that ends so; empty: none does.
+std::string key_named(const std::string& name) {
+  for (const std::string& section : reference_sections()) {
+    for (const Part& part : parts_of(section)) {
+      for (const FieldRow& row : part.rows) {
+        if (row.path.ends_with("." + name)) return row.path;
+      }
+    }
+  }
+  return {};
+}
+
 // Throws InputError, with a "did you mean", for an unknown section.
 std::vector<Part> parts_of(const std::string& section) {
   if (section == "texture") return texture_reference();
@@ -205,7 +219,8 @@ std::vector<Part> parts_of(const std::string& section) {
   if (auto parts = study_section(section); !parts.empty()) return parts;
   std::vector<std::string> known = reference_sections();
   for (const char* name : kStudySections) known.emplace_back(name);
-  const std::string meant = key_for_word(section, "");
+  const std::string word = key_for_word(section, "");
+  const std::string meant = word.empty() ? key_named(section) : word;
   const std::string near = meant.empty() ? nearest_name(section, known) : meant;
   throw InputError(near.empty()
                        ? fmt::format("no section `{}`; known: {}", section, join_names(known))

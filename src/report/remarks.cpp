@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 #include "base/check.h"
 #include "base/text.h"
 #include "base/units.h"
@@ -36,6 +34,10 @@ CutWords words_of(const ClockCut& cut, const Study& study) {
       return {"the order under other models not checked",
               "other choices of the model may order the designs otherwise"};
     case RunPart::Flat:
+      if (cut.done > 0) {
+        return {"the study's own surface without texture not computed",
+                "what the finish does is not known"};
+      }
       return {"the surface without texture not computed",
               "whether the texture helps at all is not known"};
     case RunPart::Rounding:
@@ -104,9 +106,8 @@ std::string bound_remark(const Study& study, const StudyProblem& problem, const 
   }
   if (gains.empty()) return out + ": widen it to see whether more helps.";
   const double unit = find_unit(v.unit)->to_si;
-  const double step = std::strtod(fmt::format("{:.2g}", at.step / unit).c_str(), nullptr);
-  return out + fmt::format(": widened by {} {}, as it goes inside the bound, {}.",
-                           format_number(step), v.unit, join_names(gains));
+  return out + fmt::format("; {} {} beyond it, going on as inside, would change {}.",
+                           significant(at.step / unit, 2), v.unit, join_names(gains));
 }
 
 }  // namespace

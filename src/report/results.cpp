@@ -258,6 +258,12 @@ OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options) {
   return optimise(study, options);
 }
 
+std::string recommendation_of(const std::string& folder) {
+  const std::string path = folder + "/run.json";
+  if (!std::filesystem::exists(path)) return {};
+  return Json::parse(read_bytes(path)).value("recommendation", std::string());
+}
+
 void write_results(const ResultFiles& files) { Writer(files).write(); }
 
 }  // namespace papilla::report

@@ -17,6 +17,9 @@ class FolderWriter : public ResultWriter {
 // Searches, and writes the folder of results.
 OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options);
 
+// What the run of a folder recommends, in a sentence; empty where it is not finished.
+std::string recommendation_of(const std::string& folder);
+
 // All files of the folder but its page.
 void write_results(const ResultFiles& files);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -54,8 +53,7 @@ std::string finish_text(const ResultFiles& f) {
 
 std::string in_unit(double si, const std::string& unit, int digits) {
   const double shown = si / find_unit(unit)->to_si;
-  const double rounded = std::strtod(fmt::format("{:.{}g}", shown, digits).c_str(), nullptr);
-  return format_number(rounded) + (unit.empty() ? "" : " " + unit);
+  return significant(shown, digits) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string tolerance_text(const SheetRow& row, const std::optional<double>& drift, bool at_least) {
@@ -118,7 +116,7 @@ Advice advice_of(const ResultFiles& f) {
   const bool textured = facts(best_of(f).design.texture).relief.present;
   if (textured && !r.flat) return Advice::Unknown;
   if (textured && !no_better(objectives, best, *r.flat)) return Advice::Texture;
-  if (!r.flat_before) return Advice::LeaveFlat;
+  if (!r.flat_before) return finish_text(f).empty() ? Advice::LeaveFlat : Advice::Finish;
   return no_better(objectives, r.flat ? *r.flat : best, *r.flat_before) ? Advice::LeaveFlat
                                                                         : Advice::Finish;
 }
@@ -135,6 +133,13 @@ std::string recommendation(const ResultFiles& f) {
       return "Leave it flat: no texture or finish of this search gains more than the error of the "
              "difference.";
     case Advice::Finish:
+      if (!r.flat_before) {
+        return fmt::format(
+            "Leave it flat: no texture of this search adds more than the error of the difference. "
+            "What the finish does ({}) is not known: the study's own surface was not computed in "
+            "the time.",
+            finish_text(f));
+      }
       return fmt::format(
           "Leave it flat and change the finish ({}): {}; no texture of this search adds more than "
           "the error of the difference.",

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -127,10 +126,7 @@ std::string sensitivity_text(const ResultFiles& f) {
   for (const VariableSensitivity& s : f.result.sensitivity) {
     const Variable& v = f.study.variables[s.variable];
     const double unit = find_unit(v.unit)->to_si;
-    const auto rounded = [](double value, int digits) {  // 2000 where {:.3g} writes 2e+03
-      return format_number(std::strtod(fmt::format("{:.{}g}", value, digits).c_str(), nullptr));
-    };
-    out += fmt::format("| {} | {} {}", v.path, rounded(s.step / unit, 3), v.unit);
+    out += fmt::format("| {} | {} {}", v.path, significant(s.step / unit, 3), v.unit);
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       out += k < s.change.size() ? fmt::format(" | {}, {:.0f} %",
                                                shown_change(objectives[k].expression, s.change[k]),
@@ -138,8 +134,8 @@ std::string sensitivity_text(const ResultFiles& f) {
                                  : std::string(" | -");
     }
     const auto drift = [&](double value, bool beyond) {
-      return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "", rounded(value / unit, 2),
-                                     v.unit)
+      return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "",
+                                     significant(value / unit, 2), v.unit)
                        : std::string("its bound is near");
     };
     out += " | " + drift(s.down, s.down_beyond) + " | " + drift(s.up, s.up_beyond) + " |\n";

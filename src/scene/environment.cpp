@@ -146,7 +146,7 @@ void fields(FieldVisitor& v, Drive& s) {
   v.number({"source_compliance", "V", 0, 1e5, "largest voltage of the source; 0: not given"},
            s.source_compliance);
   v.number({"current_limit", "mA", 0, 1e3, "largest current through the body", Source::Paper,
-            "seed 000: 1 mA; seed 004: 4 mA"},
+            "M3: 1 mA; Shultz 2018: 4 mA"},
            s.current_limit);
 }
 

@@ -15,16 +15,16 @@ double Skin::modulus_factor(double relative_humidity) const {
 
 void fields(FieldVisitor& v, Skin& s) {
   v.number({"rms", "nm", 0, 1e5, "rms height over a 12 um patch", Source::Fit,
-            "set E; AFM anchors 200-350 nm"},
+            "to M3; AFM anchors 200-350 nm"},
            s.rms);
   v.number(
-      {"roll_off", "um", 0.05, 1e4, "roll-off wavelength of the spectrum", Source::Fit, "set E"},
+      {"roll_off", "um", 0.05, 1e4, "roll-off wavelength of the spectrum", Source::Fit, "to M3"},
       s.roll_off);
   v.number({"hurst", "", 0.01, 1, "Hurst exponent", Source::Paper,
-            "seed 001: 0.86 on wrist skin; 0.8 usual"},
+            "Sirin 2019: 0.86 on wrist skin; 0.8 usual"},
            s.hurst);
   v.number({"cutoff", "nm", 1, 1e5, "shortest wavelength of the spectrum", Source::Estimate,
-            "model decision, set E"},
+            "model decision"},
            s.cutoff);
   v.path({"map", "measured skin topography (.npy .gsf .exr .tif) instead of the spectrum"}, s.map);
   v.number({"map_width", "um", 0, 1e6, "lateral size of the map where the file does not say"},
@@ -33,10 +33,10 @@ void fields(FieldVisitor& v, Skin& s) {
             "M3: 1 um corneocyte plate"},
            s.layer_thickness);
   v.number({"layer_modulus", "MPa", 1e-6, 1e7, "Young's modulus of the layer at 15 % RH",
-            Source::Fit, "set E"},
+            Source::Fit, "to M3"},
            s.layer_modulus);
   v.number({"bulk_modulus", "MPa", 1e-6, 1e7, "Young's modulus below the layer at 15 % RH",
-            Source::Fit, "set E"},
+            Source::Fit, "to M3"},
            s.bulk_modulus);
   v.number({"layer_poisson", "", 0, 0.5, "Poisson ratio of the layer", Source::Estimate,
             "incompressible"},
@@ -45,10 +45,10 @@ void fields(FieldVisitor& v, Skin& s) {
             "incompressible"},
            s.bulk_poisson);
   v.number({"softening", "", 1, 100, "ratio of the moduli at 15 % and 75 % RH (linear between)",
-            Source::Fit, "set E; 1.87-2.31 from the paper's ratios"},
+            Source::Fit, "to M3; 1.87-2.31 from the paper's ratios"},
            s.softening);
   v.number({"hardness", "MPa", 0, 1e6, "largest contact pressure; 0: no cap", Source::Choice,
-            "set E was fitted without"},
+            "the fit went without"},
            s.hardness);
 }
 
@@ -59,7 +59,7 @@ double MacroContact::gross_area(double load, double relative_humidity) const {
 
 void fields(FieldVisitor& v, MacroContact& s) {
   v.number({"area_15", "mm2", 1e-3, 1e4, "gross contact area at 0.2 N, 15 % RH", Source::Estimate,
-            "100 mm2 at 1 N (seed 004), exponent about 0.5"},
+            "100 mm2 at 1 N (Shultz 2018), exponent about 0.5"},
            s.area_15);
   v.number({"area_growth", "%", 0, 1000, "growth of that area from 15 to 75 % RH", Source::Paper,
             "M3: 58.5 %"},
@@ -68,26 +68,26 @@ void fields(FieldVisitor& v, MacroContact& s) {
             "0.33-0.67 published"},
            s.load_exponent);
   v.number({"ridge_share", "", 0.001, 1, "share of the gross area on ridges", Source::Paper,
-            "seed 004: about 0.3"},
+            "Shultz 2018: about 0.3"},
            s.ridge_share);
   v.number({"load_share", "", 1e-5, 1, "phi: share of the gross area that carries the load",
-            Source::Fit, "set E"},
+            Source::Fit, "to M3"},
            s.load_share);
   v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength tau", Source::Paper,
             "M3: 9 MPa"},
            s.shear_strength);
   v.number(
       {"ridge_rms", "um", 1e-3, 1e4, "closure persson: rms height of ridges above the patch size",
-       Source::Estimate, "casts: below 5 um (seed 003); see docs/theory/coupling.md"},
+       Source::Estimate, "casts: below 5 um (Shultz 2015); see docs/theory/coupling.md"},
       s.ridge_rms);
   v.number({"ridge_longest", "mm", 1e-3, 1e3, "closure persson: longest wavelength of that",
-            Source::Estimate, "seed 001: roll-off of wrist skin"},
+            Source::Estimate, "Sirin 2019: roll-off of wrist skin"},
            s.ridge_longest);
   v.number({"corneum_thickness", "um", 0, 1e5, "closure persson: thickness of the stratum corneum",
-            Source::Paper, "seed 001"},
+            Source::Paper, "Sirin 2019"},
            s.corneum_thickness);
   v.number({"tissue_modulus", "kPa", 1e-3, 1e9, "closure persson: Young's modulus below it",
-            Source::Paper, "seed 001"},
+            Source::Paper, "Sirin 2019"},
            s.tissue_modulus);
 }
 
@@ -98,12 +98,12 @@ double ElectricalLayer::equivalent_thickness(double relative_humidity) const {
 
 void fields(FieldVisitor& v, ElectricalLayer& s) {
   v.number(
-      {"thickness_15", "nm", 0, 1e5, "stratum corneum d2/eps2 at 15 % RH", Source::Fit, "set E"},
+      {"thickness_15", "nm", 0, 1e5, "stratum corneum d2/eps2 at 15 % RH", Source::Fit, "to M3"},
       s.thickness_15);
-  v.number({"thickness_75", "nm", 0, 1e5, "the same at 75 % RH", Source::Fit, "set E"},
+  v.number({"thickness_75", "nm", 0, 1e5, "the same at 75 % RH", Source::Fit, "to M3"},
            s.thickness_75);
   v.number({"corner_frequency", "Hz", 0, 1e9, "below it the stratum corneum conducts; 0: never",
-            Source::Estimate, "seed 001: about 60 Hz"},
+            Source::Estimate, "Sirin 2019: about 60 Hz"},
            s.corner_frequency);
 }
 
@@ -127,7 +127,7 @@ void fields(FieldVisitor& v, SkinWater& s) {
              "M3"},
             s.relative_humidity);
   v.numbers({"volume", "um3", 0, 1e6, "water in a 12 x 12 um patch at those nodes", Source::Fit,
-             "set E; only 5-10 um3 at 75 % is published"},
+             "to M3; only 5-10 um3 at 75 % is published"},
             s.volume);
   v.number({"contact_angle", "deg", 0, 180, "contact angle of water on the skin", Source::Paper,
             "M3: 80 deg, cleaned"},
@@ -157,13 +157,13 @@ void fields(FieldVisitor& v, Saturation& s) {
       {"rest_low", "deg", 0, 180, "first anchor: angle at rest", Source::Paper, "M3: bare glass"},
       s.rest_low);
   v.number({"saturated_low", "deg", 0, 180, "first anchor: saturated angle under voltage",
-            Source::Fit, "set E"},
+            Source::Fit, "to M3"},
            s.saturated_low);
   v.number({"rest_high", "deg", 0, 180, "second anchor: angle at rest", Source::Paper,
             "M3: hydrophobic"},
            s.rest_high);
   v.number(
-      {"saturated_high", "deg", 0, 180, "second anchor: saturated angle", Source::Fit, "set E"},
+      {"saturated_high", "deg", 0, 180, "second anchor: saturated angle", Source::Fit, "to M3"},
       s.saturated_high);
 }
 
@@ -181,7 +181,7 @@ void fields(FieldVisitor& v, ModelOptions& s) {
       {"local", "spread", "full"}, s.field);
   v.flag({"breakdown_cap", "cap the gap pressure at the breakdown field of air"}, s.breakdown_cap);
   v.number({"droplet_step", "nm", 1, 1e5, "first step of a moving droplet: its mobility",
-            Source::Choice, "set E"},
+            Source::Choice, "to M3"},
            s.droplet_step);
   v.flag({"droplet_enhancement", "droplets that do not bridge raise the pull"},
          s.droplet_enhancement);

@@ -77,10 +77,16 @@ void compare_with_flat(Run& run) {
     finish_differs = finish_differs ||
                      (!run.study.variables[k].path.starts_with("texture.") && own[k] != best[k]);
   }
-  const double seconds = run.seconds_of_designs(finish_differs ? 2 : 1, Stage::Confirm);
+  const double seconds = run.seconds_of_designs(1, Stage::Confirm);
   if (!run.begin(RunPart::Flat, Stage::Confirm, true, seconds)) return;
   keep(run.result.flat, best);
-  if (finish_differs) keep(run.result.flat_before, own);
+  if (!finish_differs) return;
+  const auto next = run.replay.next();
+  const bool recorded = next && next->stage == Stage::Confirm && next->flat;
+  if (recorded || (!run.replay.finished(Stage::Confirm, true) && run.fits(seconds)))
+    keep(run.result.flat_before, own);
+  else
+    run.cut(RunPart::Flat, 1, 2);
 }
 
 // The best design as the fab draws it, at the level of the confirmation.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/constants.h"
 #include "base/units.h"
 #include "design/families.h"
 
@@ -11,17 +12,15 @@ namespace {
 
 constexpr double kAtBound = 1e-6;  // of the interval
 
-// The bound is the model's own limit of the number.
-bool is_last(const Design& design, const Variable& variable, bool upper) {
+// From the bound to the model's own limit of the number.
+double room_beyond(const Design& design, const Variable& variable, bool upper) {
   Design copy = design;
   const std::vector<NumberField> known = number_fields(copy);
   const std::string path = path_in(known, variable.path);
-  if (path.empty()) return false;
+  if (path.empty()) return kInfinity;
   const NumberField field = find_number_field(known, path);
   const double unit = find_unit(field.unit)->to_si;
-  const double limit = (upper ? field.high : field.low) * unit;
-  const double bound = upper ? variable.high : variable.low;
-  return upper ? bound >= limit : bound <= limit;
+  return upper ? field.high * unit - variable.high : variable.low - field.low * unit;
 }
 
 }  // namespace
@@ -62,12 +61,13 @@ std::vector<AtBound> variables_at_bound(const StudyProblem& problem, const Point
     if (path.empty() || (variable.path.starts_with("texture.") &&
                          !facts(part_at(design.texture, path)).relief.present))
       continue;
-    AtBound at{k, upper, upper ? variable.high : variable.low, is_last(design, variable, upper),
-               0, {}};
+    const double room = room_beyond(design, variable, upper);
+    AtBound at{k, upper, upper ? variable.high : variable.low, room <= 0, 0, {}};
     for (const VariableSensitivity& s : sensitivity) {
       if (s.variable != k || s.change.empty()) continue;
-      at.step = s.step;
-      for (double change : s.change) at.change.push_back(upper ? change : -change);
+      at.step = std::min(s.step, std::max(0.0, room));
+      const double share = (upper ? 1 : -1) * at.step / s.step;
+      for (double change : s.change) at.change.push_back(share * change);
     }
     out.push_back(std::move(at));
   }

@@ -163,6 +163,9 @@ StudyCost study_cost(const Study& study) {
                 price((1 + 2 * variables) * tasks, Stage::Sensitivity);
   if (problem.parameters_unknown().empty())
     out.seconds += price(2 * problem.nominal_tasks(), Stage::Steps);
+  out.pixels = stage_fidelity(problem, Stage::Search).grid;
+  out.feature = problem.smallest_feature();
+  out.feature_pixels = out.feature * out.pixels / kWindow;
   const Grid grid = plan_at(problem, stage_fidelity(problem, Stage::Confirm)).grid;
   out.bytes = kBytesOfProgram + kBytesPerPixel * static_cast<double>(grid.size());
   return out;
@@ -181,14 +184,7 @@ std::string search_plan(const Study& study) {
   const auto level = [&](Stage stage) {
     return plan_at(problem, stage_fidelity(problem, stage)).text();
   };
-  out += "\n\nsearch level";
-  if (std::isfinite(problem.smallest_feature())) {
-    const double feature = problem.smallest_feature();
-    const int grid = stage_fidelity(problem, Stage::Search).grid;
-    out += fmt::format(" (the smallest feature of the space, {:.3g} nm, is {:.2g} pixels wide)",
-                       1e9 * feature, feature / (kWindow / grid));
-  }
-  out += ":\n" + level(Stage::Search);
+  out += "\n\nsearch level:\n" + level(Stage::Search);
   if (narrowings(search) > 1) {
     out += fmt::format("\n{} of them and of their neighbours again, other skins:\n",
                        narrowings(search)) +

@@ -26,12 +26,17 @@ std::size_t narrowings(const SearchProblem& search);
 // Processor time of one task at a stage, as plans price it [s].
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds = 0);
 
+// What shipped studies took of their price on a quiet machine (docs/theory/search.md).
+inline constexpr double kLeastOfPrice = 0.6, kMostOfPrice = 1.25;
+
 // What a search takes, as plans price it: all of it on one core of a usual machine.
 struct StudyCost {
   int evaluations = 0, tasks = 0;  // of an evaluation
   std::size_t narrowed = 0, finalists = 0;
   double seconds = 0;
-  double bytes = 0;  // the largest patch of a worker, solved
+  double bytes = 0;                        // the largest patch of a worker, solved
+  int pixels = 0;                          // of the search, along 12 um
+  double feature = 0, feature_pixels = 0;  // the smallest of the space [m]; infinite: none
 };
 StudyCost study_cost(const Study& study);
 

@@ -30,8 +30,8 @@ class StudyProblem {
   const StudyConstraints& constraints() const { return constraints_; }
   // Somewhere a voltage is applied: designs have a modulation.
   bool driven() const;
-  // Of the designs that keep the limits on shapes: the smallest feature [m] that a search meets, from
-  // a thousand of them; infinite where they have none.
+  // Of the designs that keep the limits on shapes: the smallest feature [m] that a search meets,
+  // from a thousand of them; infinite where they have none.
   double smallest_feature() const { return smallest_feature_; }
   // Why the parameters' part of confirmed designs is not known; "" when it is.
   std::string parameters_unknown() const;

@@ -140,6 +140,8 @@ Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi)
 
 void Run::progress(const char* stage, int done, int total, double left) const {
   if (!options.progress) return;
+  if (clock.limited() && left >= 0)
+    left = std::min(left, std::max(0.0, study.search.time - clock.seconds()));
   options.progress(
       {stage, done, total, best_text(problem.objectives(), history.evaluations), left});
 }

@@ -112,10 +112,8 @@ class Searching {
     if (!(timed > 0)) return -1;
     // Clock over evaluation time: what the searcher itself takes.
     const double overhead = std::max(1.0, run_.clock.seconds() / timed);
-    const double left = overhead * run_.seconds_of_designs(budget_ - evaluated_, Stage::Search) +
-                        run_.seconds_from(RunPart::Narrow);
-    const double limit = run_.study.search.time;
-    return limit > 0 ? std::min(left, std::max(0.0, limit - run_.clock.seconds())) : left;
+    return overhead * run_.seconds_of_designs(budget_ - evaluated_, Stage::Search) +
+           run_.seconds_from(RunPart::Narrow);
   }
 
   Run& run_;

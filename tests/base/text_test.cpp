@@ -32,6 +32,21 @@ TEST(Text, PartsLoseTheirBlanksAndStayWhereTheyAre) {
   EXPECT_EQ(counted(0, "skin") + ", " + counted(2, "skin"), "0 skins, 2 skins");
 }
 
+TEST(Text, DigitsComeWithoutAnExponent) {
+  EXPECT_EQ(significant(1671.8, 3), "1670");
+  EXPECT_EQ(significant(1000, 3), "1000");
+  EXPECT_EQ(significant(0.0123456, 3), "0.0123");
+  EXPECT_EQ(significant(-0.0, 3), "0");
+}
+
+TEST(Text, AValueEndsWhereItsErrorDoes) {
+  EXPECT_EQ(with_error(638.7, 132), "640 ± 130");
+  EXPECT_EQ(with_error(29.42, 12.9), "29 ± 13");
+  EXPECT_EQ(with_error(0.6123, 0.0996), "0.61 ± 0.10");
+  EXPECT_EQ(with_error(-0.0004, 0.021), "0.000 ± 0.021");
+  EXPECT_EQ(with_error(12.345, 0), "12.35 ± 0");
+}
+
 TEST(Text, ColumnsAreAsWideAsTheirWidestCell) {
   EXPECT_EQ(text_width("±µm"), 3u);  // five bytes
   EXPECT_EQ(aligned_table({{"name", "x", "y µm"}, {"a", "12.5", "1"}, {"ab", "3"}}, 1),

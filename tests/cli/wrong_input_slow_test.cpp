@@ -133,6 +133,11 @@ TEST(WrongCommandLine, IsRefused) {
            {"evaluate good.toml --sweep 'finger.load=1 V..2 V'", "expected a force"},
            {"evaluate good.toml --set model.closure=persson", "fitted with \"uniform\""},
            {"describe textur", "no section `textur`, did you mean `texture`?"},
+           {"describe depth", "no section `depth`, did you mean `texture.depth`?"},
+           {"evaluate " PAPILLA_DESIGNS_DIR "/measured_surface/scan.gsf",
+            "is a map of heights, expected a TOML file; `papilla surface "},
+           {"optimize " PAPILLA_DESIGNS_DIR "/electroadhesive_glass/study.toml --time 60",
+            "--time: \"60\" is a plain number"},
        }) {
     const Outcome run = place.run(arguments);
     EXPECT_EQ(run.status, 2) << arguments;

@@ -61,10 +61,10 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
             (Cells{"rank", "design", "mean(friction):low mN", "variation(friction):low",
                    "mean(compliance):high um/MPa", "ahead of the next, %", "finger's part",
                    "p(ahead)", "p(best)", "skins"}));
-  EXPECT_EQ(cells(lines[2]), (Cells{"1=", "fine", "100 ± 10", "0.25 ± 0.05", "3 ± 1",
+  EXPECT_EQ(cells(lines[2]), (Cells{"1=", "fine", "100 ± 10", "0.250 ± 0.050", "3.0 ± 1.0",
                                     "12.0 [4.0, 20.0]", "±9.8", "0.900", "0.800", "24"}));
-  EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "-0.5 ± 0.1", "1.5 ± 0.5", "-", "-",
-                                    "-", "0.200", "18"}));
+  EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "-0.50 ± 0.10", "1.50 ± 0.50", "-",
+                                    "-", "-", "0.200", "18"}));
   EXPECT_EQ(lines[4],
             "the order is known; 42 patches of skin tried (more where two designs are close; 48 "
             "with as many for every "

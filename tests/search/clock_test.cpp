@@ -111,10 +111,42 @@ TEST(Findings, ABoundIsNamedWithWhatWideningGives) {
   result.at_bound = at;
   const std::vector<std::string> remarks = run_remarks(study, problem, result);
   ASSERT_EQ(remarks.size(), 2u);
-  EXPECT_EQ(remarks[0],
-            "The best design has texture.period on its upper bound, 10 um: widened by 0.35 um, as "
-            "it goes inside the bound, mean(modulation) +0.01, variation(modulation) -0.02.");
+  EXPECT_EQ(
+      remarks[0],
+      "The best design has texture.period on its upper bound, 10 um; 0.35 um beyond it, going "
+      "on as inside, would change mean(modulation) +0.01, variation(modulation) -0.02.");
   EXPECT_NE(remarks[1].find("widen it to see whether more helps"), std::string::npos);
+}
+
+// What the finish does takes a second surface, for which there may be no time.
+TEST(Sheet, WithoutTheStudysOwnSurfaceTheFinishIsNotJudged) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  const auto score = [](double mean, double variation) {
+    Score s;
+    s.ok = true;
+    s.values = {mean, variation};
+    s.errors = {0.01, 0.01};
+    return s;
+  };
+  OptimiseResult result;
+  FinalDesign best;
+  best.unit = tried(problem, 5, 300, 70).unit;  // the study's own angle is 50 deg
+  best.design = problem.space().design(best.unit);
+  best.confirmed = score(0.5, 0.3);
+  best.on_front = best.feasible = true;
+  best.folder = "front/01";
+  result.finalists = {best};
+  result.any_feasible = true;
+  result.flat = score(0.6, 0.2);
+  const JudgedDesigns history;
+  const ResultFiles files{"", study, problem, history, result, ""};
+  EXPECT_EQ(advice_of(files), Advice::Finish);
+  EXPECT_NE(recommendation(files).find("What the finish does (surface.contact_angle 50 deg to 70"),
+            std::string::npos)
+      << recommendation(files);
+  result.flat_before = score(0.4, 0.4);
+  EXPECT_EQ(recommendation(files).find("not known"), std::string::npos) << recommendation(files);
 }
 
 // At a lower bound a widening goes the other way than a step up.
@@ -129,6 +161,23 @@ TEST(Findings, TheSlopeAtALowerBoundIsTakenDownwards) {
   ASSERT_EQ(at.size(), 1u);
   EXPECT_FALSE(at[0].upper);
   EXPECT_EQ(at[0].change, (std::vector<double>{-0.01, 0.02}));
+}
+
+// A period begins at 10 nm: a step of 350 nm below 100 nm is none.
+TEST(Findings, NoStepGoesBeyondWhatTheModelTakes) {
+  Study study = holes();
+  study.variables[0].low = 100e-9;
+  const StudyProblem problem(study);
+  VariableSensitivity s;
+  s.variable = 0;
+  s.step = 0.35e-6;
+  s.change = {0.01};
+  const std::vector<AtBound> at =
+      variables_at_bound(problem, tried(problem, 0.1, 350, 50).unit, {s});
+  ASSERT_EQ(at.size(), 1u);
+  EXPECT_FALSE(at[0].last);
+  EXPECT_NEAR(at[0].step, 90e-9, 1e-15);
+  EXPECT_NEAR(at[0].change[0], -0.01 * 90 / 350, 1e-9);
 }
 
 TEST(Remarks, TheClockComesFirstAndSaysWhatItLeavesUnsure) {

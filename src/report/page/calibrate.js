@@ -18,7 +18,7 @@ function rowsChart(id, labels, sets, scale, more = {}) {
 const shown = (p, si) => `${round(si / p.per_unit, 4)}${p.unit ? ' ' + p.unit.replace('um', 'µm').replace('deg', '°') : ''}`;
 function priorText(p) {
   if (!p.prior) return 'none';
-  return p.prior.factor ? `${shown(p, p.prior.value)} times or by ${round(p.prior.factor)}` : `${shown(p, p.prior.value)} ± ${shown(p, p.prior.sd)}`;
+  return p.prior.factor ? `${shown(p, p.prior.value)} within a factor of ${round(p.prior.factor)}` : `${shown(p, p.prior.value)} ± ${shown(p, p.prior.sd)}`;
 }
 // In prior widths from the prior.
 function width(p, v) {
@@ -38,7 +38,7 @@ function showParameters() {
   table($('values'), ['Parameter', 'Start', 'Fitted', '95 % interval', 'Prior', 'From the data [%]'], parameters.map((p) => [
     p.path, shown(p, p.start), shown(p, p.value), `${shown(p, p.low)}${p.low_open ? ' (bound)' : ''} to ${shown(p, p.high)}${p.high_open ? ' (bound)' : ''}`,
     priorText(p), round(100 * p.data_share, 2) + (p.at_bound ? '; at its bound, interval by profile' : ''),
-  ]), [1, 2, 3, 4]);
+  ]), [1, 2, 3, 4, 5]);
 }
 
 function showMatrix() {
@@ -65,7 +65,7 @@ function showDirections() {
 
 function showResiduals() {
   const rows = fit.residuals, miss = (r, v) => (r.low !== null && v < r.low ? v - r.low : r.high !== null && v > r.high ? v - r.high : 0) / Math.hypot(r.sd, r.sampling_sd);
-  const names = rows.map((r) => r.source), clip = (v) => Math.min(Math.max(v, -6), 6);
+  const among = (r) => rows.filter((o) => o.source === r.source).length, names = rows.map((r) => among(r) > 1 ? `${r.source}, ${r.what.split(' ')[0]}` : r.source), clip = (v) => Math.min(Math.max(v, -6), 6);
   const set = (label, key, tint) => ({ label, backgroundColor: tint, maxBarThickness: 9, data: rows.map((r) => clip(miss(r, r[key]))), text: rows.map((r) => `${label} the fit: ${r.what} ${round(r[key], 4)}, miss ${miss(r, r[key]).toFixed(2)} sd`) });
   rowsChart('misses', names, [set('before', 'before', faint.searched), set('after', 'after', colours[0])], axis('miss [standard deviations]', { min: -6, max: 6 }));
   const band = (r) => r.low === r.high ? round(r.low, 4) : r.high === null ? 'above ' + round(r.low) : r.low === null ? 'below ' + round(r.high) : `${round(r.low)} to ${round(r.high)}`;
@@ -93,7 +93,7 @@ function showClaims() {
     + (mu.length === 4 ? ` Friction coefficient on flat glass at 0.2 N: ${mu.map((v) => v.toFixed(2)).join(', ')} at 15, 35, 55, 75 % RH (published on screens at 1 N: 0.2 and 0.4).` : '');
 }
 
-$('lead').textContent = (fit.warning ? `Warning: ${fit.warning}. ` : '') + (fit.verdicts || []).map((v) => v.charAt(0).toUpperCase() + v.slice(1) + '. ').join('') + `${fit.residuals.length} numbers, ${parameters.length} parameters: χ² of the data ${round(fit.chi2_before)} before, ${round(fit.chi2)} after, of the priors ${round(fit.prior_chi2)}; ${fit.degrees_of_freedom} degrees of freedom. `
+$('lead').textContent = (fit.warning ? `Warning: ${fit.warning}. ` : '') + ((fit.verdicts || []).length ? `Verdict: ${fit.verdicts.join('; ')}. ` : '') + `${fit.residuals.length} numbers, ${parameters.length} parameters: χ² of the data ${round(fit.chi2_before)} before, ${round(fit.chi2)} after, of the priors ${round(fit.prior_chi2)}; ${fit.degrees_of_freedom} degrees of freedom. `
   + (fit.converged ? 'The fit converged' : 'The fit stopped early') + ` after ${fit.evaluations} evaluations of the model.`;
 showParameters();
 showMatrix();

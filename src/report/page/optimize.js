@@ -258,7 +258,7 @@ function showSection(box, heading, none) {
   scroll.className = 'scroll';
   scroll.appendChild(t);
   box.append(h, p, scroll);
-  const rows = lines.filter((l) => l.startsWith('|') && !l.startsWith('|-')).map((l) => l.slice(1, -1).split('|').map((c) => c.trim().replace(/\*\*/g, '')));
+  const rows = lines.filter((l) => l.startsWith('|') && !l.startsWith('|-')).map((l) => l.slice(1, -1).split('|').map((c) => c.trim().replace(/\*\*/g, '').replace(/ \*$/, '\u00a0*')));
   table(t, rows[0], rows.slice(1));
 }
 
@@ -293,7 +293,7 @@ function showMaps(index) {
 
 // The build sheet of the best design; other designs have their dimensions alone.
 function showDimensions(d) {
-  const words = (path) => path.replace(/^texture\./, '').replace(/_/g, ' ');
+  const words = (path) => path.replace(/^texture\./, '').replace(/[._]/g, ' ');
   const sheet = state.design === 'best' || state.design === twin ? run.sheet : null;
   if (!sheet) {
     const rows = sectionOf(d.toml, 'texture'), angle = /contact_angle = "([\d.]+) deg"/.exec(d.toml);

@@ -11,6 +11,13 @@ const charts = {};
 
 // ---- numbers and tables ----
 const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits) + 0);
+// "640 ± 130": both as far as the second digit of the error.
+function withBar(value, error) {
+  if (!(error > 0) || !isFinite(error) || !isFinite(value)) return `${round(value, 4)} ± ${round(error, 2)}`;
+  const shown = +error.toPrecision(2), decimals = 1 - Math.floor(Math.log10(shown) + 1e-9), step = Math.pow(10, -decimals);
+  const text = (v) => decimals < 0 ? String(Math.round(v / step) * step) : v.toFixed(Math.min(decimals, 12));
+  return `${text(value)} ± ${text(shown)}`;
+}
 // Three decimals; a zero has no sign.
 const fixed = (v) => v.toFixed(3).replace(/^-(0\.000)$/, '$1');
 const withError = (q) => q ? fixed(q.value) + (q.se !== undefined && q.se !== null ? ' ± ' + q.se.toFixed(3) : '') + (q.parameters ? ' (' + q.parameters.toFixed(3) + ')' : '') : '–';
@@ -37,7 +44,8 @@ function table(element, head, rows, numeric = []) {
     const row = body.insertRow();
     values.forEach((text, i) => {
       cell(row, 'td', text, numeric.includes(i));
-      if (head) row.lastChild.dataset.label = head[i];
+      // Where a heading may break beside a card's cell.
+      if (head) row.lastChild.dataset.label = head[i].replace(/([(._])/g, '$1\u200b');
     });
   });
   return body;
@@ -77,7 +85,7 @@ function drawMap(canvas, map, unit, scale, line, root) {
   pixels.height = map.ny;
   const image = new ImageData(map.nx, map.ny), span = map.high - map.low;
   for (let i = 0; i < values.length; ++i) {
-    const share = span > 0 ? (values[i] - map.low) / span : 0.5, rgb = colour(root ? Math.sqrt(share) : share);
+    const share = span > 0 ? (values[i] - map.low) / span : map.low === 0 ? 0 : 0.5, rgb = colour(root ? Math.sqrt(share) : share);
     image.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * i);
   }
   pixels.getContext('2d').putImageData(image, 0, 0);

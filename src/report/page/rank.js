@@ -33,7 +33,7 @@ function rowsChart(id, list, set, title, ends = {}) {
 
 function criteriaColumns(list) {
   const scales = ranking.criteria.map((k) => prefix(k.unit, list.map((c) => c.metrics[k.metric].value)));
-  const value = (c, k, m) => { const q = c.metrics[k.metric], s = scales[m].scale; return `${round(q.value * s, 4)} ± ${round((q.high - q.low) / 2 * s, 2)}`; };
+  const value = (c, k, m) => { const q = c.metrics[k.metric], s = scales[m].scale; return withBar(q.value * s, (q.high - q.low) / 2 * s); };
   return { head: ranking.criteria.map((k, i) => k.metric + ' (' + k.better + ')' + (scales[i].unit ? ' [' + scales[i].unit + ']' : '')), value };
 }
 
@@ -65,7 +65,7 @@ function showCriteria(list) {
     const p = prefix(k.unit, list.map((c) => c.metrics[k.metric].value)), q = list.map((c) => c.metrics[k.metric]);
     rowsChart(id, list, {
       data: q.map((m) => m.value * p.scale), interval: q.map((m) => [m.low * p.scale, m.high * p.scale]),
-      text: q.map((m) => `${round(m.value * p.scale)} ± ${round((m.high - m.low) / 2 * p.scale, 2)} ${p.unit}`),
+      text: q.map((m) => `${withBar(m.value * p.scale, (m.high - m.low) / 2 * p.scale)} ${p.unit}`),
     }, k.metric + (p.unit ? ' [' + p.unit + ']' : ''));
   });
   if (ranking.criteria.length === 1) {
@@ -82,7 +82,7 @@ function showCriteria(list) {
       plugins: [errorBars],
       options: {
         scales: { x: axis(a.metric + (pa.unit ? ' [' + pa.unit + ']' : ''), around(list.map(point), 'x', 'ex')), y: axis(b.metric + (pb.unit ? ' [' + pb.unit + ']' : ''), around(list.map(point), 'y', 'ey')) },
-        plugins: { legend: { labels: { usePointStyle: true, boxHeight: 7 } }, tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${round(item.raw.x)} ± ${round(item.raw.ex, 2)}, ${round(item.raw.y)} ± ${round(item.raw.ey, 2)}` } } },
+        plugins: { legend: { labels: { usePointStyle: true, boxHeight: 7 } }, tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${withBar(item.raw.x, item.raw.ex)}, ${withBar(item.raw.y, item.raw.ey)}` } } },
       },
     });
     return;
