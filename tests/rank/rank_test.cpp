@@ -27,11 +27,13 @@ TEST(Rank, OrdersTheSamplesAsThePaperDoes) {
   EXPECT_EQ(c[2].index, 0u);
   for (const RankedCandidate& x : c) {
     EXPECT_FALSE(x.tied_with_next);
-    EXPECT_EQ(x.skins, RankOptions{}.batch);  // decided at once: nobody needs more
+    EXPECT_LE(x.skins, 2 * RankOptions{}.batch);  // decided soon: nobody needs more
   }
-  EXPECT_GT(c[0].p_best, 0.98);  // of six skins: 0.9895, where normal scores said more than 0.99
+  EXPECT_GT(c[0].p_best, 0.98);
   EXPECT_GT(c[0].ahead_of_next.low, 0);
-  EXPECT_EQ(r.states.front().skins, 3 * RankOptions{}.batch);
+  int skins = 0;
+  for (const RankedCandidate& x : c) skins += x.skins;
+  EXPECT_EQ(r.states.front().skins, skins);
   EXPECT_EQ(r.skins, r.states.front().skins);
 }
 
