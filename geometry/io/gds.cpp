@@ -267,7 +267,7 @@ void write_gds(const std::string& path, const Layout& layout) {
     for (const LayoutReference& r : cell.references) {
       if (r.columns > 32767 || r.rows > 32767) {
         throw InputError(fmt::format(
-            "{} x {} cells are more than one GDSII array holds (32767 a side); take OASIS, "
+            "{} x {} cells are more than one GDSII array holds (32767 per side); take OASIS, "
             "--format oasis",
             r.columns, r.rows));
       }

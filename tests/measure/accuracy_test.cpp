@@ -100,7 +100,9 @@ TEST(Errors, AreMeasuredOnControlSkinsAndUnknownWithoutThem) {
   const ErrorParts& parts = with.points[0].modulation.parts;
   ASSERT_TRUE(parts.grid && parts.method && parts.solver);
   EXPECT_GT(*parts.grid, 0);
-  EXPECT_GT(*parts.method, 0);
+  // What the load law does to the modulation can drown in the scatter of four skins, its friction
+  // is high by a tenth and more.
+  EXPECT_GT(*with.points[0].friction_on.parts.method, 0);
   EXPECT_FALSE(parts.humidity || parts.parameters);
   f.control_skins = 0;
   const Response without = evaluate(scene, Texture{}, f);
