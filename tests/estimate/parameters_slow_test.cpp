@@ -19,7 +19,7 @@ TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
   const Scene scene = scene_of(design);
   Fidelity f = fidelity_level("draft");
   f.grid = 64;
-  f.skins = 8;
+  f.skins = 16;
   f.control_skins = 0;
   Response r = evaluate(scene, design.texture, f);
   add_parameter_errors(r, scene, design.texture, f);
