@@ -25,7 +25,7 @@ double sphere_radius(const CapArray& t) {
   return (square(0.5 * t.diameter) + square(t.depth)) / (2 * t.depth);
 }
 
-// Between the plane of the rims and the sphere, at a distance from the axis [m].
+// Eq. geometry.8: between the plane of the rims and the sphere, at a distance from the axis [m].
 double cap(const CapArray& t, double distance) {
   const double radius = sphere_radius(t);
   if (distance >= 0.5 * t.diameter) return 0;

@@ -9,7 +9,7 @@
 namespace papilla::geometry {
 namespace {
 
-// Integral of the height from the middle of a groove to x [m^2].
+// Eq. geometry.8: integral of the height from the middle of a groove to x [m^2].
 double section_integral(const VGrooves& t, double x) {
   const auto half_period = [&](double distance) {
     const double inside = std::min(distance, 0.5 * t.width);

@@ -18,7 +18,7 @@ void fields(FieldVisitor& v, Waves& t) {
   v.number({"depth", "nm", 0, 1e5, "from the crests to the lowest places; 0: flat"}, t.depth);
 }
 
-// Averaged over a pixel: a cosine keeps its shape.
+// Eq. geometry.8, averaged over a pixel: a cosine keeps its shape.
 Heightmap heights(const Waves& t, const Grid& grid) {
   const double k = wave_number(t);
   const auto mean = [k](double low, double high) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/constants.h"
@@ -94,15 +95,35 @@ Scene random_scene(int index, Texture& texture) {
   };
   const double period = random.uniform(3e-6, 6e-6), size = period * random.uniform(0.3, 0.6),
                depth = random.uniform(50e-9, 900e-9);
-  switch (index % 4) {
+  // From gentle to steep, and never so gentle that the walls meet.
+  const double wall = std::max(random.uniform(kPi / 6, kPi / 2), std::atan(2.2 * depth / size));
+  switch (index % 8) {
     case 0:
-      texture = Texture{HoleArray{.period = period, .diameter = size, .depth = depth}};
+      texture = Texture{
+          HoleArray{.period = period, .diameter = size, .depth = depth, .wall_angle = wall}};
       break;
     case 1:
-      texture = Texture{PillarArray{.period = period, .diameter = size, .height = depth}};
+      texture = Texture{
+          PillarArray{.period = period, .diameter = size, .height = depth, .wall_angle = wall}};
       break;
     case 2:
-      texture = Texture{Grating{.period = period, .width = size, .depth = depth}};
+      texture =
+          Texture{Grating{.period = period, .width = size, .depth = depth, .wall_angle = wall}};
+      break;
+    case 3:
+      texture = Texture{VGrooves{.period = period, .width = size, .depth = depth}};
+      break;
+    case 4:
+      texture = Texture{Waves{.period = period, .depth = depth}};
+      break;
+    case 5:
+      texture = Texture{CapArray{.form = CapArray::Form::Domes,
+                                 .period = period,
+                                 .diameter = size,
+                                 .depth = std::min(depth, 0.45 * size)}};
+      break;
+    case 6:
+      texture = Texture{RandomRough{.rms = 0.25 * depth}};
       break;
     default:
       texture = Texture{};
@@ -116,6 +137,17 @@ Scene random_scene(int index, Texture& texture) {
   const double wet = log_uniform(0.3, 3);
   for (double& v : finger.water.volume) v *= wet;
   scene.surface.contact_angle = random.uniform(0.6, 1.9);
+  // Below a rough surface a planar film has no stated depth to hold.
+  const bool planar_holds = facts(texture).relief.height().has_value();
+  scene.surface.process = std::array{FilmProcess::Conformal, FilmProcess::Directional,
+                                     FilmProcess::Planar}[static_cast<std::size_t>(index / 8 % 3)];
+  if (scene.surface.process == FilmProcess::Planar) {
+    if (planar_holds) {
+      scene.surface.dielectric.front().thickness += depth;
+    } else {
+      scene.surface.process = FilmProcess::Conformal;
+    }
+  }
   scene.drive.amplitude = random.uniform(80, 220);
   const double low = random.uniform(0.15, 0.45);
   scene.environment.relative_humidity = {low, low + random.uniform(0.1, 0.3)};
