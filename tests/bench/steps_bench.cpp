@@ -120,6 +120,7 @@ std::vector<std::string> kind_keys(const std::string& kind) {
                                "environment.relative_humidity=[\"15 %\", \"75 %\"]"};
   const bool numbers_of_array = kind != "random_rough" && kind != "particle_film";
   if (numbers_of_array) out.emplace_back("texture.period=\"3 um\"");
+
   if (kind == "hole_array" || kind == "pillar_array" || kind == "cap_array")
     out.emplace_back("texture.diameter=\"1.6 um\"");
   if (kind == "hole_array" || kind == "pillar_array" || kind == "grating") {
@@ -140,6 +141,7 @@ std::vector<Line> every_number(const std::string& folder) {
     for (const char* process : {"conformal", "directional", "planar"}) {
       std::vector<std::string> keys = kind_keys(kind);
       keys.push_back(fmt::format("surface.process=\"{}\"", process));
+      keys.emplace_back("model.water=\"threshold\"");
       const std::string name = fmt::format("{} {}", kind, process);
       Design base;
       try {
@@ -153,6 +155,7 @@ std::vector<Line> every_number(const std::string& folder) {
         // The finger and the air know nothing of the process.
         if (std::string(process) != "conformal" && !texture && !surface) continue;
         if (path.starts_with("accuracy.") || path.ends_with("seed") || *field.value == 0) continue;
+        if (path.find("relative_humidity") != std::string::npos) continue;  // an increasing list
         const double low = *field.value * (1 - kShare), high = *field.value * (1 + kShare);
         out.push_back({name, path, [=](double t) {
                          Design d = base;
@@ -165,15 +168,24 @@ std::vector<Line> every_number(const std::string& folder) {
   return out;
 }
 
-std::vector<Line> random_lines(const std::string& folder, int count) {
+struct Walk {
+  const char *name, *water;
+  bool period;
+};
+constexpr std::array<Walk, 3> kWalks{{{"one period", "threshold", false},
+                                      {"period too", "threshold", true},
+                                      {"droplets", "droplets", false}}};
+
+std::vector<Line> random_lines(const std::string& folder, int count, const Walk& walk) {
   std::vector<Line> out;
-  RandomStream random(7, "lines");
+  RandomStream random(7, walk.name);
   while (static_cast<int>(out.size()) < count) {
     const char* kind = kKinds[static_cast<std::size_t>(random.below(kKinds.size()))];
     std::vector<std::string> keys = kind_keys(kind);
     keys.push_back(fmt::format("surface.process=\"{}\"",
                                std::array{"conformal", "directional",
                                           "planar"}[static_cast<std::size_t>(random.below(3))]));
+    keys.push_back(fmt::format("model.water=\"{}\"", walk.water));
     Design base;
     try {
       base = read_design(folder + "/m3_samples/common.toml", keys);
@@ -187,11 +199,12 @@ std::vector<Line> random_lines(const std::string& folder, int count) {
       const bool varies = path.starts_with("texture.") || path.starts_with("surface.contact") ||
                           path.starts_with("surface.dielectric.0.thickness") ||
                           path == "drive.amplitude" || path == "finger.load";
+      if (!walk.period && path == "texture.period") continue;
       if (!varies || path.ends_with("seed") || *field.value == 0) continue;
       const auto end = [&] { return *field.value * std::exp2(random.uniform(-0.7, 0.7)); };
       ends.push_back({path, {end(), end()}});
     }
-    out.push_back({fmt::format("{} line {}", kind, out.size()), "all", [=](double t) {
+    out.push_back({fmt::format("{} line {}", kind, out.size()), walk.name, [=](double t) {
                      Design d = base;
                      for (const auto& [path, end] : ends) {
                        const NumberField& field = find_number_field(number_fields(d), path);
@@ -212,9 +225,11 @@ int main(int argc, char** argv) {
   fidelity.skins = argc > 3 ? std::atoi(argv[3]) : 2;
   fidelity.control_skins = 0;
   fidelity.threads = 1;
-  std::vector<Line> lines = random_lines(folder, argc > 4 ? std::atoi(argv[4]) : 200);
-  if (argc <= 5)
-    for (Line& line : every_number(folder)) lines.push_back(std::move(line));
+  std::vector<Line> lines = every_number(folder);
+  for (const Walk& walk : kWalks) {
+    for (Line& line : random_lines(folder, argc > 4 ? std::atoi(argv[4]) : 200, walk))
+      lines.push_back(std::move(line));
+  }
   fmt::print(
       "design,key,quantity,place,value,unannounced_percent,step_percent,moved_percent,verdict\n");
   std::vector<std::string> rows(lines.size());
