@@ -1,9 +1,10 @@
 // Where a result steps: every number of a design of each kind swept by 30 % either way, and lines
 // between designs drawn at random, on common skins. An interval that its neighbours do not announce
-// is halved ten times; what is left of it then is a step, beside what a move by a thousandth does
-// (droplets that settle elsewhere). Prints results/accuracy/steps.csv:
-// ninja -C build steps_bench && build/tests/steps_bench designs 64 2 200 >
-// results/accuracy/steps.csv
+// is halved ten times; what is left of it then is a step, beside what a move by a thousandth does.
+// Lines at random are walked with threshold water and one period, with the period too (the patch
+// holds whole numbers of them), and with droplets, which settle elsewhere. Prints a table:
+// ninja -C build steps_bench
+// build/tests/steps_bench designs 64 8 100 > results/accuracy/steps.csv
 #include <fmt/format.h>
 
 #include <algorithm>
