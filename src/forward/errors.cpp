@@ -117,7 +117,7 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
     if (quantity == GridLaw::Pull) missing = kPullToLimit;
     if (quantity == GridLaw::Area && step > 0)
       missing = left_out(step, std::max(runs.octaves, kFewestOctaves)) / step;
-    missing = std::max(missing, runs.coarse_features);
+    if (quantity == GridLaw::Area) missing = std::max(missing, runs.coarse_features);
     for (const double change : out.halving) out.grid.push_back(missing * change);
   }
   // Eq. accuracy.3
