@@ -66,7 +66,7 @@ double resolved_area_error(double pixels_per_cutoff) {
 // where they are resolved. Eq. accuracy.2
 double missing_of_features(double pixels) {
   return std::clamp((kResolvedFeature - pixels) / (kResolvedFeature - kCoarseFeature), 0.0, 1.0) *
-         std::max(1.0, kLostFeature / pixels);
+         std::max(1.0, kLostFeature / std::max(pixels, 1.0));  // walls that meet leave no floor
 }
 
 // Numbers of one origin at each humidity, each given the larger of its own and the root mean square
