@@ -19,7 +19,8 @@ constexpr double kFewestOctaves = 0.6;
 // then says what is missing, whole (lands and holes are off by a share of a pixel: first order).
 constexpr double kResolvedFeature = 24, kCoarseFeature = 12;
 // Below so many, half the pixels show next to nothing of them: more than the step is missing, in
-// proportion (200 nm holes at 2.1 pixels: 10 % from half the pixels, 21 % to the limit).
+// proportion (100 nm holes every 200 nm at 2.1 pixels: 10 % from half the pixels, 21 % to the
+// limit).
 constexpr double kLostFeature = 4;
 // By the load law the modulation's way to the limit is part of its method error; half of that way
 // is taken as not known. Eq. accuracy.2

@@ -28,8 +28,7 @@ std::string coarse_features(const Plan& plan, const Fidelity& fidelity, double s
   for (; pixels < kFewPixels && grid < kLargestKey; grid *= 2) pixels *= 2;
   return fmt::format(
       "the smallest feature of the texture, {:.3g} nm, is {:.2g} pixels wide: its friction is "
-      "known "
-      "as well as its error part `grid` says and not better; {}",
+      "known as well as its error part `grid` says and not better; {}",
       1e9 * smallest, plan.feature_pixels,
       pixels >= kFewPixels ? fmt::format("accuracy.grid = {} gives it {:.2g}", grid, pixels)
                            : fmt::format("no grid up to {} resolves it", kLargestKey));
