@@ -104,7 +104,7 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
     for (FieldRatio& r : out) r.error = kOfFullField;
     return out;
   }
-  if (fidelity.field_skins == 0) return out;
+  if (fidelity.field_skins == 0 || holds_all_voltage(field_problem(scene, 0.5))) return out;
   Scene at_rest = scene;  // both fields over the gap before the drive
   at_rest.model.coupling = Coupling::OnePass;
   const PatchSetup setup(at_rest, texture, control_fidelity(fidelity));

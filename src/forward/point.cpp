@@ -5,6 +5,7 @@
 
 #include "base/constants.h"
 #include "base/statistics.h"
+#include "forward/electric_path.h"
 #include "forward/scene_terms.h"
 #include "forward/water_band.h"
 #include "physics/contact/facts.h"
@@ -122,6 +123,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   point.relative_humidity = relative_humidity;
   point.weight = weight;
   point.patch_pressure = bridge.mean_pressure();
+  if (plan.field) point.source_voltage = source_voltage(scene, relative_humidity).peak;
   const double carrying =
       bridge.carrying_share() * macro.gross_area(scene.finger.load, relative_humidity);  // [m^2]
   const double patches_per_finger = carrying / plan.grid.area();
@@ -140,7 +142,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     // Resolved areas end at the patch, the load law does not.
     if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
   }
-  add_friction(point, macro.shear_strength * carrying, plan.field);
+  add_friction(point, macro.shear_strength_at(relative_humidity) * carrying, plan.field);
   add_solver_errors(point, patches);
   if (plan.water)
     add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);

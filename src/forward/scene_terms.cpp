@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "forward/electric_path.h"
 #include "physics/electrostatics/electrowetting.h"
 #include "physics/electrostatics/rules.h"
 
@@ -44,6 +45,10 @@ FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurfa
 
 std::vector<FilmLayer> film_of(const Scene& scene) {
   std::vector<FilmLayer> film = film_layers(scene.surface);
+  // A layer that conducts more than the gap is thinner to the field by that, one that conducts less
+  // is thicker; humidity does not reach it.
+  const SeriesLayers series = series_layers(scene, 0.5);
+  for (std::size_t k = 0; k < film.size(); ++k) film[k].permittivity /= series.of_film[k].real();
   if (scene.model.preset == Preset::M3) {
     for (FilmLayer& layer : film)
       layer = {FilmProcess::Directional, 0, layer.thickness, layer.permittivity};
@@ -53,16 +58,18 @@ std::vector<FilmLayer> film_of(const Scene& scene) {
 
 FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   FieldProblem p;
-  p.v_rms = scene.drive.v_rms();
-  p.v_peak = scene.drive.amplitude;
-  p.dielectric = scene.surface.equivalent_thickness();
+  const SourceVoltage source = source_voltage(scene, relative_humidity);
+  p.v_rms = source.rms;
+  p.v_peak = source.peak;
+  for (const FilmLayer& layer : film_of(scene))
+    p.dielectric += layer.thickness / layer.permittivity;
   p.dielectric_thickness = scene.surface.dielectric_thickness();
   p.edge_radius = scene.surface.electrode_edge_radius;
-  // Stratum corneum in series: conducts below its corner frequency, h(w) = h / (1 + i wc/w).
-  const double h = scene.finger.electrical.equivalent_thickness(relative_humidity);
-  const double corner = scene.finger.electrical.corner_frequency;
-  const double f = scene.drive.waveform == Waveform::Dc ? 0 : scene.drive.frequency;
-  p.skin_layer = corner > 0 ? (f > 0 ? h / std::complex<double>(1, corner / f) : 0.0) : h;
+  // What of the film lags behind counts like that of the skin, as on a flat surface. Eq. drive.12
+  const SeriesLayers series = series_layers(scene, relative_humidity);
+  const std::complex<double> film = series.film(scene.surface);
+  p.skin_layer = series.skin + std::complex<double>(0, film.imag());
+  p.film_phase = film.real() > 0 ? std::abs(film) / film.real() : 1;
   p.breakdown_cap = scene.model.breakdown_cap;
   p.droplet_enhancement = scene.model.droplet_enhancement;
   if (scene.model.preset == Preset::M3) {
@@ -77,10 +84,9 @@ double driven_contact_angle(const Scene& scene, double relative_humidity) {
   if (!scene.drive.driven()) return scene.surface.contact_angle;
   const double undriven = scene.surface.contact_angle;
   const double saturated = scene.finger.saturation.angle(undriven);
-  const FieldProblem field = field_problem(scene, relative_humidity);
-  const double eta =
-      electrowetting_number(scene.drive.amplitude, field.dielectric + std::abs(field.skin_layer),
-                            scene.finger.water.surface_tension);
+  const double eta = electrowetting_number(source_voltage(scene, relative_humidity).peak,
+                                           wetted_series(scene, relative_humidity),
+                                           scene.finger.water.surface_tension);
   const bool sine = scene.drive.waveform == Waveform::Sine || scene.drive.waveform == Waveform::Am;
   return std::acos(std::clamp(
       electrowetted_cosine(std::cos(undriven), std::cos(saturated), eta, sine), -1.0, 1.0));

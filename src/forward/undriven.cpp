@@ -13,6 +13,7 @@ namespace {
 Scene driven(const Scene& scene) {
   PAPILLA_CHECK(scene.environment.relative_humidity.size() == 1, "one humidity");
   Scene out = scene;
+  out.drive.control = DriveControl::Voltage;
   if (!out.drive.driven()) out.drive.amplitude = 1;
   return out;
 }
@@ -48,6 +49,7 @@ UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
 
 ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) const {
   Scene scene = setup_->scene();
+  scene.drive.control = DriveControl::Voltage;
   scene.drive.amplitude = amplitude;
   Fidelity fidelity = setup_->fidelity();
   fidelity.estimator = estimator;

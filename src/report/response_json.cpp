@@ -98,6 +98,7 @@ Json point_json(const ResponsePoint& p, bool driven) {
   point["bridge_water_share"] = json_number(p.bridge_water_share);
   point["over_limit_area"] = json_number(p.over_limit_area);
   point["over_limit_share"] = json_number(p.over_limit_share);
+  point["source_voltage"] = driven ? json_number(p.source_voltage) : Json(nullptr);
   point["peak_air_field"] = json_number(p.peak_air_field);
   point["peak_oxide_field"] = json_number(p.peak_oxide_field);
   point["field_correction"] = json_number(p.field_correction);

@@ -160,10 +160,19 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
             ":3:11: environment.weights: expected 4 weights, one per humidity, got 2");
   EXPECT_EQ(problems_of(head + "[finger]\nload = \"0 N\"\n"),
             ":3:8: finger.load: expected a force above 0 N");
+  EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\namplitude = \"200 V\"\n"),
+            ":4:13: drive.amplitude: a voltage, beside control = \"current\": give drive.current, "
+            "and the "
+            "largest voltage as drive.source_compliance");
+  EXPECT_EQ(problems_of(head + "[drive]\ncurrent = \"1 mA\"\n"),
+            ":3:11: drive.current: a current, beside control = \"voltage\": say control = "
+            "\"current\", or give drive.amplitude");
+  EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\ncurrent = \"6 mA\"\n"),
+            ":4:11: drive.current: 6 mA is above drive.current_limit, 5 mA");
   EXPECT_EQ(
-      problems_of(head + "[drive]\ncontrol = \"current\"\n"),
-      ":3:11: drive.control: a texture is judged at a voltage; what a current source makes of it: "
-      "`papilla solve drive` with gap.design");
+      problems_of(head + "[drive]\ncontrol = \"current\"\nwaveform = \"dc\"\ncurrent = \"1 mA\"\n"),
+      ":4:12: drive.waveform: a constant current through a film that insulates has no end: give "
+      "an alternating one");
   EXPECT_EQ(
       problems_of(head + "[design_space]\n\"surface.contact_agle\" = [\"1 deg\", \"2 deg\"]\n"),
       ":3:1: design_space: `surface.contact_agle` is no number of this design, did you mean "
