@@ -15,6 +15,9 @@ constexpr int kSmallestGrid = 16;  // of the control run on half the pixels; bel
 constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
 // Contact areas: of the octaves left out, so many at least.
 constexpr double kFewestOctaves = 0.6;
+// What they are too large by through octaves that are left out is taken off; so much of it, one
+// standard deviation, is not known.
+constexpr double kNotKnown = 0.22, kTakenOff = 0.92;
 // Features of so many pixels are resolved, of so many not at all: the last halving of the pixel
 // then says what is missing, whole (lands and holes are off by a share of a pixel: first order).
 constexpr double kResolvedFeature = 24, kCoarseFeature = 12;
@@ -56,6 +59,12 @@ std::optional<double> relative(std::optional<double> b, std::optional<double> a,
 // down to its cut-off: what they are too large by after `octaves` that are not. step: of the last
 // octave. Relative to the area. Eq. accuracy.2
 double left_out(double step, double octaves) { return 1 - std::pow(1 + step, -octaves); }
+
+// What contact areas are too large by through octaves left out, of a step over the last of those
+// that the grid resolves: as a factor on that step.
+double left_out_of(double step, double octaves) {
+  return step != 0 ? left_out(step, octaves) / step : octaves;
+}
 
 // Area error of the wavelengths that the grid resolves. Measured against 2048 pixels: 2.3, 0.8,
 // 0.2 % at 2.1, 4.3, 8.5 pixels for the shortest (results/bench/contact_area.csv).
@@ -112,14 +121,20 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
   // what it lacks against them. Eq. accuracy.2
   if (!runs.coarse.points.empty()) {
     out.halving = samples_of(fine.without.size(), [&](int k) { return halving(k, fine); });
-    const double step = grid_error(out.halving);
-    double missing = kOtherToLimit;
+    double missing = kOtherToLimit, scatter = 0;
     if (to_limit) missing *= kUnknownShare;
     if (quantity == GridLaw::Pull) missing = kPullToLimit;
-    if (quantity == GridLaw::Area && step > 0)
-      missing = left_out(step, std::max(runs.octaves, kFewestOctaves)) / step;
-    if (quantity == GridLaw::Area) missing = std::max(missing, runs.coarse_features);
-    for (const double change : out.halving) out.grid.push_back(missing * change);
+    if (quantity == GridLaw::Area) {
+      const double step = grid_error(out.halving);
+      const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
+      missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
+      missing = std::max(missing, runs.coarse_features);
+      scatter = std::max(0.0, all - missing);
+    }
+    // What is taken off is known as well as the control skins agree on it.
+    const double mean = out.halving.empty() ? 0 : mean_estimate(out.halving).value;
+    for (const double change : out.halving)
+      out.grid.push_back(missing * change + scatter * (change - mean));
   }
   // Eq. accuracy.3
   if (load_law) {
@@ -132,6 +147,21 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
     });
   }
   return out;
+}
+
+double resolved_areas(const ControlRuns& runs) {
+  if (runs.coarse.points.empty() || runs.octaves <= 0) return 1;
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < runs.own.points.size(); ++i) {
+    const ControlledChange change =
+        controlled_change(runs, GridLaw::Area, [&](const std::vector<ResponsePoint>& points) {
+          return std::optional(points[i].area_fraction_off.value);
+        });
+    if (!change.halving.empty()) steps.push_back(mean_estimate(change.halving).value);
+  }
+  if (steps.empty()) return 1;
+  const double step = mean_estimate(steps).value;
+  return 1 - kTakenOff * left_out(std::max(step, 0.0), runs.octaves);
 }
 
 namespace {
@@ -226,11 +256,13 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
                     PatchSet& patches) {
   patches.errors.clear();
   patches.controls = {};
+  patches.area_factor = 1;
   const int skins = std::min(fidelity.control_skins, patches.skins());
   if (skins < 2) return;
   Controls again(scene, texture, fidelity, patches.field, skins);
   again.run(patches);
   const ControlRuns& controls = patches.controls;
+  patches.area_factor = resolved_areas(controls);
   const Grid& pixels = patches.plan.grid;
   const double resolved =
       resolved_area_error(patches.plan.effective_cutoff / std::max(pixels.dx(), pixels.dy()));

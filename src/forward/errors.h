@@ -17,6 +17,11 @@ namespace papilla::forward {
 void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                     PatchSet& patches);
 
+// What contact areas of the runs are to be multiplied with, so that they are those of the whole
+// skin: the octaves of its spectrum that the grid leaves out would make them smaller, by as much
+// each as half the pixels make them larger. 1 where none are left out. Eq. accuracy.2
+double resolved_areas(const ControlRuns& runs);
+
 // A number read off the points of a response; nothing where it is not defined.
 using Reading = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
 

@@ -119,7 +119,7 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
   response.fidelity.skins = set.skins();
   response.driven = set.plan.field;
   response.seconds = set.seconds;
-  const PointSetting setting{scene, response.plan, fidelity};
+  const PointSetting setting{scene, response.plan, fidelity, set.area_factor};
   const Environment& air = scene.environment;
   if (set.skins() > 1) response.without.resize(static_cast<std::size_t>(set.skins()));
   for (std::size_t i = 0; i < air.relative_humidity.size(); ++i) {

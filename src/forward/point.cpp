@@ -138,7 +138,9 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   } else {
     areas_resolved(point);
   }
-  for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
+  for (Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
+    area->value *= setting.area_factor;
+    area->parts.sampling *= setting.area_factor;
     // Resolved areas end at the patch, the load law does not.
     if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
   }
