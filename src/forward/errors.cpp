@@ -17,7 +17,7 @@ constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
 constexpr double kFewestOctaves = 0.6;
 // What they are too large by through octaves that are left out is taken off; so much of it, one
 // standard deviation, is not known.
-constexpr double kNotKnown = 0.22, kTakenOff = 0.92;
+constexpr double kNotKnown = 0.08;
 // Features of so many pixels are resolved, of so many not at all: the last halving of the pixel
 // then says what is missing, whole (lands and holes are off by a share of a pixel: first order).
 constexpr double kResolvedFeature = 24, kCoarseFeature = 12;
@@ -48,10 +48,11 @@ std::optional<double> read(const Reading& number, const Resampled& run, int with
   return number(without < 0 ? run.points : run.without[static_cast<std::size_t>(without)]);
 }
 
-// (b - a) / |of|; zero where `of` is.
-std::optional<double> relative(std::optional<double> b, std::optional<double> a,
-                               std::optional<double> of) {
+// b - a, relative to `of` (zero where that is) or by itself.
+std::optional<double> change_of(Change kind, std::optional<double> b, std::optional<double> a,
+                                std::optional<double> of) {
   if (!a || !b || !of) return std::nullopt;
+  if (kind == Change::Absolute) return *b - *a;
   return *of != 0 ? (*b - *a) / std::abs(*of) : 0;
 }
 
@@ -108,13 +109,14 @@ double method_error(const std::vector<double>& samples) {
   return std::sqrt(std::max(square(e.value) - square(e.se), 0.0));
 }
 
-ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
-                                   const Reading& number) {
+ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, const Reading& number,
+                                   Change kind) {
   const bool load_law = !runs.areas.points.empty();
   const Resampled& fine = load_law ? runs.areas : runs.own;
   const bool to_limit = load_law && quantity == GridLaw::Modulation;
   const auto halving = [&](int k, const Resampled& of) {
-    return relative(read(number, runs.coarse, k), read(number, fine, k), read(number, of, k));
+    return change_of(kind, read(number, runs.coarse, k), read(number, fine, k),
+                     read(number, of, k));
   };
   ControlledChange out;
   // With the load law, grids are compared by solved areas: its own steps between grids are partly
@@ -139,8 +141,8 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
   // Eq. accuracy.3
   if (load_law) {
     out.method = samples_of(fine.without.size(), [&](int k) {
-      auto m =
-          relative(read(number, fine, k), read(number, runs.own, k), read(number, runs.own, k));
+      auto m = change_of(kind, read(number, fine, k), read(number, runs.own, k),
+                         read(number, runs.own, k));
       if (!m || !to_limit || runs.coarse.points.empty()) return m;
       const auto last = halving(k, runs.own);
       return last ? std::optional(*m - kOtherToLimit * *last) : std::nullopt;
@@ -161,7 +163,7 @@ double resolved_areas(const ControlRuns& runs) {
   }
   if (steps.empty()) return 1;
   const double step = mean_estimate(steps).value;
-  return 1 - kTakenOff * left_out(std::max(step, 0.0), runs.octaves);
+  return 1 - left_out(std::max(step, 0.0), runs.octaves);
 }
 
 namespace {

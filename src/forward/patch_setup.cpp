@@ -1,5 +1,7 @@
 #include "forward/patch_setup.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "forward/scene_terms.h"
@@ -28,7 +30,16 @@ PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelit
     : scene_(applied(scene)),
       fidelity_(fidelity),
       plan_(make_plan(scene_, texture, fidelity)),
-      surface_(generate(texture, plan_.grid), film_of(scene_)) {}
+      surface_(generate(texture, plan_.grid), film_of(scene_)) {
+  if (surface_.cut_through > 0) {
+    plan_.warnings.push_back(fmt::format(
+        "the texture cuts through its planar film on {:.2g} % of the patch: the drive meets the "
+        "bare "
+        "electrode there, and the numbers under voltage mean nothing physical; make the film "
+        "thicker, or the texture shallower",
+        100 * surface_.cut_through));
+  }
+}
 
 Heightmap PatchSetup::skin(int k) const {
   const int index = fidelity_.first_skin + k;

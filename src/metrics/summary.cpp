@@ -59,7 +59,7 @@ std::optional<double> humidity_error(Summary summary, const Response& response,
 constexpr double kFieldApart = 0.5;
 
 // The samples behind a number of a metric.
-ErrorSamples samples_of(const std::string& metric, const Reading& number,
+ErrorSamples samples_of(const std::string& metric, const Reading& number, Change kind,
                         const Response& response) {
   ErrorSamples out;
   const auto quantity = metric_quantity(metric);
@@ -70,9 +70,11 @@ ErrorSamples samples_of(const std::string& metric, const Reading& number,
     if (const auto v = number(points)) without.push_back(*v);
   }
   if (without.size() == response.without.size()) out.sampling = jackknife_samples(*value, without);
-  const ControlledChange change = controlled_change(response.controls, grid_law(*quantity), number);
-  for (const double c : change.grid) out.grid.push_back(c * std::abs(*value));
-  for (const double c : change.method) out.method.push_back(c * std::abs(*value));
+  const ControlledChange change =
+      controlled_change(response.controls, grid_law(*quantity), number, kind);
+  const double of = kind == Change::Relative ? std::abs(*value) : 1;
+  for (const double c : change.grid) out.grid.push_back(c * of);
+  for (const double c : change.method) out.method.push_back(c * of);
   return out;
 }
 
@@ -164,7 +166,8 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
 }
 
 ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response) {
-  return samples_of(metric, reading(summary, metric), response);
+  return samples_of(metric, reading(summary, metric),
+                    is_spread(summary) ? Change::Absolute : Change::Relative, response);
 }
 
 ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
@@ -173,7 +176,7 @@ ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
     const auto m = metric_at(metric, points[point]);
     return m ? std::optional(m->value) : std::nullopt;
   };
-  return samples_of(metric, number, response);
+  return samples_of(metric, number, Change::Relative, response);
 }
 
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second) {

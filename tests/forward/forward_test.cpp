@@ -251,7 +251,8 @@ TEST(Plan, SaysWhatIsSkippedAndWhy) {
   const Plan plan = make_plan(scene, Texture{}, fidelity_level("design"));
   bool field = false, water = false;
   for (const PlanSkip& skip : plan.skipped) {
-    field = field || (skip.piece == Piece::Field && skip.reason.find("the drive is at 0") != std::string::npos);
+    field = field || (skip.piece == Piece::Field &&
+                      skip.reason.find("the drive is at 0") != std::string::npos);
     water = water || skip.piece == Piece::Water;
   }
   EXPECT_TRUE(field);
