@@ -25,6 +25,9 @@ constexpr double kResolvedFeature = 24, kCoarseFeature = 12;
 // proportion (100 nm holes every 200 nm at 2.1 pixels: 10 % from half the pixels, 21 % to the
 // limit).
 constexpr double kLostFeature = 4;
+// Of a step that drops an octave of the skin as well, so much is the features' own: the rest is the
+// skin's, and taken off.
+constexpr double kOfFeatures = 0.2;
 // By the load law the modulation's way to the limit is part of its method error; half of that way
 // is taken as not known. Eq. accuracy.2
 constexpr double kUnknownShare = 0.5;
@@ -130,7 +133,8 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
       const double step = grid_error(out.halving);
       const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
       missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
-      missing = std::max(missing, runs.coarse_features);
+      const double own = 1 - (1 - kOfFeatures) * std::min(runs.octaves, 1.0);
+      missing = std::max(missing, own * runs.coarse_features);
       scatter = std::max(0.0, all - missing);
     }
     // What is taken off is known as well as the control skins agree on it.

@@ -91,11 +91,13 @@ TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
 TEST(Study, TheMainStudyHasItsSpaceWishesLimitsAndFingers) {
   const Study study = read_study(kStudy);
   EXPECT_EQ(study.name, "electroadhesive_glass");
-  ASSERT_EQ(study.variables.size(), 4u);
-  EXPECT_EQ(study.variables[2].path, "texture.depth");
-  EXPECT_EQ(study.variables[2].low, 0);
-  EXPECT_EQ(study.variables[2].high, 1e-6);
-  EXPECT_EQ(study.variables[3].high, 80 * 3.14159265358979323846 / 180);
+  ASSERT_EQ(study.variables.size(), 5u);
+  EXPECT_EQ(study.design.surface.process, FilmProcess::Planar);
+  EXPECT_EQ(study.variables[0].path, "surface.dielectric.0.thickness");
+  EXPECT_EQ(study.variables[3].path, "texture.depth");
+  EXPECT_EQ(study.variables[3].low, 0);
+  EXPECT_EQ(study.variables[3].high, 1e-6);
+  EXPECT_EQ(study.variables[4].high, 80 * 3.14159265358979323846 / 180);
   EXPECT_EQ(study.objective.maximise, std::vector<std::string>{"mean(modulation)"});
   EXPECT_EQ(study.objective.minimise, std::vector<std::string>{"variation(modulation)"});
   ASSERT_EQ(study.constraints.size(), 4u);

@@ -25,9 +25,9 @@ struct FieldProblem {
   bool zero_under_droplets = false;     // preset m3: no pull under any droplet
 };
 
-// Whether the film insulates so much better than the gap that next to nothing of the voltage is left
-// to the gap, and hardly any flux spreads in the film: its columns are exact then, and a 3-D field
-// has nothing to add.
+// Whether the film insulates so much better than the gap that next to nothing of the voltage is
+// left to the gap, and hardly any flux spreads in the film: its columns are exact then, and a 3-D
+// field has nothing to add.
 bool holds_all_voltage(const FieldProblem& problem);
 
 struct FieldSolution {
