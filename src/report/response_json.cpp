@@ -105,7 +105,7 @@ Json point_json(const ResponsePoint& p, bool driven) {
   point["field_error"] = p.field_error ? json_number(*p.field_error) : Json();
   point["oxide_margin"] = json_number(p.oxide_margin);
   for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
-  point["status"] = p.status.sound() && driven && p.oxide_margin < 1
+  point["status"] = (p.status.sound() || p.status.pull_in()) && driven && p.oxide_margin < 1
                         ? "breakdown: the dielectric does not hold this field, the numbers under "
                           "voltage mean nothing physical"
                         : text(p.status);
