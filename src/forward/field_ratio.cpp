@@ -41,9 +41,9 @@ std::vector<Pulls> pulls_of(const PatchSetup& setup, int k) {
   PatchStates start;
   std::vector<Pulls> out;
   for (const double rh : scene.environment.relative_humidity) {
-    const auto kernel = contact_kernel(scene, setup.plan().grid, rh);
+    const auto kernel = contact_kernel(scene, setup.body(), setup.plan().grid, rh);
     const double pressure =
-        ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh).mean_pressure();
+        ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh, setup.body()).mean_pressure();
     PatchFields fields;
     solve_patch(setup.problem(height, *kernel, rh, pressure, mean), setup.plan(), setup.fidelity(),
                 start, &fields);

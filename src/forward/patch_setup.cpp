@@ -11,13 +11,6 @@
 namespace papilla::forward {
 namespace {
 
-// The finger in its state, with nothing more to apply.
-Scene applied(const Scene& scene) {
-  Scene out = scene;
-  out.finger = scene.finger.applied();
-  return out;
-}
-
 // Sliding offset of skin k against the texture: the R2 low-discrepancy sequence over the patch.
 double offset_share(int k, bool second) {
   const double step = second ? 0.56984029099805327 : 0.75487766624669276;
@@ -27,10 +20,11 @@ double offset_share(int k, bool second) {
 }  // namespace
 
 PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelity& fidelity)
-    : scene_(applied(scene)),
+    : scene_(in_its_state(scene)),
       fidelity_(fidelity),
       plan_(make_plan(scene_, texture, fidelity)),
-      surface_(generate(texture, plan_.grid), film_of(scene_)) {
+      surface_(generate(texture, plan_.grid), film_of(scene_)),
+      body_(compliant_body(scene_.surface, surface_.height)) {
   if (surface_.cut_through > 0) {
     plan_.warnings.push_back(fmt::format(
         "the texture cuts through its planar film on {:.2g} % of the patch: the drive meets the "

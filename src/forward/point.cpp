@@ -144,7 +144,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     // Resolved areas end at the patch, the load law does not.
     if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
   }
-  add_friction(point, macro.shear_strength_at(relative_humidity) * carrying, plan.field);
+  add_friction(point, shear_strength(scene, relative_humidity) * carrying, plan.field);
   add_solver_errors(point, patches);
   if (plan.water)
     add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);

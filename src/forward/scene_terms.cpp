@@ -10,14 +10,50 @@
 
 namespace papilla::forward {
 
-std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const Grid& grid,
-                                                    double relative_humidity) {
+Scene in_its_state(const Scene& scene) {
+  Scene out = scene;
+  out.finger = scene.finger.applied();
+  if (scene.finger.macro.shear_strength > 0)
+    out.surface.shear_strength *=
+        out.finger.macro.shear_strength / scene.finger.macro.shear_strength;
+  return out;
+}
+
+double CompliantBody::compliance(const Surface& surface) const {
+  if (!present() || surface.modulus <= 0) return 0;
+  const double nu = surface.poisson;
+  // Laterally confined: it does not bulge between neighbours. Eq. contact.17
+  return thickness * (1 + nu) * (1 - 2 * nu) / (surface.modulus * (1 - nu) * solid);
+}
+
+CompliantBody compliant_body(const Surface& surface, const Heightmap& height) {
+  if (surface.modulus <= 0 || height.z.empty()) return {};
+  const double floor = *std::min_element(height.z.begin(), height.z.end());
+  double sum = 0, square_sum = 0;
+  for (const double z : height.z) {
+    sum += z - floor;
+    square_sum += square(z - floor);
+  }
+  if (sum <= 0) return {};
+  const double thickness = square_sum / sum;
+  return {thickness, sum / static_cast<double>(height.z.size()) / thickness};
+}
+
+double shear_strength(const Scene& scene, double relative_humidity) {
+  const MacroContact& macro = scene.finger.macro;
+  const double of_finger = macro.shear_strength_at(relative_humidity);
+  if (scene.surface.shear_strength <= 0 || macro.shear_strength <= 0) return of_finger;
+  return of_finger * scene.surface.shear_strength / macro.shear_strength;
+}
+
+std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const CompliantBody& body,
+                                                    const Grid& grid, double relative_humidity) {
   const Skin& skin = scene.finger.skin;
-  const double factor = scene.surface.modulus > 0 ? skin.modulus_factor(relative_humidity) : 1;
-  return make_contact_kernel(grid,
-                             {skin.layer_modulus * factor, skin.layer_poisson, skin.layer_thickness,
-                              skin.bulk_modulus * factor, skin.bulk_poisson, scene.surface.modulus,
-                              scene.surface.poisson});
+  const double factor = body.present() ? skin.modulus_factor(relative_humidity) : 1;
+  return make_contact_kernel(
+      grid, {skin.layer_modulus * factor, skin.layer_poisson, skin.layer_thickness,
+             skin.bulk_modulus * factor, skin.bulk_poisson,
+             body.present() ? scene.surface.modulus : 0, scene.surface.poisson, body.thickness});
 }
 
 WaterProperties water_properties(const Scene& scene, double substrate_angle) {

@@ -113,6 +113,10 @@ void fields(FieldVisitor& v, Surface& s) {
   v.number(
       {"poisson", "", 0, 0.5, "Poisson ratio of compliant features", Source::Estimate, "polymers"},
       s.poisson);
+  v.number({"shear_strength", "MPa", 0, 1e3,
+            "interfacial shear strength against clean skin at 15 % RH; 0: the finger's, on glass",
+            Source::Choice, "polyethylene 2.5 MPa (Briscoe and Tabor 1978)"},
+           s.shear_strength);
 }
 
 double Drive::rms_of_peak() const {

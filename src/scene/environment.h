@@ -66,6 +66,7 @@ struct Surface {
   double refractive_index = 1.46;
   double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid
   double poisson = 0.4;  // theirs
+  double shear_strength = 0;  // against clean skin at 15 % RH [Pa]; 0: that of the finger, on glass
 
   double equivalent_thickness() const;     // sum of d/eps [m]
   double dielectric_thickness() const;     // of all layers [m]
