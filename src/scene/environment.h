@@ -64,8 +64,8 @@ struct Surface {
   double step_coverage = 0;          // of directional layers: side wall / top
   double electrode_edge_radius = 0;  // convex edges under walls [m]; 0: none stated
   double refractive_index = 1.46;
-  double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid
-  double poisson = 0.4;  // theirs
+  double modulus = 0;         // Young's modulus of compliant features (particles); 0: rigid
+  double poisson = 0.4;       // theirs
   double shear_strength = 0;  // against clean skin at 15 % RH [Pa]; 0: that of the finger, on glass
 
   double equivalent_thickness() const;     // sum of d/eps [m]
