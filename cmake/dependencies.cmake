@@ -27,3 +27,5 @@ find_path(NLOPT_INCLUDE_DIR nlopt.hpp REQUIRED)
 add_library(NLopt::nlopt_cxx UNKNOWN IMPORTED)
 set_target_properties(NLopt::nlopt_cxx PROPERTIES IMPORTED_LOCATION ${NLOPT_CXX_LIBRARY}
                       INTERFACE_INCLUDE_DIRECTORIES ${NLOPT_INCLUDE_DIR})
+find_package(Threads REQUIRED)
+pkg_check_modules(httplib REQUIRED IMPORTED_TARGET cpp-httplib)

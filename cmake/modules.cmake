@@ -58,8 +58,8 @@ function(papilla_library name)
   target_link_libraries(papilla_inside INTERFACE ${name} papilla_headers)
 endfunction()
 
-# papilla_embed(module OUT name file ...): each file becomes `extern const std::string_view name` in namespace papilla.
-function(papilla_embed module out)
+# papilla_embed(module room OUT name file ...): each file becomes `extern const std::string_view name` in namespace papilla::room.
+function(papilla_embed module room out)
   set(spec "")
   set(files "")
   while(ARGN)
@@ -70,7 +70,7 @@ function(papilla_embed module out)
   list(JOIN spec "|" spec)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${out}.cpp)
   add_custom_command(OUTPUT ${source} VERBATIM
-    COMMAND ${CMAKE_COMMAND} -DOUT=${source} "-DSPEC=${spec}" -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
+    COMMAND ${CMAKE_COMMAND} -DOUT=${source} -DROOM=${room} "-DSPEC=${spec}" -P ${CMAKE_SOURCE_DIR}/cmake/embed.cmake
     DEPENDS ${files} ${CMAKE_SOURCE_DIR}/cmake/embed.cmake)
   target_sources(${module} PRIVATE ${source})
 endfunction()

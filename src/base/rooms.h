@@ -102,12 +102,16 @@ using namespace measure;
 using namespace fabricate;
 using namespace cases;
 }  // namespace report
-// All of them, for those who stand above: the program, the library's public face, the tests.
+// All of them but the page, for those who stand above: the program, the library's public face, the
+// tests.
 namespace rooms {
 using namespace report;
 }
-namespace cli {
+namespace studio {
 using namespace rooms;
+}
+namespace cli {
+using namespace studio;
 }
 namespace tests {
 using namespace cli;

@@ -10,6 +10,7 @@ namespace papilla::cli {
 
 void add_optimize(Command app, Context& context);
 void add_evaluate(Command app, Context& context);
+void add_studio(Command app, Context& context);
 void add_rank(Command app, Context& context);
 void add_explain(Command app, Context& context);
 void add_export(Command app, Context& context);
@@ -39,6 +40,7 @@ void add_solve_haze(Command solve, Context& context);
 inline constexpr std::array kCommands{
     add_optimize,
     add_evaluate,
+    add_studio,
     add_rank,
     add_explain,
     add_export,

@@ -79,7 +79,7 @@ class PatchSolver {
                       ? 1
                       : 1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
 
-  UndrivenPatch undriven(const PatchStates& start) const {
+  UndrivenPatch undriven(const PatchStates& start, const ContactSolution* known = nullptr) const {
     const Scene& scene = *problem_.scene;
     const Grid& grid = plan_.grid;
     UndrivenPatch patch;
@@ -87,7 +87,12 @@ class PatchSolver {
     out.load = problem_.pressure * grid.area();
     patch.water.grid = grid;
 
-    patch.dry = contact({}, start.dry.pressure.empty() ? nullptr : &start.dry, out);
+    if (known) {
+      patch.dry = *known;
+      note_contact(patch.dry, out);
+    } else {
+      patch.dry = contact({}, start.dry.pressure.empty() ? nullptr : &start.dry, out);
+    }
     if (patch.dry.gap.empty()) return patch;
     out.area_dry = area(patch.dry);
     const Gap gap{grid, patch.dry.gap};
@@ -174,9 +179,13 @@ class PatchSolver {
         *problem_.kernel, problem_.height, problem_.pressure * softness_, traction, options, start);
     ++out.costs.contact_solves;
     out.costs.fft_pairs += solution.fft_pairs;
+    note_contact(solution, out);
+    return solution;
+  }
+
+  static void note_contact(const ContactSolution& solution, PatchResult& out) {
     out.certificate = std::max(out.certificate, solution.certificate);
     if (!solution.converged()) out.status.note({Trouble::ContactUnsolved, 0, solution.reason});
-    return solution;
   }
 
   // The state expected under tractions: the one without them and the pressures that the same
@@ -316,6 +325,11 @@ class PatchSolver {
 UndrivenPatch undriven_patch(const PatchProblem& problem, const Plan& plan,
                              const Fidelity& fidelity, const PatchStates& start) {
   return PatchSolver(problem, plan, fidelity).undriven(start);
+}
+
+UndrivenPatch wet_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                        const ContactSolution& dry) {
+  return PatchSolver(problem, plan, fidelity).undriven({}, &dry);
 }
 
 PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,

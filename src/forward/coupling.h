@@ -51,6 +51,9 @@ struct PatchStates {
 // start: of a nearby humidity. A dry solution without a gap has failed; the status says why.
 UndrivenPatch undriven_patch(const PatchProblem& problem, const Plan& plan,
                              const Fidelity& fidelity, const PatchStates& start);
+// The same on a dry contact that is solved already: another water on it.
+UndrivenPatch wet_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
+                        const ContactSolution& dry);
 // The patch under the drive of its scene. fields: filled when not null.
 PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         const UndrivenPatch& undriven, PatchFields* fields = nullptr);

@@ -6,6 +6,8 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "base/watch.h"
+#include "forward/kept_patches.h"
 #include "forward/patch_setup.h"
 #include "forward/point.h"
 #include "forward/scene_terms.h"
@@ -17,13 +19,17 @@ namespace {
 class SkinRun {
  public:
   SkinRun(const PatchSetup& setup, const PatchSet& set,
-          const std::vector<std::shared_ptr<const ContactKernel>>& kernels, int k)
+          const std::vector<std::shared_ptr<const ContactKernel>>& kernels, int k,
+          KeptPatches::Skin* kept)
       : setup_(setup),
         set_(set),
         kernels_(kernels),
-        height_(setup.height(setup.skin(k))),
+        kept_(kept),
+        height_(kept && kept->contact ? kept->height : setup.height(setup.skin(k))),
         members_(setup.water_members(k)),
-        start_(set.bridges[0].pressures().size()) {}
+        start_(set.bridges[0].pressures().size()) {
+    if (kept) kept->height = height_;
+  }
 
   PatchResult at(std::size_t i) {
     const ScaleBridge& bridge = set_.bridges[i];
@@ -34,8 +40,9 @@ class SkinRun {
       for (const WaterMember& member : members_) {
         PatchProblem problem = setup_.problem(height_, *kernels_[i], humidity, pressure, member);
         problem.field_correction = set_.field[i].correction;
-        of_water.push_back(
-            solve_patch(problem, setup_.plan(), setup_.fidelity(), start_[patches.size()]));
+        PatchStates& start = start_[patches.size()];
+        of_water.push_back(kept_ ? solve_kept(problem, start)
+                                 : solve_patch(problem, setup_.plan(), setup_.fidelity(), start));
       }
       patches.push_back(over_water(of_water));
     }
@@ -43,9 +50,27 @@ class SkinRun {
   }
 
  private:
+  // The patch that comes next in the order of the run, from what is kept of it.
+  PatchResult solve_kept(const PatchProblem& problem, PatchStates& start) {
+    const bool is_new = next_ == kept_->patches.size();
+    if (is_new) kept_->patches.emplace_back();
+    UndrivenPatch& patch = kept_->patches[next_++];
+    if (!kept_->water || is_new) {
+      patch = kept_->contact && !is_new
+                  ? wet_patch(problem, setup_.plan(), setup_.fidelity(), patch.dry)
+                  : undriven_patch(problem, setup_.plan(), setup_.fidelity(), start);
+    } else {
+      patch.result.costs = {};  // of the run before
+    }
+    start.dry = patch.dry.gap.empty() ? ContactSolution() : patch.dry;
+    return drive_patch(problem, setup_.plan(), setup_.fidelity(), patch);
+  }
+
   const PatchSetup& setup_;
   const PatchSet& set_;
   const std::vector<std::shared_ptr<const ContactKernel>>& kernels_;
+  KeptPatches::Skin* kept_;
+  std::size_t next_ = 0;  // of the kept patches
   std::vector<double> height_;
   std::vector<WaterMember> members_;
   std::vector<PatchStates> start_;  // one per patch pressure
@@ -80,8 +105,10 @@ void PatchSet::add(const PatchSet& other) {
   seconds += other.seconds;
 }
 
-PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                       const FieldRatios& field) {
+namespace {
+
+PatchSet solved(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                const FieldRatios& field, KeptPatches* kept) {
   const auto begin = std::chrono::steady_clock::now();
   const PatchSetup setup(scene, texture, fidelity);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
@@ -97,16 +124,32 @@ PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelit
   }
   set.results.assign(humidities.size(),
                      std::vector<PatchResult>(static_cast<std::size_t>(fidelity.skins)));
+  if (kept) kept->begin(setup);
+  const Watch* const watch = Watch::current();
   parallel_for(
       fidelity.skins,
       [&](int k) {
-        SkinRun run(setup, set, kernels, k);
-        for (std::size_t i = 0; i < humidities.size(); ++i)
+        SkinRun run(setup, set, kernels, k, kept ? &kept->skin(k) : nullptr);
+        for (std::size_t i = 0; i < humidities.size(); ++i) {
+          if (watch) watch->before_piece();  // between patches, not only between skins
           set.results[i][static_cast<std::size_t>(k)] = run.at(i);
+        }
       },
       fidelity.threads);
+  if (kept) kept->end();
   set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return set;
+}
+
+}  // namespace
+
+PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+                       const FieldRatios& field) {
+  return solved(scene, texture, fidelity, field, nullptr);
+}
+
+PatchSet KeptPatches::solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  return solved(scene, texture, fidelity, {}, this);
 }
 
 Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set) {

@@ -22,6 +22,7 @@ double offset_share(int k, bool second) {
 PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelity& fidelity)
     : scene_(in_its_state(scene)),
       fidelity_(fidelity),
+      texture_(texture),
       plan_(make_plan(scene_, texture, fidelity)),
       surface_(generate(texture, plan_.grid), film_of(scene_)),
       body_(compliant_body(scene_.surface, surface_.height)) {

@@ -29,6 +29,7 @@ class PatchSetup {
   const CoveredSurface& surface() const { return surface_; }
   const Heightmap& texture() const { return surface_.height; }
   const CompliantBody& body() const { return body_; }
+  const Texture& described() const { return texture_; }
 
   // Skin k of the fidelity: common to every design, because its modes are keyed by integer index.
   Heightmap skin(int k) const;
@@ -44,6 +45,7 @@ class PatchSetup {
  private:
   Scene scene_;
   Fidelity fidelity_;
+  Texture texture_;
   Plan plan_;
   CoveredSurface surface_;
   CompliantBody body_;

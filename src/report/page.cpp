@@ -15,13 +15,14 @@
 #include "geometry/texture.h"
 #include "report/markup.h"
 #include "report/page_data.h"
+#include "report/page_parts.h"
 #include "report/ranking.h"
 #include "search/pick.h"
 
 namespace papilla::report {
 
-// The files of src/report/page and the two libraries, embedded at build time.
-extern const std::string_view kPageHtml, kPageStyle, kPageScript, kChartScript, kThreeScript;
+// The files of src/report/page that no other page has, embedded at build time.
+extern const std::string_view kPageHtml, kPageScript;
 extern const std::string_view kOptimizeHtml, kOptimizeScript, kRankHtml, kRankScript;
 extern const std::string_view kCalibrateHtml, kCalibrateScript;
 
@@ -41,6 +42,31 @@ std::string without_scripts(const fs::path& folder) {
   return "<noscript><style>main > section, nav, .choice, #lead, #facts { display: none; "
          "}</style>\n" +
          text + "</noscript>\n";
+}
+
+// Modules as one script: what they take of each other is there already, what they give stays
+// inside.
+std::string joined(const std::vector<std::string_view>& modules) {
+  constexpr std::string_view kGives = "export ";
+  std::string out;
+  for (const std::string_view module : modules) {
+    for (std::size_t begin = 0; begin < module.size();) {
+      const std::size_t end = std::min(module.find('\n', begin), module.size() - 1) + 1;
+      std::string_view line = module.substr(begin, end - begin);
+      if (line.starts_with(kGives)) line.remove_prefix(kGives.size());
+      if (!line.starts_with("import ")) out += line;
+      begin = end;
+    }
+  }
+  return out;
+}
+
+// The plots of all pages; only a page with a solid has the one for that.
+std::string plots(bool solid) {
+  std::vector<std::string_view> modules{kLookModule, kNumbersModule, kTablesModule,
+                                        kMapsModule, kChartsModule,  kCurvesModule};
+  if (solid) modules.push_back(kSolidModule);
+  return joined(modules);
 }
 
 // One kind of page: what it holds beside the common frame.
@@ -63,6 +89,7 @@ std::string page_text(const fs::path& folder, std::string title, const PageKind&
   // below it, of what is shown without scripts.
   put("{{script}}", kind.script);
   put("{{common}}", kPageScript);
+  put("{{plots}}", plots(!kind.solid.empty()));
   put("{{data}}", script_text(data.dump()));
   put("{{three}}", kind.solid);
   put("{{chart}}", kChartScript);

@@ -127,32 +127,42 @@ Json design_json(const fs::path& folder, bool with_flat) {
   return out;
 }
 
+Json shape_json(const Texture& texture) {
+  const Heightmap h = generate(texture, patch_grid(texture, kPicturePixels));
+  Json out{{"heights", picture_json(h.grid, h.z)}};
+  if (Json section = section_json(texture); !section.is_null()) out["section"] = std::move(section);
+  return out;
+}
+
+Json maps_json(const Design& design, const Fidelity& fidelity, double relative_humidity) {
+  const PatchPicture patch =
+      picture_patch(scene_of(design), design.texture, fidelity, relative_humidity);
+  const Grid& grid = patch.texture.grid;
+  Json maps = Json::array();
+  const auto add = [&](const char* name, const char* unit, double scale,
+                       std::vector<double> values) {
+    if (values.size() != grid.size()) return;
+    for (double& v : values) v *= scale;
+    Json map = picture_json(grid, values);
+    map["name"] = name;
+    map["unit"] = unit;
+    maps.push_back(std::move(map));
+  };
+  add("gap, drive off", "nm", 1e9, patch.fields.off.gap);
+  add("contact pressure, drive off", "MPa", 1e-6, patch.fields.off.pressure);
+  if (design.drive.driven()) {
+    add("contact pressure, drive on", "MPa", 1e-6, patch.fields.on.pressure);
+    add("pull of the field", "MPa", 1e-6, patch.fields.pull.value);
+  }
+  const auto& water = patch.fields.wetting_off.bridged;
+  add("water that bridges the gap", "", 1, std::vector<double>(water.begin(), water.end()));
+  return {{"relative_humidity", relative_humidity}, {"maps", maps}};
+}
+
 Json field_json(const Design& design) {
   Json out = Json::array();
-  for (const double humidity : design.environment.relative_humidity) {
-    const PatchPicture patch =
-        picture_patch(scene_of(design), design.texture, fidelity_of(design), humidity);
-    const Grid& grid = patch.texture.grid;
-    Json maps = Json::array();
-    const auto add = [&](const char* name, const char* unit, double scale,
-                         std::vector<double> values) {
-      if (values.size() != grid.size()) return;
-      for (double& v : values) v *= scale;
-      Json map = picture_json(grid, values);
-      map["name"] = name;
-      map["unit"] = unit;
-      maps.push_back(std::move(map));
-    };
-    add("gap, drive off", "nm", 1e9, patch.fields.off.gap);
-    add("contact pressure, drive off", "MPa", 1e-6, patch.fields.off.pressure);
-    if (design.drive.driven()) {
-      add("contact pressure, drive on", "MPa", 1e-6, patch.fields.on.pressure);
-      add("pull of the field", "MPa", 1e-6, patch.fields.pull.value);
-    }
-    const auto& water = patch.fields.wetting_off.bridged;
-    add("water that bridges the gap", "", 1, std::vector<double>(water.begin(), water.end()));
-    out.push_back({{"relative_humidity", humidity}, {"maps", maps}});
-  }
+  for (const double humidity : design.environment.relative_humidity)
+    out.push_back(maps_json(design, fidelity_of(design), humidity));
   return out;
 }
 

@@ -19,7 +19,13 @@ nlohmann::ordered_json picture_json(const Grid& grid, const std::vector<double>&
 // and the surface without texture.
 nlohmann::ordered_json design_json(const std::filesystem::path& folder, bool with_flat);
 
-// Gap, pressure, pull and water of one patch at each humidity. Cost: these patches.
+// {"heights", "section"}: what the pictures of a texture are made of.
+nlohmann::ordered_json shape_json(const Texture& texture);
+
+// Gap, pressure, pull and water of one patch at a humidity. Cost: that patch.
+nlohmann::ordered_json maps_json(const Design& design, const Fidelity& fidelity,
+                                 double relative_humidity);
+// The same at each humidity, at the design's own accuracy.
 nlohmann::ordered_json field_json(const Design& design);
 
 // Name, size and digest of every file of a folder but the page itself, the lock, and clock times.

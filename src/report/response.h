@@ -14,8 +14,9 @@ std::string response_table(const Response& response);
 // {"schema": 1, "points": [...], "summary": {...}, "plan": {...}, "seconds", "contact_solves",
 // "fft_pairs"}: fidelity.grid counts pixels along fidelity.window, plan.grid is the patch as run;
 // SI units, fractions for percentages, null never NaN.
-// with_time = false leaves the clock out, for files that must be reproducible.
-std::string response_json(const Response& response, bool with_time = true);
+// with_time = false leaves the clock out, for files that must be reproducible. indent < 0: one
+// line.
+std::string response_json(const Response& response, bool with_time = true, int indent = 2);
 
 // Friction (drive off and on) and modulation over humidity with bands of two standard errors.
 std::string response_svg(const Response& response, const std::string& title);

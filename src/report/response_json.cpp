@@ -145,7 +145,7 @@ Json fidelity_json(const Fidelity& f) {
 
 }  // namespace
 
-std::string response_json(const Response& response, bool with_time) {
+std::string response_json(const Response& response, bool with_time, int indent) {
   Json points = Json::array();
   for (const ResponsePoint& p : response.points) points.push_back(point_json(p, response.driven));
   Json out{{"schema", 1},
@@ -164,7 +164,7 @@ std::string response_json(const Response& response, bool with_time) {
   out["fidelity"] = fidelity_json(response.fidelity);
   out["contact_solves"] = response.contact_solves;
   out["fft_pairs"] = json_number(response.fft_pairs);
-  return out.dump(2);
+  return out.dump(indent);
 }
 
 std::string plan_document(const Plan& plan) {

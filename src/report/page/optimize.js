@@ -1,99 +1,4 @@
 // The page of `papilla optimize`.
-// ---- the turnable texture ----
-const solid = { ready: false, radius: 1.13 };
-function startSolid() {
-  const box = $('solid');
-  const probe = document.createElement('canvas');
-  if (!(probe.getContext('webgl') || probe.getContext('experimental-webgl'))) {
-    const p = document.createElement('p');
-    p.textContent = 'This browser draws no 3-D graphics; the picture from above shows the same heights.';
-    box.appendChild(p);
-    return;
-  }
-  solid.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-  solid.renderer.setClearColor(ink('tint'));
-  solid.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-  box.appendChild(solid.renderer.domElement);
-  solid.scene = new THREE.Scene();
-  solid.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 20);
-  solid.scene.add(new THREE.AmbientLight(0xffffff, 0.45));
-  const light = new THREE.DirectionalLight(0xffffff, 0.75);
-  light.position.set(1.2, 2, 0.6);
-  solid.scene.add(light);
-  solid.turn = new THREE.Group();
-  solid.tilt = new THREE.Group();
-  solid.tilt.add(solid.turn);
-  solid.scene.add(solid.tilt);
-  solid.turn.rotation.y = 0.5;
-  let from = null;
-  box.addEventListener('pointerdown', (e) => { from = [e.clientX, e.clientY]; box.setPointerCapture(e.pointerId); });
-  box.addEventListener('pointermove', (e) => {
-    if (!from) return;
-    solid.turn.rotation.y += (e.clientX - from[0]) * 0.01;
-    solid.tilt.rotation.x = Math.min(0.7, Math.max(-0.7, solid.tilt.rotation.x + (e.clientY - from[1]) * 0.006));
-    from = [e.clientX, e.clientY];
-    render();
-  });
-  ['pointerup', 'pointercancel'].forEach((name) => box.addEventListener(name, () => { from = null; }));
-  window.addEventListener('resize', render);
-  solid.ready = true;
-}
-function render() {
-  if (!solid.ready) return;
-  const box = $('solid'), w = box.clientWidth, h = box.clientHeight;
-  solid.renderer.setSize(w, h);
-  solid.camera.aspect = w / h;
-  // As far off as the texture fits in, however it is turned: its corners go round in a circle.
-  const away = solid.radius / (Math.tan(solid.camera.fov / 2 * Math.PI / 180) * Math.min(1, w / h));
-  solid.camera.position.set(0, 0.614 * away, 0.789 * away);
-  solid.camera.lookAt(0, -0.05, 0);
-  solid.camera.updateProjectionMatrix();
-  solid.renderer.render(solid.scene, solid.camera);
-}
-function showSolid(map) {
-  const values = decode(map), span = map.high - map.low;
-  const stretch = span > 0 ? Math.min(Math.max(roundLength(0.12 * map.lx / span), 1), 1000) : 1;
-  $('stretch').textContent = stretch;
-  if (!solid.ready) return;
-  while (solid.turn.children.length) {
-    const old = solid.turn.children[0];
-    solid.turn.remove(old);
-    old.geometry.dispose();
-    old.material.dispose();
-  }
-  const { nx, ny } = map, unit = 1.6 / Math.max(map.lx, map.ly), positions = [], tints = [], index = [];
-  for (let y = 0; y < ny; ++y) {
-    for (let x = 0; x < nx; ++x) {
-      const z = values[y * nx + x];
-      positions.push(((x + 0.5) / nx - 0.5) * map.lx * unit, (z - map.high) * stretch * unit, ((y + 0.5) / ny - 0.5) * map.ly * unit);
-      colour(span > 0 ? (z - map.low) / span : 0.5).forEach((v) => tints.push(v / 255));
-      if (x + 1 < nx && y + 1 < ny) {
-        const a = y * nx + x;
-        index.push(a, a + nx, a + 1, a + 1, a + nx, a + nx + 1);
-      }
-    }
-  }
-  solid.radius = 0.5 * unit * Math.hypot(map.lx, map.ly);
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
-  geometry.setAttribute('color', new THREE.Float32BufferAttribute(tints, 3));
-  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(index), 1));
-  geometry.computeVertexNormals();
-  solid.turn.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide })));
-  render();
-}
-
-// Without the part of the finger's parameters, which moves all designs together.
-const ownError = (q) => Math.sqrt(Math.max(0, q.se * q.se - Math.pow(q.parts.parameters || 0, 2)));
-function curve(name, points, tint, dash) {
-  const at = points.filter((p) => p.modulation).map((p) => ({ x: 100 * p.relative_humidity, y: p.modulation.value, se: ownError(p.modulation) }));
-  const common = { borderColor: tint, backgroundColor: tint, pointRadius: 0, borderWidth: 0, tension: 0 };
-  return [
-    Object.assign({}, common, { label: name, data: at, borderWidth: 2.5, pointRadius: 3.5, borderDash: dash || [] }),
-    Object.assign({}, common, { band: true, label: name + ' +', data: at.map((p) => ({ x: p.x, y: p.y + 2 * p.se })) }),
-    Object.assign({}, common, { band: true, label: name + ' −', data: at.map((p) => ({ x: p.x, y: p.y - 2 * p.se })), fill: '-1', backgroundColor: tint + '2b' }),
-  ];
-}
 // Mean over fingers; they share their skins, so errors add linearly.
 function meanPoints(tasks, key) {
   const lists = tasks.map((t) => t[key]).filter(Boolean);
@@ -113,25 +18,7 @@ function showHumidity() {
   const sets = curve(label(state.design), pick(tasks, 'points') || [], colours[0]);
   const flat = pick(flats, 'flat');
   if (flat) sets.push(...curve('flat', flat, faint.flat, [6, 4]));
-  draw('humidity', {
-    type: 'line',
-    data: { datasets: sets },
-    options: {
-      parsing: false,
-      interaction: { mode: 'nearest', axis: 'x', intersect: false },
-      scales: { x: axis('relative humidity [%]', { type: 'linear' }), y: axis('modulation ΔF/F_off', { min: 0 }) },
-      plugins: {
-        legend: { labels: { filter: (item, all) => !all.datasets[item.datasetIndex].band } },
-        tooltip: {
-          filter: (item) => !item.dataset.band,
-          callbacks: {
-            title: (items) => items.length ? items[0].parsed.x + ' % RH' : '',
-            label: (item) => `${item.dataset.label}: ${item.raw.y.toFixed(3)} ± ${item.raw.se.toFixed(3)}`,
-          },
-        },
-      },
-    },
-  });
+  draw('humidity', overHumidity(sets, 'modulation ΔF/F_off', { min: 0 }));
 }
 
 const finalists = csv(data.pareto), history = csv(data.history);
@@ -276,20 +163,7 @@ function showProgress() {
   });
 }
 
-function showMaps(index) {
-  const box = $('maps');
-  box.textContent = '';
-  data.fields[index].maps.forEach((map) => {
-    const figure = document.createElement('figure'), canvas = document.createElement('canvas'), caption = document.createElement('figcaption');
-    canvas.className = 'map';
-    caption.textContent = map.name + (map.unit ? ' [' + map.unit + ']' : '');
-    figure.append(canvas, caption);
-    box.appendChild(figure);
-    const root = map.name.includes('pressure');
-    if (root) caption.textContent += ', colours by the square root';
-    drawMap(canvas, map, map.unit, 1, undefined, root);
-  });
-}
+const showMaps = (index) => mapFigures($('maps'), data.fields[index].maps);
 
 // The build sheet of the best design; other designs have their dimensions alone.
 function showDimensions(d) {
@@ -313,23 +187,10 @@ function showSteps() {
 }
 
 function showDesign() {
-  const d = data.designs[state.design], map = d.heights, values = decode(map);
+  const d = data.designs[state.design], map = d.heights, row = lowestRow(map);
   showSolid(map);
-  let row = 0, low = Infinity;
-  for (let y = 0; y < map.ny; ++y) {
-    let sum = 0;
-    for (let x = 0; x < map.nx; ++x) sum += values[y * map.nx + x];
-    if (sum < low - 1e-15) [row, low] = [y, sum];
-  }
   drawMap($('top'), map, 'nm', 1e9, row);
-  // Along the middle of a feature on its own fine pixels where the texture is a lattice, else along the row.
-  const fine = d.section && decode(d.section), n = fine ? d.section.nx : map.nx, line = [];
-  for (let x = 0; x < n; ++x) line.push({ x: (x + 0.5) * map.lx / n * 1e6, y: (fine ? fine[x] : values[row * map.nx + x]) * 1e9 });
-  draw('section', {
-    type: 'line',
-    data: { datasets: [{ label: 'height', data: line, borderColor: colours[0], backgroundColor: colours[0] + '22', fill: 'start', pointRadius: 0, borderWidth: 2 }] },
-    options: { parsing: false, plugins: { legend: { display: false } }, scales: { x: axis('along the section [µm]', { type: 'linear', max: map.lx * 1e6, min: 0 }), y: axis('height [nm]') } },
-  });
+  draw('section', alongLine(heightLine(map, d.section, row), map.lx * 1e6));
   showDimensions(d);
   const flat = data.designs.best.flat;
   // The difference has an error of its own: both met the same skins, droplets and grids.

@@ -1,0 +1,44 @@
+#include "forward/kept_patches.h"
+
+#include "base/check.h"
+
+namespace papilla::forward {
+namespace {
+
+// The drive acts last, on contact and water as they are; so does the film that it acts through.
+Scene before_drive(Scene scene) {
+  scene.drive = {};
+  scene.surface.dielectric.clear();
+  scene.surface.process = {};
+  scene.surface.step_coverage = 0;
+  scene.surface.electrode_edge_radius = 0;
+  return scene;
+}
+
+Scene before_water(Scene scene) {
+  scene = before_drive(std::move(scene));
+  scene.surface.contact_angle = 0;
+  return scene;
+}
+
+}  // namespace
+
+void KeptPatches::begin(const PatchSetup& setup) {
+  const Fidelity& fidelity = setup.fidelity();
+  PAPILLA_CHECK(fidelity.estimator == Estimator::Load, "patches are kept for the load estimator");
+  const Key contact{before_water(setup.scene()), setup.described(), fidelity};
+  const Key water{before_drive(setup.scene()), setup.described(), fidelity};
+  const bool same_contact = whole_ && contact_ && *contact_ == contact;
+  const bool same_water = same_contact && water_ && *water_ == water;
+  held_ = same_water ? Held::Water : same_contact ? Held::Contact : Held::Nothing;
+  if (!same_contact) skins_.assign(static_cast<std::size_t>(fidelity.skins), {});
+  for (Skin& skin : skins_) {
+    skin.contact = same_contact;
+    skin.water = same_water;
+  }
+  contact_ = contact;
+  water_ = water;
+  whole_ = false;
+}
+
+}  // namespace papilla::forward

@@ -1,0 +1,101 @@
+// Pictures of maps: colours, scale bar, range.
+import { ink } from './look.js';
+import { micrometres, round, roundLength } from './numbers.js';
+// Five anchors of a perceptually even scale, dark to bright.
+export const anchors = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+export function colour(t) {
+  const x = Math.min(Math.max(t, 0), 1) * 4, i = Math.min(Math.floor(x), 3), f = x - i;
+  return anchors[i].map((a, k) => Math.round(a + f * (anchors[i + 1][k] - a)));
+}
+export function decode(map) {
+  if (!map.values) {
+    const bytes = atob(map.bytes), span = (map.high - map.low) / 255;
+    map.values = new Float64Array(map.nx * map.ny);
+    for (let i = 0; i < map.values.length; ++i) map.values[i] = map.low + bytes.charCodeAt(i) * span;
+  }
+  return map.values;
+}
+// root: colours by the square root above the least value, for maps that are nearly all zero.
+export function drawMap(canvas, map, unit, scale, line, root) {
+  const values = decode(map), side = 480, height = Math.round(side * map.ly / map.lx);
+  canvas.width = side;
+  canvas.height = height + 46;
+  const pixels = document.createElement('canvas');
+  pixels.width = map.nx;
+  pixels.height = map.ny;
+  const image = new ImageData(map.nx, map.ny), span = map.high - map.low;
+  for (let i = 0; i < values.length; ++i) {
+    const share = span > 0 ? (values[i] - map.low) / span : map.low === 0 ? 0 : 0.5, rgb = colour(root ? Math.sqrt(share) : share);
+    image.data.set([rgb[0], rgb[1], rgb[2], 255], 4 * i);
+  }
+  pixels.getContext('2d').putImageData(image, 0, 0);
+  const c = canvas.getContext('2d');
+  c.fillStyle = ink('paper');
+  c.fillRect(0, 0, canvas.width, canvas.height);
+  c.imageSmoothingEnabled = false;
+  c.drawImage(pixels, 0, 0, side, height);
+  if (line !== undefined) {
+    c.strokeStyle = '#fff';
+    c.setLineDash([8, 6]);
+    c.beginPath();
+    c.moveTo(0, (line + 0.5) / map.ny * height);
+    c.lineTo(side, (line + 0.5) / map.ny * height);
+    c.stroke();
+    c.setLineDash([]);
+  }
+  const bar = roundLength(map.lx / 3), width = bar / map.lx * side;
+  c.fillStyle = ink('ink');
+  c.fillRect(2, height + 12, width, 5);
+  c.font = '17px sans-serif';
+  c.textBaseline = 'alphabetic';
+  c.fillText(micrometres(bar), 2, height + 38);
+  for (let x = 0; x < 170; ++x) {
+    const rgb = colour(root ? Math.sqrt(x / 169) : x / 169);
+    c.fillStyle = `rgb(${rgb.join()})`;
+    c.fillRect(side - 172 + x, height + 9, 1, 10);
+  }
+  c.fillStyle = ink('ink');
+  c.textAlign = 'left';
+  c.fillText(round(map.low * scale), side - 172, height + 38);
+  c.textAlign = 'right';
+  c.fillText(round(map.high * scale) + ' ' + unit, side - 2, height + 38);
+  c.textAlign = 'left';
+  canvas.onmousemove = (event) => {
+    const x = Math.floor(event.offsetX / canvas.clientWidth * map.nx);
+    const y = Math.floor(event.offsetY / canvas.clientHeight * canvas.height / height * map.ny);
+    canvas.title = x >= 0 && x < map.nx && y >= 0 && y < map.ny
+      ? `${round(values[y * map.nx + x] * scale)} ${unit} at ${micrometres((x + 0.5) * map.lx / map.nx)}, ${micrometres((y + 0.5) * map.ly / map.ny)}` : '';
+  };
+}
+// Each map as a figure with its name.
+export function mapFigures(box, maps) {
+  box.textContent = '';
+  maps.forEach((map) => {
+    const figure = document.createElement('figure'), canvas = document.createElement('canvas'), caption = document.createElement('figcaption');
+    canvas.className = 'map';
+    caption.textContent = map.name + (map.unit ? ' [' + map.unit + ']' : '');
+    figure.append(canvas, caption);
+    box.appendChild(figure);
+    const root = map.name.includes('pressure');
+    if (root) caption.textContent += ', colours by the square root';
+    drawMap(canvas, map, map.unit, 1, undefined, root);
+  });
+}
+// The row of a map of heights that goes through the middle of its holes: the one with the least sum.
+export function lowestRow(map) {
+  const values = decode(map);
+  let row = 0, low = Infinity;
+  for (let y = 0; y < map.ny; ++y) {
+    let sum = 0;
+    for (let x = 0; x < map.nx; ++x) sum += values[y * map.nx + x];
+    if (sum < low - 1e-15) [row, low] = [y, sum];
+  }
+  return row;
+}
+// Heights along a line [µm, nm]: through the middle of a feature on its own fine pixels where there is such a section, else
+// along a row of the map.
+export function heightLine(map, section, row) {
+  const fine = section && decode(section), values = decode(map), n = fine ? section.nx : map.nx, line = [];
+  for (let x = 0; x < n; ++x) line.push({ x: (x + 0.5) * map.lx / n * 1e6, y: (fine ? fine[x] : values[row * map.nx + x]) * 1e9 });
+  return line;
+}

@@ -1,0 +1,243 @@
+#include "studio/evaluator.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <exception>
+
+#include "base/watch.h"
+#include "forward/forward.h"
+#include "metrics/metrics.h"
+
+namespace papilla::studio {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kStill{350};  // without a wish, before refining begins
+constexpr std::size_t kMostKnown = 24;            // designs whose answers are kept
+constexpr int kGivesWay = 2;                      // niceness of refining
+
+Fidelity fidelity_of_step(const Design& design, Step step) {
+  Fidelity out = fidelity_level(step == Step::First ? "search" : name_of(step));
+  out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
+  if (step == Step::Design && design.accuracy.grid > 0) out.grid = design.accuracy.grid;
+  return out;
+}
+
+// The design that the text of a page cannot change: its title says nothing about the answer.
+Design untitled(Design design) {
+  design.title.clear();
+  return design;
+}
+
+}  // namespace
+
+const char* name_of(Step step) {
+  switch (step) {
+    case Step::First:
+      return "search";
+    case Step::Draft:
+      return "draft";
+    case Step::Design:
+      return "design";
+  }
+  return "";
+}
+
+Evaluator::Evaluator(Listener listener) : listener_(std::move(listener)) {
+  first_ = std::thread([this] { answer_first(); });
+  finer_ = std::thread([this] { refine_while_idle(); });
+}
+
+Evaluator::~Evaluator() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+    stop_refining_ = true;
+  }
+  changed_.notify_all();
+  first_.join();
+  finer_.join();
+}
+
+void Evaluator::wish(Wish wish) {
+  wish.design = untitled(std::move(wish.design));
+  for (auto& [number, design] : wish.pinned) design = untitled(std::move(design));
+  {
+    const std::lock_guard lock(mutex_);
+    wish.number = ++wishes_;
+    asked_at_[wish.revision] = Clock::now().time_since_epoch().count();
+    wanted_ = std::move(wish);
+    stop_refining_ = true;
+  }
+  changed_.notify_all();
+}
+
+bool Evaluator::outdated(const Wish& wish) const {
+  return closing_ || !wanted_ || wanted_->number != wish.number;
+}
+
+Evaluator::Known& Evaluator::known(const Design& design) {
+  const auto at = std::find_if(known_.begin(), known_.end(),
+                               [&](const Known& k) { return k.design == design; });
+  if (at != known_.end()) {
+    std::rotate(at, at + 1, known_.end());
+  } else {
+    if (known_.size() >= kMostKnown) known_.erase(known_.begin());
+    known_.push_back({design, {}});
+  }
+  return known_.back();
+}
+
+void Evaluator::answer_first() {
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] {
+      return closing_ || (wanted_ && (!answered_ || answered_->number != wanted_->number));
+    });
+    if (closing_) return;
+    const Wish wish = *wanted_;
+    const std::map<Step, Response> before = known(wish.design).by_step;
+    const auto anchor = anchor_;
+    lock.unlock();
+    try {
+      if (!before.empty()) {  // an undo, a pin: the finest that is known
+        tell(wish, before.rbegin()->first, before.rbegin()->second);
+      } else {
+        const Scene scene = scene_of(wish.design);
+        const Fidelity fidelity = fidelity_of_step(wish.design, Step::First);
+        const Response search =
+            respond(scene, fidelity, kept_.solve(scene, wish.design.texture, fidelity));
+        {
+          const std::lock_guard again(mutex_);
+          known(wish.design).by_step[Step::First] = search;
+        }
+        tell(wish, Step::First, first_answer(search, wish.design, anchor));
+      }
+      listener_.shape(wish.revision, wish.design);
+    } catch (const std::exception& error) {
+      listener_.failed(wish.revision, error.what());
+    }
+    lock.lock();
+    answered_ = wish;
+    changed_.notify_all();
+  }
+}
+
+void Evaluator::refine_while_idle() {
+  // What is refined waits for what is under the hand; its helpers inherit this.
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kGivesWay);
+  std::unique_lock lock(mutex_);
+  while (true) {
+    changed_.wait(lock, [&] {
+      return closing_ || (answered_ && !outdated(*answered_) && refined_ != answered_->number);
+    });
+    if (closing_) return;
+    const Wish wish = *answered_;
+    if (changed_.wait_for(lock, kStill, [&] { return outdated(wish); })) continue;
+    stop_refining_ = false;
+    lock.unlock();
+    bool whole = true;
+    try {
+      const Watch watch({}, &stop_refining_);
+      refine(wish);
+    } catch (const WorkStopped&) {
+      whole = false;
+    } catch (const std::exception& error) {
+      listener_.failed(wish.revision, error.what());
+    }
+    lock.lock();
+    if (whole) refined_ = wish.number;
+  }
+}
+
+void Evaluator::refine(const Wish& wish) {
+  listener_.look(wish.revision, wish.design);
+  for (const Step step : {Step::Draft, Step::Design}) {
+    refine_to(wish, wish.design, step, name_of(step));
+    for (const auto& [number, design] : wish.pinned)
+      refine_to(wish, design, step, "pinned design, " + std::string(name_of(step)));
+  }
+  listener_.refining(wish.revision, "", 1);
+}
+
+// Whether anything had to be done.
+bool Evaluator::refine_to(const Wish& wish, const Design& design, Step step,
+                          const std::string& what) {
+  std::map<Step, Response> before;
+  {
+    const std::lock_guard lock(mutex_);
+    before = known(design).by_step;
+  }
+  if (before.count(step)) return false;
+  const Scene scene = scene_of(design);
+  listener_.refining(wish.revision, what, 0);
+  if (!before.count(Step::First)) {
+    before[Step::First] = evaluate(scene, design.texture, fidelity_of_step(design, Step::First));
+    const std::lock_guard lock(mutex_);
+    known(design).by_step[Step::First] = before[Step::First];
+  }
+  Response response = evaluate(scene, design.texture, fidelity_of_step(design, step));
+  {
+    const std::lock_guard lock(mutex_);
+    known(design).by_step[step] = response;
+    if (design == wish.design) anchor_ = Anchor{design, before[Step::First], response};
+  }
+  if (design == wish.design) {
+    tell(wish, step, std::move(response));
+  } else {
+    std::unique_lock lock(mutex_);
+    const std::map<Step, Response> own = known(wish.design).by_step;
+    lock.unlock();
+    if (const auto at = own.find(step); at != own.end()) tell(wish, step, at->second);
+  }
+  return true;
+}
+
+std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
+  constexpr std::array kMetrics{"mean(modulation)", "worst(modulation)", "variation(modulation)",
+                                "mean(friction)"};
+  const std::lock_guard lock(mutex_);
+  std::vector<Comparison> out;
+  for (const auto& [number, design] : wish.pinned) {
+    const std::map<Step, Response> pinned = known(design).by_step;
+    const auto theirs = pinned.find(step);
+    const std::map<Step, Response> here = known(wish.design).by_step;
+    const auto ours = here.find(step);
+    if (theirs == pinned.end() || ours == here.end()) continue;
+    for (const char* metric : kMetrics) {
+      const MetricExpression expression = parse_metric(metric);
+      const auto a = summarise(expression.summary, expression.metric, ours->second);
+      const auto b = summarise(expression.summary, expression.metric, theirs->second);
+      if (!a || !b) continue;
+      out.push_back(
+          {number, metric, a->value - b->value,
+           difference_error(error_samples(expression.summary, expression.metric, ours->second),
+                            error_samples(expression.summary, expression.metric, theirs->second))});
+    }
+  }
+  return out;
+}
+
+void Evaluator::tell(const Wish& wish, Step step, Response shown) {
+  Answer answer{wish.revision, step, std::move(shown), 0, comparisons(wish, step), {}};
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto at = asked_at_.find(wish.revision); at != asked_at_.end()) {
+      answer.seconds =
+          1e-9 * static_cast<double>(Clock::now().time_since_epoch().count() - at->second);
+      asked_at_.erase(asked_at_.begin(), at);
+    }
+    for (const auto& [number, design] : wish.pinned) {
+      const std::map<Step, Response>& steps = known(design).by_step;
+      if (!steps.empty()) answer.pinned[number] = steps.rbegin()->second;
+    }
+  }
+  listener_.answer(answer);
+}
+
+}  // namespace papilla::studio

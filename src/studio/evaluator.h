@@ -1,0 +1,100 @@
+// Answers while the hand moves: the newest wish at once, then finer while nothing moves.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/rooms.h"
+#include "design/design.h"
+#include "forward/kept_patches.h"
+#include "forward/response.h"
+#include "studio/first_answer.h"
+
+namespace papilla::studio {
+
+struct Wish {
+  std::uint64_t revision = 0;
+  Design design;
+  std::map<int, Design> pinned;  // by their numbers
+  std::uint64_t number = 0;      // of the wish; the evaluator's own count
+};
+
+// Finer and finer.
+enum class Step { First, Draft, Design };
+const char* name_of(Step step);  // "search", "draft", "design"
+
+// A pinned design beside the one at hand: common skins, a paired error.
+struct Comparison {
+  int pin = 0;
+  std::string metric;  // "mean(modulation)"
+  double difference = 0;
+  std::optional<double> error;
+};
+
+struct Answer {
+  std::uint64_t revision = 0;
+  Step step = Step::First;
+  Response response;
+  double seconds = 0;                   // from the wish on
+  std::vector<Comparison> comparisons;  // with pins of the same step
+  std::map<int, Response> pinned;       // the finest known of each
+};
+
+struct Listener {
+  std::function<void(const Answer&)> answer;
+  std::function<void(std::uint64_t revision, const Design&)> shape, look;
+  std::function<void(std::uint64_t revision, const std::string& what, double share)> refining;
+  std::function<void(std::uint64_t revision, const std::string& why)> failed;
+};
+
+// Two threads: one for first answers, one that refines (its priority is lower, and it ends within a
+// patch when a wish comes). A first answer is never broken off: it is what the hand waits for, and
+// the page sends the next position when it is there.
+class Evaluator {
+ public:
+  explicit Evaluator(Listener listener);  // called from both threads, one call at a time each
+  ~Evaluator();
+  Evaluator(const Evaluator&) = delete;
+  Evaluator& operator=(const Evaluator&) = delete;
+
+  void wish(Wish wish);
+
+ private:
+  struct Known {  // of one design
+    Design design;
+    std::map<Step, Response> by_step;
+  };
+
+  void answer_first();
+  void refine_while_idle();
+  void refine(const Wish& wish);
+  bool refine_to(const Wish& wish, const Design& design, Step step, const std::string& what);
+  void tell(const Wish& wish, Step step, Response shown);
+  Known& known(const Design& design);  // with the lock held
+  std::vector<Comparison> comparisons(const Wish& wish, Step step);
+  bool outdated(const Wish& wish) const;
+
+  Listener listener_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<Wish> wanted_, answered_;  // the newest; the newest that has its first answer
+  std::vector<Known> known_;               // designs used last, at the end
+  std::optional<Anchor> anchor_;
+  std::map<std::uint64_t, std::int64_t> asked_at_;  // by revision [ns]
+  std::uint64_t wishes_ = 0, refined_ = 0;
+  bool closing_ = false;
+  std::atomic<bool> stop_refining_{false};
+  KeptPatches kept_;
+  std::thread first_, finer_;
+};
+
+}  // namespace papilla::studio

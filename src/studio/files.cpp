@@ -1,0 +1,197 @@
+#include "studio/files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/units.h"
+#include "fabricate/formats.h"
+#include "fabricate/verify.h"
+#include "geometry/texture.h"
+#include "report/export.h"
+#include "report/json.h"
+#include "report/page_data.h"
+#include "report/surface.h"
+#include "studio/safety.h"
+
+namespace papilla::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostListed = 200;
+constexpr int kExportPixels = 512;
+
+ScanSource scan_source(const fs::path& file, const std::string& size, bool fill, bool as_is) {
+  const double width = size.empty() ? 0 : parse_si(size, "um");
+  if (width < 0) throw InputError("size: expected a length above 0");
+  return {file.string(), width, fill, as_is};
+}
+
+// A limit that a study set, by its name; nothing: none.
+std::optional<double> limit_of(const Study& study, const std::string& name) {
+  for (const Constraint& c : study.constraints) {
+    if (c.name == name) return c.limit;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Files::Files(fs::path folder) : folder_(fs::weakly_canonical(folder)) {}
+
+Json Files::list() const {
+  Json designs = Json::array(), results = Json::array();
+  std::size_t seen = 0;
+  std::vector<fs::path> names;
+  auto it =
+      fs::recursive_directory_iterator(folder_, fs::directory_options::skip_permission_denied);
+  for (const auto& entry : it) {
+    if (++seen > 20 * kMostListed) break;
+    const fs::path name = entry.path().lexically_relative(folder_);
+    if (entry.path().filename().string().front() == '.' || it.depth() > 3) {
+      if (entry.is_directory()) it.disable_recursion_pending();
+      continue;
+    }
+    names.push_back(name);
+  }
+  std::sort(names.begin(), names.end());
+  for (const fs::path& name : names) {
+    if (designs.size() >= kMostListed) break;
+    if (name.filename() == "run.json") results.push_back(name.parent_path().generic_string());
+    if (name.extension() == ".toml" && name.filename() != "resolved.toml")
+      designs.push_back(name.generic_string());
+  }
+  return {{"folder", folder_.filename().string()}, {"designs", designs}, {"results", results}};
+}
+
+std::string Files::open(const std::string& name) const {
+  const fs::path file = inside(folder_, name);
+  if (file.extension() != ".toml")
+    throw InputError({Problem{name, 0, 0, "", "expected a design file, .toml"}});
+  return file.string();
+}
+
+std::string Files::target(const std::string& name, bool overwrite) const {
+  const fs::path out = inside(folder_, name);
+  if (out.extension() != ".toml")
+    throw InputError({Problem{name, 0, 0, "", "expected a name that ends with .toml"}});
+  if (!overwrite && fs::exists(out)) {
+    throw InputError(
+        {Problem{name, 0, 0, "", "is there already: overwrite it, or choose another name"}});
+  }
+  return out.string();
+}
+
+void Files::save(const Draft& draft, const Study& study, const std::string& file) const {
+  const fs::path target(file);
+  fs::create_directories(target.parent_path());
+  const std::string text = saved_text(draft, target);
+  // Beside its place, as its bases are looked for from there.
+  const fs::path trial =
+      target.parent_path() / fmt::format(".{}.{}.trial", target.stem().string(), ::getpid());
+  Design back;
+  try {
+    write_bytes(trial, text);
+    back = read_study(trial).design;
+  } catch (...) {
+    fs::remove(trial);
+    throw;
+  }
+  fs::remove(trial);
+  if (!changes_between(back, study.design).empty())
+    throw InputError({Problem{file, 0, 0, changes_between(back, study.design).front().path,
+                              "the file would not read back to this design; save it under a new "
+                              "name"}});
+  write_bytes(target, text);
+}
+
+Json Files::export_preview(const Study& study) const {
+  const TextureFacts known = facts(study.design.texture);
+  const FabricationMargins& margins = known.margins;
+  const auto row = [&](const char* name, double value, const char* limit_name) {
+    const auto limit = limit_of(study, limit_name);
+    return Json{{"name", name}, {"value", json_number(value)}, {"limit", json_number(limit)}};
+  };
+  ExportOptions options;
+  options.pixels = kExportPixels;
+  options.polarity = Polarity::WhiteDeep;
+  Json formats = Json::array();
+  for (const ExportFormat& f : chosen_formats(study.design.texture, options))
+    formats.push_back({{"name", f.name}, {"file", f.file}, {"holds", f.holds}});
+  return {{"margins",
+           {row("smallest hole", margins.min_hole, "min_hole"),
+            row("smallest wall", margins.min_wall, "min_wall")}},
+          {"aspect_ratio",
+           {{"value", json_number(margins.aspect_ratio)},
+            {"limit", json_number(limit_of(study, "aspect_ratio"))}}},
+          {"formats", formats}};
+}
+
+Json Files::export_files(const Study& study, const std::string& name) const {
+  const fs::path folder = inside(folder_, name);
+  ExportOptions options;
+  options.pixels = kExportPixels;
+  options.polarity = Polarity::WhiteDeep;
+  const Export made = export_with_record(study, options, folder.string());
+  const ExportRecord record = record_of(study, options, made);
+  ExportVerdict verdict;
+  verdict.files = verify_files(record, made);
+  constexpr double kTolerance = 0.05;
+  verdict.felt = verify_export(record, kTolerance);
+  Json out = Json::parse(export_json(study, options, made, name, verdict));
+  out["sound"] = verdict.sound();
+  out["words"] = verdict_text(verdict);
+  out["folder"] = name;
+  return out;
+}
+
+Json Files::keep_scan(const std::string& name, const std::string& bytes) const {
+  const fs::path file = inside(folder_, "scans/" + name);
+  const std::string kind = file.extension().string();
+  if (kind != ".npy" && kind != ".gsf" && kind != ".exr" && kind != ".tif")
+    throw InputError({Problem{name, 0, 0, "", "expected a map of heights: .npy .gsf .exr .tif"}});
+  fs::create_directories(file.parent_path());
+  write_bytes(file, bytes);
+  return {{"name", file.lexically_relative(folder_).generic_string()}, {"bytes", bytes.size()}};
+}
+
+Json Files::scan_view(const std::string& name, const std::string& size, bool fill,
+                      bool as_is) const {
+  const fs::path file = inside(folder_, name);
+  const SurfaceView view = view_of(scan_source(file, size, fill, as_is), 0);
+  Json out = Json::parse(surface_json(view));
+  out["words"] = text(file.filename().string(), view.scan.changes);
+  out["heights"] = picture_json(view.scan.map.grid, view.scan.map.z);
+  out["scan"]["file"] = name;
+  out["section"].erase("heights");
+  return out;
+}
+
+Draft Files::with_scan(const Draft& draft, const std::string& name, const std::string& size,
+                       bool fill, bool as_is) const {
+  const fs::path file = inside(folder_, name);
+  Draft out = draft;
+  std::erase_if(out.changes, [](const Change& c) { return c.path.starts_with("texture."); });
+  const ScanSource source = scan_source(file, size, fill, as_is);
+  out.changes.push_back({"texture.type", "measured"});
+  out.changes.push_back({"texture.file", "\"" + file.string() + "\""});
+  if (source.width > 0)
+    out.changes.push_back({"texture.width", format_quantity(source.width, "um")});
+  if (fill) out.changes.push_back({"texture.fill", "true"});
+  if (as_is) out.changes.push_back({"texture.as_is", "true"});
+  const Heightmap map = read_scan(source).map;
+  // The whole map where it is small, else a square of it that takes no longer than another texture.
+  constexpr double kLargestPatch = 24e-6;
+  out.changes.push_back(
+      {"texture.patch",
+       format_quantity(std::min({map.grid.lx, map.grid.ly, kLargestPatch}), "um")});
+  return out;
+}
+
+}  // namespace papilla::studio

@@ -1,0 +1,50 @@
+// A design as a form: each key with its value, unit, range, source, and the line of the file that
+// it comes from; and what a page may write into it.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "config/reader.h"
+#include "design/study.h"
+
+namespace papilla::studio {
+
+enum class KeyType { Number, Numbers, Integer, Flag, Choice, Text, Path };
+
+struct FormKey {
+  std::string path;  // "texture.depth"
+  KeyType type = KeyType::Number;
+  std::string value;  // as people write it: "350 nm"
+  std::string unit, doc, source, reference;
+  double shown = 0, low = 0, high = 0;  // Number, Integer: in the unit
+  std::vector<std::string> choices;
+};
+
+// Every key of a design, in the order of its sections.
+std::vector<FormKey> form_keys(const Design& design);
+
+// A key set to a text, as `--set` takes it: "texture.depth=262 nm".
+struct Change {
+  std::string path, text;
+
+  std::string setting() const { return path + "=" + text; }
+  bool operator==(const Change&) const = default;
+};
+
+// What a page wrote, as a setting that can only be a value of that key. Throws InputError for a key
+// that the form has not and for what is no value of its type. Files are not set so.
+Change checked_change(const std::vector<FormKey>& keys, const std::string& path,
+                      const std::string& text);
+
+// The settings that make one design of another; a new kind of texture comes first.
+std::vector<Change> changes_between(const Design& from, const Design& to);
+
+// The form for the page: {"keys": [...], "kinds": [...]}. opened: the design that sliders take
+// their ranges from; variables: those of the study.
+nlohmann::ordered_json form_json(const Study& study, const Design& opened,
+                                 const std::vector<Change>& changes);
+
+}  // namespace papilla::studio

@@ -1,0 +1,263 @@
+#include "studio/http.h"
+
+#include <fmt/format.h>
+#include <httplib.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "base/error.h"
+
+namespace papilla::studio {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Of the library's own socket streams none counts the time of a whole request: a client that sends
+// a byte a second would hold its thread for hours.
+class TimedStream final : public httplib::Stream {
+ public:
+  TimedStream(int socket, std::chrono::seconds each) : socket_(socket), each_(each) { begin(); }
+
+  void begin() { deadline_ = Clock::now() + each_; }
+
+  bool is_readable() const override { return wait(POLLIN); }
+  bool is_writable() const override { return wait(POLLOUT); }
+  ssize_t read(char* to, std::size_t size) override {
+    if (used_ == filled_) {
+      if (!is_readable()) return -1;
+      const ssize_t got = ::recv(socket_, buffer_, sizeof buffer_, 0);
+      if (got <= 0) return got;
+      used_ = 0;
+      filled_ = static_cast<std::size_t>(got);
+    }
+    const std::size_t count = std::min(size, filled_ - used_);
+    std::copy_n(buffer_ + used_, count, to);
+    used_ += count;
+    return static_cast<ssize_t>(count);
+  }
+  // What is written has its time from now on: an answer, an event.
+  ssize_t write(const char* from, std::size_t size) override {
+    begin();
+    if (!is_writable()) return -1;
+    return ::send(socket_, from, size, MSG_NOSIGNAL);
+  }
+  void get_remote_ip_and_port(std::string& ip, int& port) const override {
+    ip = "127.0.0.1";
+    port = 0;
+  }
+  void get_local_ip_and_port(std::string& ip, int& port) const override {
+    get_remote_ip_and_port(ip, port);
+  }
+  socket_t socket() const override { return socket_; }
+
+  // Another request begins within this time.
+  bool next(std::chrono::seconds idle) {
+    if (used_ < filled_) return true;
+    deadline_ = Clock::now() + idle;
+    const bool more = is_readable();
+    begin();
+    return more;
+  }
+
+ private:
+  bool wait(short what) const {
+    if (what == POLLIN && used_ < filled_) return true;
+    const auto left =
+        std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
+    if (left <= 0) return false;
+    pollfd asked{socket_, what, 0};
+    return ::poll(&asked, 1, static_cast<int>(left)) > 0 && !(asked.revents & POLLNVAL);
+  }
+
+  int socket_;
+  std::chrono::seconds each_;
+  Clock::time_point deadline_;
+  char buffer_[4096];
+  std::size_t used_ = 0, filled_ = 0;
+};
+
+thread_local bool turned_away = false;
+
+// A thread each for so many connections; one more is closed unread.
+class BoundedQueue final : public httplib::TaskQueue {
+ public:
+  explicit BoundedQueue(int most) : most_(most), pool_(static_cast<std::size_t>(most)) {}
+
+  void enqueue(std::function<void()> work) override {
+    if (++running_ > most_) {
+      turned_away = true;
+      work();
+      turned_away = false;
+      --running_;
+      return;
+    }
+    pool_.enqueue([this, work = std::move(work)] {
+      work();
+      --running_;
+    });
+  }
+  void shutdown() override { pool_.shutdown(); }
+
+ private:
+  int most_;
+  std::atomic<int> running_{0};
+  httplib::ThreadPool pool_;
+};
+
+class BoundedServer final : public httplib::Server {
+ public:
+  explicit BoundedServer(const Limits& limits) : limits_(limits) {
+    new_task_queue = [this] { return new BoundedQueue(limits_.connections); };
+    set_payload_max_length(limits.body);
+    set_tcp_nodelay(true);
+  }
+
+ private:
+  bool process_and_close_socket(socket_t socket) override {
+    constexpr int kRequests = 10000;  // of one connection
+    TimedStream stream(socket, limits_.request);
+    bool closed = turned_away;
+    for (int left = kRequests; left > 0 && !closed; --left) {
+      if (svr_sock_ == INVALID_SOCKET || !stream.next(limits_.idle)) break;
+      if (!process_request(stream, left == 1, closed, nullptr)) break;
+    }
+    ::shutdown(socket, SHUT_RDWR);
+    ::close(socket);
+    return true;
+  }
+
+  Limits limits_;
+};
+
+// Nothing from another place, no frame around the page.
+constexpr const char* kPolicy = "Content-Security-Policy";
+constexpr const char* kOwnFilesAlone =
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+constexpr const char* kWholePage =
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+int status_of(Entry entry) { return entry == Entry::WrongToken ? 404 : 403; }
+
+const char* word_of(Entry entry) {
+  switch (entry) {
+    case Entry::WrongHost:
+      return "This address is not the studio's: open the one that papilla studio printed.\n";
+    case Entry::WrongOrigin:
+      return "The page of another site may not use the studio.\n";
+    case Entry::WrongToken:
+      return "Nothing here: open the whole address that papilla studio printed.\n";
+    case Entry::Admitted:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+class HttpServer::Impl {
+ public:
+  Impl(int port, const Limits& limits, Events& events, Handler handler)
+      : limits_(limits), events_(events), handler_(std::move(handler)), server_(limits) {
+    const int got = port > 0 ? (server_.bind_to_port("127.0.0.1", port) ? port : -1)
+                             : server_.bind_to_any_port("127.0.0.1");
+    if (got <= 0) {
+      throw InputError(fmt::format(
+          "--port {}: another program listens there; choose another, or 0 for any", port));
+    }
+    door_ = std::make_unique<Door>(make_token(), got);
+    set_up();
+    thread_ = std::thread([this] { server_.listen_after_bind(); });
+    while (!server_.is_running()) std::this_thread::yield();
+  }
+  ~Impl() { stop(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  void stop() {
+    events_.close();
+    server_.stop();
+    if (thread_.joinable()) thread_.join();
+  }
+  const Door& door() const { return *door_; }
+
+ private:
+  void set_up() {
+    server_.set_post_routing_handler([](const httplib::Request&, httplib::Response& out) {
+      if (!out.has_header(kPolicy)) out.set_header(kPolicy, kOwnFilesAlone);
+      out.set_header("X-Content-Type-Options", "nosniff");
+      out.set_header("Referrer-Policy", "no-referrer");  // no address with a token told to anyone
+      out.set_header("Cross-Origin-Resource-Policy", "same-origin");
+      out.set_header("Cache-Control", "no-store");
+    });
+    server_.set_pre_routing_handler([this](const httplib::Request& request, auto& response) {
+      const Entry entry = door_->judge(sender_of(request));
+      if (entry == Entry::Admitted) return httplib::Server::HandlerResponse::Unhandled;
+      response.status = status_of(entry);
+      response.set_content(word_of(entry), "text/plain");
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    server_.Get("/[0-9a-f]+/events",
+                [this](const httplib::Request&, httplib::Response& out) { stream(out); });
+    const auto answer = [this](const httplib::Request& in, httplib::Response& out) {
+      const bool upload = in.has_param("name");
+      if (in.body.size() > (upload ? limits_.body : limits_.text)) {
+        out.status = 413;
+        return;
+      }
+      const HttpAnswer a = handler_({in.method, door_->below_token(in.path),
+                                     upload ? in.get_param_value("name") : "", in.body});
+      out.status = a.status;
+      if (a.whole_page) out.set_header(kPolicy, kWholePage);
+      out.set_content(a.body, a.type.c_str());
+    };
+    server_.Get("/.*", answer);
+    server_.Post("/.*", answer);
+  }
+
+  static Sender sender_of(const httplib::Request& request) {
+    return {request.path, request.get_header_value("Host"), request.get_header_value("Origin"),
+            request.get_header_value("Sec-Fetch-Site"), request.method != "GET"};
+  }
+
+  void stream(httplib::Response& out) {
+    if (++listeners_ > limits_.listeners) {
+      --listeners_;
+      out.status = 503;
+      return;
+    }
+    out.set_chunked_content_provider(
+        "text/event-stream",
+        [this, seen = std::uint64_t{0}](std::size_t, httplib::DataSink& sink) mutable {
+          constexpr std::chrono::milliseconds kHeartbeat{2000};
+          const std::vector<Message> news = events_.since(seen, kHeartbeat);
+          if (events_.closed()) return false;
+          std::string text = news.empty() ? ":\n\n" : "";  // a page that is gone is noticed
+          for (const Message& message : news)
+            text += fmt::format("event: {}\ndata: {}\n\n", name_of(message.topic), message.text);
+          return sink.write(text.data(), text.size());
+        },
+        [this](bool) { --listeners_; });
+  }
+
+  Limits limits_;
+  Events& events_;
+  Handler handler_;
+  BoundedServer server_;
+  std::unique_ptr<Door> door_;
+  std::atomic<int> listeners_{0};
+  std::thread thread_;
+};
+
+HttpServer::HttpServer(int port, const Limits& limits, Events& events, Handler handler)
+    : impl_(std::make_unique<Impl>(port, limits, events, std::move(handler))) {}
+HttpServer::~HttpServer() = default;
+const Door& HttpServer::door() const { return impl_->door(); }
+void HttpServer::stop() { impl_->stop(); }
+
+}  // namespace papilla::studio

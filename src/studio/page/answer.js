@@ -1,0 +1,107 @@
+// The answer: curves over humidity with their bands, numbers with ±, pinned designs beside each other.
+import { $, colours } from '../plots/look.js';
+import { charts, draw } from '../plots/charts.js';
+import { curve, overHumidity } from '../plots/curves.js';
+import { fixed, round } from '../plots/numbers.js';
+import { table } from '../plots/tables.js';
+import { ask } from './server.js';
+
+const levels = { search: 'first answer', draft: 'draft', design: 'design level' };
+const state = { session: null, answer: null };
+const tint = (i) => colours[2 + i % 4];
+
+function show(id, config) {
+  const chart = charts[id];
+  if (!chart) return draw(id, config);
+  chart.data = config.data;
+  chart.options.scales.y.title.text = config.options.scales.y.title.text;
+  chart.update('none');
+}
+
+export function showAnswer(answer) {
+  state.answer = answer;
+  const r = answer.response, sets = r.points.some((p) => p.modulation) ? curve('this design', r.points, colours[0]) : [];
+  pins().forEach((pin, i) => {
+    const pinned = answer.pinned[pin.number];
+    if (pinned) sets.push(...curve(pin.name, pinned.points, tint(i), [6, 4]));
+  });
+  $('modulationbox').hidden = !sets.length;
+  if (sets.length) show('modulation', overHumidity(sets, 'modulation ΔF/F_off', { min: 0 }));
+  const mn = (key, name, colour, dash) => curve(name, r.points, colour, dash, key, 1e3);
+  show('friction', overHumidity([...mn('F_off', 'drive off', colours[5]), ...mn('F_on', 'drive on', colours[1])], 'friction [mN]', { min: 0 }));
+  $('level').textContent = `${levels[answer.step]} · ${answer.seconds < 10 ? Math.round(1000 * answer.seconds) + ' ms' : round(answer.seconds) + ' s'}`;
+  $('level').title = answer.step === 'search' ? 'Refined while nothing moves; the band says what that may change.' : '';
+  showNumbers(r);
+  showPins();
+  showModel(r.plan);
+  document.documentElement.dataset.step = answer.step;
+  document.documentElement.dataset.revision = answer.revision;
+}
+
+const of = (q, scale = 1, unit = '') => q ? `${unit ? round(scale * q.value, 4) : fixed(q.value)} ± ${unit ? round(scale * q.se, 2) : q.se.toFixed(3)}${unit}` : '–';
+function showNumbers(r) {
+  const s = r.summary, rows = [];
+  if (s.mean_modulation) rows.push(['modulation, mean', of(s.mean_modulation)], ['worst', of(s.worst)], ['variation over humidity', of(s.variation)]);
+  rows.push(['friction, drive off, mean', of(s.mean_friction, 1e3, ' mN')]);
+  const margins = r.points.map((p) => p.oxide_margin).filter((v) => v !== null);
+  if (margins.length) rows.push(['breakdown margin of the film', round(Math.min(...margins), 3)]);
+  r.points.filter((p) => p.status !== 'ok').forEach((p) => rows.push([`at ${Math.round(100 * p.relative_humidity)} %`, p.status]));
+  table($('numbers'), null, rows, [1]);
+}
+
+const pins = () => state.session ? state.session.pins : [];
+const words = { 'mean(modulation)': ['modulation', 1, ''], 'worst(modulation)': ['worst', 1, ''], 'variation(modulation)': ['variation', -1, ''], 'mean(friction)': ['friction', 0, ' mN'] };
+// "better by .03 ± .01": the difference has an error of its own, both met the same skins.
+function sentence(c) {
+  const [name, better, unit] = words[c.metric], scale = unit ? 1e3 : 1, d = scale * c.difference, e = c.error === null ? null : scale * c.error;
+  const text = (v) => unit ? round(Math.abs(v), 3) : Math.abs(v).toFixed(3);
+  const sure = e !== null && Math.abs(d) > 2 * e;
+  const word = !sure ? 'not told apart,' : better === 0 ? (d > 0 ? 'higher by' : 'lower by') : d * better > 0 ? 'better by' : 'worse by';
+  const span = document.createElement('span');
+  span.textContent = `${name} ${word} ${sure ? '' : d < 0 ? '−' : '+'}${text(d)}${e === null ? '' : ' ± ' + (unit ? round(e, 2) : e.toFixed(3))}${unit}`;
+  if (sure && better) span.className = d * better > 0 ? 'better' : 'worse';
+  return span;
+}
+function showPins() {
+  const box = $('pins');
+  const focused = document.activeElement && document.activeElement.dataset && document.activeElement.dataset.pin;
+  box.textContent = '';
+  pins().forEach((pin, i) => {
+    const row = document.createElement('div'), top = document.createElement('div'), name = document.createElement('strong'), swatch = document.createElement('span'), tools = document.createElement('div'), line = document.createElement('p');
+    row.className = 'pinned';
+    top.className = 'top';
+    tools.className = 'tools';
+    swatch.className = 'swatch';
+    swatch.style.borderColor = tint(i);
+    name.textContent = pin.name;
+    [['Open', 'take'], ['Unpin', 'unpin']].forEach(([text, what]) => {
+      const b = document.createElement('button');
+      b.textContent = text;
+      b.setAttribute('aria-label', `${text} ${pin.name}`);
+      b.dataset.pin = what + pin.number;
+      b.addEventListener('click', () => ask(what, { pin: pin.number }));
+      tools.append(b);
+    });
+    top.append(swatch, name, tools);
+    const found = state.answer ? state.answer.comparisons.filter((c) => c.pin === pin.number && words[c.metric]) : [];
+    if (found.length) line.append('this design: ');
+    else line.textContent = 'compared as soon as both are known at one level';
+    found.slice(0, 4).forEach((c, k) => line.append(...(k ? [' · '] : []), sentence(c)));
+    row.append(top, line);
+    box.append(row);
+  });
+  if (focused) {
+    const again = box.querySelector(`[data-pin="${focused}"]`);
+    if (again) again.focus();
+  }
+}
+export function showSessionPins(session) {
+  state.session = session;
+  showPins();
+}
+
+function showModel(plan) {
+  const error = (v) => v ? round(100 * v, 2) + ' %' : '';
+  table($('skipped'), ['Not modelled', 'Why', 'Of friction'], plan.skipped.map((s) => [s.piece, s.reason, s.bound ? (s.estimate ? 'about ' : 'at most ') + error(s.bound) : '']), [2]);
+  table($('modelled'), ['Modelled', 'How', 'Error'], plan.steps.map((s) => [s.piece, s.method, error(s.error)]), [2]);
+}

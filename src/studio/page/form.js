@@ -1,0 +1,209 @@
+// The form: one row a key, sliders that answer under the hand, kinds of texture as pictures.
+import { $ } from '../plots/look.js';
+import { colour, decode } from '../plots/maps.js';
+import { round } from '../plots/numbers.js';
+import { ask, notice, post } from './server.js';
+
+// What people try first; everything else is one step away.
+const first = (k) => k.path.startsWith('texture.') || ['surface.contact_angle', 'surface.dielectric.0.thickness', 'surface.process', 'drive.amplitude', 'drive.frequency', 'drive.waveform', 'finger.load', 'finger.state'].includes(k.path);
+const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finger: 'Finger', environment: 'Air', view: 'Look', model: 'Model', accuracy: 'Accuracy' };
+const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
+export const people = (text) => text.replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
+const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg');
+
+const rows = {};
+let gesture = 1, shape = '';
+
+// ---- sending: the newest position counts, the next goes out when the one before is drawn ----
+const wait = { busy: false, next: null, timer: 0 };
+export const latency = { events: [], done: [] };
+let asked = [];  // { revision, times } that wait to be drawn
+
+function send(path, value, time) {
+  if (wait.busy) {
+    const times = wait.next && wait.next.path === path ? wait.next.times : [];
+    if (wait.next && wait.next.path !== path) deliver(wait.next);
+    wait.next = { path, value, step: gesture, times: times.concat(time) };
+    return;
+  }
+  deliver({ path, value, step: gesture, times: [time] });
+}
+async function deliver(change) {
+  wait.busy = true;
+  clearTimeout(wait.timer);
+  wait.timer = setTimeout(release, 1500);
+  const row = rows[change.path];
+  try {
+    const { revision } = await post('set', { path: change.path, value: change.value, step: change.step });
+    notice('');
+    if (row) row.box.classList.remove('wrong');
+    asked.push({ revision, times: change.times });
+    if (latest >= revision) drawn(latest);
+  } catch (error) {
+    notice(`${called(change.path)}: ${error.message}`);
+    if (row) row.box.classList.add('wrong');
+    release();
+  }
+}
+function release() {
+  wait.busy = false;
+  const next = wait.next;
+  wait.next = null;
+  if (next) deliver(next);
+}
+let latest = 0;
+// The curve of this revision is on the screen.
+export function drawn(revision) {
+  latest = Math.max(latest, revision);
+  const now = performance.now(), ready = asked.filter((a) => a.revision <= latest);
+  if (!ready.length) return;
+  asked = asked.filter((a) => a.revision > latest);
+  ready.forEach((a) => a.times.forEach((t) => latency.done.push(now - t)));
+  clearTimeout(wait.timer);
+  release();
+}
+
+// ---- one key ----
+const position = (k, v) => k.slider.log ? Math.log(v / k.slider.low) / Math.log(k.slider.high / k.slider.low) : (v - k.slider.low) / (k.slider.high - k.slider.low || 1);
+const valueAt = (k, share) => k.slider.log ? k.slider.low * Math.pow(k.slider.high / k.slider.low, share) : k.slider.low + share * (k.slider.high - k.slider.low);
+const withUnit = (k, v) => k.type === 'integer' ? String(Math.round(v)) : `${round(v, 3)}${k.unit ? ' ' + k.unit : ''}`;
+
+function element(tag, className, text) {
+  const e = document.createElement(tag);
+  if (className) e.className = className;
+  if (text !== undefined) e.textContent = text;
+  return e;
+}
+function input(k, row) {
+  if (k.type === 'choice' || k.type === 'flag') {
+    const select = element('select');
+    (k.choices || ['true', 'false']).forEach((c) => select.add(new Option(c.replace(/_/g, ' '), c)));
+    select.addEventListener('change', () => { ++gesture; send(k.path, select.value, performance.now()); });
+    return select;
+  }
+  const text = element('input', k.type === 'numbers' ? 'list' : '');
+  text.type = 'text';
+  text.autocomplete = 'off';
+  text.spellcheck = false;
+  text.readOnly = k.type === 'path';
+  text.addEventListener('change', () => { ++gesture; send(k.path, machine(text.value), performance.now()); });
+  text.addEventListener('keydown', (e) => { if (e.key === 'Escape') { text.value = people(row.key.value); text.blur(); } });
+  return text;
+}
+function slider(k, row) {
+  const range = element('input');
+  range.type = 'range';
+  range.min = 0;
+  range.max = k.type === 'integer' ? Math.max(1, Math.round(k.slider.high - k.slider.low)) : 400;
+  range.setAttribute('aria-label', `${called(k.path)}, slider`);
+  range.addEventListener('pointerdown', () => { ++gesture; row.held = true; });
+  range.addEventListener('pointerup', () => { row.held = false; });
+  range.addEventListener('change', () => { row.held = false; ++gesture; });
+  range.addEventListener('input', () => {
+    const value = withUnit(row.key, valueAt(row.key, range.value / range.max));
+    row.field.value = people(value);
+    range.setAttribute('aria-valuetext', row.field.value);
+    row.touched = performance.now();
+    send(k.path, value, row.touched);
+  });
+  return range;
+}
+function build(k) {
+  const row = { key: k, held: false, touched: 0 }, box = element('div', 'key'), top = element('div', 'top');
+  const id = 'k-' + k.path.replace(/\W/g, '-'), label = element('label', '', called(k.path));
+  label.htmlFor = id;
+  row.box = box;
+  row.field = input(k, row);
+  row.field.id = id;
+  row.about = element('p', 'about');
+  row.about.id = id + '-about';
+  row.field.setAttribute('aria-describedby', row.about.id);
+  top.append(label);
+  box.append(top);
+  (k.type === 'numbers' || k.type === 'path' || k.type === 'text' ? box : top).append(row.field);
+  if (k.slider) {
+    row.range = slider(k, row);
+    box.append(row.range);
+  }
+  box.append(row.about);
+  rows[k.path] = row;
+  return box;
+}
+function update(k) {
+  const row = rows[k.path];
+  row.key = k;
+  row.box.classList.toggle('changed', k.changed);
+  row.about.textContent = `${k.doc}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;
+  if (k.changed) {
+    const back = element('button', '', 'as the file has it');
+    back.type = 'button';
+    back.addEventListener('click', () => ask('reset', { path: k.path }));
+    row.about.append(back);
+  }
+  // Not what the hand is at.
+  if (row.held || performance.now() - row.touched < 600 || wait.busy && wait.next && wait.next.path === k.path) return;
+  if (document.activeElement !== row.field || row.field.tagName === 'SELECT') row.field.value = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
+  if (row.range) {
+    row.range.value = Math.round(row.range.max * position(k, k.shown));
+    row.range.setAttribute('aria-valuetext', people(k.value));
+  }
+}
+
+// Other rows: another kind of texture, another file.
+function rebuild(keys) {
+  Object.keys(rows).forEach((path) => delete rows[path]);
+  const box = $('keys');
+  box.textContent = '';
+  const group = (into, name, list) => {
+    if (!list.length) return;
+    const g = element('div', 'group');
+    g.append(element('h3', '', name), ...list.map(build));
+    into.append(g);
+  };
+  const editable = keys.filter((k) => k.path !== 'texture.type');
+  Object.entries(sections).forEach(([section, name]) => group(box, name, editable.filter((k) => k.path.startsWith(section + '.') && first(k))));
+  const more = element('details');
+  more.append(element('summary', '', 'All keys'));
+  Object.entries(sections).forEach(([section, name]) => group(more, name, editable.filter((k) => k.path.startsWith(section + '.') && !first(k))));
+  box.append(more);
+}
+
+export function showKinds(kinds) {
+  const box = $('kinds');
+  box.textContent = '';
+  kinds.forEach(({ kind, heights }) => {
+    const button = element('button'), canvas = element('canvas');
+    canvas.width = heights.nx;
+    canvas.height = heights.ny;
+    canvas.setAttribute('aria-hidden', 'true');
+    const values = decode(heights), image = new ImageData(heights.nx, heights.ny), span = heights.high - heights.low;
+    for (let i = 0; i < values.length; ++i) image.data.set([...colour(span > 0 ? (values[i] - heights.low) / span : 0.6), 255], 4 * i);
+    canvas.getContext('2d').putImageData(image, 0, 0);
+    button.type = 'button';
+    button.setAttribute('role', 'radio');
+    button.dataset.kind = kind;
+    button.append(canvas, kind.replace(/_/g, ' '));
+    button.addEventListener('click', () => ask('kind', { kind }));
+    box.append(button);
+  });
+  box.addEventListener('keydown', (e) => {
+    const all = [...box.children], at = all.indexOf(document.activeElement), move = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[e.key];
+    if (!move || at < 0) return;
+    e.preventDefault();
+    all[(at + move + all.length) % all.length].focus();
+  });
+}
+
+export function showForm(session) {
+  const now = session.keys.map((k) => `${k.path}:${k.slider ? [k.slider.low, k.slider.high, k.slider.log] : ''}`).join();
+  const same = Object.keys(rows).length && session.keys.every((k) => k.path === 'texture.type' || rows[k.path]) && shape.split(',').length === now.split(',').length;
+  if (!same) rebuild(session.keys);
+  shape = now;
+  session.keys.forEach((k) => { if (rows[k.path]) update(k); });
+  [...$('kinds').children].forEach((b) => {
+    const chosen = b.dataset.kind === session.kind;
+    b.setAttribute('aria-checked', chosen);
+    b.tabIndex = chosen ? 0 : -1;
+  });
+  if (![...$('kinds').children].some((b) => b.tabIndex === 0) && $('kinds').firstChild) $('kinds').firstChild.tabIndex = 0;
+}

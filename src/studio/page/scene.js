@@ -1,0 +1,93 @@
+// The texture at hand: in three dimensions, from above, in section, and inside its contact.
+import { $ } from '../plots/look.js';
+import { charts, draw } from '../plots/charts.js';
+import { alongLine } from '../plots/curves.js';
+import { drawMap, heightLine, lowestRow, mapFigures } from '../plots/maps.js';
+import { micrometres, round } from '../plots/numbers.js';
+import { showSolid, startSolid } from '../plots/solid.js';
+import { people } from './form.js';
+import { post } from './server.js';
+
+const state = { revision: 0, shown: -1, timer: 0, busy: false };
+
+export function startScene() {
+  startSolid();
+  $('inside').addEventListener('toggle', fetchMaps);
+  $('rh').addEventListener('change', () => { state.shown = -1; fetchMaps(); });
+}
+
+export function showShape(shape) {
+  const map = shape.heights, row = lowestRow(map), line = heightLine(map, shape.section, row);
+  showSolid(map);
+  drawMap($('top'), map, 'nm', 1e9, row);
+  const config = alongLine(line, map.lx * 1e6);
+  if (charts.section) {
+    charts.section.data = config.data;
+    charts.section.options.scales.x.max = map.lx * 1e6;
+    charts.section.update('none');
+  } else {
+    draw('section', config);
+  }
+  document.documentElement.dataset.shape = shape.revision;
+}
+
+function facts(box, rows) {
+  box.textContent = '';
+  rows.filter(Boolean).forEach(([name, value, over]) => {
+    const item = document.createElement('li'), key = document.createElement('span');
+    key.textContent = name;
+    item.append(key, value);
+    if (over) item.className = 'over';
+    box.append(item);
+  });
+}
+
+export function showDimensions(session) {
+  facts($('dimensions'), session.keys.filter((k) => k.path.startsWith('texture.') && k.type === 'number').slice(0, 6)
+    .map((k) => [k.path.replace('texture.', '').replace(/[._]/g, ' '), people(k.value)]));
+  const humidities = (session.keys.find((k) => k.path === 'environment.relative_humidity') || { value: '' }).value.split(',').map((t) => parseFloat(t)).filter(isFinite);
+  const select = $('rh'), now = humidities.join();
+  if (select.dataset.list !== now) {
+    select.dataset.list = now;
+    select.textContent = '';
+    humidities.forEach((h) => select.add(new Option(`${round(h)} %`, h / 100)));
+    if (humidities.length > 1) select.selectedIndex = Math.floor(humidities.length / 2);
+  }
+  state.revision = session.revision;
+  clearTimeout(state.timer);
+  state.timer = setTimeout(fetchMaps, 700);
+}
+
+// One patch with its fields, when the hand rests and somebody looks.
+async function fetchMaps() {
+  if (!$('inside').open || state.busy || state.shown === state.revision) return;
+  state.busy = true;
+  $('maps').classList.add('stale');
+  try {
+    const { maps, revision } = await post('maps', { humidity: +$('rh').value });
+    mapFigures($('maps'), maps);
+    $('maps').querySelectorAll('canvas').forEach((c) => {
+      c.setAttribute('role', 'img');
+      c.setAttribute('aria-label', c.nextSibling.textContent);
+    });
+    state.shown = revision;
+  } catch (error) {
+    $('maps').textContent = error.message;
+  }
+  $('maps').classList.remove('stale');
+  state.busy = false;
+}
+
+export function showLook(look) {
+  const share = (v) => v === null ? '–' : round(100 * v, 3) + ' %';
+  facts($('look'), [
+    ['haze', share(look.haze)],
+    ['transmittance', share(look.transmittance)],
+    ['gloss', share(look.gloss)],
+    look.colour_shift === null ? null : ['colour shift', round(look.colour_shift, 2)],
+    look.min_hole === null ? null : ['smallest hole', micrometres(look.min_hole)],
+    look.min_wall === null ? null : ['smallest wall', micrometres(look.min_wall)],
+    look.aspect_ratio ? ['aspect ratio', round(look.aspect_ratio, 3)] : null,
+    look.warning ? ['', look.warning, true] : null,
+  ]);
+}

@@ -1,0 +1,172 @@
+// The search: what may change and what is wanted, the front as it grows, designs to open.
+import { $, colours, faint } from '../plots/look.js';
+import { around, axis, charts, draw, errorBars } from '../plots/charts.js';
+import { round } from '../plots/numbers.js';
+import { table } from '../plots/tables.js';
+import { people } from './form.js';
+import { ask } from './server.js';
+
+const state = { wish: null, search: null };
+const called = (path) => path.replace(/^[a-z]+\./, '').replace(/[._]/g, ' ');
+const make = (tag, more = {}) => Object.assign(document.createElement(tag), more);
+const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').trim();
+const summaries = ['mean', 'worst', 'variation', 'range', 'std', 'best', 'first', 'last'];
+
+// ---- the wish ----
+export function showWish(wish) {
+  state.wish = wish;
+  const body = $('variables').tBodies[0];
+  body.textContent = '';
+  wish.variables.forEach((v) => {
+    const row = body.insertRow(), name = called(v.path), box = make('input', { type: 'checkbox', checked: v.vary }), low = make('input', { type: 'text', value: people(v.low) }), high = make('input', { type: 'text', value: people(v.high) });
+    box.setAttribute('aria-label', `vary ${name}`);
+    low.setAttribute('aria-label', `${name} from`);
+    high.setAttribute('aria-label', `${name} to`);
+    row.dataset.path = v.path;
+    row.classList.toggle('off', !v.vary);
+    box.addEventListener('change', () => row.classList.toggle('off', !box.checked));
+    [box, name, low, high].forEach((c) => row.insertCell().append(c));
+  });
+  const goals = $('goals');
+  goals.querySelectorAll('.wishline, .add').forEach((e) => e.remove());
+  wish.maximise.forEach((m) => goals.append(goal('maximise', m)));
+  wish.minimise.forEach((m) => goals.append(goal('minimise', m)));
+  goals.append(adder('Add a wish', () => goal('maximise', 'worst(modulation)')));
+  const limits = $('limits');
+  limits.querySelectorAll('.wishline, .add').forEach((e) => e.remove());
+  wish.limits.forEach((l) => limits.append(limit(l)));
+  limits.append(adder('Add a limit', () => limit({ name: wish.known_limits[0].name, limit: '' })));
+  $('evaluations').value = wish.evaluations || '';
+}
+function adder(text, line) {
+  const button = make('button', { type: 'button', className: 'add', textContent: text });
+  button.addEventListener('click', () => { const l = line(); button.before(l); l.querySelector('select').focus(); });
+  return button;
+}
+function select(names, value, label) {
+  const s = make('select');
+  names.forEach((n) => s.add(new Option(n.replace(/_/g, ' '), n)));
+  if (![...s.options].some((o) => o.value === value)) s.add(new Option(value, value));
+  s.value = value;
+  s.setAttribute('aria-label', label);
+  return s;
+}
+function remover(line, what) {
+  const b = make('button', { type: 'button', textContent: '×' });
+  b.setAttribute('aria-label', `remove this ${what}`);
+  b.addEventListener('click', () => line.remove());
+  return b;
+}
+function goal(direction, expression) {
+  const line = make('div', { className: 'wishline goal' }), m = /^(\w+)\((.*)\)$/.exec(expression) || [0, 'mean', expression];
+  line.append(select(['maximise', 'minimise'], direction, 'direction'), select(summaries, m[1], 'over humidity'), select(state.wish.metrics.map((x) => x.name), m[2], 'metric'), remover(line, 'wish'));
+  return line;
+}
+function limit({ name, limit: value }) {
+  const line = make('div', { className: 'wishline limit' }), known = state.wish.known_limits, word = make('span'), text = make('input', { type: 'text', value: people(value), size: 9 });
+  const choice = select(known.map((k) => k.name), name, 'limit on');
+  const say = () => { const k = known.find((x) => x.name === choice.value); word.textContent = k && !k.at_least ? 'at most' : 'at least'; text.placeholder = k ? people(k.unit) : ''; };
+  choice.addEventListener('change', say);
+  text.setAttribute('aria-label', 'limit');
+  say();
+  line.append(choice, word, text, remover(line, 'limit'));
+  return line;
+}
+function wishNow() {
+  const parts = (line) => [...line.querySelectorAll('select')].map((s) => s.value), of = (direction) => [...document.querySelectorAll('.goal')].map(parts).filter((p) => p[0] === direction).map((p) => `${p[1]}(${p[2]})`);
+  return {
+    variables: [...$('variables').tBodies[0].rows].filter((r) => r.querySelector('[type=checkbox]').checked).map((r) => {
+      const [low, high] = [...r.querySelectorAll('[type=text]')].map((t) => machine(t.value));
+      return { path: r.dataset.path, low, high };
+    }),
+    kinds: state.wish.kinds,
+    maximise: of('maximise'),
+    minimise: of('minimise'),
+    limits: [...document.querySelectorAll('.limit')].map((l) => ({ name: l.querySelector('select').value, limit: machine(l.querySelector('input').value) })).filter((l) => l.limit),
+    evaluations: +$('evaluations').value || 0,
+  };
+}
+export function startSearch() {
+  $('wish').addEventListener('submit', (e) => { e.preventDefault(); run('search/start', wishNow()); });
+  $('steer').addEventListener('click', () => run('search/start', Object.assign(wishNow(), { steer: true })));
+  $('pause').addEventListener('click', () => run('search/pause'));
+  $('resume').addEventListener('click', () => run('search/resume'));
+}
+async function run(path, body) {
+  const answer = await ask(path, body);
+  if (answer) showSearch(answer);
+}
+const open = (point) => ask('search/pick', point.front ? { front: point.front } : { evaluation: point.evaluation });
+
+// ---- what it found ----
+const words = { none: '', running: 'running', paused: 'paused', finished: 'finished', failed: 'failed' };
+const stages = { search: 'looks for designs', narrow: 'judges the best again', confirm: 'confirms the finalists', check: 'checks what is said of them' };
+export function showSearch(search) {
+  state.search = search;
+  const running = search.state === 'running';
+  $('searchstate').textContent = words[search.state];
+  $('searchstate').classList.toggle('live', running);
+  $('start').disabled = running;
+  $('pause').disabled = !running;
+  $('resume').disabled = search.state !== 'paused';
+  $('steer').disabled = !running && search.state !== 'paused';
+  $('report').hidden = search.state !== 'finished';
+  if (search.folder) { $('report').href = `report/${search.folder}`; $('report').textContent = 'Report'; }
+  $('progress').hidden = $('frontbox').hidden = !search.folder;
+  if (!search.folder) return;
+  const share = search.total ? Math.min(1, search.done / search.total) : 0;
+  $('bar').style.setProperty('--share', `${100 * share}%`);
+  $('bar').setAttribute('aria-valuenow', Math.round(100 * share));
+  $('stage').textContent = search.state === 'failed' ? search.trouble : `${search.done} of ${search.total} designs` + (running ? `; ${stages[search.stage] || ''}` : '') + `; ${search.folder}`;
+  showFront(search);
+}
+function pointsOf(search) {
+  const [x, y] = search.objectives.map((o) => o.name), second = y || 'worst modulation';
+  const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: y ? p.objectives[1] : i + 1, evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter((p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined);
+  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, values: search.variables.map((v) => `${round(+r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) }));
+  return { searched, confirmed, names: [x, y || 'evaluation'] };
+}
+function showFront(search) {
+  const { searched, confirmed, names } = pointsOf(search), on = new Set(search.front);
+  const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
+  const sets = [
+    { label: 'front so far', data: front, showLine: names[1] !== 'evaluation', borderWidth: 1.5, pointRadius: 5.5, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0], hidden: confirmed.length > 0 },
+    { label: 'searched', data: searched.filter((p) => p.ok && !on.has(p.evaluation)), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
+    { label: 'keeps not every limit', data: searched.filter((p) => !p.ok), pointStyle: 'crossRot', pointRadius: 4, borderColor: faint.dominated, backgroundColor: faint.dominated },
+  ];
+  if (confirmed.length) sets.unshift({ label: 'front, confirmed', data: confirmed, bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[1], backgroundColor: colours[1] });
+  const all = confirmed.length ? confirmed : searched;
+  const scales = { x: axis(names[0], around(all, 'x', 'ex')), y: axis(names[1], around(all, 'y', 'ey')) };
+  if (charts.pareto && charts.pareto.$names === names.join()) {
+    charts.pareto.data.datasets = sets;
+    Object.assign(charts.pareto.options.scales.x, scales.x);
+    Object.assign(charts.pareto.options.scales.y, scales.y);
+    charts.pareto.update('none');
+  } else {
+    draw('pareto', {
+      type: 'scatter',
+      data: { datasets: sets },
+      plugins: [errorBars],
+      options: {
+        scales,
+        onClick: (event, items, chart) => { if (items.length) open(chart.data.datasets[items[0].datasetIndex].data[items[0].index]); },
+        onHover: (event, items) => { event.native.target.style.cursor = items.length ? 'pointer' : ''; },
+        plugins: {
+          legend: { labels: { usePointStyle: true, boxHeight: 7 } },
+          tooltip: { callbacks: { label: (item) => [`${round(item.raw.x, 4)}, ${round(item.raw.y, 4)}`].concat(state.search.variables.map((v, i) => `${called(v.path)} ${people(item.raw.values[i])}`)) } },
+        },
+      },
+    });
+    charts.pareto.$names = names.join();
+  }
+  $('fronthint').textContent = searched.length ? (confirmed.length ? 'Bars: ± one standard error. Points of the search are of a cheaper level: compare them with each other only. ' : 'Searched at a cheap level: the finalists are confirmed at the end. ') + 'Select a point, or Open, to make it the design at hand.' : 'The first designs are on their way.';
+  // The same by keys and for those who hear the page.
+  const list = confirmed.length ? confirmed : front;
+  const body = table($('frontlist'), [''].concat(names[1] === 'evaluation' ? [names[0]] : names, search.variables.map((v) => called(v.path))), list.map((p) => [''].concat(names[1] === 'evaluation' ? [round(p.x, 3)] : [round(p.x, 3), round(p.y, 3)], p.values.map(people))));
+  list.forEach((p, i) => {
+    const button = make('button', { type: 'button', textContent: 'Open' });
+    button.setAttribute('aria-label', `open the design with ${names[0]} ${round(p.x, 3)}`);
+    button.addEventListener('click', () => open(p));
+    body.rows[i].cells[0].append(button);
+  });
+}

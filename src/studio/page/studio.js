@@ -1,0 +1,86 @@
+// The studio: what the server tells goes to the parts of the page, what the hand does goes back.
+import { $ } from '../plots/look.js';
+import { charts } from '../plots/charts.js';
+import { drawn, latency, showForm, showKinds } from './form.js';
+import { showAnswer, showSessionPins } from './answer.js';
+import { exportDialog, openDialog, saveDialog, startFiles, state } from './files.js';
+import { showDimensions, showLook, showShape, startScene } from './scene.js';
+import { showSearch, showWish, startSearch } from './search.js';
+import { ask, listen, notice, post } from './server.js';
+
+let session = null, file = '', kind = '';
+
+function showSession(now) {
+  if (session && now.revision < session.revision) return;
+  session = now;
+  $('title').textContent = now.title || 'Papilla studio';
+  $('file').textContent = now.file + (now.changes.length ? ` · ${now.changes.length} changed` : '');
+  document.title = `${now.title || now.file} · Papilla studio`;
+  $('undo').disabled = !now.undo;
+  $('redo').disabled = !now.redo;
+  showForm(now);
+  showDimensions(now);
+  showSessionPins(now);
+  // Other numbers may vary now.
+  if (file && (file !== now.file || kind !== now.kind)) post('search/propose').then(showWish);
+  [file, kind] = [now.file, now.kind];
+}
+
+function told(answer) {
+  if (session && answer.revision < session.revision && answer.step !== 'search') return;
+  showAnswer(answer);
+  requestAnimationFrame(() => setTimeout(() => drawn(answer.revision)));
+}
+
+function toolbar() {
+  $('undo').addEventListener('click', () => ask('undo'));
+  $('redo').addEventListener('click', () => ask('redo'));
+  $('pin').addEventListener('click', () => ask('pin'));
+  $('open').addEventListener('click', openDialog);
+  $('save').addEventListener('click', () => saveDialog(session));
+  $('export').addEventListener('click', () => exportDialog(session));
+  document.addEventListener('keydown', (e) => {
+    const typing = ['INPUT', 'SELECT', 'TEXTAREA'].includes(e.target.tagName) && e.target.type !== 'range' && e.target.type !== 'checkbox';
+    if ($('dialog').open) return;
+    if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === 'z' && !typing) { e.preventDefault(); ask(e.shiftKey ? 'redo' : 'undo'); }
+    else if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === 's') { e.preventDefault(); saveDialog(session); }
+    else if (e.key.toLowerCase() === 'p' && !typing && !e.ctrlKey && !e.metaKey && !e.altKey) ask('pin');
+  });
+  const choose = document.querySelector('.link');
+  choose.addEventListener('keydown', (e) => { if (e.key === 'Enter' || e.key === ' ') { e.preventDefault(); $('scanfile').click(); } });
+}
+
+function refinement({ revision, what }) {
+  if (!session || revision < session.revision) return;
+  $('status').textContent = what ? `refining: ${what}` : '';
+  document.documentElement.dataset.idle = what ? 'no' : 'yes';
+}
+
+async function begin() {
+  startScene();
+  startSearch();
+  startFiles();
+  toolbar();
+  const all = await state();
+  $('version').textContent = all.version;
+  showKinds(all.kinds);
+  showSession(all.session);
+  showWish(all.wish);
+  showSearch(all.search);
+  listen({
+    session: showSession,
+    shape: showShape,
+    response: told,
+    look: showLook,
+    refinement,
+    search: showSearch,
+    notice: (n) => notice(n.error),
+  }, (on) => {
+    document.documentElement.dataset.connected = on;
+    if (!on) $('status').textContent = 'the studio does not answer; trying again …';
+    else if ($('status').textContent.startsWith('the studio')) $('status').textContent = '';
+  });
+  window.papilla = { charts, latency, session: () => session };
+  document.documentElement.dataset.ready = 'yes';
+}
+begin().catch((error) => notice(error.message));

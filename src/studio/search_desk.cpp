@@ -1,0 +1,345 @@
+#include "studio/search_desk.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "optim/journal.h"
+#include "optim/pareto.h"
+#include "report/json.h"
+
+namespace papilla::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::chrono::milliseconds kLook{300};  // between two looks at the journal
+constexpr int kGivesWay = 19;                    // niceness of a search: the hand comes first
+
+const char* name_of(SearchState state) {
+  switch (state) {
+    case SearchState::None:
+      return "none";
+    case SearchState::Running:
+      return "running";
+    case SearchState::Paused:
+      return "paused";
+    case SearchState::Finished:
+      return "finished";
+    case SearchState::Failed:
+      return "failed";
+  }
+  return "";
+}
+
+const char* stage_name(Stage stage) {
+  switch (stage) {
+    case Stage::Search:
+    case Stage::Draft:
+      return "search";
+    case Stage::Narrow:
+      return "narrow";
+    case Stage::Confirm:
+      return "confirm";
+    default:
+      return "check";
+  }
+}
+
+// Starts a program that ends with this thread, however that ends. Between fork and exec only what
+// POSIX allows in a process of several threads.
+int started(const std::vector<std::string>& words, const std::string& log) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  const pid_t parent = ::getpid();
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+  ::setpgid(0, 0);
+  ::setpriority(PRIO_PROCESS, 0, kGivesWay);
+  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  const int nothing = ::open("/dev/null", O_RDONLY);
+  ::dup2(nothing, 0);
+  ::dup2(out, 1);
+  ::dup2(out, 2);
+  constexpr int kFirst = 3, kLast = 1024;
+  for (int fd = kFirst; fd < kLast; ++fd) ::close(fd);  // sockets of the pages
+  ::execv(argv[0], argv.data());
+  ::_exit(127);
+}
+
+std::string last_lines(const std::string& path) {
+  constexpr std::size_t kMost = 600;
+  std::error_code none;
+  if (!fs::exists(path, none)) return "";
+  const std::string text = read_bytes(path);
+  return text.size() > kMost ? text.substr(text.size() - kMost) : text;
+}
+
+Json csv_rows(const std::string& text) {
+  Json out = Json::array();
+  std::vector<std::string> head;
+  for (const std::string& line : split(text, '\n')) {
+    if (line.empty()) continue;
+    const std::vector<std::string> cells = split(line, ',');
+    if (head.empty()) {
+      head = cells;
+      continue;
+    }
+    Json row = Json::object();
+    for (std::size_t i = 0; i < std::min(head.size(), cells.size()); ++i) row[head[i]] = cells[i];
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+}  // namespace
+
+SearchDesk::SearchDesk(fs::path folder, std::string program, std::function<void()> told)
+    : folder_(folder / "searches"), program_(std::move(program)), told_(std::move(told)) {
+  find_last();
+  thread_ = std::thread([this] { watch(); });
+}
+
+SearchDesk::~SearchDesk() {
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+fs::path SearchDesk::place() const { return folder_ / fmt::format("{:03}", number_); }
+
+// The newest of the folder, as it was left.
+void SearchDesk::find_last() {
+  std::error_code none;
+  if (!fs::exists(folder_, none)) return;
+  for (const auto& entry : fs::directory_iterator(folder_, none)) {
+    if (fs::exists(entry.path() / "study.toml", none))
+      number_ = std::max(number_, std::atoi(entry.path().filename().c_str()));
+  }
+  if (number_ == 0) return;
+  try {
+    begin_reading();
+    state_ = fs::exists(place() / "run.json", none) ? SearchState::Finished : SearchState::Paused;
+  } catch (const InputError& error) {
+    state_ = SearchState::Failed;
+    trouble_ = error.what();
+  }
+}
+
+void SearchDesk::begin_reading() {
+  present_ = std::make_unique<const Present>((place() / "study.toml").string());
+  total_ = search_problem(present_->problem).evaluations;
+  found_.clear();
+  read_ = 0;
+  stage_ = "search";
+  trouble_.clear();
+  read_journal();
+}
+
+// What was appended since; whether there was something.
+bool SearchDesk::read_journal() {
+  std::ifstream in(place() / "journal", std::ios::binary);
+  if (!in) return false;
+  in.seekg(static_cast<std::streamoff>(read_));
+  bool news = false;
+  for (std::string line; std::getline(in, line);) {
+    if (in.eof()) break;  // still being written
+    read_ += line.size() + 1;
+    JournalRecord record;
+    if (!parse_journal_line(line, record)) continue;
+    const auto request = decode_request(record.key);
+    if (!request) continue;
+    news = true;
+    stage_ = stage_name(request->stage);
+    if (request->stage != Stage::Search) continue;
+    if (const auto judgement = decode_judgement(record.payload))
+      found_.push_back({request->unit, *judgement});
+  }
+  return news;
+}
+
+void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish& wish,
+                       bool steer) {
+  std::unique_lock lock(mutex_);
+  if (state_ == SearchState::Running) {
+    if (!steer) throw InputError("a search is running: pause it, or steer it");
+    stop_child(lock);
+  }
+  const int next = number_ + 1;
+  const fs::path folder = folder_ / fmt::format("{:03}", next);
+  fs::create_directories(folder);
+  const std::string file = (folder / "study.toml").string();
+  try {
+    write_bytes(file, study_text(study, wish));
+    const Present judged(file);  // refuses what cannot be judged
+    Json changes = Json::array();
+    for (const Change& c : origin.changes) changes.push_back({c.path, c.text});
+    write_bytes((folder / "origin.json").string(),
+                Json{{"file", origin.file}, {"changes", changes}}.dump(1));
+  } catch (...) {
+    fs::remove_all(folder);
+    throw;
+  }
+  number_ = next;
+  begin_reading();
+  launch(false);
+}
+
+// Asks the desk's thread, with which a search ends; with the lock held.
+void SearchDesk::launch(bool again) {
+  state_ = SearchState::Running;
+  again_ = again;
+  wants_child_ = true;
+  changed_.notify_all();
+}
+
+void SearchDesk::stop_child(std::unique_lock<std::mutex>& lock) {
+  if (child_ > 0) ::kill(child_, SIGTERM);
+  wants_child_ = false;
+  changed_.wait(lock, [&] { return child_ < 0 || closing_; });
+}
+
+void SearchDesk::pause() {
+  std::unique_lock lock(mutex_);
+  if (state_ != SearchState::Running) throw InputError("no search is running");
+  stop_child(lock);
+  if (state_ == SearchState::Running) state_ = SearchState::Paused;
+}
+
+void SearchDesk::resume() {
+  const std::lock_guard lock(mutex_);
+  if (state_ != SearchState::Paused) throw InputError("no search is paused");
+  launch(true);
+}
+
+void SearchDesk::watch() {
+  std::unique_lock lock(mutex_);
+  while (!closing_) {
+    if (wants_child_ && child_ < 0) {
+      const std::string folder = place().string();
+      std::vector<std::string> words{program_, "optimize", folder + "/study.toml", "--out", folder};
+      std::error_code none;
+      if (again_ && fs::exists(folder + "/journal", none)) words.push_back("--resume");
+      child_ = started(words, folder + "/log.txt");
+      wants_child_ = false;
+    }
+    changed_.wait_for(lock, kLook, [&] { return closing_ || (wants_child_ && child_ < 0); });
+    if (child_ < 0) continue;
+    const bool news = read_journal();
+    const bool before = state_ == SearchState::Running;
+    wait_for_child();
+    if (news || (before && state_ != SearchState::Running) || child_ < 0) {
+      lock.unlock();
+      told_();
+      lock.lock();
+    }
+  }
+  if (child_ > 0) {
+    ::kill(child_, SIGTERM);
+    ::waitpid(child_, nullptr, 0);
+  }
+}
+
+void SearchDesk::wait_for_child() {
+  int status = 0;
+  if (::waitpid(child_, &status, WNOHANG) != child_) return;
+  child_ = -1;
+  read_journal();
+  std::error_code none;
+  const bool finished =
+      WIFEXITED(status) && fs::exists(place() / "run.json", none) && WEXITSTATUS(status) <= 1;
+  const bool paused = WIFEXITED(status) && WEXITSTATUS(status) >= 128;
+  state_ = finished ? SearchState::Finished : paused ? SearchState::Paused : SearchState::Failed;
+  if (state_ == SearchState::Failed) trouble_ = last_lines((place() / "log.txt").string());
+  changed_.notify_all();
+}
+
+Draft SearchDesk::design_of(std::size_t evaluation) const {
+  const std::lock_guard lock(mutex_);
+  if (!present_ || evaluation >= found_.size()) throw InputError("the search has no such design");
+  const Json origin = Json::parse(read_bytes((place() / "origin.json").string()));
+  Draft out{origin.at("file").get<std::string>(), {}};
+  out.changes = changes_between(study_of(out).design,
+                                present_->problem.space().design(found_[evaluation].unit));
+  return out;
+}
+
+Draft SearchDesk::design_of(const std::string& front) const {
+  const std::lock_guard lock(mutex_);
+  if (!present_ || front.find("..") != std::string::npos)
+    throw InputError("the search has no such design");
+  const fs::path file = place() / front / "design.toml";
+  std::error_code none;
+  if (!fs::exists(file, none)) throw InputError("the search has no such design");
+  const Json origin = Json::parse(read_bytes((place() / "origin.json").string()));
+  Draft out{origin.at("file").get<std::string>(), {}};
+  out.changes = changes_between(study_of(out).design, read_design(file.string()));
+  return out;
+}
+
+Json SearchDesk::front_json() const {
+  std::error_code none;
+  const fs::path table = place() / "pareto.csv";
+  if (state_ != SearchState::Finished || !fs::exists(table, none)) return Json::array();
+  return csv_rows(read_bytes(table.string()));
+}
+
+Json SearchDesk::json() const {
+  const std::lock_guard lock(mutex_);
+  Json out{{"state", name_of(state_)}, {"number", number_}};
+  if (!present_) return out;
+  const StudyProblem& problem = present_->problem;
+  const std::vector<Variable>& varied = present_->study.variables;
+  Json variables = Json::array(), objectives = Json::array(), points = Json::array();
+  for (const Variable& v : varied) variables.push_back({{"path", v.path}, {"unit", v.unit}});
+  for (const StudyObjective& o : problem.objectives())
+    objectives.push_back({{"name", o.name}, {"maximise", o.maximise}});
+  std::vector<Evaluation> tried;
+  for (const Found& f : found_) {
+    tried.push_back({f.unit, f.judgement.outcome});
+    Json values = Json::array(), reached = Json::array();
+    const std::vector<double> at = problem.space().value(f.unit);
+    for (std::size_t i = 0; i < at.size(); ++i) values.push_back(variable_text(varied[i], at[i]));
+    for (std::size_t k = 0; k < f.judgement.outcome.objectives.size(); ++k) {
+      const double v = f.judgement.outcome.objectives[k];
+      reached.push_back(json_number(problem.objectives()[k].maximise ? -v : v));
+    }
+    points.push_back({{"values", values},
+                      {"objectives", reached},
+                      {"ok", f.judgement.outcome.ok},
+                      {"feasible", f.judgement.outcome.feasible()}});
+  }
+  out["folder"] = fmt::format("searches/{:03}", number_);
+  out["stage"] = stage_;
+  out["done"] = found_.size();
+  out["total"] = total_;
+  out["trouble"] = trouble_;
+  out["variables"] = variables;
+  out["objectives"] = objectives;
+  out["points"] = points;
+  out["front"] = pareto_front(tried);
+  out["confirmed"] = front_json();
+  return out;
+}
+
+}  // namespace papilla::studio

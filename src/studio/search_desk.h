@@ -1,0 +1,103 @@
+// Searches from the page: one at a time, each in a folder of its own, by the command that a person
+// would run. What it finds is in its journal, so that a page, the studio or the machine may go and
+// come back.
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/rooms.h"
+#include "search/problem.h"
+#include "search/protocol.h"
+#include "studio/session.h"
+
+namespace papilla::studio {
+
+// What a person wants of a search: set on the page, and steered while it runs.
+struct VariableWish {
+  std::string path, low, high;  // texts with units: "100 nm"; low == high: pinned
+};
+struct LimitWish {
+  std::string name, limit;  // "min_hole", "1 um"
+};
+struct SearchWish {
+  std::vector<VariableWish> variables;
+  std::vector<std::string> kinds;  // of texture that compete; fewer than two: the one at hand
+  std::vector<std::string> maximise, minimise;
+  std::vector<LimitWish> limits;
+  int evaluations = 0;  // 0: as many as the method takes
+};
+SearchWish search_wish(const nlohmann::ordered_json& json);  // throws InputError
+// What the page proposes for a study: its own, or what a design without one could vary.
+nlohmann::ordered_json proposed_wish(const Study& study);
+
+// The study file of a wish on a design; a whole file of its own.
+std::string study_text(const Study& study, const SearchWish& wish);
+
+enum class SearchState { None, Running, Paused, Finished, Failed };
+
+class SearchDesk {
+ public:
+  // program: that runs `optimize`. told: of every change, from the desk's own thread.
+  SearchDesk(std::filesystem::path folder, std::string program, std::function<void()> told);
+  ~SearchDesk();  // a running search is ended after its journal's last record; it can be resumed
+  SearchDesk(const SearchDesk&) = delete;
+  SearchDesk& operator=(const SearchDesk&) = delete;
+
+  // Throws InputError for a wish that is no study, or where a search runs. steer: one that runs is
+  // ended first, and the new one begins at the design at hand.
+  void start(const Draft& origin, const Study& study, const SearchWish& wish, bool steer);
+  void pause();
+  void resume();
+  // The design of an evaluation of the search, or of its front, as a draft.
+  Draft design_of(std::size_t evaluation) const;
+  Draft design_of(const std::string& front) const;
+
+  nlohmann::ordered_json json() const;  // all that the page draws
+
+ private:
+  struct Found {
+    Point unit;
+    Judgement judgement;
+  };
+  struct Present {
+    explicit Present(const std::string& file) : study(read_study(file)), problem(study) {}
+    const Study study;
+    const StudyProblem problem;  // refers to the study
+  };
+
+  void watch();  // the desk's thread
+  void launch(bool again);
+  bool read_journal();
+  void wait_for_child();
+  void find_last();
+  std::filesystem::path place() const;  // of the present search
+  void begin_reading();
+  nlohmann::ordered_json front_json() const;
+  void stop_child(std::unique_lock<std::mutex>& lock);
+
+  std::filesystem::path folder_;
+  std::string program_;
+  std::function<void()> told_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  int number_ = 0;  // of the present search; 0: there was none
+  SearchState state_ = SearchState::None;
+  std::unique_ptr<const Present> present_;
+  std::vector<Found> found_;
+  std::size_t read_ = 0;  // bytes of the journal
+  int total_ = 0;
+  std::string stage_, trouble_;
+  int child_ = -1;
+  bool wants_child_ = false, again_ = false, closing_ = false;
+  std::thread thread_;
+};
+
+}  // namespace papilla::studio

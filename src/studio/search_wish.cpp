@@ -1,0 +1,172 @@
+// A wish for a search as a study file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "config/describe.h"
+#include "geometry/texture.h"
+#include "metrics/metrics.h"
+#include "studio/search_desk.h"
+
+namespace papilla::studio {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Node texts_node(const std::vector<std::string>& texts) {
+  std::vector<Node> items;
+  for (const std::string& text : texts) items.push_back(text_node(text));
+  return array_node(std::move(items));
+}
+
+// As a file has a value of a key: bare where it has no unit.
+Node value_node(const std::string& text) {
+  const auto q = parse_quantity(text);
+  return q && q->unit.empty() ? number_node(q->value) : text_node(text);
+}
+
+Node space_node(const SearchWish& wish) {
+  Node space = table_node();
+  if (wish.kinds.size() > 1) {
+    Node choice = table_node();
+    choice.set("choice", texts_node(wish.kinds));
+    space.set("texture.type", std::move(choice));
+  }
+  for (const VariableWish& v : wish.variables) {
+    if (v.low != v.high) space.set(v.path, array_node({value_node(v.low), value_node(v.high)}));
+  }
+  return space;
+}
+
+std::string quantity(double si, const std::string& unit) {
+  return unit.empty() ? format_number(si) : format_quantity(si, unit);
+}
+
+// What a design without a study could vary: the measures of its texture.
+Json proposed_variables(const Study& study) {
+  constexpr double kDown = 0.5, kUp = 2;
+  Json out = Json::array();
+  for (const Variable& v : study.variables) {
+    if (v.is_kind() || v.is_levels() || !v.choices.empty()) continue;
+    out.push_back({{"path", v.path},
+                   {"low", quantity(v.low, v.unit)},
+                   {"high", quantity(v.high, v.unit)},
+                   {"vary", true}});
+  }
+  Design copy = study.design;
+  for (const NumberField& field : number_fields(copy)) {
+    const bool offered = (field.path.starts_with("texture.") && *field.value > 0) ||
+                         field.path == "surface.contact_angle" || field.path == "drive.amplitude";
+    const bool listed =
+        std::any_of(out.begin(), out.end(), [&](const Json& v) { return v["path"] == field.path; });
+    if (!offered || listed || field.path == "texture.width" || field.path == "texture.patch")
+      continue;
+    const double to_si = find_unit(field.unit)->to_si;
+    const double low = std::max(field.low * to_si, kDown * *field.value);
+    const double high = std::min(field.high * to_si, kUp * *field.value);
+    const bool usual = study.variables.empty() &&
+                       (field.path == "texture.depth" || field.path == "texture.diameter" ||
+                        field.path == "texture.height" || field.path == "texture.radius");
+    out.push_back({{"path", field.path},
+                   {"low", quantity(low, field.unit)},
+                   {"high", quantity(high, field.unit)},
+                   {"vary", usual}});
+  }
+  return out;
+}
+
+}  // namespace
+
+SearchWish search_wish(const Json& json) {
+  SearchWish out;
+  try {
+    constexpr std::size_t kMost = 40;
+    const auto texts = [&](const char* key) {
+      auto list = json.value(key, std::vector<std::string>{});
+      if (list.size() > kMost) throw InputError(std::string(key) + ": too many of them");
+      return list;
+    };
+    for (const Json& v : json.at("variables"))
+      out.variables.push_back({v.at("path").get<std::string>(), v.at("low").get<std::string>(),
+                               v.at("high").get<std::string>()});
+    if (json.contains("limits")) {
+      for (const Json& v : json.at("limits"))
+        out.limits.push_back({v.at("name").get<std::string>(), v.at("limit").get<std::string>()});
+    }
+    out.kinds = texts("kinds");
+    out.maximise = texts("maximise");
+    out.minimise = texts("minimise");
+    out.evaluations = json.value("evaluations", 0);
+  } catch (const Json::exception&) {
+    throw InputError("a search needs variables, each with path, low and high, and an objective");
+  }
+  return out;
+}
+
+Json proposed_wish(const Study& study) {
+  Json limits = Json::array(), kinds = Json::array(), known = Json::array(),
+       metrics = Json::array();
+  for (const Constraint& c : study.constraints) {
+    std::string unit;
+    for (const ConstraintKind& kind : constraint_kinds()) {
+      if (kind.name == c.name) unit = kind.unit;
+    }
+    limits.push_back({{"name", c.name}, {"limit", quantity(c.limit, unit)}});
+  }
+  for (const ConstraintKind& kind : constraint_kinds())
+    known.push_back(
+        {{"name", kind.name}, {"unit", kind.unit}, {"doc", kind.doc}, {"at_least", kind.at_least}});
+  for (const MetricInfo& metric : metric_list()) {
+    if (!metric.appearance) metrics.push_back({{"name", metric.name}, {"doc", metric.doc}});
+  }
+  for (const Variable& v : study.variables) {
+    if (!v.is_kind()) continue;
+    for (const double choice : v.choices) kinds.push_back(variable_text(v, choice));
+  }
+  const bool own = !study.objective.maximise.empty() || !study.objective.minimise.empty();
+  return {
+      {"variables", proposed_variables(study)},
+      {"kinds", kinds},
+      {"maximise", own ? study.objective.maximise
+                       : std::vector<std::string>{study.design.drive.driven() ? "mean(modulation)"
+                                                                              : "mean(friction)"}},
+      {"minimise", own                           ? study.objective.minimise
+                   : study.design.drive.driven() ? std::vector<std::string>{"variation(modulation)"}
+                                                 : std::vector<std::string>{}},
+      {"limits", limits},
+      {"known_limits", known},
+      {"metrics", metrics},
+      {"evaluations", study.search.evaluations}};
+}
+
+std::string study_text(const Study& study, const SearchWish& wish) {
+  if (wish.maximise.empty() && wish.minimise.empty())
+    throw InputError("a search needs something to maximise or to minimise");
+  Study out = study;
+  Node& sections = out.study_sections;
+  Node space = space_node(wish);
+  if (space.children.empty())
+    throw InputError("a search needs a variable: let one vary that is pinned");
+  sections.set("design_space", std::move(space));
+  Node objective = table_node();
+  if (!wish.maximise.empty()) objective.set("maximise", texts_node(wish.maximise));
+  if (!wish.minimise.empty()) objective.set("minimise", texts_node(wish.minimise));
+  if (const Node* old = sections.find("objective"); old && old->find("risk"))
+    objective.set("risk", *old->find("risk"));
+  sections.set("objective", std::move(objective));
+  Node limits = table_node();
+  for (const LimitWish& limit : wish.limits) limits.set(limit.name, value_node(limit.limit));
+  sections.set("constraints", std::move(limits));
+  Node search = sections.find("search") ? *sections.find("search") : table_node();
+  if (wish.evaluations > 0) search.set("evaluations", integer_node(wish.evaluations));
+  sections.set("search", std::move(search));
+  // A scatter of a number that is no part of the texture any more would be refused.
+  std::erase_if(sections.children, [](const Node& n) { return n.key == "scatter"; });
+  return resolved_toml(out);
+}
+
+}  // namespace papilla::studio

@@ -1,0 +1,231 @@
+#include "studio/session.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "design/families.h"
+#include "geometry/texture.h"
+
+namespace papilla::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostSteps = 200, kMostPins = 8;
+
+Json draft_json(const Draft& draft) {
+  Json changes = Json::array();
+  for (const Change& c : draft.changes) changes.push_back({c.path, c.text});
+  return {{"file", draft.file}, {"changes", changes}};
+}
+
+Draft draft_from(const Json& json) {
+  Draft out{json.at("file").get<std::string>(), {}};
+  for (const Json& c : json.at("changes"))
+    out.changes.push_back({c.at(0).get<std::string>(), c.at(1).get<std::string>()});
+  return out;
+}
+
+Json drafts_json(const std::vector<Draft>& drafts) {
+  Json out = Json::array();
+  for (const Draft& d : drafts) out.push_back(draft_json(d));
+  return out;
+}
+
+// The draft with one more change. One of the texture's kind takes all others of the texture away.
+Draft with_change(Draft draft, const Change& change) {
+  const auto known = std::find_if(draft.changes.begin(), draft.changes.end(),
+                                  [&](const Change& c) { return c.path == change.path; });
+  if (known != draft.changes.end())
+    known->text = change.text;
+  else
+    draft.changes.push_back(change);
+  return draft;
+}
+
+}  // namespace
+
+Study study_of(const Draft& draft) {
+  std::vector<std::string> settings;
+  for (const Change& c : draft.changes) settings.push_back(c.setting());
+  return read_study(draft.file, settings);
+}
+
+Session::Session(const fs::path& folder, const std::string& file)
+    : path_(folder / ".studio" / "session.json") {
+  fs::create_directories(path_.parent_path());
+  restore(file);
+  keep();
+}
+
+// A state that cannot be read any more, or of another file, is left behind.
+void Session::restore(const std::string& file) {
+  adopt({file, {}});
+  std::error_code none;
+  if (!fs::exists(path_, none)) return;
+  try {
+    const Json kept = Json::parse(read_bytes(path_));
+    const Draft draft = draft_from(kept.at("draft"));
+    for (const Json& p : kept.at("pins")) {
+      Pin pin{p.at("number").get<int>(), p.at("name").get<std::string>(),
+              draft_from(p.at("draft"))};
+      study_of(pin.draft);
+      last_pin_ = std::max(last_pin_, pin.number);
+      pins_.push_back(std::move(pin));
+    }
+    if (draft.file != file) return;
+    adopt(draft);
+    for (const Json& d : kept.at("past")) past_.push_back(draft_from(d));
+    for (const Json& d : kept.at("future")) future_.push_back(draft_from(d));
+  } catch (const std::exception&) {
+    past_.clear();
+    future_.clear();
+  }
+}
+
+void Session::keep() const {
+  Json pins = Json::array();
+  for (const Pin& p : pins_)
+    pins.push_back({{"number", p.number}, {"name", p.name}, {"draft", draft_json(p.draft)}});
+  write_bytes(path_, Json{{"schema", 1},
+                          {"draft", draft_json(draft_)},
+                          {"past", drafts_json(past_)},
+                          {"future", drafts_json(future_)},
+                          {"pins", pins}}
+                         .dump(1));
+}
+
+void Session::adopt(Draft draft) {
+  Study study = study_of(draft);
+  if (draft.changes.empty())
+    opened_ = study.design;
+  else if (draft.file != draft_.file)
+    opened_ = study_of({draft.file, {}}).design;
+  draft_ = std::move(draft);
+  study_ = std::move(study);
+  ++revision_;
+}
+
+SessionView Session::view() const {
+  const std::lock_guard lock(mutex_);
+  return {revision_, draft_, study_, opened_, pins_, !past_.empty(), !future_.empty()};
+}
+
+std::uint64_t Session::replace(Draft next, std::uint64_t step) {
+  if (next == draft_) return revision_;
+  const Draft before = draft_;
+  adopt(std::move(next));
+  const bool same_gesture = step != 0 && step == last_step_;
+  if (!same_gesture) past_.push_back(before);
+  if (past_.size() > kMostSteps) past_.erase(past_.begin());
+  future_.clear();
+  last_step_ = step;
+  keep();
+  return revision_;
+}
+
+std::uint64_t Session::set(const std::string& path, const std::string& text, std::uint64_t step) {
+  const std::lock_guard lock(mutex_);
+  return replace(with_change(draft_, checked_change(form_keys(study_.design), path, text)), step);
+}
+
+std::uint64_t Session::set_kind(const std::string& kind) {
+  const std::lock_guard lock(mutex_);
+  const auto& kinds = texture_kinds();
+  const auto at = std::find(kinds.begin(), kinds.end(), kind);
+  if (at == kinds.end() || !numbers_alone(static_cast<std::size_t>(at - kinds.begin())))
+    throw InputError({Problem{"", 0, 0, "texture.type", "expected a kind that numbers describe"}});
+  Draft next = draft_;
+  std::erase_if(next.changes, [](const Change& c) { return c.path.starts_with("texture."); });
+  Design wanted = study_.design;
+  wanted.texture = of_kind(wanted.texture, kind);
+  for (const Change& change : changes_between(study_of(next).design, wanted))
+    next = with_change(std::move(next), change);
+  return replace(std::move(next), 0);
+}
+
+std::uint64_t Session::become(const Draft& draft) {
+  const std::lock_guard lock(mutex_);
+  return replace(draft, 0);
+}
+
+std::uint64_t Session::reset(const std::string& path) {
+  const std::lock_guard lock(mutex_);
+  Draft next = draft_;
+  std::erase_if(next.changes, [&](const Change& c) { return c.path == path; });
+  return replace(std::move(next), 0);
+}
+
+std::uint64_t Session::save_as(const std::string& file,
+                               const std::function<void(const Draft&, const Study&)>& write) {
+  const std::lock_guard lock(mutex_);
+  // What stands on this file keeps its design when the file changes below it.
+  std::vector<std::pair<Draft*, Design>> standing;
+  const auto note = [&](Draft& draft) {
+    if (draft.file == file) standing.emplace_back(&draft, study_of(draft).design);
+  };
+  for (Draft& draft : past_) note(draft);
+  for (Draft& draft : future_) note(draft);
+  for (Pin& pin : pins_) note(pin.draft);
+  write(draft_, study_);
+  const Design now = study_of({file, {}}).design;
+  for (auto& [draft, design] : standing) draft->changes = changes_between(now, design);
+  adopt({file, {}});
+  last_step_ = 0;
+  keep();
+  return revision_;
+}
+
+std::uint64_t Session::step_to(std::vector<Draft>& from, std::vector<Draft>& to) {
+  if (from.empty()) return revision_;
+  const Draft before = draft_;
+  Draft next = from.back();
+  adopt(std::move(next));
+  from.pop_back();
+  to.push_back(before);
+  last_step_ = 0;
+  keep();
+  return revision_;
+}
+
+std::uint64_t Session::undo() {
+  const std::lock_guard lock(mutex_);
+  return step_to(past_, future_);
+}
+
+std::uint64_t Session::redo() {
+  const std::lock_guard lock(mutex_);
+  return step_to(future_, past_);
+}
+
+int Session::pin(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  if (pins_.size() >= kMostPins)
+    throw InputError(fmt::format("{} designs are pinned already: unpin one first", kMostPins));
+  const int number = ++last_pin_;
+  pins_.push_back(
+      {number, name.empty() ? fmt::format("design {}", number) : name.substr(0, 60), draft_});
+  keep();
+  return number;
+}
+
+void Session::unpin(int number) {
+  const std::lock_guard lock(mutex_);
+  std::erase_if(pins_, [&](const Pin& p) { return p.number == number; });
+  keep();
+}
+
+std::uint64_t Session::take(int number) {
+  const std::lock_guard lock(mutex_);
+  for (const Pin& p : pins_) {
+    if (p.number == number) return replace(p.draft, 0);
+  }
+  throw InputError("no design is pinned under this number");
+}
+
+}  // namespace papilla::studio

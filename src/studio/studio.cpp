@@ -1,0 +1,338 @@
+#include "studio/studio.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string_view>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "design/scans.h"
+#include "forward/appearance.h"
+#include "geometry/texture.h"
+#include "report/json.h"
+#include "report/page_data.h"
+#include "report/response.h"
+#include "studio/page.h"
+
+namespace papilla::studio {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The file that the studio opens with: of a folder of results its best design.
+std::string opened_file(const std::string& given) {
+  if (given.empty()) return find_design("electroadhesive_glass/study.toml");
+  const fs::path path = fs::weakly_canonical(given);
+  if (!fs::is_directory(path)) return path.string();
+  for (const char* name : {"best/design.toml", "design.toml", "study.toml"}) {
+    if (fs::exists(path / name)) return (path / name).string();
+  }
+  throw InputError(
+      {Problem{given, 0, 0, "", "neither a folder of results (best/design.toml) nor a design"}});
+}
+
+fs::path own_folder(const StudioOptions& options) {
+  if (!options.folder.empty()) return fs::weakly_canonical(options.folder);
+  if (options.file.empty()) return fs::current_path();
+  const fs::path path = fs::weakly_canonical(options.file);
+  return fs::is_directory(path) ? path : path.parent_path();
+}
+
+Json kinds_json() {
+  constexpr int kPixels = 48;
+  Json out = Json::array();
+  for (std::size_t k = 0; k < texture_kinds().size(); ++k) {
+    if (!numbers_alone(k)) continue;
+    const Texture texture = default_texture(k);
+    const Heightmap h = generate(texture, patch_grid(texture, kPixels));
+    out.push_back({{"kind", texture_kinds()[k]}, {"heights", picture_json(h.grid, h.z)}});
+  }
+  return out;
+}
+
+Json comparisons_json(const std::vector<Comparison>& comparisons) {
+  Json out = Json::array();
+  for (const Comparison& c : comparisons) {
+    out.push_back({{"pin", c.pin},
+                   {"metric", c.metric},
+                   {"difference", json_number(c.difference)},
+                   {"error", json_number(c.error)}});
+  }
+  return out;
+}
+
+std::string answer_json(const Answer& answer) {
+  std::string pinned;
+  for (const auto& [number, response] : answer.pinned)
+    pinned += fmt::format("{}\"{}\":{}", pinned.empty() ? "" : ",", number,
+                          response_json(response, false, -1));
+  return fmt::format(
+      R"({{"revision":{},"step":"{}","seconds":{:.4f},"comparisons":{},"pinned":{{{}}},"response":{}}})",
+      answer.revision, name_of(answer.step), answer.seconds,
+      comparisons_json(answer.comparisons).dump(), pinned,
+      response_json(answer.response, false, -1));
+}
+
+Json look_json(const Design& design) {
+  const Optics look = appearance_of(design);
+  const bool refused = look.refused();
+  const auto value = [&](double v) { return refused ? Json(nullptr) : json_number(v); };
+  const FabricationMargins& margins = facts(design.texture).margins;
+  return {{"regime", text(look.regime)},
+          {"warning", look.warning},
+          {"haze", value(look.haze)},
+          {"transmittance", value(look.transmittance)},
+          {"gloss", value(look.gloss)},
+          {"colour_shift", value(look.colour_shift)},
+          {"min_hole", json_number(margins.min_hole)},
+          {"min_wall", json_number(margins.min_wall)},
+          {"aspect_ratio", json_number(margins.aspect_ratio)}};
+}
+
+HttpAnswer refusal(int status, const InputError& error) {
+  Json problems = Json::array();
+  for (const Problem& p : error.problems())
+    problems.push_back({{"key", p.key}, {"message", p.message}});
+  return {status, "application/json",
+          Json{{"error", error.what()}, {"problems", problems}}.dump(
+              -1, ' ', false, Json::error_handler_t::replace)};
+}
+
+}  // namespace
+
+struct Studio::Asked {
+  const HttpRequest& request;
+  Json body;
+
+  std::string text(const char* key) const { return body.at(key).get<std::string>(); }
+  std::string text_or(const char* key) const { return body.value(key, std::string()); }
+  bool flag(const char* key) const { return body.value(key, false); }
+  int whole(const char* key) const { return body.at(key).get<int>(); }
+};
+
+Studio::Studio(const StudioOptions& options)
+    : files_(own_folder(options)), session_(files_.folder(), opened_file(options.file)) {
+  add_routes();
+  desk_ = std::make_unique<SearchDesk>(files_.folder(), options.program, [this] {
+    events_.tell(Topic::Search, desk_->json().dump());
+  });
+  evaluator_ = std::make_unique<Evaluator>(listener());
+  server_ = std::make_unique<HttpServer>(options.port, options.limits, events_,
+                                         [this](const HttpRequest& r) { return answer(r); });
+  events_.tell(Topic::Search, desk_->json().dump());
+  design_changed();
+}
+
+// Pages first, then who works for them.
+Studio::~Studio() {
+  server_->stop();
+  evaluator_.reset();
+  desk_.reset();
+}
+
+std::string Studio::address() const { return server_->door().address(); }
+
+Listener Studio::listener() {
+  Listener out;
+  out.answer = [this](const Answer& a) { events_.tell(Topic::Response, answer_json(a)); };
+  out.shape = [this](std::uint64_t revision, const Design& design) {
+    Json shape = shape_json(design.texture);
+    shape["revision"] = revision;
+    events_.tell(Topic::Shape, shape.dump());
+  };
+  out.look = [this](std::uint64_t revision, const Design& design) {
+    Json look = look_json(design);
+    look["revision"] = revision;
+    events_.tell(Topic::Look, look.dump());
+  };
+  out.refining = [this](std::uint64_t revision, const std::string& what, double share) {
+    events_.tell(Topic::Refinement,
+                 Json{{"revision", revision}, {"what", what}, {"share", share}}.dump());
+  };
+  out.failed = [this](std::uint64_t revision, const std::string& why) {
+    events_.tell(Topic::Notice, Json{{"revision", revision}, {"error", why}}.dump());
+  };
+  return out;
+}
+
+void Studio::design_changed() {
+  const SessionView view = session_.view();
+  Wish wish{view.revision, view.study.design, {}, 0};
+  for (const Pin& pin : view.pins) wish.pinned[pin.number] = study_of(pin.draft).design;
+  evaluator_->wish(std::move(wish));
+  events_.tell(Topic::Session, session_json());
+}
+
+std::string Studio::changed(std::uint64_t revision) {
+  design_changed();
+  return Json{{"revision", revision}}.dump();
+}
+
+std::string Studio::session_json() const {
+  const SessionView view = session_.view();
+  Json pins = Json::array();
+  for (const Pin& p : view.pins) pins.push_back({{"number", p.number}, {"name", p.name}});
+  Json changes = Json::array();
+  for (const Change& c : view.draft.changes) changes.push_back({c.path, c.text});
+  const fs::path file(view.draft.file);
+  const std::string below = file.lexically_relative(files_.folder()).generic_string();
+  return Json{{"revision", view.revision},
+              {"title", view.study.design.title},
+              {"file", below.starts_with("..") ? file.filename().string() : below},
+              {"in_folder", !below.starts_with("..")},
+              {"kind", texture_name(view.study.design.texture)},
+              {"driven", view.study.design.drive.driven()},
+              {"changes", changes},
+              {"undo", view.can_undo},
+              {"redo", view.can_redo},
+              {"pins", pins},
+              {"keys", form_json(view.study, view.opened, view.draft.changes)}}
+      .dump();
+}
+
+std::string Studio::state() const {
+  static const std::string kinds = kinds_json().dump();
+  return fmt::format(
+      R"({{"version":"{}","kinds":{},"files":{},"session":{},"wish":{},"search":{}}})",
+      PAPILLA_VERSION, kinds, files_.list().dump(), session_json(),
+      proposed_wish(session_.view().study).dump(), desk_->json().dump());
+}
+
+void Studio::add_routes() {
+  routes_["GET /state"] = [this](const Asked&) { return state(); };
+  add_design_routes();
+  add_file_routes();
+  add_search_routes();
+}
+
+void Studio::add_design_routes() {
+  routes_["POST /set"] = [this](const Asked& a) {
+    return changed(
+        session_.set(a.text("path"), a.text("value"), a.body.value("step", std::uint64_t{0})));
+  };
+  routes_["POST /kind"] = [this](const Asked& a) {
+    return changed(session_.set_kind(a.text("kind")));
+  };
+  routes_["POST /reset"] = [this](const Asked& a) {
+    return changed(session_.reset(a.text("path")));
+  };
+  routes_["POST /undo"] = [this](const Asked&) { return changed(session_.undo()); };
+  routes_["POST /redo"] = [this](const Asked&) { return changed(session_.redo()); };
+  routes_["POST /pin"] = [this](const Asked& a) {
+    const int number = session_.pin(a.text_or("name"));
+    design_changed();
+    return Json{{"pin", number}}.dump();
+  };
+  routes_["POST /unpin"] = [this](const Asked& a) {
+    session_.unpin(a.whole("pin"));
+    return changed(session_.view().revision);
+  };
+  routes_["POST /take"] = [this](const Asked& a) { return changed(session_.take(a.whole("pin"))); };
+  routes_["POST /maps"] = [this](const Asked& a) {
+    const SessionView view = session_.view();
+    const auto& humidities = view.study.design.environment.relative_humidity;
+    const double wanted = a.body.at("humidity").get<double>();
+    const auto nearest = std::min_element(
+        humidities.begin(), humidities.end(),
+        [&](double x, double y) { return std::abs(x - wanted) < std::abs(y - wanted); });
+    Json maps = maps_json(view.study.design, fidelity_level("draft"), *nearest);
+    maps["revision"] = view.revision;
+    return maps.dump();
+  };
+}
+
+void Studio::add_file_routes() {
+  routes_["POST /files"] = [this](const Asked&) { return files_.list().dump(); };
+  routes_["POST /open"] = [this](const Asked& a) {
+    return changed(session_.become({files_.open(a.text("name")), {}}));
+  };
+  routes_["POST /save"] = [this](const Asked& a) {
+    const std::string file = files_.target(a.text("name"), a.flag("overwrite"));
+    session_.save_as(
+        file, [&](const Draft& draft, const Study& study) { files_.save(draft, study, file); });
+    design_changed();
+    return Json{{"file", fs::path(file).lexically_relative(files_.folder()).generic_string()}}
+        .dump();
+  };
+  routes_["POST /export/preview"] = [this](const Asked&) {
+    return files_.export_preview(session_.view().study).dump();
+  };
+  routes_["POST /export"] = [this](const Asked& a) {
+    return files_.export_files(session_.view().study, a.text("name")).dump();
+  };
+  routes_["POST /scan"] = [this](const Asked& a) {
+    return files_.keep_scan(a.request.query, a.request.body).dump();
+  };
+  routes_["POST /scan/view"] = [this](const Asked& a) {
+    return files_.scan_view(a.text("name"), a.text_or("size"), a.flag("fill"), a.flag("as_is"))
+        .dump();
+  };
+  routes_["POST /scan/use"] = [this](const Asked& a) {
+    return changed(
+        session_.become(files_.with_scan(session_.view().draft, a.text("name"), a.text_or("size"),
+                                         a.flag("fill"), a.flag("as_is"))));
+  };
+}
+
+void Studio::add_search_routes() {
+  const auto told = [this] {
+    const std::string now = desk_->json().dump();
+    events_.tell(Topic::Search, now);
+    return now;
+  };
+  routes_["POST /search/start"] = [this, told](const Asked& a) {
+    const SessionView view = session_.view();
+    desk_->start(view.draft, view.study, search_wish(a.body), a.flag("steer"));
+    return told();
+  };
+  routes_["POST /search/propose"] = [this](const Asked&) {
+    return proposed_wish(session_.view().study).dump();
+  };
+  routes_["POST /search/pause"] = [this, told](const Asked&) {
+    desk_->pause();
+    return told();
+  };
+  routes_["POST /search/resume"] = [this, told](const Asked&) {
+    desk_->resume();
+    return told();
+  };
+  routes_["POST /search/pick"] = [this](const Asked& a) {
+    return changed(session_.become(
+        a.body.contains("front") ? desk_->design_of(a.text("front"))
+                                 : desk_->design_of(a.body.at("evaluation").get<std::size_t>())));
+  };
+}
+
+HttpAnswer Studio::answer(const HttpRequest& request) {
+  if (request.method == "GET") {
+    if (const auto file = page_file(request.path))
+      return {200, file->type, std::string(file->text)};
+    if (request.path.starts_with("/report/")) {
+      try {
+        const fs::path page = inside(files_.folder(), request.path.substr(8) + "/report.html");
+        return {200, "text/html; charset=utf-8", read_bytes(page), true};
+      } catch (const InputError& error) {
+        return refusal(404, error);
+      }
+    }
+  }
+  const auto route = routes_.find(request.method + " " + request.path);
+  if (route == routes_.end()) return {404, "application/json", R"({"error":"nothing here"})"};
+  try {
+    Asked asked{request, Json::object()};
+    if (request.method == "POST" && request.query.empty() && !request.body.empty())
+      asked.body = Json::parse(request.body);
+    if (!asked.body.is_object())
+      return {400, "application/json", R"({"error":"expected an object"})"};
+    return {200, "application/json", route->second(asked)};
+  } catch (const InputError& error) {
+    return refusal(422, error);
+  } catch (const Json::exception&) {
+    return {400, "application/json", R"({"error":"not what this address takes"})"};
+  }
+}
+
+}  // namespace papilla::studio

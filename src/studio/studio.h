@@ -1,0 +1,62 @@
+// The studio as a whole: one session, one evaluator, one desk of searches behind one address.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/rooms.h"
+#include "studio/evaluator.h"
+#include "studio/events.h"
+#include "studio/files.h"
+#include "studio/http.h"
+#include "studio/search_desk.h"
+#include "studio/session.h"
+
+namespace papilla::studio {
+
+struct StudioOptions {
+  std::string file;     // a design, a study, or a folder of results; empty: the shipped hole array
+  std::string folder;   // that is read and written; empty: that of the file
+  std::string program;  // papilla, for searches
+  int port = 0;         // 0: any that is free
+  Limits limits;
+};
+
+class Studio {
+ public:
+  explicit Studio(const StudioOptions& options);  // throws InputError
+  ~Studio();
+  Studio(const Studio&) = delete;
+  Studio& operator=(const Studio&) = delete;
+
+  std::string address() const;
+  // What a page asks. Thread safe; exposed for tests.
+  HttpAnswer answer(const HttpRequest& request);
+
+ private:
+  struct Asked;  // a request with its body read
+  using Route = std::function<std::string(const Asked&)>;
+
+  void add_routes();
+  void add_design_routes();
+  void add_file_routes();
+  void add_search_routes();
+  Listener listener();
+  void design_changed();
+  std::string changed(std::uint64_t revision);
+  std::string state() const;
+  std::string session_json() const;
+
+  Events events_;
+  Files files_;
+  Session session_;
+  std::map<std::string, Route> routes_;
+  std::unique_ptr<SearchDesk> desk_;
+  std::unique_ptr<Evaluator> evaluator_;
+  std::unique_ptr<HttpServer> server_;
+};
+
+}  // namespace papilla::studio

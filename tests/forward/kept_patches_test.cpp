@@ -1,0 +1,93 @@
+// What is kept of the patches before changes nothing but the time.
+#include "forward/kept_patches.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <utility>
+
+#include "base/watch.h"
+#include "config/describe.h"
+#include "design/design.h"
+#include "forward/forward.h"
+
+namespace papilla::tests {
+namespace {
+
+Fidelity small() {
+  Fidelity f = fidelity_level("search");
+  f.grid = 48;
+  f.skins = 3;
+  return f;
+}
+
+Response kept_response(const Design& design, KeptPatches& kept) {
+  return respond(scene_of(design), small(), kept.solve(scene_of(design), design.texture, small()));
+}
+
+// A design with one number moved, and what a run after the design itself takes over.
+using Moved = std::pair<const char*, std::pair<double, KeptPatches::Held>>;
+const std::array<Moved, 7> kMoved{{
+    {"drive.amplitude", {120, KeptPatches::Held::Water}},
+    {"drive.frequency", {2e3, KeptPatches::Held::Water}},
+    {"surface.dielectric.0.thickness", {7e-7, KeptPatches::Held::Water}},
+    {"surface.contact_angle", {1.2, KeptPatches::Held::Contact}},
+    {"finger.load", {0.4, KeptPatches::Held::Nothing}},
+    {"texture.depth", {2e-7, KeptPatches::Held::Nothing}},
+    {"finger.water.drops_per_um3", {2, KeptPatches::Held::Nothing}},
+}};
+
+TEST(KeptPatches, GiveTheNumbersOfARunThatKeepsNothing) {
+  const Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml");
+  for (const auto& [path, value] : kMoved) {
+    KeptPatches kept;
+    kept_response(design, kept);
+    Design moved = design;
+    set_number(moved, path, value.first);
+    const Response fresh = evaluate(scene_of(moved), moved.texture, small());
+    const Response after = kept_response(moved, kept);
+    EXPECT_EQ(kept.held(), value.second) << path;
+    ASSERT_EQ(after.points.size(), fresh.points.size());
+    for (std::size_t i = 0; i < fresh.points.size(); ++i)
+      EXPECT_EQ(after.points[i], fresh.points[i]) << path << " at humidity " << i;
+  }
+}
+
+TEST(KeptPatches, HoldWithADistributionOfPatchPressures) {
+  Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml");
+  design.model.closure = Closure::Persson;
+  KeptPatches kept;
+  kept_response(design, kept);
+  design.drive.amplitude = 90;
+  const Response fresh = evaluate(scene_of(design), design.texture, small());
+  EXPECT_EQ(kept_response(design, kept).points, fresh.points);
+  EXPECT_EQ(kept.held(), KeptPatches::Held::Water);
+}
+
+TEST(KeptPatches, SpareTheContactSolvesWhenOnlyTheVoltageMoves) {
+  const Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml");
+  KeptPatches kept;
+  kept_response(design, kept);
+  const Response again = kept_response(design, kept);
+  EXPECT_EQ(kept.held(), KeptPatches::Held::Water);
+  EXPECT_EQ(again.contact_solves, 0);
+  EXPECT_EQ(again.piece_seconds.contact, 0.0);
+  EXPECT_GT(again.piece_seconds.field, 0.0);
+}
+
+TEST(KeptPatches, AStoppedRunLeavesNothingBehind) {
+  const Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml");
+  KeptPatches kept;
+  std::atomic<bool> stop{true};
+  {
+    const Watch watch({}, &stop);
+    EXPECT_THROW(kept_response(design, kept), WorkStopped);
+  }
+  const Response after = kept_response(design, kept);
+  EXPECT_EQ(kept.held(), KeptPatches::Held::Nothing);
+  EXPECT_EQ(after.points, evaluate(scene_of(design), design.texture, small()).points);
+}
+
+}  // namespace
+}  // namespace papilla::tests

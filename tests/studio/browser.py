@@ -1,0 +1,278 @@
+"""The studio in headless Chromium: browser.py PROGRAM PART [PICTURE_FOLDER]. Exit 0: all as it should be.
+
+Parts: smoke (page, sliders, undo, pin, keys alone, widths, dark, console), pages (two pages one state, reconnect, foreign
+origin), hour (open, change, pin, search, steer, pick, scan, export, verify, save, reopen).
+"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import urllib.error
+import urllib.request
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from chromium import FAINT, Browser, check  # noqa: E402
+
+TREE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
+HOLES = os.path.join(TREE, "designs", "m3_samples", "a3h600.toml")
+PICTURES = sys.argv[3] if __name__ == "__main__" and len(sys.argv) > 3 else ""
+
+
+class Studio:
+    def __init__(self, folder, file=HOLES, port=0):
+        self.process = subprocess.Popen([sys.argv[1], "studio", file, "--folder", folder, "--no-open", "--port", str(port), "--quiet"],
+                                        stdout=subprocess.PIPE, text=True)
+        self.address = self.process.stdout.readline().strip()
+        self.port = int(re.search(r":(\d+)/", self.address)[1])
+
+    def close(self):
+        self.process.terminate()
+        self.process.wait()
+
+
+def until(browser, script, seconds=60, what=""):
+    end = time.time() + seconds
+    while time.time() < end:
+        if browser.run("return Boolean(" + script + ")"):
+            return
+        time.sleep(0.05)
+    check(False, f"waited {seconds} s for {what or script}")
+
+
+def go(browser, studio):
+    browser.call("POST", "/url", {"url": studio.address})
+    until(browser, "document.documentElement.dataset.revision", 60, "a first answer")
+
+
+def slide(browser, path, share):
+    """Moves a slider to a share of its way, as a hand does."""
+    browser.run(f"""
+        const row = document.getElementById('k-{path.replace('.', '-')}').closest('.key').querySelector('input[type=range]');
+        row.value = Math.round({share} * row.max); row.dispatchEvent(new Event('input', {{bubbles: true}})); row.dispatchEvent(new Event('change', {{bubbles: true}}));""")
+
+
+def value(browser, path):
+    return browser.run(f"return document.getElementById('k-{path.replace('.', '-')}').value")
+
+
+def press(browser, *keys):
+    actions = []
+    for key in keys:
+        actions += [{"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}]
+    browser.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": actions}]})
+
+
+def quiet(browser):
+    console = [e["message"] for e in browser.log("browser") if "GPU stall" not in e["message"] and "OpenGL" not in e["message"] and "swiftshader" not in e["message"].lower()]
+    check(not console, "console: " + "; ".join(console))
+
+
+def inside_page(browser):
+    requests = set()
+    for entry in browser.log("performance"):
+        message = json.loads(entry["message"])["message"]
+        if message["method"] == "Network.requestWillBeSent" and message["params"]["documentURL"].startswith("http://127.0.0.1"):
+            requests.add(message["params"]["request"]["url"])
+    outside = [u for u in requests if not u.startswith(("http://127.0.0.1", "data:", "blob:"))]
+    check(not outside, f"asked for {outside}")
+
+
+NAMELESS = """
+return [...document.querySelectorAll('canvas:not([aria-label]):not([aria-hidden])')].map(e => e.id || 'canvas')
+  .concat([...document.querySelectorAll('input, select')].filter(s => !s.labels.length && !s.getAttribute('aria-label')).map(s => s.id || s.type))
+  .concat([...document.querySelectorAll('button')].filter(b => !(b.textContent.trim() || b.getAttribute('aria-label'))).map(b => b.id || 'button'));
+"""
+
+
+def looks(browser, studio):
+    for scheme in ["dark", "light"]:
+        browser.scheme(scheme)
+        for width in [380, 1440]:
+            browser.metrics(width, 900)
+            go(browser, studio)
+            until(browser, "document.documentElement.dataset.shape", 30, "the shape")
+            wide = browser.run("return document.documentElement.scrollWidth")
+            browser.picture(PICTURES, f"studio_{scheme}_{width}.png")
+            check(wide <= width, f"{wide} px wide at {width} px")
+            faint, nameless = browser.run(FAINT), browser.run(NAMELESS)
+            check(not faint, f"too faint in {scheme} at {width} px: {faint}")
+            check(not nameless, f"without a name: {nameless}")
+
+
+def smoke(browser, folder):
+    studio = Studio(folder)
+    try:
+        browser.metrics(1440, 900)
+        go(browser, studio)
+        before = browser.run("return papilla.charts.modulation.data.datasets[0].data.map(p => p.y)")
+        check(len(before) == 4, f"a curve of {before}")
+        slide(browser, "drive.amplitude", 0.35)
+        until(browser, f"papilla.charts.modulation.data.datasets[0].data[0].y < {0.9 * before[0]}", 30, "a weaker drive")
+        check(browser.run("return document.getElementById('file').textContent").endswith("1 changed"), "no change is said")
+        # Keys alone: a slider by arrows, undo by its key, a pin.
+        browser.run("document.getElementById('k-texture-depth').closest('.key').querySelector('input[type=range]').focus()")
+        depth = value(browser, "texture.depth")
+        press(browser, *["\ue014"] * 5)
+        until(browser, f"document.getElementById('k-texture-depth').value !== '{depth}'", 10, "the arrow keys")
+        until(browser, "papilla.session().keys.find(k => k.path === 'texture.depth').changed", 30, "the arrows' change")
+        browser.run("document.body.focus(); document.activeElement.blur()")
+        press(browser, "p")
+        until(browser, "document.querySelectorAll('.pinned').length === 1", 10, "a pin")
+        slide(browser, "surface.contact_angle", 0.6)
+        until(browser, "document.documentElement.dataset.step === 'draft' || document.documentElement.dataset.step === 'design'", 200, "a refined answer")
+        until(browser, "/modulation (better|worse|not told)/.test(document.querySelector('.pinned p').textContent)", 200, "a paired difference")
+        browser.run("document.getElementById('undo').click()")
+        until(browser, "!papilla.session().keys.find(k => k.path === 'surface.contact_angle').changed", 10, "undo")
+        # By tabs from the top every control is reached.
+        browser.run("document.querySelector('.skip').focus()")
+        reached = set()
+        for _ in range(30):
+            press(browser, "\ue004")
+            reached.add(browser.run("const e = document.activeElement; return e.id || e.dataset.kind || e.type || e.tagName"))
+        check({"undo", "pin", "save", "hole_array"} <= reached, f"by keys alone only {sorted(reached)}")
+        # Another kind, and back.
+        browser.run("document.querySelector('[data-kind=pillar_array]').click()")
+        until(browser, "papilla.session().kind === 'pillar_array' && document.getElementById('k-texture-height')", 10, "pillars")
+        browser.run("document.getElementById('undo').click()")
+        until(browser, "papilla.session().kind === 'hole_array'", 10, "holes again")
+        # What is refused is said, and changes nothing.
+        browser.run("const i = document.getElementById('k-texture-diameter'); i.value = '7 um'; i.dispatchEvent(new Event('change'))")
+        until(browser, "!document.getElementById('notice').hidden", 10, "a refusal")
+        browser.run("document.getElementById('undo').click()")
+        browser.run("document.getElementById('inside').open = true")
+        until(browser, "document.querySelectorAll('#maps canvas').length >= 4", 60, "maps of the contact")
+        browser.picture(PICTURES, "smoke.png")
+        looks(browser, studio)
+        inside_page(browser)
+        quiet(browser)
+    finally:
+        studio.close()
+
+
+def pages(browser, folder):
+    studio = Studio(folder)
+    try:
+        go(browser, studio)
+        first = browser.call("GET", "/window")
+        second = browser.call("POST", "/window/new", {"type": "tab"})["handle"]
+        browser.call("POST", "/window", {"handle": second})
+        go(browser, studio)
+        slide(browser, "texture.depth", 0.2)
+        until(browser, "papilla.session().keys.find(k => k.path === 'texture.depth').changed", 20, "the change here")
+        here = browser.run("return papilla.session().keys.find(k => k.path === 'texture.depth').value")
+        browser.call("POST", "/window", {"handle": first})
+        until(browser, f"papilla.session().keys.find(k => k.path === 'texture.depth').value === '{here}'", 20, "the change on the other page")
+        # A page of another site may neither read nor write.
+        foreign = urllib.request.Request(studio.address + "set", b'{"path":"texture.depth","value":"1 nm"}', {"Origin": "http://evil.example", "Content-Type": "application/json"})
+        try:
+            urllib.request.build_opener(urllib.request.ProxyHandler({})).open(foreign, timeout=10)
+            check(False, "a foreign origin was answered")
+        except urllib.error.HTTPError as error:
+            check(error.code == 403, f"a foreign origin got {error.code}")
+        until(browser, f"papilla.session().keys.find(k => k.path === 'texture.depth').value === '{here}'", 5, "the state")
+        # The studio goes and comes back: the state is found again.
+        studio.process.kill()
+        studio.process.wait()
+        until(browser, "document.documentElement.dataset.connected === 'false'", 30, "the loss")
+        studio = Studio(folder)
+        go(browser, studio)
+        again = value(browser, "texture.depth")
+        check(again.replace("µ", "u") == here, f"{here} is {again} after a kill")
+    finally:
+        studio.close()
+
+
+def click(browser, text):
+    browser.run(f"[...document.querySelectorAll('#dialogtools button')].find(b => b.textContent === '{text}').click()")
+
+
+def hour(browser, folder):
+    shutil.copy(os.path.join(TREE, "designs", "measured_surface", "scan.gsf"), folder)
+    studio = Studio(folder)
+    try:
+        browser.metrics(1440, 1000)
+        go(browser, studio)
+        browser.picture(PICTURES, "hour_1_opened.png")
+        slide(browser, "texture.depth", 0.3)
+        until(browser, "document.documentElement.dataset.step === 'design'", 120, "the design level")
+        browser.run("document.getElementById('pin').click()")
+        until(browser, "document.querySelectorAll('.pinned').length === 1", 10, "a pin")
+        slide(browser, "texture.diameter", 0.7)
+        until(browser, "document.documentElement.dataset.idle === 'yes' && document.documentElement.dataset.step === 'design'", 120, "the comparison")
+        browser.picture(PICTURES, "hour_2_pinned.png")
+        # Search, steered once.
+        browser.run("document.getElementById('evaluations').value = 40; document.getElementById('start').click()")
+        until(browser, "papilla.charts.pareto && papilla.charts.pareto.data.datasets.some(s => s.data.length > 5)", 180, "designs of the search")
+        browser.picture(PICTURES, "hour_3_search.png")
+        browser.run("document.querySelector('#frontlist button').click()")
+        until(browser, "papilla.session().changes.length > 0", 20, "a picked design")
+        browser.run("""document.getElementById('evaluations').value = 14;
+            [...document.querySelectorAll('#variables tbody tr')].find(r => r.dataset.path === 'texture.depth').querySelectorAll('[type=text]')[1].value = '500 nm';
+            document.getElementById('steer').click()""")
+        until(browser, "document.getElementById('stage').textContent.includes('searches/002')", 60, "the steered search")
+        until(browser, "document.getElementById('searchstate').textContent === 'finished'", 600, "the end of the search")
+        until(browser, "papilla.charts.pareto.data.datasets[0].label === 'front, confirmed'", 10, "a confirmed front")
+        browser.picture(PICTURES, "hour_4_front.png")
+        browser.run("document.querySelector('#frontlist button').click()")
+        until(browser, "document.documentElement.dataset.idle === 'yes'", 180, "the picked design")
+        # A measured map.
+        with open(os.path.join(folder, "scan.gsf"), "rb") as file:
+            size = len(file.read())
+        check(size > 100, "no scan")
+        element = browser.call("POST", "/element", {"using": "css selector", "value": "#scanfile"})
+        browser.call("POST", f"/element/{list(element.values())[0]}/value", {"text": os.path.join(folder, "scan.gsf")})
+        until(browser, "document.querySelector('#dialog').open && papilla.charts.spectrum", 60, "the import view")
+        browser.picture(PICTURES, "hour_5_scan.png")
+        click(browser, "Use as the texture")
+        until(browser, "papilla.session().kind === 'measured'", 30, "the scan as the texture")
+        until(browser, "document.documentElement.dataset.idle === 'yes'", 240, "the scan's answer")
+        browser.run("document.getElementById('undo').click()")
+        until(browser, "papilla.session().kind === 'hole_array'", 20, "undo of the scan")
+        # Out: the file, the masks, the verdict.
+        browser.run("document.getElementById('save').click()")
+        until(browser, "document.querySelector('#dialog').open", 10, "the dialog to save")
+        browser.run("document.querySelector('#dialogbody input[type=text]').value = 'chosen.toml'")
+        click(browser, "Save")
+        until(browser, "document.documentElement.dataset.saved === 'chosen.toml'", 30, "the saved file")
+        browser.run("document.getElementById('export').click()")
+        until(browser, "document.querySelector('#dialog').open && document.querySelector('#dialogbody table')", 20, "the dialog to export")
+        click(browser, "Export and verify")
+        until(browser, "document.documentElement.dataset.exported", 180, "the verdict")
+        check(browser.run("return document.documentElement.dataset.exported") == "true", "the export is not sound: " + browser.run("return document.querySelector('#dialogbody pre').textContent"))
+        browser.picture(PICTURES, "hour_6_export.png")
+        depth = browser.run("return papilla.session().keys.find(k => k.path === 'texture.depth').value")
+    finally:
+        studio.close()
+    verdict = subprocess.run([sys.argv[1], "verify", os.path.join(folder, "export", "chosen"), "--geometry"], capture_output=True, text=True)
+    check(verdict.returncode == 0, "verify: " + verdict.stdout + verdict.stderr)
+    # Later.
+    studio = Studio(folder, os.path.join(folder, "chosen.toml"))
+    try:
+        go(browser, studio)
+        check(value(browser, "texture.depth").replace("µ", "u") == depth, "the saved design is another")
+        until(browser, "document.getElementById('searchstate').textContent === 'finished'", 20, "the search of before")
+        quiet(browser)
+    finally:
+        studio.close()
+
+
+def main():
+    folder, profile = tempfile.mkdtemp(), tempfile.mkdtemp()
+    browser = Browser(profile)
+    try:
+        {"smoke": smoke, "pages": pages, "hour": hour}[sys.argv[2]](browser, folder)
+    finally:
+        browser.close()
+        shutil.rmtree(profile, ignore_errors=True)
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except AssertionError as error:
+        sys.exit(str(error))

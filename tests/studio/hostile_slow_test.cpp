@@ -1,0 +1,130 @@
+// What a client of bad will or bad manners cannot do.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "base/files.h"
+#include "tests/studio/loopback.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Limits, EndASlowRequestAndOneConnectionTooMany) {
+  const TemporaryFolder folder;
+  StudioOptions options = studio_options(folder.path().string());
+  options.limits.request = std::chrono::seconds{1};
+  options.limits.idle = std::chrono::seconds{1};
+  options.limits.connections = 4;
+  const Studio studio(options);
+  const Place place(studio.address());
+  {
+    Connection slow(place.port);
+    slow.send("GET " + place.root);
+    const auto begin = std::chrono::steady_clock::now();
+    for (int i = 0; i < 40 && slow.send("a"); ++i) {  // a letter each tenth of a second
+      slow.read_until("never", 0.1);
+      if (slow.closed()) break;
+    }
+    EXPECT_TRUE(slow.closed());
+    const std::chrono::duration<double> held = std::chrono::steady_clock::now() - begin;
+    EXPECT_LT(held.count(), 3.5);
+  }
+  std::vector<std::unique_ptr<Connection>> held;
+  int refused = 0;
+  for (int i = 0; i < 12; ++i) {
+    held.push_back(std::make_unique<Connection>(place.port));
+    held.back()->read_until("never", 0.02);
+    refused += held.back()->closed();
+  }
+  EXPECT_GE(refused, 12 - 5);
+  held.clear();
+  EXPECT_EQ(replied(place, place.own("GET", "page/studio.css")).status, 200);
+}
+
+// Requests of seeded hostility: paths that lead out, bodies that are none, methods, lengths that
+// lie.
+class Attacker {
+ public:
+  Attacker(const Place& place, unsigned seed) : place_(place), random_(seed) {}
+
+  std::string request() {
+    const std::string path =
+        pick({place_.root, place_.root, place_.root, "/", "/0/", place_.root + "../"}) +
+        pick({"set", "open", "save", "scan?name=" + name(), "scan/view", "scan/use", "export",
+              "report/" + name(), "search/pick", "search/pause", "pin", "unpin", "take", "undo",
+              "kind", "maps", "page/" + name(), "", name()});
+    const std::string method =
+        pick({"POST", "POST", "POST", "GET", "PUT", "DELETE", "OPTIONS", "G\rT", ""});
+    std::string body =
+        pick({"", "{", "[]", "null", "{\"name\":\"" + name() + "\",\"overwrite\":true}",
+              "{\"path\":\"" + key() + "\",\"value\":\"" + name() + "\"}", "{\"pin\":1e99}",
+              "{\"humidity\":\"x\"}", "{\"evaluation\":-1}", "{\"front\":\"" + name() + "\"}",
+              std::string(3000, '['), noise()});
+    std::string out = place_.request(
+        method, path, body, pick({"http://" + place_.host(), "http://" + place_.host(), "null"}));
+    if (chance(0.05)) out.replace(out.find("Content-Length: "), 17, "Content-Length: 9");
+    if (chance(0.05)) out = out.substr(0, random_() % out.size());
+    if (chance(0.03)) out = noise();
+    return out;
+  }
+
+ private:
+  bool chance(double share) { return std::uniform_real_distribution<double>()(random_) < share; }
+  std::string pick(std::vector<std::string> from) { return from[random_() % from.size()]; }
+  std::string key() {
+    return pick({"texture.depth", "base", "finger.skin.map", "texture.type", "title", noise()});
+  }
+  std::string name() {
+    return pick({"../outside.toml", "..%2f..%2foutside.toml", "/etc/passwd", "....//x.toml",
+                 "a/../../b.toml", "%00.toml", "link/x.toml", ".studio/session.json", "x.gsf",
+                 "-1 nm", "1e400 nm", "nan", "\\u0000"});
+  }
+  std::string noise() {
+    std::string out;
+    for (unsigned n = random_() % 64; n > 0; --n) out += static_cast<char>(1 + random_() % 255);
+    std::erase(out, '"');
+    std::erase(out, '\\');
+    return out;
+  }
+
+  const Place& place_;
+  std::mt19937 random_;
+};
+
+// PAPILLA_HOSTILE: how many; 10^5 takes five minutes.
+TEST(HostileRequests, NeitherEndTheStudioNorTouchWhatIsOutside) {
+  const TemporaryFolder outside;
+  const fs::path folder = outside.path() / "folder";
+  fs::create_directories(folder);
+  fs::create_symlink(outside.path(), folder / "link");
+  write_bytes(outside.path() / "outside.toml", "schema_version = 1\n");
+  const Studio studio(studio_options(folder.string()));
+  const Place place(studio.address());
+  const char* wanted = std::getenv("PAPILLA_HOSTILE");
+  const int count = wanted ? std::atoi(wanted) : 10000;
+  const auto before = fs::file_time_type::clock::now();
+  Attacker attacker(place, 26);
+  for (int i = 0; i < count; ++i) {
+    Connection connection(place.port);
+    ASSERT_TRUE(connection.open()) << "after " << i;
+    connection.send(attacker.request());
+    connection.read_until("\r\n\r\n", 0.02);
+  }
+  EXPECT_EQ(replied(place, place.own("GET", "state")).status, 200);
+  for (const auto& entry : fs::directory_iterator(outside.path())) {
+    const std::string name = entry.path().filename();
+    EXPECT_TRUE(name == "folder" || name == "outside.toml") << name;
+  }
+  EXPECT_EQ(read_bytes(outside.path() / "outside.toml"), "schema_version = 1\n");
+  EXPECT_LT(fs::last_write_time(outside.path() / "outside.toml"), before);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,170 @@
+// The one state that all pages see: changes, the way back, pins, and what is on disk of them.
+#include "studio/session.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "config/describe.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+const std::string kHoles = PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml";
+
+double depth(const Session& session) {
+  return get_number(session.view().study.design, "texture.depth");
+}
+
+TEST(Session, SetsAKeyAndGoesBackAndForth) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  const auto before = session.view().revision;
+  EXPECT_GT(session.set("texture.depth", "262 nm", 0), before);
+  EXPECT_DOUBLE_EQ(depth(session), 262e-9);
+  session.set("texture.depth", "0.3", 0);  // bare: in the unit of the key
+  EXPECT_DOUBLE_EQ(depth(session), 0.3e-9);
+  session.undo();
+  EXPECT_DOUBLE_EQ(depth(session), 262e-9);
+  session.undo();
+  EXPECT_DOUBLE_EQ(depth(session), 600e-9);
+  EXPECT_FALSE(session.view().can_undo);
+  session.redo();
+  session.redo();
+  EXPECT_DOUBLE_EQ(depth(session), 0.3e-9);
+  EXPECT_FALSE(session.view().can_redo);
+}
+
+TEST(Session, OneGestureIsOneStepBack) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  for (int nm = 500; nm > 400; nm -= 10)
+    session.set("texture.depth", std::to_string(nm) + " nm", 7);
+  EXPECT_DOUBLE_EQ(depth(session), 410e-9);
+  session.undo();
+  EXPECT_DOUBLE_EQ(depth(session), 600e-9);
+}
+
+TEST(Session, StaysAsItWasWhenAValueIsRefused) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  const auto before = session.view();
+  for (const auto& [path, text] : std::vector<std::pair<std::string, std::string>>{
+           {"texture.depth", "fast"},
+           {"texture.depth", "3 V"},
+           {"texture.depth", "-1 nm"},
+           {"texture.diameter", "7 um"},  // larger than the period
+           {"texture.depth", "1 nm\nbase = \"/etc/passwd\""},
+           {"base", "other.toml"},
+           {"finger.base", "/etc/passwd"},
+           {"finger.skin.map", "/etc/passwd"},
+           {"texture.nothing", "1"},
+           {"schema_version", "2"}}) {
+    EXPECT_THROW(session.set(path, text, 0), InputError) << path << " = " << text;
+  }
+  EXPECT_EQ(session.view().revision, before.revision);
+  EXPECT_EQ(session.view().study.design, before.study.design);
+}
+
+TEST(Session, AnotherKindKeepsTheMeasuresThatItShares) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  session.set("texture.period", "5 um", 0);
+  session.set_kind("pillar_array");
+  const Design pillars = session.view().study.design;
+  EXPECT_EQ(texture_name(pillars.texture), "pillar_array");
+  EXPECT_DOUBLE_EQ(get_number(pillars, "texture.period"), 5e-6);
+  EXPECT_DOUBLE_EQ(get_number(pillars, "texture.height"), 600e-9);
+  session.set("texture.height", "400 nm", 0);
+  session.set_kind("hole_array");
+  EXPECT_DOUBLE_EQ(depth(session), 400e-9);
+  EXPECT_THROW(session.set_kind("measured"), InputError);
+}
+
+TEST(Session, IsFoundAgainAfterItsEnd) {
+  const TemporaryFolder place;
+  {
+    Session session(place.path(), kHoles);
+    session.set("drive.amplitude", "120 V", 0);
+    session.pin("first try");
+    session.set("texture.depth", "350 nm", 0);
+  }
+  Session again(place.path(), kHoles);
+  EXPECT_DOUBLE_EQ(depth(again), 350e-9);
+  ASSERT_EQ(again.view().pins.size(), 1u);
+  EXPECT_EQ(again.view().pins[0].name, "first try");
+  again.undo();
+  EXPECT_DOUBLE_EQ(depth(again), 600e-9);
+  again.take(again.view().pins[0].number);
+  EXPECT_DOUBLE_EQ(get_number(again.view().study.design, "drive.amplitude"), 120);
+}
+
+TEST(Session, PinsAndTheWayBackKeepTheirDesignsWhenTheirFileIsSaved) {
+  const TemporaryFolder place;
+  const std::string file = place.path() / "mine.toml";
+  write_bytes(file, "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n");
+  Session session(place.path(), file);
+  session.pin("as opened");
+  session.set("texture.depth", "350 nm", 0);
+  session.save_as(file, [&](const Draft&, const Study&) {
+    write_bytes(
+        file,
+        "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n[texture]\ndepth = \"350 nm\"\n");
+  });
+  EXPECT_TRUE(session.view().draft.changes.empty());
+  EXPECT_DOUBLE_EQ(get_number(session.view().opened, "texture.depth"), 350e-9);
+  EXPECT_DOUBLE_EQ(get_number(study_of(session.view().pins[0].draft).design, "texture.depth"),
+                   600e-9);
+  session.undo();
+  EXPECT_DOUBLE_EQ(depth(session), 600e-9);
+}
+
+TEST(Session, BeginsAnewWhereItsFileIsDamaged) {
+  const TemporaryFolder place;
+  { Session session(place.path(), kHoles); }
+  write_bytes(place.path() / ".studio/session.json", "{\"draft\": 3");
+  Session session(place.path(), kHoles);
+  EXPECT_DOUBLE_EQ(depth(session), 600e-9);
+}
+
+TEST(Changes, MakeOneDesignOfAnother) {
+  const Design from = read_design(kHoles);
+  for (const char* other : {"/m3_samples/flat.toml", "/texture_families/study.toml",
+                            "/hydrophobic_glass/study.toml", "/coatings/crowded.toml"}) {
+    const Design to = read_design(std::string(PAPILLA_DESIGNS_DIR) + other);
+    std::vector<std::string> settings;
+    for (const Change& c : changes_between(from, to)) {
+      if (!c.path.starts_with("surface.dielectric")) settings.push_back(c.setting());
+    }
+    const Design made = read_design(kHoles, settings);
+    EXPECT_EQ(made.texture, to.texture) << other;
+    EXPECT_EQ(made.drive, to.drive) << other;
+    EXPECT_EQ(made.finger.load, to.finger.load) << other;
+  }
+}
+
+TEST(Form, NamesEveryNumberWithItsUnitAndRange) {
+  const Design design = read_design(kHoles);
+  const std::vector<FormKey> keys = form_keys(design);
+  const auto at = std::find_if(keys.begin(), keys.end(),
+                               [](const FormKey& k) { return k.path == "texture.depth"; });
+  ASSERT_NE(at, keys.end());
+  EXPECT_EQ(at->value, "600 nm");
+  EXPECT_DOUBLE_EQ(at->shown, 600);
+  EXPECT_EQ(at->unit, "nm");
+  EXPECT_DOUBLE_EQ(at->low, 0);
+  EXPECT_DOUBLE_EQ(at->high, 1e5);
+  Design copy = design;
+  for (const NumberField& number : number_fields(copy)) {
+    const bool listed = std::any_of(keys.begin(), keys.end(), [&](const FormKey& k) {
+      return number.path == k.path || number.path.starts_with(k.path + ".");
+    });
+    EXPECT_TRUE(listed) << number.path;
+  }
+}
+
+}  // namespace
+}  // namespace papilla::tests

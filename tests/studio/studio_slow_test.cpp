@@ -1,0 +1,169 @@
+// The studio as people and accidents have it: in a real browser, and killed at any moment.
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <thread>
+
+#include "base/files.h"
+#include "config/describe.h"
+#include "design/design.h"
+#include "optim/journal.h"
+#include "tests/studio/loopback.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+int shell(const std::string& command) { return std::system(command.c_str()); }
+
+void in_browser(const std::string& part) {
+  if (shell("command -v chromium chromedriver python3 > /dev/null") != 0)
+    GTEST_SKIP() << "needs chromium, chromium-driver and python3 (scripts/setup --test)";
+  EXPECT_EQ(
+      shell("python3 " PAPILLA_SOURCE_DIR "/tests/studio/browser.py " PAPILLA_PROGRAM " " + part),
+      0);
+}
+
+TEST(StudioInChromium, AnswersSlidersAndKeysInLightAndDarkWideAndNarrow) { in_browser("smoke"); }
+TEST(StudioInChromium, ShowsOneStateToTwoPagesAndToOneThatComesBack) { in_browser("pages"); }
+TEST(StudioInChromium, TakesAPersonThroughAnHour) { in_browser("hour"); }
+
+// A studio in a process of its own, which a test may kill.
+class Process {
+ public:
+  explicit Process(const fs::path& folder) {
+    const std::string said = folder / "address";
+    fs::remove(said);
+    child_ = ::fork();
+    if (child_ == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+      const int out = ::open(said.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+      ::dup2(out, 1);
+      const std::string in = folder.string();
+      const std::string file = in + "/mine.toml";
+      ::execl(PAPILLA_PROGRAM, PAPILLA_PROGRAM, "studio", file.c_str(), "--folder", in.c_str(),
+              "--no-open", "--quiet", nullptr);
+      ::_exit(127);
+    }
+    for (int i = 0; i < 600; ++i) {
+      std::ifstream file(said);
+      if (std::string line; std::getline(file, line) && !file.eof()) {
+        address_ = line;
+        break;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+  }
+  ~Process() { kill(); }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  const std::string& address() const { return address_; }
+  void kill() {
+    if (child_ <= 0) return;
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+    child_ = -1;
+  }
+
+ private:
+  pid_t child_ = -1;
+  std::string address_;
+};
+
+// Sound records of the newest search's journal.
+std::vector<std::string> journal_of(const fs::path& folder) {
+  std::vector<std::string> out;
+  std::ifstream in(folder / "searches/001/journal", std::ios::binary);
+  JournalRecord record;
+  for (std::string line; std::getline(in, line);) {
+    if (!in.eof() && parse_journal_line(line, record)) out.push_back(line);
+  }
+  return out;
+}
+
+// A number that was answered, and one that was on its way when the studio was killed.
+struct Promised {
+  int answered = 600, asked = 600;  // nm
+
+  bool kept_by(double nm) const {
+    return std::abs(nm - answered) < 1e-3 || std::abs(nm - asked) < 1e-3;
+  }
+};
+
+double saved_depth(const fs::path& folder) {
+  return 1e9 * get_number(read_design(folder / "mine.toml"), "texture.depth");
+}
+double session_depth(const Place& place) {
+  const std::string mark = R"("path":"texture.depth","type":"number","value":")";
+  const std::string text = replied(place, place.own("GET", "state")).text;
+  const std::size_t at = text.find(mark);
+  return at == std::string::npos ? -1 : std::stod(text.substr(at + mark.size()));
+}
+
+// PAPILLA_KILLS: how many. Each time a search goes on and designs are changed and saved, until the
+// studio is killed at a moment that the seed chooses.
+TEST(KilledStudio, LosesNothingThatItAnswered) {
+  const TemporaryFolder folder;
+  write_bytes(
+      folder.path() / "mine.toml",
+      "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n\n[texture]\ndepth = \"600 nm\"\n");
+  const char* wanted = std::getenv("PAPILLA_KILLS");
+  const int kills = wanted ? std::atoi(wanted) : 6;
+  std::mt19937 random(50);
+  Promised design, file;
+  std::vector<std::string> journal;
+  for (int k = 0; k < kills; ++k) {
+    Process studio(folder.path());
+    ASSERT_FALSE(studio.address().empty()) << "after kill " << k;
+    const Place place(studio.address());
+    EXPECT_TRUE(design.kept_by(session_depth(place)) || file.kept_by(session_depth(place)))
+        << session_depth(place) << " nm after kill " << k << ", answered " << design.answered;
+    EXPECT_TRUE(file.kept_by(saved_depth(folder.path()))) << "saved, after kill " << k;
+    const std::vector<std::string> after = journal_of(folder.path());
+    ASSERT_GE(after.size(), journal.size());
+    EXPECT_TRUE(std::equal(journal.begin(), journal.end(), after.begin())) << "kill " << k;
+    const Reply search =
+        k == 0 ? replied(place, place.own("POST", "search/start",
+                                           R"({"variables":[{"path":"texture.depth","low":"100 nm",)"
+                                           R"("high":"900 nm"}],"maximise":["mean(modulation)"],)"
+                                           R"("evaluations":4000})"))
+               : replied(place, place.own("POST", "search/resume"));
+    EXPECT_EQ(search.status, 200) << search.text;
+    const auto end = std::chrono::steady_clock::now() +
+                     std::chrono::milliseconds(200 + static_cast<int>(random() % 2500));
+    std::thread killer([&] {
+      std::this_thread::sleep_until(end);
+      studio.kill();
+    });
+    for (int i = 0; std::chrono::steady_clock::now() < end; ++i) {
+      design.asked = 200 + static_cast<int>(random() % 600);
+      const std::string body =
+          fmt::format(R"({{"path":"texture.depth","value":"{} nm"}})", design.asked);
+      if (replied(place, place.own("POST", "set", body), 5).status != 200) break;
+      design.answered = design.asked;
+      if (i % 3 != 0) continue;
+      file.asked = design.answered;
+      const Reply saved =
+          replied(place, place.own("POST", "save", R"({"name":"mine.toml","overwrite":true})"), 5);
+      if (saved.status != 200) break;
+      file.answered = file.asked;
+    }
+    killer.join();
+    journal = journal_of(folder.path());
+  }
+  EXPECT_GT(journal.size(), 0u);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,126 @@
+// A wish on the page as a study file, and the first answer's band.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "config/describe.h"
+#include "studio/first_answer.h"
+#include "studio/search_desk.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string kHoles = PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml";
+
+Study reread(const std::string& text) {
+  const TemporaryFolder place;
+  const std::string file = place.path() / "study.toml";
+  write_bytes(file, text);
+  return read_study(file);
+}
+
+SearchWish depth_wish() {
+  SearchWish wish;
+  wish.variables = {{"texture.depth", "100 nm", "800 nm"}, {"texture.period", "6 um", "6 um"}};
+  wish.maximise = {"mean(modulation)"};
+  wish.limits = {{"min_hole", "1 um"}, {"aspect_ratio", "1"}};
+  wish.evaluations = 12;
+  return wish;
+}
+
+TEST(SearchWish, IsAStudyOfTheDesignAtHand) {
+  const Study study = read_study(kHoles, {"texture.diameter=2 um"});
+  const Study made = reread(study_text(study, depth_wish()));
+  EXPECT_EQ(made.design.texture, study.design.texture);
+  EXPECT_EQ(made.design.finger, study.design.finger);
+  ASSERT_EQ(made.variables.size(), 1u);  // the period is pinned
+  EXPECT_EQ(made.variables[0].path, "texture.depth");
+  EXPECT_DOUBLE_EQ(made.variables[0].low, 100e-9);
+  EXPECT_DOUBLE_EQ(made.variables[0].high, 800e-9);
+  ASSERT_EQ(made.constraints.size(), 2u);
+  EXPECT_DOUBLE_EQ(made.constraints[0].limit, 1e-6);
+  EXPECT_EQ(made.search.evaluations, 12);
+}
+
+TEST(SearchWish, SteersAStudyThatTheFileHasAlready) {
+  const Study study = read_study(PAPILLA_DESIGNS_DIR "/two_level_glass/study.toml");
+  Json proposed = proposed_wish(study);
+  Json wanted{{"variables", Json::array()}, {"maximise", {"worst(modulation)"}}};
+  for (const Json& v : proposed["variables"]) {
+    if (v["vary"] == true) wanted["variables"].push_back(v);
+  }
+  const Study made = reread(study_text(study, search_wish(wanted)));
+  EXPECT_EQ(made.variables.size(), wanted["variables"].size());
+  EXPECT_EQ(made.objective.maximise, std::vector<std::string>{"worst(modulation)"});
+  EXPECT_TRUE(made.objective.minimise.empty());
+}
+
+TEST(SearchWish, OffersTheMeasuresOfADesignWithoutAStudy) {
+  const Json proposed = proposed_wish(read_study(kHoles));
+  bool varied = false;
+  for (const Json& v : proposed["variables"]) {
+    if (v["path"] != "texture.depth") continue;
+    varied = v["vary"];
+    EXPECT_EQ(v["low"], "300 nm");
+    EXPECT_EQ(v["high"], "1200 nm");
+  }
+  EXPECT_TRUE(varied);
+  EXPECT_EQ(proposed["maximise"], Json({"mean(modulation)"}));
+}
+
+TEST(SearchWish, RefusesWhatIsNoSearch) {
+  const Study study = read_study(kHoles);
+  SearchWish none = depth_wish();
+  none.maximise.clear();
+  EXPECT_THROW(study_text(study, none), InputError);
+  SearchWish pinned = depth_wish();
+  pinned.variables.erase(pinned.variables.begin());
+  EXPECT_THROW(study_text(study, pinned), InputError);
+  EXPECT_THROW(search_wish(Json{{"maximise", {"x"}}}), InputError);
+}
+
+Response response_of(double modulation, double sampling) {
+  Response out;
+  out.driven = true;
+  ResponsePoint point;
+  point.modulation.value = modulation;
+  point.modulation.parts.sampling = sampling;
+  out.points = {point};
+  return out;
+}
+
+// Eq. studio.1, studio.2
+TEST(FirstAnswer, IsCarriedByTheRatioOfTheLevelsNearby) {
+  const Design at = read_design(kHoles);
+  const Anchor anchor{at, response_of(0.5, 0.02), response_of(0.4, 0.01)};
+  const Measured same = first_answer(response_of(0.5, 0.02), at, anchor).points[0].modulation;
+  EXPECT_DOUBLE_EQ(same.value, 0.4);
+  EXPECT_NEAR(same.se(), std::hypot(0.01, 0.012 * 0.4), 1e-12);
+  Design away = at;
+  set_number(away, "texture.depth", 300e-9);  // half: ln 2 away
+  const Measured moved = first_answer(response_of(0.25, 0.02), away, anchor).points[0].modulation;
+  EXPECT_DOUBLE_EQ(moved.value, 0.2);
+  EXPECT_NEAR(moved.se(), 0.2 * std::hypot(0.01 / 0.4, std::hypot(0.012, 0.06 * std::log(2.0))),
+              1e-12);
+}
+
+TEST(FirstAnswer, StandsAloneWithAWiderBandWhereNothingWasRefined) {
+  const Design at = read_design(kHoles);
+  const Measured alone =
+      first_answer(response_of(0.5, 0.02), at, std::nullopt).points[0].modulation;
+  EXPECT_DOUBLE_EQ(alone.value, 0.5);
+  EXPECT_NEAR(alone.se(), std::hypot(0.02, 0.07 * 0.5), 1e-12);
+  Design pillars = at;
+  pillars.texture = default_texture(2);
+  EXPECT_EQ(distance(at, pillars), std::nullopt);
+  EXPECT_NEAR(*distance(at, at), 0, 1e-15);
+}
+
+}  // namespace
+}  // namespace papilla::tests
