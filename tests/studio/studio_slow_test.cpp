@@ -133,12 +133,11 @@ TEST(KilledStudio, LosesNothingThatItAnswered) {
     const std::vector<std::string> after = journal_of(folder.path());
     ASSERT_GE(after.size(), journal.size());
     EXPECT_TRUE(std::equal(journal.begin(), journal.end(), after.begin())) << "kill " << k;
-    const Reply search =
-        k == 0 ? replied(place, place.own("POST", "search/start",
-                                           R"({"variables":[{"path":"texture.depth","low":"100 nm",)"
-                                           R"("high":"900 nm"}],"maximise":["mean(modulation)"],)"
-                                           R"("evaluations":4000})"))
-               : replied(place, place.own("POST", "search/resume"));
+    const std::string wish =
+        R"~({"variables":[{"path":"texture.depth","low":"100 nm","high":"900 nm"}],)~"
+        R"~("maximise":["mean(modulation)"],"evaluations":4000})~";
+    const Reply search = k == 0 ? replied(place, place.own("POST", "search/start", wish))
+                                : replied(place, place.own("POST", "search/resume"));
     EXPECT_EQ(search.status, 200) << search.text;
     const auto end = std::chrono::steady_clock::now() +
                      std::chrono::milliseconds(200 + static_cast<int>(random() % 2500));
