@@ -47,15 +47,15 @@ Json bytes_json(const Grid& grid, const std::vector<double>& values) {
 }
 
 // Heights along the middle of a row of features, on pixels that draw their walls as they are; null
-// for a texture that is not drawn of shapes on a lattice.
+// for a texture that is not drawn of shapes on a lattice. "at": the row's share of the way up.
 Json section_json(const Texture& texture) {
   constexpr int kPixels = 4096, kRows = 256;
   const TextureFacts of = facts(texture);
-  if (!of.cell || !std::holds_alternative<FeatureArray>(of.outline)) return nullptr;
+  const auto* features = std::get_if<FeatureArray>(&of.outline);
+  if (!of.cell || !features) return nullptr;
   const Grid cell = patch_grid(texture, kPixels);
   const Heightmap h = generate(texture, {kPixels, kRows, cell.lx, cell.ly});
   // The row that the features cover most: through their middle.
-  const double open = *of.open_share;
   const auto row_mean = [&](int y) {
     const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, y));
     return std::accumulate(begin, begin + kPixels, 0.0);
@@ -64,10 +64,12 @@ Json section_json(const Texture& texture) {
   double most = row_mean(0);
   for (int y = 1; y < kRows; ++y) {
     const double mean = row_mean(y);
-    if (open < 0.5 ? mean < most : mean > most) std::tie(middle, most) = std::pair(y, mean);
+    if (features->deep ? mean < most : mean > most) std::tie(middle, most) = std::pair(y, mean);
   }
   const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, middle));
-  return bytes_json({kPixels, 1, cell.lx, h.grid.dy()}, {begin, begin + kPixels});
+  Json out = bytes_json({kPixels, 1, cell.lx, h.grid.dy()}, {begin, begin + kPixels});
+  out["at"] = (middle + 0.5) / kRows;
+  return out;
 }
 
 // What the charts need of a response.

@@ -329,7 +329,7 @@ HttpAnswer Studio::answer(const HttpRequest& request) {
       return {400, "application/json", R"({"error":"expected an object"})"};
     return {200, "application/json", route->second(asked)};
   } catch (const InputError& error) {
-    return refusal(422, error);
+    return refusal(200, error);  // an answer like others: browsers log failures as errors of a page
   } catch (const Json::exception&) {
     return {400, "application/json", R"({"error":"not what this address takes"})"};
   }

@@ -187,7 +187,7 @@ function showSteps() {
 }
 
 function showDesign() {
-  const d = data.designs[state.design], map = d.heights, row = lowestRow(map);
+  const d = data.designs[state.design], map = d.heights, row = sectionRow(map, d.section);
   showSolid(map);
   drawMap($('top'), map, 'nm', 1e9, row);
   draw('section', alongLine(heightLine(map, d.section, row), map.lx * 1e6));

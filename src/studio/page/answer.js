@@ -56,10 +56,11 @@ function sentence(c) {
   const [name, better, unit] = words[c.metric], scale = unit ? 1e3 : 1, d = scale * c.difference, e = c.error === null ? null : scale * c.error;
   const text = (v) => unit ? round(Math.abs(v), 3) : Math.abs(v).toFixed(3);
   const sure = e !== null && Math.abs(d) > 2 * e;
-  const word = !sure ? 'not told apart,' : better === 0 ? (d > 0 ? 'higher by' : 'lower by') : d * better > 0 ? 'better by' : 'worse by';
+  if (!sure) return null;
+  const word = better === 0 ? (d > 0 ? 'higher by' : 'lower by') : d * better > 0 ? 'better by' : 'worse by';
   const span = document.createElement('span');
-  span.textContent = `${name} ${word} ${sure ? '' : d < 0 ? '−' : '+'}${text(d)}${e === null ? '' : ' ± ' + (unit ? round(e, 2) : e.toFixed(3))}${unit}`;
-  if (sure && better) span.className = d * better > 0 ? 'better' : 'worse';
+  span.textContent = `${name} ${word} ${text(d)}${e === null ? '' : ' ± ' + (unit ? round(e, 2) : e.toFixed(3))}${unit}`;
+  if (better) span.className = d * better > 0 ? 'better' : 'worse';
   return span;
 }
 function showPins() {
@@ -84,9 +85,11 @@ function showPins() {
     });
     top.append(swatch, name, tools);
     const found = state.answer ? state.answer.comparisons.filter((c) => c.pin === pin.number && words[c.metric]) : [];
-    if (found.length) line.append('this design: ');
-    else line.textContent = 'compared as soon as both are known at one level';
-    found.slice(0, 4).forEach((c, k) => line.append(...(k ? [' · '] : []), sentence(c)));
+    const told = found.map(sentence).filter(Boolean), open = found.filter((c) => !sentence(c)).map((c) => words[c.metric][0]);
+    if (!found.length) line.textContent = 'compared as soon as both are known at one level';
+    else line.append('this design: ');
+    told.forEach((span, k) => line.append(...(k ? [' · '] : []), span));
+    if (open.length) line.append(`${told.length ? ' · ' : ''}${open.join(', ')} not told apart`);
     row.append(top, line);
     box.append(row);
   });

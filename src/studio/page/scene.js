@@ -2,7 +2,7 @@
 import { $ } from '../plots/look.js';
 import { charts, draw } from '../plots/charts.js';
 import { alongLine } from '../plots/curves.js';
-import { drawMap, heightLine, lowestRow, mapFigures } from '../plots/maps.js';
+import { drawMap, heightLine, mapFigures, sectionRow } from '../plots/maps.js';
 import { micrometres, round } from '../plots/numbers.js';
 import { showSolid, startSolid } from '../plots/solid.js';
 import { people } from './form.js';
@@ -17,7 +17,7 @@ export function startScene() {
 }
 
 export function showShape(shape) {
-  const map = shape.heights, row = lowestRow(map), line = heightLine(map, shape.section, row);
+  const map = shape.heights, row = sectionRow(map, shape.section), line = heightLine(map, shape.section, row);
   showSolid(map);
   drawMap($('top'), map, 'nm', 1e9, row);
   const config = alongLine(line, map.lx * 1e6);

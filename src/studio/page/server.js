@@ -21,7 +21,7 @@ async function read(answer) {
   const text = await answer.text();
   let data = {};
   try { data = JSON.parse(text); } catch (e) { data = { error: text }; }
-  if (answer.ok) return data;
+  if (answer.ok && !data.error) return data;
   throw new Error(data.problems && data.problems.length ? data.problems.map((p) => p.message).join('; ') : data.error || `refused (${answer.status})`);
 }
 

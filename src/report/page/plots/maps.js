@@ -81,8 +81,9 @@ export function mapFigures(box, maps) {
     drawMap(canvas, map, map.unit, 1, undefined, root);
   });
 }
-// The row of a map of heights that goes through the middle of its holes: the one with the least sum.
-export function lowestRow(map) {
+// The row of a map of heights that a section is of; without one that with the least sum, through the middle of its holes.
+export function sectionRow(map, section) {
+  if (section) return Math.min(map.ny - 1, Math.floor(section.at * map.ny));
   const values = decode(map);
   let row = 0, low = Infinity;
   for (let y = 0; y < map.ny; ++y) {
