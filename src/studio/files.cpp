@@ -41,6 +41,13 @@ std::optional<double> limit_of(const Study& study, const std::string& name) {
   return std::nullopt;
 }
 
+// A text without every place of a part.
+std::string without(std::string text, const std::string& part) {
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at))
+    text.erase(at, part.size());
+  return text;
+}
+
 }  // namespace
 
 Files::Files(fs::path folder) : folder_(fs::weakly_canonical(folder)) {}
@@ -146,7 +153,7 @@ Json Files::export_files(const Study& study, const std::string& name) const {
   verdict.felt = verify_export(record, kTolerance);
   Json out = Json::parse(export_json(study, options, made, name, verdict));
   out["sound"] = verdict.sound();
-  out["words"] = verdict_text(verdict);
+  out["words"] = without(verdict_text(verdict), folder.string() + "/");
   out["folder"] = name;
   return out;
 }

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <mutex>
 #include <thread>
 
 #include "base/error.h"
@@ -54,13 +55,17 @@ class TimedStream final : public httplib::Stream {
   }
   socket_t socket() const override { return socket_; }
 
-  // Another request begins within this time.
-  bool next(std::chrono::seconds idle) {
-    if (used_ < filled_) return true;
-    deadline_ = Clock::now() + idle;
-    const bool more = is_readable();
-    begin();
-    return more;
+  // Another request begins within this time, as long as `on` says so.
+  template <class On>
+  bool next(std::chrono::seconds idle, const On& on) {
+    constexpr std::chrono::milliseconds kGlance{200};
+    for (const auto end = Clock::now() + idle; on() && Clock::now() < end;) {
+      deadline_ = Clock::now() + kGlance;
+      const bool more = used_ < filled_ || is_readable();
+      begin();
+      if (more) return true;
+    }
+    return false;
   }
 
  private:
@@ -122,7 +127,7 @@ class BoundedServer final : public httplib::Server {
     TimedStream stream(socket, limits_.request);
     bool closed = turned_away;
     for (int left = kRequests; left > 0 && !closed; --left) {
-      if (svr_sock_ == INVALID_SOCKET || !stream.next(limits_.idle)) break;
+      if (!stream.next(limits_.idle, [this] { return svr_sock_ != INVALID_SOCKET; })) break;
       if (!process_request(stream, left == 1, closed, nullptr)) break;
     }
     ::shutdown(socket, SHUT_RDWR);
@@ -204,20 +209,40 @@ class HttpServer::Impl {
     });
     server_.Get("/[0-9a-f]+/events",
                 [this](const httplib::Request&, httplib::Response& out) { stream(out); });
-    const auto answer = [this](const httplib::Request& in, httplib::Response& out) {
-      const bool upload = in.has_param("name");
-      if (in.body.size() > (upload ? limits_.body : limits_.text)) {
-        out.status = 413;
-        return;
-      }
-      const HttpAnswer a = handler_({in.method, door_->below_token(in.path),
-                                     upload ? in.get_param_value("name") : "", in.body});
-      out.status = a.status;
-      if (a.whole_page) out.set_header(kPolicy, kWholePage);
-      out.set_content(a.body, a.type.c_str());
-    };
-    server_.Get("/.*", answer);
-    server_.Post("/.*", answer);
+    server_.Get(
+        "/.*", [this](const httplib::Request& in, httplib::Response& out) { answer(in, "", out); });
+    server_.Post("/.*", [this](const httplib::Request& in, httplib::Response& out,
+                               const httplib::ContentReader& reader) { take(in, out, reader); });
+  }
+
+  // A body within its limit; of uploads, which may be large, one at a time.
+  void take(const httplib::Request& in, httplib::Response& out,
+            const httplib::ContentReader& reader) {
+    const bool upload = in.has_param("name");
+    std::unique_lock one(uploading_, std::defer_lock);
+    out.status = 0;
+    if (in.is_multipart_form_data()) out.status = 415;
+    if (upload && !one.try_lock()) out.status = 503;
+    if (out.status != 0) return;
+    std::string body;
+    const std::size_t limit = upload ? limits_.body : limits_.text;
+    const bool whole = reader([&](const char* bytes, std::size_t count) {
+      if (body.size() + count > limit) return false;
+      body.append(bytes, count);
+      return true;
+    });
+    if (whole)
+      answer(in, std::move(body), out);
+    else
+      out.status = 413;
+  }
+
+  void answer(const httplib::Request& in, std::string body, httplib::Response& out) {
+    const std::string name = in.has_param("name") ? in.get_param_value("name") : "";
+    const HttpAnswer a = handler_({in.method, door_->below_token(in.path), name, std::move(body)});
+    out.status = a.status;
+    if (a.whole_page) out.set_header(kPolicy, kWholePage);
+    out.set_content(a.body, a.type.c_str());
   }
 
   static Sender sender_of(const httplib::Request& request) {
@@ -236,7 +261,10 @@ class HttpServer::Impl {
         [this, seen = std::uint64_t{0}](std::size_t, httplib::DataSink& sink) mutable {
           constexpr std::chrono::milliseconds kHeartbeat{2000};
           const std::vector<Message> news = events_.since(seen, kHeartbeat);
-          if (events_.closed()) return false;
+          if (events_.closed()) {
+            sink.done();
+            return true;
+          }
           std::string text = news.empty() ? ":\n\n" : "";  // a page that is gone is noticed
           for (const Message& message : news)
             text += fmt::format("event: {}\ndata: {}\n\n", name_of(message.topic), message.text);
@@ -251,6 +279,7 @@ class HttpServer::Impl {
   BoundedServer server_;
   std::unique_ptr<Door> door_;
   std::atomic<int> listeners_{0};
+  std::mutex uploading_;
   std::thread thread_;
 };
 

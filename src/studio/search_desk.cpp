@@ -27,8 +27,9 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::chrono::milliseconds kLook{300};  // between two looks at the journal
-constexpr int kGivesWay = 19;                    // niceness of a search: the hand comes first
+constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
+constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
+constexpr int kGivesWay = 19;                         // niceness of a search: the hand comes first
 
 const char* name_of(SearchState state) {
   switch (state) {
@@ -214,9 +215,14 @@ void SearchDesk::launch(bool again) {
 }
 
 void SearchDesk::stop_child(std::unique_lock<std::mutex>& lock) {
-  if (child_ > 0) ::kill(child_, SIGTERM);
   wants_child_ = false;
-  changed_.wait(lock, [&] { return child_ < 0 || closing_; });
+  if (child_ < 0) return;
+  stopping_ = true;
+  ::kill(child_, SIGTERM);
+  const auto gone = [&] { return child_ < 0 || closing_; };
+  // It would end after the running evaluations; its journal has all others.
+  if (!changed_.wait_for(lock, kPatience, gone)) ::kill(child_, SIGKILL);
+  changed_.wait(lock, gone);
 }
 
 void SearchDesk::pause() {
@@ -254,8 +260,8 @@ void SearchDesk::watch() {
       lock.lock();
     }
   }
-  if (child_ > 0) {
-    ::kill(child_, SIGTERM);
+  if (child_ > 0) {  // at the end of the studio; its journal has all that it answered
+    ::kill(child_, SIGKILL);
     ::waitpid(child_, nullptr, 0);
   }
 }
@@ -268,7 +274,8 @@ void SearchDesk::wait_for_child() {
   std::error_code none;
   const bool finished =
       WIFEXITED(status) && fs::exists(place() / "run.json", none) && WEXITSTATUS(status) <= 1;
-  const bool paused = WIFEXITED(status) && WEXITSTATUS(status) >= 128;
+  const bool paused = stopping_ || (WIFEXITED(status) && WEXITSTATUS(status) >= 128);
+  stopping_ = false;
   state_ = finished ? SearchState::Finished : paused ? SearchState::Paused : SearchState::Failed;
   if (state_ == SearchState::Failed) trouble_ = last_lines((place() / "log.txt").string());
   changed_.notify_all();

@@ -96,7 +96,7 @@ class SearchDesk {
   int total_ = 0;
   std::string stage_, trouble_;
   int child_ = -1;
-  bool wants_child_ = false, again_ = false, closing_ = false;
+  bool wants_child_ = false, again_ = false, stopping_ = false, closing_ = false;
   std::thread thread_;
 };
 

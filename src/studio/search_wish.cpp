@@ -46,6 +46,12 @@ std::string quantity(double si, const std::string& unit) {
   return unit.empty() ? format_number(si) : format_quantity(si, unit);
 }
 
+// Three digits: a range is a guess.
+std::string rounded(double si, const std::string& unit) {
+  const std::string shown = significant(si / find_unit(unit)->to_si, 3);
+  return unit.empty() ? shown : shown + " " + unit;
+}
+
 // What a design without a study could vary: the measures of its texture.
 Json proposed_variables(const Study& study) {
   constexpr double kDown = 0.5, kUp = 2;
@@ -72,8 +78,8 @@ Json proposed_variables(const Study& study) {
                        (field.path == "texture.depth" || field.path == "texture.diameter" ||
                         field.path == "texture.height" || field.path == "texture.radius");
     out.push_back({{"path", field.path},
-                   {"low", quantity(low, field.unit)},
-                   {"high", quantity(high, field.unit)},
+                   {"low", rounded(low, field.unit)},
+                   {"high", rounded(high, field.unit)},
                    {"vary", usual}});
   }
   return out;

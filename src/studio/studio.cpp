@@ -238,6 +238,7 @@ void Studio::add_design_routes() {
     const auto nearest = std::min_element(
         humidities.begin(), humidities.end(),
         [&](double x, double y) { return std::abs(x - wanted) < std::abs(y - wanted); });
+    const std::lock_guard one(computing_);
     Json maps = maps_json(view.study.design, fidelity_level("draft"), *nearest);
     maps["revision"] = view.revision;
     return maps.dump();
@@ -261,12 +262,14 @@ void Studio::add_file_routes() {
     return files_.export_preview(session_.view().study).dump();
   };
   routes_["POST /export"] = [this](const Asked& a) {
+    const std::lock_guard one(computing_);
     return files_.export_files(session_.view().study, a.text("name")).dump();
   };
   routes_["POST /scan"] = [this](const Asked& a) {
     return files_.keep_scan(a.request.query, a.request.body).dump();
   };
   routes_["POST /scan/view"] = [this](const Asked& a) {
+    const std::lock_guard one(computing_);
     return files_.scan_view(a.text("name"), a.text_or("size"), a.flag("fill"), a.flag("as_is"))
         .dump();
   };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "base/rooms.h"
@@ -54,6 +55,7 @@ class Studio {
   Files files_;
   Session session_;
   std::map<std::string, Route> routes_;
+  std::mutex computing_;  // what takes seconds, one at a time
   std::unique_ptr<SearchDesk> desk_;
   std::unique_ptr<Evaluator> evaluator_;
   std::unique_ptr<HttpServer> server_;

@@ -245,6 +245,7 @@ def hour(browser, folder):
         check(browser.run("return document.documentElement.dataset.exported") == "true", "the export is not sound: " + browser.run("return document.querySelector('#dialogbody pre').textContent"))
         browser.picture(PICTURES, "hour_6_export.png")
         depth = browser.run("return papilla.session().keys.find(k => k.path === 'texture.depth').value")
+        browser.call("POST", "/url", {"url": "about:blank"})
     finally:
         studio.close()
     verdict = subprocess.run([sys.argv[1], "verify", os.path.join(folder, "export", "chosen"), "--geometry"], capture_output=True, text=True)

@@ -8,7 +8,8 @@ import { ask, notice, post } from './server.js';
 const first = (k) => k.path.startsWith('texture.') || ['surface.contact_angle', 'surface.dielectric.0.thickness', 'surface.process', 'drive.amplitude', 'drive.frequency', 'drive.waveform', 'finger.load', 'finger.state'].includes(k.path);
 const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finger: 'Finger', environment: 'Air', view: 'Look', model: 'Model', accuracy: 'Accuracy' };
 const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
-export const people = (text) => text.replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
+// As people write it: their letters, and no more than five digits of what a search found.
+export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
 const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg');
 
 const rows = {};
@@ -133,6 +134,7 @@ function update(k) {
   const row = rows[k.path];
   row.key = k;
   row.box.classList.toggle('changed', k.changed);
+  row.box.classList.remove('wrong');
   row.about.textContent = `${k.doc}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;
   if (k.changed) {
     const back = element('button', '', 'as the file has it');

@@ -130,11 +130,11 @@ function showFront(search) {
   const { searched, confirmed, names } = pointsOf(search), on = new Set(search.front);
   const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
   const sets = [
-    { label: 'front so far', data: front, showLine: names[1] !== 'evaluation', borderWidth: 1.5, pointRadius: 5.5, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0], hidden: confirmed.length > 0 },
-    { label: 'searched', data: searched.filter((p) => p.ok && !on.has(p.evaluation)), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
+    { label: 'searched', data: searched.filter((p) => p.ok && (confirmed.length || !on.has(p.evaluation))), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
     { label: 'keeps not every limit', data: searched.filter((p) => !p.ok), pointStyle: 'crossRot', pointRadius: 4, borderColor: faint.dominated, backgroundColor: faint.dominated },
   ];
-  if (confirmed.length) sets.unshift({ label: 'front, confirmed', data: confirmed, bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[1], backgroundColor: colours[1] });
+  if (!confirmed.length) sets.unshift({ label: 'front so far', data: front, showLine: names[1] !== 'evaluation', borderWidth: 1.5, pointRadius: 5.5, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] });
+  else sets.unshift({ label: 'front, confirmed', data: confirmed, bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[1], backgroundColor: colours[1] });
   const all = confirmed.length ? confirmed : searched;
   const scales = { x: axis(names[0], around(all, 'x', 'ex')), y: axis(names[1], around(all, 'y', 'ey')) };
   if (charts.pareto && charts.pareto.$names === names.join()) {
