@@ -65,7 +65,7 @@ class SearchDesk {
  private:
   struct Found {
     Point unit;
-    Judgement judgement;
+    search::Judgement judgement;
   };
   struct Present {
     explicit Present(const std::string& file) : study(read_study(file)), problem(study) {}
