@@ -205,12 +205,12 @@ def hour(browser, folder):
         until(browser, "document.documentElement.dataset.idle === 'yes' && document.documentElement.dataset.step === 'design'", 120, "the comparison")
         browser.picture(PICTURES, "hour_2_pinned.png")
         # Search, steered once.
-        browser.run("document.getElementById('evaluations').value = 40; document.getElementById('start').click()")
+        browser.run("document.getElementById('evaluations').value = 30; document.getElementById('start').click()")
         until(browser, "papilla.charts.pareto && papilla.charts.pareto.data.datasets.some(s => s.data.length > 5)", 180, "designs of the search")
         browser.picture(PICTURES, "hour_3_search.png")
         browser.run("document.querySelector('#frontlist button').click()")
         until(browser, "papilla.session().changes.length > 0", 20, "a picked design")
-        browser.run("""document.getElementById('evaluations').value = 14;
+        browser.run("""document.getElementById('evaluations').value = 10;
             [...document.querySelectorAll('#variables tbody tr')].find(r => r.dataset.path === 'texture.depth').querySelectorAll('[type=text]')[1].value = '500 nm';
             document.getElementById('steer').click()""")
         until(browser, "document.getElementById('stage').textContent.includes('searches/002')", 60, "the steered search")

@@ -86,7 +86,7 @@ TEST_F(Saving, RefusesNamesOutsideAndFilesThatAreThere) {
   const Study study = study_of(draft);
   files_.save(draft, study, files_.target("a.toml", false));
   EXPECT_THROW(files_.target("a.toml", false), InputError);
-  for (const char* name : {"../a.toml", "/tmp/a.toml", "a.txt", ".a.toml", ""})
+  for (const char* name : {"../a.toml", "/etc/a.toml", "a.txt", ".a.toml", ""})
     EXPECT_THROW(files_.target(name, true), InputError) << name;
   int left = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(place_.path())) ++left;

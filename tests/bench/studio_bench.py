@@ -1,0 +1,149 @@
+"""The studio measured: studio_bench.py PROGRAM latency|bands OUT.csv [COUNT].
+
+latency: from the event of a slider to the drawn curve, in headless Chromium on this machine; 300 events over flat glass, holes and a particle film,
+without and with a search running. bands: positions of sliders drawn by a fixed seed, the first answer's band against the refined value at each humidity.
+"""
+import json
+import math
+import os
+import random
+import shutil
+import sys
+import tempfile
+import time
+import urllib.request
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "studio"))
+from browser import TREE, Browser, Studio, go, until  # noqa: E402
+
+PARTICLES = """schema_version = 1
+base = "m3_samples/a3h600.toml"
+title = "Particle film"
+
+[texture]
+type = "particle_film"
+radius = "1 um"
+coverage = "30 %"
+"""
+KEYS = {
+    "flat": ["drive.amplitude", "surface.contact_angle", "finger.load"],
+    "holes": ["drive.amplitude", "surface.contact_angle", "finger.load", "texture.depth"],
+    "particles": ["drive.amplitude", "surface.contact_angle", "finger.load", "texture.radius"],
+}
+
+
+def design(folder, kind):
+    if kind != "particles":
+        return os.path.join(TREE, "designs", "m3_samples", {"flat": "flat.toml", "holes": "a3h600.toml"}[kind])
+    path = os.path.join(folder, "particles.toml")
+    with open(path, "w") as file:
+        file.write(PARTICLES)
+    return path
+
+
+def quantile(values, share):
+    values = sorted(values)
+    at = share * (len(values) - 1)
+    low = int(at)
+    return values[low] + (at - low) * (values[min(low + 1, len(values) - 1)] - values[low])
+
+
+MOVE = """
+const row = document.getElementById('k-%s').closest('.key').querySelector('input[type=range]');
+row.value = Math.round(%f * row.max); row.dispatchEvent(new Event('input', {bubbles: true}));"""
+
+
+def latency(out, count):
+    rows = []
+    each = max(1, count // sum(len(k) for k in KEYS.values()))
+    folder, profile = tempfile.mkdtemp(), tempfile.mkdtemp()
+    browser = Browser(profile)
+    browser.metrics(1440, 900)
+    draw = random.Random(300)
+    for searching in [False, True]:
+        for kind, keys in KEYS.items():
+            studio = Studio(tempfile.mkdtemp(dir=folder), design(folder, kind))
+            go(browser, studio)
+            if searching:
+                browser.run("document.getElementById('evaluations').value = 5000; const b = [...document.querySelectorAll('#variables tbody tr')].find(r => r.dataset.path === 'surface.contact_angle').querySelector('input'); b.checked = true; document.getElementById('start').click()")
+                until(browser, "document.getElementById('searchstate').textContent === 'running'", 60)
+            for key in keys:
+                browser.run("papilla.latency.done.length = 0")
+                for n in range(each):
+                    browser.run(MOVE % (key.replace(".", "-"), draw.random()))
+                    until(browser, f"papilla.latency.done.length > {n}", 60, f"event {n} of {key}")
+                    time.sleep(0.1)
+                done = browser.run("return papilla.latency.done")
+                rows.append([kind, key, "yes" if searching else "no", len(done), quantile(done, 0.5), quantile(done, 0.95)])
+                print(rows[-1], flush=True)
+            studio.close()
+    browser.close()
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.rmtree(profile, ignore_errors=True)
+    with open(out, "w") as file:
+        file.write(f"# from the event of a slider to the drawn curve; {os.cpu_count()} cores, load {os.getloadavg()[0]:.1f}\n")
+        file.write("texture,key,search running,events,median [ms],p95 [ms]\n")
+        for row in rows:
+            file.write(",".join(str(v) if not isinstance(v, float) else f"{v:.0f}" for v in row) + "\n")
+
+
+class Talk:
+    """A page without a browser: what it sets, and what it is told."""
+
+    def __init__(self, studio):
+        self.root = studio.address
+        self.opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
+        self.events = self.opener.open(self.root + "events", timeout=600)
+
+    def post(self, path, body):
+        request = urllib.request.Request(self.root + path, json.dumps(body).encode(), {"Content-Type": "application/json"})
+        return json.load(self.opener.open(request, timeout=60))
+
+    def answer(self, revision, step):
+        topic = ""
+        for line in self.events:
+            text = line.decode().rstrip("\n")
+            if text.startswith("event: "):
+                topic = text[7:]
+            elif text.startswith("data: ") and topic == "response":
+                data = json.loads(text[6:])
+                if data["revision"] == revision and data["step"] == step:
+                    return data["response"]
+
+
+# Positions are drawn between these shares of the value that the design has.
+RANGE = (0.6, 1.6)
+
+
+def bands(out, count):
+    draw = random.Random(2026)
+    folder = tempfile.mkdtemp()
+    rows, inside, readings = [], 0, 0
+    for kind, keys in KEYS.items():
+        studio = Studio(tempfile.mkdtemp(dir=folder), design(folder, kind))
+        talk = Talk(studio)
+        state = json.load(talk.opener.open(talk.root + "state"))["session"]
+        start = {k["path"]: k for k in state["keys"]}
+        talk.answer(state["revision"], "design")
+        for n in range(count // len(KEYS) + (1 if kind == "flat" and count % len(KEYS) else 0)):
+            key = start[keys[n % len(keys)]]
+            value = key["shown"] * math.exp(draw.uniform(math.log(RANGE[0]), math.log(RANGE[1])))
+            revision = talk.post("set", {"path": key["path"], "value": f"{value:.4g} {key['unit']}"})["revision"]
+            first, fine = talk.answer(revision, "search"), talk.answer(revision, "design")
+            for a, b in zip(first["points"], fine["points"]):
+                m, se, refined = a["modulation"]["value"], a["modulation"]["se"], b["modulation"]["value"]
+                ok = abs(refined - m) <= 2 * se
+                inside += ok
+                readings += 1
+                rows.append(f"{kind},{key['path']},{value:.4g} {key['unit']},{100 * a['relative_humidity']:.0f},{m:.4f},{2 * se:.4f},{refined:.4f},{'yes' if ok else 'no'}")
+            print(rows[-1], f"{inside}/{readings}", flush=True)
+        studio.close()
+    shutil.rmtree(folder, ignore_errors=True)
+    with open(out, "w") as file:
+        file.write(f"# refined values inside the first band of two standard errors: {inside} of {readings}\n")
+        file.write("texture,key,value,humidity [%],first modulation,half band,refined modulation,inside\n")
+        file.write("\n".join(rows) + "\n")
+
+
+if __name__ == "__main__":
+    {"latency": latency, "bands": bands}[sys.argv[2]](sys.argv[3], int(sys.argv[4]) if len(sys.argv) > 4 else {"latency": 300, "bands": 50}[sys.argv[2]])
