@@ -254,7 +254,8 @@ def hour(browser, folder):
     studio = Studio(folder, os.path.join(folder, "chosen.toml"))
     try:
         go(browser, studio)
-        check(value(browser, "texture.depth").replace("µ", "u") == depth, "the saved design is another")
+        again = browser.run("return papilla.session().keys.find(k => k.path === 'texture.depth').value")
+        check(again == depth, f"{depth} was saved, {again} is read")
         until(browser, "document.getElementById('searchstate').textContent === 'finished'", 20, "the search of before")
         quiet(browser)
     finally:
