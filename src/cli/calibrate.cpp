@@ -51,10 +51,6 @@ int run(const Context& context, const CalibrateCommand& command) {
   CalibrationOptions options;
   options.threads = command.jobs;
   options.note = [&](const std::string& text) { context.note(text); };
-  const CalibrationResult result = fit_finger(calibration, options);
-  const JudgedFit claims = judged(calibration, result, command.jobs, context);
-  const std::string markdown = calibration_markdown(calibration, result, claims);
-  const std::string json = calibration_json(calibration, result, claims) + "\n";
   const std::string out = !command.out.empty()
                               ? command.out
                               : "results/" + std::filesystem::path(command.file).stem().string();
@@ -63,9 +59,14 @@ int run(const Context& context, const CalibrateCommand& command) {
   if (error) {
     throw InputError({Problem{out, 0, 0, "", "no such folder can be made: " + error.message()}});
   }
+  const CalibrationResult result = fit_finger(calibration, options);
+  // At once: what the fit has cost is not lost to a claim that cannot be judged.
   write_finger(out + "/finger.toml", result.finger,
                "Fitted by papilla calibrate " +
                    std::filesystem::path(command.file).filename().string() + "; see fit.md.");
+  const JudgedFit claims = judged(calibration, result, command.jobs, context);
+  const std::string markdown = calibration_markdown(calibration, result, claims);
+  const std::string json = calibration_json(calibration, result, claims) + "\n";
   write_bytes(out + "/fit.md", markdown);
   write_bytes(out + "/fit.json", json);
   write_bytes(out + "/report.html", report_page(out));
