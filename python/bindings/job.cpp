@@ -37,9 +37,9 @@ class Workers {
     wake_.notify_one();
   }
 
-  std::size_t running() const {
-    std::lock_guard lock(mutex_);
-    return running_;
+  bool quiet_within(std::chrono::milliseconds time) {
+    std::unique_lock lock(mutex_);
+    return quiet_.wait_for(lock, time, [&] { return running_ == 0; });
   }
 
   void end() {
@@ -65,12 +65,12 @@ class Workers {
       lock.unlock();
       task();
       lock.lock();
-      --running_;
+      if (--running_ == 0) quiet_.notify_all();
     }
   }
 
-  mutable std::mutex mutex_;
-  std::condition_variable wake_;
+  std::mutex mutex_;
+  std::condition_variable wake_, quiet_;
   std::deque<std::function<void()>> tasks_;
   std::vector<std::thread> threads_;
   std::size_t idle_ = 0, running_ = 0;
@@ -171,6 +171,9 @@ void Job::run(const std::function<void(Job&)>& work, const py::object& progress)
   if (shared->error) std::rethrow_exception(shared->error);
 }
 
-bool jobs_are_running() { return workers()->running() > 0; }
+bool all_jobs_ended() {
+  py::gil_scoped_release release;
+  return workers()->quiet_within(10s);
+}
 
 }  // namespace papilla::python

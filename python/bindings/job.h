@@ -44,7 +44,8 @@ auto run_job(Work work, const pybind11::object& progress = pybind11::none()) {
   return std::move(**result);
 }
 
-// Nothing runs but what is asked for next: a search forks.
-bool jobs_are_running();
+// Waits a little for what was left behind by interrupts; whether nothing runs then. A search forks,
+// and what other threads are at would be lost in its processes.
+bool all_jobs_ended();
 
 }  // namespace papilla::python

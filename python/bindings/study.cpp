@@ -42,7 +42,7 @@ RunOptions watched(RunOptions options, Job& job) {
 
 py::dict run_study(const Study& study, const std::string& folder, bool resume,
                    const std::string& pick, const py::object& progress) {
-  if (jobs_are_running()) {
+  if (!all_jobs_ended()) {
     throw InputError({{"", 0, 0, "optimize",
                        "a search works in processes forked from this one: let the evaluations of "
                        "other threads end first"}});

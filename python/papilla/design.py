@@ -160,6 +160,7 @@ class Design:
 
     @property
     def title(self) -> str:
+        """Of the design, for people."""
         return self._inside.title()
 
     @property

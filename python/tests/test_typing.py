@@ -9,6 +9,8 @@ import re
 import subprocess
 import sys
 
+import pytest
+
 import papilla as pp
 from conftest import ROOT
 from papilla import _native
@@ -26,6 +28,7 @@ def mypy(folder: pathlib.Path, *arguments: str) -> None:
     run("mypy", "--config-file", str(ROOT / "python/mypy.ini"), "--cache-dir", str(folder), *arguments, cwd=folder)
 
 
+@pytest.mark.slow
 def test_mypy_is_content_with_the_package_and_the_examples(tmp_path: pathlib.Path) -> None:
     mypy(tmp_path, "-p", "papilla")
     examples = sorted(str(path) for path in (ROOT / "python/examples").glob("*.py"))
@@ -46,6 +49,12 @@ def test_the_stubs_have_the_names_and_arguments_of_the_module() -> None:
         members = {a or b for a, b in said_members} - {"__init__"}
         has_members = {m for m in vars(getattr(_native, name)) if not m.startswith("_")} - {"name", "value"}
         assert members == has_members, name
+
+
+def test_the_page_of_the_api_is_that_of_the_docstrings() -> None:
+    made = subprocess.run([sys.executable, str(ROOT / "python/docs/make_page.py")], capture_output=True, text=True,
+                          check=True).stdout
+    assert made == (ROOT / "docs/reference/python.md").read_text(), "python3 python/docs/make_page.py > docs/reference/python.md"
 
 
 def test_every_public_name_is_explained() -> None:
