@@ -9,7 +9,8 @@
 
 namespace papilla::api {
 
-// A case: a file, or the text of one where `file` is empty; with values that replace its own.
+// A case: a file (looked for as Design::read does), or the text of one where `file` is empty; with
+// values that replace its own.
 struct CaseInput {
   std::string file, toml;
   Design::Values values;

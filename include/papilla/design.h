@@ -44,8 +44,9 @@ class Design {
   // a path that ends with a colon bare numbers are SI: {"texture.depth:", "350e-9"}.
   using Values = std::vector<std::pair<std::string, std::string>>;
 
-  // A file, or the text of one, with values that replace its own. A study is a design too. Both
-  // throw InputError with every problem.
+  // A file, or the text of one, with values that replace its own. A study is a design too. A file
+  // that is not there is looked for in the designs folders. Both throw InputError with every
+  // problem.
   static Design read(const std::string& file, const Values& values = {});
   static Design parse(const std::string& toml, const Values& values = {});
 

@@ -121,6 +121,8 @@ class Design:
     def load(cls, file: Path, values: Mapping[str, Any] | None = None) -> Design:
         """The design of a file, with values that replace its own. A study is a design too.
 
+        A file that is not there is looked for among the designs that Papilla brings.
+
         Raises InputError with file, line and column of every mistake.
         """
         return cls._of(_native.Design.read(v.path(file, "file"), v.settings(values)))

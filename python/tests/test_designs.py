@@ -30,6 +30,12 @@ def test_texts_carry_units_and_numbers_are_si() -> None:
     assert d.with_({"environment.relative_humidity": np.array([0.2, 0.4])})["environment.relative_humidity.1"] == 0.4
 
 
+def test_a_shipped_design_is_found_from_anywhere(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert pp.Design.load("m3_samples/a3h350.toml") == pp.Design.load(ROOT / "designs/m3_samples/a3h350.toml")
+    assert pp.persson("physics/wrist_on_glass.toml").rms > 1e-6
+
+
 def test_a_dict_is_the_file() -> None:
     file = pp.Design.load(ROOT / "designs/m3_samples/a3h350.toml")
     mine = pp.Design({"schema_version": 1, "base": "m3_samples/common.toml",

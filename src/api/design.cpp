@@ -1,8 +1,12 @@
 #include "papilla/design.h"
 
+#include <filesystem>
+#include <system_error>
+
 #include "api/inside.h"
 #include "base/units.h"
 #include "config/describe.h"
+#include "config/reader.h"
 
 namespace papilla::api {
 namespace {
@@ -30,6 +34,13 @@ Look look_of(const Optics& o) {
   return {o.haze, o.transmittance, o.gloss, o.colour_shift, text(o.regime), o.warning};
 }
 
+std::string shipped(const std::string& file) {
+  std::error_code ignored;
+  if (file.empty() || std::filesystem::exists(file, ignored)) return file;
+  const std::string found = find_beside(file, "", design_roots());
+  return found.empty() ? file : found;
+}
+
 Heights heights_of(const Heightmap& map) {
   return {map.grid.nx, map.grid.ny, map.grid.dx(), map.grid.dy(), map.z};
 }
@@ -42,7 +53,7 @@ Heightmap heightmap_of(const Heights& h) {
 }
 
 Design Design::read(const std::string& file, const Values& values) {
-  return Design(loaded({file, "", values, nullptr, {}}));
+  return Design(loaded({shipped(file), "", values, nullptr, {}}));
 }
 
 Design Design::parse(const std::string& toml, const Values& values) {
