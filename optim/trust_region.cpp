@@ -88,7 +88,13 @@ class CeresModel final : public ceres::CostFunction {
     // The step that balances the error of the difference with that of the function.
     double step = std::cbrt(options_.noise) * std::max(std::abs(x[i]), kLeastStepOf);
     if (p.step > 0) {
-      step = p.logarithmic ? p.step / coordinates_.scale(i) : p.step * std::abs(x[i]);
+      // Of a parameter that is next to zero: of its prior's width, or of its range.
+      const double width =
+          coordinates_.has_prior(i)
+              ? 1
+              : kLeastStepOf * (coordinates_.to(i, p.high) - coordinates_.to(i, p.low));
+      step = p.logarithmic ? p.step / coordinates_.scale(i)
+                           : p.step * std::max(std::abs(x[i]), std::isfinite(width) ? width : 0);
     }
     const double up = std::min(x[i] + step, coordinates_.to(i, p.high));
     const double down = std::max(x[i] - step, coordinates_.to(i, p.low));

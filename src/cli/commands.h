@@ -18,6 +18,7 @@ void add_report(Command app, Context& context);
 void add_surface(Command app, Context& context);
 void add_solve(Command app, Context& context);
 void add_reproduce(Command app, Context& context);
+void add_predict(Command app, Context& context);
 void add_calibrate(Command app, Context& context);
 void add_accuracy(Command app, Context& context);
 void add_bench(Command app, Context& context);
@@ -47,6 +48,7 @@ inline constexpr std::array kCommands{
     add_solve,
     add_calibrate,
     add_reproduce,
+    add_predict,
     add_accuracy,
     add_bench,
     add_describe,

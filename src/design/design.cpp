@@ -73,16 +73,31 @@ void finger_problems(const Finger& finger, const ModelOptions& model, Problems& 
 }
 
 void drive_problems(const Drive& drive, const Surface& surface, Problems& out) {
-  if (drive.control == DriveControl::Current) {
-    out.push_back(
-        {"drive.control",
-         "a texture is judged at a voltage; what a current source makes of it: `papilla solve "
-         "drive` with gap.design"});
+  const bool current = drive.control == DriveControl::Current;
+  if (current && drive.amplitude > 0) {
+    out.push_back({"drive.amplitude",
+                   "a voltage, beside control = \"current\": give drive.current, and the largest "
+                   "voltage as drive.source_compliance"});
+  }
+  if (!current && drive.current > 0) {
+    out.push_back({"drive.current",
+                   "a current, beside control = \"voltage\": say control = "
+                   "\"current\", or give drive.amplitude"});
+  }
+  if (current && drive.waveform == Waveform::Dc && drive.driven()) {
+    out.push_back({"drive.waveform",
+                   "a constant current through a film that insulates has no end: give an "
+                   "alternating one"});
+  }
+  if (current && drive.current > drive.current_limit) {
+    out.push_back({"drive.current", fmt::format("{} is above drive.current_limit, {}",
+                                                format_quantity(drive.current, "mA"),
+                                                format_quantity(drive.current_limit, "mA"))});
   }
   if (drive.waveform == Waveform::Am && drive.driven() && drive.modulation_frequency <= 0) {
     out.push_back({"drive.modulation_frequency", "expected a frequency above 0 Hz for am"});
   }
-  if (drive.source_compliance > 0 && drive.amplitude > drive.source_compliance) {
+  if (!current && drive.source_compliance > 0 && drive.amplitude > drive.source_compliance) {
     out.push_back({"drive.amplitude", fmt::format("{} is above source_compliance, {}",
                                                   format_quantity(drive.amplitude, "V"),
                                                   format_quantity(drive.source_compliance, "V"))});

@@ -7,6 +7,7 @@ const std::vector<Word>& words() {
       {"voltage", "drive.amplitude"},
       {"volts", "drive.amplitude"},
       {"bias", "drive.amplitude"},
+      {"amperage", "drive.current"},
       {"signal", "drive.waveform"},
       {"stiffness", "finger.skin.layer_modulus"},
       {"stiffness", "surface.modulus"},

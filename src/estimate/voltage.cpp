@@ -174,7 +174,7 @@ void add_voltages(Response& response, const Scene& scene, const Texture& texture
     one.environment.relative_humidity = {point.relative_humidity};
     one.environment.weights.clear();
     const UndrivenPatches patches(one, texture, fidelity);
-    double guess = scene.drive.driven() ? scene.drive.amplitude : 100;
+    double guess = scene.drive.amplitude > 0 ? scene.drive.amplitude : 100;
     for (double target : targets) {
       PAPILLA_CHECK(target > 0, "a modulation above 0");
       VoltageSearch search(patches, target, limit,

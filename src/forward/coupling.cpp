@@ -75,7 +75,7 @@ class PatchSolver {
         // Both moduli soften by one factor, so the kernel at 15 % RH serves every humidity:
         // pressures are divided by the factor on the way in and multiplied on the way out.
         // A compliant surface comes with the kernel of this humidity.
-        softness_(problem.scene->surface.modulus > 0
+        softness_(problem.kernel->solid().counter_modulus > 0
                       ? 1
                       : 1 / problem.scene->finger.skin.modulus_factor(problem.relative_humidity)) {}
 

@@ -15,6 +15,9 @@ constexpr int kSmallestGrid = 16;  // of the control run on half the pixels; bel
 constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
 // Contact areas: of the octaves left out, so many at least.
 constexpr double kFewestOctaves = 0.6;
+// What they are too large by through octaves that are left out is taken off; so much of it, one
+// standard deviation, is not known.
+constexpr double kNotKnown = 0.12;
 // Features of so many pixels are resolved, of so many not at all: the last halving of the pixel
 // then says what is missing, whole (lands and holes are off by a share of a pixel: first order).
 constexpr double kResolvedFeature = 24, kCoarseFeature = 12;
@@ -22,6 +25,9 @@ constexpr double kResolvedFeature = 24, kCoarseFeature = 12;
 // proportion (100 nm holes every 200 nm at 2.1 pixels: 10 % from half the pixels, 21 % to the
 // limit).
 constexpr double kLostFeature = 4;
+// Of a step that drops an octave of the skin as well, so much is the features' own: the rest is the
+// skin's, and taken off.
+constexpr double kOfFeatures = 0.2;
 // By the load law the modulation's way to the limit is part of its method error; half of that way
 // is taken as not known. Eq. accuracy.2
 constexpr double kUnknownShare = 0.5;
@@ -45,10 +51,11 @@ std::optional<double> read(const Reading& number, const Resampled& run, int with
   return number(without < 0 ? run.points : run.without[static_cast<std::size_t>(without)]);
 }
 
-// (b - a) / |of|; zero where `of` is.
-std::optional<double> relative(std::optional<double> b, std::optional<double> a,
-                               std::optional<double> of) {
+// b - a, relative to `of` (zero where that is) or by itself.
+std::optional<double> change_of(Change kind, std::optional<double> b, std::optional<double> a,
+                                std::optional<double> of) {
   if (!a || !b || !of) return std::nullopt;
+  if (kind == Change::Absolute) return *b - *a;
   return *of != 0 ? (*b - *a) / std::abs(*of) : 0;
 }
 
@@ -56,6 +63,12 @@ std::optional<double> relative(std::optional<double> b, std::optional<double> a,
 // down to its cut-off: what they are too large by after `octaves` that are not. step: of the last
 // octave. Relative to the area. Eq. accuracy.2
 double left_out(double step, double octaves) { return 1 - std::pow(1 + step, -octaves); }
+
+// What contact areas are too large by through octaves left out, of a step over the last of those
+// that the grid resolves: as a factor on that step.
+double left_out_of(double step, double octaves) {
+  return step != 0 ? left_out(step, octaves) / step : octaves;
+}
 
 // Area error of the wavelengths that the grid resolves. Measured against 2048 pixels: 2.3, 0.8,
 // 0.2 % at 2.1, 4.3, 8.5 pixels for the shortest (results/bench/contact_area.csv).
@@ -99,39 +112,62 @@ double method_error(const std::vector<double>& samples) {
   return std::sqrt(std::max(square(e.value) - square(e.se), 0.0));
 }
 
-ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
-                                   const Reading& number) {
+ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, const Reading& number,
+                                   Change kind) {
   const bool load_law = !runs.areas.points.empty();
   const Resampled& fine = load_law ? runs.areas : runs.own;
   const bool to_limit = load_law && quantity == GridLaw::Modulation;
   const auto halving = [&](int k, const Resampled& of) {
-    return relative(read(number, runs.coarse, k), read(number, fine, k), read(number, of, k));
+    return change_of(kind, read(number, runs.coarse, k), read(number, fine, k),
+                     read(number, of, k));
   };
   ControlledChange out;
   // With the load law, grids are compared by solved areas: its own steps between grids are partly
   // what it lacks against them. Eq. accuracy.2
   if (!runs.coarse.points.empty()) {
     out.halving = samples_of(fine.without.size(), [&](int k) { return halving(k, fine); });
-    const double step = grid_error(out.halving);
-    double missing = kOtherToLimit;
+    double missing = kOtherToLimit, scatter = 0;
     if (to_limit) missing *= kUnknownShare;
     if (quantity == GridLaw::Pull) missing = kPullToLimit;
-    if (quantity == GridLaw::Area && step > 0)
-      missing = left_out(step, std::max(runs.octaves, kFewestOctaves)) / step;
-    if (quantity == GridLaw::Area) missing = std::max(missing, runs.coarse_features);
-    for (const double change : out.halving) out.grid.push_back(missing * change);
+    if (quantity == GridLaw::Area) {
+      const double step = grid_error(out.halving);
+      const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
+      missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
+      const double own = 1 - (1 - kOfFeatures) * std::min(runs.octaves, 1.0);
+      missing = std::max(missing, own * runs.coarse_features);
+      scatter = std::max(0.0, all - missing);
+    }
+    // What is taken off is known as well as the control skins agree on it.
+    const double mean = out.halving.empty() ? 0 : mean_estimate(out.halving).value;
+    for (const double change : out.halving)
+      out.grid.push_back(missing * change + scatter * (change - mean));
   }
   // Eq. accuracy.3
   if (load_law) {
     out.method = samples_of(fine.without.size(), [&](int k) {
-      auto m =
-          relative(read(number, fine, k), read(number, runs.own, k), read(number, runs.own, k));
+      auto m = change_of(kind, read(number, fine, k), read(number, runs.own, k),
+                         read(number, runs.own, k));
       if (!m || !to_limit || runs.coarse.points.empty()) return m;
       const auto last = halving(k, runs.own);
       return last ? std::optional(*m - kOtherToLimit * *last) : std::nullopt;
     });
   }
   return out;
+}
+
+double resolved_areas(const ControlRuns& runs) {
+  if (runs.coarse.points.empty() || runs.octaves <= 0) return 1;
+  std::vector<double> steps;
+  for (std::size_t i = 0; i < runs.own.points.size(); ++i) {
+    const ControlledChange change =
+        controlled_change(runs, GridLaw::Area, [&](const std::vector<ResponsePoint>& points) {
+          return std::optional(points[i].area_fraction_off.value);
+        });
+    if (!change.halving.empty()) steps.push_back(mean_estimate(change.halving).value);
+  }
+  if (steps.empty()) return 1;
+  const double step = mean_estimate(steps).value;
+  return 1 - left_out(std::max(step, 0.0), runs.octaves);
 }
 
 namespace {
@@ -226,11 +262,13 @@ void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& 
                     PatchSet& patches) {
   patches.errors.clear();
   patches.controls = {};
+  patches.area_factor = 1;
   const int skins = std::min(fidelity.control_skins, patches.skins());
   if (skins < 2) return;
   Controls again(scene, texture, fidelity, patches.field, skins);
   again.run(patches);
   const ControlRuns& controls = patches.controls;
+  patches.area_factor = resolved_areas(controls);
   const Grid& pixels = patches.plan.grid;
   const double resolved =
       resolved_area_error(patches.plan.effective_cutoff / std::max(pixels.dx(), pixels.dy()));

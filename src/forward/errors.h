@@ -17,18 +17,26 @@ namespace papilla::forward {
 void measure_errors(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                     PatchSet& patches);
 
+// What contact areas of the runs are to be multiplied with, so that they are those of the whole
+// skin: the octaves of its spectrum that the grid leaves out would make them smaller, by as much
+// each as half the pixels make them larger. 1 where none are left out. Eq. accuracy.2
+double resolved_areas(const ControlRuns& runs);
+
 // A number read off the points of a response; nothing where it is not defined.
 using Reading = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
 
-// What grid and load law do to a number that stands on a quantity, relative to it, as samples of
-// the control skins: Eq. accuracy.2, accuracy.3. Empty where they were not run or the number is not
-// defined.
+// Relative to the number, or by itself: what is left of a spread over humidity near zero says
+// nothing about how far off another would be.
+enum class Change { Relative, Absolute };
+
+// What grid and load law do to a number that stands on a quantity, as samples of the control skins:
+// Eq. accuracy.2, accuracy.3. Empty where they were not run or the number is not defined.
 struct ControlledChange {
   std::vector<double> grid, method;
   std::vector<double> halving;  // of the grid, all of the step from half the pixels
 };
-ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity,
-                                   const Reading& number);
+ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, const Reading& number,
+                                   Change kind = Change::Relative);
 // The errors that they state: the scatter between skins is added, of the load law taken off. 0 for
 // no samples.
 double grid_error(const std::vector<double>& samples);

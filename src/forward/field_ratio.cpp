@@ -41,9 +41,9 @@ std::vector<Pulls> pulls_of(const PatchSetup& setup, int k) {
   PatchStates start;
   std::vector<Pulls> out;
   for (const double rh : scene.environment.relative_humidity) {
-    const auto kernel = contact_kernel(scene, setup.plan().grid, rh);
+    const auto kernel = contact_kernel(scene, setup.body(), setup.plan().grid, rh);
     const double pressure =
-        ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh).mean_pressure();
+        ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh, setup.body()).mean_pressure();
     PatchFields fields;
     solve_patch(setup.problem(height, *kernel, rh, pressure, mean), setup.plan(), setup.fidelity(),
                 start, &fields);
@@ -104,7 +104,7 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
     for (FieldRatio& r : out) r.error = kOfFullField;
     return out;
   }
-  if (fidelity.field_skins == 0) return out;
+  if (fidelity.field_skins == 0 || holds_all_voltage(field_problem(scene, 0.5))) return out;
   Scene at_rest = scene;  // both fields over the gap before the drive
   at_rest.model.coupling = Coupling::OnePass;
   const PatchSetup setup(at_rest, texture, control_fidelity(fidelity));

@@ -92,8 +92,8 @@ PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelit
   PAPILLA_CHECK(set.field.size() == humidities.size(), "one field ratio per humidity");
   std::vector<std::shared_ptr<const ContactKernel>> kernels;
   for (const double rh : humidities) {
-    kernels.push_back(contact_kernel(setup.scene(), set.plan.grid, rh));
-    set.bridges.emplace_back(setup.scene(), fidelity, set.plan.grid, rh);
+    kernels.push_back(contact_kernel(setup.scene(), setup.body(), set.plan.grid, rh));
+    set.bridges.emplace_back(setup.scene(), fidelity, set.plan.grid, rh, setup.body());
   }
   set.results.assign(humidities.size(),
                      std::vector<PatchResult>(static_cast<std::size_t>(fidelity.skins)));
@@ -110,8 +110,7 @@ PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelit
 }
 
 Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set) {
-  Scene scene = given;
-  scene.finger = given.finger.applied();
+  const Scene scene = in_its_state(given);
   Response response;
   response.plan = set.plan;
   response.controls = set.controls;
@@ -119,7 +118,7 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
   response.fidelity.skins = set.skins();
   response.driven = set.plan.field;
   response.seconds = set.seconds;
-  const PointSetting setting{scene, response.plan, fidelity};
+  const PointSetting setting{scene, response.plan, fidelity, set.area_factor};
   const Environment& air = scene.environment;
   if (set.skins() > 1) response.without.resize(static_cast<std::size_t>(set.skins()));
   for (std::size_t i = 0; i < air.relative_humidity.size(); ++i) {
@@ -157,9 +156,9 @@ PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fid
   const Grid& grid = setup.plan().grid;
   PatchPicture picture{setup.texture(), setup.skin(index), {}};
   const std::vector<double> height = setup.height(picture.skin);
-  const auto kernel = contact_kernel(setup.scene(), grid, relative_humidity);
+  const auto kernel = contact_kernel(setup.scene(), setup.body(), grid, relative_humidity);
   const double pressure =
-      ScaleBridge(setup.scene(), fidelity, grid, relative_humidity).mean_pressure();
+      ScaleBridge(setup.scene(), fidelity, grid, relative_humidity, setup.body()).mean_pressure();
   const WaterMember mean{1, static_cast<std::uint64_t>(fidelity.first_skin + index)};
   PatchStates start;
   solve_patch(setup.problem(height, *kernel, relative_humidity, pressure, mean), setup.plan(),

@@ -29,7 +29,8 @@ struct PatchSet {
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
   std::vector<MeasuredError> errors;              // of measure_errors, like the next
   ControlRuns controls;
-  double seconds = 0;  // wall time
+  double area_factor = 1;  // on contact areas: `resolved_areas`
+  double seconds = 0;      // wall time
 
   int skins() const { return results.empty() ? 0 : static_cast<int>(results.front().size()); }
   // What the skins from `first` on have cost.

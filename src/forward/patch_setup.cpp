@@ -1,5 +1,7 @@
 #include "forward/patch_setup.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "forward/scene_terms.h"
@@ -8,13 +10,6 @@
 
 namespace papilla::forward {
 namespace {
-
-// The finger in its state, with nothing more to apply.
-Scene applied(const Scene& scene) {
-  Scene out = scene;
-  out.finger = scene.finger.applied();
-  return out;
-}
 
 // Sliding offset of skin k against the texture: the R2 low-discrepancy sequence over the patch.
 double offset_share(int k, bool second) {
@@ -25,10 +20,20 @@ double offset_share(int k, bool second) {
 }  // namespace
 
 PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelity& fidelity)
-    : scene_(applied(scene)),
+    : scene_(in_its_state(scene)),
       fidelity_(fidelity),
       plan_(make_plan(scene_, texture, fidelity)),
-      surface_(generate(texture, plan_.grid), film_of(scene_)) {}
+      surface_(generate(texture, plan_.grid), film_of(scene_)),
+      body_(compliant_body(scene_.surface, surface_.height)) {
+  if (surface_.cut_through > 0) {
+    plan_.warnings.push_back(fmt::format(
+        "the texture cuts through its planar film on {:.2g} % of the patch: the drive meets the "
+        "bare "
+        "electrode there, and the numbers under voltage mean nothing physical; make the film "
+        "thicker, or the texture shallower",
+        100 * surface_.cut_through));
+  }
+}
 
 Heightmap PatchSetup::skin(int k) const {
   const int index = fidelity_.first_skin + k;

@@ -7,6 +7,7 @@
 
 #include "base/rooms.h"
 #include "forward/coupling.h"
+#include "forward/scene_terms.h"
 
 namespace papilla::forward {
 
@@ -27,6 +28,7 @@ class PatchSetup {
   const Fidelity& fidelity() const { return fidelity_; }
   const CoveredSurface& surface() const { return surface_; }
   const Heightmap& texture() const { return surface_.height; }
+  const CompliantBody& body() const { return body_; }
 
   // Skin k of the fidelity: common to every design, because its modes are keyed by integer index.
   Heightmap skin(int k) const;
@@ -44,6 +46,7 @@ class PatchSetup {
   Fidelity fidelity_;
   Plan plan_;
   CoveredSurface surface_;
+  CompliantBody body_;
 };
 
 }  // namespace papilla::forward

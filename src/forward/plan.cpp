@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "base/constants.h"
+#include "forward/electric_path.h"
 #include "forward/field_ratio.h"
 #include "forward/scene_terms.h"
 #include "geometry/measured_map.h"
@@ -32,6 +33,33 @@ std::string coarse_features(const Plan& plan, const Fidelity& fidelity, double s
       1e9 * smallest, plan.feature_pixels,
       pixels >= kFewPixels ? fmt::format("accuracy.grid = {} gives it {:.2g}", grid, pixels)
                            : fmt::format("no grid up to {} resolves it", kLargestKey));
+}
+
+// What becomes of a direct voltage: the pull that stays, and how soon it is that.
+std::string direct_voltage(const Scene& scene) {
+  if (!scene.drive.driven() || scene.drive.waveform != Waveform::Dc) return {};
+  constexpr double kHumidity = 0.5, kNarrow = 0.1e-6, kWide = 1e-6;  // of gaps under a ridge [m]
+  const double slow = relaxation_time(scene, kHumidity, kNarrow);
+  const double fast = relaxation_time(scene, kHumidity, kWide);
+  if (std::isinf(slow)) return "direct voltage: nothing leaks, the charge stays where it is";
+  return fmt::format(
+      "direct voltage: the pull is the one that stays when charge has leaked through gap, film and "
+      "skin, {:.2g} to {:.2g} ms after the touch (gaps of {:g} and {:g} um); a film that insulates "
+      "better than the gap has taken the voltage by then",
+      1e3 * std::min(slow, fast), 1e3 * std::max(slow, fast), 1e6 * kNarrow, 1e6 * kWide);
+}
+
+// Where a current source reaches its largest voltage before its current.
+std::string source_at_compliance(const Scene& scene) {
+  std::string humidities;
+  for (const double rh : scene.environment.relative_humidity) {
+    if (!source_voltage(scene, rh).at_compliance) continue;
+    humidities += fmt::format("{}{:.0f} %", humidities.empty() ? "" : ", ", 100 * rh);
+  }
+  if (humidities.empty()) return {};
+  return fmt::format(
+      "at {} RH {:.3g} mA would need more than source_compliance, {:.3g} V: judged at that voltage",
+      humidities, 1e3 * scene.drive.current, scene.drive.source_compliance);
 }
 
 // A patch so much longer than the window that its pixels, limited in number, drop waves of the skin
@@ -111,7 +139,7 @@ Entry water(const Setting& s) {
                   facts.error(s.water)};
 }
 
-constexpr const char* kUndriven = "the drive is at 0 V";
+constexpr const char* kUndriven = "the drive is at 0";
 
 Entry field(const Setting& s) {
   if (!s.plan.field) return PlanSkip{Piece::Field, kUndriven};
@@ -302,6 +330,8 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   plan.water =
       std::any_of(setting.water.begin(), setting.water.end(), [](double v) { return v > 0; });
   plan.field = scene.drive.driven();
+  for (std::string said : {direct_voltage(scene), source_at_compliance(scene)})
+    if (!said.empty()) plan.warnings.push_back(std::move(said));
   plan.retention = plan.water && scene.finger.water.hysteresis > 0 && retention_counts(scene);
   plan.traction_solves = fidelity.estimator == Estimator::Area && (plan.water || plan.field);
   setting.price = prices(scene, plan, plan.grid, fidelity, plan.traction_solves);

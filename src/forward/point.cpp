@@ -5,6 +5,7 @@
 
 #include "base/constants.h"
 #include "base/statistics.h"
+#include "forward/electric_path.h"
 #include "forward/scene_terms.h"
 #include "forward/water_band.h"
 #include "physics/contact/facts.h"
@@ -122,6 +123,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   point.relative_humidity = relative_humidity;
   point.weight = weight;
   point.patch_pressure = bridge.mean_pressure();
+  if (plan.field) point.source_voltage = source_voltage(scene, relative_humidity).peak;
   const double carrying =
       bridge.carrying_share() * macro.gross_area(scene.finger.load, relative_humidity);  // [m^2]
   const double patches_per_finger = carrying / plan.grid.area();
@@ -136,11 +138,15 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   } else {
     areas_resolved(point);
   }
-  for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
+  for (Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
+    area->value *= setting.area_factor;
+    area->parts.sampling *= setting.area_factor;
     // Resolved areas end at the patch, the load law does not.
     if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
   }
-  add_friction(point, macro.shear_strength * carrying, plan.field);
+  for (auto* areas : {&point.samples.area_off, &point.samples.area_on})
+    for (double& area : *areas) area *= setting.area_factor;
+  add_friction(point, shear_strength(scene, relative_humidity) * carrying, plan.field);
   add_solver_errors(point, patches);
   if (plan.water)
     add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);

@@ -16,6 +16,7 @@ struct PointSetting {
   const Scene& scene;
   const Plan& plan;
   const Fidelity& fidelity;
+  double area_factor = 1;  // on contact areas: `resolved_areas`
 };
 
 // Means over the patches (one per skin) with what sampling, the solver's tolerance and the choices

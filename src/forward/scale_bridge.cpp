@@ -14,6 +14,8 @@
 namespace papilla::forward {
 namespace {
 
+constexpr double kPatch = 12e-6;  // where the spectrum of the ridges meets that of the skin
+
 // Spectrum of the ridge above the patch size, then that of the skin within patches.
 PowerSpectrum ridge_and_skin(const Finger& finger, double q_patch) {
   const MacroContact& macro = finger.macro;
@@ -42,24 +44,55 @@ MeanField ridge_field(const Finger& finger, double q_patch, double relative_humi
                     macro.corneum_thickness, macro.tissue_modulus, 0.5});
 }
 
+// How many times more patches carry a surface that gives by compliance [m/Pa] than a rigid one
+// under a patch pressure of `rigid` [Pa]: those within reach of its compression as well. Eq.
+// coupling.6
+double more_patches(const Finger& finger, double compliance, double rigid,
+                    double relative_humidity) {
+  const double nominal = ridge_load(finger.macro, finger.load, relative_humidity).mean_pressure;
+  if (!(nominal > 0) || !(compliance > 0) || finger.macro.ridge_rms <= 0) return 1;
+  const MeanField all = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
+  const PowerSpectrum ridges = all.spectrum().between(all.spectrum().lowest(), 2 * kPi / kPatch);
+  const GapDistribution gaps = MeanField(ridges, all.solid()).gaps(nominal);
+  // A patch at a few nanometres touches with its skin.
+  constexpr double kTouches = 5e-9;
+  const double touching = gaps.cumulative(kTouches);
+  if (!(touching > 0)) return 1;
+  const auto within = [&](double pressure) {
+    return gaps.cumulative(kTouches + compliance * pressure) / touching;
+  };
+  // pressure x patches is the load: rises with the pressure.
+  double low = 0, high = rigid;
+  for (int k = 0; k < 60 && high - low > 1e-9 * rigid; ++k) {
+    const double pressure = 0.5 * (low + high);
+    (pressure * within(pressure) < rigid ? low : high) = pressure;
+  }
+  return rigid / (0.5 * (low + high));
+}
+
 }  // namespace
 
 double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
                       double relative_humidity) {
   const double h0 = dielectric + finger.electrical.equivalent_thickness(relative_humidity);
-  constexpr double kPatch = 12e-6;  // where the spectrum of the ridges meets that of the skin
   const MeanField field = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
   return 1 / field.gaps(ridge_pressure).inverse(h0) - h0;
 }
 
 ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Grid& grid,
-                         double relative_humidity)
+                         double relative_humidity, const CompliantBody& body)
     : closure_(scene.model.closure), patch_area_(grid.area()) {
   const Finger& finger = scene.finger;
   const MacroContact& macro = finger.macro;
   if (closure_ == Closure::Uniform) {
     carrying_share_ = macro.load_share;
     mean_pressure_ = nominal_ = finger.patch_pressure(relative_humidity);
+    if (body.present()) {
+      const double more =
+          more_patches(finger, body.compliance(scene.surface), nominal_, relative_humidity);
+      carrying_share_ *= more;
+      mean_pressure_ = nominal_ /= more;
+    }
     pressures_ = {mean_pressure_};
     return;
   }

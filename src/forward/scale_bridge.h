@@ -8,19 +8,21 @@
 
 #include "base/rooms.h"
 #include "forward/coupling.h"
+#include "forward/scene_terms.h"
 #include "physics/persson/patches.h"
 
 namespace papilla::forward {
 
 // One humidity of one scene; patches of the grid's size.
-//   uniform: every load-carrying patch has the pressure F_N / (phi A_gross).
+//   uniform: every load-carrying patch has the pressure F_N / (phi A_gross); soft features bring
+//   more patches to the surface than a rigid one does. Eq. coupling.6
 //   persson: the ridges press with F_N / (phi_ridge A_gross) on a surface whose roughness above the
 //   patch size lets only some patches touch, at distributed pressures; the open gaps between them
 //   pull as well and add to the load. Eq. coupling.3
 class ScaleBridge {
  public:
   ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Grid& grid,
-              double relative_humidity);
+              double relative_humidity, const CompliantBody& body = {});
 
   const std::vector<double>& pressures() const { return pressures_; }  // to solve patches at [Pa]
   double mean_pressure() const { return mean_pressure_; }              // of patches in contact [Pa]

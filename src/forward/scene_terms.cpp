@@ -4,19 +4,56 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "forward/electric_path.h"
 #include "physics/electrostatics/electrowetting.h"
 #include "physics/electrostatics/rules.h"
 
 namespace papilla::forward {
 
-std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const Grid& grid,
-                                                    double relative_humidity) {
+Scene in_its_state(const Scene& scene) {
+  Scene out = scene;
+  out.finger = scene.finger.applied();
+  if (scene.finger.macro.shear_strength > 0)
+    out.surface.shear_strength *=
+        out.finger.macro.shear_strength / scene.finger.macro.shear_strength;
+  return out;
+}
+
+double CompliantBody::compliance(const Surface& surface) const {
+  if (!present() || surface.modulus <= 0) return 0;
+  const double nu = surface.poisson;
+  // Laterally confined: it does not bulge between neighbours. Eq. contact.17
+  return thickness * (1 + nu) * (1 - 2 * nu) / (surface.modulus * (1 - nu) * solid);
+}
+
+CompliantBody compliant_body(const Surface& surface, const Heightmap& height) {
+  if (surface.modulus <= 0 || height.z.empty()) return {};
+  const double floor = *std::min_element(height.z.begin(), height.z.end());
+  double sum = 0, square_sum = 0;
+  for (const double z : height.z) {
+    sum += z - floor;
+    square_sum += square(z - floor);
+  }
+  if (sum <= 0) return {};
+  const double thickness = square_sum / sum;
+  return {thickness, sum / static_cast<double>(height.z.size()) / thickness};
+}
+
+double shear_strength(const Scene& scene, double relative_humidity) {
+  const MacroContact& macro = scene.finger.macro;
+  const double of_finger = macro.shear_strength_at(relative_humidity);
+  if (scene.surface.shear_strength <= 0 || macro.shear_strength <= 0) return of_finger;
+  return of_finger * scene.surface.shear_strength / macro.shear_strength;
+}
+
+std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const CompliantBody& body,
+                                                    const Grid& grid, double relative_humidity) {
   const Skin& skin = scene.finger.skin;
-  const double factor = scene.surface.modulus > 0 ? skin.modulus_factor(relative_humidity) : 1;
-  return make_contact_kernel(grid,
-                             {skin.layer_modulus * factor, skin.layer_poisson, skin.layer_thickness,
-                              skin.bulk_modulus * factor, skin.bulk_poisson, scene.surface.modulus,
-                              scene.surface.poisson});
+  const double factor = body.present() ? skin.modulus_factor(relative_humidity) : 1;
+  return make_contact_kernel(
+      grid, {skin.layer_modulus * factor, skin.layer_poisson, skin.layer_thickness,
+             skin.bulk_modulus * factor, skin.bulk_poisson,
+             body.present() ? scene.surface.modulus : 0, scene.surface.poisson, body.thickness});
 }
 
 WaterProperties water_properties(const Scene& scene, double substrate_angle) {
@@ -44,6 +81,10 @@ FieldSolution solve_field(const Scene& scene, const Gap& gap, const CoveredSurfa
 
 std::vector<FilmLayer> film_of(const Scene& scene) {
   std::vector<FilmLayer> film = film_layers(scene.surface);
+  // A layer that conducts more than the gap is thinner to the field by that, one that conducts less
+  // is thicker; humidity does not reach it.
+  const SeriesLayers series = series_layers(scene, 0.5);
+  for (std::size_t k = 0; k < film.size(); ++k) film[k].permittivity /= series.of_film[k].real();
   if (scene.model.preset == Preset::M3) {
     for (FilmLayer& layer : film)
       layer = {FilmProcess::Directional, 0, layer.thickness, layer.permittivity};
@@ -53,16 +94,18 @@ std::vector<FilmLayer> film_of(const Scene& scene) {
 
 FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   FieldProblem p;
-  p.v_rms = scene.drive.v_rms();
-  p.v_peak = scene.drive.amplitude;
-  p.dielectric = scene.surface.equivalent_thickness();
+  const SourceVoltage source = source_voltage(scene, relative_humidity);
+  p.v_rms = source.rms;
+  p.v_peak = source.peak;
+  for (const FilmLayer& layer : film_of(scene))
+    p.dielectric += layer.thickness / layer.permittivity;
   p.dielectric_thickness = scene.surface.dielectric_thickness();
   p.edge_radius = scene.surface.electrode_edge_radius;
-  // Stratum corneum in series: conducts below its corner frequency, h(w) = h / (1 + i wc/w).
-  const double h = scene.finger.electrical.equivalent_thickness(relative_humidity);
-  const double corner = scene.finger.electrical.corner_frequency;
-  const double f = scene.drive.waveform == Waveform::Dc ? 0 : scene.drive.frequency;
-  p.skin_layer = corner > 0 ? (f > 0 ? h / std::complex<double>(1, corner / f) : 0.0) : h;
+  // What of the film lags behind counts like that of the skin, as on a flat surface. Eq. drive.12
+  const SeriesLayers series = series_layers(scene, relative_humidity);
+  const std::complex<double> film = series.film(scene.surface);
+  p.skin_layer = series.skin + std::complex<double>(0, film.imag());
+  p.film_phase = film.real() > 0 ? std::abs(film) / film.real() : 1;
   p.breakdown_cap = scene.model.breakdown_cap;
   p.droplet_enhancement = scene.model.droplet_enhancement;
   if (scene.model.preset == Preset::M3) {
@@ -77,10 +120,9 @@ double driven_contact_angle(const Scene& scene, double relative_humidity) {
   if (!scene.drive.driven()) return scene.surface.contact_angle;
   const double undriven = scene.surface.contact_angle;
   const double saturated = scene.finger.saturation.angle(undriven);
-  const FieldProblem field = field_problem(scene, relative_humidity);
-  const double eta =
-      electrowetting_number(scene.drive.amplitude, field.dielectric + std::abs(field.skin_layer),
-                            scene.finger.water.surface_tension);
+  const double eta = electrowetting_number(source_voltage(scene, relative_humidity).peak,
+                                           wetted_series(scene, relative_humidity),
+                                           scene.finger.water.surface_tension);
   const bool sine = scene.drive.waveform == Waveform::Sine || scene.drive.waveform == Waveform::Am;
   return std::acos(std::clamp(
       electrowetted_cosine(std::cos(undriven), std::cos(saturated), eta, sine), -1.0, 1.0));

@@ -13,11 +13,29 @@
 
 namespace papilla::forward {
 
+// The finger in its state, and what that changes of the surface's shear strength.
+Scene in_its_state(const Scene& scene);
+
+// The soft features of a surface (particles) as one body on what does not give: a thickness by
+// their volume, and the share of the patch that is solid. None: rigid, or without relief.
+struct CompliantBody {
+  double thickness = 0;  // [m]
+  double solid = 0;
+
+  bool present() const { return thickness > 0; }
+  // How much a mean pressure brings the surfaces together [m/Pa]: Eq. contact.17
+  double compliance(const Surface& surface) const;
+};
+CompliantBody compliant_body(const Surface& surface, const Heightmap& height);
+
+// Interfacial shear strength of the scene's surface [Pa]; the scene is in its state.
+double shear_strength(const Scene& scene, double relative_humidity);
+
 // The contact kernel of a humidity. Skin on a rigid surface softens as a whole, so the kernel at
 // 15 % RH serves all humidities (see the softness in forward/coupling.cpp); a compliant surface
 // does not soften, and needs one each.
-std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const Grid& grid,
-                                                    double relative_humidity);
+std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const CompliantBody& body,
+                                                    const Grid& grid, double relative_humidity);
 
 // Water on the skin and on a surface at a contact angle [rad].
 WaterProperties water_properties(const Scene& scene, double substrate_angle);

@@ -59,7 +59,7 @@ SkipBounds skip_bounds(const Scene& given, const Texture& texture, const Fidelit
   SkipBounds out;
   Scene held = given;  // with the retention that preset m3 leaves out, undriven
   held.model.preset = Preset::Papilla;
-  held.drive.amplitude = 0;
+  held.drive = {};
   fidelity.skins = skins;
   fidelity.control_skins = 0;
   for (const ResponsePoint& p : evaluate(held, texture, fidelity).points) {

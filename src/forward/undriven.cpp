@@ -13,6 +13,7 @@ namespace {
 Scene driven(const Scene& scene) {
   PAPILLA_CHECK(scene.environment.relative_humidity.size() == 1, "one humidity");
   Scene out = scene;
+  out.drive.control = DriveControl::Voltage;
   if (!out.drive.driven()) out.drive.amplitude = 1;
   return out;
 }
@@ -24,8 +25,8 @@ UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
     : setup_(std::make_unique<const PatchSetup>(driven(scene), texture, fidelity)),
       field_(field_ratios(driven(scene), texture, fidelity)) {
   const Grid& grid = setup_->plan().grid;
-  kernel_ = contact_kernel(setup_->scene(), grid, humidity());
-  pressures_ = ScaleBridge(setup_->scene(), fidelity, grid, humidity()).pressures();
+  kernel_ = contact_kernel(setup_->scene(), setup_->body(), grid, humidity());
+  pressures_ = ScaleBridge(setup_->scene(), fidelity, grid, humidity(), setup_->body()).pressures();
   height_.resize(static_cast<std::size_t>(fidelity.skins));
   patches_.resize(height_.size());
   parallel_for(
@@ -48,12 +49,13 @@ UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
 
 ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) const {
   Scene scene = setup_->scene();
+  scene.drive.control = DriveControl::Voltage;
   scene.drive.amplitude = amplitude;
   Fidelity fidelity = setup_->fidelity();
   fidelity.estimator = estimator;
   Plan plan = setup_->plan();
   plan.traction_solves = plan.traction_solves && estimator == Estimator::Area;
-  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity());
+  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity(), setup_->body());
   std::vector<PatchResult> results(patches_.size());
   parallel_for(
       fidelity.skins,

@@ -63,6 +63,13 @@ double Series::error(Summary summary, const std::vector<double>& errors) const {
   }
 }
 
+double Series::shift(Summary summary, const std::vector<double>& changes) const {
+  std::vector<double> changed = values_;
+  for (std::size_t i = 0; i < changed.size(); ++i) changed[i] += changes[i];
+  const Series other(changed, weights_, better_);
+  return other.defined(summary) ? other.value(summary) - value(summary) : 0;
+}
+
 std::size_t Series::index(Summary summary) const {
   const bool low_is_better = better_ == Better::Lower;
   if (summary == Summary::First) return 0;

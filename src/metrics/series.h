@@ -19,6 +19,8 @@ class Series {
   double value(Summary summary) const;
   // Error of the summary from the errors of the values by one origin.
   double error(Summary summary, const std::vector<double>& errors) const;
+  // What the summary changes by when each value does.
+  double shift(Summary summary, const std::vector<double>& changes) const;
 
  private:
   std::size_t index(Summary summary) const;

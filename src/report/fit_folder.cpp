@@ -36,16 +36,22 @@ JudgedFit judged(const Calibration& calibration, const CalibrationResult& result
   return out;
 }
 
-void write_fit(const std::string& folder, const FitReport& fit) {
+void make_fit_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) {
     throw InputError({Problem{folder, 0, 0, "", "no such folder can be made: " + error.message()}});
   }
+}
+
+void write_fitted(const std::string& folder, const FitReport& fit) {
   write_finger(folder + "/finger.toml", fit.result.finger,
                "Fitted by papilla calibrate " +
                    std::filesystem::path(fit.calibration.file).filename().string() +
                    "; see fit.md.");
+}
+
+void write_report(const std::string& folder, const FitReport& fit) {
   write_bytes(folder + "/fit.md", fit.markdown);
   write_bytes(folder + "/fit.json", fit.json + "\n");
   write_bytes(folder + "/report.html", report_page(folder));
@@ -54,13 +60,17 @@ void write_fit(const std::string& folder, const FitReport& fit) {
 }  // namespace
 
 FitReport fit_to_folder(const std::string& file, const FitOptions& options) {
+  const bool kept = !options.folder.empty();
   FitReport fit;
   fit.calibration = read_calibration(file, m3_claim_ids());
+  if (kept) make_fit_folder(options.folder);
   fit.result = fit_finger(fit.calibration, {options.threads, true, options.note});
+  // At once: what the fit has cost is not lost to a claim that cannot be judged.
+  if (kept) write_fitted(options.folder, fit);
   const JudgedFit claims = judged(fit.calibration, fit.result, options);
   fit.markdown = calibration_markdown(fit.calibration, fit.result, claims);
   fit.json = calibration_json(fit.calibration, fit.result, claims);
-  if (!options.folder.empty()) write_fit(options.folder, fit);
+  if (kept) write_report(options.folder, fit);
   return fit;
 }
 

@@ -112,7 +112,9 @@ std::string bridge_text(const Bridge& bridge, const BridgeLimits& limits, double
   } else {
     out += fmt::format("no bridge: {}\n", text(bridge.status));
   }
-  if (limits.status != BridgeStatus::Converged) return out;
+  if (limits.status != BridgeStatus::Converged) return out + "ruptures at       not found\n";
+  if (limits.rupture == 0)
+    return out + "no gap has one: water wets the one plate and keeps off the other\n";
   out += fmt::format("ruptures at       {:.6g} nm\n", limits.rupture * size * 1e9);
   if (limits.switching > 0) {
     out +=

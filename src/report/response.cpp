@@ -155,6 +155,19 @@ std::string field_lines(const Response& response) {
   return out;
 }
 
+// Under current control the voltage is an answer, another at each humidity.
+std::string source_line(const Response& response) {
+  const auto of = [](const ResponsePoint& a, const ResponsePoint& b) {
+    return a.source_voltage < b.source_voltage;
+  };
+  const auto [least, most] =
+      std::minmax_element(response.points.begin(), response.points.end(), of);
+  if (response.points.empty() || least->source_voltage == most->source_voltage) return {};
+  return fmt::format("the current takes {:.0f} V at {:.0f} % RH to {:.0f} V at {:.0f} %\n",
+                     least->source_voltage, 100 * least->relative_humidity, most->source_voltage,
+                     100 * most->relative_humidity);
+}
+
 std::string undriven_lines(const Response& response) {
   std::string out = "undriven (0 V): no modulation\n";
   if (const auto friction = summarise(Summary::Mean, "friction", response))
@@ -249,8 +262,9 @@ std::string modulation_sparkline(const Response& response) {
 
 std::string response_table(const Response& response) {
   std::string out = humidity_table(response);
-  out += response.driven ? modulation_lines(response) + field_lines(response)
-                         : undriven_lines(response);
+  out += response.driven
+             ? modulation_lines(response) + source_line(response) + field_lines(response)
+             : undriven_lines(response);
   if (response.appearance) out += appearance_line(*response.appearance);
   out += voltage_lines(response);
   if (response.accuracy.target > 0) out += target_lines(response);

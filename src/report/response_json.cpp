@@ -98,13 +98,14 @@ Json point_json(const ResponsePoint& p, bool driven) {
   point["bridge_water_share"] = json_number(p.bridge_water_share);
   point["over_limit_area"] = json_number(p.over_limit_area);
   point["over_limit_share"] = json_number(p.over_limit_share);
+  point["source_voltage"] = driven ? json_number(p.source_voltage) : Json(nullptr);
   point["peak_air_field"] = json_number(p.peak_air_field);
   point["peak_oxide_field"] = json_number(p.peak_oxide_field);
   point["field_correction"] = json_number(p.field_correction);
   point["field_error"] = p.field_error ? json_number(*p.field_error) : Json();
   point["oxide_margin"] = json_number(p.oxide_margin);
   for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
-  point["status"] = p.status.sound() && driven && p.oxide_margin < 1
+  point["status"] = (p.status.sound() || p.status.pull_in()) && driven && p.oxide_margin < 1
                         ? "breakdown: the dielectric does not hold this field, the numbers under "
                           "voltage mean nothing physical"
                         : text(p.status);

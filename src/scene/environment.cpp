@@ -13,13 +13,19 @@ void fields(FieldVisitor& v, Environment& s) {
   v.numbers({"weights", "", 0, 1e6, "weight of each humidity; default: equal"}, s.weights);
 }
 
+double corner_frequency(double permittivity, double resistivity) {
+  return resistivity > 0 ? 1 / (2 * kPi * kVacuumPermittivity * permittivity * resistivity) : 0;
+}
+
 void fields(FieldVisitor& v, Dielectric& s) {
   v.text({"material", "name"}, s.material);
   v.number({"thickness", "nm", 0, 1e7, "layer thickness", Source::Paper, "M3: 500 nm wet oxide"},
            s.thickness);
   v.number({"permittivity", "", 1, 1e5, "relative permittivity", Source::Paper, "SiO2 3.9"},
            s.permittivity);
-  v.number({"resistivity", "ohm m", 0, 1e30, "resistivity", Source::Estimate, "thermal oxide"},
+  v.number({"resistivity", "ohm m", 0, 1e30,
+            "resistivity: below 1/(2 pi eps0 eps rho) the layer conducts; 0: a perfect insulator",
+            Source::Estimate, "thermal oxide"},
            s.resistivity);
   v.number({"strength", "V/um", 0, 1e6, "breakdown field", Source::Measured,
             "SiO2 1 GV/m at 50 nm (McPherson 2016)"},
@@ -107,15 +113,19 @@ void fields(FieldVisitor& v, Surface& s) {
   v.number(
       {"poisson", "", 0, 0.5, "Poisson ratio of compliant features", Source::Estimate, "polymers"},
       s.poisson);
+  v.number({"shear_strength", "MPa", 0, 1e3,
+            "interfacial shear strength against clean skin at 15 % RH; 0: the finger's, on glass",
+            Source::Choice, "polyethylene 2.5 MPa (Briscoe and Tabor 1978)"},
+           s.shear_strength);
 }
 
-double Drive::v_rms() const {
+double Drive::rms_of_peak() const {
   switch (waveform) {
     case Waveform::Sine:
-      return amplitude / std::numbers::sqrt2;
+      return 1 / std::numbers::sqrt2;
     case Waveform::Square:
     case Waveform::Dc:
-      return amplitude;
+      return 1;
     case Waveform::Am: {
       // [(1 + m)/2]^gamma sin(carrier), m a full-depth sine, peak = amplitude: mean square over the
       // envelope by the midpoint rule (spectrally exact for a smooth periodic integrand).
@@ -125,7 +135,7 @@ double Drive::v_rms() const {
         const double m = std::sin(2 * std::numbers::pi * (i + 0.5) / kSteps);
         sum += std::pow((1 + m) / 2, 2 * envelope_exponent);
       }
-      return amplitude * std::sqrt(0.5 * sum / kSteps);
+      return std::sqrt(0.5 * sum / kSteps);
     }
   }
   return 0;
@@ -134,7 +144,8 @@ double Drive::v_rms() const {
 void fields(FieldVisitor& v, Drive& s) {
   v.choice({"control", "what the source holds"}, {"voltage", "current"}, s.control);
   v.choice({"waveform", "shape in time"}, {"sine", "square", "dc", "am"}, s.waveform);
-  v.number({"amplitude", "V", 0, 1e5, "peak voltage; 0: undriven", Source::Paper, "M3: 200 V"},
+  v.number({"amplitude", "V", 0, 1e5, "peak voltage under voltage control; 0: undriven",
+            Source::Paper, "M3: 200 V"},
            s.amplitude);
   v.number({"frequency", "kHz", 0, 1e6, "frequency, or carrier", Source::Paper, "M3: 5 kHz"},
            s.frequency);

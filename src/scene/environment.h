@@ -27,14 +27,20 @@ enum class FilmProcess {
 // What a layer says of itself: as its surface, or a process of its own.
 enum class LayerProcess { Surface, Conformal, Directional, Planar };
 
+// 1/(2 pi eps0 eps rho) [Hz]: below it a material conducts more than it stores. Resistivity
+// [ohm m], 0: a perfect insulator, never. Eq. scene.9
+double corner_frequency(double permittivity, double resistivity);
+
 struct Dielectric {
   std::string material = "SiO2";
   double thickness = 500e-9;
   double permittivity = 3.9;
-  double resistivity = 1e14;
-  double strength = 1e9;  // breakdown field [V/m]
+  double resistivity = 1e14;  // [ohm m]; 0: a perfect insulator
+  double strength = 1e9;      // breakdown field [V/m]
 
   double equivalent_thickness() const { return thickness / permittivity; }
+  // Below it the layer conducts [Hz]; 0: never. Eq. scene.9
+  double corner_frequency() const { return scene::corner_frequency(permittivity, resistivity); }
 
   bool operator==(const Dielectric&) const = default;
 };
@@ -58,8 +64,9 @@ struct Surface {
   double step_coverage = 0;          // of directional layers: side wall / top
   double electrode_edge_radius = 0;  // convex edges under walls [m]; 0: none stated
   double refractive_index = 1.46;
-  double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid
-  double poisson = 0.4;  // theirs
+  double modulus = 0;         // Young's modulus of compliant features (particles); 0: rigid
+  double poisson = 0.4;       // theirs
+  double shear_strength = 0;  // against clean skin at 15 % RH [Pa]; 0: that of the finger, on glass
 
   double equivalent_thickness() const;     // sum of d/eps [m]
   double dielectric_thickness() const;     // of all layers [m]
@@ -81,7 +88,7 @@ enum class Waveform { Sine, Square, Dc, Am };
 struct Drive {
   DriveControl control = DriveControl::Voltage;
   Waveform waveform = Waveform::Sine;
-  double amplitude = 0;    // peak voltage [V]; 0: undriven
+  double amplitude = 0;    // peak voltage under voltage control [V]; 0: undriven
   double frequency = 5e3;  // carrier [Hz]
   double current = 0;      // peak current under current control [A]
   double modulation_frequency = 0;
@@ -89,8 +96,11 @@ struct Drive {
   double source_compliance = 0;  // largest voltage of the source; 0: none given
   double current_limit = 5e-3;   // through the body [A]
 
-  double v_rms() const;  // of the applied voltage, Eq. scene.7
-  bool driven() const { return amplitude > 0; }
+  double rms_of_peak() const;                                 // of the waveform, Eq. scene.7
+  double v_rms() const { return amplitude * rms_of_peak(); }  // under voltage control
+  // What the source holds: a peak voltage [V] or a peak current [A]; 0: undriven.
+  double held() const { return control == DriveControl::Current ? current : amplitude; }
+  bool driven() const { return held() > 0; }
 
   bool operator==(const Drive&) const = default;
 };

@@ -57,6 +57,10 @@ double MacroContact::gross_area(double load, double relative_humidity) const {
   return area_15 * growth * std::pow(load / 0.2, load_exponent);
 }
 
+double MacroContact::shear_strength_at(double relative_humidity) const {
+  return shear_strength * std::max(0.05, 1 - shear_fall * (relative_humidity - 0.15) / 0.6);
+}
+
 void fields(FieldVisitor& v, MacroContact& s) {
   v.number({"area_15", "mm2", 1e-3, 1e4, "gross contact area at 0.2 N, 15 % RH", Source::Estimate,
             "100 mm2 at 1 N (Shultz 2018), exponent about 0.5"},
@@ -73,9 +77,12 @@ void fields(FieldVisitor& v, MacroContact& s) {
   v.number({"load_share", "", 1e-5, 1, "phi: share of the gross area that carries the load",
             Source::Fit, "to M3"},
            s.load_share);
-  v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength tau", Source::Paper,
-            "M3: 9 MPa"},
+  v.number({"shear_strength", "MPa", 1e-3, 1e3, "interfacial shear strength tau at 15 % RH",
+            Source::Paper, "M3: 9 MPa"},
            s.shear_strength);
+  v.number({"shear_fall", "%", 0, 95, "what tau loses from 15 to 75 % RH, linear between",
+            Source::Fit, "to M3; 13 MPa dry, 5 MPa wet (Kovalev 2014)"},
+           s.shear_fall);
   v.number(
       {"ridge_rms", "um", 1e-3, 1e4, "closure persson: rms height of ridges above the patch size",
        Source::Estimate, "casts: below 5 um (Shultz 2015); see docs/theory/coupling.md"},
@@ -103,8 +110,12 @@ void fields(FieldVisitor& v, ElectricalLayer& s) {
   v.number({"thickness_75", "nm", 0, 1e5, "the same at 75 % RH", Source::Fit, "to M3"},
            s.thickness_75);
   v.number({"corner_frequency", "Hz", 0, 1e9, "below it the stratum corneum conducts; 0: never",
-            Source::Estimate, "Sirin 2019: about 60 Hz"},
+            Source::Paper, "Sirin 2019: 376 1/s"},
            s.corner_frequency);
+  v.number(
+      {"gap_resistivity", "ohm m", 0, 1e30, "of the gap between skin and surface; 0: an insulator",
+       Source::Paper, "Shultz 2018: 17 Mohm on 30 mm2 over 1.06 um"},
+      s.gap_resistivity);
 }
 
 double SkinWater::volume_per_area(double rh) const {
@@ -136,7 +147,7 @@ void fields(FieldVisitor& v, SkinWater& s) {
       {"surface_tension", "mN/m", 0.1, 1000, "surface tension", Source::Measured, "IAPWS, 24 C"},
       s.surface_tension);
   v.number({"hysteresis", "", 0, 2, "cos(receding) - cos(advancing) of the weaker surface",
-            Source::Estimate, "20-30 deg hysteresis"},
+            Source::Estimate, "25 deg of hysteresis about 50 deg"},
            s.hysteresis);
   v.number(
       {"drops_per_um3", "", 1, 1e5, "initial droplets per um3 of water", Source::Paper, "M3: 100"},

@@ -15,8 +15,9 @@ bool always_driven(const Study& study, const std::vector<StudyTask>& tasks) {
                      [&](const StudyTask& t) {
                        return with_settings(study.design, t.settings).drive.driven();
                      }) ||
-         std::any_of(study.variables.begin(), study.variables.end(),
-                     [](const Variable& v) { return v.path == "drive.amplitude" && v.low > 0; });
+         std::any_of(study.variables.begin(), study.variables.end(), [](const Variable& v) {
+           return (v.path == "drive.amplitude" || v.path == "drive.current") && v.low > 0;
+         });
 }
 
 StudyObjective aimed_at(const Target& target) {
@@ -59,8 +60,8 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
         known.push_back(*modulation);
     }
     if (find_metric(metric)->needs_drive && !driven) {
-      throw InputError(fmt::format("objective: {} needs a driven design; drive.amplitude is 0 V",
-                                   objective.name));
+      throw InputError(
+          fmt::format("objective: {} needs a driven design; the drive is at 0", objective.name));
     }
     goals.looks = goals.looks || has_look(objective);
     list.push_back(std::move(objective));

@@ -25,7 +25,7 @@ void check_frequency(const Study& study, const std::vector<StudyTask>& tasks) {
     if (std::all_of(tasks.begin(), tasks.end(), deaf)) {
       throw InputError("design_space: drive.frequency has no effect: " +
                        frequency_not_felt(task_design(study, study.design, tasks.front())) +
-                       "; leave the variable out, or give a finger its corner frequency");
+                       "; leave the variable out, or give film, gap or finger what it conducts");
     }
   }
 }
@@ -94,9 +94,15 @@ std::string shape_trouble(const Study& study, const std::vector<StudyTask>& task
 
 std::string frequency_not_felt(const Design& design) {
   if (design.drive.waveform == Waveform::Dc) return "the drive is a direct voltage";
-  if (design.finger.electrical.corner_frequency > 0) return "";
-  return "the dielectric has no loss, and the finger's skin layer never conducts "
-         "(finger.electrical.corner_frequency is 0)";
+  if (design.drive.control == DriveControl::Current) return "";
+  const ElectricalLayer& finger = design.finger.electrical;
+  double corner = std::max(finger.corner_frequency, corner_frequency(1, finger.gap_resistivity));
+  for (const FilmDielectric& layer : design.surface.dielectric)
+    corner = std::max(corner, layer.corner_frequency());
+  constexpr double kSlowest = 1;  // [Hz] nobody drives a screen below
+  if (corner > kSlowest) return "";
+  return "neither film nor gap nor skin conducts (surface.dielectric.resistivity, "
+         "finger.electrical.gap_resistivity, finger.electrical.corner_frequency)";
 }
 
 }  // namespace papilla::search

@@ -133,6 +133,30 @@ TEST(Bridge, VirialIdentityForceAndSymmetryHoldAtRandom) {
   EXPECT_LT(worst_swap, 1e-9);
 }
 
+TEST(Bridge, BetweenAPlateThatIsWettedWhollyAndOneThatIsNotThereIsNone) {
+  for (const auto& [wetted, dry] : {std::pair{0.0, 180.0}, {180.0, 0.0}, {0.3, 179.8}}) {
+    EXPECT_EQ(solve_bridge(1, 1e-3, wetted * kDegree, dry * kDegree, 1).status,
+              BridgeStatus::Ruptured);
+    const BridgeLimits limits = bridge_limits(wetted * kDegree, dry * kDegree);
+    EXPECT_EQ(limits.status, BridgeStatus::Converged);
+    EXPECT_EQ(limits.rupture, 0);
+    EXPECT_FALSE(BridgeTable(wetted * kDegree, dry * kDegree).valid());
+  }
+  // It is the limit of what happens beside it.
+  const double near = bridge_limits(1 * kDegree, 180 * kDegree).rupture;
+  EXPECT_GT(near, 0);
+  EXPECT_LT(near, 0.05);
+}
+
+TEST(Bridge, BetweenPlatesThatHardlyTouchWaterItRupturesAtTheDiameterOfADrop) {
+  // A ball: (6/pi)^(1/3).
+  for (double other : {179.9, 179.999, 180.0}) {
+    const BridgeLimits limits = bridge_limits(other * kDegree, 180 * kDegree);
+    EXPECT_EQ(limits.status, BridgeStatus::Converged) << other;
+    EXPECT_NEAR(limits.rupture, std::cbrt(6 / kPi), 1e-3) << other;
+  }
+}
+
 TEST(Bridge, BeyondRuptureItSaysSo) {
   EXPECT_EQ(solve_bridge(1, 1.0, 80 * kDegree, 50 * kDegree, 1).status, BridgeStatus::Ruptured);
   EXPECT_EQ(solve_bridge(1, 1.47, 90 * kDegree, 90 * kDegree, 1).status, BridgeStatus::Ruptured);

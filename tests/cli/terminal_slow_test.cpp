@@ -22,10 +22,11 @@ TEST(AlignedTables, AreAsWideAsTheirCells) {
 TEST(Json, IsGivenByEveryCommandWithResults) {
   const Workplace place;
   for (const char* command :
-       {"optimize",       "evaluate",    "rank",          "export",        "verify",
-        "surface",        "report",      "calibrate",     "accuracy",      "bench",
-        "explain",        "reproduce",   "describe",      "solve contact", "solve bridge",
-        "solve droplets", "solve field", "solve persson", "solve drive",   "solve haze"}) {
+       {"optimize",     "evaluate",       "rank",        "export",        "verify",
+        "surface",      "report",         "calibrate",   "accuracy",      "bench",
+        "explain",      "reproduce",      "predict",     "describe",      "solve contact",
+        "solve bridge", "solve droplets", "solve field", "solve persson", "solve drive",
+        "solve haze"}) {
     const Outcome run = place.run(std::string(command) + " --help");
     EXPECT_EQ(run.status, 0) << command;
     EXPECT_NE(run.out.find("--json"), std::string::npos) << command;

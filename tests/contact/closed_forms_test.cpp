@@ -133,6 +133,21 @@ TEST(ClosedForms, AdhesiveSpheresPullOffWhereTheirForceIsLeast) {
   EXPECT_NEAR(s.tabor(1e-9) / s.tabor(8e-9), 8, 1e-12);
 }
 
+// A soft body on what does not give: a half-space for waves short against it, a bonded film for
+// long ones. Eq. contact.9
+TEST(Kernel, AFiniteCounterBodyGivesAsABondedFilm) {
+  LayeredSolid solid;
+  solid.bulk_modulus = 1e15;  // the other side is rigid
+  solid.counter_modulus = 2.6e6, solid.counter_poisson = 0.4, solid.counter_thickness = 2e-6;
+  const double thick = 2 * (1 - 0.16) / 2.6e6;
+  EXPECT_NEAR(compliance(solid, 1e8), thick / 1e8, 1e-6 * thick / 1e8);
+  const double film = 2e-6 * 1.4 * 0.2 / (2.6e6 * 0.6);
+  EXPECT_NEAR(compliance(solid, 1e2), film, 1e-3 * film);
+  EXPECT_LT(compliance(solid, 5e5), 0.4 * thick / 5e5);  // 12 um
+  solid.counter_thickness = 0;
+  EXPECT_LT(compliance(solid, 5e5), 1e-6 * thick / 5e5);
+}
+
 // A layer, what lies below and a soft counter-body: the stiffness of two half-spaces in series.
 TEST(ClosedForms, ACounterBodyAddsTheComplianceOfItsHalfSpace) {
   LayeredSolid solid{.layer_modulus = 3e6,

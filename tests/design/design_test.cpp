@@ -91,11 +91,13 @@ TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
 TEST(Study, TheMainStudyHasItsSpaceWishesLimitsAndFingers) {
   const Study study = read_study(kStudy);
   EXPECT_EQ(study.name, "electroadhesive_glass");
-  ASSERT_EQ(study.variables.size(), 4u);
-  EXPECT_EQ(study.variables[2].path, "texture.depth");
-  EXPECT_EQ(study.variables[2].low, 0);
-  EXPECT_EQ(study.variables[2].high, 1e-6);
-  EXPECT_EQ(study.variables[3].high, 80 * 3.14159265358979323846 / 180);
+  ASSERT_EQ(study.variables.size(), 5u);
+  EXPECT_EQ(study.design.surface.process, FilmProcess::Planar);
+  EXPECT_EQ(study.variables[0].path, "surface.dielectric.0.thickness");
+  EXPECT_EQ(study.variables[3].path, "texture.depth");
+  EXPECT_EQ(study.variables[3].low, 0);
+  EXPECT_EQ(study.variables[3].high, 1e-6);
+  EXPECT_EQ(study.variables[4].high, 80 * 3.14159265358979323846 / 180);
   EXPECT_EQ(study.objective.maximise, std::vector<std::string>{"mean(modulation)"});
   EXPECT_EQ(study.objective.minimise, std::vector<std::string>{"variation(modulation)"});
   ASSERT_EQ(study.constraints.size(), 4u);
@@ -160,10 +162,19 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
             ":3:11: environment.weights: expected 4 weights, one per humidity, got 2");
   EXPECT_EQ(problems_of(head + "[finger]\nload = \"0 N\"\n"),
             ":3:8: finger.load: expected a force above 0 N");
+  EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\namplitude = \"200 V\"\n"),
+            ":4:13: drive.amplitude: a voltage, beside control = \"current\": give drive.current, "
+            "and the "
+            "largest voltage as drive.source_compliance");
+  EXPECT_EQ(problems_of(head + "[drive]\ncurrent = \"1 mA\"\n"),
+            ":3:11: drive.current: a current, beside control = \"voltage\": say control = "
+            "\"current\", or give drive.amplitude");
+  EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\ncurrent = \"6 mA\"\n"),
+            ":4:11: drive.current: 6 mA is above drive.current_limit, 5 mA");
   EXPECT_EQ(
-      problems_of(head + "[drive]\ncontrol = \"current\"\n"),
-      ":3:11: drive.control: a texture is judged at a voltage; what a current source makes of it: "
-      "`papilla solve drive` with gap.design");
+      problems_of(head + "[drive]\ncontrol = \"current\"\nwaveform = \"dc\"\ncurrent = \"1 mA\"\n"),
+      ":4:12: drive.waveform: a constant current through a film that insulates has no end: give "
+      "an alternating one");
   EXPECT_EQ(
       problems_of(head + "[design_space]\n\"surface.contact_agle\" = [\"1 deg\", \"2 deg\"]\n"),
       ":3:1: design_space: `surface.contact_agle` is no number of this design, did you mean "

@@ -12,7 +12,7 @@ namespace papilla::tests {
 namespace {
 
 Study family_study() {
-  return read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml",
+  return read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml",
                     {"design_space.texture.type={ choice = [\"flat\", \"hole_array\", "
                      "\"pillar_array\", \"grating\"] }"});
 }
@@ -79,7 +79,8 @@ TEST(Family, FlatDesignsAreOnePoint) {
 }
 
 TEST(Family, AtDepthZeroPeriodAndDiameterCollapseWithoutKindsToo) {
-  const Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml");
+  const Study study =
+      read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml");
   const StudyProblem problem(study);
   const auto flat = [&](double period, double diameter) {
     return problem.space().snapped(problem.space().unit({period, diameter, 0, 0.9}));
@@ -115,7 +116,7 @@ TEST(Family, LevelsCutAStackAndUnusedLevelsCollapse) {
 
 TEST(Family, WrongKindsAndLevelsAreReported) {
   const auto read = [](const char* text) {
-    read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml", {text});
+    read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml", {text});
   };
   EXPECT_THROW(read("design_space.texture.type={ choice = [\"holes\"] }"), InputError);
   EXPECT_THROW(read("design_space.texture.type=[\"flat\", \"grating\"]"), InputError);

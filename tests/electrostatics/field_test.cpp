@@ -171,6 +171,18 @@ TEST(Electrode, OfAConformalFilmOnAPlaneOfAnySlopeLiesAtTheNormalDistance) {
   EXPECT_NEAR(h(32, 0) - half(32, 0), 0.5e-6 * std::sqrt(1.25), 0.01e-6);
 }
 
+TEST(Electrode, ATextureThatCutsThroughItsPlanarFilmSaysOnWhatShare) {
+  const Grid grid{32, 32, 12e-6, 12e-6};
+  Heightmap trench{grid, std::vector<double>(grid.size(), 0)};
+  for (int iy = 0; iy < grid.ny; ++iy)
+    for (int ix = 0; ix < 8; ++ix) trench.z[grid.index(ix, iy)] = -300e-9;
+  const auto film = [](double thickness) {
+    return std::vector<FilmLayer>{{FilmProcess::Planar, 0, thickness, 3.9}};
+  };
+  EXPECT_EQ(CoveredSurface(trench, film(310e-9)).cut_through, 0);
+  EXPECT_EQ(CoveredSurface(trench, film(290e-9)).cut_through, 0.25);
+}
+
 TEST(Electrode, FollowsTheProcessOfEachLayer) {
   const std::size_t floor = step().grid.index(20, 1), land = step().grid.index(60, 1),
                     edge = step().grid.index(44, 1);

@@ -99,21 +99,51 @@ TEST(StatedErrors, AStepBetweenGridsGivesItsRestToTheLimit) {
   }
 }
 
-// Areas fall by one factor an octave: n octaves that the grid leaves out take 1 - 1.1^-n.
-TEST(StatedErrors, AreasLackTheOctavesThatTheGridLeavesOut) {
+// Areas fall by one factor an octave: n octaves that the grid leaves out take 1 - 1.1^-n. It is
+// taken off, an eighth of it stays unknown.
+TEST(StatedErrors, OctavesThatTheGridLeavesOutAreTakenOffTheAreas) {
   const Member area = &ResponsePoint::area_fraction_off;
   ControlRuns runs;
   runs.own = steady(area, 0.2);
   runs.coarse = steady(area, 0.22);
   for (double octaves : {1.0, 2.0, 3.5}) {
     runs.octaves = octaves;
-    EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -octaves), 1e-9) << octaves;
+    const double lacking = 1 - std::pow(1.1, -octaves);
+    EXPECT_NEAR(resolved_areas(runs), 1 - lacking, 1e-9) << octaves;
+    EXPECT_NEAR(grid_part(runs, area), 0.12 * lacking, 1e-9) << octaves;
   }
-  // The spread of areas between the last octaves is not known better than by 0.6 of one.
-  for (double octaves : {0.0, 0.3, 0.6}) {
-    runs.octaves = octaves;
-    EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -0.6), 1e-9) << octaves;
-  }
+  // Of a grid that leaves next to nothing out nothing is taken off, and that its areas are known no
+  // better than by 0.6 of an octave is not forgotten.
+  runs.octaves = 0;
+  EXPECT_EQ(resolved_areas(runs), 1);
+  EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -0.6), 1e-9);
+  runs.octaves = 0.3;
+  EXPECT_NEAR(resolved_areas(runs), std::pow(1.1, -0.3), 1e-9);
+  EXPECT_NEAR(grid_part(runs, area), 1 - std::pow(1.1, -0.6) - 0.88 * (1 - std::pow(1.1, -0.3)),
+              1e-9);
+  // No control runs, nothing known.
+  EXPECT_EQ(resolved_areas({}), 1);
+}
+
+// What is taken off is taken off friction as well, and off no modulation.
+TEST(StatedErrors, AFrictionIsThatOfTheResolvedArea) {
+  Scene scene;
+  scene.drive.amplitude = 100;
+  scene.environment.relative_humidity = {0.5};
+  Fidelity fidelity = fidelity_level("search");
+  fidelity.grid = 32;
+  fidelity.skins = 3;
+  fidelity.threads = 1;
+  PatchSet set = solve_patches(scene, Texture{}, fidelity);
+  const ResponsePoint as_solved = respond(scene, fidelity, set).points.front();
+  set.area_factor = 0.8;
+  const ResponsePoint taken = respond(scene, fidelity, set).points.front();
+  const double held = as_solved.retention_force.value;
+  EXPECT_NEAR(taken.area_fraction_on.value, 0.8 * as_solved.area_fraction_on.value, 1e-12);
+  EXPECT_NEAR(taken.friction_off.value - held, 0.8 * (as_solved.friction_off.value - held), 1e-12);
+  EXPECT_NEAR(taken.friction_off.parts.sampling / taken.friction_off.value,
+              as_solved.friction_off.parts.sampling / as_solved.friction_off.value, 1e-3);
+  EXPECT_NEAR(taken.modulation.value, as_solved.modulation.value, 0.01);
 }
 
 // Where the texture's features are few pixels wide all of the step of areas and frictions counts;

@@ -110,6 +110,14 @@ TEST(LeastSquares, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_NEAR(inside / double(kRuns), 0.95, 0.03);
 }
 
+TEST(LeastSquares, AParameterThatStartsAtZeroIsStepped) {
+  // Steps are relative to the parameter: at zero, to its prior's width or its range.
+  const FitParameter slope{"b", 0, 0, 100, 1.0, 10, false, 0.05};
+  EXPECT_NEAR(line({{"a", 0, -100, 100}, slope}).parameters[1].value, 1.94, 0.02);
+  const FitParameter free{"b", 0, 0, 100, 0, 0, false, 0.05};
+  EXPECT_NEAR(line({{"a", 0, -100, 100}, free}).parameters[1].value, 1.94, 0.02);
+}
+
 TEST(LeastSquares, SenselessParametersAreRefused) {
   const ResidualFunction f = [](std::span<const double>, std::span<double>) { return true; };
   EXPECT_THROW(least_squares({{"p", 0, 1, 0}}, 1, f), InputError);

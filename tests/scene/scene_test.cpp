@@ -41,6 +41,25 @@ TEST(Finger, ItsAreaGrowsWithHumidityAndLoad) {
   EXPECT_DOUBLE_EQ(finger.patch_pressure(0.15), 0.8 / (0.01 * 80e-6));
 }
 
+TEST(Finger, ItsShearStrengthFallsWithHumidity) {
+  MacroContact macro;
+  macro.shear_strength = 10e6;
+  macro.shear_fall = 0;
+  EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.9), 10e6);
+  macro.shear_fall = 0.3;
+  EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.15), 10e6);
+  EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.35), 9e6);
+  EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.75), 7e6);
+  macro.shear_fall = 0.95;
+  EXPECT_DOUBLE_EQ(macro.shear_strength_at(1), 0.05 * 10e6);  // never nothing
+}
+
+TEST(Film, ItsCornerFrequencyIsThatOfItsMaterial) {
+  // Thermal oxide hardly leaks, glass at 1e8 ohm m does below 46 Hz.
+  EXPECT_NEAR(corner_frequency(3.9, 1e8), 46.1, 0.1);
+  EXPECT_EQ(corner_frequency(3.9, 0), 0);  // a perfect insulator
+}
+
 TEST(Finger, ItsElectricalLayerIsALineOverHumidity) {
   ElectricalLayer layer;
   layer.thickness_15 = 30e-9, layer.thickness_75 = 18e-9;

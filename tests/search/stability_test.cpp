@@ -9,7 +9,8 @@ namespace {
 // raises the mean modulation, whatever finger or model choice, so
 // the flat design is alone on the front in every variant, and the other is unstable.
 TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
-  Study study = read_study(std::string(PAPILLA_DESIGNS_DIR) + "/electroadhesive_glass/study.toml");
+  Study study =
+      read_study(std::string(PAPILLA_DESIGNS_DIR) + "/electroadhesive_glass/conformal.toml");
   study.objective.minimise.clear();
   study.population.resize(1);
   const StudyProblem problem(study);

@@ -16,6 +16,14 @@ using namespace bridge_branch;
 
 bool angle(double theta) { return theta >= 0 && theta <= kPi; }
 
+// Water that wholly wets the one plate and wholly keeps off the other spreads on the one: as the
+// angles come near to that, the largest gap with a bridge goes to zero (0.5 % of the drop at 1 and
+// 180 deg).
+bool held_apart(double theta1, double theta2) {
+  constexpr double kWholly = 0.01;  // [rad]
+  return std::min(theta1, theta2) < kWholly && std::max(theta1, theta2) > kPi - kWholly;
+}
+
 // A plate below, a sphere above; lengths per volume^(1/3), tension 1.
 class SphereBridge {
  public:
@@ -135,6 +143,10 @@ Bridge solve_bridge(double volume, double gap, double theta1, double theta2,
   }
   out.status = BridgeStatus::NotConverged;
   const double size = std::cbrt(volume), h = gap / size;
+  if (held_apart(theta1, theta2)) {
+    out.status = BridgeStatus::Ruptured;
+    return out;
+  }
   Branch branch(theta1, theta2);
   if (!branch.valid()) return out;
   if (!branch.go_to(h)) {
@@ -167,6 +179,10 @@ BridgeLimits bridge_limits(double theta1, double theta2) {
   out.status = BridgeStatus::NotConverged;
   const CapShape cap = cap_shape(std::min(theta1, theta2));
   out.snap_in = cap.height;
+  if (held_apart(theta1, theta2)) {
+    out.status = BridgeStatus::Converged;
+    return out;
+  }
   const Limit limit = Branch(theta1, theta2).limit();
   if (!limit.found) return out;
   const Branch branch(theta1, theta2);

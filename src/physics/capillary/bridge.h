@@ -41,7 +41,7 @@ Bridge solve_sphere_bridge(double volume, double distance, double sphere_radius,
 // Gaps at which the state of a volume changes, per volume^(1/3), between plates.
 struct BridgeLimits {
   BridgeStatus status = BridgeStatus::Invalid;
-  double rupture = 0;      // h_crit: stability limit
+  double rupture = 0;      // h_crit: stability limit; 0: no gap has a bridge
   bool pitchfork = false;  // of the antisymmetric kind (equal angles); else a fold
   double switching = 0;    // h_eq: bridge and lower cap cost the same; 0: the cap is always lower
   double snap_in = 0;      // height of the lower cap: it touches the other plate below this gap

@@ -154,7 +154,13 @@ class LimitSearch {
 Limit Branch::limit() {
   if (!valid_) return {};
   go_to(0.25);  // as far as it gets: the slab's large pressures make short steps
-  return LimitSearch(theta1_, theta2_, sign_).from(at_, height_);
+  const Limit found = LimitSearch(theta1_, theta2_, sign_).from(at_, height_);
+  // Between nearly equal angles fold and pitchfork may lie too close to be told apart, and need not
+  // be.
+  constexpr double kEqual = 1e-4;  // [rad]
+  const double both = 0.5 * (theta1_ + theta2_);
+  if (found.found || theta1_ == theta2_ || std::abs(theta1_ - theta2_) > kEqual) return found;
+  return Branch(both, both).limit();
 }
 
 }  // namespace papilla::capillary::bridge_branch

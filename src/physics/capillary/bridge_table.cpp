@@ -15,7 +15,7 @@ namespace papilla::capillary {
 BridgeTable::BridgeTable(double theta1, double theta2, int nodes)
     : limits_(bridge_limits(theta1, theta2)) {
   using namespace bridge_branch;
-  if (limits_.status != BridgeStatus::Converged) return;
+  if (limits_.status != BridgeStatus::Converged || limits_.rupture == 0) return;
   const double top = std::pow(limits_.rupture, 1.5);
   scale_ = 1 / top;
   step_ = 1.0 / (nodes - 1);

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "base/convolution.h"
 #include "base/fft.h"
 #include "base/rooms.h"
@@ -21,12 +22,13 @@ namespace papilla::contact {
 
 // A layer bonded on a half-space. Young's moduli [Pa], Poisson ratios in [0, 0.5], thickness [m]
 // from 0 (half-space of the bulk alone) to infinity (of the layer alone). A compliant counter-body
-// (soft particles) adds the compliance of its own half-space, Eq. contact.9: right where the
-// contact spot is small against the particle, too stiff for a particle pressed flat.
+// (soft particles) adds its own compliance, Eq. contact.9: that of a layer as thick as it, bonded
+// on what does not give; a half-space where the contact spot is small against it.
 struct LayeredSolid {
   double layer_modulus = 1, layer_poisson = 0.5, layer_thickness = 0;
   double bulk_modulus = 1, bulk_poisson = 0.5;
   double counter_modulus = 0, counter_poisson = 0.4;  // modulus 0: rigid
+  double counter_thickness = kInfinity;               // [m]
 
   bool operator==(const LayeredSolid&) const = default;
 };

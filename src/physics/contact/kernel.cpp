@@ -10,7 +10,7 @@ namespace papilla::contact {
 
 namespace {
 
-// The skin alone. Eq. contact.1
+// A layer on a half-space. Eq. contact.1
 double layered_compliance(const LayeredSolid& s, double q) {
   const double bulk = 2 * (1 - square(s.bulk_poisson)) / (s.bulk_modulus * q);
   const double layer = 2 * (1 - square(s.layer_poisson)) / (s.layer_modulus * q);
@@ -34,21 +34,27 @@ double layered_compliance(const LayeredSolid& s, double q) {
   return (1 - n1) / (g1 * q) * numerator / denominator;
 }
 
+// Eq. contact.9
+double counter_compliance(const LayeredSolid& s, double q) {
+  if (s.counter_modulus <= 0 || s.counter_thickness <= 0) return 0;
+  constexpr double kRigid = 1e9;  // what it stands on, over its own modulus
+  return layered_compliance({s.counter_modulus, s.counter_poisson, s.counter_thickness,
+                             kRigid * s.counter_modulus, s.counter_poisson},
+                            q);
+}
+
 }  // namespace
 
 double compliance(const LayeredSolid& s, double q) {
   PAPILLA_CHECK(q > 0, "wave number");
-  const double counter = s.counter_modulus > 0  // Eq. contact.9
-                             ? 2 * (1 - square(s.counter_poisson)) / (s.counter_modulus * q)
-                             : 0;
-  return layered_compliance(s, q) + counter;
+  return layered_compliance(s, q) + counter_compliance(s, q);
 }
 
 double ContactKernel::contact_modulus() const {
   double softness = solid_.layer_thickness > 0
                         ? (1 - square(solid_.layer_poisson)) / solid_.layer_modulus
                         : (1 - square(solid_.bulk_poisson)) / solid_.bulk_modulus;
-  if (solid_.counter_modulus > 0) {
+  if (solid_.counter_modulus > 0 && solid_.counter_thickness > 0) {
     softness += (1 - square(solid_.counter_poisson)) / solid_.counter_modulus;
   }
   return 1 / softness;

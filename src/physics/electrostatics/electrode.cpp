@@ -173,8 +173,13 @@ CoveredSurface::CoveredSurface(Heightmap surface, const std::vector<FilmLayer>& 
       }
       cut = &l;
     }
-    for (std::size_t i = 0; i < lower.z.size(); ++i)
-      dielectric[i] += std::max(lower.z[i] - top, kThinnestFilm) / cut->permittivity;
+    std::size_t bare = 0;
+    for (std::size_t i = 0; i < lower.z.size(); ++i) {
+      const double left = lower.z[i] - top;
+      if (left < kThinnestFilm) ++bare;
+      dielectric[i] += std::max(left, kThinnestFilm) / cut->permittivity;
+    }
+    cut_through = static_cast<double>(bare) / static_cast<double>(dielectric.size());
     for (double& z : lower.z) z = std::min(z - kThinnestFilm, -total);
   }
   for (std::size_t i = 0; i < film.size(); ++i) film[i] = height.z[i] - lower.z[i];

@@ -39,6 +39,9 @@ struct CoveredSurface {
   // nearest place of the electrode [m]. Eq. electrostatics.2
   std::vector<double> effective;
   bool walls = false;  // the electrode is not flat and has edges
+  // Share of the pixels where the texture cuts through its planar film, to the electrode: next to
+  // no film counts there.
+  double cut_through = 0;
 };
 
 }  // namespace papilla::electrostatics

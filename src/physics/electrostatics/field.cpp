@@ -76,6 +76,11 @@ void set_peaks(const FieldProblem& p, bool walls, const Strongest& strongest, Fi
 
 }  // namespace
 
+bool holds_all_voltage(const FieldProblem& problem) {
+  constexpr double kBetter = 100;  // as an insulator than the gap
+  return problem.dielectric > kBetter * problem.dielectric_thickness;
+}
+
 FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldProblem& p,
                    const AirColumns& columns, const FluxFactors& factors) {
   FieldSolution out;
@@ -112,7 +117,9 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
     out.traction.value[i] = pressure;
     sum += pressure;
     const double share = factors.voltage.empty() ? film / std::sqrt(distance2) : factors.voltage[i];
-    if (film > 0) strongest.dielectric = std::max(strongest.dielectric, share / film);
+    if (film > 0)
+      strongest.dielectric =
+          std::max(strongest.dielectric, std::min(share * p.film_phase, 1.0) / film);
     if (g > 0) {
       strongest.air2 = std::min(strongest.air2, distance2);
       if (square(p.v_peak * g) > square(air_breakdown_voltage(g)) * distance2) {

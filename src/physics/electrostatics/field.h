@@ -18,11 +18,17 @@ struct FieldProblem {
   double dielectric_thickness = 0;      // sum of d [m]
   double edge_radius = 0;               // of the electrode's edges below walls [m]; 0: none stated
   std::complex<double> skin_layer = 0;  // h_SC = d2/eps2(omega) [m]
+  double film_phase = 1;                // |d/eps| over its real part, of a film that leaks
   bool breakdown_cap = false;           // gap pressure at most eps0/2 (350 V/um)^2
   bool screening = true;                // the field fades towards a bridge
   bool droplet_enhancement = true;      // droplets that do not bridge raise the pull
   bool zero_under_droplets = false;     // preset m3: no pull under any droplet
 };
+
+// Whether the film insulates so much better than the gap that next to nothing of the voltage is
+// left to the gap, and hardly any flux spreads in the film: its columns are exact then, and a 3-D
+// field has nothing to add.
+bool holds_all_voltage(const FieldProblem& problem);
 
 struct FieldSolution {
   Traction traction;            // [Pa] on the skin, attractive

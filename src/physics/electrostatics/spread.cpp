@@ -165,7 +165,7 @@ class SurfacePotential {
 
 FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
                                  const Wetting& wetting, const FieldProblem& p, double tolerance) {
-  if (p.dielectric_thickness <= 0 || (p.v_rms == 0 && p.v_peak == 0))
+  if (p.dielectric_thickness <= 0 || holds_all_voltage(p) || (p.v_rms == 0 && p.v_peak == 0))
     return solve_local_field(gap, surface, wetting, p);
   const AirColumns columns = columns_above(gap, wetting, p);
   const std::size_t n = gap.grid.size();

@@ -1,0 +1,36 @@
+// What the model says of experiments that no fit has seen: numbers for other laboratories, written
+// down before any comparison. They come from one finger file and published samples; there is
+// nothing to tune them with.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "base/statistics.h"
+#include "scene/finger.h"
+
+namespace papilla::claims {
+
+struct Prediction {
+  std::string id;         // "F_off over load"
+  std::string condition;  // on what, between what
+  std::string quantity;   // "exponent", "friction ratio", ...
+  std::string unit;       // "", "V", "mN", "%"
+  Estimate value;         // se: over skins
+  std::string beside;     // the values behind it
+};
+
+struct PredictOptions {
+  Finger finger;
+  int threads = 0;
+  int skins = 16;
+  std::function<void(const std::string& experiment)> started;
+};
+
+// In the order of the experiments: load, voltage, frequency, humidity and roughness, adhesion, look
+// of etched glass, voltages that are felt. Cost: about a minute.
+std::vector<Prediction> predictions(const PredictOptions& options);
+
+}  // namespace papilla::claims

@@ -1,0 +1,20 @@
+// Predictions for other laboratories, as tables.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "claims/predict.h"
+
+namespace papilla::report {
+
+// For people, Markdown, CSV; JSON as {"schema": 1, "finger", "predictions": [{"id", "condition",
+// "quantity", "unit", "value", "se", "beside"}]}.
+std::string predictions_text(const std::vector<Prediction>& predictions);
+std::string predictions_markdown(const std::vector<Prediction>& predictions,
+                                 const std::string& finger);
+std::string predictions_csv(const std::vector<Prediction>& predictions);
+std::string predictions_json(const std::vector<Prediction>& predictions, const std::string& finger);
+
+}  // namespace papilla::report

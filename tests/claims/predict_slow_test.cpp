@@ -1,0 +1,75 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "claims/predict.h"
+#include "design/design.h"
+#include "report/predictions.h"
+
+namespace papilla::tests {
+namespace {
+
+const std::vector<Prediction>& few_skins() {
+  static const std::vector<Prediction> once = [] {
+    PredictOptions options;
+    options.finger = read_finger(find_design("fingers/reference.toml"));
+    options.skins = 3;
+    return predictions(options);
+  }();
+  return once;
+}
+
+const Prediction& find(const std::string& id, const std::string& condition) {
+  const auto& all = few_skins();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Prediction& p) {
+    return p.id == id && p.condition.find(condition) != std::string::npos;
+  });
+  EXPECT_NE(found, all.end()) << id << ", " << condition;
+  return found == all.end() ? all.front() : *found;
+}
+
+TEST(PredictionsOfOneRun, KnowTheLawsThatHaveNoFreeNumber) {
+  // The pull goes with the square of the voltage, friction without voltage nearly with the load.
+  EXPECT_NEAR(find("pull over voltage", "").value.value, 2, 1e-3);
+  EXPECT_NEAR(find("F_off over load", "").value.value, 1, 0.05);
+  // The area follows the load less than in proportion, so the added friction lags behind the pull.
+  const double added = find("added friction over voltage", "").value.value;
+  EXPECT_GT(added, 1.5);
+  EXPECT_LT(added, 2);
+  EXPECT_NEAR(find("added contact area over voltage", "").value.value, added, 1e-6);
+}
+
+TEST(PredictionsOfOneRun, ACurrentLosesToLoadWhatAVoltageKeeps) {
+  // A larger contact takes less voltage for the same current.
+  EXPECT_LT(find("modulation over load", "0.2 mA").value.value,
+            find("modulation over load", "200 V").value.value - 0.8);
+}
+
+TEST(PredictionsOfOneRun, AnInsulatingFilmLosesLowFrequenciesAndALeakyOneGainsThem) {
+  EXPECT_GT(find("added friction, 5 kHz over 30 Hz", "1e14").value.value, 1.2);
+  EXPECT_LT(find("added friction, 5 kHz over 30 Hz", "1e8").value.value, 1);
+}
+
+TEST(PredictionsOfOneRun, RougherGlassIsHazierAndDuller) {
+  for (const auto& [rougher, smoother] : {std::pair{"100 nm", "50 nm"}, {"50 nm", "20 nm"}}) {
+    EXPECT_GT(find("haze", rougher).value.value, find("haze", smoother).value.value);
+    EXPECT_LT(find("gloss at 60 deg", rougher).value.value,
+              find("gloss at 60 deg", smoother).value.value);
+  }
+}
+
+TEST(PredictionsOfOneRun, ReadBackFromTheirTables) {
+  const auto json = nlohmann::json::parse(predictions_json(few_skins(), "reference"));
+  ASSERT_EQ(json["predictions"].size(), few_skins().size());
+  for (std::size_t i = 0; i < few_skins().size(); ++i) {
+    EXPECT_EQ(json["predictions"][i]["value"].get<double>(), few_skins()[i].value.value);
+    EXPECT_NE(predictions_text(few_skins()).find(few_skins()[i].condition), std::string::npos);
+  }
+  const std::string csv = predictions_csv(few_skins());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+            few_skins().size() + 1);
+}
+
+}  // namespace
+}  // namespace papilla::tests
