@@ -1,6 +1,7 @@
 # The program, the library and what belongs to it, for programs (find_package(Papilla), pkg-config papilla) and people.
 # Nothing of an installed tree names its own place: it may be moved.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME papilla)
 file(RELATIVE_PATH from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 set_target_properties(papilla PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin}")
 
@@ -36,4 +37,8 @@ install(CODE "
     file(MAKE_DIRECTORY \"\${folder}\")
     execute_process(COMMAND $<TARGET_FILE:papilla> completion \${shell} OUTPUT_FILE \"\${file}\" COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
-  execute_process(COMMAND $<TARGET_FILE:papilla> describe --manuals \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\" COMMAND_ERROR_IS_FATAL ANY)")
+  execute_process(COMMAND $<TARGET_FILE:papilla> describe --manuals \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1\" COMMAND_ERROR_IS_FATAL ANY)"
+  COMPONENT papilla)
+if(PAPILLA_PACKAGES)
+  include(cmake/package.cmake)
+endif()

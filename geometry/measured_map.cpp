@@ -84,6 +84,11 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
   return out;
 }
 
+bool same_pixels(const Grid& a, const Grid& b) {
+  return a.nx == b.nx && a.ny == b.ny && std::abs(a.lx - b.lx) < 1e-12 * b.lx &&
+         std::abs(a.ly - b.ly) < 1e-12 * b.ly;
+}
+
 constexpr double kSeam = 0.1;  // of a patch's side: the band that is blended
 
 }  // namespace
@@ -98,6 +103,7 @@ Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid
         "{}: {:.4g} x {:.4g} um is smaller than the patch of {:.4g} um; lower texture.patch",
         source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
   }
+  if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
   const double x0 = 0.5 * (whole.lx - grid.lx), y0 = 0.5 * (whole.ly - grid.ly);
   const double seam = source.as_is ? 0 : kSeam;  // what is known repeats by itself
   return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, seam * grid.lx),

@@ -19,6 +19,15 @@ struct Heights {
   std::vector<double> z;
 };
 
+// A number of a design, SI.
+struct Number {
+  std::string path;     // "texture.depth"
+  std::string unit;     // for people: "nm"; the members below are SI
+  std::string meaning;  // of the key
+  double value = 0;
+  double low = 0, high = 0;  // the range that is accepted
+};
+
 // How a texture looks on glass: photopic means; docs/theory/optics.md.
 struct Look {
   double haze = 0, transmittance = 1, gloss = 1;  // shares
@@ -31,13 +40,24 @@ struct Look {
 // Immutable, cheap to copy, safe to share between threads.
 class Design {
  public:
-  // A path of a value and the value as a file would write it: {"texture.depth", "350 nm"}.
+  // A path of a value and the value as a file would write it: {"texture.depth", "350 nm"}. Behind
+  // a path that ends with a colon bare numbers are SI: {"texture.depth:", "350e-9"}.
   using Values = std::vector<std::pair<std::string, std::string>>;
 
-  // A file, or the text of one, with values that replace its own. A study is a design too. Both
-  // throw InputError with every problem.
+  // A file, or the text of one, with values that replace its own. A study is a design too. A file
+  // that is not there is looked for in the designs folders. Both throw InputError with every
+  // problem.
   static Design read(const std::string& file, const Values& values = {});
   static Design parse(const std::string& toml, const Values& values = {});
+
+  // Heights as they are drawn, or measured, as the texture: square, with square pixels, high
+  // touches first; all else by `values`. `repeats`: they repeat by themselves and are taken to the
+  // last bit; else they are levelled, mended and made periodic, as scans are. They lie in a file
+  // that toml() names and that is there for as long as a design of them. Throws InputError.
+  static Design from_heights(const Heights& heights, const Values& values = {},
+                             bool repeats = true);
+  // The toml() of such a design, in another process or at another time.
+  static Design parse(const std::string& toml, const Heights& heights);
 
   // The design with other values. It is read anew, all values together, so that those which go
   // together (a diameter and its period) are given in one call.
@@ -45,18 +65,22 @@ class Design {
   Design with(const std::string& path, const std::string& value) const;
 
   double number(const std::string& path) const;  // SI; throws InputError for a path that is none
+  std::vector<Number> numbers() const;           // every number that a path names
   std::string title() const;
+  const Heights* drawn() const;  // of from_heights; else null
   std::string toml() const;  // every value with the origin of each; reads back to the same design
 
-  // The patch that is simulated, `pixels` along x.
+  // A patch of whole periods, `pixels` along x; of from_heights with as many pixels as were given
+  // (an even number of them) those themselves.
   Heights heights(int pixels) const;
   Look look() const;
 
   struct Inside;  // not for callers
   const Inside& inside() const { return *inside_; }
 
- private:
   explicit Design(std::shared_ptr<const Inside> inside) : inside_(std::move(inside)) {}
+
+ private:
   std::shared_ptr<const Inside> inside_;
 };
 

@@ -49,9 +49,11 @@ class Response {
   // reproducible. And its table for people, Markdown.
   std::string json(bool with_time = true) const;
   std::string table() const;
+  std::string svg(const std::string& title = "") const;  // friction and modulation with bands
 
   struct Inside;  // not for callers
   explicit Response(std::shared_ptr<const Inside> inside);
+  const Inside& inside() const { return *inside_; }
 
  private:
   std::shared_ptr<const Inside> inside_;
@@ -73,7 +75,7 @@ struct EvaluateOptions {
   const std::atomic<bool>* stop = nullptr;
 };
 
-// Throws InputError, Stopped.
+// Throws InputError, Stopped. On the stop the pieces of physics that iterate end at once.
 Response evaluate(const Design& design, const EvaluateOptions& options = {});
 
 }  // namespace papilla::api

@@ -37,4 +37,28 @@ struct Verdict {
 // merit may be `tolerance` at most. Cost: two evaluations at draft level. Throws InputError.
 Verdict verify(const Design& design, const std::string& file, double tolerance = 0.05);
 
+struct FileVerdict {
+  std::string path;
+  bool sound = true;
+  std::vector<std::string> faults;  // for people: what is wrong and by how much
+};
+
+struct FolderVerdict {
+  std::string folder;
+  std::vector<FileVerdict> files;  // each against the design that it was made from
+  bool felt = false;               // the heights were simulated again:
+  Verdict verdict;
+
+  bool sound() const;
+};
+
+struct VerifyOptions {
+  bool geometry = false;    // what the files hold alone
+  double tolerance = 0.05;  // largest loss of merit of the heights
+};
+
+// Every exported file of a folder that `papilla export` wrote, of a run of a study (its best design
+// and its front), or one file of it, as `papilla verify`. Throws InputError.
+std::vector<FolderVerdict> verify(const std::string& path, const VerifyOptions& options = {});
+
 }  // namespace papilla::api

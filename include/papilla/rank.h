@@ -1,6 +1,7 @@
 // Which of several designs is better, and how sure that is. docs/theory/ranking.md
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -20,6 +21,7 @@ struct RankOptions {
   bool any_conditions = false;     // compare designs under other conditions all the same
   std::vector<std::string> names;  // of the candidates; empty: their titles
   std::function<void(const std::string&)> progress;  // for people; may be empty
+  const std::atomic<bool>* stop = nullptr;           // set by another thread: rank() throws Stopped
 };
 
 struct Ranked {
@@ -36,7 +38,7 @@ struct Ranking {
   std::string table, json;  // of the command
 };
 
-// Throws InputError.
+// Throws InputError, Stopped.
 Ranking rank(const std::vector<Design>& designs, const RankOptions& options = {});
 
 }  // namespace papilla::api

@@ -72,9 +72,15 @@ class Study {
   const std::vector<Objective>& objectives() const;
   std::size_t violations() const;  // of a Judgement
 
+  // The design that these values of the variables make, and the values of the study's own.
+  Design design(const std::vector<double>& values) const;
+  std::vector<double> own_values() const;
+
   // Values of the variables, SI, in their order. judge() runs the model on every finger and
-  // scenario, as accurately as a search does; a shape that breaks a limit is refused at once.
-  Judgement judge(const std::vector<double>& values, int threads = 0) const;
+  // scenario, as accurately as a search does; a shape that breaks a limit is refused at once. stop:
+  // as of evaluate().
+  Judgement judge(const std::vector<double>& values, int threads = 0,
+                  const std::atomic<bool>* stop = nullptr) const;
 
   // Searches, confirms and checks, and writes the folder of results, as `papilla optimize`. Works
   // in processes forked from this one: call it before other threads are started.

@@ -1,16 +1,17 @@
 #include "papilla/design.h"
 
+#include <filesystem>
+#include <system_error>
+
 #include "api/inside.h"
+#include "base/units.h"
 #include "config/describe.h"
+#include "config/reader.h"
 
 namespace papilla::api {
 namespace {
 
-std::vector<std::string> overrides(const Design::Values& values) {
-  std::vector<std::string> out;
-  for (const auto& [path, value] : values) out.push_back(path + "=" + value);
-  return out;
-}
+std::string quoted(const std::string& file) { return '"' + file + '"'; }
 
 std::shared_ptr<const Design::Inside> loaded(Design::Inside inside) {
   return across([&] {
@@ -22,6 +23,23 @@ std::shared_ptr<const Design::Inside> loaded(Design::Inside inside) {
 }
 
 }  // namespace
+
+std::vector<std::string> overrides(const Design::Values& values) {
+  std::vector<std::string> out;
+  for (const auto& [path, value] : values) out.push_back(path + "=" + value);
+  return out;
+}
+
+Look look_of(const Optics& o) {
+  return {o.haze, o.transmittance, o.gloss, o.colour_shift, text(o.regime), o.warning};
+}
+
+std::string shipped(const std::string& file) {
+  std::error_code ignored;
+  if (file.empty() || std::filesystem::exists(file, ignored)) return file;
+  const std::string found = find_beside(file, "", design_roots());
+  return found.empty() ? file : found;
+}
 
 Heights heights_of(const Heightmap& map) {
   return {map.grid.nx, map.grid.ny, map.grid.dx(), map.grid.dy(), map.z};
@@ -35,15 +53,41 @@ Heightmap heightmap_of(const Heights& h) {
 }
 
 Design Design::read(const std::string& file, const Values& values) {
-  return Design(loaded({file, "", values, {}}));
+  return Design(loaded({shipped(file), "", values, nullptr, {}}));
 }
 
 Design Design::parse(const std::string& toml, const Values& values) {
-  return Design(loaded({"", toml, values, {}}));
+  return Design(loaded({"", toml, values, nullptr, {}}));
+}
+
+Design Design::from_heights(const Heights& heights, const Values& values, bool repeats) {
+  return across([&] {
+    Inside inside;
+    inside.text = "schema_version = 1\n";
+    inside.drawn = std::make_shared<const DrawnMap>(heights);
+    const std::string width = format_number(inside.drawn->width());
+    inside.values = {{"texture.type", "measured"},
+                     {"texture.file", quoted(inside.drawn->file())},
+                     {"texture.width:", width},
+                     {"texture.patch:", width},
+                     {"texture.as_is", repeats ? "true" : "false"}};
+    inside.values.insert(inside.values.end(), values.begin(), values.end());
+    return Design(loaded(std::move(inside)));
+  });
+}
+
+Design Design::parse(const std::string& toml, const Heights& heights) {
+  return across([&] {
+    Inside inside;
+    inside.text = toml;
+    inside.drawn = std::make_shared<const DrawnMap>(heights);
+    inside.values = {{"texture.file", quoted(inside.drawn->file())}};
+    return Design(loaded(std::move(inside)));
+  });
 }
 
 Design Design::with(const Values& values) const {
-  Inside changed{inside_->file, inside_->text, inside_->values, {}};
+  Inside changed{inside_->file, inside_->text, inside_->values, inside_->drawn, {}};
   changed.values.insert(changed.values.end(), values.begin(), values.end());
   return Design(loaded(std::move(changed)));
 }
@@ -54,6 +98,21 @@ Design Design::with(const std::string& path, const std::string& value) const {
 
 double Design::number(const std::string& path) const {
   return across([&] { return get_number(inside_->design(), path); });
+}
+
+std::vector<Number> Design::numbers() const {
+  rooms::Design copy = inside_->design();
+  std::vector<Number> out;
+  for (const NumberField& field : number_fields(copy)) {
+    const double to_si = find_unit(field.unit)->to_si;
+    out.push_back(
+        {field.path, field.unit, field.doc, *field.value, field.low * to_si, field.high * to_si});
+  }
+  return out;
+}
+
+const Heights* Design::drawn() const {
+  return inside_->drawn ? &inside_->drawn->heights() : nullptr;
 }
 
 std::string Design::title() const { return inside_->design().title; }
@@ -70,10 +129,7 @@ Heights Design::heights(int pixels) const {
 }
 
 Look Design::look() const {
-  return across([&] {
-    const Optics o = appearance_of(inside_->design());
-    return Look{o.haze, o.transmittance, o.gloss, o.colour_shift, text(o.regime), o.warning};
-  });
+  return across([&] { return look_of(appearance_of(inside_->design())); });
 }
 
 }  // namespace papilla::api

@@ -38,7 +38,7 @@ rooms::Design at_level(rooms::Design design, const std::string& level) {
   const std::vector<std::string>& names = accuracy_level_names();
   const auto found = std::find(names.begin(), names.end(), level);
   if (found == names.end())
-    throw rooms::InputError("level: expected draft, design or reference, got " + level);
+    throw wrong("level", "expected draft, design or reference, got \"" + level + "\"");
   design.accuracy.level = static_cast<AccuracyLevel>(found - names.begin());
   design.accuracy.target = 0;
   return design;
@@ -58,22 +58,30 @@ std::string Response::json(bool with_time) const {
   return response_json(inside_->response, with_time);
 }
 
+std::string Response::svg(const std::string& title) const {
+  return response_svg(inside_->response, title);
+}
+
 std::string Response::table() const { return response_table(inside_->response); }
+
+rooms::Design at_options(const Design& design, const EvaluateOptions& options) {
+  const rooms::Design& own = design.inside().design();
+  if (!options.force) require_fitted_model(own, design.inside().file, "set `force`");
+  if (!(options.target >= 0 && options.target < 1))
+    throw wrong("target", "expected a share from 0 to 1");
+  return options.level.empty() ? own : at_level(own, options.level);
+}
 
 Response evaluate(const Design& design, const EvaluateOptions& options) {
   return across([&] {
-    const rooms::Design& own = design.inside().design();
-    if (!options.force) require_fitted_model(own, design.inside().file, "set `force`");
-    if (options.target < 0 || options.target >= 1)
-      throw rooms::InputError("target: expected a share from 0 to 1");
+    const rooms::Design own = at_options(design, options);
     Watch watch(options.progress, options.stop);
     Response::Inside inside;
-    inside.response = evaluate_design(options.level.empty() ? own : at_level(own, options.level),
-                                      {.target = options.target,
-                                       .parameters = options.parameters,
-                                       .appearance = options.look,
-                                       .voltage_for = options.voltage_for,
-                                       .threads = options.threads});
+    inside.response = evaluate_design(own, {.target = options.target,
+                                            .parameters = options.parameters,
+                                            .appearance = options.look,
+                                            .voltage_for = options.voltage_for,
+                                            .threads = options.threads});
     for (const ResponsePoint& p : inside.response.points) inside.points.push_back(point_of(p));
     return Response(std::make_shared<const Response::Inside>(std::move(inside)));
   });

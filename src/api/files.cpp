@@ -1,11 +1,23 @@
 #include "papilla/files.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "api/inside.h"
 #include "fabricate/export.h"
 #include "fabricate/verify.h"
 #include "report/export.h"
+#include "report/verdict.h"
 
 namespace papilla::api {
+
+namespace {
+
+Verdict verdict_of(const Verification& v) {
+  return {v.pixels.min_hole, v.pixels.min_wall, v.design, v.file, v.loss, v.faults};
+}
+
+}  // namespace
 
 Exported export_files(const Design& design, const std::string& folder,
                       const ExportOptions& options) {
@@ -34,9 +46,29 @@ Exported export_files(const Design& design, const std::string& folder,
 }
 
 Verdict verify(const Design& design, const std::string& file, double tolerance) {
+  return across([&] { return verdict_of(verify_export(design.inside().study, file, tolerance)); });
+}
+
+bool FolderVerdict::sound() const {
+  return std::all_of(files.begin(), files.end(),
+                     [](const FileVerdict& file) { return file.sound; }) &&
+         (!felt || verdict.faults.empty());
+}
+
+std::vector<FolderVerdict> verify(const std::string& path, const VerifyOptions& options) {
   return across([&] {
-    const Verification v = verify_export(design.inside().study, file, tolerance);
-    return Verdict{v.pixels.min_hole, v.pixels.min_wall, v.design, v.file, v.loss, v.faults};
+    std::vector<FolderVerdict> out;
+    for (const ExportPlace& place : export_places(path)) {
+      const ExportVerdict judged = judge_export(place, {options.geometry, options.tolerance});
+      FolderVerdict folder;
+      folder.folder = place.folder;
+      for (const rooms::FileVerdict& file : judged.files)
+        folder.files.push_back({file.path, file.state == FileState::Sound, file.faults});
+      folder.felt = judged.felt.has_value();
+      if (judged.felt) folder.verdict = verdict_of(*judged.felt);
+      out.push_back(std::move(folder));
+    }
+    return out;
   });
 }
 

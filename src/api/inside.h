@@ -1,8 +1,10 @@
 // What the public values hold, and how problems cross the border.
 #pragma once
 
+#include <memory>
 #include <utility>
 
+#include "api/drawn_map.h"
 #include "base/error.h"
 #include "base/watch.h"
 #include "design/study.h"
@@ -16,8 +18,9 @@ namespace papilla::api {
 using namespace rooms;
 
 struct Design::Inside {
-  std::string file, text;  // where it was read from: a file, else a text
-  Values values;           // replaced
+  std::string file, text;                 // where it was read from: a file, else a text
+  Values values;                          // replaced
+  std::shared_ptr<const DrawnMap> drawn;  // that a value names; null: none
   rooms::Study study;
 
   const rooms::Design& design() const { return study.design; }
@@ -28,8 +31,21 @@ struct Response::Inside {
   std::vector<Point> points;
 };
 
+std::vector<std::string> overrides(const Design::Values& values);  // as files are read with
+// The design at the level of the options, checked as evaluate() does. Throws rooms::InputError.
+rooms::Design at_options(const Design& design, const EvaluateOptions& options);
+
+// The file, or the one of that name in the designs folders where there is none.
+std::string shipped(const std::string& file);
+
+Look look_of(const Optics& optics);
 Heights heights_of(const Heightmap& map);
 Heightmap heightmap_of(const Heights& heights);  // throws rooms::InputError
+
+// A mistake of the caller's in an argument.
+inline rooms::InputError wrong(const std::string& argument, const std::string& message) {
+  return rooms::InputError({rooms::Problem{"", 0, 0, argument, message}});
+}
 
 [[noreturn]] inline void rethrow(const rooms::InputError& error) {
   std::vector<Problem> problems;

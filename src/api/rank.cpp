@@ -4,6 +4,7 @@
 
 #include "api/inside.h"
 #include "base/text.h"
+#include "base/watch.h"
 #include "papilla/rank.h"
 #include "report/ranking.h"
 
@@ -18,7 +19,9 @@ rooms::RankOptions inner(const std::vector<rooms::Design>& designs, const RankOp
                                 : driven            ? "modulation:high"
                                                     : "friction:low,adhesion:low");
   const std::vector<std::string>& names = finger_state_names();
-  for (const std::string& name : split(options.states, ',')) {
+  const auto states =
+      options.states.empty() ? std::vector<std::string>{} : split(options.states, ',');
+  for (const std::string& name : states) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
       throw rooms::InputError("states: expected some of " + join_names(names) + ", got " + name);
@@ -49,6 +52,7 @@ Ranking rank(const std::vector<Design>& designs, const RankOptions& options) {
     std::vector<Regions> regions;
     for (const rooms::Design& design : candidates) regions.push_back({design});
     inside.parameters = inside.parameters || parameters_unknown(regions).empty();
+    Watch watch({}, options.stop);
     const rooms::Ranking ranking = rooms::ranking_of(regions, inside);
     Ranking out;
     for (const StateRanking& state : ranking.states) {

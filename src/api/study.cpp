@@ -1,8 +1,14 @@
 #include "papilla/study.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "api/inside.h"
+#include "config/writer.h"
 #include "optim/search.h"
 #include "report/results.h"
 #include "report/summary.h"
@@ -38,6 +44,23 @@ Judgement judgement_of(const StudyProblem& problem, const Score& score) {
   return out;
 }
 
+// Throws rooms::InputError for values that are none of the space.
+rooms::Point unit_of(const StudyProblem& problem, const std::vector<double>& values) {
+  if (values.size() != problem.space().size()) {
+    throw wrong("values", fmt::format("expected one value for each of {} variables, got {}",
+                                      problem.space().size(), values.size()));
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const rooms::Variable& v = problem.study().variables[i];
+    const double slack = 1e-9 * std::max(std::abs(v.low), std::abs(v.high));
+    if (!(values[i] >= v.low - slack && values[i] <= v.high + slack)) {
+      throw wrong(v.path,
+                  fmt::format("{:.6g} is outside {:.6g} to {:.6g}", values[i], v.low, v.high));
+    }
+  }
+  return problem.space().snapped(problem.space().unit(values));
+}
+
 // As searchers are told: minimised.
 Outcome outcome_of(const StudyProblem& problem, const Judgement& judgement) {
   Outcome out;
@@ -67,14 +90,31 @@ const std::vector<Objective>& Study::objectives() const { return inside_->object
 
 std::size_t Study::violations() const { return inside_->problem->constraints().evaluated(); }
 
-Judgement Study::judge(const std::vector<double>& values, int threads) const {
+Design Study::design(const std::vector<double>& values) const {
   return across([&] {
     const StudyProblem& problem = *inside_->problem;
-    if (values.size() != problem.space().size())
-      throw rooms::InputError("expected one value per variable");
-    const rooms::Point unit = problem.space().snapped(problem.space().unit(values));
+    const rooms::Point unit = unit_of(problem, values);
+    Design::Inside made;
+    made.study.design = problem.space().design(unit);
+    made.text = to_toml(made.study.design);
+    made.study = parse_study(made.text, "design.toml");
+    return Design(std::make_shared<const Design::Inside>(std::move(made)));
+  });
+}
+
+std::vector<double> Study::own_values() const {
+  const DesignSpace& space = inside_->problem->space();
+  return space.value(space.unit_of_study());
+}
+
+Judgement Study::judge(const std::vector<double>& values, int threads,
+                       const std::atomic<bool>* stop) const {
+  return across([&] {
+    const StudyProblem& problem = *inside_->problem;
+    const rooms::Point unit = unit_of(problem, values);
     if (const std::string refused = problem.constraints().geometry_reason(unit); !refused.empty())
       return Judgement{false, refused, {}, {}, {}};
+    Watch watch({}, stop);
     TaskWork work{stage_fidelity(problem, Stage::Search)};
     work.fidelity.threads = threads;
     std::vector<TaskAnswer> answers;
@@ -146,7 +186,7 @@ std::vector<std::vector<double>> Search::ask() {
 void Search::tell(const std::vector<Judgement>& judgements) {
   across([&] {
     if (judgements.size() != inside_->asked.size())
-      throw rooms::InputError("expected one judgement per design that was asked for");
+      throw wrong("judgements", "expected one per design that was asked for");
     std::vector<Evaluation> told;
     for (std::size_t i = 0; i < judgements.size(); ++i)
       told.push_back({inside_->asked[i], outcome_of(inside_->problem(), judgements[i])});

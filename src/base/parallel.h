@@ -25,6 +25,7 @@ void parallel_for(int n, Work&& work, int threads = 0) {
   for (int i = 0; i < n; ++i) {
     try {
       if (watch) watch->before_piece();
+      const Watch::Piece piece(watch);
       work(i);
       if (watch) watch->after_piece();
     } catch (...) {

@@ -22,7 +22,7 @@ class Watch {
  public:
   // progress: number of finished pieces; one call at a time, from any thread; may be empty.
   Watch(std::function<void(int)> progress, const std::atomic<bool>* stop)
-      : progress_(std::move(progress)), stop_(stop), outer_(current_) {
+      : progress_(std::move(progress)), stop_(stop), outer_(current_), here_(this) {
     current_ = this;
   }
   ~Watch() { current_ = outer_; }
@@ -30,6 +30,24 @@ class Watch {
   Watch& operator=(const Watch&) = delete;
 
   static Watch* current() { return current_; }  // of this thread, or null
+
+  // While one lives, its thread works on a piece of the watch, or of none (null).
+  class Piece {
+   public:
+    explicit Piece(const Watch* watch) : outer_(stop_here_) {
+      stop_here_ = watch ? watch->stop_ : nullptr;
+    }
+    ~Piece() { stop_here_ = outer_; }
+    Piece(const Piece&) = delete;
+    Piece& operator=(const Piece&) = delete;
+
+   private:
+    const std::atomic<bool>* outer_;
+  };
+  // Within a piece: ends it where the watch wished so. For what iterates long.
+  static void look() {
+    if (stop_here_ && *stop_here_) throw WorkStopped();
+  }
 
   void before_piece() const {
     if (stop_ && *stop_) throw WorkStopped();
@@ -42,9 +60,11 @@ class Watch {
 
  private:
   static inline thread_local Watch* current_ = nullptr;
+  static inline thread_local const std::atomic<bool>* stop_here_ = nullptr;
   std::function<void(int)> progress_;
   const std::atomic<bool>* stop_;
   Watch* outer_;
+  Piece here_;  // what the thread does beside its loops
   int done_ = 0;
 };
 

@@ -206,7 +206,10 @@ void fields(FieldVisitor& v, DriveCase& s) {
 }
 
 DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides) {
-  Document document = load_document(path, overrides, design_roots());
+  return read_drive_case(load_document(path, overrides, design_roots()));
+}
+
+DriveCase read_drive_case(Document document) {
   DriveCase c;
   read_section(document, "", c);
   const bool current = c.drive.control == DriveControl::Current;

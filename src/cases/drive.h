@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "config/reader.h"
 #include "physics/drive/network.h"
 #include "physics/drive/signal.h"
 #include "physics/drive/stiction.h"
@@ -75,6 +76,7 @@ void fields(FieldVisitor& v, DriveCase& s);
 
 // Throws InputError with every problem.
 DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides = {});
+DriveCase read_drive_case(Document document);
 
 enum class DriveLimit { BodyCurrent, SourceVoltage, GapVoltage };
 

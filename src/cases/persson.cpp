@@ -120,7 +120,10 @@ void fields(FieldVisitor& v, MeanFieldCase& s) {
 }
 
 MeanFieldCase read_mean_field(const std::string& path, const std::vector<std::string>& overrides) {
-  Document document = load_document(path, overrides, design_roots());
+  return read_mean_field(load_document(path, overrides, design_roots()));
+}
+
+MeanFieldCase read_mean_field(Document document) {
   MeanFieldCase c;
   c.drive.amplitude = 100;
   c.drive.frequency = 1e3;

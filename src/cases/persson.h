@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "config/reader.h"
 #include "physics/persson/persson.h"
 #include "scene/environment.h"
 
@@ -74,6 +75,7 @@ void fields(FieldVisitor& v, MeanFieldCase& s);
 // Throws InputError with every problem.
 MeanFieldCase read_mean_field(const std::string& path,
                               const std::vector<std::string>& overrides = {});
+MeanFieldCase read_mean_field(Document document);
 
 struct MeanFieldPoint {
   double voltage = 0, load = 0, frequency = 0;  // peak [V], [N], [Hz]

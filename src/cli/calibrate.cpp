@@ -5,14 +5,8 @@
 #include <iostream>
 #include <memory>
 
-#include "base/error.h"
-#include "base/files.h"
-#include "claims/reproduce.h"
 #include "cli/commands.h"
-#include "design/design.h"
-#include "published/targets.h"
-#include "report/fit.h"
-#include "report/page.h"
+#include "report/fit_folder.h"
 
 namespace papilla::cli {
 namespace {
@@ -23,60 +17,20 @@ struct CalibrateCommand {
   bool json = false;
 };
 
-// The claims of both lists, before the fit and after it.
-JudgedFit judged(const Calibration& calibration, const CalibrationResult& result, int jobs,
-                 const Context& context) {
-  ReproduceOptions options;
-  for (const auto* list : {&calibration.fit, &calibration.hold_out}) {
-    for (const std::string& id : *list) {
-      if (id != kGapTarget) options.ids.push_back(id);
-    }
-  }
-  if (options.ids.empty()) return {};
-  context.note("claims on other skins");
-  options.threads = jobs;
-  options.sampling = calibration.check;
-  options.one_preset = true;
-  JudgedFit out;
-  options.finger = result.start;
-  options.finger.fitted_to = result.finger.fitted_to;
-  out.before = reproduce(options);
-  options.finger = result.finger;
-  out.after = reproduce(options);
-  return out;
-}
-
 int run(const Context& context, const CalibrateCommand& command) {
-  const Calibration calibration = read_calibration(command.file, m3_claim_ids());
-  CalibrationOptions options;
-  options.threads = command.jobs;
-  options.note = [&](const std::string& text) { context.note(text); };
-  const CalibrationResult result = fit_finger(calibration, options);
-  const JudgedFit claims = judged(calibration, result, command.jobs, context);
-  const std::string markdown = calibration_markdown(calibration, result, claims);
-  const std::string json = calibration_json(calibration, result, claims) + "\n";
   const std::string out = !command.out.empty()
                               ? command.out
                               : "results/" + std::filesystem::path(command.file).stem().string();
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error) {
-    throw InputError({Problem{out, 0, 0, "", "no such folder can be made: " + error.message()}});
-  }
-  write_finger(out + "/finger.toml", result.finger,
-               "Fitted by papilla calibrate " +
-                   std::filesystem::path(command.file).filename().string() + "; see fit.md.");
-  write_bytes(out + "/fit.md", markdown);
-  write_bytes(out + "/fit.json", json);
-  write_bytes(out + "/report.html", report_page(out));
-  const std::string warning = calibration_warning(result);
+  const FitReport fit = fit_to_folder(
+      command.file, {command.jobs, out, [&](const std::string& text) { context.note(text); }});
+  const std::string warning = calibration_warning(fit.result);
   if (!warning.empty()) std::cerr << "warning: " << warning << '\n';
   context.note("wrote " + out);
   if (command.json)
-    std::cout << json;
+    std::cout << fit.json << '\n';
   else
-    context.print(markdown);
-  return result.fit.converged && explains_data(result) ? kSuccess : kWorkFailed;
+    context.print(fit.markdown);
+  return fit.result.fit.converged && explains_data(fit.result) ? kSuccess : kWorkFailed;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct DropletsOptions {
   std::string gap_file, design, humidity = "75 %", size, volume = "1 um3", theta_skin = "80 deg",
                                 theta_substrate = "50 deg";
   std::string surface_tension = "72.126 mN/m", step = "200 nm", model = "droplets", picture;
-  double drops_per_um3 = 100, hysteresis = 0.26;
+  double drops_per_um3 = 100, hysteresis = 0.33;
   std::uint64_t seed = 1, index = 0;
   int skin = 0, seeds = 0;
   double spread = 1.0 / 3;

@@ -26,6 +26,7 @@ struct Node {
   long long integer = 0;
   double number = 0;  // Integer too
   bool flag = false;
+  bool si = false;             // a bare number of it is in the SI unit of its key
   std::vector<Node> children;  // Table: in the order of the file; Array: items
   std::string comment;         // written behind the value
 

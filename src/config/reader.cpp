@@ -187,6 +187,11 @@ struct Override {
   Node value;
 };
 
+void mark_si(Node& node) {
+  node.si = true;
+  for (Node& child : node.children) mark_si(child);
+}
+
 Override parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
   const std::string origin = "--set " + text;
@@ -195,6 +200,8 @@ Override parse_override(const std::string& text) {
   }
   Override out;
   out.path = text.substr(0, equals);
+  const bool si = text[equals - 1] == ':';
+  if (si) out.path.pop_back();
   while (!out.path.empty() && out.path.back() == ' ') out.path.pop_back();
   std::string value = text.substr(equals + 1);
   while (!value.empty() && value.front() == ' ') value.erase(0, 1);
@@ -207,6 +214,7 @@ Override parse_override(const std::string& text) {
   }
   out.value.place = out.value.key_place = Place{origin, 0, 0};
   for (Node& child : out.value.children) child.place = child.key_place = out.value.place;
+  if (si) mark_si(out.value);
   return out;
 }
 
@@ -370,7 +378,7 @@ struct Document::State final : public FieldVisitor {
         problem(node.place, path, "expected a finite number, got " + describe(node));
         return false;
       }
-      if (!plain) {
+      if (!plain && !node.si) {
         problem(node.place, path, needs_unit(spec, node.number));
         return false;
       }

@@ -65,8 +65,8 @@ class Document {
 };
 
 // Throws InputError when a file cannot be read or is not TOML. An override is "path=value"; the
-// value is TOML, or else taken as text: texture.depth=350 nm. List items:
-// surface.dielectric.0.thickness
+// value is TOML, or else taken as text: texture.depth=350 nm. Of "path:=value" bare numbers are in
+// the SI unit of their key: texture.depth:=3.5e-7. List items: surface.dielectric.0.thickness
 Document load_document(const std::string& path, const std::vector<std::string>& overrides = {},
                        const std::vector<std::string>& search_roots = {});
 // The same from text; `file` stands for it in problems. With search roots its bases are looked for

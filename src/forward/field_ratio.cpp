@@ -15,9 +15,9 @@ namespace papilla::forward {
 namespace {
 
 constexpr int kMostPixels = 128;  // along the window: the ratio does not follow the grid beyond
-// What pixels and cells of the 3-D field leave, and what one skin says of others: one standard
-// deviation over the table of docs/theory/electrostatics.md, relative.
-constexpr double kOfFullField = 0.02, kOfOneSkin = 0.03;
+// What one skin says of others, relative: one standard deviation, like kOfFullField, over the table
+// of docs/theory/electrostatics.md.
+constexpr double kOfOneSkin = 0.03;
 
 struct Pulls {
   double rule = 0, full = 0;  // [Pa]

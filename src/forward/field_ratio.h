@@ -28,6 +28,9 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
 // it [s] on one core.
 bool field_corrected(const Scene& scene, const Fidelity& fidelity);
 inline constexpr double kCorrectedFieldError = 0.03;
+// What pixels and cells of the 3-D field leave of the pull, relative: common to all runs that are
+// corrected to it.
+inline constexpr double kOfFullField = 0.02;
 double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity);
 
 // Adds what the pull's error leaves of the numbers of a point. Eq. electrostatics.17, friction.3

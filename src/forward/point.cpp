@@ -144,6 +144,8 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     // Resolved areas end at the patch, the load law does not.
     if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
   }
+  for (auto* areas : {&point.samples.area_off, &point.samples.area_on})
+    for (double& area : *areas) area *= setting.area_factor;
   add_friction(point, shear_strength(scene, relative_humidity) * carrying, plan.field);
   add_solver_errors(point, patches);
   if (plan.water)

@@ -67,12 +67,25 @@ class JudgedScene {
     for (const AccuracyQuantity& q : accuracy_quantities()) {
       const auto v = summarise(q.summary, q.metric, r), t = summarise(q.summary, q.metric, truth_);
       if (!v || !t) continue;  // no mean to divide by
-      // The humidities are given: their quadrature is no part of this comparison.
+      // The humidities are given and the reference stands on the same 3-D field: neither quadrature
+      // nor what pixels and cells leave of that field is part of this comparison.
       ErrorParts parts = v->parts;
       parts.humidity.reset();
+      if (parts.field) *parts.field *= own_share_of_field(r);
       rows_.push_back({index_, texture_name(texture_), fidelity, q.name, v->value,
                        1.96 * parts.total(), t->value, t->parts.sampling, parts});
     }
+  }
+
+  // Of the part of the 3-D field, the share that is of the few skins it is solved on.
+  static double own_share_of_field(const Response& r) {
+    double all = 0, own = 0;
+    for (const ResponsePoint& p : r.points) {
+      const double e = p.field_error.value_or(0);
+      all += e;
+      own += std::sqrt(std::max(0.0, square(e) - square(kOfFullField)));
+    }
+    return all > 0 ? own / all : 1;
   }
 
   int index_;

@@ -56,7 +56,7 @@ std::optional<double> humidity_error(Summary summary, const Response& response,
 
 // The 3-D field is off the same way at all humidities, by its pixels and on its few skins; by this
 // share they differ. Eq. accuracy.13
-constexpr double kFieldApart = 0.5;
+constexpr double kFieldApart = 0.3;
 
 // The samples behind a number of a metric.
 ErrorSamples samples_of(const std::string& metric, const Reading& number, Change kind,

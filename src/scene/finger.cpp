@@ -147,7 +147,7 @@ void fields(FieldVisitor& v, SkinWater& s) {
       {"surface_tension", "mN/m", 0.1, 1000, "surface tension", Source::Measured, "IAPWS, 24 C"},
       s.surface_tension);
   v.number({"hysteresis", "", 0, 2, "cos(receding) - cos(advancing) of the weaker surface",
-            Source::Estimate, "20-30 deg hysteresis"},
+            Source::Estimate, "25 deg of hysteresis about 50 deg"},
            s.hysteresis);
   v.number(
       {"drops_per_um3", "", 1, 1e5, "initial droplets per um3 of water", Source::Paper, "M3: 100"},

@@ -43,7 +43,7 @@ struct MacroContact {
   double ridge_share = 0.3;     // share of the gross area on ridges
   double load_share = 0.0063;   // phi: share of the gross area that carries the load
   double shear_strength = 9e6;  // tau, interfacial, at 15 % RH [Pa]
-  double shear_fall = 0;        // what it loses from 15 to 75 % RH, a share, linear
+  double shear_fall = 0.08;     // what it loses from 15 to 75 % RH, a share, linear
   // For closure "persson": the ridges' surface above the patch size, and what it lies on.
   double ridge_rms = 2.2e-6, ridge_longest = 1e-3;           // rms height, longest wavelength [m]
   double corneum_thickness = 200e-6, tissue_modulus = 10e3;  // [m], Young's modulus [Pa]
@@ -77,7 +77,7 @@ struct SkinWater {
   std::vector<double> volume = {0.07e-18, 0.36e-18, 1.8e-18, 8.8e-18};  // [m^3] per 144 um^2
   double contact_angle = 1.3962634015954636;                            // 80 deg, on clean skin
   double surface_tension = 0.072126;
-  double hysteresis = 0.26;    // cos(theta_r) - cos(theta_a) of the weaker surface
+  double hysteresis = 0.33;    // cos(theta_r) - cos(theta_a) of the weaker surface
   double drops_per_um3 = 100;  // initial droplets per um^3 of water
   double volume_spread = 0;    // low and high volume, as a share beside the mean; 0: the mean alone
 

@@ -38,6 +38,63 @@ TEST(Library, HeightsAreHolesInALand) {
   EXPECT_EQ(*std::max_element(h.z.begin(), h.z.end()), 0);
 }
 
+TEST(Library, NumbersBehindAColonAreSi) {
+  const papilla::Design design = papilla::Design::parse(kHoles);
+  EXPECT_EQ(design.with("texture.depth:", "2.62e-07").number("texture.depth"), 262e-9);
+  EXPECT_THROW(design.with("texture.depth", "2.62e-07"), papilla::InputError);
+  EXPECT_EQ(papilla::in_si("262 nm", "m"), 262e-9);
+}
+
+TEST(Library, DrawnHeightsComeBackToTheLastBit) {
+  papilla::Heights drawn{48, 48, 0.125e-6, 0.125e-6, {}};
+  for (int i = 0; i < 48 * 48; ++i) drawn.z.push_back(1e-8 * std::sin(0.1 * i * (i % 7)));
+  const papilla::Design design =
+      papilla::Design::from_heights(drawn, {{"base", "m3_samples/flat.toml"}});
+  EXPECT_EQ(design.heights(48).z, drawn.z);
+  EXPECT_EQ(papilla::Design::parse(design.toml(), drawn).heights(48).z, drawn.z);
+  drawn.z[5] = std::nan("");
+  EXPECT_THROW(papilla::Design::from_heights(drawn), papilla::InputError);
+}
+
+TEST(Library, ADifferenceOfADesignFromItselfIsNoneAndSure) {
+  const papilla::Design design = papilla::Design::parse(kHoles).with("accuracy.grid", "48");
+  const papilla::Comparison same = papilla::compare(design, design);
+  EXPECT_EQ(same.points.at(0).modulation.value, 0);
+  EXPECT_EQ(same.points.at(0).modulation.error, 0);
+  EXPECT_TRUE(same.mean_friction.paired);
+}
+
+TEST(Library, ASensitivityIsAFiniteStepOnCommonSkins) {
+  const papilla::Design design = papilla::Design::parse(kHoles).with("accuracy.grid", "48");
+  papilla::SensitivityOptions options;
+  options.keys = {"texture.depth"};
+  const auto found = papilla::sensitivity(design, "mean(friction)", options);
+  ASSERT_EQ(found.size(), 1u);
+  const auto friction = [&](double depth) {
+    return papilla::evaluate(design.with("texture.depth:", std::to_string(1e9 * depth) + "e-9"))
+        .points()
+        .at(0)
+        .friction_off.value;
+  };
+  EXPECT_NEAR(found[0].change.value, friction(found[0].up) - friction(found[0].down),
+              1e-9 * friction(350e-9));
+  EXPECT_NEAR(found[0].slope * 35e-9, found[0].change.value, 1e-9 * friction(350e-9));
+}
+
+TEST(Library, DropletsAndPullOfAPlaneGapAreThoseOfTheTheory) {
+  const papilla::Heights gap{32, 32, 1e-7, 1e-7, std::vector<double>(1024, 100e-9)};
+  papilla::FieldOptions options;
+  options.dc = true;
+  const papilla::FieldResult field = papilla::field(gap, 100, options);
+  const double gap_and_oxide = 100e-9 + 500e-9 / 3.9, eps0 = 8.8541878128e-12;
+  EXPECT_NEAR(field.mean_pressure, 0.5 * eps0 * std::pow(100 / gap_and_oxide, 2),
+              1e-3 * field.mean_pressure);
+  const papilla::DropletsResult water = papilla::droplets(gap, 0.2e-18);
+  EXPECT_TRUE(water.converged);
+  EXPECT_GT(water.capillary_force, 0);
+  EXPECT_THROW(papilla::droplets(gap, -1), papilla::InputError);
+}
+
 TEST(Library, WorkIsCountedAndStops) {
   const papilla::Design design = papilla::Design::parse(kHoles);
   int done = 0;

@@ -12,8 +12,8 @@ TEST(Sources, AreFormattedByClangFormat) {
     GTEST_SKIP() << "no clang-format here";
   }
   std::string command = "cd '" PAPILLA_SOURCE_DIR "' && clang-format --dry-run -Werror";
-  for (const std::string& file :
-       source_files({"src", "geometry", "optim", "tests"}, {".h", ".cpp"})) {
+  for (const std::string& file : source_files(
+           {"src", "geometry", "optim", "include", "python/bindings", "tests"}, {".h", ".cpp"})) {
     command += " '" + file + "'";
   }
   EXPECT_EQ(std::system((command + " 2>&1 | grep -E 'error|warning' | head -n 20 | grep . && "
@@ -24,8 +24,8 @@ TEST(Sources, AreFormattedByClangFormat) {
 
 TEST(Sources, HaveNoUnfinishedMarks) {
   for (const std::string& file :
-       source_files({"src", "geometry", "optim", "tests", "designs", "docs"},
-                    {".h", ".cpp", ".md", ".toml"})) {
+       source_files({"src", "geometry", "optim", "include", "python", "tests", "designs", "docs"},
+                    {".h", ".cpp", ".md", ".toml", ".py", ".pyi", ".ipynb"})) {
     if (file == "tests/architecture/format_test.cpp") continue;
     const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
     for (const char* mark : {"TODO", "FIXME", "XXX", "HACK"}) {

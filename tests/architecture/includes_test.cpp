@@ -108,13 +108,32 @@ TEST(Includes, PublicHeadersIncludeTheStandardLibraryAndEachOtherOnly) {
   }
 }
 
+TEST(Includes, TheBindingsOfPythonKnowThePublicHeadersAlone) {
+  const std::regex include("#include ([<\"])([^>\"]+)");
+  int seen = 0;
+  for (const std::string& file : source_files({"python/bindings"}, {".h", ".cpp"})) {
+    const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
+    for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
+      const std::string name = (*it)[2];
+      if ((*it)[1] == "\"") {
+        EXPECT_EQ(name.find('/'), std::string::npos) << file << " includes " << name;
+      } else if (name.find('/') != std::string::npos) {
+        EXPECT_TRUE(name.starts_with("papilla/") || name.starts_with("pybind11/"))
+            << file << " includes " << name;
+      }
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 20);
+}
+
 TEST(Includes, LibrariesOfOthersStayInTheSourcesOfOneFolder) {
   const std::vector<std::pair<std::string, std::string>> libraries{
-      {"toml++", "toml\\+\\+/"},  {"OpenImageIO", "OpenImageIO/"},
-      {"NLopt", "nlopt"},         {"pagmo", "pagmo/"},
-      {"Ceres", "ceres/"},        {"FFTW", "fftw3"},
-      {"MPI", "mpi\\.h"},         {"CLI11", "CLI/"},
-      {"cpp-httplib", "httplib"},
+      {"toml++", "toml\\+\\+/"}, {"OpenImageIO", "OpenImageIO/"},
+      {"NLopt", "nlopt"},        {"pagmo", "pagmo/"},
+      {"Ceres", "ceres/"},       {"FFTW", "fftw3"},
+      {"MPI", "mpi\\.h"},        {"CLI11", "CLI/"},
+      {"pybind11", "pybind11/"}, {"cpp-httplib", "httplib"},
   };
   for (const auto& [name, pattern] : libraries) {
     const std::regex include("#include [<\"]" + pattern);

@@ -12,7 +12,8 @@ namespace {
 TEST(Pages, NameFilesThatExist) {
   namespace fs = std::filesystem;
   const fs::path top = PAPILLA_SOURCE_DIR;
-  const std::regex path("`((?:src|geometry|optim|include|tests|cmake|scripts)/[A-Za-z0-9_./]+)`");
+  const std::regex path(
+      "`((?:src|geometry|optim|include|python|tests|cmake|scripts)/[A-Za-z0-9_./]+)`");
   std::vector<std::string> pages = source_files({"docs", "designs"}, {".md"});
   for (const char* page : {"README.md", "CONTRIBUTING.md"}) pages.push_back(page);
   int seen = 0;

@@ -163,6 +163,18 @@ TEST(Reader, OverridesTakeTextWithoutQuotesAndSayWhereTheyCameFrom) {
   EXPECT_THROW(read_whole("schema_version = 1", {"finger.load"}), InputError);
 }
 
+TEST(Reader, BareNumbersOfAnOverrideWithAColonAreSi) {
+  const Whole whole = read_whole(
+      "schema_version = 1\n",
+      {"finger.load:=0.3", "environment.relative_humidity:=[0.2, 0.4]",
+       "surface.dielectric:=[{ material = \"a\", thickness = 2e-6, permittivity = 3 }]"});
+  EXPECT_EQ(whole.finger.load, 0.3);
+  EXPECT_EQ(whole.environment.relative_humidity, (std::vector<double>{0.2, 0.4}));
+  EXPECT_EQ(whole.surface.dielectric.at(0).thickness, 2e-6);
+  EXPECT_EQ(problems_of("schema_version = 1", {"finger.load=0.3"}),
+            "--set finger.load=0.3: finger.load: needs a unit, e.g. \"0.3 N\"");
+}
+
 TEST(Reader, ATextWithoutAUnitIsToldWhichOneIsMissing) {
   EXPECT_EQ(problems_of("[finger]\nload = \"1.5\"\n"),
             "hole.toml:2:8: finger.load: needs a unit, e.g. \"1.5 N\"");

@@ -107,14 +107,17 @@ TEST(Errors, AreMeasuredOnControlSkinsAndUnknownWithoutThem) {
   f.control_skins = 0;
   const Response without = evaluate(scene, Texture{}, f);
   EXPECT_FALSE(without.points[0].modulation.parts.grid);
-  EXPECT_EQ(without.points[0].modulation.value, with.points[0].modulation.value);
+  // The share of friction that retention has follows the areas that the control skins correct.
+  EXPECT_NEAR(without.points[0].modulation.value, with.points[0].modulation.value,
+              0.01 * with.points[0].modulation.value);
   f.estimator = Estimator::Area;
   f.control_skins = 4;
   EXPECT_FALSE(evaluate(scene, Texture{}, f).points[0].modulation.parts.method);
 }
 
-// The octaves of the skin that a draft leaves out: no more and no less than they are worth.
-TEST(Errors, OfAreasAreTheOctavesLeftOut) {
+// A draft takes off its areas what the octaves that it leaves out of the skin would: no more and no
+// less than they are worth.
+TEST(Errors, OfAreasAreLessWhatTheOctavesLeftOutWouldTake) {
   const Scene scene = driven();
   Fidelity f = fidelity_level("draft"), fine = fidelity_level("design");
   f.skins = fine.skins = 6;
@@ -122,9 +125,11 @@ TEST(Errors, OfAreasAreTheOctavesLeftOut) {
   fine.control_skins = 0;
   const Measured draft = evaluate(scene, Texture{}, f).points[0].area_fraction_off,
                  design = evaluate(scene, Texture{}, fine).points[0].area_fraction_off;
-  const double missing = draft.value - design.value;
-  EXPECT_GT(missing, 0.1 * design.value);
-  EXPECT_NEAR(draft.parts.grid.value(), missing, 0.35 * missing);
+  f.control_skins = 0;
+  const Measured raw = evaluate(scene, Texture{}, f).points[0].area_fraction_off;
+  EXPECT_GT(raw.value - design.value, 0.1 * design.value);
+  EXPECT_NEAR(draft.value, design.value, 0.35 * (raw.value - design.value));
+  EXPECT_LT(std::abs(draft.value - design.value), 2 * draft.parts.grid.value());
 }
 
 // Long patches have a limited number of pixels per side; the control run has half of that too.

@@ -98,7 +98,11 @@ TEST(SolvedPieces, ABridgeWithItsGaps) {
   bridge.status = BridgeStatus::Ruptured;
   limits.status = BridgeStatus::NotConverged;
   EXPECT_EQ(bridge_text(bridge, limits, 1e-7),
-            "no bridge: " + std::string(text(BridgeStatus::Ruptured)) + "\n");
+            "no bridge: " + std::string(text(BridgeStatus::Ruptured)) +
+                "\nruptures at       not found\n");
+  limits = {BridgeStatus::Converged};
+  EXPECT_NE(bridge_text(bridge, limits, 1e-7).find("no gap has one"), std::string::npos);
+  limits = {};
   json = nlohmann::json::parse(bridge_json(bridge, limits, 1e-7));
   for (const char* key : {"energy", "force", "laplace_pressure", "radius1", "radius2",
                           "rupture_gap", "equilibrium_gap", "snap_in_gap", "zero_force_gap"})

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "base/watch.h"
+
 namespace papilla::capillary {
 namespace {
 
@@ -62,6 +64,7 @@ class Walker {
   enum class Onward { Stuck, Moved, Merged };
 
   Downhill downhill(int i, double step) {
+    Watch::look();
     Downhill out;
     const Drop& d = drops_[i];
     const double margin = kLeastGain * std::abs(d.energy);

@@ -9,7 +9,7 @@ struct WaterProperties {
   double surface_tension = 0.072126;            // [N/m]
   double theta_skin = 1.3962634015954636;       // contact angle on the skin [rad], 80 deg
   double theta_substrate = 0.8726646259971648;  // on the textured surface [rad], 50 deg
-  double hysteresis = 0.26;                     // cos(receding) - cos(advancing), weaker surface
+  double hysteresis = 0.33;                     // cos(receding) - cos(advancing), weaker surface
 };
 
 // Eq. capillary.1: C = cos(theta_1) + cos(theta_2), the wetting energy a bridge gains per footprint

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/watch.h"
 #include "physics/contact/dense_fields.h"
 #include "physics/contact/dense_listed.h"
 #include "physics/contact/dense_whole.h"
@@ -109,6 +110,7 @@ class DenseSolver {
     double best = kInfinity;
     int since_best = 0;
     for (;; ++state_.iterations) {
+      Watch::look();
       state_.certificate = fields_.certificate();
       if (state_.certificate <= tolerance_) return true;
       if (state_.certificate < kProgress * best) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "base/watch.h"
 #include "physics/contact/active_set.h"
 #include "physics/contact/candidates.h"
 #include "physics/contact/cubic.h"
@@ -43,6 +44,7 @@ class CandidateSolver {
       state_.p.assign(n_, 0.0);
     }
     for (int transforms = 0; state_.iterations < kMostPasses; ++state_.iterations) {
+      Watch::look();
       // What the pressures' own influence leaves of the gap function at the pixels watched.
       set_.watch(members_, [this](int i) { return gap_function(i) - pressed(i); });
       if (!balance()) return false;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/watch.h"
 #include "physics/electrostatics/column_operator.h"
 #include "physics/electrostatics/field_columns.h"
 
@@ -201,6 +202,7 @@ class PotentialSolver {
 
   // Whether the iteration ends here, for better or worse.
   bool finished(PotentialSolution& out) const {
+    Watch::look();
     if (!std::isfinite(out.residual)) {
       out.ok = false;
       out.reason = "the potential is not finite";

@@ -1,0 +1,56 @@
+// How designs differ, with the error of the difference itself: both meet the same skins, droplets
+// and grids, and what is common to them cancels. docs/theory/accuracy.md, Eq. accuracy.14
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "papilla/evaluate.h"
+
+namespace papilla::api {
+
+// The second less the first.
+struct Difference {
+  double value = 0;
+  double error = 0;     // one standard error of the difference
+  bool paired = false;  // from common samples; else the errors of both in squares
+};
+
+struct ComparedPoint {
+  double relative_humidity = 0;
+  Difference modulation, friction_off, friction_on;  // friction [N]; driven designs alone have
+                                                     // modulation and friction_on
+};
+
+struct Comparison {
+  Response first, second;
+  std::vector<ComparedPoint> points;          // one per humidity
+  Difference mean_modulation, mean_friction;  // over humidity
+};
+
+// Both designs at one level, on common skins; the options hold for both. Throws InputError, also
+// for designs whose humidities differ; Stopped.
+Comparison compare(const Design& first, const Design& second, const EvaluateOptions& options = {});
+
+struct SensitivityOptions {
+  std::vector<std::string> keys;  // empty: the numbers of the texture and its contact angle
+  double step = 0.05;             // of a value, relative; of a 0 the share of its range
+  EvaluateOptions evaluate;       // parameters, look and voltage_for are left out
+};
+
+// What a number of the design does to a metric.
+struct Sensitivity {
+  std::string path, unit;   // the unit for people
+  double value = 0;         // SI
+  double down = 0, up = 0;  // values that were evaluated, SI; equal to `value` where the design
+                            // allows no step that way
+  Difference change;        // of the metric from `down` to `up`
+  double slope = 0, slope_error = 0;  // change / (up - down), per SI unit
+};
+
+// Finite steps on common skins. metric: "mean(modulation)". A key that can move neither way is left
+// out. Cost: two evaluations a key. Throws InputError, Stopped.
+std::vector<Sensitivity> sensitivity(const Design& design, const std::string& metric,
+                                     const SensitivityOptions& options = {});
+
+}  // namespace papilla::api

@@ -1,0 +1,287 @@
+"""What an evaluation answers: quantities over humidity, each with its error by origin."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from papilla.values import FloatArray
+
+if TYPE_CHECKING:
+    import matplotlib.axes
+    import pandas
+
+__all__ = ["Comparison", "Difference", "Differences", "Quantity", "Response", "Sensitivity"]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number at each humidity, SI, with one standard error.
+
+    The error is the root of the sum of squares of its parts but ``water``, which is half a band that is common to all
+    designs. NaN in a part: it was not measured. Source: docs/theory/accuracy.md.
+    """
+
+    value: FloatArray
+    """Shape (humidities,)."""
+    error: FloatArray
+    """Shape (humidities,): one standard error."""
+    parts: Mapping[str, FloatArray]
+    """By origin, each of shape (humidities,): sampling, grid, solver, humidity, method, field, parameters, water."""
+
+    def __len__(self) -> int:
+        return len(self.value)
+
+    def __repr__(self) -> str:
+        pairs = ", ".join(f"{v:.4g} ± {e:.2g}" for v, e in zip(self.value, self.error))
+        return f"Quantity({pairs})"
+
+
+_OF_A_DRIVE = ("modulation", "friction_on", "area_fraction_on")
+
+
+class Response:
+    """Friction of a finger on a design over humidity, drive off and on, with errors.
+
+    Made by ``Design.evaluate``. Arrays have one item per humidity. Source: docs/theory/friction.md.
+    """
+
+    humidity: FloatArray
+    """Relative humidities, shares of 1."""
+    friction_off: Quantity
+    """Of the whole finger without voltage [N]."""
+    area_fraction_off: Quantity
+    """Real contact over the area that carries the load, without voltage."""
+    capillary_force: Quantity
+    """Of the whole finger [N], positive attracts."""
+    electrostatic_force: Quantity
+    """Of the whole finger [N], positive attracts."""
+    retention_force: Quantity
+    """Lateral force that water holds back [N]."""
+    bridges: Quantity
+    """Liquid bridges of a patch."""
+    wetted_fraction: Quantity
+    """Share of a patch under bridges."""
+    mean_gap: Quantity
+    """Between skin and surface [m]."""
+    indentation: Quantity
+    """Approach since first touch [m]."""
+    sound: tuple[bool, ...]
+    """Whether each point can be trusted."""
+    status: tuple[str, ...]
+    """Of each point, for people: "ok", or what went wrong."""
+    driven: bool
+    """Whether a voltage is applied."""
+    trouble: str
+    """For people; empty: every point is sound."""
+
+    def __init__(self, columns: dict[str, Any]) -> None:
+        self._columns = columns
+        self.humidity = columns["relative_humidity"]
+        for name, quantity in columns["quantities"].items():
+            if name not in _OF_A_DRIVE:
+                setattr(self, name, Quantity(**quantity))
+        self.sound = tuple(columns["sound"])
+        self.status = tuple(columns["status"])
+        self.driven = columns["driven"]
+        self.trouble = columns["trouble"]
+
+    def _driven(self, name: str) -> Quantity:
+        quantities = self._columns["quantities"]
+        if name not in quantities:
+            raise AttributeError(f"{name}: the design has no drive; give drive.amplitude")
+        return Quantity(**quantities[name])
+
+    @property
+    def modulation(self) -> Quantity:
+        """(F_on - F_off) / F_off. AttributeError for a design without a drive."""
+        return self._driven("modulation")
+
+    @property
+    def friction_on(self) -> Quantity:
+        """Of the whole finger under voltage [N]. AttributeError for a design without a drive."""
+        return self._driven("friction_on")
+
+    @property
+    def area_fraction_on(self) -> Quantity:
+        """Real contact over the area that carries the load, under voltage."""
+        return self._driven("area_fraction_on")
+
+    def to_dict(self) -> dict[str, Any]:
+        """What ``papilla evaluate --json`` prints, number for number: points, summary, plan, fidelity."""
+        document: dict[str, Any] = json.loads(self._columns["json"])
+        return document
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """One row per humidity, a column per quantity and one, ``..._error``, per error. Needs pandas."""
+        import pandas
+
+        columns: dict[str, Any] = {"humidity": self.humidity}
+        for name, quantity in self._columns["quantities"].items():
+            columns[name] = quantity["value"]
+            columns[name + "_error"] = quantity["error"]
+        columns["sound"] = list(self.sound)
+        return pandas.DataFrame(columns)
+
+    def plot(self, ax: matplotlib.axes.Axes | None = None, quantity: str | None = None) -> matplotlib.axes.Axes:
+        """A quantity over humidity with a band of two standard errors; returns the axes. Needs matplotlib.
+
+        quantity: "modulation" (of driven designs the default), "friction_off", ...
+        """
+        import matplotlib.pyplot
+
+        name = quantity or ("modulation" if self.driven else "friction_off")
+        shown: Quantity = getattr(self, name)
+        if ax is None:
+            ax = matplotlib.pyplot.subplots()[1]
+        x = 100 * self.humidity
+        line, = ax.plot(x, shown.value, marker="o", label=name)
+        ax.fill_between(x, shown.value - 2 * shown.error, shown.value + 2 * shown.error, alpha=0.2,
+                        color=line.get_color())
+        ax.set_xlabel("relative humidity (%)")
+        ax.set_ylabel(name.replace("_", " "))
+        return ax
+
+    @property
+    def table(self) -> str:
+        """The table that ``papilla evaluate`` prints, Markdown."""
+        text: str = self._columns["table"]
+        return text
+
+    def __repr__(self) -> str:
+        name = "modulation" if self.driven else "friction_off"
+        return f"<papilla.Response at {len(self.humidity)} humidities, {name} {getattr(self, name)!r}>"
+
+    def _repr_svg_(self) -> str:
+        svg: str = self._columns["svg"]
+        return svg
+
+    def _repr_html_(self) -> str:
+        warning = f"<p><b>{html.escape(self.trouble)}</b></p>" if self.trouble else ""
+        return warning + self._repr_svg_()
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self._columns
+
+    def __setstate__(self, columns: dict[str, Any]) -> None:
+        self.__init__(columns)  # type: ignore[misc]
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Response):
+            return NotImplemented
+        return _without_clock(self) == _without_clock(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+def _without_clock(response: Response) -> dict[str, Any]:
+    document = response.to_dict()
+    for clock in ("seconds", "processor_seconds"):
+        document.pop(clock, None)
+    return document
+
+
+@dataclass(frozen=True)
+class Difference:
+    """A number of the second design less that of the first, with the error of the difference itself."""
+
+    value: float
+    error: float
+    """One standard error."""
+    paired: bool
+    """From the same skins, droplets and grids; else both errors in squares."""
+
+
+@dataclass(frozen=True)
+class Differences:
+    """The same at each humidity; arrays of shape (humidities,)."""
+
+    value: FloatArray
+    error: FloatArray
+    paired: tuple[bool, ...]
+
+    def __repr__(self) -> str:
+        pairs = ", ".join(f"{v:+.4g} ± {e:.2g}" for v, e in zip(self.value, self.error))
+        return f"Differences({pairs})"
+
+
+class Comparison:
+    """Two designs on the same skins: what the second has more than the first.
+
+    Source: docs/theory/accuracy.md, Eq. accuracy.14.
+    """
+
+    first: Response
+    second: Response
+    friction_off: Differences
+    """[N]"""
+    mean_friction: Difference
+    """Over humidity [N]."""
+
+    def __init__(self, columns: dict[str, Any]) -> None:
+        self._columns = columns
+        self.first = Response(columns["first"])
+        self.second = Response(columns["second"])
+        self.friction_off = self._differences("friction_off")
+        self.mean_friction = Difference(*columns["mean_friction"])
+
+    def _differences(self, name: str) -> Differences:
+        if name not in self._columns:
+            raise AttributeError(f"{name}: one of the designs has no drive; give drive.amplitude")
+        found = self._columns[name]
+        return Differences(found["value"], found["error"], tuple(found["paired"]))
+
+    @property
+    def modulation(self) -> Differences:
+        """Of (F_on - F_off) / F_off. AttributeError where a design has no drive."""
+        return self._differences("modulation")
+
+    @property
+    def friction_on(self) -> Differences:
+        """[N]. AttributeError where a design has no drive."""
+        return self._differences("friction_on")
+
+    @property
+    def mean_modulation(self) -> Difference:
+        """Over humidity. AttributeError where a design has no drive."""
+        if "mean_modulation" not in self._columns:
+            raise AttributeError("mean_modulation: one of the designs has no drive")
+        return Difference(*self._columns["mean_modulation"])
+
+    def __getstate__(self) -> dict[str, Any]:
+        return self._columns
+
+    def __setstate__(self, columns: dict[str, Any]) -> None:
+        self.__init__(columns)  # type: ignore[misc]
+
+    def __repr__(self) -> str:
+        name = "modulation" if "modulation" in self._columns else "friction_off"
+        return f"<papilla.Comparison, {name} {getattr(self, name)!r}>"
+
+
+@dataclass(frozen=True)
+class Sensitivity:
+    """What one number of a design does to a metric, by finite steps on common skins."""
+
+    path: str
+    unit: str
+    """For people; the numbers are SI."""
+    value: float
+    down: float
+    """The lower value that was evaluated; ``value`` itself where the design allows no step down."""
+    up: float
+    change: Difference
+    """Of the metric from ``down`` to ``up``."""
+    slope: float
+    """change / (up - down), per SI unit."""
+    slope_error: float
+    """One standard error."""
+
+
+def as_array(values: list[float]) -> FloatArray:
+    return np.asarray(values, dtype=np.float64)

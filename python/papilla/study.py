@@ -1,0 +1,312 @@
+"""Studies: a design, what of it may change, and what is wanted."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Optional, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from papilla import _native, values as v
+from papilla.design import Design, _without_version
+from papilla.errors import wrong
+from papilla.progress import Progress, shown
+from papilla.response import as_array
+from papilla.values import FloatArray, Path
+
+__all__ = ["FoundDesign", "Judgement", "Objective", "Point", "Run", "Study", "Variable"]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """A number that a search may change."""
+
+    path: str
+    """The key: "texture.depth"; of "texture.type" the number is the place in the list of kinds."""
+    unit: str
+    """For people; the numbers below are SI."""
+    low: float
+    high: float
+    choices: tuple[float, ...]
+    """Not empty: one of these."""
+
+
+@dataclass(frozen=True)
+class Objective:
+    name: str
+    """"mean(modulation)" """
+    maximise: bool
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """A design as a study sees it."""
+
+    ok: bool
+    reason: str
+    """Not ok: why, for people."""
+    values: FloatArray
+    """One per objective; larger is better where it is maximised."""
+    errors: FloatArray
+    """One standard error of each."""
+    violations: FloatArray
+    """One per constraint that needs an evaluation; above 0: broken, relative to its limit."""
+
+
+class Point(Mapping[str, float]):
+    """Values of a study's variables by their path, SI."""
+
+    def __init__(self, study: Study, values: Sequence[float]) -> None:
+        self._study = study
+        self._values = [float(value) for value in values]
+
+    def __getitem__(self, path: str) -> float:
+        for variable, value in zip(self._study.variables, self._values):
+            if variable.path == path:
+                return value
+        raise KeyError(path)
+
+    def __iter__(self) -> Iterator[str]:
+        return (variable.path for variable in self._study.variables)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    @property
+    def values_si(self) -> FloatArray:
+        """In the order of the study's variables, shape (variables,)."""
+        return as_array(self._values)
+
+    @property
+    def design(self) -> Design:
+        """The design that these values make."""
+        return self._study.design(self)
+
+    def __repr__(self) -> str:
+        shown = (f"{x.path}={_native.quantity_text(float(f'{value:.4g}'), x.unit)}"
+                 for x, value in zip(self._study.variables, self._values))
+        return f"Point({', '.join(shown)})"
+
+
+@dataclass(frozen=True)
+class FoundDesign:
+    """A design of the end of a search."""
+
+    point: Point
+    searched: Judgement
+    confirmed: Judgement
+    """At the study's accuracy, on skins that the search has not seen."""
+    folder: str
+    """Of design.toml; empty: not on the front."""
+
+    def load(self) -> Design:
+        """The design as its folder has it, or of its values where it has none."""
+        return Design.load(os.path.join(self.folder, "design.toml")) if self.folder else self.point.design
+
+
+class Run:
+    """A search that came to its end, or was interrupted and can go on."""
+
+    def __init__(self, study: Study, folder: str, row: dict[str, Any]) -> None:
+        self.folder = folder
+        self.interrupted: bool = row["interrupted"]
+        self.any_feasible: bool = row["any_feasible"]
+        """Whether a design keeps every constraint."""
+        self.evaluations: int = row["evaluations"]
+        self.table: str = row["table"]
+        """For people, Markdown."""
+        self.finalists: list[FoundDesign] = [
+            FoundDesign(Point(study, values), _judgement(searched), _judgement(confirmed),
+                        os.path.join(folder, below) if below else "")
+            for values, searched, confirmed, below in row["finalists"]]
+        """By the first objective, best first."""
+        self._best: int = row["best"]
+
+    @property
+    def front(self) -> list[FoundDesign]:
+        """The finalists that no other beats."""
+        return [found for found in self.finalists if found.folder]
+
+    @property
+    def best(self) -> FoundDesign:
+        """As ``papilla optimize`` chose it. Raises LookupError for a search without a finalist."""
+        if not self.finalists:
+            raise LookupError("the search found no design")
+        return self.finalists[self._best]
+
+    def __repr__(self) -> str:
+        end = "interrupted after" if self.interrupted else "of"
+        return f"<papilla.Run {end} {self.evaluations} evaluations, {len(self.finalists)} finalists in {self.folder!r}>"
+
+
+Values = Union[Mapping[str, float], Sequence[float], FloatArray]
+Told = Optional[Union[float, Sequence[float], FloatArray]]
+
+
+class Study:
+    """A study: run to its end, or searched step by step with evaluations of one's own.
+
+    ``Study({...})`` takes the keys of a study file. In the sections of the study (design_space, constraints, scatter,
+    ...) numbers are written with units, as in the file. Raises InputError, also for a design without [design_space].
+    """
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self._source: tuple[str, str, list[tuple[str, str]]] = (
+            "", "schema_version = 1\n", v.settings(_without_version(values)))
+        self._open()
+
+    def _open(self) -> None:
+        file, toml, changes = self._source
+        self._inside = _native.Study.read(file, changes) if file else _native.Study.parse(toml, changes)
+        self._search: _native.Search | None = None
+        self._asked: list[Point] = []
+        self.variables: list[Variable] = [
+            Variable(*row[:4], tuple(row[4])) for row in self._inside.variables()]
+        self.objectives: list[Objective] = [Objective(*row) for row in self._inside.objectives()]
+
+    @classmethod
+    def _of(cls, source: tuple[str, str, list[tuple[str, str]]]) -> Study:
+        study = cls.__new__(cls)
+        study._source = source
+        study._open()
+        return study
+
+    @classmethod
+    def load(cls, file: Path, values: Mapping[str, Any] | None = None) -> Study:
+        """The study of a file, with values that replace its own. Raises InputError."""
+        return cls._of((v.path(file, "file"), "", v.settings(values)))
+
+    @classmethod
+    def parse(cls, toml: str, values: Mapping[str, Any] | None = None) -> Study:
+        """The study of the text of a file. Raises InputError."""
+        return cls._of(("", v.text(toml, "toml"), v.settings(values)))
+
+    @property
+    def own(self) -> Point:
+        """The values of the study's own design."""
+        return Point(self, self._inside.own_values())
+
+    def point(self, values: Values) -> Point:
+        """Values by path, or in the order of the variables, SI. Raises InputError."""
+        return Point(self, self._numbers(values))
+
+    def design(self, values: Values) -> Design:
+        """The design that these values make. Raises InputError."""
+        return Design._of(self._inside.design(self._numbers(values)))
+
+    def judge(self, values: Values, *, threads: int = 0) -> Judgement:
+        """The model on every finger and scenario, as accurately as a search: a second or less.
+
+        A shape that breaks a limit is refused at once: ``ok`` is False. Raises InputError, KeyboardInterrupt.
+        """
+        return _judgement(self._inside.judge(self._numbers(values), v.whole(threads, "threads", 0, 4096)))
+
+    def ask(self) -> list[Point]:
+        """The next designs that the study's method wants to know; empty: nothing more to try.
+
+        They depend on the study (its method and seed) and on what was told, never on time.
+        """
+        if self._asked:
+            raise wrong("ask", f"tell() first what the {len(self._asked)} designs of the last ask() are worth")
+        if self._search is None:
+            self._search = _native.Search(self._inside)
+        self._asked = [Point(self, values) for values in self._search.ask()]
+        return list(self._asked)
+
+    def tell(self, points: Sequence[Point], values: Sequence[Told], errors: Sequence[Told] | None = None,
+             violations: Sequence[Sequence[float]] | None = None) -> None:
+        """What the designs of the last ``ask`` are worth, in their order.
+
+        values: of each design a number, with several objectives a number for each; None: it could not be judged.
+        errors: their standard errors; None: exact. violations: of each design one number per constraint that needs an
+        evaluation (``constraints``), above 0: broken. Raises InputError naming the argument.
+        """
+        self._require_asked(points)
+        if len(values) != len(points):
+            raise wrong("values", f"expected one for each of {len(points)} designs, got {len(values)}")
+        if errors is not None and len(errors) != len(points):
+            raise wrong("errors", f"expected one for each of {len(points)} designs, got {len(errors)}")
+        rows: list[tuple[bool, str, list[float], list[float], list[float]]] = []
+        for i, value in enumerate(values):
+            if value is None:
+                rows.append((False, "told so", [], [], []))
+                continue
+            told = self._per_objective(value, "values")
+            error = [0.0] * len(told) if errors is None else self._per_objective(errors[i], "errors")
+            if min(error) < 0:
+                raise wrong("errors", "must not be negative")
+            rows.append((True, "", told, error, self._broken(violations, i, len(points))))
+        assert self._search is not None
+        self._search.tell(rows)
+        self._asked = []
+
+    @property
+    def constraints(self) -> int:
+        """How many constraints need an evaluation: numbers of ``Judgement.violations``."""
+        return self._inside.violations()
+
+    def optimize(self, out: Path, *, resume: bool = False, pick: str = "", progress: Progress = None) -> Run:
+        """Searches, confirms and checks, and writes the folder of results: ``papilla optimize``.
+
+        out: the folder. resume: go on with an interrupted run there. pick: which design of the front is the best.
+        progress: called with (stage, done, total, seconds left; below 0: not known). Ctrl-C ends it: what was
+        evaluated is kept, and resume goes on. Works in processes of its own; no other evaluation may run meanwhile.
+        Raises InputError, KeyboardInterrupt.
+        """
+        folder = v.path(out, "out")
+        row = self._inside.run(folder, v.flag(resume, "resume"), v.text(pick, "pick"), shown(progress, "optimize"))
+        return Run(self, folder, row)
+
+    def _numbers(self, values: Values) -> list[float]:
+        if isinstance(values, Mapping):
+            known = [variable.path for variable in self.variables]
+            for path in values:
+                if path not in known:
+                    raise wrong(str(path), f"is no variable of the study; its variables: {', '.join(known)}")
+            for path in known:
+                if path not in values:
+                    raise wrong(path, "missing")
+            return [v.si(values[x.path], x.unit, x.path) for x in self.variables]
+        if len(values) != len(self.variables):
+            raise wrong("values", f"expected one for each of {len(self.variables)} variables, got {len(values)}")
+        return [v.si(float(value), "", variable.path) for value, variable in zip(values, self.variables)]
+
+    def _require_asked(self, points: Sequence[Point]) -> None:
+        if not self._asked:
+            raise wrong("points", "nothing was asked for: ask() first")
+        if [point._values for point in points] != [point._values for point in self._asked]:
+            raise wrong("points", "expected the designs of the last ask(), in their order")
+
+    def _per_objective(self, told: Told, key: str) -> list[float]:
+        numbers = np.atleast_1d(np.asarray(told, dtype=object))
+        if numbers.shape != (len(self.objectives),):
+            raise wrong(key, f"expected one number for each of {len(self.objectives)} objectives, got {told!r}")
+        return [v.si(number, "", key) for number in numbers.tolist()]
+
+    def _broken(self, violations: Sequence[Sequence[float]] | None, i: int, points: int) -> list[float]:
+        count = self.constraints
+        if violations is None:
+            if count:
+                raise wrong("violations", f"the study has {count} constraints that need an evaluation")
+            return []
+        if len(violations) != points:
+            raise wrong("violations", f"expected one list for each of {points} designs, got {len(violations)}")
+        if len(violations[i]) != count:
+            raise wrong("violations", f"expected {count} numbers of each design, got {len(violations[i])}")
+        return [v.si(number, "", "violations") for number in violations[i]]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """The study itself; what it has asked and was told stays behind."""
+        return Study._of, (self._source,)
+
+    def __repr__(self) -> str:
+        wanted = ", ".join(("max " if o.maximise else "min ") + o.name for o in self.objectives)
+        return f"<papilla.Study of {len(self.variables)} variables, {wanted}>"
+
+
+def _judgement(row: tuple[bool, str, list[float], list[float], list[float]]) -> Judgement:
+    ok, reason, values, errors, violations = row
+    return Judgement(ok, reason, as_array(values), as_array(errors), as_array(violations))

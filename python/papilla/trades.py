@@ -1,0 +1,182 @@
+"""Ranking designs, fitting the finger, and judging files for makers."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from papilla import _native, values as v
+from papilla.design import Design
+from papilla.errors import wrong
+from papilla.progress import Progress, shown
+from papilla.values import Path
+
+__all__ = ["Calibration", "Exported", "FileVerdict", "FittedParameter", "FolderVerdict", "Ranked", "Ranking", "calibrate",
+           "rank", "verify"]
+
+
+@dataclass(frozen=True)
+class Ranked:
+    """A design in a ranking."""
+
+    index: int
+    """Into the designs as given."""
+    rank: int
+    """Ties share the better rank; without a score 1 + how many are better in all."""
+    p_best_by: list[float]
+    """Of each criterion: probability of the best value."""
+    score: float
+    """Where there is one; higher is better."""
+    low: float
+    """95 % interval of the score."""
+    high: float
+    p_best: float
+    """Probability of the highest score."""
+
+
+class Ranking:
+    """Designs, best first, for each state of the finger."""
+
+    def __init__(self, row: dict[str, Any]) -> None:
+        self._row = row
+        self.states: list[list[Ranked]] = [[Ranked(*r) for r in state] for state in row["states"]]
+        self.table: str = row["table"]
+
+    @property
+    def order(self) -> list[Ranked]:
+        """Of the first state."""
+        return self.states[0]
+
+    def to_dict(self) -> dict[str, Any]:
+        """What ``papilla rank --json`` prints."""
+        document: dict[str, Any] = json.loads(self._row["json"])
+        return document
+
+    def __repr__(self) -> str:
+        return f"<papilla.Ranking, best first: {[r.index for r in self.order]}>"
+
+    def _repr_markdown_(self) -> str:
+        return self.table
+
+
+def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = (), states: str = "",
+         names: Sequence[str] = (), max_skins: int = 96, threads: int = 0, parameters: bool = False,
+         any_conditions: bool = False, progress: Progress = None) -> Ranking:
+    """Which design is better, and how sure that is: ``papilla rank``.
+
+    by: criteria, "friction:low,variation(modulation):low"; empty: modulation, of undriven designs friction and
+    adhesion. weights: of the criteria, for one score. states: "clean,natural,wet"; empty: the finger's own. names: of
+    the designs in messages. max_skins: per design and state. progress: called with a text.
+
+    Raises InputError, KeyboardInterrupt. Source: docs/theory/ranking.md.
+    """
+    for i, design in enumerate(designs):
+        if not isinstance(design, Design):
+            raise wrong(f"designs.{i}", f"expected a Design, got {type(design).__name__}")
+    if len(designs) < 2:
+        raise wrong("designs", "name two at least")
+    if names and len(names) != len(designs):
+        raise wrong("names", f"expected one for each of {len(designs)} designs, got {len(names)}")
+    shown_names = list(names) or [d.title or f"design {i}" for i, d in enumerate(designs)]
+    return Ranking(_native.rank(
+        [d._inside for d in designs], v.text(by, "by"), [v.positive(w, "", "weights") for w in weights],
+        v.text(states, "states"), v.whole(max_skins, "max_skins", 2, 100000), v.whole(threads, "threads", 0, 4096),
+        v.flag(parameters, "parameters"), v.flag(any_conditions, "any_conditions"),
+        [v.text(n, "names") for n in shown_names], shown(progress, "rank")))
+
+
+@dataclass(frozen=True)
+class FittedParameter:
+    """A number of the finger, fitted."""
+
+    path: str
+    value: float
+    """SI"""
+    error: float
+    """One standard error."""
+    low: float
+    """95 % interval."""
+    high: float
+    data_share: float
+    """Of what is known of it: 1 the data alone, 0 the prior alone."""
+
+
+class Calibration:
+    """A finger fitted to measurements."""
+
+    def __init__(self, row: dict[str, Any]) -> None:
+        self._row = row
+        self.converged: bool = row["converged"]
+        self.explains_data: bool = row["explains_data"]
+        """False: the fitted finger is not to be used."""
+        self.warning: str = row["warning"]
+        self.parameters: list[FittedParameter] = [FittedParameter(*p) for p in row["parameters"]]
+        self.chi2_before: float = row["chi2_before"]
+        self.chi2: float = row["chi2"]
+        self.degrees_of_freedom: int = row["degrees_of_freedom"]
+        self.finger: str = row["finger"]
+        """The fitted finger as TOML."""
+        self.table: str = row["table"]
+
+    def to_dict(self) -> dict[str, Any]:
+        """What ``papilla calibrate --json`` prints."""
+        document: dict[str, Any] = json.loads(self._row["json"])
+        return document
+
+    def __repr__(self) -> str:
+        return f"<papilla.Calibration, chi2 {self.chi2_before:.4g} -> {self.chi2:.4g}>"
+
+
+def calibrate(file: Path, out: Path = "", *, threads: int = 0, progress: Progress = None) -> Calibration:
+    """Fits the finger to measured friction or to published numbers: ``papilla calibrate``.
+
+    file: CALIBRATION.toml (docs/how_to/calibrate.md). out: a folder for finger, fit and page; empty: none. progress:
+    called with a text. Raises InputError, KeyboardInterrupt. Source: docs/theory/calibration.md.
+    """
+    return Calibration(_native.calibrate(v.path(file, "file"), v.path(out, "out"), v.whole(threads, "threads", 0, 4096),
+                                         shown(progress, "calibrate")))
+
+
+@dataclass(frozen=True)
+class Exported:
+    """Files that an export wrote."""
+
+    files: tuple[str, ...]
+    warnings: tuple[str, ...]
+    """What the files hold otherwise than asked for."""
+
+
+@dataclass(frozen=True)
+class FileVerdict:
+    """An exported file against the design that it was made from."""
+
+    path: str
+    sound: bool
+    faults: list[str]
+    """For people: what is wrong and by how much."""
+
+
+@dataclass(frozen=True)
+class FolderVerdict:
+    """The files of a folder, and how their heights feel."""
+
+    folder: str
+    sound: bool
+    files: list[FileVerdict]
+    felt: dict[str, Any] | None
+    """min_hole, min_wall [m], design, file (merit of each), loss, faults; None: not simulated."""
+
+
+def verify(path: Path, *, geometry: bool = False, tolerance: float = 0.05) -> list[FolderVerdict]:
+    """Every exported file of a folder, of a run of a study, or one file of it: ``papilla verify``.
+
+    geometry: what the files hold alone, without simulating them. tolerance: largest loss of merit of the heights.
+    Raises InputError.
+    """
+    share = v.si(tolerance, "", "tolerance")
+    if not 0 < share < 1:
+        raise wrong("tolerance", f"expected a share from 0 to 1, got {share}")
+    return [FolderVerdict(folder, sound, [FileVerdict(*f) for f in files], felt)
+            for folder, sound, files, felt in _native.verify(v.path(path, "path"), v.flag(geometry, "geometry"), share)]

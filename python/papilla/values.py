@@ -1,0 +1,159 @@
+"""Numbers, units and arrays on their way into the library."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from papilla import _native
+from papilla.errors import InputError, Problem, wrong
+
+__all__ = ["FloatArray", "Path", "Quantified"]
+
+FloatArray = npt.NDArray[np.float64]
+Path = Union[str, "os.PathLike[str]"]
+Quantified = Union[str, float]
+"""A number with its unit, "350 nm", or a number in the SI unit, 350e-9."""
+
+# Sections of a study: their numbers are written with units, as in its file.
+STUDY_SECTIONS = {"design_space", "objective", "constraints", "population", "scenarios", "scatter",
+                  "search"}
+_KEY = re.compile(r"[A-Za-z0-9_.() +-]+")
+
+
+def si(value: Quantified, unit: str, key: str) -> float:
+    """The value in SI; a text must have the dimension of ``unit``."""
+    if isinstance(value, str):
+        try:
+            return _native.in_si(value, unit)
+        except InputError as error:
+            raise InputError([Problem("", 0, 0, key, p.message) for p in error.problems]) from None
+    number = _number(value, key)
+    if not math.isfinite(number):
+        raise wrong(key, f"expected a finite number, got {number}")
+    return number
+
+
+def _number(value: object, key: str) -> float:
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise wrong(key, f"expected a number or a text with a unit, got {type(value).__name__}")
+    return float(value)
+
+
+def whole(value: object, key: str, low: int, high: int) -> int:
+    """A whole number within its range."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise wrong(key, f"expected a whole number, got {type(value).__name__}")
+    if not low <= int(value) <= high:
+        raise wrong(key, f"{int(value)} is outside {low} to {high}")
+    return int(value)
+
+
+def positive(value: Quantified, unit: str, key: str) -> float:
+    number = si(value, unit, key)
+    if number <= 0:
+        raise wrong(key, "must be positive")
+    return number
+
+
+def flag(value: object, key: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise wrong(key, f"expected True or False, got {type(value).__name__}")
+    return bool(value)
+
+
+def text(value: object, key: str) -> str:
+    if not isinstance(value, str):
+        raise wrong(key, f"expected a text, got {type(value).__name__}")
+    return value
+
+
+def path(value: Path, key: str) -> str:
+    if not isinstance(value, (str, os.PathLike)):
+        raise wrong(key, f"expected the name of a file, got {type(value).__name__}")
+    return os.fspath(value)
+
+
+def height_map(z: npt.ArrayLike, key: str) -> FloatArray:
+    """A map of numbers, shape (ny, nx): real, finite, 2 x 2 pixels at least."""
+    array = np.asarray(z)
+    if array.dtype.kind not in "fiu":
+        raise wrong(key, f"expected an array of real numbers, got dtype {array.dtype}")
+    if array.ndim != 2:
+        raise wrong(key, f"expected an array of shape (ny, nx), got shape {array.shape}")
+    if min(array.shape) < 2 or array.size > 2**28:
+        raise wrong(key, f"expected 2 x 2 to 2**28 pixels, got shape {array.shape}")
+    out = np.ascontiguousarray(array, dtype=np.float64)
+    if not np.isfinite(out).all():
+        raise wrong(key, f"{int((~np.isfinite(out)).sum())} of {out.size} values are not finite")
+    return out
+
+
+def pixel_size(shape: tuple[int, ...], size: Quantified | Sequence[Quantified],
+               key: str = "size") -> tuple[float, float]:
+    """dx, dy [m] of a map (ny, nx) as large as ``size``: its width, or width and height."""
+    ny, nx = shape
+    if isinstance(size, (list, tuple, np.ndarray)):
+        if len(size) != 2:
+            raise wrong(key, f"expected a width, or a width and a height, got {len(size)} values")
+        return positive(size[0], "m", key) / nx, positive(size[1], "m", key) / ny
+    dx = positive(size, "m", key) / nx  # type: ignore[arg-type]
+    return dx, dx
+
+
+def settings(values: Mapping[str, Any] | None) -> list[tuple[str, str]]:
+    """Keys and values as the library reads them: nested sections by their path."""
+    if values is None:
+        return []
+    if not isinstance(values, Mapping):
+        raise wrong("values", f"expected a dict of keys, got {type(values).__name__}")
+    return list(_flat("", values))
+
+
+def _flat(prefix: str, values: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
+    for name, value in values.items():
+        if not isinstance(name, str) or not _KEY.fullmatch(name):
+            raise wrong(prefix + str(name), "expected the name of a key")
+        key = prefix + name
+        if isinstance(value, Mapping):
+            yield from _flat(key + ".", value)
+        else:
+            bare_is_si = key.split(".", 1)[0] not in STUDY_SECTIONS
+            yield key + (":" if bare_is_si else ""), _toml(value, key)
+
+
+def _toml(value: Any, key: str) -> str:
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise wrong(key, f"expected a finite number, got {value}")
+        return repr(value)
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
+    if isinstance(value, str):
+        if "\x7f" in value:
+            raise wrong(key, "expected a text without control characters")
+        try:
+            value.encode()
+        except UnicodeEncodeError:
+            raise wrong(key, "expected a text of Unicode characters") from None
+        return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, Mapping):
+        members = (f"{json.dumps(str(k), ensure_ascii=False)} = {_toml(v, f'{key}.{k}')}"
+                   for k, v in value.items())
+        return "{ " + ", ".join(members) + " }"
+    if isinstance(value, Iterable):
+        return "[" + ", ".join(_toml(v, f"{key}.{i}") for i, v in enumerate(value)) + "]"
+    raise wrong(key, f"expected a number, a text, a list or a dict, got {type(value).__name__}")

@@ -1,0 +1,140 @@
+"""Designs from files, dicts and arrays; what they give back."""
+
+from __future__ import annotations
+
+import copy
+import gc
+import pathlib
+import pickle
+
+import numpy as np
+import pytest
+
+import kinds
+import papilla as pp
+from conftest import QUICK, ROOT
+
+
+def drawn(n: int = 96) -> np.ndarray:
+    x = np.arange(n) / n
+    return 80e-9 * (np.cos(2 * np.pi * 3 * x)[None, :] + np.sin(2 * np.pi * 2 * x)[:, None]) - 1e-7 / 3
+
+
+def test_texts_carry_units_and_numbers_are_si() -> None:
+    d = pp.Design.load(ROOT / "designs/m3_samples/a3h350.toml")
+    by_text = d.with_(**{"texture.depth": "262 nm", "surface.contact_angle": "80 deg"})
+    by_number = d.with_({"texture": {"depth": 262e-9}, "surface.contact_angle": 80 * np.pi / 180})
+    assert by_text["texture.depth"] == by_number["texture.depth"] == 262e-9
+    assert by_text["surface.contact_angle"] == by_number["surface.contact_angle"]
+    assert d["texture.depth"] == 350e-9, "the first is as before"
+    assert d.with_({"environment.relative_humidity": np.array([0.2, 0.4])})["environment.relative_humidity.1"] == 0.4
+
+
+def test_a_shipped_design_is_found_from_anywhere(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert pp.Design.load("m3_samples/a3h350.toml") == pp.Design.load(ROOT / "designs/m3_samples/a3h350.toml")
+    assert pp.persson("physics/wrist_on_glass.toml").rms > 1e-6
+
+
+def test_a_dict_is_the_file() -> None:
+    file = pp.Design.load(ROOT / "designs/m3_samples/a3h350.toml")
+    mine = pp.Design({"schema_version": 1, "base": "m3_samples/common.toml",
+                      "title": "Published sample: holes of 3 um, 350 nm deep, period 6 um",
+                      "texture": {"type": "hole_array", "lattice": "square", "period": 6e-6, "diameter": 3e-6,
+                                  "depth": "350 nm", "wall_angle": "90 deg", "edge_radius": 0}})
+    assert mine == file
+    assert mine != file.with_({"texture.depth": "351 nm"})
+
+
+def test_lists_of_sections_are_lists_of_dicts() -> None:
+    d = pp.Design({"texture": {"type": "flat"}, "surface": {"dielectric": [
+        {"material": "Al2O3", "thickness": 2e-7, "permittivity": 9}, {"material": "SiO2", "thickness": "50 nm"}]}})
+    assert d["surface.dielectric.0.thickness"] == 2e-7
+    assert d["surface.dielectric.1.thickness"] == 50e-9
+
+
+@pytest.mark.parametrize("values", kinds.designs(11), ids=lambda values: values["title"])
+def test_designs_survive_toml_pickle_and_copy(values: dict, tmp_path: pathlib.Path) -> None:
+    d = pp.Design(values)
+    d.save(tmp_path / "d.toml")
+    for other in (pp.Design.parse(d.to_toml()), pp.Design.load(tmp_path / "d.toml"), pickle.loads(pickle.dumps(d)),
+                  copy.copy(d), copy.deepcopy(d)):
+        assert other == d
+        assert other.to_dict() == d.to_dict()
+
+
+@pytest.mark.parametrize("n", [8, 96, 100, 150])
+def test_an_array_comes_back_to_the_last_bit(n: int) -> None:
+    z = drawn(n)
+    d = pp.Design.from_heights(z, "6.3 um")
+    h = d.heights(n)
+    assert np.array_equal(h.z, z)
+    assert h.z.dtype == np.float64 and h.dx * n == pytest.approx(6.3e-6, rel=1e-15)
+    again = pickle.loads(pickle.dumps(d))
+    assert np.array_equal(again.heights(n).z, z) and again == d
+
+
+def test_float32_and_transposed_arrays_count_by_their_values() -> None:
+    z = np.asfortranarray(drawn().astype(np.float32))
+    assert np.array_equal(pp.Design.from_heights(z, 6e-6).heights(96).z, z)
+    z[0, 0] = 1  # the design has its own
+    assert pp.Design.from_heights(drawn(), 6e-6).heights(96).z.max() < 1e-6
+
+
+def test_a_drawn_design_is_saved_with_its_array(tmp_path: pathlib.Path) -> None:
+    z = drawn()
+    d = pp.Design.from_heights(z, "6 um", {"base": "m3_samples/flat.toml", "accuracy.level": "draft"})
+    file = pathlib.Path(next(line for line in d.to_toml().splitlines() if line.startswith("file")).split('"')[1])
+    assert file.exists()
+    other = d.with_({"drive.amplitude": "100 V"})
+    d.save(tmp_path / "drawn.toml")
+    del d
+    gc.collect()
+    assert file.exists(), "another design names it"
+    del other
+    gc.collect()
+    assert not file.exists()
+    assert np.array_equal(pp.Design.load(tmp_path / "drawn.toml").heights(96).z, z)
+
+
+def test_a_drawn_hole_array_is_evaluated_as_the_kind_is() -> None:
+    holes = pp.Design.load(ROOT / "designs/m3_samples/a3h350.toml", QUICK)
+    patch = holes.heights(64)
+    assert patch.size[0] == pytest.approx(patch.size[1])
+    base = {"base": "m3_samples/common.toml", **QUICK}
+    mine = pp.Design.from_heights(patch.z, patch.size[0], base).evaluate()
+    theirs = holes.evaluate()
+    assert mine.friction_off.value[0] == pytest.approx(theirs.friction_off.value[0], rel=0.03)
+    assert mine.modulation.value[0] == pytest.approx(theirs.modulation.value[0], rel=0.06)
+
+
+def test_heights_are_the_memory_of_the_library() -> None:
+    h = pp.Design({"texture": {"type": "hole_array", "period": "6 um", "diameter": "3 um", "depth": "350 nm"}}).heights(64)
+    assert h.z.shape[1] == 64 and h.z.min() == pytest.approx(-350e-9) and h.z.max() == 0
+    assert h.z.ctypes.data == h.z.ctypes.data, "no copy at each access"
+    z = h.z
+    del h
+    gc.collect()
+    assert z.max() == 0, "the view keeps what it looks at"
+
+
+def test_pictures_are_well_formed() -> None:
+    from xml.etree import ElementTree
+
+    d = pp.Design({"title": "a <b>", "texture": {"type": "grating", "period": "4 um", "width": "2 um", "depth": "90 nm"}})
+    page = d._repr_html_()
+    assert "a &lt;b&gt;" in page and "90 nm" in page
+    svg = page[page.index("<svg"):page.index("</svg>") + 6]
+    assert ElementTree.fromstring(svg).tag.endswith("svg")
+
+
+def test_look_and_haze_agree_on_one_period() -> None:
+    d = pp.Design({"texture": {"type": "waves", "period": "6 um", "depth": "120 nm", "directions": "one"}})
+    assert d.look().regime == "phase screen"
+    assert pp.haze(d.heights(256)).haze == pytest.approx(d.look().haze, rel=0.02)
+
+
+def test_numbers_say_unit_range_and_meaning() -> None:
+    numbers = {n.path: n for n in pp.Design({"texture": {"type": "flat"}}).numbers}
+    angle = numbers["surface.contact_angle"]
+    assert angle.unit == "deg" and angle.low == 0 and angle.high == pytest.approx(np.pi) and "angle" in angle.meaning

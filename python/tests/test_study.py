@@ -1,0 +1,92 @@
+"""Studies: asked and told, judged, and run to the end."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+import pickle
+import signal
+import threading
+
+import numpy as np
+import pytest
+
+import papilla as pp
+
+STUDY = {"base": "m3_samples/a3h350.toml", "environment.relative_humidity": ["50 %"],
+         "accuracy": {"level": "draft", "grid": 32},
+         "design_space": {"texture.depth": ["100 nm", "500 nm"], "surface.contact_angle": ["40 deg", "80 deg"]},
+         "objective": {"maximise": "mean(modulation)"}, "search": {"evaluations": 30, "seed": 3}}
+
+
+def test_ask_and_tell_find_a_planted_best() -> None:
+    study = pp.Study(STUDY)
+    best: tuple[float, pp.Point] | None = None
+    for _ in range(60):
+        points = study.ask()
+        if not points:
+            break
+        values = [1 - ((p["texture.depth"] - 3e-7) / 1e-7) ** 2 - (p["surface.contact_angle"] - 1) ** 2 for p in points]
+        study.tell(points, values, errors=[0.01] * len(points))
+        best = max([*([best] if best else []), *zip(values, points)], key=lambda pair: pair[0])
+    assert best is not None
+    assert best[1]["texture.depth"] == pytest.approx(3e-7, abs=2e-8)
+    assert best[1].design["texture.depth"] == best[1]["texture.depth"]
+
+
+def test_two_searches_of_one_study_ask_alike() -> None:
+    asked = []
+    for study in (pp.Study(STUDY), pickle.loads(pickle.dumps(pp.Study(STUDY)))):
+        points = study.ask()
+        study.tell(points, [None if i == 0 else float(i) for i in range(len(points))])
+        asked.append([list(p.values()) for p in points + study.ask()])
+    assert asked[0] == asked[1]
+
+
+def test_what_is_told_is_checked() -> None:
+    study = pp.Study(STUDY)
+    points = study.ask()
+    for key, call in [("values", lambda: study.tell(points, [1.0] * (len(points) + 1))),
+                      ("values", lambda: study.tell(points, [float("nan")] * len(points))),
+                      ("values", lambda: study.tell(points, [[1.0, 2.0]] * len(points))),
+                      ("errors", lambda: study.tell(points, [1.0] * len(points), [-1.0] * len(points))),
+                      ("points", lambda: study.tell(points[:-1] + [study.own], [1.0] * len(points))),
+                      ("violations", lambda: study.tell(points, [1.0] * len(points), None, [[1.0]] * len(points))),
+                      ("ask", study.ask)]:
+        with pytest.raises(pp.InputError) as caught:
+            call()
+        assert caught.value.problems[0].key == key
+    study.tell(points, np.ones(len(points)), np.full(len(points), 0.1))
+
+
+def test_judge_is_the_model() -> None:
+    study = pp.Study({**STUDY, "constraints": {"min_wall": "2.9 um"}})
+    good = study.judge({"texture.depth": "300 nm", "surface.contact_angle": "50 deg"})
+    assert good.ok and good.values.shape == (1,) and 0.1 < good.values[0] < 3 and good.errors[0] > 0
+    tight = pp.Study({**STUDY, "constraints": {"min_wall": "3.5 um"}})
+    refused = tight.judge([3e-7, 1.0])
+    assert not refused.ok and "wall" in refused.reason
+
+
+@pytest.mark.slow
+def test_a_search_runs_to_its_end_and_goes_on_after_ctrl_c(tmp_path: pathlib.Path) -> None:
+    study = pp.Study(STUDY)
+    study.own.design.evaluate()  # threads of OpenMP exist before the search forks
+    seen: list[str] = []
+
+    def interrupt(stage: str, done: int, total: int, left: float) -> None:
+        seen.append(stage)
+        if done == 5:
+            threading.Timer(0, os.kill, (os.getpid(), signal.SIGINT)).start()
+
+    with pytest.raises(KeyboardInterrupt):
+        study.optimize(tmp_path / "run", progress=interrupt)
+    assert "search" in seen
+    run = study.optimize(tmp_path / "run", resume=True)
+    assert not run.interrupted and run.finalists and run.best.confirmed.ok
+    assert run.best in run.front or run.best.folder
+    design = run.best.load()
+    assert 1e-7 <= design["texture.depth"] <= 5e-7
+    whole = study.optimize(tmp_path / "whole")
+    assert [f.point.values_si.tolist() for f in whole.finalists] == [f.point.values_si.tolist() for f in run.finalists]
+    assert pp.verify(tmp_path / "run/best", geometry=True)[0].sound
