@@ -174,7 +174,7 @@ Entry tractions(const Setting& s) {
   // Worst of the scenes in results/accuracy (PlanSkips.*); without a field, what is measured on the
   // published samples.
   const char* worst =
-      field ? ": within 4 % of F_on/F_off and 13 % of the modulation on 95 % of 130 random scenes, "
+      field ? ": within 4 % of F_on/F_off and 12 % of the modulation on 95 % of 180 random scenes, "
               "10 and 34 % on the worst"
             : "";
   return PlanSkip{Piece::Tractions,
