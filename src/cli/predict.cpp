@@ -1,11 +1,9 @@
 // papilla predict: what the finger says of experiments that no fit has seen.
 #include "claims/predict.h"
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
-#include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
 #include "design/design.h"
@@ -21,6 +19,7 @@ struct PredictCommand {
 };
 
 int run(const Context& context, const PredictCommand& command) {
+  if (!command.out.empty()) make_folder(command.out);
   PredictOptions options;
   options.finger =
       read_finger(command.finger.empty() ? find_design("fingers/reference.toml") : command.finger);
@@ -28,12 +27,6 @@ int run(const Context& context, const PredictCommand& command) {
   options.started = [&](const std::string& experiment) { context.note(experiment + " ..."); };
   const std::vector<Prediction> found = predictions(options);
   if (!command.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(command.out, error);
-    if (error) {
-      throw InputError(
-          {Problem{command.out, 0, 0, "", "no such folder can be made: " + error.message()}});
-    }
     write_bytes(command.out + "/predictions.csv", predictions_csv(found));
     write_bytes(command.out + "/predictions.md", predictions_markdown(found, options.finger.name));
     context.note("wrote " + command.out);

@@ -1,11 +1,9 @@
 // papilla reproduce: every published claim beside the model's number.
 #include "claims/reproduce.h"
 
-#include <filesystem>
 #include <iostream>
 #include <memory>
 
-#include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
 #include "design/design.h"
@@ -22,6 +20,7 @@ struct ReproduceCommand {
 };
 
 int run(const Context& context, const ReproduceCommand& command) {
+  if (!command.out.empty()) make_folder(command.out);
   ReproduceOptions options;
   options.ids = command.claims;
   options.finger =
@@ -32,12 +31,6 @@ int run(const Context& context, const ReproduceCommand& command) {
   };
   const std::vector<ClaimResult> results = reproduce(options);
   if (!command.out.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(command.out, error);
-    if (error) {
-      throw InputError(
-          {Problem{command.out, 0, 0, "", "no such folder can be made: " + error.message()}});
-    }
     write_bytes(command.out + "/claims.csv", claims_csv(results));
     write_bytes(command.out + "/claims.md", claims_markdown(results, options.finger.name));
     context.note("wrote " + command.out);
