@@ -41,7 +41,7 @@ std::vector<Estimate> Residuals::model(const Finger& finger) const {
   std::vector<Estimate> out;
   FingerModel finger_model(finger, finger.calibrated_for.preset, threads_, calibration_.sampling);
   for (const PublishedTarget& t : targets_) out.push_back(t.model(finger_model));
-  const std::vector<Friction> friction = frictions(finger, calibration_.sampling);
+  const std::vector<Friction> friction = frictions(finger, calibration_.sampling, false);
   for (std::size_t i = 0; i < friction.size(); ++i) {
     const auto add = [&](const Estimate& force, double factor) {
       out.push_back({1e3 * factor * force.value, 1e3 * factor * force.se});
@@ -57,9 +57,9 @@ double Residuals::correct(const Finger& finger) {
   fine.level = calibration_.check.level;
   fine.grid = calibration_.check.grid;
   const SkinSampling& coarse = calibration_.sampling;
-  if (calibration_.data.empty() || (fine.level == coarse.level && fine.grid == coarse.grid))
-    return 0;
-  const std::vector<Friction> good = frictions(finger, fine), fast = frictions(finger, coarse);
+  if (calibration_.data.empty()) return 0;
+  const std::vector<Friction> good = frictions(finger, fine, true),
+                              fast = frictions(finger, coarse, false);
   double largest = 0;
   for (std::size_t i = 0; i < good.size(); ++i) {
     const FrictionDatum& d = calibration_.data[i];
@@ -87,9 +87,11 @@ bool Residuals::residuals(const Finger& finger, std::span<double> r) const {
 }
 
 std::vector<Residuals::Friction> Residuals::frictions(const Finger& finger,
-                                                      const SkinSampling& sampling) const {
+                                                      const SkinSampling& sampling,
+                                                      bool corrected) const {
   std::vector<Friction> out(calibration_.data.size());
-  const Fidelity fidelity = sampling.fidelity(threads_);
+  Fidelity fidelity = sampling.fidelity(threads_);
+  if (!corrected) fidelity.control_skins = 0;
   for (const MeasuredGroup& s : groups_) {
     Scene scene = scene_of(s.design);
     const double load = scene.finger.load;

@@ -60,7 +60,9 @@ class Residuals {
   void group_data();
   void add_rows(const FrictionDatum& datum);
   // At every datum.
-  std::vector<Friction> frictions(const Finger& finger, const SkinSampling& sampling) const;
+  // corrected: for what the grid leaves out of the skin (Eq. accuracy.2), at twice the price.
+  std::vector<Friction> frictions(const Finger& finger, const SkinSampling& sampling,
+                                  bool corrected) const;
 
   const Calibration& calibration_;
   int threads_;
