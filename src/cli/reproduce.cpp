@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "design/design.h"
 #include "report/claims.h"
+#include "report/figures.h"
 
 namespace papilla::cli {
 namespace {
@@ -16,10 +17,22 @@ struct ReproduceCommand {
   std::vector<std::string> claims;
   std::string finger, out;
   int jobs = 0;
-  bool json = false;
+  bool json = false, figures = false;
 };
 
+void write_figures(const Context& context, const ReproduceCommand& command, const Finger& finger) {
+  FigureOptions options;
+  options.finger = finger;
+  options.threads = command.jobs;
+  options.started = [&](const std::string& sample) { context.note("figures: " + sample + " ..."); };
+  const FigureTables tables = figure_tables(options);
+  write_bytes(command.out + "/figures.csv", figures_csv(tables));
+  write_bytes(command.out + "/figures.md", figures_markdown(tables, finger.name));
+}
+
 int run(const Context& context, const ReproduceCommand& command) {
+  if (command.figures && command.out.empty())
+    throw InputError("--figures needs --out DIR, the folder of figures.csv and figures.md");
   if (!command.out.empty()) make_folder(command.out);
   ReproduceOptions options;
   options.ids = command.claims;
@@ -35,6 +48,7 @@ int run(const Context& context, const ReproduceCommand& command) {
     write_bytes(command.out + "/claims.md", claims_markdown(results, options.finger.name));
     context.note("wrote " + command.out);
   }
+  if (command.figures) write_figures(context, command, options.finger);
   if (command.json)
     std::cout << claims_json(results) << '\n';
   else
@@ -54,6 +68,8 @@ void add_reproduce(Command app, Context& context) {
   command.add_option("--finger", options->finger, "Finger file; default: fingers/reference.toml")
       .type_name("FILE");
   command.add_option("--out", options->out, "Also write claims.csv and claims.md").type_name("DIR");
+  command.add_flag("--figures", options->figures,
+                   "Also the M3 paper's figures as tables: figures.csv and figures.md in --out");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");
   command.on_chosen([&context, options] {

@@ -108,6 +108,7 @@ class PatchSolver {
     }
     if (capillary_off_counts(scene)) out.capillary_off = patch.water.capillary_force;
     out.capillary_on = out.capillary_off;  // until a field changes the angle
+    out.retention_on = out.retention;
 
     // Eq. coupling.1: capillary tractions off; the same water and the field on.
     out.area_off = out.area_dry;
@@ -142,6 +143,7 @@ class PatchSolver {
       if (out.volume > 0) {
         on = rewet_timed(undriven.water, gap, driven, out);
         out.capillary_on = on.capillary_force;
+out.retention_on = on.retention;
       }
       pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
       note_field(pull, out);
@@ -256,6 +258,7 @@ class PatchSolver {
       if (out.volume > 0) {
         on = rewet_timed(off, gap, driven, out);
         out.capillary_on = on.capillary_force;
+out.retention_on = on.retention;
       }
       pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
       note_field(pull, out);

@@ -137,7 +137,7 @@ void add_field_error(const FieldRatio& ratio, double load_exponent, ResponsePoin
   const double relative = load > 0 ? load_exponent * std::max(pull, 0.0) / load * e : 0;
   point.area_fraction_on.parts.field = relative * point.area_fraction_on.value;
   point.friction_on.parts.field =
-      relative * (point.friction_on.value - point.retention_force.value);
+      relative * (point.friction_on.value - point.retention_force.value - point.retention_gain);
   point.modulation.parts.field = relative * (1 + point.modulation.value);
 }
 

@@ -27,7 +27,8 @@ struct PatchCosts {
 // Forces are on the patch [N], areas are fractions of it. "off": before the drive, "on": under it.
 struct PatchResult {
   double load = 0;  // preload
-  double capillary_off = 0, capillary_on = 0, pull = 0, retention = 0;
+  double capillary_off = 0, capillary_on = 0, pull = 0;
+  double retention = 0, retention_on = 0;
   double area_dry = 0, area_off = 0, area_on = 0;
   double bridges = 0, wetted = 0, bridge_volume = 0, volume = 0;
   double on_its_way = 0;                 // water of bridges between disc and film [m^3]
@@ -61,6 +62,7 @@ inline constexpr std::array kPatchMembers{
     PatchMember{&PatchResult::capillary_on, OverWater::Mean, OverPressures::On},
     PatchMember{&PatchResult::pull, OverWater::Mean, OverPressures::On},
     PatchMember{&PatchResult::retention, OverWater::Mean, OverPressures::Off},
+    PatchMember{&PatchResult::retention_on, OverWater::Mean, OverPressures::On},
     PatchMember{&PatchResult::area_dry, OverWater::Common, OverPressures::Off},
     PatchMember{&PatchResult::area_off, OverWater::Mean, OverPressures::Off},
     PatchMember{&PatchResult::area_on, OverWater::Mean, OverPressures::On},

@@ -84,19 +84,23 @@ Measured friction(double strength, const Measured& area, const Measured& retenti
   return f;
 }
 
-// Friction off and on from areas and retention; of the modulation the share of the dry friction,
-// because the retention force is part of both frictions. Eq. friction.1
-void add_friction(ResponsePoint& point, double strength, bool driven) {
+// Friction off and on from areas and retention, which is part of both: the modulation of the areas
+// counts by the share of the dry friction, and bridges that a closed gap has spread hold more. Eq.
+// friction.1
+void add_friction(ResponsePoint& point, double strength, const Measured& retention_on,
+                  bool driven) {
   point.strength = strength;
   point.friction_off = friction(strength, point.area_fraction_off, point.retention_force);
-  point.friction_on = friction(strength, point.area_fraction_on, point.retention_force);
+  point.friction_on = friction(strength, point.area_fraction_on, retention_on);
+  point.retention_gain = retention_on.value - point.retention_force.value;
   if (!driven) {
     point.modulation = {};
     return;
   }
-  const double share =
-      point.friction_off.value > 0 ? 1 - point.retention_force.value / point.friction_off.value : 1;
+  if (point.friction_off.value <= 0) return;
+  const double share = 1 - point.retention_force.value / point.friction_off.value;
   point.modulation.value *= share;
+  point.modulation.value += point.retention_gain / point.friction_off.value;
   point.modulation.parts.sampling *= std::abs(share);
 }
 
@@ -132,7 +136,9 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     if (q.mean_of)
       point.*q.value = sampled_mean(patches, q.mean_of, q.whole_finger ? patches_per_finger : 1);
   }
-  if (!plan.retention) point.retention_force = {};
+  Measured retention_on =
+      sampled_mean(patches, &PatchResult::retention_on, patches_per_finger);
+  if (!plan.retention) point.retention_force = retention_on = {};
   if (setting.fidelity.estimator == Estimator::Load || !plan.traction_solves) {
     areas_by_load(point, patches, setting.fidelity);
   } else {
@@ -146,7 +152,8 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   }
   for (auto* areas : {&point.samples.area_off, &point.samples.area_on})
     for (double& area : *areas) area *= setting.area_factor;
-  add_friction(point, shear_strength(scene, relative_humidity) * carrying, plan.field);
+  add_friction(point, shear_strength(scene, relative_humidity) * carrying, retention_on,
+               plan.field);
   add_solver_errors(point, patches);
   if (plan.water)
     add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);

@@ -107,6 +107,7 @@ struct ResponsePoint : PointQuantities {
   double oxide_margin = kInfinity;  // least strength over field of a layer of the dielectric
   double peak_air_field = 0;        // [V/m]
   double source_voltage = 0;        // [V] peak: under current control what the current needs
+  double retention_gain = 0;        // [N] of the retention force, under the drive over before it
   double strength = 0;          // tau x load-carrying area [N]: of contact, F = strength x fraction
   double field_correction = 1;  // on the pull of the field rule. Eq. electrostatics.17
   std::optional<double> field_error;  // relative, of the pull; none: not measured

@@ -58,15 +58,25 @@ std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const Co
 
 WaterProperties water_properties(const Scene& scene, double substrate_angle) {
   const SkinWater& water = scene.finger.water;
-  return {water.surface_tension, water.contact_angle, substrate_angle, water.hysteresis};
+  return {water.surface_tension, water.contact_angle, substrate_angle, water.hysteresis,
+          scene.model.preset == Preset::M3};
 }
 
+namespace {
+
+// Whether the pressure of a bridge draws skin and surface together.
+bool bridges_pull(const Scene& scene) {
+  return wetting_gain(scene.finger.applied().water.contact_angle, scene.surface.contact_angle) > 0;
+}
+
+}  // namespace
+
 bool capillary_off_counts(const Scene& scene) {
-  return scene.model.preset == Preset::Papilla || !scene.surface.repels_water();
+  return scene.model.preset == Preset::Papilla || bridges_pull(scene);
 }
 
 bool retention_counts(const Scene& scene) {
-  return scene.model.preset == Preset::Papilla || scene.surface.repels_water();
+  return scene.model.preset == Preset::Papilla || !bridges_pull(scene);
 }
 
 FieldMethod field_method(const ModelOptions& model) {
@@ -110,7 +120,7 @@ FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   p.droplet_enhancement = scene.model.droplet_enhancement;
   if (scene.model.preset == Preset::M3) {
     p.zero_under_droplets = true;
-    p.screening = false;
+    p.even_screening = true;
     p.droplet_enhancement = false;
   }
   return p;

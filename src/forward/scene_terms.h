@@ -40,11 +40,9 @@ std::shared_ptr<const ContactKernel> contact_kernel(const Scene& scene, const Co
 // Water on the skin and on a surface at a contact angle [rad].
 WaterProperties water_properties(const Scene& scene, double substrate_angle);
 
-// Whether the capillary force counts before the drive: preset m3 has none on surfaces that repel
-// water.
+// Whether the capillary force counts before the drive: preset m3 has none where bridges push.
 bool capillary_off_counts(const Scene& scene);
-// Whether contact-angle hysteresis holds the finger: preset m3 counts it on surfaces that repel
-// water only.
+// Whether contact-angle hysteresis holds the finger: preset m3 counts it only there.
 bool retention_counts(const Scene& scene);
 
 // The rule in use: columns where the preset is the paper's, whose rules are made for them.

@@ -76,7 +76,6 @@ struct Surface {
   std::vector<Dielectric> thinnest_layers(double deepest) const;
   // The layer that a texture is cut into or imprinted on; -1: none is planar.
   int carrying_layer() const;
-  bool repels_water() const { return contact_angle > kPi / 2; }
 
   bool operator==(const Surface&) const = default;
 };

@@ -112,6 +112,23 @@ TEST(Droplets, OneBridgeInAFlatGapHasTheExactForce) {
   EXPECT_NEAR(w.retention, 0.5 * kPi * water.surface_tension * r * water.hysteresis, 1e-20);
 }
 
+TEST(Droplets, ThePapersLawIsThePressureOnTheFootprint) {
+  const double h = 20e-9, v = 0.01e-18;
+  WaterProperties water;
+  water.pressure_alone = true;
+  const Wetting w = settle_droplets(flat_gap(128, h), v, water, {}, 1, 0);
+  ASSERT_EQ(w.droplets.size(), 1u);
+  const Bridge exact =
+      solve_bridge(v, h, water.theta_skin, water.theta_substrate, water.surface_tension);
+  // The exact bridge's own pressure on the same footprint; the paper's waist is that of the rim.
+  const double r = std::sqrt(v / (kPi * h));
+  EXPECT_NEAR(w.capillary_force, -exact.pressure * kPi * r * r,
+              0.02 * std::abs(w.capillary_force));
+  EXPECT_LT(w.capillary_force, 0.96 * exact.force);
+  EXPECT_EQ(laplace_force(water, 2, 0.5, kInfinity),
+            4 * wetting_gain(water.theta_skin, water.theta_substrate));
+}
+
 TEST(Droplets, MeniscusFactorHasItsKnownValues) {
   const double deg = kPi / 180;
   EXPECT_NEAR(meniscus_factor(90 * deg, 90 * deg), 1, 1e-15);

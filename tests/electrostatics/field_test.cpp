@@ -78,6 +78,39 @@ TEST(LocalField, ContactPixelsCarryTheFieldOfTheDielectricAlone) {
   EXPECT_EQ(s.over_limit_area, 0);
 }
 
+TEST(LocalField, EvenScreeningKeepsThePullAndSpreadsTheLoss) {
+  const Gap gap = uniform_gap(1e-7, 64);
+  Wetting wetting;
+  wetting.grid = gap.grid;
+  wetting.status = WettingStatus::Discs;
+  wetting.bridges = 1;
+  Droplet drop;
+  drop.state = DropletState::Bridge;
+  drop.x = 0.5 * gap.grid.lx, drop.y = 0.5 * gap.grid.ly;
+  drop.radius = 0.2 * gap.grid.lx;
+  drop.edge_gap = 1e-7;
+  wetting.droplets = {drop};
+  wetting.bridged.assign(gap.grid.size(), 0);
+  for (std::size_t k = 0; k < gap.grid.size(); ++k) {
+    const double x = gap.grid.x(static_cast<int>(k) % gap.grid.nx) - drop.x;
+    const double y = gap.grid.y(static_cast<int>(k) / gap.grid.nx) - drop.y;
+    wetting.bridged[k] = std::hypot(x, y) < drop.radius;
+  }
+  FieldProblem p = oxide(200);
+  const FieldSolution fading = solve_local_field(gap, nullptr, wetting, p);
+  p.even_screening = true;
+  const FieldSolution even = solve_local_field(gap, nullptr, wetting, p);
+  EXPECT_NEAR(even.mean_pressure, fading.mean_pressure, 1e-12 * fading.mean_pressure);
+  const std::size_t corner = 0, centre = gap.grid.index(32, 32);
+  EXPECT_EQ(even.traction.value[centre], 0);
+  EXPECT_LT(even.traction.value[corner], fading.traction.value[corner]);
+  for (std::size_t k = 0; k < gap.grid.size(); ++k) {
+    if (wetting.bridged[k]) continue;
+    EXPECT_NEAR(even.traction.value[k], even.traction.value[corner],
+                1e-12 * even.traction.value[corner]);
+  }
+}
+
 TEST(LocalField, NoVoltageNoPull) {
   EXPECT_EQ(solve_local_field(uniform_gap(1e-7), nullptr, {}, oxide(0)).mean_pressure, 0);
 }

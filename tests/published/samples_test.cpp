@@ -24,7 +24,8 @@ TEST(PublishedSamples, FrictionIsThatOfTheForwardModelWithoutRetention) {
     EXPECT_GT(p.retention_force.value, 0);
     EXPECT_NEAR((friction_off(s, rh, -1) + p.retention_force.value) / p.friction_off.value, 1,
                 1e-12);
-    EXPECT_NEAR((friction_on(s, rh, -1) + p.retention_force.value) / p.friction_on.value, 1, 1e-12);
+    const double held = p.retention_force.value + p.retention_gain;
+    EXPECT_NEAR((friction_on(s, rh, -1) + held) / p.friction_on.value, 1, 1e-12);
   }
 }
 

@@ -95,6 +95,8 @@ double DropEnergy::cap_energy(double volume) const {
 // The footprint shrinks by dr/dh = -r / (2 h_edge).
 double DropEnergy::force(const Drop& d) const {
   const double r = d.radius;
+  if (water_.pressure_alone)
+    return water_.surface_tension * laplace_force(water_, kPi * square(r), d.edge_gap, r);
   const GapTable::Rule rule = table_.rule(r);
   const GapTable::Rim rim{d.edge_gap, d.edge_slope};
   double tilt;

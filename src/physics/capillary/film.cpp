@@ -81,6 +81,8 @@ namespace {
 
 // Eq. capillary.9
 double film_force(const WaterProperties& water, double area, double height, double perimeter) {
+  if (water.pressure_alone)
+    return water.surface_tension * laplace_force(water, area, height, kInfinity);
   const double c = wetting_gain(water.theta_skin, water.theta_substrate);
   const double f = meniscus_factor(water.theta_skin, water.theta_substrate);
   return water.surface_tension * (c * area / height + f * perimeter);

@@ -20,6 +20,10 @@ double meniscus_factor(double theta1, double theta2) {
   return (inverse_sinc + std::cos(u) * std::cos(2 * d)) / (2 * cos_d);
 }
 
+double laplace_force(const WaterProperties& water, double area, double gap, double radius) {
+  return area * (wetting_gain(water.theta_skin, water.theta_substrate) / gap - 1 / radius);
+}
+
 CapShape cap_shape(double theta) {
   theta = std::max(theta, kPi / 180);
   const double c = std::cos(theta);

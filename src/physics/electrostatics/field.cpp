@@ -140,12 +140,36 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
   return out;
 }
 
+namespace {
+
+// Eq. electrostatics.18: `pressure` is what water does not cover; `faded` what is left around it.
+double share_left(const std::vector<double>& pressure, const std::vector<double>& faded) {
+  double left = 0, all = 0;
+  for (std::size_t i = 0; i < faded.size(); ++i) {
+    all += pressure[i];
+    left += pressure[i] * faded[i];
+  }
+  return all > 0 ? left / all : 1;
+}
+
+}  // namespace
+
 FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
                                 const Wetting& wetting, const FieldProblem& p) {
-  const std::vector<double> open =
-      screening_factor(gap, wetting, p.dielectric_thickness, p.screening);
-  return pull(gap, surface, p, columns_above(gap, wetting, p),
-              {.open = open, .gain = {}, .voltage = {}});
+  const AirColumns columns = columns_above(gap, wetting, p);
+  const auto under = [&](const std::vector<double>& open) {
+    return pull(gap, surface, p, columns, {.open = open, .gain = {}, .voltage = {}});
+  };
+  const auto screened = [&](bool fade) {
+    return screening_factor(gap, wetting, p.dielectric_thickness, fade);
+  };
+  if (!p.screening || !p.even_screening) return under(screened(p.screening));
+  std::vector<double> open = screened(false);
+  const FieldSolution uncovered = under(open);
+  if (open.empty() || !uncovered.ok) return uncovered;
+  const double left = share_left(uncovered.traction.value, screened(true));
+  for (double& share : open) share *= left;
+  return under(open);
 }
 
 }  // namespace papilla::electrostatics

@@ -21,6 +21,7 @@ struct FieldProblem {
   double film_phase = 1;                // |d/eps| over its real part, of a film that leaks
   bool breakdown_cap = false;           // gap pressure at most eps0/2 (350 V/um)^2
   bool screening = true;                // the field fades towards a bridge
+  bool even_screening = false;          // preset m3: that as one factor. Eq. electrostatics.18
   bool droplet_enhancement = true;      // droplets that do not bridge raise the pull
   bool zero_under_droplets = false;     // preset m3: no pull under any droplet
 };

@@ -1,0 +1,57 @@
+// The figures of the M3 paper as numbers: every sample at every humidity, and the numbers that its
+// text prints. The curves themselves are not published as numbers.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "base/statistics.h"
+#include "published/finger_model.h"
+
+namespace papilla::claims {
+
+// Mean of the simulated water volumes, each with six placements of the droplets, as in the paper.
+struct FigureValue {
+  Estimate value;            // se: over skins
+  double low = 0, high = 0;  // the limits: least and largest over the volumes
+};
+
+// A surface at one humidity, by one preset.
+struct FigureRow {
+  std::string figures;        // that show it: "2d,e 3d-f"
+  std::string sample, state;  // "a3h350", "a3h350 110°", "large film 1"; of the finger
+  Preset preset = Preset::Papilla;
+  double relative_humidity = 0;
+  FigureValue friction_off, friction_on, effect;  // [N], of the finger; effect: on less off
+  FigureValue modulation;
+  FigureValue capillary, pull;  // [N] on a patch
+  FigureValue contact_area;     // [m^2] of the finger, off
+};
+
+// A number that the paper prints, or the range that it gives.
+struct PrintedNumber {
+  std::string claim, what;
+  double low = 0, high = 0;
+  Estimate papilla, m3;
+
+  double deviation(const Estimate& model) const;  // from the nearest of the range, a share of it
+};
+
+struct FigureTables {
+  std::vector<FigureRow> rows;
+  std::vector<PrintedNumber> printed;
+};
+
+struct FigureOptions {
+  Finger finger;
+  int threads = 0;
+  int skins = 8;
+  std::function<void(const std::string& sample)> started;
+};
+
+// Both presets. Cost: about three minutes on two cores.
+FigureTables figure_tables(const FigureOptions& options);
+
+}  // namespace papilla::claims
