@@ -31,6 +31,46 @@ Judgement agrees_if(bool agrees, double value, double se, std::string model, std
           std::move(reason)};
 }
 
+namespace {
+
+Part part(std::string name, const SkinEstimate& e, bool holds,
+          const std::function<bool(double)>& on_patch) {
+  Part out{std::move(name), e, holds};
+  for (const double value : e.single) out.single.push_back(on_patch(value));
+  return out;
+}
+
+double share_of(const std::vector<bool>& flags) {
+  return static_cast<double>(std::count(flags.begin(), flags.end(), true)) /
+         static_cast<double>(flags.size());
+}
+
+// The share of patches on which every part holds; none unless all parts are of the same patches.
+std::optional<double> on_single_patches(const std::vector<Part>& parts) {
+  std::vector<bool> all = parts.front().single;
+  if (all.empty()) return std::nullopt;
+  for (const Part& p : parts) {
+    if (p.single.size() != all.size()) return std::nullopt;
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = all[k] && p.single[k];
+  }
+  return share_of(all);
+}
+
+}  // namespace
+
+Part above_zero(std::string name, const SkinEstimate& e) {
+  return part(std::move(name), e, positive(e), [](double v) { return v > 0; });
+}
+
+Part below_zero(std::string name, const SkinEstimate& e) {
+  return part(std::move(name), e, negative(e), [](double v) { return v < 0; });
+}
+
+Part in_band(std::string name, const SkinEstimate& e, double low, double high) {
+  return part(std::move(name), e, within(e.value, low, high),
+              [=](double v) { return within(v, low, high); });
+}
+
 Judgement all_of(const std::vector<Part>& parts, const std::string& why_not) {
   std::string list;
   const Part* shown = &parts.front();
@@ -38,13 +78,17 @@ Judgement all_of(const std::vector<Part>& parts, const std::string& why_not) {
   for (const Part& p : parts) {
     list += fmt::format("{}{} {:.3g} ± {:.2g}{}", list.empty() ? "" : "; ", p.name, p.value.value,
                         p.value.se, p.holds ? "" : " (no)");
+    if (!p.single.empty()) list += fmt::format(" [{:.0f} %]", 100 * share_of(p.single));
     if (all && !p.holds) shown = &p;
     all = all && p.holds;
   }
   std::string reason = list;
   if (!all && !why_not.empty()) reason += ". " + why_not;
-  return agrees_if(all, shown->value.value, shown->value.se,
-                   fmt::format("{:.3g} ± {:.2g}", shown->value.value, shown->value.se), reason);
+  Judgement out =
+      agrees_if(all, shown->value.value, shown->value.se,
+                fmt::format("{:.3g} ± {:.2g}", shown->value.value, shown->value.se), reason);
+  out.single = on_single_patches(parts);
+  return out;
 }
 
 Judgement trend(const std::vector<double>& values, bool rises, std::string reason) {

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct Judgement {
   double se = 0;       // its standard error; 0: no sampling
   std::string model;   // the model's answer for people: "3.16 um", "+41 +-6 %"
   std::string reason;  // how it was judged; why it differs
+  // Share of single patches on which all of it holds: the paper had one patch a sample. None: the
+  // claim is not about patches.
+  std::optional<double> single{};
 };
 
 struct Claim {
@@ -60,6 +64,7 @@ struct Part {
   std::string name;
   Estimate value;
   bool holds;
+  std::vector<bool> single{};  // whether it holds on each patch alone; empty: not of patches
 };
 Judgement all_of(const std::vector<Part>& parts, const std::string& why_not = "");
 // Values that must rise (or fall) along a list.

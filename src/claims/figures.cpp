@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "claims/papers.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
 #include "published/samples.h"
@@ -17,7 +18,6 @@ namespace {
 // 5 to 10 um3 at 75 % RH; the volumes at other humidities are in a supplement that is not to be
 // had, so they take the same shares of the mean.
 constexpr double kVolumes[] = {2.0 / 3, 4.0 / 3};
-constexpr int kPlacements = 6;
 constexpr int kFirstSkin = 5000;  // beyond those of any fit
 
 struct Shown {
@@ -122,7 +122,7 @@ void add_rows(FingerModel& model, const Shown& shown, std::vector<FigureRow>& ro
 // "27.3 % (flat) to 6.7 % (structured)", by the reading that is nearest (M14).
 Estimate variation(FingerModel& model, const char* sample, double angle) {
   const Sample& s = m3_sample(model, sample, angle);
-  return jackknife(model, [&](int k) { return 100 * deviation_over_mean(s, k); });
+  return jackknife(model, [&](Skins over) { return 100 * deviation_over_mean(s, over); });
 }
 
 std::vector<PublishedTarget> printed_numbers() {

@@ -39,13 +39,13 @@ Judgement pull_falls(FingerModel& model) {
   std::vector<Part> parts;
   for (const std::string& name : m3_sample_names()) {
     const Sample& s = m3_sample(model, name);
-    const SkinEstimate e = jackknife(model, [&](int k) {
+    const SkinEstimate e = jackknife(model, [&](Skins over) {
       const auto pull = [&](int rh) {
-        return mean_without(s.at(rh).load_on, k) - mean_without(s.at(rh).load_off, k);
+        return over.mean(s.at(rh).load_on) - over.mean(s.at(rh).load_off);
       };
       return pull(kWet) / pull(kDry) - 1;
     });
-    parts.push_back({name, e, negative(e)});
+    parts.push_back(below_zero(name, e));
   }
   return all_of(parts);
 }

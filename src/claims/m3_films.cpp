@@ -19,10 +19,11 @@ Judgement film_friction(FingerModel& model, FingerState state, double sign,
       return sample(
           model, {.design = fmt::format("coatings/hdpe_{}_{}.toml", size, region), .state = state});
     };
-    const SkinEstimate e = paired_percent(
-        film("large"), film("small"), [](const Sample& s, int k) { return friction_off(s, 0, k); });
-    parts.push_back({fmt::format("small against large, region {}, %", region), e,
-                     sign > 0 ? positive(e) : negative(e)});
+    const SkinEstimate e =
+        paired_percent(film("large"), film("small"),
+                       [](const Sample& s, Skins over) { return friction_off(s, 0, over); });
+    const std::string name = fmt::format("small against large, region {}, %", region);
+    parts.push_back(sign > 0 ? above_zero(name, e) : below_zero(name, e));
   }
   return all_of(parts, why_not);
 }
@@ -35,8 +36,8 @@ Judgement films_natural_area(FingerModel& model) {
       const SkinEstimate e =
           paired_percent(sample(model, {.design = design}),
                          sample(model, {.design = design, .state = FingerState::Natural}),
-                         [](const Sample& s, int k) { return mean_without(s.at(0).area_off, k); });
-      parts.push_back({fmt::format("{} {}, %", size, region), e, positive(e)});
+                         [](const Sample& s, Skins over) { return over.mean(s.at(0).area_off); });
+      parts.push_back(above_zero(fmt::format("{} {}, %", size, region), e));
     }
   }
   return all_of(parts);
@@ -56,8 +57,7 @@ Judgement films_compliance(FingerModel& model) {
     const Estimate large = compliance("large"), small = compliance("small");
     const SkinEstimate gain{{large.value - small.value, std::hypot(large.se, small.se)},
                             model.sampling().skins};
-    parts.push_back(
-        {fmt::format("large minus small, region {}, um/MPa", region), gain, positive(gain)});
+    parts.push_back(above_zero(fmt::format("large minus small, region {}, um/MPa", region), gain));
   }
   return all_of(parts);
 }

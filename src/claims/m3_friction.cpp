@@ -9,13 +9,13 @@
 namespace papilla::claims {
 namespace {
 
-Judgement friction_rise(FingerModel& model, double (*friction)(const Sample&, int, int)) {
+Judgement friction_rise(FingerModel& model, double (*friction)(const Sample&, int, Skins)) {
   std::vector<Part> parts;
   for (const std::string& name : m3_sample_names()) {
     const Sample& s = m3_sample(model, name);
-    const SkinEstimate e =
-        jackknife(model, [&](int k) { return friction(s, kWet, k) / friction(s, kDry, k); });
-    parts.push_back({name, e, within(e.value, 1.6, 2.4)});
+    const SkinEstimate e = jackknife(
+        model, [&](Skins over) { return friction(s, kWet, over) / friction(s, kDry, over); });
+    parts.push_back(in_band(name, e, 1.6, 2.4));
   }
   return all_of(parts);
 }
@@ -31,9 +31,8 @@ Judgement real_area(FingerModel& model) {
   const Sample& s = m3_sample(model, "flat");
   const Sample& dry = sample(model, {.design = "m3_samples/flat.toml", .water = false});
   const auto rise = [](const Sample& a) {
-    return jackknife(a, [&](int k) {
-      return 100 *
-             (mean_without(a.at(kWet).area_off, k) / mean_without(a.at(kDry).area_off, k) - 1);
+    return jackknife(a, [&](Skins over) {
+      return 100 * (over.mean(a.at(kWet).area_off) / over.mean(a.at(kDry).area_off) - 1);
     });
   };
   const SkinEstimate patch = rise(s), without = rise(dry);
@@ -53,10 +52,9 @@ Judgement friction_by_diameter(FingerModel& model) {
     for (int rh = 0; rh < kHumidities; ++rh) {
       const SkinEstimate e = paired_percent(
           m3_sample(model, std::string("a3") + depth), m3_sample(model, std::string("a4") + depth),
-          [rh](const Sample& s, int k) { return friction_off(s, rh, k); });
-      parts.push_back(
-          {fmt::format("a4{0} against a3{0} at {1} % RH, %", depth, humidity_percent(rh)), e,
-           negative(e)});
+          [rh](const Sample& s, Skins over) { return friction_off(s, rh, over); });
+      parts.push_back(below_zero(
+          fmt::format("a4{0} against a3{0} at {1} % RH, %", depth, humidity_percent(rh)), e));
     }
   }
   return all_of(parts);

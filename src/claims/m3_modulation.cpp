@@ -16,8 +16,8 @@ Judgement effect_rises_and_falls(FingerModel& model) {
   for (const char* name : {"flat", "a4h350", "a3h600"}) {
     const SkinEstimate up = effect_ratio(m3_sample(model, name), kDry, kDamp);
     const SkinEstimate down = effect_ratio(m3_sample(model, name), kDamp, kWet);
-    parts.push_back({fmt::format("{} 15 to 35 %", name), up, positive(up)});
-    parts.push_back({fmt::format("{} 35 to 75 %", name), down, negative(down)});
+    parts.push_back(above_zero(fmt::format("{} 15 to 35 %", name), up));
+    parts.push_back(below_zero(fmt::format("{} 35 to 75 %", name), down));
   }
   return all_of(parts);
 }
@@ -27,8 +27,8 @@ Judgement effect_constant(FingerModel& model) {
   for (const char* name : {"a4h600", "a3h900"}) {
     for (int rh : {kDamp, kMoist, kWet}) {
       const SkinEstimate e = effect_ratio(m3_sample(model, name), kDry, rh);
-      parts.push_back({fmt::format("{} at {} % RH", name, humidity_percent(rh)), e,
-                       within(e.value, -0.25, 0.05)});
+      parts.push_back(
+          in_band(fmt::format("{} at {} % RH", name, humidity_percent(rh)), e, -0.25, 0.05));
     }
   }
   return all_of(parts,
@@ -42,12 +42,12 @@ const std::vector<std::pair<const char*, const char*>>& stronger_pairs() {
   return pairs;
 }
 
-Judgement compare_pairs(FingerModel& model, double (*quantity)(const Sample&, int)) {
+Judgement compare_pairs(FingerModel& model, double (*quantity)(const Sample&, Skins)) {
   std::vector<Part> parts;
   for (const auto& [strong, weak] : stronger_pairs()) {
     const SkinEstimate e =
         paired_percent(m3_sample(model, weak), m3_sample(model, strong), quantity);
-    parts.push_back({fmt::format("{} against {}, %", strong, weak), e, positive(e)});
+    parts.push_back(above_zero(fmt::format("{} against {}, %", strong, weak), e));
   }
   return all_of(parts);
 }
@@ -56,7 +56,7 @@ Judgement variation_readings(FingerModel& model) {
   struct Reading {
     const char* name;
     double flat_angle;
-    double (*measure)(const Sample&, int);
+    double (*measure)(const Sample&, Skins);
   };
   std::string list;
   bool any = false;
@@ -67,8 +67,10 @@ Judgement variation_readings(FingerModel& model) {
                            Reading{"flat 50°, a3h350 110°, range/mean", 0, range_over_mean},
                            Reading{"flat 50°, a3h350 110°, sd/mean", 0, deviation_over_mean}}) {
     const Sample &a = m3_sample(model, "flat", r.flat_angle), &b = m3_sample(model, "a3h350", 110);
-    const SkinEstimate flat = jackknife(model, [&](int k) { return 100 * r.measure(a, k); });
-    const SkinEstimate holes = jackknife(model, [&](int k) { return 100 * r.measure(b, k); });
+    const SkinEstimate flat =
+        jackknife(model, [&](Skins over) { return 100 * r.measure(a, over); });
+    const SkinEstimate holes =
+        jackknife(model, [&](Skins over) { return 100 * r.measure(b, over); });
     const double miss = std::max(std::abs(flat.value - 27.3), std::abs(holes.value - 6.7));
     any = any || miss <= 5;
     if (miss < best) shown = holes;
@@ -88,14 +90,14 @@ Judgement screens(FingerModel& model) {
   std::vector<Part> parts;
   const char* names[] = {"smooth over middle", "middle over rough"};
   for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-    const SkinEstimate mean = jackknife(model, [&](int k) {
-      return mean_modulation(*order[i], k) - mean_modulation(*order[i + 1], k);
+    const SkinEstimate mean = jackknife(model, [&](Skins over) {
+      return mean_modulation(*order[i], over) - mean_modulation(*order[i + 1], over);
     });
-    const SkinEstimate range = jackknife(model, [&](int k) {
-      return range_over_mean(*order[i], k) - range_over_mean(*order[i + 1], k);
+    const SkinEstimate range = jackknife(model, [&](Skins over) {
+      return range_over_mean(*order[i], over) - range_over_mean(*order[i + 1], over);
     });
-    parts.push_back({fmt::format("mean, {}", names[i]), mean, positive(mean)});
-    parts.push_back({fmt::format("range/mean, {}", names[i]), range, positive(range)});
+    parts.push_back(above_zero(fmt::format("mean, {}", names[i]), mean));
+    parts.push_back(above_zero(fmt::format("range/mean, {}", names[i]), range));
   }
   return all_of(parts);
 }
@@ -103,10 +105,12 @@ Judgement screens(FingerModel& model) {
 Judgement aspect_ratio(FingerModel& model) {
   const Sample& shallow = sample(model, {.design = "m3_samples/dense_shallow.toml"});
   const Sample& deep = sample(model, {.design = "m3_samples/dense_deep.toml"});
-  const SkinEstimate e = jackknife(
-      model, [&](int k) { return range_over_mean(deep, k) - range_over_mean(shallow, k); });
-  const SkinEstimate a = jackknife(model, [&](int k) { return range_over_mean(shallow, k); });
-  const SkinEstimate b = jackknife(model, [&](int k) { return range_over_mean(deep, k); });
+  const SkinEstimate e = jackknife(model, [&](Skins over) {
+    return range_over_mean(deep, over) - range_over_mean(shallow, over);
+  });
+  const SkinEstimate a =
+      jackknife(model, [&](Skins over) { return range_over_mean(shallow, over); });
+  const SkinEstimate b = jackknife(model, [&](Skins over) { return range_over_mean(deep, over); });
   return agrees_if(negative(e), e.value, e.se, fmt::format("{:.3f} ± {:.3f}", e.value, e.se),
                    fmt::format("range/mean of 2.6 um holes, 3 um apart, 50°: {:.2f} ± {:.2f} at "
                                "depth 350 nm, {:.2f} ± {:.2f} at 1 um",
@@ -118,8 +122,8 @@ Judgement softening_alone(FingerModel& model) {
   std::vector<Part> parts;
   for (int rh = 0; rh + 1 < kHumidities; ++rh) {
     const SkinEstimate e = effect_ratio(s, rh, rh + 1);
-    parts.push_back({fmt::format("{} to {} % RH", humidity_percent(rh), humidity_percent(rh + 1)),
-                     e, positive(e)});
+    parts.push_back(above_zero(
+        fmt::format("{} to {} % RH", humidity_percent(rh), humidity_percent(rh + 1)), e));
   }
   return all_of(parts);
 }

@@ -2,15 +2,25 @@
 #pragma once
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "base/rooms.h"
 #include "claims/claim.h"
+#include "published/samples.h"
 
 namespace papilla::claims {
 
 // Relative difference.
 inline double off_by(double a, double b) { return std::abs(a / b - 1); }
+
+// The M3 paper simulated every volume of water so often, with the droplets elsewhere.
+inline constexpr int kPlacements = 6;
+
+// Of a number over patches: where its sign or its band is what the paper says.
+Part above_zero(std::string name, const SkinEstimate& e);
+Part below_zero(std::string name, const SkinEstimate& e);
+Part in_band(std::string name, const SkinEstimate& e, double low, double high);
 
 // M: the M3 model (Ma et al. 2025).
 Claim m3_claim(const char* id, const char* statement, const char* band,

@@ -194,7 +194,7 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
 }
 
 PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                           double relative_humidity, int index) {
+                           double relative_humidity, int index, int placement) {
   const PatchSetup setup(scene, texture, fidelity);
   const Grid& grid = setup.plan().grid;
   PatchPicture picture{setup.texture(), setup.skin(index), {}};
@@ -202,7 +202,7 @@ PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fid
   const auto kernel = contact_kernel(setup.scene(), setup.body(), grid, relative_humidity);
   const double pressure =
       ScaleBridge(setup.scene(), fidelity, grid, relative_humidity, setup.body()).mean_pressure();
-  const WaterMember mean{1, static_cast<std::uint64_t>(fidelity.first_skin + index)};
+  const WaterMember mean{1, water_stream(fidelity.first_skin + index, placement)};
   PatchStates start;
   solve_patch(setup.problem(height, *kernel, relative_humidity, pressure, mean), setup.plan(),
               fidelity, start, &picture.fields);

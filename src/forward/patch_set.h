@@ -47,12 +47,13 @@ PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelit
 // Friction, modulation and their causes at each humidity, of all skins and without each.
 Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches);
 
-// One patch with all its fields, for pictures: skin `index` of the fidelity at one humidity.
+// One patch with all its fields, for pictures: skin `index` of the fidelity at one humidity, with a
+// placement of its droplets.
 struct PatchPicture {
   Heightmap texture, skin;
   PatchFields fields;
 };
 PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                           double relative_humidity, int index = 0);
+                           double relative_humidity, int index = 0, int placement = 0);
 
 }  // namespace papilla::forward

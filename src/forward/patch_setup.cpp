@@ -55,13 +55,13 @@ std::vector<double> PatchSetup::height(const Heightmap& skin) const {
 }
 
 std::vector<WaterMember> PatchSetup::water_members(int k) const {
-  const auto index = static_cast<std::uint64_t>(fidelity_.first_skin + k);
-  if (!plan_.water) return {{1, index}};
+  const int index = fidelity_.first_skin + k;
+  if (!plan_.water) return {{1, water_stream(index, 0)}};
   const double spread = scene_.finger.water.volume_spread;
   const int seeds = scene_.model.water == WaterModel::Droplets ? fidelity_.droplet_seeds : 1;
   std::vector<WaterMember> out;
   for (int s = 0; s < seeds; ++s) {
-    const std::uint64_t member = index + (static_cast<std::uint64_t>(s) << 32);
+    const std::uint64_t member = water_stream(index, s);
     if (spread > 0) {
       out.push_back({1 - spread, member});
       out.push_back({1 + spread, member});

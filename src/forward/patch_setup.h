@@ -17,6 +17,11 @@ struct WaterMember {
   std::uint64_t index;  // of the droplets' random stream
 };
 
+// That of a placement of the droplets on a skin.
+constexpr std::uint64_t water_stream(int skin, int placement) {
+  return static_cast<std::uint64_t>(skin) + (static_cast<std::uint64_t>(placement) << 32);
+}
+
 class PatchSetup {
  public:
   PatchSetup(const Scene& scene, const Texture& texture, const Fidelity& fidelity);

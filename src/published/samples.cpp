@@ -76,46 +76,47 @@ const Sample& m3_sample_at_rest(FingerModel& model, const std::string& name) {
   });
 }
 
-double mean_without(const std::vector<double>& v, int skip) {
+double Skins::mean(const std::vector<double>& v) const {
+  if (choice_ == Choice::Only) return v[index_];
   double sum = 0;
   for (std::size_t i = 0; i < v.size(); ++i) {
-    if (static_cast<int>(i) != skip) sum += v[i];
+    if (choice_ == Choice::All || i != index_) sum += v[i];
   }
-  return sum / static_cast<double>(v.size() - (skip >= 0 ? 1 : 0));
+  return sum / static_cast<double>(v.size() - (choice_ == Choice::Without ? 1 : 0));
 }
 
-double friction_off(const Sample& s, int rh, int skip) {
-  return s.point(rh).strength * mean_without(s.at(rh).area_off, skip);
+double friction_off(const Sample& s, int rh, Skins over) {
+  return s.point(rh).strength * over.mean(s.at(rh).area_off);
 }
-double friction_on(const Sample& s, int rh, int skip) {
-  return s.point(rh).strength * mean_without(s.at(rh).area_on, skip);
+double friction_on(const Sample& s, int rh, Skins over) {
+  return s.point(rh).strength * over.mean(s.at(rh).area_on);
 }
-double effect(const Sample& s, int rh, int skip) {  // Delta F [N]
-  return friction_on(s, rh, skip) - friction_off(s, rh, skip);
+double effect(const Sample& s, int rh, Skins over) {  // Delta F [N]
+  return friction_on(s, rh, over) - friction_off(s, rh, over);
 }
-double modulation(const Sample& s, int rh, int skip) {
-  return mean_without(s.at(rh).area_on, skip) / mean_without(s.at(rh).area_off, skip) - 1;
+double modulation(const Sample& s, int rh, Skins over) {
+  return over.mean(s.at(rh).area_on) / over.mean(s.at(rh).area_off) - 1;
 }
-double capillary_load(const Sample& s, int rh, int skip) {  // of a patch [N]
-  return mean_without(s.at(rh).load_off, skip) - s.preload[static_cast<std::size_t>(rh)];
+double capillary_load(const Sample& s, int rh, Skins over) {  // of a patch [N]
+  return over.mean(s.at(rh).load_off) - s.preload[static_cast<std::size_t>(rh)];
 }
-double mean_modulation(const Sample& s, int skip) {
+double mean_modulation(const Sample& s, Skins over) {
   double sum = 0;
-  for (int rh = 0; rh < kHumidities; ++rh) sum += modulation(s, rh, skip);
+  for (int rh = 0; rh < kHumidities; ++rh) sum += modulation(s, rh, over);
   return sum / kHumidities;
 }
-double range_over_mean(const Sample& s, int skip) {
+double range_over_mean(const Sample& s, Skins over) {
   double low = kInfinity, high = -kInfinity;
   for (int rh = 0; rh < kHumidities; ++rh) {
-    low = std::min(low, modulation(s, rh, skip));
-    high = std::max(high, modulation(s, rh, skip));
+    low = std::min(low, modulation(s, rh, over));
+    high = std::max(high, modulation(s, rh, over));
   }
-  return (high - low) / mean_modulation(s, skip);
+  return (high - low) / mean_modulation(s, over);
 }
-double deviation_over_mean(const Sample& s, int skip) {
-  const double mean = mean_modulation(s, skip);
+double deviation_over_mean(const Sample& s, Skins over) {
+  const double mean = mean_modulation(s, over);
   double sum = 0;
-  for (int rh = 0; rh < kHumidities; ++rh) sum += square(modulation(s, rh, skip) - mean);
+  for (int rh = 0; rh < kHumidities; ++rh) sum += square(modulation(s, rh, over) - mean);
   return std::sqrt(sum / kHumidities) / mean;
 }
 double SkinEstimate::half_width() const { return student_t_quantile(0.975, skins - 1) * se; }
@@ -124,7 +125,7 @@ bool positive(const SkinEstimate& e) { return e.value > e.half_width(); }
 bool negative(const SkinEstimate& e) { return -e.value > e.half_width(); }
 
 SkinEstimate effect_ratio(const Sample& s, int from, int to) {
-  return jackknife(s, [&](int k) { return effect(s, to, k) / effect(s, from, k) - 1; });
+  return jackknife(s, [&](Skins over) { return effect(s, to, over) / effect(s, from, over) - 1; });
 }
 
 }  // namespace papilla::published

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/rooms.h"
@@ -48,22 +49,39 @@ const Sample& m3_sample(FingerModel& model, const std::string& name, double angl
 inline constexpr int kRestingShare = 4;
 const Sample& m3_sample_at_rest(FingerModel& model, const std::string& name);
 
-// Means over the skins of a sample at a humidity (its place in the list) without skin `skip`; -1:
-// of all skins.
-double mean_without(const std::vector<double>& v, int skip);
-double friction_off(const Sample& s, int rh, int skip);  // [N]
-double friction_on(const Sample& s, int rh, int skip);
-double effect(const Sample& s, int rh, int skip);  // Delta F [N]
-double modulation(const Sample& s, int rh, int skip);
-double capillary_load(const Sample& s, int rh, int skip);  // of a patch [N]
-// The same over humidity.
-double mean_modulation(const Sample& s, int skip);
-double range_over_mean(const Sample& s, int skip);
-double deviation_over_mean(const Sample& s, int skip);
+// Which skins a mean is over.
+class Skins {
+ public:
+  static Skins all() { return {Choice::All, 0}; }
+  static Skins without(int k) { return {Choice::Without, static_cast<std::size_t>(k)}; }
+  static Skins only(int k) { return {Choice::Only, static_cast<std::size_t>(k)}; }
 
-// An estimate over skins, with what its interval needs.
+  double mean(const std::vector<double>& v) const;
+
+ private:
+  enum class Choice { All, Without, Only };
+  Skins(Choice choice, std::size_t index) : choice_(choice), index_(index) {}
+
+  Choice choice_;
+  std::size_t index_;
+};
+
+// Means over skins of a sample at a humidity (its place in the list).
+double friction_off(const Sample& s, int rh, Skins over);  // [N]
+double friction_on(const Sample& s, int rh, Skins over);
+double effect(const Sample& s, int rh, Skins over);  // Delta F [N]
+double modulation(const Sample& s, int rh, Skins over);
+double capillary_load(const Sample& s, int rh, Skins over);  // of a patch [N]
+// The same over humidity.
+double mean_modulation(const Sample& s, Skins over);
+double range_over_mean(const Sample& s, Skins over);
+double deviation_over_mean(const Sample& s, Skins over);
+
+// An estimate over skins, with what its interval needs, and what each skin alone would say: the
+// paper had one.
 struct SkinEstimate : Estimate {
   int skins = 2;
+  std::vector<double> single{};
 
   double half_width() const;  // of the 95 % interval
 };
@@ -71,12 +89,15 @@ struct SkinEstimate : Estimate {
 bool positive(const SkinEstimate& e);
 bool negative(const SkinEstimate& e);
 
-// A number over the skins of a sample, by `f(skip)`, with its error.
+// A number over the skins of a sample, by `f(Skins)`, with its error.
 template <class F>
 SkinEstimate jackknife(int skins, F&& f) {
-  std::vector<double> without;
-  for (int k = 0; k < skins; ++k) without.push_back(f(k));
-  return {mean_estimate(jackknife_samples(f(-1), without)), skins};
+  std::vector<double> without, single;
+  for (int k = 0; k < skins; ++k) {
+    without.push_back(f(Skins::without(k)));
+    single.push_back(f(Skins::only(k)));
+  }
+  return {mean_estimate(jackknife_samples(f(Skins::all()), without)), skins, std::move(single)};
 }
 template <class F>
 SkinEstimate jackknife(const Sample& s, F&& f) {
@@ -90,7 +111,8 @@ SkinEstimate jackknife(const FingerModel& model, F&& f) {
 // Difference b - a of a quantity in percent of a, paired over skins.
 template <class F>
 SkinEstimate paired_percent(const Sample& a, const Sample& b, F&& quantity) {
-  return jackknife(a, [&](int k) { return 100 * (quantity(b, k) / quantity(a, k) - 1); });
+  return jackknife(a,
+                   [&](Skins over) { return 100 * (quantity(b, over) / quantity(a, over) - 1); });
 }
 // Change of the effect from one humidity to another, relative.
 SkinEstimate effect_ratio(const Sample& s, int from, int to);

@@ -10,7 +10,7 @@ namespace papilla::published {
 namespace {
 
 using Model = std::function<Estimate(FingerModel&)>;
-using Quantity = double (*)(const Sample&, int rh, int skip);
+using Quantity = double (*)(const Sample&, int rh, Skins over);
 
 const Sample& flat(FingerModel& model, double angle = 0) { return m3_sample(model, "flat", angle); }
 
@@ -22,7 +22,8 @@ const Sample& flat_without_water(FingerModel& model, double angle = 0) {
 Model rise_of(Quantity friction) {
   return [friction](FingerModel& model) -> Estimate {
     const Sample& s = flat(model);
-    return jackknife(s, [&](int k) { return friction(s, kWet, k) / friction(s, kDry, k); });
+    return jackknife(s,
+                     [&](Skins over) { return friction(s, kWet, over) / friction(s, kDry, over); });
   };
 }
 
@@ -39,30 +40,29 @@ Estimate gross_area_growth(FingerModel& model) {
 
 Estimate real_area_growth(FingerModel& model) {
   const Sample& s = flat(model);
-  return jackknife(s, [&](int k) {
-    return 100 * (mean_without(s.at(kWet).area_off, k) / mean_without(s.at(kDry).area_off, k) - 1);
+  return jackknife(s, [&](Skins over) {
+    return 100 * (over.mean(s.at(kWet).area_off) / over.mean(s.at(kDry).area_off) - 1);
   });
 }
 
 Estimate area_by_capillaries(FingerModel& model) {
   const Sample& s = flat(model);
   const Sample& dry = flat_without_water(model);
-  return jackknife(s, [&](int k) {
-    return 100 *
-           (mean_without(s.at(kWet).area_off, k) / mean_without(dry.at(kWet).area_off, k) - 1);
+  return jackknife(s, [&](Skins over) {
+    return 100 * (over.mean(s.at(kWet).area_off) / over.mean(dry.at(kWet).area_off) - 1);
   });
 }
 
 Estimate hydrophobic_gain(FingerModel& model) {
   return paired_percent(flat(model), flat(model, 110),
-                        [](const Sample& s, int k) { return modulation(s, kWet, k); });
+                        [](const Sample& s, Skins over) { return modulation(s, kWet, over); });
 }
 
 Estimate largest_modulation(FingerModel& model) {
   const Sample& s = flat_without_water(model, 110);
-  return jackknife(s, [&](int k) {
+  return jackknife(s, [&](Skins over) {
     double most = -kInfinity;
-    for (int rh = 0; rh < kHumidities; ++rh) most = std::max(most, modulation(s, rh, k));
+    for (int rh = 0; rh < kHumidities; ++rh) most = std::max(most, modulation(s, rh, over));
     return most;
   });
 }

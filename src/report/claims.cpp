@@ -41,6 +41,10 @@ std::string counts_text(const std::vector<ClaimResult>& results) {
   return out;
 }
 
+std::string single_text(const Judgement& j) {
+  return j.single ? fmt::format("all of it on {:.0f} % of single patches", 100 * *j.single) : "";
+}
+
 }  // namespace
 
 std::string claims_text(const std::vector<ClaimResult>& results) {
@@ -50,6 +54,7 @@ std::string claims_text(const std::vector<ClaimResult>& results) {
                        r.claim->statement);
     out += fmt::format("      model: {}\n", r.papilla.model);
     if (!r.papilla.reason.empty()) out += fmt::format("      {}\n", r.papilla.reason);
+    if (r.papilla.single) out += fmt::format("      {}\n", single_text(r.papilla));
     if (r.claim->both_presets) {
       out += fmt::format("      preset m3: {}, {}{}\n", verdict_name(r.m3.verdict), r.m3.model,
                          r.m3.reason.empty() ? "" : "; " + r.m3.reason);
@@ -65,33 +70,34 @@ std::string claims_markdown(const std::vector<ClaimResult>& results, const std::
   std::string out = fmt::format(
       "# Published claims and the model\n\nWritten by `papilla reproduce --out` for the finger "
       "\"{}\".\n\n{} claims: {}.\n\n| id | paper says | agrees when | model | verdict | reason | "
-      "preset m3 |\n|---|---|---|---|---|---|---|\n",
+      "single patches | preset m3 |\n|---|---|---|---|---|---|---|---|\n",
       finger, results.size(), counts_text(results));
   for (const ClaimResult& r : results) {
     const std::string m3 =
         r.claim->both_presets ? verdict_name(r.m3.verdict) + ": " + r.m3.model : "";
-    out += fmt::format("| {} | {} ({}) | {} | {} | {} | {} | {} |\n", r.claim->id,
-                       escaped(r.claim->statement), escaped(r.claim->source),
-                       escaped(r.claim->band), escaped(r.papilla.model),
-                       verdict_name(r.papilla.verdict), escaped(r.papilla.reason), escaped(m3));
+    out += fmt::format(
+        "| {} | {} ({}) | {} | {} | {} | {} | {} | {} |\n", r.claim->id,
+        escaped(r.claim->statement), escaped(r.claim->source), escaped(r.claim->band),
+        escaped(r.papilla.model), verdict_name(r.papilla.verdict), escaped(r.papilla.reason),
+        r.papilla.single ? fmt::format("{:.0f} %", 100 * *r.papilla.single) : "", escaped(m3));
   }
   return out;
 }
 
 std::string claims_csv(const std::vector<ClaimResult>& results) {
   std::string out =
-      "id,source,statement,agrees when,verdict,value,se,model,reason,m3 verdict,m3 value,m3 se,m3 "
-      "model,m3 reason\n";
+      "id,source,statement,agrees when,verdict,value,se,model,reason,single patches,m3 verdict,m3 "
+      "value,m3 se,m3 model,m3 reason,m3 single patches\n";
   const auto judgement = [](const Judgement& j) {
     const std::string value = std::isfinite(j.value) ? fmt::format("{:.8g}", j.value) : "";
     const std::string se = j.se > 0 ? fmt::format("{:.3g}", j.se) : "";
-    return fmt::format("{},{},{},{},{}", verdict_name(j.verdict), value, se, cell(j.model),
-                       cell(j.reason));
+    return fmt::format("{},{},{},{},{},{}", verdict_name(j.verdict), value, se, cell(j.model),
+                       cell(j.reason), j.single ? fmt::format("{:.3g}", *j.single) : "");
   };
   for (const ClaimResult& r : results) {
     out += fmt::format("{},{},{},{},{},{}\n", r.claim->id, cell(r.claim->source),
                        cell(r.claim->statement), cell(r.claim->band), judgement(r.papilla),
-                       r.claim->both_presets ? judgement(r.m3) : ",,,,");
+                       r.claim->both_presets ? judgement(r.m3) : ",,,,,");
   }
   return out;
 }
@@ -102,7 +108,8 @@ std::string claims_json(const std::vector<ClaimResult>& results) {
                 {"se", json_number(j.se)},
                 {"verdict", verdict_name(j.verdict)},
                 {"answer", j.model},
-                {"reason", j.reason}};
+                {"reason", j.reason},
+                {"single_patches", j.single ? json_number(*j.single) : Json()}};
   };
   Json list = Json::array();
   for (const ClaimResult& r : results) {

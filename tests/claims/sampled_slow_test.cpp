@@ -69,7 +69,7 @@ TEST(Reproduce, FewerSkinsSayTheSameWithinTheirScatter) {
       EXPECT_NEAR(now.value, value, 6 * more * se) << r.claim->id;
     };
     compare(r.papilla, 4);
-    if (r.claim->both_presets) compare(r.m3, 9);
+    if (r.claim->both_presets) compare(r.m3, 10);
   }
   EXPECT_GT(compared, 200u);
 }

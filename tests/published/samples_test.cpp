@@ -22,10 +22,11 @@ TEST(PublishedSamples, FrictionIsThatOfTheForwardModelWithoutRetention) {
     const ResponsePoint& p = s.point(rh);
     EXPECT_NEAR(p.relative_humidity, humidity_percent(rh) / 100.0, 1e-12);
     EXPECT_GT(p.retention_force.value, 0);
-    EXPECT_NEAR((friction_off(s, rh, -1) + p.retention_force.value) / p.friction_off.value, 1,
-                1e-12);
+    EXPECT_NEAR(
+        (friction_off(s, rh, Skins::all()) + p.retention_force.value) / p.friction_off.value, 1,
+        1e-12);
     const double held = p.retention_force.value + p.retention_gain;
-    EXPECT_NEAR((friction_on(s, rh, -1) + held) / p.friction_on.value, 1, 1e-12);
+    EXPECT_NEAR((friction_on(s, rh, Skins::all()) + held) / p.friction_on.value, 1, 1e-12);
   }
 }
 
