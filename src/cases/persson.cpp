@@ -53,9 +53,14 @@ void fields(FieldVisitor& v, SolidSettings& s) {
   v.number({"hardness", "MPa", 0, 1e6, "yields at this pressure; 0: elastic"}, s.hardness);
 }
 
+double InterfaceSettings::surface_thickness() const {
+  double sum = 0;
+  for (const Dielectric& layer : dielectric) sum += layer.equivalent_thickness();
+  return sum;
+}
+
 std::complex<double> InterfaceSettings::thickness(double skin_thickness, double frequency) const {
-  double surface = 0;
-  for (const Dielectric& layer : dielectric) surface += layer.equivalent_thickness();
+  const double surface = surface_thickness();
   if (frequency <= 0) {
     if (gap_resistivity > 0) return std::numeric_limits<double>::infinity();
     return surface + (lossy_skin ? 0.0 : skin_equivalent);
@@ -155,46 +160,124 @@ MeanFieldCase read_mean_field(Document document) {
   return c;
 }
 
-MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
-  const MeanFieldSolid& solid = c.skin.solid;
-  PowerSpectrum spectrum = c.roughness.spectrum();
-  if (c.skin.hardness > 0) {
-    const double pressure = std::max(c.touch.load / c.touch.area, c.touch.finite_size_pressure);
-    spectrum = plastic_smoothing(spectrum, solid, c.skin.hardness, pressure, c.theory.kappa);
+namespace {
+
+// Spectrum and theory of a case.
+class CaseField {
+ public:
+  explicit CaseField(const MeanFieldCase& c)
+      : case_(c),
+        given_(c.roughness.spectrum()),
+        field_(smoothed(c, given_), c.skin.solid,
+               {.kappa = c.theory.kappa, .energy_factor = c.theory.energy_factor}) {}
+
+  const PowerSpectrum& given() const { return given_; }
+  const MeanField& field() const { return field_; }
+
+  std::complex<double> thickness(double frequency) const {
+    return case_.interface.thickness(case_.skin.solid.layer_thickness, frequency);
   }
-  const MeanField field(spectrum, solid,
-                        {.kappa = c.theory.kappa, .energy_factor = c.theory.energy_factor});
-  const auto solve = [&](double voltage, double load, double frequency) {
+  double frequency() const {
+    return case_.drive.waveform == Waveform::Dc ? 0 : case_.drive.frequency;
+  }
+
+  MeanFieldPoint at(double voltage, double load, double frequency) const {
+    const TouchSettings& touch = case_.touch;
     MeanFieldPoint point;
     point.voltage = voltage;
     point.load = load;
     point.frequency = frequency;
-    point.thickness = c.interface.thickness(solid.layer_thickness, frequency);
-    Drive drive = c.drive;
+    point.thickness = thickness(frequency);
+    Drive drive = case_.drive;
     drive.amplitude = voltage;
     const bool pulls = std::isfinite(point.thickness.real());
     const std::complex<double> h0 = pulls ? point.thickness : 1.0;
-    point.on = friction_at(field, load, c.touch.area, c.touch.shear_strength,
-                           pulls ? drive.v_rms() : 0, h0, c.touch.finite_size_pressure);
-    point.area_off = field.area(load / c.touch.area);
-    const double pressure = std::max(point.on.pull.pressure, c.touch.finite_size_pressure);
-    if (pulls) {
-      point.capacitance = kVacuumPermittivity * c.touch.area *
-                          field.gaps(pressure).inverse(std::abs(point.thickness));
-    }
+    point.on = friction_at(field_, load, touch.area, touch.shear_strength,
+                           pulls ? drive.v_rms() : 0, h0, touch.finite_size_pressure);
+    point.area_off = field_.area(load / touch.area);
+    if (pulls)
+      point.capacitance =
+          kVacuumPermittivity * touch.area * gaps_of(point).inverse(std::abs(point.thickness));
     return point;
-  };
+  }
+
+  GapDistribution gaps_of(const MeanFieldPoint& point) const {
+    return field_.gaps(std::max(point.on.pull.pressure, case_.touch.finite_size_pressure));
+  }
+
+ private:
+  static PowerSpectrum smoothed(const MeanFieldCase& c, const PowerSpectrum& given) {
+    if (c.skin.hardness <= 0) return given;
+    const double pressure = std::max(c.touch.load / c.touch.area, c.touch.finite_size_pressure);
+    return plastic_smoothing(given, c.skin.solid, c.skin.hardness, pressure, c.theory.kappa);
+  }
+
+  const MeanFieldCase& case_;
+  PowerSpectrum given_;
+  MeanField field_;
+};
+
+// From low to high, both included, evenly in the logarithm.
+std::vector<double> spaced(double low, double high, int count) {
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k)
+    out.push_back(low * std::pow(high / low, static_cast<double>(k) / (count - 1)));
+  return out;
+}
+
+constexpr int kCurve = 121;  // points of a curve
+
+}  // namespace
+
+MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
+  const CaseField of(c);
   MeanFieldResult result;
+  const PowerSpectrum& spectrum = of.field().spectrum();
   result.rms = spectrum.rms();
   result.slope = spectrum.slope();
-  result.contact_modulus = effective_modulus(solid, spectrum.highest());
-  const double v = c.drive.amplitude, load = c.touch.load;
-  const double f = c.drive.waveform == Waveform::Dc ? 0 : c.drive.frequency;
-  result.point = solve(v, load, f);
-  for (double x : c.sweep.voltage) result.voltage.push_back(solve(x, load, f));
-  for (double x : c.sweep.load) result.load.push_back(solve(v, x, f));
-  for (double x : c.sweep.frequency) result.frequency.push_back(solve(v, load, x));
+  result.contact_modulus = effective_modulus(c.skin.solid, spectrum.highest());
+  const double v = c.drive.amplitude, load = c.touch.load, f = of.frequency();
+  result.point = of.at(v, load, f);
+  for (double x : c.sweep.voltage) result.voltage.push_back(of.at(x, load, f));
+  for (double x : c.sweep.load) result.load.push_back(of.at(v, x, f));
+  for (double x : c.sweep.frequency) result.frequency.push_back(of.at(v, load, x));
+  for (double x : c.sweep.voltage) {
+    for (double y : c.sweep.load) result.grid.push_back(of.at(x, y, f));
+  }
   return result;
+}
+
+MeanFieldCurves mean_field_curves(const MeanFieldCase& c) {
+  const CaseField of(c);
+  const MeanField& field = of.field();
+  const MeanField rough(of.given(), c.skin.solid, field.options());
+  const double pressure = c.touch.load / c.touch.area;
+  MeanFieldCurves out;
+  for (const double q : spaced(of.given().lowest(), of.given().highest(), kCurve)) {
+    ContactShares shares{field.area(pressure, q), 0};
+    if (c.skin.hardness > 0)
+      shares = plastic_shares(pressure, rough.stress_measure(q), c.skin.hardness);
+    out.roughness.push_back({q, of.given().at(q), field.spectrum().at(q), field.area(pressure, q),
+                             shares.elastic, shares.plastic});
+  }
+  const double smallest = c.touch.finite_size_pressure;
+  for (const double p : spaced(1, 1e6, kCurve))
+    out.separation.push_back({p, field.mean_gap(p), field.mean_gap(std::max(p, smallest))});
+  const MeanFieldPoint point = of.at(c.drive.amplitude, c.touch.load, of.frequency());
+  if (!std::isfinite(point.thickness.real()) || c.drive.amplitude <= 0) return out;
+  const GapDistribution gaps = of.gaps_of(point);
+  const std::vector<double> at = spaced(1e-11, 1e-3, kCurve);
+  out.stress = stress_distribution(gaps, c.drive.v_rms(), std::abs(point.thickness), at);
+  if (!c.interface.lossy_skin) return out;
+  const SkinDielectric skin;
+  const double f = std::max(of.frequency(), 1.0);
+  const StepResponse step{c.interface.surface_thickness(), c.skin.solid.layer_thickness,
+                          skin.permittivity_at(f), skin.resistivity_at(f)};
+  const double slowest = step.relaxation_time(0);
+  for (const double t : spaced(1e-3 * slowest, 1e2 * slowest, kCurve))
+    out.step.push_back({t, step.field(c.drive.amplitude, gaps.mean_gap, t),
+                        step.pull(gaps, c.drive.amplitude, t)});
+  return out;
 }
 
 }  // namespace papilla::cases

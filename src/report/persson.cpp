@@ -122,4 +122,46 @@ std::string mean_field_json(const MeanFieldCase& c, const MeanFieldResult& r, do
       .dump(2);
 }
 
+std::string mean_field_grid_csv(const std::vector<MeanFieldPoint>& grid) {
+  std::string out = "voltage,load,pull,area,area_off,mean_gap,friction,coefficient\n";
+  for (const MeanFieldPoint& p : grid) {
+    const PullState& pull = p.on.pull;
+    out += fmt::format("{:g},{:g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", p.voltage, p.load,
+                       pull.pull, pull.area, p.area_off, pull.mean_gap, p.on.friction,
+                       p.load > 0 ? fmt::format("{:.6g}", p.on.coefficient) : "");
+  }
+  return out;
+}
+
+std::string roughness_csv(const MeanFieldCurves& curves) {
+  std::string out =
+      "wave_number,magnification,density,density_smoothed,area,area_elastic,area_yielded\n";
+  for (const auto& p : curves.roughness)
+    out += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}\n", p.wave_number,
+                       p.wave_number / curves.roughness.front().wave_number, p.given, p.smoothed,
+                       p.area, p.elastic, p.yielded);
+  return out;
+}
+
+std::string stress_csv(const MeanFieldCurves& curves) {
+  std::string out = "gap,stress,density,pull_per_decade\n";
+  for (const StressPoint& p : curves.stress)
+    out += fmt::format("{:.6g},{:.6g},{:.6g},{:.6g}\n", p.gap, p.stress, p.density, p.per_decade);
+  return out;
+}
+
+std::string separation_csv(const MeanFieldCurves& curves) {
+  std::string out = "pressure,mean_gap,mean_gap_held\n";
+  for (const auto& p : curves.separation)
+    out += fmt::format("{:.6g},{:.6g},{:.6g}\n", p.pressure, p.gap, p.held_gap);
+  return out;
+}
+
+std::string step_csv(const MeanFieldCurves& curves) {
+  std::string out = "time,field_in_mean_gap,pull\n";
+  for (const auto& p : curves.step)
+    out += fmt::format("{:.6g},{:.6g},{:.6g}\n", p.time, p.field, p.pull);
+  return out;
+}
+
 }  // namespace papilla::report

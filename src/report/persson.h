@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/rooms.h"
 #include "cases/persson.h"
@@ -12,5 +13,12 @@ namespace papilla::report {
 std::string mean_field_text(const MeanFieldCase& c, const MeanFieldResult& result, double seconds);
 std::string mean_field_json(const MeanFieldCase& c, const MeanFieldResult& result,
                             double seconds);  // schema 1, SI
+
+// As tables in SI, one line a point: voltage by load, and what the case's own point consists of.
+std::string mean_field_grid_csv(const std::vector<MeanFieldPoint>& grid);
+std::string roughness_csv(const MeanFieldCurves& curves);
+std::string stress_csv(const MeanFieldCurves& curves);
+std::string separation_csv(const MeanFieldCurves& curves);
+std::string step_csv(const MeanFieldCurves& curves);
 
 }  // namespace papilla::report

@@ -111,5 +111,64 @@ TEST(DropletEnsemble, IsTheMeanOfItsPlacements) {
   EXPECT_NEAR(all.mean_capillary_force, whole, 1e-12 * whole);
 }
 
+// Sum over decades of stress, by trapezes.
+double pull_of(const std::vector<StressPoint>& stress) {
+  double sum = 0;
+  for (std::size_t k = 1; k < stress.size(); ++k)
+    sum += 0.5 * (stress[k].per_decade + stress[k - 1].per_decade) *
+           std::abs(std::log10(stress[k].stress / stress[k - 1].stress));
+  return sum;
+}
+
+TEST(MeanFieldCurves, AddUpToThePointThatTheyBelongTo) {
+  const MeanFieldCase c =
+      read_mean_field(kWrist, {"interface.lossy_skin=false", "interface.skin_equivalent=100 nm"});
+  const MeanFieldPoint p = solve_mean_field(c).point;
+  const MeanFieldCurves curves = mean_field_curves(c);
+  EXPECT_NEAR(curves.roughness.back().area, p.area_off, 1e-9 * p.area_off);
+  // The pull is that of the gaps in the table and of those below, whose stress is the largest.
+  const double largest = 0.5 * kVacuumPermittivity * 5e3 / square(std::abs(p.thickness));
+  const MeanField field(c.roughness.spectrum(), c.skin.solid,
+                        {.kappa = c.theory.kappa, .energy_factor = c.theory.energy_factor});
+  const double below = field.gaps(std::max(p.on.pull.pressure, c.touch.finite_size_pressure))
+                           .cumulative(curves.stress.front().gap);
+  EXPECT_NEAR(pull_of(curves.stress) + below * largest, p.on.pull.pull, 0.01 * p.on.pull.pull);
+  // Of a finite body the gap stays below 10 kPa, of an infinite one it grows without end.
+  EXPECT_NEAR(curves.separation.front().held_gap, curves.separation[80].gap, 1e-7);  // at 10 kPa
+  EXPECT_GT(curves.separation.front().gap, 1.5 * curves.separation.front().held_gap);
+  EXPECT_EQ(curves.separation.back().gap, curves.separation.back().held_gap);
+  EXPECT_TRUE(curves.step.empty());  // a skin that does not leak takes no time
+}
+
+// Appendix of the paper: elastic contact of the smoothed spectrum is the elastic and the yielded
+// contact of the given one, at every magnification.
+TEST(MeanFieldCurves, TheSmoothedSpectrumHasTheAreaOfTheYieldingOne) {
+  const MeanFieldCurves curves = mean_field_curves(
+      read_mean_field(kWrist, {"skin.modulus=1 GPa", "skin.hardness=50 MPa", "touch.load=1 N"}));
+  for (const auto& at : curves.roughness)
+    EXPECT_NEAR(at.elastic + at.yielded, at.area, 0.02 * at.area) << at.wave_number;
+  EXPECT_GT(curves.roughness.back().yielded, curves.roughness.back().elastic);
+  EXPECT_LT(curves.roughness.back().smoothed, 0.1 * curves.roughness.back().given);
+}
+
+TEST(MeanFieldCurves, AStepChargesTheGapAsTheSkinsLayerEmpties) {
+  const MeanFieldCurves curves = mean_field_curves(read_mean_field(kWrist));
+  ASSERT_FALSE(curves.step.empty());
+  for (std::size_t k = 1; k < curves.step.size(); ++k) {
+    EXPECT_GE(curves.step[k].field, curves.step[k - 1].field);
+    EXPECT_GE(curves.step[k].pull, curves.step[k - 1].pull);
+  }
+  // In the end the oxide alone is in series with the mean gap.
+  const MeanFieldResult r = solve_mean_field(read_mean_field(kWrist));
+  EXPECT_NEAR(curves.step.back().field, 100 / (r.point.on.pull.mean_gap + 1e-6 / 3.9),
+              1e-3 * curves.step.back().field);
+}
+
+TEST(MeanFieldFile, EveryVoltageMeetsEveryLoad) {
+  const MeanFieldResult r = solve_mean_field(read_mean_field(kWrist));
+  ASSERT_EQ(r.grid.size(), r.voltage.size() * r.load.size());
+  EXPECT_EQ(r.grid[2 * r.load.size() + 1].on.friction, r.load[1].on.friction);  // 100 V
+}
+
 }  // namespace
 }  // namespace papilla::tests
