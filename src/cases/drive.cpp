@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+#include <bit>
 #include <cmath>
-#include <optional>
-#include <sstream>
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "base/text.h"
-#include "base/units.h"
+#include "base/files.h"
+#include "base/statistics.h"
+#include "cases/recording.h"
 #include "config/reader.h"
 #include "design/design.h"
 #include "forward/forward.h"
@@ -89,6 +87,41 @@ Network design_network(const DriveCase& c, double& area) {
   return n;
 }
 
+// Eq. drive.16: what the contact spots of a design's patches conduct [S].
+double spots_conductance(const DriveCase& c, double area) {
+  const Design design = read_design(c.gap.design);
+  const Fidelity fidelity = fidelity_of(design);
+  const double rh = c.gap.relative_humidity;
+  constexpr double kMore = 1.05;  // of the load, for the stiffness
+  double stiffness = 0;           // [Pa/m]
+  for (int k = 0; k < c.gap.skins; ++k) {
+    double pressure[2], gap[2];
+    for (const int more : {0, 1}) {
+      Scene scene = scene_of(design);
+      scene.drive.amplitude = 0;
+      scene.finger.macro.load_share /= more ? kMore : 1;
+      const PatchPicture picture = picture_patch(scene, design.texture, fidelity, rh, k);
+      pressure[more] = mean_estimate(picture.fields.off.pressure).value;
+      gap[more] = mean_estimate(picture.fields.off.gap).value;
+    }
+    stiffness += (pressure[1] - pressure[0]) / (gap[0] - gap[1]) / c.gap.skins;
+  }
+  const Skin& skin = design.finger.skin;
+  const double modulus =
+      skin.layer_modulus * skin.modulus_factor(rh) / (1 - square(skin.layer_poisson));
+  return 2 * stiffness * area / (modulus * c.skin.resistivity);
+}
+
+// A sine whose frequency rises evenly, and starts again.
+Signal chirp(double amplitude, double from, double to, double time, std::size_t samples) {
+  Signal out{time, std::vector<double>(std::bit_ceil(samples))};
+  for (std::size_t i = 0; i < out.value.size(); ++i) {
+    const double t = time * static_cast<double>(i) / static_cast<double>(out.value.size());
+    out.value[i] = amplitude * std::sin(2 * kPi * (from + 0.5 * (to - from) * t / time) * t);
+  }
+  return out;
+}
+
 Modulation modulation_of(const DriveCase& c) {
   Modulation m;
   if (c.drive.waveform != Waveform::Am) return m;
@@ -117,18 +150,6 @@ std::vector<DriveCheck> checks_of(const DriveResult& r, const Drive& drive) {
   return out;
 }
 
-// "lateral,normal" of one line; nothing where it is no two numbers.
-std::optional<std::array<double, 2>> forces_of(const std::vector<std::string>& cells) {
-  if (cells.size() != 2) return std::nullopt;
-  std::array<double, 2> force;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const char* end = cells[i].data() + cells[i].size();
-    const auto [stop, error] = std::from_chars(cells[i].data(), end, force[i]);
-    if (error != std::errc{} || stop != end || !std::isfinite(force[i])) return std::nullopt;
-  }
-  return force;
-}
-
 }  // namespace
 
 void fields(FieldVisitor& v, GapSettings& s) {
@@ -141,6 +162,7 @@ void fields(FieldVisitor& v, GapSettings& s) {
   v.number({"permittivity", "", 1, 1e4, "of the gap"}, s.permittivity);
   v.path({"design", "take gap, surface, skin and area from the solved patches of this design"},
          s.design);
+  v.flag({"contact_spots", "that design's contact spots conduct beside the gap"}, s.contact_spots);
   v.number({"relative_humidity", "%", 0, 100, "of that design"}, s.relative_humidity);
   v.integer({"skins", "patches that are averaged"}, 1, 1000, s.skins);
 }
@@ -184,6 +206,27 @@ void fields(FieldVisitor& v, SourceSettings& s) {
   v.number({"shunt", "Mohm", 0, 1e12, "resistance across a current source; 0: none", Source::Paper,
             "Shultz 2018: keeps charge from building up"},
            s.shunt);
+  v.path({"file", "a recording \"time,value\" [s, V or A] that repeats, for the drive's waveform"},
+         s.file);
+  v.number({"chirp_to", "Hz", 0, 1e6, "a sine from drive.frequency to this one; 0: none"},
+           s.chirp_to);
+  v.number({"chirp_time", "ms", 1e-3, 1e5, "in so long, then again"}, s.chirp_time);
+}
+
+void fields(FieldVisitor& v, SwipeSettings& s) {
+  v.number({"stroke", "mm", 1e-3, 1e3, "amplitude of the finger's way to and fro"}, s.stroke);
+  v.number({"frequency", "Hz", 1e-2, 100, "of it", Source::Paper, "stiction paper: 3.8 Hz"},
+           s.frequency);
+  v.number({"duration", "s", 1e-2, 1e3, "of the rendered swipe"}, s.duration);
+  v.number({"stiffness", "N/m", 1, 1e6, "of the skin sideways (Dahl)", Source::Estimate,
+            "0.3 mm to full slip at 0.25 N"},
+           s.stiffness);
+  v.number({"filter", "Hz", 0, 500, "low-pass on forces before the state machine; 0: none",
+            Source::Paper, "stiction paper: 150 Hz"},
+           s.filter);
+  v.number({"stuck", "", 0, 1, "share of drive.current while stuck"}, s.stuck);
+  v.number({"partial", "", 0, 1, "share of it in partial slip"}, s.partial);
+  v.number({"full", "", 0, 1, "share of it in full slip"}, s.full);
 }
 
 void fields(FieldVisitor& v, ResponseSweep& s) {
@@ -203,6 +246,7 @@ void fields(FieldVisitor& v, DriveCase& s) {
   v.section({"skin", "stratum corneum as an electrical layer"}, s.skin);
   v.section({"touch", "finger"}, s.touch);
   v.section({"sweep", "tables"}, s.sweep);
+  v.section({"swipe", "the finger of a rendered swipe"}, s.swipe);
 }
 
 DriveCase read_drive_case(const std::string& path, const std::vector<std::string>& overrides) {
@@ -250,21 +294,31 @@ DriveCase read_drive_case(Document document) {
                         "a constant current through an insulating gap has no end: give the gap a "
                         "resistivity or the source a shunt");
   }
+  const bool chirps = c.source.chirp_to > 0, recorded = !c.source.file.empty();
+  if (chirps && (recorded || c.drive.waveform != Waveform::Sine || !c.tones.frequency.empty())) {
+    document.problem_at(
+        "source.chirp_to",
+        "a chirp is a sine without tones: set drive.waveform = \"sine\", and no file");
+  }
   finish(document);
+  if (recorded) c.recording = recorded_signal(read_bytes(c.source.file), c.source.file);
   return c;
 }
 
-DriveResult solve_drive(const DriveCase& c) {
-  DriveResult r;
-  r.area = c.touch.area;
-  r.network = c.gap.design.empty() ? given_network(c) : design_network(c, r.area);
-  r.network.shunt = insulating_if_zero(c.source.shunt);
-  r.modulation = modulation_of(c);
-  const Drive& drive = c.drive;
-  const double frequency = drive.waveform == Waveform::Dc ? 0 : drive.frequency;
-  r.carrier = respond(r.network, drive.control, peak_amplitude(drive), frequency);
+namespace {
 
-  std::vector<double> frequencies = r.modulation.frequency;
+// One period of what the source gives.
+Signal source_of(const DriveCase& c, const Modulation& modulation, double frequency) {
+  const Drive& drive = c.drive;
+  if (!c.recording.value.empty()) return c.recording;
+  if (c.source.chirp_to > 0) {
+    const double samples = 32 * std::max(frequency, c.source.chirp_to) * c.source.chirp_time;
+    if (samples > static_cast<double>(kMostSamples))
+      throw InputError({Problem{"", 0, 0, "source.chirp_time", "too many cycles: take less time"}});
+    return chirp(peak_amplitude(drive), frequency, c.source.chirp_to, c.source.chirp_time,
+                 static_cast<std::size_t>(std::max(64.0, samples)));
+  }
+  std::vector<double> frequencies = modulation.frequency;
   frequencies.push_back(frequency);
   const double period = common_period(frequencies);
   // A plain sine needs few points per cycle; edges of a square many.
@@ -275,13 +329,38 @@ DriveResult solve_drive(const DriveCase& c) {
                               "carrier and tones have no short common period: choose frequencies "
                               "that are multiples of one that is not too low"}});
   }
-  r.series = force_series(
-      r.network, drive.control,
-      source_signal(drive.waveform, peak_amplitude(drive), frequency, r.modulation,
-                    drive.envelope_exponent, period, static_cast<std::size_t>(samples)));
+  return source_signal(drive.waveform, peak_amplitude(drive), frequency, modulation,
+                       drive.envelope_exponent, period, static_cast<std::size_t>(samples));
+}
+
+// Up to where lines are listed [Hz].
+double highest_line(const DriveCase& c, const Signal& signal) {
+  if (!c.recording.value.empty()) return 0.5 / signal.step();
+  const double carrier = c.drive.waveform == Waveform::Dc ? 0 : c.drive.frequency;
+  return std::max(4 * std::max(carrier, c.source.chirp_to), 1 / signal.period);
+}
+
+}  // namespace
+
+DriveResult solve_drive(const DriveCase& c) {
+  DriveResult r;
+  r.area = c.touch.area;
+  r.network = c.gap.design.empty() ? given_network(c) : design_network(c, r.area);
+  r.network.shunt = insulating_if_zero(c.source.shunt);
+  if (!c.gap.design.empty() && c.skin.resistivity > 0) {
+    r.spots = 1 / spots_conductance(c, r.area);
+    double& resistance = r.network.gap.layer.resistance;
+    if (c.gap.contact_spots) resistance = 1 / (1 / resistance + 1 / r.spots);
+  }
+  r.modulation = modulation_of(c);
+  const Drive& drive = c.drive;
+  const double frequency = drive.waveform == Waveform::Dc ? 0 : drive.frequency;
+  r.carrier = respond(r.network, drive.control, peak_amplitude(drive), frequency);
+
+  r.series = force_series(r.network, drive.control, source_of(c, r.modulation, frequency));
   r.friction = r.series.force;
   for (double& f : r.friction.value) f = c.touch.coefficient * (c.touch.load + f);
-  r.lines = spectrum_lines(r.friction, std::max(4 * frequency, 1 / period));
+  r.lines = spectrum_lines(r.friction, highest_line(c, r.friction));
   if (drive.waveform == Waveform::Am) {
     r.distortion = total_distortion(r.friction, r.modulation.frequency, 0.5 * frequency);
   }
@@ -298,37 +377,6 @@ DriveResult solve_drive(const DriveCase& c) {
     r.onset_static = onset(r.series.mean_force, 1);
   }
   return r;
-}
-
-Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options) {
-  StictionMachine machine(options);
-  Swipe swipe;
-  std::istringstream lines(csv);
-  std::string line;
-  int number = 0, samples = 0;
-  while (std::getline(lines, line)) {
-    ++number;
-    const std::vector<std::string> cells = split(line, ',');
-    const auto force = forces_of(cells);
-    if (!force) {
-      const bool head = number == 1 && cells.size() == 2 &&
-                        cells[0].find("lateral") != std::string::npos &&
-                        cells[1].find("normal") != std::string::npos;
-      if (head || line.empty()) continue;
-      throw InputError({Problem{name, number, 1, "",
-                                fmt::format("expected \"lateral,normal\" in N, got \"{}\"{}", line,
-                                            line.find(';') != std::string::npos
-                                                ? "; the separator is a comma, decimals a point"
-                                                : "")}});
-    }
-    const double time = samples++ * options.step;
-    const double current = machine.update((*force)[0], (*force)[1]);
-    if (current > 0) swipe.driven += options.step;
-    if (swipe.steps.empty() || swipe.steps.back().state != machine.state())
-      swipe.steps.push_back({time, machine.state(), current});
-  }
-  swipe.duration = samples * options.step;
-  return swipe;
 }
 
 }  // namespace papilla::cases

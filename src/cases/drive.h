@@ -20,6 +20,7 @@ struct GapSettings {
   double resistivity = 4.8e8;  // [ohm m]; 0: an insulator
   double permittivity = 1;
   std::string design;               // file; then distance, surface, skin and area come from it
+  bool contact_spots = false;       // of that design conduct beside the gap
   double relative_humidity = 0.55;  // of that design
   int skins = 4;                    // patches that are averaged
 };
@@ -51,9 +52,23 @@ struct Tones {
 void fields(FieldVisitor& v, Tones& s);
 
 struct SourceSettings {
-  double shunt = 1e6;  // across a current source [ohm]; 0: none
+  double shunt = 1e6;        // across a current source [ohm]; 0: none
+  std::string file;          // instead of the drive's waveform: a recording that repeats
+  double chirp_to = 0;       // instead: a sine from the drive's frequency to this one [Hz]; 0: none
+  double chirp_time = 0.05;  // in so long [s]
 };
 void fields(FieldVisitor& v, SourceSettings& s);
+
+// The finger of a rendered swipe.
+struct SwipeSettings {
+  double stroke = 10e-3, frequency = 3.8, duration = 1;  // amplitude [m], [Hz], [s]
+  double stiffness = 800;                                // [N/m]
+  double filter = 150;                                   // low-pass on forces [Hz]; 0: none
+  double stuck = 1, partial = 1, full = 0;               // current in each state, of the drive's
+
+  StictionOptions machine(double current) const;
+};
+void fields(FieldVisitor& v, SwipeSettings& s);
 
 struct ResponseSweep {
   std::vector<double> frequency;  // [Hz]; of a plain sine
@@ -71,6 +86,8 @@ struct DriveCase {
   SkinLayerSettings skin;
   DriveTouch touch;
   ResponseSweep sweep;
+  SwipeSettings swipe;
+  Signal recording;  // of source.file; empty: none
 };
 void fields(FieldVisitor& v, DriveCase& s);
 
@@ -89,6 +106,7 @@ struct DriveCheck {
 struct DriveResult {
   Network network;
   double area = 0;                      // [m^2]
+  double spots = 0;                     // resistance of the contact spots [ohm]; 0: not known
   DriveResponse carrier;                // unmodulated, at the drive's frequency and peak amplitude
   Modulation modulation;                // am only
   ForceSeries series;                   // one common period
@@ -113,10 +131,17 @@ struct SwipeStep {
 };
 struct Swipe {
   std::vector<SwipeStep> steps;
-  double duration = 0, driven = 0;  // [s]; driven: with current
+  double duration = 0, driven = 0;     // [s]; driven: with current
+  std::vector<RubbingSample> samples;  // of a rendered one
 };
-// Lines "lateral,normal" [N], one per step of the options, low-passed at 150 Hz; a head is skipped.
-// Throws InputError naming `name` and the line.
-Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options);
+// Of recorded forces: lines "lateral,normal" [N], one per step of the options and low-passed
+// before; or "time,lateral,normal" [s] at any even rate above twice the filter's corner, which are
+// low-passed and taken at the steps of the options here. A head is skipped. Throws InputError
+// naming `name` and the line.
+Swipe run_swipe(const std::string& csv, const std::string& name, const StictionOptions& options,
+                double filter);
+// The loop closed: the finger of the case drags to and fro, and the current that the machine asks
+// for pulls it. Throws InputError where the drive is no current.
+Swipe render_swipe(const DriveCase& c, const Network& network);
 
 }  // namespace papilla::cases

@@ -23,28 +23,19 @@ Judgement onset(FingerModel&) {
 Judgement slip_states(FingerModel&) {
   StictionOptions options;
   options.stuck_current = options.partial_current = 4e-3;
-  StictionMachine machine(options);
-  // A finger drags to and fro at 3.8 Hz, 10 mm; friction builds up by Dahl's law.
-  const double load = 0.5, stiffness = 800;
-  double force = 0, place = 0, current = 0;
+  const RubbingFinger finger;
+  const auto limit = [](double current) { return 0.25 * (1 + 0.5 * square(current / 8e-3)); };
   int cycles = 0, wrong = 0;
   SlipState state = SlipState::Idle;
-  for (int i = 0; i < 1000; ++i) {
-    const double next = 10e-3 * std::sin(2 * kPi * 3.8 * i * options.step);
-    const double step = (next - place) / 50;
-    place = next;
-    const double limit = 0.25 * (1 + 0.5 * square(current / 8e-3));
-    for (int k = 0; k < 50; ++k)
-      force += stiffness * step * (1 - force / limit * (step > 0 ? 1 : -1));
-    current = machine.update(force, load);
-    if (machine.state() == state) continue;
+  for (const RubbingSample& at : rub(finger, options, limit)) {
+    if (at.state == state) continue;
     const SlipState expected = state == SlipState::Stuck     ? SlipState::Partial
                                : state == SlipState::Partial ? SlipState::Full
                                                              : SlipState::Stuck;
-    if (machine.state() != expected) ++wrong;
-    state = machine.state();
+    if (at.state != expected) ++wrong;
+    state = at.state;
     if (state == SlipState::Full) ++cycles;
-    if ((current > 0) == (state == SlipState::Full)) ++wrong;
+    if ((at.current > 0) == (state == SlipState::Full)) ++wrong;
   }
   return agrees_if(wrong == 0 && cycles >= 6, cycles, 0,
                    fmt::format("{} swipes of 1 s in order, {} wrong steps", cycles, wrong),

@@ -205,6 +205,18 @@ std::string spectrum_panel(const std::vector<SpectrumLine>& lines) {
 
 }  // namespace
 
+namespace {
+
+Json swipe_json(const Swipe& swipe) {
+  Json steps = Json::array();
+  for (const SwipeStep& step : swipe.steps)
+    steps.push_back(
+        {{"time", step.time}, {"state", text_of(step.state)}, {"current", step.current}});
+  return {{"duration", swipe.duration}, {"driven", swipe.driven}, {"steps", steps}};
+}
+
+}  // namespace
+
 std::string drive_text(const DriveCase& c, const DriveResult& r) {
   std::string out = c.title.empty() ? "" : c.title + '\n';
   out += layer_line("dielectric", r.network.dielectric) + layer_line("gap", r.network.gap.layer) +
@@ -217,6 +229,11 @@ std::string drive_text(const DriveCase& c, const DriveResult& r) {
       1e6 * r.network.gap.distance, 1e6 * r.area, 1e3 * r.network.gap.force_factor * 1e4,
       r.carrier.source_voltage, r.carrier.gap_voltage, 1e3 * r.carrier.current,
       1e3 * r.carrier.mean_force, 1e3 * r.carrier.ripple, 1e3 * r.series.mean_force);
+  if (r.spots > 0) {
+    out += fmt::format("spots        {:.4g} Mohm through the skin to its contact spots, {}\n",
+                       1e-6 * r.spots,
+                       c.gap.contact_spots ? "beside the gap" : "not counted (gap.contact_spots)");
+  }
   if (c.drive.waveform == Waveform::Am) {
     out += fmt::format("distortion   {:.3g} % below half the carrier's frequency\n",
                        100 * r.distortion);
@@ -231,7 +248,7 @@ std::string drive_text(const DriveCase& c, const DriveResult& r) {
   return r.response.empty() ? out : out + sweep_text(c, r);
 }
 
-std::string drive_json(const DriveCase& c, const DriveResult& r) {
+std::string drive_json(const DriveCase& c, const DriveResult& r, const std::vector<Swipe>& swipes) {
   Json gap = layer_json(r.network.gap.layer);
   gap["distance"] = r.network.gap.distance;
   gap["force_factor"] = r.network.gap.force_factor;
@@ -250,25 +267,27 @@ std::string drive_json(const DriveCase& c, const DriveResult& r) {
                       {"limit", check.limit},
                       {"passes", check.passes()}});
   }
-  const Json out{{"schema", 1},
-                 {"title", c.title},
-                 {"area", r.area},
-                 {"dielectric", layer_json(r.network.dielectric)},
-                 {"gap", gap},
-                 {"skin", layer_json(r.network.skin)},
-                 {"carrier", sine_json(r.carrier)},
-                 {"period", r.friction.period},
-                 {"mean_pull", r.series.mean_force},
-                 {"peak_current", r.series.peak_current},
-                 {"peak_source_voltage", json_number(r.series.peak_source_voltage)},
-                 {"peak_gap_voltage", r.series.peak_gap_voltage},
-                 {"distortion", r.distortion},
-                 {"friction_lines", lines},
-                 {"over_frequency", sweep},
-                 {"onset_off", r.onset_off},
-                 {"onset_on", r.onset_on},
-                 {"onset_static", r.onset_static},
-                 {"checks", checks}};
+  Json out{{"schema", 1},
+           {"title", c.title},
+           {"area", r.area},
+           {"dielectric", layer_json(r.network.dielectric)},
+           {"gap", gap},
+           {"skin", layer_json(r.network.skin)},
+           {"carrier", sine_json(r.carrier)},
+           {"period", r.friction.period},
+           {"mean_pull", r.series.mean_force},
+           {"peak_current", r.series.peak_current},
+           {"peak_source_voltage", json_number(r.series.peak_source_voltage)},
+           {"peak_gap_voltage", r.series.peak_gap_voltage},
+           {"distortion", r.distortion},
+           {"friction_lines", lines},
+           {"over_frequency", sweep},
+           {"onset_off", r.onset_off},
+           {"onset_on", r.onset_on},
+           {"onset_static", r.onset_static},
+           {"checks", checks}};
+  if (r.spots > 0) out["contact_spots"] = r.spots;
+  for (const Swipe& swipe : swipes) out["swipes"].push_back(swipe_json(swipe));
   return out.dump(2);
 }
 
@@ -278,6 +297,14 @@ std::string swipe_text(const Swipe& swipe) {
     out += fmt::format("{:>10.3f}  {:<14} {:>11.4g}\n", step.time, text_of(step.state),
                        1e3 * step.current);
   return out + fmt::format("driven for {:.3g} s of {:.3g} s\n", swipe.driven, swipe.duration);
+}
+
+std::string swipe_csv(const Swipe& swipe) {
+  std::string out = "t [s],place [m],lateral [N],state,current [A]\n";
+  for (const RubbingSample& at : swipe.samples)
+    out += fmt::format("{:.4f},{:.6g},{:.6g},{},{:.6g}\n", at.time, at.place, at.lateral,
+                       text_of(at.state), at.current);
+  return out;
 }
 
 std::string drive_series_csv(const DriveResult& r) {

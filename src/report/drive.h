@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/rooms.h"
 #include "cases/drive.h"
@@ -9,8 +10,10 @@
 namespace papilla::report {
 
 std::string drive_text(const DriveCase& c, const DriveResult& result);
-std::string drive_json(const DriveCase& c, const DriveResult& result);  // schema 1, SI
+std::string drive_json(const DriveCase& c, const DriveResult& result,
+                       const std::vector<Swipe>& swipes = {});  // schema 1, SI
 std::string swipe_text(const Swipe& swipe);
+std::string swipe_csv(const Swipe& swipe);  // time, place, lateral force, state, current
 
 // Columns t, source voltage, current, gap voltage, pull, friction; frequency, amplitude.
 std::string drive_series_csv(const DriveResult& result);

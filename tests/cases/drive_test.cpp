@@ -1,5 +1,6 @@
 #include "cases/drive.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "report/drive.h"
 
 namespace papilla::tests {
@@ -80,14 +82,116 @@ TEST(DriveFile, ASwipeIsDrivenUntilItSlipsFully) {
   }
   StictionOptions options;
   options.stuck_current = options.partial_current = 4e-3;
-  const Swipe swipe = run_swipe(csv, "forces.csv", options);
+  const Swipe swipe = run_swipe(csv, "forces.csv", options, 150);
   ASSERT_EQ(swipe.steps.size(), 4u);
   EXPECT_EQ(swipe.steps[0].state, SlipState::Stuck);
   EXPECT_EQ(swipe.steps[1].state, SlipState::Partial);
   EXPECT_EQ(swipe.steps[2].state, SlipState::Full);
   EXPECT_EQ(swipe.steps[2].current, 0);
   EXPECT_NEAR(swipe.driven, swipe.steps[2].time + swipe.duration - swipe.steps[3].time, 2e-3);
-  EXPECT_THROW(run_swipe("1,2\n1;2\n", "forces.csv", options), InputError);
+  EXPECT_THROW(run_swipe("1,2\n1;2\n", "forces.csv", options, 150), InputError);
+}
+
+std::string with_times(double rate, double noise) {
+  std::string csv = "time,lateral,normal\n";
+  for (int i = 0; i < static_cast<int>(1.13 * rate); ++i) {
+    const double t = i / rate;
+    const double slow = t < 0.1 ? 0.0 : 0.4 * std::sin(kPi * (t - 0.1));
+    csv += std::to_string(t) + "," + std::to_string(slow + noise * std::sin(2 * kPi * 1300 * t)) +
+           ",0.5\n";
+  }
+  return csv;
+}
+
+TEST(DriveFile, ARecordingAtAnotherRateIsLowPassedAndTakenEveryMillisecond) {
+  StictionOptions options;
+  options.stuck_current = options.partial_current = 4e-3;
+  const Swipe clean = run_swipe(with_times(1000, 0), "forces.csv", options, 0);
+  const Swipe noisy = run_swipe(with_times(5000, 0.001), "forces.csv", options, 150);
+  ASSERT_EQ(clean.steps.size(), 4u);
+  ASSERT_EQ(noisy.steps.size(), 4u);
+  // The filter delays by 1.5 ms; what is left of the noise moves the turning points.
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_NEAR(noisy.steps[k].time, clean.steps[k].time, 0.05) << k;
+  EXPECT_NEAR(noisy.duration, 1.13, 2e-3);
+  // As it came it would have slipped at once.
+  const Swipe raw = run_swipe(with_times(5000, 0.001), "forces.csv", options, 0);
+  EXPECT_LT(raw.steps[2].time, clean.steps[2].time - 0.1);
+  EXPECT_THROW(run_swipe(with_times(200, 0), "forces.csv", options, 150), InputError);
+  EXPECT_THROW(run_swipe("0,1,1\n0.001,1,1\n0.005,1,1\n", "f.csv", options, 0), InputError);
+}
+
+TEST(DriveFile, ARenderedSwipeIsDrivenWhileItSticks) {
+  const std::vector<std::string> free{"source.shunt=0 ohm"};
+  const DriveCase c = read_drive_case(kFingertip, free);
+  const Swipe swipe = render_swipe(c, solve_drive(c).network);
+  EXPECT_EQ(swipe.samples.size(), 1000u);
+  double driven_peak = 0, passes = 0;
+  for (const RubbingSample& at : swipe.samples) {
+    const bool sticks = at.state == SlipState::Stuck || at.state == SlipState::Partial;
+    EXPECT_EQ(at.current, sticks ? c.drive.current : 0);
+    if (sticks) driven_peak = std::max(driven_peak, std::abs(at.lateral));
+    if (at.state == SlipState::Full) ++passes;
+  }
+  EXPECT_GT(passes, 100);
+  // What is felt: friction under the whole pull of the carrier.
+  const double pull = solve_drive(c).carrier.mean_force;
+  EXPECT_NEAR(driven_peak, c.touch.coefficient * (c.touch.load + pull), 0.01 * driven_peak);
+  EXPECT_NEAR(swipe.driven + 1e-3 * passes, swipe.duration, 0.01);
+  EXPECT_THROW(
+      render_swipe(read_drive_case(kFingertip, {"drive.control=voltage", "drive.amplitude=100 V"}),
+                   Network{}),
+      InputError);
+}
+
+TEST(DriveFile, ARecordedSineIsTheSine) {
+  const std::vector<std::string> sine{"drive.control=voltage", "drive.waveform=sine",
+                                      "drive.amplitude=100 V", "drive.frequency=1 kHz",
+                                      "tones.frequency=[]"};
+  const DriveResult expected = solve_drive(read_drive_case(kFingertip, sine));
+  std::string csv = "time,voltage\n";
+  for (int i = 0; i < 1024; ++i)
+    csv += fmt::format("{:.9g},{:.9g}\n", i / 1024e3, 100 * std::sin(2 * kPi * i / 1024.0));
+  const std::string path = testing::TempDir() + "papilla_recorded_sine.csv";
+  write_bytes(path, csv);
+  std::vector<std::string> recorded = sine;
+  recorded.push_back("source.file=" + path);
+  const DriveResult r = solve_drive(read_drive_case(kFingertip, recorded));
+  EXPECT_NEAR(r.series.mean_force, expected.series.mean_force, 1e-3 * expected.series.mean_force);
+  EXPECT_NEAR(r.friction.period, 1e-3, 2e-6);
+  write_bytes(path, "time,voltage\n0,1\n1e-6,x\n");
+  EXPECT_THROW(read_drive_case(kFingertip, recorded), InputError);
+}
+
+TEST(DriveFile, AChirpPullsAsItsFrequenciesDo) {
+  const std::vector<std::string> sine{"drive.control=voltage", "drive.waveform=sine",
+                                      "drive.amplitude=100 V", "drive.frequency=100 Hz",
+                                      "tones.frequency=[]"};
+  std::vector<std::string> chirp = sine;
+  chirp.insert(chirp.end(), {"source.chirp_to=2 kHz", "source.chirp_time=200 ms"});
+  const DriveResult r = solve_drive(read_drive_case(kFingertip, chirp));
+  double mean_pull = 0;
+  for (int k = 0; k < 200; ++k)
+    mean_pull +=
+        respond(r.network, DriveControl::Voltage, 100, 100 + 1900 * (k + 0.5) / 200).mean_force /
+        200;
+  EXPECT_NEAR(r.series.mean_force, mean_pull, 0.01 * mean_pull);
+  EXPECT_THROW(read_drive_case(kFingertip, {"source.chirp_to=2 kHz"}), InputError);  // am
+}
+
+// Eq. drive.16: halves with the load, as contact stiffness does, and doubles with the resistivity.
+TEST(DriveFile, ContactSpotsConductAsStifflyAsTheyPress) {
+  const auto spots = [](const std::vector<std::string>& more) {
+    std::vector<std::string> all{"gap.design=" + kSamples + "flat.toml", "gap.skins=2"};
+    all.insert(all.end(), more.begin(), more.end());
+    return solve_drive(read_drive_case(kFingertip, all));
+  };
+  const DriveResult one = spots({});
+  EXPECT_GT(one.spots, 0);
+  EXPECT_NEAR(spots({"skin.resistivity=4e4 ohm m"}).spots / one.spots, 2, 1e-9);
+  const DriveResult counted = spots({"gap.contact_spots=true"});
+  EXPECT_NEAR(counted.network.gap.layer.resistance,
+              1 / (1 / one.network.gap.layer.resistance + 1 / one.spots), 1e-9 * one.spots);
 }
 
 TEST(DriveFile, TakesTheGapOfADesign) {

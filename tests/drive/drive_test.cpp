@@ -269,5 +269,23 @@ TEST(Onset, FrictionOfAPatchInStaticContactIsItsAdhesionAlone) {
   EXPECT_DOUBLE_EQ(onset_friction(9e6, 1e-8, 0.3, 0.5, 0.2, 0), 0.09 + 0.21);
 }
 
+// Butterworth of second order: flat below, 3 dB at the corner, 40 dB a decade above.
+TEST(LowPass, PassesWhatIsSlow) {
+  const auto gain = [](double frequency) {
+    LowPass filter(150, 1e-4);
+    double most = 0;
+    for (int i = 0; i < 20000; ++i) {
+      const double out = filter(std::sin(2 * kPi * frequency * i * 1e-4));
+      if (i > 10000) most = std::max(most, std::abs(out));
+    }
+    return most;
+  };
+  EXPECT_NEAR(gain(5), 1, 1e-3);
+  EXPECT_NEAR(gain(150), std::sqrt(0.5), 2e-3);
+  EXPECT_NEAR(gain(1500), 0.01, 0.002);
+  LowPass rest(150, 1e-3);
+  EXPECT_NEAR(rest(0.7), 0.7, 1e-12);
+}
+
 }  // namespace
 }  // namespace papilla::tests

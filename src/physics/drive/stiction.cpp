@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/check.h"
+#include "base/constants.h"
 
 namespace papilla::drive {
 namespace {
@@ -57,6 +58,49 @@ double StictionMachine::update(double lateral, double normal) {
       return options_.full_current;
   }
   return 0;
+}
+
+LowPass::LowPass(double corner, double step) {
+  PAPILLA_CHECK(corner > 0 && corner * step < 0.5, "a corner below half the rate of samples");
+  const double k = std::tan(kPi * corner * step), damped = std::sqrt(2.0) * k;
+  const double scale = 1 / (1 + damped + k * k);
+  gain_ = k * k * scale;
+  a1_ = 2 * (k * k - 1) * scale;
+  a2_ = (1 - damped + k * k) * scale;
+}
+
+double LowPass::operator()(double value) {
+  if (!started_) {
+    in_ = out_ = {value, value};
+    started_ = true;
+  }
+  const double next = gain_ * (value + 2 * in_[0] + in_[1]) - a1_ * out_[0] - a2_ * out_[1];
+  in_ = {value, in_[0]};
+  out_ = {next, out_[0]};
+  return next;
+}
+
+std::vector<RubbingSample> rub(const RubbingFinger& finger, const StictionOptions& options,
+                               const std::function<double(double)>& limit) {
+  constexpr int kSubsteps = 50;  // of Dahl's law, in a step of the machine
+  StictionMachine machine(options);
+  std::vector<LowPass> filter;
+  if (finger.filter > 0) filter.emplace_back(finger.filter, options.step);
+  std::vector<RubbingSample> out;
+  double force = 0, place = 0, current = 0;
+  const auto steps = static_cast<int>(std::lround(finger.duration / options.step));
+  for (int i = 0; i < steps; ++i) {
+    const double time = i * options.step;
+    const double next = finger.stroke * std::sin(2 * kPi * finger.frequency * time);
+    const double step = (next - place) / kSubsteps, most = limit(current);
+    place = next;
+    for (int k = 0; k < kSubsteps; ++k)
+      force += finger.stiffness * step * (1 - force / most * (step > 0 ? 1 : -1));
+    const double felt = filter.empty() ? force : filter.front()(force);
+    current = machine.update(felt, finger.load);
+    out.push_back({time, place, force, machine.state(), current});
+  }
+  return out;
 }
 
 double stickiness_exponent(std::span<const double> friction, std::span<const double> load,

@@ -2,7 +2,10 @@
 // to normal force, one step per sample.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <span>
+#include <vector>
 
 #include "base/rooms.h"
 
@@ -35,6 +38,39 @@ class StictionMachine {
   bool has_ratio_ = false;
   double ratio_ = 0, rate_ = 0, largest_rate_ = 0;
 };
+
+// Butterworth's low-pass of second order, sample by sample; at rest at its first value. Eq.
+// drive.17
+class LowPass {
+ public:
+  LowPass(double corner, double step);  // [Hz], below half the rate of samples; [s]
+
+  double operator()(double value);
+
+ private:
+  double gain_, a1_, a2_;
+  bool started_ = false;
+  std::array<double, 2> in_{}, out_{};  // the last and the one before
+};
+
+// A finger that drags to and fro over the surface, its friction building up by Dahl's law, and what
+// the state machine makes of it. Eq. drive.18
+struct RubbingFinger {
+  double load = 0.5;       // [N]
+  double stroke = 10e-3;   // amplitude of its way [m]
+  double frequency = 3.8;  // [Hz]
+  double stiffness = 800;  // of the skin, sideways [N/m]
+  double filter = 0;       // corner of the low-pass before the machine [Hz]; 0: none
+  double duration = 1;     // [s]
+};
+struct RubbingSample {
+  double time, place, lateral;  // [s], [m], [N]
+  SlipState state;
+  double current;  // from then on [A]
+};
+// limit: friction at full slip under a current [A] -> [N]. One sample a step of the options.
+std::vector<RubbingSample> rub(const RubbingFinger& finger, const StictionOptions& options,
+                               const std::function<double(double)>& limit);
 
 // Exponent n with the highest correlation of friction x load^n with a stimulus (current squared,
 // or a judgement), in [low, high], to 1e-4. Eq. drive.11
