@@ -18,7 +18,6 @@ namespace {
 // 5 to 10 um3 at 75 % RH; the volumes at other humidities are in a supplement that is not to be
 // had, so they take the same shares of the mean.
 constexpr double kVolumes[] = {2.0 / 3, 4.0 / 3};
-constexpr int kFirstSkin = 5000;  // beyond those of any fit
 
 struct Shown {
   std::string figures, sample;
@@ -147,9 +146,8 @@ double PrintedNumber::deviation(const Estimate& model) const {
 }
 
 FigureTables figure_tables(const FigureOptions& options) {
-  const SkinSampling few{.skins = options.skins, .first_skin = kFirstSkin};
-  FingerModel papilla(options.finger, Preset::Papilla, options.threads, few);
-  FingerModel m3(options.finger, Preset::M3, options.threads, few);
+  FingerModel papilla(options.finger, Preset::Papilla, options.threads, options.sampling);
+  FingerModel m3(options.finger, Preset::M3, options.threads, options.sampling);
   FigureTables out;
   for (const Shown& shown : shown_cases()) {
     if (options.started) options.started(shown.sample);

@@ -47,7 +47,7 @@ struct FigureTables {
 struct FigureOptions {
   Finger finger;
   int threads = 0;
-  int skins = 8;
+  SkinSampling sampling{.skins = 8};
   std::function<void(const std::string& sample)> started;
 };
 
