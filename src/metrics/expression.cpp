@@ -26,13 +26,16 @@ bool is_spread(Summary summary) {
   return summary == Summary::Variation || summary == Summary::Range || summary == Summary::Std;
 }
 
-std::optional<double> voltage_target(const std::string& metric) {
+namespace {
+
+// X of "NAME(modulation = X)"; nothing where another name stands.
+std::optional<double> modulation_of(const std::string& metric, const char* name) {
   std::string compact;
   for (char c : metric) {
     if (c != ' ') compact += c;
   }
-  if (!compact.starts_with(kVoltageFor)) return std::nullopt;
-  const std::string head = std::string(kVoltageFor) + "(modulation=";
+  if (compact != name && !compact.starts_with(std::string(name) + '(')) return std::nullopt;
+  const std::string head = std::string(name) + "(modulation=";
   if (compact.starts_with(head) && compact.back() == ')') {
     const std::string text = compact.substr(head.size(), compact.size() - head.size() - 1);
     double value = 0;
@@ -40,14 +43,33 @@ std::optional<double> voltage_target(const std::string& metric) {
     if (error == std::errc{} && end == text.data() + text.size() && value > 0 && value < 1e6)
       return value;
   }
-  throw InputError("\"" + metric + "\": expected voltage_for(modulation = X), X above 0");
+  throw InputError(fmt::format("\"{}\": expected {}(modulation = X), X above 0", metric, name));
+}
+
+// A metric of a modulation of its own, written one way; nothing for the others.
+std::optional<std::string> with_modulation(const std::string& metric) {
+  for (const char* name : {kVoltageFor, kFelt}) {
+    if (const auto value = modulation_of(metric, name))
+      return fmt::format("{}(modulation = {})", name, *value);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<double> voltage_target(const std::string& metric) {
+  return modulation_of(metric, kVoltageFor);
+}
+
+std::optional<double> felt_threshold(const std::string& metric) {
+  return modulation_of(metric, kFelt);
 }
 
 MetricExpression parse_metric(const std::string& text) {
   MetricExpression expression;
   std::string name = text;
   const std::size_t open = text.find('(');
-  if (open != std::string::npos && !voltage_target(text)) {
+  if (open != std::string::npos && !with_modulation(text)) {
     const std::string word = text.substr(0, open);
     if (text.back() != ')') throw InputError("\"" + text + "\": missing )");
     name = text.substr(open + 1, text.size() - open - 2);
@@ -72,9 +94,7 @@ MetricExpression parse_metric(const std::string& text) {
     throw InputError(fmt::format("\"{}\" is no metric{}; see `papilla describe metrics`", name,
                                  near.empty() ? "" : ", did you mean \"" + near + "\"?"));
   }
-  if (const auto target = voltage_target(name))
-    name = fmt::format("{}(modulation = {})", kVoltageFor, *target);
-  expression.metric = name;
+  expression.metric = with_modulation(name).value_or(name);
   return expression;
 }
 

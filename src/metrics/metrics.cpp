@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/check.h"
+#include "base/statistics.h"
 
 namespace papilla::metrics {
 namespace {
@@ -98,6 +99,11 @@ const std::vector<MetricInfo>& metric_list() {
          "voltage_for(modulation = 0.5): amplitude at which the modulation reaches that "
          "value; whatever the design's own amplitude",
          Better::Lower, false});
+    infos.push_back({kFelt, "",
+                     "felt(modulation = 0.2): probability that the modulation is above that Weber "
+                     "fraction; its mean over humidities and fingers is the share of people and "
+                     "weathers that feel the effect",
+                     Better::Higher, true});
     return infos;
   }();
   return list;
@@ -106,7 +112,8 @@ const std::vector<MetricInfo>& metric_list() {
 const MetricInfo* find_metric(const std::string& name) {
   const std::string base = name.substr(0, name.find('('));
   for (const MetricInfo& info : metric_list()) {
-    if (info.name == base && (base == name) == (base != kVoltageFor)) return &info;
+    const bool of_modulation = base == kVoltageFor || base == kFelt;
+    if (info.name == base && (base == name) != of_modulation) return &info;
   }
   return nullptr;
 }
@@ -119,6 +126,11 @@ std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& 
       if (answer.target == *target && answer.reached()) return answer.amplitude;
     }
     return std::nullopt;
+  }
+  if (const auto threshold = felt_threshold(name)) {  // Eq. metrics.7
+    const double above = point.modulation.value - *threshold, se = point.modulation.se();
+    const double step = above > 0 ? 1 : 0;
+    return Measured{se > 0 ? normal_cdf(above / se) : step, {}};
   }
   for (const Entry& entry : entries()) {
     if (entry.info.name == name) return point.*entry.member;

@@ -31,6 +31,12 @@ inline constexpr const char* kVoltageFor = "voltage_for";
 // where the target is no number above 0.
 std::optional<double> voltage_target(const std::string& metric);
 
+// The share of people who would notice: the probability that the modulation of a humidity is above
+// a Weber fraction, its errors in it.
+inline constexpr const char* kFelt = "felt";
+// The fraction of "felt(modulation = 0.2)"; else as above.
+std::optional<double> felt_threshold(const std::string& metric);
+
 // Value at one point; nothing when undefined there (a voltage that was not asked for or that does
 // not reach its modulation).
 std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point);

@@ -17,7 +17,7 @@ Criterion parse_criterion(std::string word) {
     word.resize(colon);
   }
   c.expression = parse_metric(word);
-  if (voltage_target(c.expression.metric))
+  if (voltage_target(c.expression.metric) || felt_threshold(c.expression.metric))
     throw InputError(fmt::format("\"{}\": a ranking is by forces at the designs' own drive", word));
   const Better better = better_direction(c.expression);
   if (direction.empty() && better == Better::Neither) {

@@ -207,8 +207,8 @@ std::string metric_pattern() {
   std::vector<std::string> names;
   for (const MetricInfo& m : metric_list()) names.push_back(regex_escaped(m.name));
   return fmt::format(
-      "((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|{}\\(.*\\))\\s*\\)?",
-      join_names(names, "|"), kVoltageFor);
+      "((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|({}|{})\\(.*\\))\\s*\\)?",
+      join_names(names, "|"), kVoltageFor, kFelt);
 }
 
 Json constraints_schema() {

@@ -133,7 +133,8 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
   std::set<std::string> driven;
   for (const MetricInfo& info : metric_list())
     if (info.needs_drive) driven.insert(info.name);
-  EXPECT_EQ(driven, (std::set<std::string>{"modulation", "friction_on", "electrostatic_force"}));
+  EXPECT_EQ(driven,
+            (std::set<std::string>{"modulation", "friction_on", "electrostatic_force", "felt"}));
 }
 
 TEST(Metrics, WhatHumiditiesShareIsNoErrorOfTheirSpread) {
@@ -190,6 +191,30 @@ TEST(Metrics, ExpressionsAreReadAndMisspellingsAreNamed) {
     EXPECT_NE(std::string(error.what()).find("did you mean \"modulation\""), std::string::npos);
   }
   EXPECT_THROW(parse_metric("median(friction)"), InputError);
+}
+
+// Half of all people feel an effect at their Weber fraction; its errors soften the step.
+TEST(Felt, IsTheShareThatWouldNotice) {
+  Response r;
+  r.driven = true;
+  for (const double m : {0.1, 0.2, 0.3, 0.6}) {
+    ResponsePoint p;
+    p.modulation = {m, {.sampling = 0.05}};
+    r.points.push_back(p);
+  }
+  const auto felt = [&](const char* text) {
+    const MetricExpression e = parse_metric(text);
+    return summarise(e.summary, e.metric, r)->value;
+  };
+  EXPECT_NEAR(felt("felt(modulation = 0.2)"), (0.02275 + 0.5 + 0.97725 + 1) / 4, 1e-4);
+  EXPECT_NEAR(felt("worst(felt(modulation=0.2))"), 0.02275, 1e-5);
+  for (ResponsePoint& p : r.points) p.modulation.parts.sampling = 0;
+  EXPECT_EQ(felt("felt(modulation = 0.25)"), 0.5);
+  EXPECT_EQ(metric_text(parse_metric("felt( modulation=0.2 )")), "mean(felt(modulation = 0.2))");
+  for (const char* wrong : {"felt", "felt(friction = 1)", "felt(modulation = -1)", "felter"})
+    EXPECT_THROW(parse_metric(wrong), InputError) << wrong;
+  r.driven = false;
+  EXPECT_FALSE(summarise(Summary::Mean, "felt(modulation = 0.2)", r));
 }
 
 }  // namespace
