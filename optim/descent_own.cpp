@@ -42,7 +42,7 @@ class Marquardt {
       invalid = 0;
       const double before = r_.squaredNorm(), gain = before - r.squaredNorm();
       const double promised = before - (r_ + slopes_ * step).squaredNorm();
-      if (!(gain > 1e-3 * promised)) {
+      if (!(gain > 0 && gain > 1e-3 * promised)) {
         if (std::abs(gain) <= options_.tolerance * before &&
             promised <= options_.tolerance * before)
           return ended(true, "the sum of squares no longer changes");

@@ -1,4 +1,4 @@
-// NSGA-II and CMA-ES of our own, for builds without pagmo: the same signatures and populations.
+// NSGA-II and CMA-ES of our own; full builds have evolution_pagmo.cpp in its place.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -41,21 +41,7 @@ class Judge {
   Penalty penalty_;
 };
 
-std::vector<Point> first_points(const SearchProblem& problem, std::size_t size) {
-  std::vector<Point> points;
-  for (const Point& start : problem.starts) {
-    if (points.size() < size) points.push_back(start);
-  }
-  for (std::uint64_t i = 0; points.size() < size; ++i) {
-    const Point u = problem.space.snapped(low_discrepancy(problem.space.size(), problem.seed, i));
-    if (problem.cheaply_feasible(u) || i > 5000) points.push_back(u);
-  }
-  return points;
-}
-
 // --- NSGA-II (Deb et al. 2002) ---
-
-constexpr double kCrossover = 0.95, kCrossoverIndex = 10, kMutationIndex = 20;
 
 void sort_into_fronts(Population& all) {
   std::vector<std::size_t> left(all.size());
@@ -234,8 +220,7 @@ class Cma {
 std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem) {
   return make_blocking([problem](const BlockingObjective& objective) {
     Judge judge(problem, objective);
-    const auto size =
-        static_cast<std::size_t>(std::clamp(problem.evaluations / 12, 12, 100)) / 4 * 4;
+    const std::size_t size = nsga2_population(problem);
     Population all = judge(first_points(problem, size));
     for (std::uint64_t generation = 0;; ++generation) {
       RandomStream random(problem.seed, "nsga2", generation);
@@ -252,9 +237,8 @@ std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem) {
 
 std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem) {
   return make_blocking([problem](const BlockingObjective& objective) {
-    constexpr int kSamples = 12;
     Judge judge(problem, objective);
-    Population known = judge(first_points(problem, kSamples));
+    Population known = judge(first_points(problem, kCmaPoints));
     for (std::uint64_t restart = 0; restart < 50; ++restart) {
       RandomStream random(problem.seed, "cmaes", restart);
       const auto best = std::min_element(
@@ -262,7 +246,7 @@ std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem) {
           [](const Individual& a, const Individual& b) { return a.fitness[0] < b.fitness[0]; });
       Cma cma(Eigen::Map<const Eigen::VectorXd>(best->unit.data(),
                                                 static_cast<Eigen::Index>(best->unit.size())),
-              0.3, kSamples);
+              kCmaStep, static_cast<int>(kCmaPoints));
       do {
         Population generation = judge(cma.ask(random));
         known.insert(known.end(), generation.begin(), generation.end());

@@ -1,4 +1,4 @@
-// NSGA-II and CMA-ES of pagmo; permissive builds have evolution.cpp in its place.
+// NSGA-II and CMA-ES of pagmo; permissive builds have evolution_own.cpp in its place.
 #include <algorithm>
 #include <pagmo/algorithms/cmaes.hpp>
 #include <pagmo/algorithms/nsga2.hpp>
@@ -39,21 +39,9 @@ struct PagmoProblem {
   pagmo::thread_safety get_thread_safety() const { return pagmo::thread_safety::none; }
 };
 
-unsigned population_size(const SearchProblem& problem) {
-  const int size = std::clamp(problem.evaluations / 12, 12, 100);
-  return static_cast<unsigned>(size / 4 * 4);  // NSGA-II wants a multiple of 4
-}
-
 pagmo::population first_population(const SearchProblem& problem, const pagmo::problem& p,
-                                   unsigned size) {
-  std::vector<Point> points;
-  for (const Point& start : problem.starts) {
-    if (points.size() < size) points.push_back(problem.space.snapped(start));
-  }
-  for (std::uint64_t i = 0; points.size() < size; ++i) {
-    const Point u = problem.space.snapped(low_discrepancy(problem.space.size(), problem.seed, i));
-    if (problem.cheaply_feasible(u) || i > 5000) points.push_back(u);
-  }
+                                   std::size_t size) {
+  const std::vector<Point> points = first_points(problem, size);
   pagmo::vector_double all;
   for (const Point& u : points) all.insert(all.end(), u.begin(), u.end());
   const pagmo::vector_double fitness = p.batch_fitness(all);
@@ -72,11 +60,11 @@ std::unique_ptr<Searcher> make_nsga2(const SearchProblem& problem) {
   return make_blocking([problem](const BlockingObjective& objective) {
     Penalty penalty;
     const pagmo::problem p{PagmoProblem{&problem, &objective, &penalty}};
-    pagmo::population population = first_population(problem, p, population_size(problem));
+    pagmo::population population = first_population(problem, p, nsga2_population(problem));
     const double mutation = 1.0 / static_cast<double>(problem.space.size());
     unsigned generation = 0;
     while (true) {
-      pagmo::nsga2 algorithm(1, 0.95, 10., mutation, 20.,
+      pagmo::nsga2 algorithm(1, kCrossover, kCrossoverIndex, mutation, kMutationIndex,
                              static_cast<unsigned>(problem.seed) + generation++);
       algorithm.set_bfe(pagmo::bfe{pagmo::member_bfe{}});  // a generation is asked at once
       population = algorithm.evolve(population);
@@ -93,11 +81,11 @@ std::unique_ptr<Searcher> make_cmaes(const SearchProblem& problem) {
       return objective(points);
     };
     const pagmo::problem p{PagmoProblem{&problem, &counted, &penalty}};
-    pagmo::population population = first_population(problem, p, 12);
+    pagmo::population population = first_population(problem, p, kCmaPoints);
     for (unsigned restart = 0;; ++restart) {
       const long before = calls;
       pagmo::cmaes algorithm(static_cast<unsigned>(std::max(1, problem.evaluations / 12)), -1, -1,
-                             -1, -1, 0.3, 1e-7, 1e-9, false, true,
+                             -1, -1, kCmaStep, 1e-7, 1e-9, false, true,
                              static_cast<unsigned>(problem.seed) + restart);
       population = algorithm.evolve(population);
       if (calls == before) return;  // converged at once: a flat or failing objective
