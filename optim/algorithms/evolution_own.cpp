@@ -69,7 +69,7 @@ void measure_crowding(Population& all, std::size_t objectives) {
       return all[a].front != all[b].front ? all[a].front < all[b].front
                                           : all[a].fitness[k] < all[b].fitness[k];
     });
-    for (std::size_t begin = 0, end = 0; begin < order.size(); begin = end) {
+    for (std::size_t begin = 0, end = 1; begin < order.size(); begin = end++) {
       while (end < order.size() && all[order[end]].front == all[order[begin]].front) ++end;
       const double span = all[order[end - 1]].fitness[k] - all[order[begin]].fitness[k];
       all[order[begin]].crowding = all[order[end - 1]].crowding =

