@@ -220,6 +220,10 @@ class PngIn : public FormatIn {
     spec_ = {.width = static_cast<int>(width), .height = static_cast<int>(height)};
     spec_.channels.assign(channels, "");
     spec_.sample = bits == 8 ? Sample::U8 : Sample::U16;
+    file_.seekg(0, std::ios::end);  // deflate packs 1032 to 1 at best
+    if (row_bytes(spec_) / 1100 > static_cast<std::uint64_t>(file_.tellg()))
+      throw std::runtime_error("the image is cut off");
+    file_.seekg(kSignature.size() + 12 + std::ssize(head));
   }
 
   void read_text() {
