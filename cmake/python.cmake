@@ -29,6 +29,18 @@ install(DIRECTORY python/papilla DESTINATION ${PAPILLA_PYTHON_DIR} COMPONENT pyt
 
 # The pytest suite in two parts: ctest -L python.
 if(PAPILLA_TESTS)
+  set(environment "PYTHONPATH=${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;PAPILLA_PROGRAM=$<TARGET_FILE:papilla>")
+  if(PAPILLA_SANITIZE)
+    # The interpreter is not sanitized: it needs the sanitizer, and whose exceptions that watches, before all else. What
+    # an interpreter keeps to its end is no leak of ours.
+    foreach(library asan stdc++)
+      execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=lib${library}.so OUTPUT_VARIABLE file OUTPUT_STRIP_TRAILING_WHITESPACE)
+      file(REAL_PATH ${file} file)
+      list(APPEND preloaded ${file})
+    endforeach()
+    list(JOIN preloaded " " preloaded)
+    list(APPEND environment "LD_PRELOAD=${preloaded}" "ASAN_OPTIONS=detect_leaks=0" "UBSAN_OPTIONS=print_stacktrace=1")
+  endif()
   foreach(kind fast slow)
     if(kind STREQUAL slow)
       set(chosen slow)
@@ -37,6 +49,6 @@ if(PAPILLA_TESTS)
     endif()
     add_test(NAME python_${kind} COMMAND ${Python_EXECUTABLE} -m pytest -q -m "${chosen}" --durations=5 ${CMAKE_SOURCE_DIR}/python/tests)
     set_tests_properties(python_${kind} PROPERTIES LABELS python_${kind} TIMEOUT 1800
-      ENVIRONMENT "PYTHONPATH=${CMAKE_BINARY_DIR}/python;PYTHONDONTWRITEBYTECODE=1;PAPILLA_PROGRAM=$<TARGET_FILE:papilla>")
+      ENVIRONMENT "${environment}")
   endforeach()
 endif()

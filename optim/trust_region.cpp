@@ -1,13 +1,13 @@
 #include "optim/trust_region.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/parallel.h"
+#include "optim/descent.h"
 
 namespace papilla::optim {
 namespace {
@@ -16,17 +16,14 @@ namespace {
 constexpr double kLeastStepOf = 1e-3;
 // Width of a parameter of no range, no prior and no start other than 0.
 constexpr double kLeastWidth = 1e-12;
-// Steps in a row that may end where the model has no answer: each is within a region at most half
-// as large as that of the one before, so that the last is far below a millionth of the first.
-constexpr int kMostInvalidSteps = 20;
 
 // The data and the priors as one block of residuals with central differences. Fixed parameters keep
-// their value (Ceres holds them by equal bounds poorly, so they are left out of the block).
-class CeresModel final : public ceres::CostFunction {
+// their value and are left out of the block.
+class FitModel final : public DescentModel {
  public:
-  CeresModel(const FitCoordinates& coordinates, int data, const ResidualFunction& function,
-             const LeastSquaresOptions& options, std::vector<double> x,
-             std::vector<std::size_t> free, int& evaluations)
+  FitModel(const FitCoordinates& coordinates, int data, const ResidualFunction& function,
+           const LeastSquaresOptions& options, std::vector<double> x, std::vector<std::size_t> free,
+           int& evaluations)
       : coordinates_(coordinates),
         data_(data),
         function_(function),
@@ -36,24 +33,23 @@ class CeresModel final : public ceres::CostFunction {
         evaluations_(evaluations) {
     priors_ = 0;
     for (std::size_t i : free_) priors_ += coordinates_.has_prior(i);
-    set_num_residuals(data_ + priors_);
-    *mutable_parameter_block_sizes() = {static_cast<int>(free_.size())};
   }
 
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
+  int residuals() const override { return data_ + priors_; }
+
+  bool evaluate(const double* parameters, double* residuals, double* slopes) const override {
     std::vector<double> x = x_;
-    for (std::size_t j = 0; j < free_.size(); ++j) x[free_[j]] = parameters[0][j];
+    for (std::size_t j = 0; j < free_.size(); ++j) x[free_[j]] = parameters[j];
     if (!data(x, residuals)) return false;
     int row = data_;
     for (std::size_t i : free_) {
       if (coordinates_.has_prior(i)) residuals[row++] = coordinates_.prior_residual(i, x[i]);
     }
-    if (!jacobians || !jacobians[0]) return true;
+    if (!slopes) return true;
     Eigen::MatrixXd jacobian;
     if (!differences(x, jacobian)) return false;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> out(
-        jacobians[0], num_residuals(), static_cast<int>(free_.size()));
+        slopes, this->residuals(), static_cast<int>(free_.size()));
     out.setZero();
     out.topRows(data_) = jacobian;
     row = data_;
@@ -186,42 +182,25 @@ FitSolution TrustRegion::solve(std::vector<double> x, const std::vector<std::siz
 
 bool TrustRegion::descend(std::vector<double>& x, const std::vector<std::size_t>& free,
                           int iterations, double region, std::string& message) {
-  std::vector<double> values;
-  for (std::size_t i : free) values.push_back(x[i]);
-  ceres::Problem problem;
-  problem.AddResidualBlock(
-      new CeresModel(coordinates_, data_, function_, options_, x, free, evaluations_), nullptr,
-      values.data());  // the problem owns the model
-  for (std::size_t j = 0; j < free.size(); ++j) {
-    const FitParameter& p = coordinates_.parameter(free[j]);
-    const int k = static_cast<int>(j);
-    if (std::isfinite(p.low))
-      problem.SetParameterLowerBound(values.data(), k, coordinates_.to(free[j], p.low));
-    if (std::isfinite(p.high))
-      problem.SetParameterUpperBound(values.data(), k, coordinates_.to(free[j], p.high));
+  std::vector<double> values, low, high;
+  for (std::size_t i : free) {
+    const FitParameter& p = coordinates_.parameter(i);
+    values.push_back(x[i]);
+    low.push_back(std::isfinite(p.low) ? coordinates_.to(i, p.low) : -kInfinity);
+    high.push_back(std::isfinite(p.high) ? coordinates_.to(i, p.high) : kInfinity);
   }
-  ceres::Solver::Options o;
-  o.linear_solver_type = ceres::DENSE_QR;
-  o.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  o.initial_trust_region_radius = region;
-  o.max_num_iterations = iterations;
-  o.function_tolerance = options_.tolerance;
-  o.parameter_tolerance = options_.tolerance;
-  o.gradient_tolerance = 1e-30;  // the sum of squares decides: residuals have any scale
-  o.max_num_consecutive_invalid_steps = kMostInvalidSteps;
-  o.num_threads = 1;
-  o.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(o, &problem, &summary);
-  evaluations_ += summary.num_residual_evaluations;
-  message = summary.message;
+  const FitModel model(coordinates_, data_, function_, options_, x, free, evaluations_);
+  const Descent done =
+      optim::descend(model, values, low, high, {iterations, region, options_.tolerance});
+  evaluations_ += done.evaluations;
+  message = done.message;
   for (std::size_t j = 0; j < free.size(); ++j) x[free[j]] = values[j];
-  return summary.termination_type == ceres::CONVERGENCE;
+  return done.converged;
 }
 
 bool TrustRegion::jacobian(const std::vector<double>& x, const std::vector<std::size_t>& free,
                            Eigen::MatrixXd& out) {
-  const CeresModel model(coordinates_, data_, function_, options_, x, free, evaluations_);
+  const FitModel model(coordinates_, data_, function_, options_, x, free, evaluations_);
   return model.differences(x, out);
 }
 

@@ -19,7 +19,8 @@ from conftest import ROOT
 
 
 def interrupted_after(seconds: float, call) -> float:  # type: ignore[no-untyped-def]
-    """Seconds from Ctrl-C to KeyboardInterrupt."""
+    """Seconds from Ctrl-C to KeyboardInterrupt, which a shell turns off for what it runs in the background."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     sent = []
 
     def send() -> None:

@@ -1,45 +1,10 @@
 #include "base/fft.h"
 
-#include <fftw3.h>
-
 #include <map>
 #include <mutex>
 #include <utility>
 
 namespace papilla::base {
-namespace {
-std::mutex& planner_mutex() {  // FFTW's planner is not thread safe; execution is
-  static std::mutex mutex;
-  return mutex;
-}
-}  // namespace
-
-Fft2d::Fft2d(int nx, int ny) : nx_(nx), ny_(ny) {
-  RealArray real(real_size());
-  SpectrumArray spectrum(spectrum_size());
-  auto* complex = reinterpret_cast<fftw_complex*>(spectrum.data());
-  std::lock_guard lock(planner_mutex());
-  forward_plan_ =
-      fftw_plan_dft_r2c_2d(ny, nx, real.data(), complex, FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
-  inverse_plan_ =
-      fftw_plan_dft_c2r_2d(ny, nx, complex, real.data(), FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
-}
-
-Fft2d::~Fft2d() {
-  std::lock_guard lock(planner_mutex());
-  fftw_destroy_plan(static_cast<fftw_plan>(forward_plan_));
-  fftw_destroy_plan(static_cast<fftw_plan>(inverse_plan_));
-}
-
-void Fft2d::forward(const double* real, std::complex<double>* spectrum) const {
-  fftw_execute_dft_r2c(static_cast<fftw_plan>(forward_plan_), const_cast<double*>(real),
-                       reinterpret_cast<fftw_complex*>(spectrum));
-}
-
-void Fft2d::inverse(std::complex<double>* spectrum, double* real) const {
-  fftw_execute_dft_c2r(static_cast<fftw_plan>(inverse_plan_),
-                       reinterpret_cast<fftw_complex*>(spectrum), real);
-}
 
 std::shared_ptr<const Fft2d> Fft2d::shared(int nx, int ny) {
   static std::mutex mutex;

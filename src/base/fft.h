@@ -29,8 +29,9 @@ struct AlignedAllocator {
 using RealArray = std::vector<double, AlignedAllocator<double>>;
 using SpectrumArray = std::vector<std::complex<double>, AlignedAllocator<std::complex<double>>>;
 
-// Plans for one size: made once (FFTW_ESTIMATE: same bytes every run), executable from many threads
-// at a time. Unnormalised both ways: inverse(forward(x)) = nx ny x.
+// Plans for one size: made once (the same bytes every run), executable from many threads at a time.
+// Unnormalised both ways: inverse(forward(x)) = nx ny x. By FFTW (fft_fftw.cpp), in permissive
+// builds by transforms of our own (fft_own.cpp).
 class Fft2d {
  public:
   Fft2d(int nx, int ny);
@@ -50,9 +51,9 @@ class Fft2d {
   static std::shared_ptr<const Fft2d> shared(int nx, int ny);
 
  private:
+  struct Plans;
   int nx_, ny_;
-  void* forward_plan_;
-  void* inverse_plan_;
+  std::unique_ptr<Plans> plans_;
 };
 
 // Signed integer mode of index i in a transform of length n: 0, 1, ..., -1.

@@ -13,6 +13,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/licences.h"
 
 namespace papilla::cli {
 namespace {
@@ -58,7 +59,7 @@ int run(int argc, char** argv) {
   context.color = colors && isatty(STDERR_FILENO) != 0;
   context.color_results = colors && isatty(STDOUT_FILENO) != 0;
 
-  const CommandLine line("papilla", "papilla " PAPILLA_VERSION,
+  const CommandLine line("papilla", "papilla " PAPILLA_VERSION, licences,
                          "Papilla: inverse design of surface textures for touch");
   const Command program = line.program();
   program.add_flag("-q,--quiet", context.quiet, "No progress messages");
@@ -71,6 +72,9 @@ int run(int argc, char** argv) {
     print_error(context, e.what());
     std::cerr << "try: papilla " << e.commands() << "--help" << std::endl;
     return kWrongInput;
+  } catch (const std::exception& e) {  // --licences without the module of images
+    print_error(context, e.what());
+    return kWorkFailed;
   }
 
   try {

@@ -110,8 +110,12 @@ std::vector<Command::OptionRow> Command::options() const {
 }
 
 CommandLine::CommandLine(const std::string& name, const std::string& version,
-                         const std::string& meaning)
+                         const std::function<std::string()>& licences, const std::string& meaning)
     : app_(std::make_unique<CLI::App>(meaning, name)) {
+  // Ends as --version does, and before it: together they print the libraries too.
+  app_->add_flag_callback(
+      "--licences", [licences] { throw CLI::CallForVersion(licences(), 0); },
+      "Display the libraries of this build with their licences and exit");
   app_->set_version_flag("--version", version);
   app_->fallthrough();
   app_->require_subcommand(1);
@@ -125,7 +129,7 @@ bool CommandLine::parse(int argc, const char* const* argv) const {
   try {
     app_->parse(argc, argv);
     return true;
-  } catch (const CLI::Success& e) {  // --help, --version
+  } catch (const CLI::Success& e) {  // --help, --version, --licences
     app_->exit(e);
     return false;
   } catch (const CLI::ParseError& e) {

@@ -100,11 +100,13 @@ class CommandLineError : public std::runtime_error {
 // The whole command line of a program.
 class CommandLine {
  public:
-  CommandLine(const std::string& name, const std::string& version, const std::string& meaning);
+  // licences: the text of --licences.
+  CommandLine(const std::string& name, const std::string& version,
+              const std::function<std::string()>& licences, const std::string& meaning);
   ~CommandLine();
 
   Command program() const;
-  // False: it asked for help or the version, which are printed. Throws CommandLineError.
+  // False: it asked for help, the version or licences, which are printed. Throws CommandLineError.
   bool parse(int argc, const char* const* argv) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "cli/commands.h"
 #include "design/design.h"

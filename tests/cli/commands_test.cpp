@@ -38,7 +38,7 @@ TEST(Program, ImageFormatsAreLoadedWhereAnImageIsTouchedAndNowhereElse) {
   const auto loads = [&](const std::string& arguments) {
     const Outcome run = place.shell("LD_DEBUG=libs '" PAPILLA_PROGRAM "' " + arguments);
     EXPECT_EQ(run.status, 0) << arguments;
-    return run.err.find("libOpenImageIO") != std::string::npos;
+    return run.err.find("papilla_images.so") != std::string::npos;
   };
   EXPECT_FALSE(loads("--version"));
   EXPECT_FALSE(loads("explain " + kSample));

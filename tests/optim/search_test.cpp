@@ -36,6 +36,7 @@ std::vector<Evaluation> run(const std::string& name, const SearchProblem& proble
   while (static_cast<int>(all.size()) < problem.evaluations) {
     std::vector<Evaluation> batch;
     for (const Point& u : searcher->ask()) {
+      if (static_cast<int>(all.size() + batch.size()) == problem.evaluations) break;  // as a study
       batch.push_back(
           {u, guarded(f(problem.space.value(u)), problem.objectives, problem.constraints)});
     }
@@ -106,6 +107,29 @@ TEST(Nsga2, ConvergesWithAllItsEvaluations) {
   EXPECT_GT(front_volume(run("nsga2", p, zdt1), {1.1, 1.1}), 0.95 * 0.876667);
 }
 
+// 1.1 * 1.1 less what lies below f2 = 1 - f1^2: 0.543333.
+TEST(Nsga2, ConvergesOnAFrontThatBulges) {
+  const SearchProblem p = box(4, 2, 3000);
+  EXPECT_GT(front_volume(run("nsga2", p, zdt2), {1.1, 1.1}), 0.93 * 0.543333);
+}
+
+// Axes of 1 to 100 that lie across the coordinates: without learning their directions the steps
+// stay too short.
+TEST(Cmaes, FindsTheMinimumOfATurnedEllipsoid) {
+  const SearchProblem p = box(4, 1, 3000);
+  const auto all = run("cmaes", p, [](const Point& x) {
+    double sum = 0, signs[4][4] = {{1, 1, 1, 1}, {1, -1, 1, -1}, {1, 1, -1, -1}, {1, -1, -1, 1}};
+    for (std::size_t i = 0; i < 4; ++i) {
+      double along = 0;
+      for (std::size_t k = 0; k < 4; ++k)
+        along += 0.5 * signs[i][k] * (x[k] - 0.2 - 0.15 * static_cast<double>(k));
+      sum += std::pow(10, 4.0 / 3 * static_cast<double>(i)) * along * along;
+    }
+    return outcome({sum});
+  });
+  EXPECT_LT(best(all), 1e-7);
+}
+
 TEST(Search, EverySingleObjectiveMethodFindsANoisyMinimum) {
   for (const char* name : {"bayesian", "cmaes", "sbplx", "direct", "bobyqa"}) {
     SearchProblem p = box(3, 1, std::string(name) == "bayesian" ? 60 : 250);
@@ -143,8 +167,7 @@ TEST(Search, HardProblemsEnd) {
     };
     const auto flat = [&](const Point&) { return outcome({3}); };
     const auto never = [&](const Point&) { return Outcome{}; };
-    const auto count = static_cast<std::size_t>(40);
-    EXPECT_LE(run(name, p, half_nan).size(), count) << name;
+    EXPECT_LT(best(run(name, p, half_nan)), 0.5) << name;
     EXPECT_LT(best(run(name, p, infinite)), 0.5) << name;
     EXPECT_EQ(best(run(name, p, flat)), 3) << name;
     EXPECT_FALSE(run(name, p, never).empty()) << name;

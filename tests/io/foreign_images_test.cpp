@@ -1,0 +1,187 @@
+// Images as other programs write them, by OpenImageIO and by hand, and ours as OpenImageIO reads
+// them: whichever codec this build has.
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "geometry/io/files.h"
+#include "geometry/io/height_rows.h"
+#include "geometry/io/layout.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+constexpr int kNx = 37, kNy = 50;
+
+// Micrometres, rows from the top, no two alike.
+float height(int x, int y) {
+  return 0.001f * static_cast<float>(x) + 0.07f * static_cast<float>(y);
+}
+
+template <typename T>
+void write(const std::string& path, OIIO::ImageSpec spec, const std::vector<T>& pixels) {
+  const auto out = OIIO::ImageOutput::create(path);
+  ASSERT_TRUE(out && out->open(path, spec)) << OIIO::geterror();
+  if (spec.tile_width > 0) {
+    ASSERT_TRUE(out->write_image(OIIO::TypeDescFromC<T>::value(), pixels.data()));
+  } else {
+    ASSERT_TRUE(
+        out->write_scanlines(0, spec.height, 0, OIIO::TypeDescFromC<T>::value(), pixels.data()));
+  }
+  ASSERT_TRUE(out->close());
+}
+
+std::vector<float> heights() {
+  std::vector<float> out;
+  for (int y = 0; y < kNy; ++y) {
+    for (int x = 0; x < kNx; ++x) out.push_back(height(x, y));
+  }
+  return out;
+}
+
+void expect_heights(const std::string& path, double tolerance) {
+  const Heightmap h = read_heightmap(path, 3.7e-6);
+  ASSERT_EQ(h.grid.nx, kNx);
+  ASSERT_EQ(h.grid.ny, kNy);
+  for (int y = 0; y < kNy; ++y) {
+    for (int x = 0; x < kNx; ++x) {
+      ASSERT_NEAR(h(x, kNy - 1 - y), 1e-6 * static_cast<double>(height(x, y)), tolerance)
+          << path << " " << x << " " << y;
+    }
+  }
+}
+
+// Deflated floats come with differences of their bytes (predictor 3).
+TEST(ForeignImages, TiffsOfFloatsAreRead) {
+  for (const char* compression : {"none", "zip"}) {
+    for (const int rows : {1, 7, kNy}) {
+      OIIO::ImageSpec spec(kNx, kNy, 1, OIIO::TypeDesc::FLOAT);
+      spec.attribute("compression", compression);
+      spec.attribute("tiff:RowsPerStrip", rows);
+      const std::string path = temporary("floats.tif");
+      write(path, spec, heights());
+      expect_heights(path, 1e-18);
+    }
+  }
+}
+
+TEST(ForeignImages, ExrsOfTilesAndOfHalfFloatsAreRead) {
+  for (const auto& [tile, type, tolerance] :
+       {std::tuple{0, OIIO::TypeDesc::FLOAT, 1e-18},
+        {16, OIIO::TypeDesc::FLOAT, 1e-18},
+        {0, OIIO::TypeDesc::HALF, 2e-9}}) {  // 11 bits of 3.5 um
+    OIIO::ImageSpec spec(kNx, kNy, 1, OIIO::TypeDesc(type));
+    spec.channelnames = {"Y"};
+    spec.tile_width = spec.tile_height = tile;
+    const std::string path = temporary("tiles.exr");
+    write(path, spec, heights());
+    expect_heights(path, tolerance);
+  }
+}
+
+// The description that Papilla writes, in the byte order of other processors.
+TEST(ForeignImages, ATiffOfTheOtherByteOrderIsRead) {
+  const std::string json =
+      R"({"size_x_m": 3e-6, "size_y_m": 2e-6, "polarity": "white-is-high", "black_m": 0, "white_m": 65535e-9})";
+  std::string file("MM\0\x2a", 4);
+  const auto add = [&file](std::size_t value, int size) {
+    for (int i = size - 1; i >= 0; --i) file += static_cast<char>(value >> 8 * i & 255);
+  };
+  add(8 + 12, 4);
+  for (const int level : {0, 1, 256, 513, 40000, 65535}) add(static_cast<std::size_t>(level), 2);
+  const std::size_t text = 20 + 2 + 9 * 12 + 4;
+  add(9, 2);
+  const auto entry = [&](std::size_t tag, std::size_t type, std::size_t count, std::size_t value) {
+    add(tag, 2);
+    add(type, 2);
+    add(count, 4);
+    add(type == 3 ? value << 16 : value, 4);
+  };
+  entry(256, 3, 1, 3);
+  entry(257, 3, 1, 2);
+  entry(258, 3, 1, 16);
+  entry(259, 3, 1, 1);
+  entry(262, 3, 1, 1);
+  entry(270, 2, json.size() + 1, text);
+  entry(273, 4, 1, 8);
+  entry(278, 3, 1, 2);
+  entry(279, 4, 1, 12);
+  add(0, 4);
+  const std::string path = temporary("other.tif");
+  std::ofstream(path, std::ios::binary) << file << json << '\0';
+  const Heightmap h = read_heightmap(path);
+  EXPECT_NEAR(h.grid.lx, 3e-6, 1e-18);
+  EXPECT_NEAR(h.grid.ly, 2e-6, 1e-18);
+  const double expected[2][3] = {{513e-9, 40000e-9, 65535e-9}, {0, 1e-9, 256e-9}};  // from below
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 3; ++x) EXPECT_NEAR(h(x, y), expected[y][x], 2e-12) << x << " " << y;
+  }
+}
+
+TEST(ForeignImages, PicturesKeepTheirLevelsBothWays) {
+  std::vector<std::uint8_t> rgb;
+  for (int i = 0; i < 3 * kNx * kNy; ++i) rgb.push_back(static_cast<std::uint8_t>(i * i % 251));
+  const std::string ours = temporary("ours.png"), theirs = temporary("theirs.png");
+  write_png_rgb(ours, kNx, kNy, rgb);
+  const auto in = OIIO::ImageInput::open(ours);
+  ASSERT_TRUE(in);
+  std::vector<std::uint8_t> back(rgb.size());
+  ASSERT_TRUE(in->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, back.data()));
+  EXPECT_EQ(back, rgb);
+
+  write(theirs, OIIO::ImageSpec(kNx, kNy, 3, OIIO::TypeDesc::UINT8), rgb);
+  const auto picture = open_picture_rows(theirs);
+  ASSERT_EQ(picture->channels, 3);
+  for (int y = 0; y < kNy; ++y)
+    picture->next(back.data() + static_cast<std::ptrdiff_t>(y) * 3 * kNx);
+  EXPECT_EQ(back, rgb);
+}
+
+TEST(ForeignImages, ThoseOfOursHaveTheirNumbersForOthers) {
+  Heightmap h{{kNx, kNy, 3.7e-6, 10e-6}, {}};
+  for (int y = kNy - 1; y >= 0; --y) {
+    for (int x = 0; x < kNx; ++x) h.z.push_back(1e-6 * static_cast<double>(height(x, y)));
+  }
+  const std::string exr = temporary("ours.exr"), tif = temporary("ours.tif"),
+                    png = temporary("ours16.png");
+  write_exr(exr, h, {});
+  write_tiff_float(tif, h, {});
+  write_png16(png, h);
+  for (const std::string& path : {exr, tif}) {
+    const auto in = OIIO::ImageInput::open(path);
+    ASSERT_TRUE(in) << path << OIIO::geterror();
+    std::vector<float> back(static_cast<std::size_t>(kNx * kNy));
+    ASSERT_TRUE(in->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, back.data()));
+    for (int y = 0; y < kNy; ++y) {
+      for (int x = 0; x < kNx; ++x)
+        ASSERT_NEAR(back[static_cast<std::size_t>(y * kNx + x)], height(x, y), 1e-6) << path;
+    }
+    EXPECT_EQ(in->spec().get_string_attribute("DateTime"), "2000:01:01 00:00:00") << path;
+  }
+  EXPECT_NEAR(OIIO::ImageInput::open(tif)->spec().get_float_attribute("XResolution"), 1e5, 0.1);
+  EXPECT_NEAR(OIIO::ImageInput::open(tif)->spec().get_float_attribute("YResolution"), 5e4, 0.1);
+  const auto in = OIIO::ImageInput::open(png);
+  ASSERT_TRUE(in);
+  EXPECT_EQ(in->spec().format, OIIO::TypeDesc::UINT16);
+  EXPECT_EQ(std::stod(in->spec().get_string_attribute("Gwy::XReal")), 3.7e-6);
+  std::vector<std::uint16_t> back(static_cast<std::size_t>(kNx * kNy));
+  ASSERT_TRUE(in->read_image(0, 0, 0, 1, OIIO::TypeDesc::UINT16, back.data()));
+  EXPECT_EQ(back.front(), 0);
+  EXPECT_EQ(back.back(), 65535);
+  const auto rows = open_height_rows(png);
+  EXPECT_NEAR(rows->header().ly, 10e-6, 1e-18);
+  std::vector<double> first(kNx);
+  rows->next(first.data());
+  for (int x = 0; x < kNx; ++x)
+    EXPECT_NEAR(first[static_cast<std::size_t>(x)], 1e-6 * static_cast<double>(height(x, 0)),
+                3e-11);
+}
+
+}  // namespace
+}  // namespace papilla::tests
