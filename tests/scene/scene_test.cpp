@@ -140,10 +140,6 @@ TEST(Surface, LayersAddTheirThicknessOverPermittivity) {
   surface.dielectric = {{"a", 400e-9, 4, 1, 1}, {"b", 60e-9, 3, 1, 1}};
   EXPECT_DOUBLE_EQ(surface.equivalent_thickness(), 120e-9);
   EXPECT_DOUBLE_EQ(surface.dielectric_thickness(), 460e-9);
-  surface.contact_angle = 1.58;
-  EXPECT_TRUE(surface.repels_water());
-  surface.contact_angle = 1.56;
-  EXPECT_FALSE(surface.repels_water());
 }
 
 // Key, default, range and source of every number of a scene, as they are written down.
