@@ -12,8 +12,10 @@
 
 #include "base/files.h"
 #include "base/sha256.h"
+#include "config/describe.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
+#include "geometry/texture.h"
 
 namespace papilla::report {
 namespace {
@@ -72,6 +74,31 @@ Json section_json(const Texture& texture) {
   return out;
 }
 
+// The measures that a section shows, by the names of their keys; null for a kind without a period.
+Json measures_json(Texture texture) {
+  const Roles role = roles(texture);
+  const TextureFacts of = facts(texture);
+  if (!role.period || !of.relief.present) return nullptr;
+  const auto* features = std::get_if<FeatureArray>(&of.outline);
+  Json out{{"raised", features && !features->deep}};
+  for (const NumberField& field : number_fields(texture, "texture")) {
+    const auto add = [&](const char* measure, const double* value) {
+      if (field.value == value)
+        out[measure] = {{"name", field.path.substr(field.path.rfind('.') + 1)}, {"value", *value}};
+    };
+    add("period", role.period);
+    add("width", role.width);
+    add("depth", role.depth);
+  }
+  return out;
+}
+
+void add_section(const Texture& texture, Json& out) {
+  if (Json section = section_json(texture); !section.is_null()) out["section"] = std::move(section);
+  if (Json measures = measures_json(texture); !measures.is_null())
+    out["measures"] = std::move(measures);
+}
+
 // What the charts need of a response.
 Json trimmed(const Json& response) {
   Json points = Json::array();
@@ -123,16 +150,14 @@ Json design_json(const fs::path& folder, bool with_flat) {
   out["toml"] = read_bytes(folder / "design.toml");
   const Heightmap h = read_heightmap(folder / "heightmap.gsf");
   out["heights"] = picture_json(h.grid, h.z);
-  if (Json section = section_json(read_design((folder / "design.toml").string()).texture);
-      !section.is_null())
-    out["section"] = std::move(section);
+  add_section(read_design((folder / "design.toml").string()).texture, out);
   return out;
 }
 
 Json shape_json(const Texture& texture) {
   const Heightmap h = generate(texture, patch_grid(texture, kPicturePixels));
   Json out{{"heights", picture_json(h.grid, h.z)}};
-  if (Json section = section_json(texture); !section.is_null()) out["section"] = std::move(section);
+  add_section(texture, out);
   return out;
 }
 

@@ -29,6 +29,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
 constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
+constexpr const char* kToConfirm = "2 min";           // of a search that is stopped
 constexpr int kGivesWay = 19;                         // niceness of a search: the hand comes first
 
 const char* name_of(SearchState state) {
@@ -140,7 +141,9 @@ void SearchDesk::find_last() {
   if (number_ == 0) return;
   try {
     begin_reading();
-    state_ = fs::exists(place() / "run.json", none) ? SearchState::Finished : SearchState::Paused;
+    // One that was interrupted has files too, but no end in its journal.
+    const bool finished = ended_ && fs::exists(place() / "run.json", none);
+    state_ = finished ? SearchState::Finished : SearchState::Paused;
   } catch (const InputError& error) {
     state_ = SearchState::Failed;
     trouble_ = error.what();
@@ -152,6 +155,7 @@ void SearchDesk::begin_reading() {
   total_ = search_problem(present_->problem).evaluations;
   found_.clear();
   read_ = 0;
+  ended_ = false;
   stage_ = "search";
   trouble_.clear();
   read_journal();
@@ -172,6 +176,7 @@ bool SearchDesk::read_journal() {
     if (!request) continue;
     news = true;
     stage_ = stage_name(request->stage);
+    ended_ = ended_ || request->stage == Stage::Done;
     if (request->stage != Stage::Search) continue;
     if (const auto judgement = decode_judgement(record.payload))
       found_.push_back({request->unit, *judgement});
@@ -207,9 +212,10 @@ void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish
 }
 
 // Asks the desk's thread, with which a search ends; with the lock held.
-void SearchDesk::launch(bool again) {
+void SearchDesk::launch(bool again, const char* time) {
   state_ = SearchState::Running;
   again_ = again;
+  time_ = time;
   wants_child_ = true;
   changed_.notify_all();
 }
@@ -238,6 +244,15 @@ void SearchDesk::resume() {
   launch(true);
 }
 
+void SearchDesk::stop() {
+  std::unique_lock lock(mutex_);
+  if (state_ == SearchState::Running) stop_child(lock);
+  if (state_ != SearchState::Running && state_ != SearchState::Paused)
+    throw InputError("no search is running");
+  if (found_.empty()) throw InputError("no design was judged yet: pause the search instead");
+  launch(true, kToConfirm);
+}
+
 void SearchDesk::watch() {
   std::unique_lock lock(mutex_);
   while (!closing_) {
@@ -246,6 +261,7 @@ void SearchDesk::watch() {
       std::vector<std::string> words{program_, "optimize", folder + "/study.toml", "--out", folder};
       std::error_code none;
       if (again_ && fs::exists(folder + "/journal", none)) words.push_back("--resume");
+      if (!time_.empty()) words.insert(words.end(), {"--time", time_});
       child_ = started(words, folder + "/log.txt");
       wants_child_ = false;
     }

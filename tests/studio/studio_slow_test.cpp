@@ -37,6 +37,8 @@ void in_browser(const std::string& part) {
 TEST(StudioInChromium, AnswersSlidersAndKeysInLightAndDarkWideAndNarrow) { in_browser("smoke"); }
 TEST(StudioInChromium, ShowsOneStateToTwoPagesAndToOneThatComesBack) { in_browser("pages"); }
 TEST(StudioInChromium, TakesAPersonThroughAnHour) { in_browser("hour"); }
+TEST(StudioInChromium, TakesAPersonThroughAnHourByKeysAlone) { in_browser("keys"); }
+TEST(StudioInChromium, AnswersTheLastOfAThousandEvents) { in_browser("thousand"); }
 
 // A studio in a process of its own, which a test may kill.
 class Process {
@@ -111,15 +113,18 @@ double session_depth(const Place& place) {
   return at == std::string::npos ? -1 : std::stod(text.substr(at + mark.size()));
 }
 
-// PAPILLA_KILLS: how many. Each time a search goes on and designs are changed and saved, until the
-// studio is killed at a moment that the seed chooses.
+// Each time a search goes on and designs are changed and saved, until the studio is killed at a
+// moment that the seed chooses. PAPILLA_KILLS: how many; PAPILLA_KILLS_FILE: where each is noted.
 TEST(KilledStudio, LosesNothingThatItAnswered) {
   const TemporaryFolder folder;
   write_bytes(
       folder.path() / "mine.toml",
       "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n\n[texture]\ndepth = \"600 nm\"\n");
   const char* wanted = std::getenv("PAPILLA_KILLS");
-  const int kills = wanted ? std::atoi(wanted) : 6;
+  const int kills = wanted ? std::atoi(wanted) : 12;
+  const char* noted = std::getenv("PAPILLA_KILLS_FILE");
+  std::string notes =
+      "kill,after [ms],changes answered,saves answered,records of the search before\n";
   std::mt19937 random(50);
   Promised design, file;
   std::vector<std::string> journal;
@@ -141,8 +146,9 @@ TEST(KilledStudio, LosesNothingThatItAnswered) {
     EXPECT_EQ(search.status, 200) << search.text;
     for (int i = 0; i < 1200 && journal_of(folder.path()).size() <= journal.size(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    const auto end = std::chrono::steady_clock::now() +
-                     std::chrono::milliseconds(static_cast<int>(random() % 2000));
+    const int after_ms = static_cast<int>(random() % 2000);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(after_ms);
+    int changes = 0, saves = 0;
     std::thread killer([&] {
       std::this_thread::sleep_until(end);
       studio.kill();
@@ -153,16 +159,20 @@ TEST(KilledStudio, LosesNothingThatItAnswered) {
           fmt::format(R"({{"path":"texture.depth","value":"{} nm"}})", design.asked);
       if (replied(place, place.own("POST", "set", body), 5).status != 200) break;
       design.answered = design.asked;
+      ++changes;
       if (i % 3 != 0) continue;
       file.asked = design.answered;
       const Reply saved =
           replied(place, place.own("POST", "save", R"({"name":"mine.toml","overwrite":true})"), 5);
       if (saved.status != 200) break;
       file.answered = file.asked;
+      ++saves;
     }
     killer.join();
+    notes += fmt::format("{},{},{},{},{}\n", k + 1, after_ms, changes, saves, journal.size());
     journal = journal_of(folder.path());
   }
+  if (noted) write_bytes(noted, notes);
   EXPECT_GE(static_cast<int>(journal.size()), kills);
 }
 

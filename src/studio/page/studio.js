@@ -27,7 +27,7 @@ function showSession(now) {
 }
 
 function told(answer) {
-  if (session && answer.revision < session.revision && answer.step !== 'search') return;
+  if (session && answer.revision < session.revision && answer.step !== 'first') return;
   showAnswer(answer);
   requestAnimationFrame(() => setTimeout(() => drawn(answer.revision)));
 }
