@@ -1,6 +1,8 @@
 #include "studio/http.h"
 
 #include <fmt/format.h>
+// More than 5 that knock at once: a browser would try again a second later.
+#define CPPHTTPLIB_LISTEN_BACKLOG 256
 #include <httplib.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -28,12 +30,17 @@ class TimedStream final : public httplib::Stream {
 
   // The request was let in; what came of it until now was its head.
   void admit() { admitted_ = true; }
+  // Too slow or too long: what comes now is the middle of something, no request.
+  bool broken() const { return broken_; }
 
   bool is_readable() const override { return wait(POLLIN); }
   bool is_writable() const override { return wait(POLLOUT); }
   ssize_t read(char* to, std::size_t size) override {
     if (used_ == filled_) {
-      if (!is_readable() || (!admitted_ && unadmitted_ > kMostHead)) return -1;
+      if (!is_readable() || (!admitted_ && unadmitted_ > kMostHead)) {
+        broken_ = true;
+        return -1;
+      }
       const ssize_t got = ::recv(socket_, buffer_, sizeof buffer_, 0);
       if (got <= 0) return got;
       unadmitted_ += static_cast<std::size_t>(got);
@@ -92,7 +99,7 @@ class TimedStream final : public httplib::Stream {
   Clock::time_point deadline_;
   char buffer_[4096];
   std::size_t used_ = 0, filled_ = 0, unadmitted_ = 0;
-  bool admitted_ = false;
+  bool admitted_ = false, broken_ = false;
 };
 
 // Connections whose request has not been let in: nobody knows yet whether one ever comes. Where
@@ -177,7 +184,7 @@ class BoundedServer final : public httplib::Server {
       const bool asks = stream.next(limits_.idle, [this] { return svr_sock_ != INVALID_SOCKET; });
       const bool on = asks && process_request(stream, left == 1, closed, nullptr);
       strangers_.leave(socket);
-      if (!on) break;
+      if (!on || stream.broken()) break;
     }
     ::shutdown(socket, SHUT_RDWR);
     ::close(socket);

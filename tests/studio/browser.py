@@ -115,7 +115,7 @@ def smoke(browser, folder):
         until(browser, f"papilla.charts.modulation.data.datasets[0].data[0].y < {0.9 * before[0]}", 30, "a weaker drive")
         check(browser.run("return document.getElementById('file').textContent").endswith("1 changed"), "no change is said")
         until(browser, "papilla.charts.section", 20, "the section")
-        lines = browser.run("return papilla.charts.section.options.plugins.dimensions.lines.map(l => [l.text, l.to - l.from])")
+        lines = browser.run("return papilla.charts.section.data.datasets[0].dimensions.lines.map(l => [l.text, l.to - l.from])")
         check([t for t, _ in lines] == ["period 6 µm", "diameter 3 µm", "depth 600 nm"], f"dimension lines {lines}")
         check(abs(lines[0][1] - 6) < 1e-6 and abs(lines[1][1] - 3) < 1e-6, f"dimension lines as long as {lines}")
         # A slider by arrows, undo by its key, a pin.
@@ -349,6 +349,7 @@ def keys(browser, folder):
         type_over(browser, "typed.toml")
         press(browser, ENTER)
         until(browser, "document.documentElement.dataset.saved === 'typed.toml'", 30, "the saved file")
+        check(browser.run("return document.querySelector('[data-path=\\"texture.depth\\"] td:last-child input').value") == "500 to 600 nm", "the wish is gone after a save")
         tab_to(browser, "e.id === 'export'", "Export")
         press(browser, ENTER)
         until(browser, "document.querySelector('#dialog').open && document.querySelector('#dialogbody table')", 20, "the dialog to export")

@@ -39,11 +39,11 @@ export function alongLine(line, length, measures) {
   const lines = dimensionLines(line, measures, length), heights = line.map((p) => p.y), low = Math.min(...heights), high = Math.max(...heights);
   return {
     type: 'line',
-    data: { datasets: [{ label: 'height', data: line, borderColor: colours[0], backgroundColor: colours[0] + '22', fill: 'start', pointRadius: 0, borderWidth: 2 }] },
+    data: { datasets: [{ label: 'height', data: line, dimensions: { lines, low, high }, borderColor: colours[0], backgroundColor: colours[0] + '22', fill: 'start', pointRadius: 0, borderWidth: 2 }] },
     plugins: [dimensionPlugin],
     options: {
       parsing: false,
-      plugins: { legend: { display: false }, dimensions: { lines, low, high } },
+      plugins: { legend: { display: false } },
       scales: { x: axis('along the section [µm]', { type: 'linear', max: length, min: 0 }), y: axis('height [nm]', lines.length ? { suggestedMax: high + roomForRows * (high - low) } : {}) },
     },
   };

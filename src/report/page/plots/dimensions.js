@@ -28,7 +28,8 @@ export function dimensionLines(line, measures, end) {
 export const roomForRows = 0.5;
 export const dimensionPlugin = {
   id: 'dimensions',
-  afterDatasetsDraw(chart, args, { lines = [], low, high }) {
+  afterDatasetsDraw(chart) {
+    const { lines, low, high } = chart.data.datasets[0].dimensions;
     const rowHeight = 19, tipLength = 5;  // px
     const c = chart.ctx, { x, y } = chart.scales;
     c.save();
