@@ -29,7 +29,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
 constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
-constexpr const char* kToConfirm = "2 min";           // of a search that is stopped
 constexpr int kGivesWay = 19;                         // niceness of a search: the hand comes first
 
 const char* name_of(SearchState state) {
@@ -212,10 +211,10 @@ void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish
 }
 
 // Asks the desk's thread, with which a search ends; with the lock held.
-void SearchDesk::launch(bool again, const char* time) {
+void SearchDesk::launch(bool again, std::size_t evaluations) {
   state_ = SearchState::Running;
   again_ = again;
-  time_ = time;
+  evaluations_ = evaluations;
   wants_child_ = true;
   changed_.notify_all();
 }
@@ -250,7 +249,7 @@ void SearchDesk::stop() {
   if (state_ != SearchState::Running && state_ != SearchState::Paused)
     throw InputError("no search is running");
   if (found_.empty()) throw InputError("no design was judged yet: pause the search instead");
-  launch(true, kToConfirm);
+  launch(true, found_.size());
 }
 
 void SearchDesk::watch() {
@@ -261,7 +260,8 @@ void SearchDesk::watch() {
       std::vector<std::string> words{program_, "optimize", folder + "/study.toml", "--out", folder};
       std::error_code none;
       if (again_ && fs::exists(folder + "/journal", none)) words.push_back("--resume");
-      if (!time_.empty()) words.insert(words.end(), {"--time", time_});
+      if (evaluations_ > 0)
+        words.insert(words.end(), {"--evaluations", std::to_string(evaluations_)});
       child_ = started(words, folder + "/log.txt");
       wants_child_ = false;
     }

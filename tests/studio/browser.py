@@ -230,12 +230,15 @@ def hour(browser, folder):
         unfinished(browser)
         browser.run("document.querySelector('#frontlist button').click()")
         until(browser, "papilla.session().changes.length > 0", 20, "a picked design")
-        browser.run("""document.getElementById('evaluations').value = 10;
+        browser.run("""document.getElementById('evaluations').value = 4000;
             [...document.querySelectorAll('#variables tbody tr')].find(r => r.dataset.path === 'texture.depth').querySelectorAll('[type=text]')[1].value = '500 nm';
             document.getElementById('steer').click()""")
         until(browser, "document.getElementById('stage').textContent.includes('searches/002')", 60, "the steered search")
+        until(browser, "papilla.charts.pareto.data.datasets.some(s => s.data.length > 3)", 180, "designs of the steered search")
+        browser.run("document.getElementById('stop').click()")
         until(browser, "document.getElementById('searchstate').textContent === 'finished'", 600, "the end of the search")
         until(browser, "papilla.charts.pareto.data.datasets[0].label === 'front, confirmed'", 10, "a confirmed front")
+        check(browser.run("return document.getElementById('report').textContent") == "Report", "a finished search has no report")
         browser.picture(PICTURES, "hour_4_front.png")
         browser.run("document.querySelector('#frontlist button').click()")
         until(browser, "document.documentElement.dataset.idle === 'yes'", 180, "the picked design")
@@ -349,7 +352,7 @@ def keys(browser, folder):
         type_over(browser, "typed.toml")
         press(browser, ENTER)
         until(browser, "document.documentElement.dataset.saved === 'typed.toml'", 30, "the saved file")
-        check(browser.run("return document.querySelector('[data-path=\\"texture.depth\\"] td:last-child input').value") == "500 to 600 nm", "the wish is gone after a save")
+        check(browser.run("return document.querySelector('[data-path=\"texture.depth\"] td:last-child input').value") == "500 to 600 nm", "the wish is gone after a save")
         tab_to(browser, "e.id === 'export'", "Export")
         press(browser, ENTER)
         until(browser, "document.querySelector('#dialog').open && document.querySelector('#dialogbody table')", 20, "the dialog to export")

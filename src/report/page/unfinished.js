@@ -6,6 +6,6 @@ $('level').textContent = all.searched.length ? 'Designs at the cheap level of th
 draw('pareto', { type: 'scatter', data: { datasets: sets }, options: { scales, plugins: { legend: { labels: { usePointStyle: true, boxHeight: 7 } } } } });
 const shown = foundTable(all.front, all.names, search.variables.map((v) => v.path.replace(/^[a-z]+\./, '').replace(/[._]/g, ' ')), (text) => text.replace(/um\b/, 'µm').replace(/ deg\b/, '°'));
 table($('frontlist'), shown.head, shown.rows);
-$('study').textContent = data.study;
+$('study').textContent = '[design_space]' + data.study.split('\n[design_space]')[1];
 $('command').textContent = `papilla optimize ${search.folder}/study.toml --out ${search.folder} --resume`;
 finish();
