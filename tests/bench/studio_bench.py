@@ -130,13 +130,16 @@ def bands(out, count):
     draw = random.Random(2611)  # none of the positions that the law was set on
     folder = tempfile.mkdtemp()
     rows, inside, readings = [], 0, 0
+    positions = dict.fromkeys(KEYS, count // len(KEYS))
+    for kind in ["flat", "particles"][:count % len(KEYS)]:
+        positions[kind] += 1
     for kind, keys in KEYS.items():
         studio = Studio(tempfile.mkdtemp(dir=folder), design(folder, kind))
         talk = Talk(studio)
         state = json.load(talk.opener.open(talk.root + "state"))["session"]
         start = {k["path"]: k for k in state["keys"]}
         talk.answer(state["revision"], "design")
-        for n in range(count // len(KEYS) + (1 if kind == "flat" and count % len(KEYS) else 0)):
+        for n in range(positions[kind]):
             key = start[keys[n % len(keys)]]
             value = key["shown"] * math.exp(draw.uniform(math.log(RANGE[0]), math.log(RANGE[1])))
             revision = talk.post("set", {"path": key["path"], "value": f"{value:.4g} {key['unit']}"})["revision"]

@@ -99,6 +99,20 @@ TEST(SearchWish, RefusesWhatIsNoSearch) {
   EXPECT_THROW(search_wish(Json{{"maximise", {"x"}}}), InputError);
 }
 
+// `optimize` that is ended by a signal leaves files, run.json too, and a journal without an end.
+TEST(SearchDesk, FindsAnInterruptedSearchPaused) {
+  const TemporaryFolder place;
+  const std::filesystem::path folder = place.path() / "searches/001";
+  std::filesystem::create_directories(folder);
+  write_bytes(folder / "study.toml", study_text(read_study(kHoles), depth_wish()));
+  write_bytes(folder / "origin.json", R"({"file":")" + kHoles + R"(","changes":[]})");
+  write_bytes(folder / "journal", "");
+  write_bytes(folder / "run.json", "{}");
+  const SearchDesk desk(place.path(), "none", [] {});
+  EXPECT_EQ(desk.json()["state"], "paused");
+  EXPECT_EQ(desk.json()["total"], 12);
+}
+
 Response response_of(double modulation, double sampling) {
   Response out;
   out.driven = true;
