@@ -221,6 +221,7 @@ def hour(browser, folder):
         browser.run("document.getElementById('pin').click()")
         until(browser, "document.querySelectorAll('.pinned').length === 1", 10, "a pin")
         slide(browser, "texture.diameter", 0.7)
+        until(browser, "papilla.session().keys.find(k => k.path === 'texture.diameter').changed && +document.documentElement.dataset.shape === papilla.session().revision", 30, "the shape of the change")
         until(browser, "document.documentElement.dataset.idle === 'yes' && document.documentElement.dataset.step === 'design'", 120, "the comparison")
         browser.picture(PICTURES, "hour_2_pinned.png")
         # Search, steered once.
