@@ -7,6 +7,19 @@
 #include "base/random.h"
 
 namespace papilla::optim {
+namespace {
+
+// The two ends of what is excluded are one place on the unit interval: so much of that belongs to
+// the upper one.
+constexpr double kUpperEnd = 1e-9;
+
+double free_length(const Dimension& d) {
+  double out = d.high - d.low;
+  for (const Excluded& e : d.excluded) out -= e.to - e.from;
+  return out;
+}
+
+}  // namespace
 
 Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i) {
   // Roberts' generalised golden ratio: phi solves x^(d+1) = x + 1; a random shift scrambles.
@@ -20,38 +33,56 @@ Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t 
   return u;
 }
 
+double Dimension::value(double u) const {
+  if (!choices.empty()) {
+    const auto n = choices.size();
+    return choices[std::min(n - 1, static_cast<std::size_t>(u * static_cast<double>(n)))];
+  }
+  if (u >= 1) return high;
+  const double length = free_length(*this);
+  double out = low + u * length;
+  for (const Excluded& e : excluded) {
+    if (out <= e.from) break;
+    out = std::max(out + e.to - e.from, e.to);
+    if (out - e.to < kUpperEnd * length) out = e.to;
+  }
+  return out;
+}
+
+double Dimension::unit(double value) const {
+  if (!choices.empty()) {
+    std::size_t nearest = 0;
+    for (std::size_t k = 1; k < choices.size(); ++k) {
+      if (std::abs(choices[k] - value) < std::abs(choices[nearest] - value)) nearest = k;
+    }
+    return (static_cast<double>(nearest) + 0.5) / static_cast<double>(choices.size());
+  }
+  const double length = free_length(*this);
+  double at = value;
+  for (const Excluded& e : excluded) {
+    if (e.holds(at)) at = at - e.from < e.to - at ? e.from : e.to;
+  }
+  double before = at - low;  // of what is not excluded
+  for (const Excluded& e : excluded) {
+    if (at < e.to) break;
+    before -= e.to - e.from;
+    if (at == e.to) before += 0.5 * kUpperEnd * length;
+  }
+  return length > 0 ? std::clamp(before / length, 0.0, 1.0) : 0.5;
+}
+
 Point Space::value(const Point& unit) const {
   PAPILLA_CHECK(unit.size() == size(), "one coordinate per variable");
   Point out(size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Dimension& d = dimensions[i];
-    const double u = std::isfinite(unit[i]) ? std::clamp(unit[i], 0.0, 1.0) : 0.5;
-    if (d.choices.empty()) {
-      out[i] = u >= 1 ? d.high : d.low + u * (d.high - d.low);
-    } else {
-      const auto n = d.choices.size();
-      out[i] = d.choices[std::min(n - 1, static_cast<std::size_t>(u * static_cast<double>(n)))];
-    }
-  }
+  for (std::size_t i = 0; i < size(); ++i)
+    out[i] = dimensions[i].value(std::isfinite(unit[i]) ? std::clamp(unit[i], 0.0, 1.0) : 0.5);
   return out;
 }
 
 Point Space::unit(const Point& value) const {
   PAPILLA_CHECK(value.size() == size(), "one value per variable");
   Point out(size());
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Dimension& d = dimensions[i];
-    if (d.choices.empty()) {
-      out[i] = d.high > d.low ? std::clamp((value[i] - d.low) / (d.high - d.low), 0.0, 1.0) : 0.5;
-    } else {
-      std::size_t nearest = 0;
-      for (std::size_t k = 1; k < d.choices.size(); ++k) {
-        if (std::abs(d.choices[k] - value[i]) < std::abs(d.choices[nearest] - value[i]))
-          nearest = k;
-      }
-      out[i] = (static_cast<double>(nearest) + 0.5) / static_cast<double>(d.choices.size());
-    }
-  }
+  for (std::size_t i = 0; i < size(); ++i) out[i] = dimensions[i].unit(value[i]);
   return out;
 }
 

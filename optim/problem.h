@@ -16,14 +16,28 @@ using Point = std::vector<double>;
 // ratio).
 Point low_discrepancy(std::size_t dimensions, std::uint64_t seed, std::uint64_t i);
 
-// One variable: an interval, or a list of choices (values in increasing order).
+// Values between two others; the ends do not belong to it.
+struct Excluded {
+  double from = 0, to = 0;
+
+  bool holds(double value) const { return value > from && value < to; }
+  bool operator==(const Excluded&) const = default;
+};
+
+// One variable: an interval, without what is excluded of it, or a list of choices (values in
+// increasing order).
 struct Dimension {
   double low = 0, high = 1;
   std::vector<double> choices;
-  bool ordered = true;  // else the choices are kinds: none lies between two others
+  bool ordered = true;               // else the choices are kinds: none lies between two others
+  std::vector<Excluded> excluded{};  // in increasing order, apart, within the interval
+
+  double value(double unit) const;  // unit: in [0, 1]
+  double unit(double value) const;  // of an excluded value: of the end that is nearer
 };
 
-// The unit cube is what searchers see; choices split their unit interval into equal cells.
+// The unit cube is what searchers see; choices split their unit interval into equal cells,
+// excluded values take none of it.
 struct Space {
   std::vector<Dimension> dimensions;
   // Unit points that are the same thing to their representative; may be empty. Idempotent.

@@ -17,8 +17,8 @@ Point model_coordinates(const SearchProblem& problem, const Point& unit) {
   Point out;
   for (std::size_t k = 0; k < unit.size(); ++k) {
     const Dimension& d = problem.space.dimensions[k];
-    if (d.ordered) {
-      out.push_back(unit[k]);
+    if (d.ordered) {  // as far apart as the values are, excluded ones counted
+      out.push_back(d.excluded.empty() ? unit[k] : (d.value(unit[k]) - d.low) / (d.high - d.low));
       continue;
     }
     const double count = static_cast<double>(d.choices.size());

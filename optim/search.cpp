@@ -48,7 +48,7 @@ const MethodKind& method_kind(const std::string& name) {
 bool sum_of_squares(const SearchProblem& p) {
   return p.residuals >= p.space.size() && p.objectives == 1 && p.constraints == 0 &&
          std::all_of(p.space.dimensions.begin(), p.space.dimensions.end(),
-                     [](const Dimension& d) { return d.choices.empty(); });
+                     [](const Dimension& d) { return d.choices.empty() && d.excluded.empty(); });
 }
 
 SearchMethod best_method(const SearchProblem& problem) {

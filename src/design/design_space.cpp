@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "design/families.h"
 #include "design/study_file.h"
@@ -23,7 +24,7 @@ void read_kinds(StudyFile& file, const PathMembers& members) {
       file.document.problem(node->place, where, expected + ", got " + describe(*node));
       continue;
     }
-    Variable variable{path, "", 0, 0, {}};
+    Variable variable{path, "", 0, 0, {}, {}};
     const auto& kinds = texture_kinds();
     for (const Node& item : choice->children) {
       const auto found =
@@ -47,35 +48,80 @@ void read_kinds(StudyFile& file, const PathMembers& members) {
   }
 }
 
-// Bounds [low, high] of a number, or its choices.
+constexpr const char* kExpected =
+    "expected [low, high], { choice = [...] } or { range = [low, high], exclude = [[from, to]] }";
+
+// Numbers of a list; nothing where one of them is none.
+std::optional<std::vector<double>> read_list(StudyFile& file, const NumberField& field,
+                                             const Node& list, const std::string& where) {
+  std::vector<double> out(list.children.size());
+  bool good = true;
+  for (std::size_t i = 0; i < out.size(); ++i)
+    good &= file.numbers.read(field, list.children[i], where, out[i]);
+  return good ? std::optional(out) : std::nullopt;
+}
+
+// Ranges within the bounds of a variable, merged where they overlap.
+void read_excluded(StudyFile& file, const NumberField& field, const Node& list,
+                   const std::string& where, Variable& variable) {
+  for (const Node& item : list.children) {
+    const auto ends = item.is_array() && item.children.size() == 2
+                          ? read_list(file, field, item, where)
+                          : std::nullopt;
+    if (!item.is_array() || item.children.size() != 2) {
+      file.document.problem(item.place, where, "expected [from, to], got " + describe(item));
+    } else if (ends && !(variable.low < ends->front() && ends->front() < ends->back() &&
+                         ends->back() < variable.high)) {
+      file.document.problem(item.place, where,
+                            "expected low < from < to < high; where nothing is left at an end, "
+                            "narrow `range` instead");
+    } else if (ends) {
+      variable.excluded.push_back({ends->front(), ends->back()});
+    }
+  }
+  auto& all = variable.excluded;
+  std::sort(all.begin(), all.end(),
+            [](const Excluded& a, const Excluded& b) { return a.from < b.from; });
+  for (std::size_t i = 1; i < all.size();) {
+    if (all[i].from > all[i - 1].to) {
+      ++i;
+      continue;
+    }
+    all[i - 1].to = std::max(all[i - 1].to, all[i].to);
+    all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
+// Bounds [low, high] of a number, what is excluded between them, or its choices.
 void read_variable(StudyFile& file, const std::string& path, const Node& node) {
   const std::string where = "design_space." + path;
   const NumberField* field = file.numbers.find(path, node, "design_space");
   if (!field) return;
-  Variable variable{path, field->unit, 0, 0, {}};
+  Variable variable{path, field->unit, 0, 0, {}, {}};
   const Node* choice = node.is_table() ? node.find("choice") : nullptr;
-  const Node& list = choice ? *choice : node;
-  if (!list.is_array() || (!choice && list.children.size() != 2) || list.children.empty()) {
+  const Node* range = node.is_table() ? node.find("range") : nullptr;
+  const Node* exclude = range ? node.find("exclude") : nullptr;
+  const Node& list = choice ? *choice : range ? *range : node;
+  if (!list.is_array() || (!choice && list.children.size() != 2) || list.children.empty() ||
+      (exclude && !exclude->is_array())) {
     file.document.problem(
         list.place, where,
-        fmt::format("expected [low, high] or {{ choice = [...] }}, got {}", describe(list)));
+        fmt::format("{}, got {}", kExpected, describe(exclude ? *exclude : list)));
     return;
   }
-  if (choice && node.children.size() > 1)
-    file.document.problem(node.place, where, "expected `choice` alone");
-  std::vector<double> values(list.children.size());
-  bool good = true;
-  for (std::size_t i = 0; i < values.size(); ++i)
-    good &= file.numbers.read(*field, list.children[i], where, values[i]);
-  if (!good) return;
-  variable.low = *std::min_element(values.begin(), values.end());
-  variable.high = *std::max_element(values.begin(), values.end());
+  if (node.is_table() && node.children.size() > (exclude ? 2 : 1))
+    file.document.problem(node.place, where, kExpected);
+  const auto values = read_list(file, *field, list, where);
+  if (!values) return;
+  variable.low = *std::min_element(values->begin(), values->end());
+  variable.high = *std::max_element(values->begin(), values->end());
   if (choice) {
-    variable.choices = values;
-  } else if (values[0] >= values[1]) {
+    variable.choices = *values;
+  } else if (values->front() >= values->back()) {
     file.document.problem(list.place, where, "expected low < high");
     return;
   }
+  if (exclude) read_excluded(file, *field, *exclude, where + ".exclude", variable);
   file.study.variables.push_back(std::move(variable));
 }
 

@@ -13,7 +13,8 @@ namespace {
 void flatten(const Node& table, const std::string& path, bool stop_at_choice, PathMembers& out) {
   for (const Node& child : table.children) {
     const std::string full = path.empty() ? child.key : path + "." + child.key;
-    const bool leaf = !child.is_table() || (stop_at_choice && child.find("choice"));
+    const bool leaf =
+        !child.is_table() || (stop_at_choice && (child.find("choice") || child.find("range")));
     if (leaf) {
       out.emplace_back(full, &child);
     } else {

@@ -24,7 +24,7 @@ struct Setting {
 Design with_settings(Design design, const std::vector<Setting>& settings);
 
 // The members of a section by their full path: "texture.diameter" = ... and texture.diameter = ...
-// mean the same. stop_at_choice: a section with a `choice` is one member.
+// mean the same. stop_at_choice: a section with a `choice` or a `range` is one member.
 using PathMembers = std::vector<std::pair<std::string, const Node*>>;
 PathMembers members_by_path(const Node& section, bool stop_at_choice = false);
 

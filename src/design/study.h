@@ -10,16 +10,18 @@
 #include "config/reader.h"
 #include "design/design.h"
 #include "design/paths.h"
+#include "optim/problem.h"
 
 namespace papilla::design {
 
 // One number that the search may change; or the texture's kind ("texture.type", by its place in
 // texture_kinds()) or how many parts of a stack there are ("texture.levels").
 struct Variable {
-  std::string path;             // into Design: "texture.diameter"
-  std::string unit;             // for people
-  double low = 0, high = 0;     // SI
-  std::vector<double> choices;  // SI; when not empty, one of these
+  std::string path;                  // into Design: "texture.diameter"
+  std::string unit;                  // for people
+  double low = 0, high = 0;          // SI
+  std::vector<double> choices;       // SI; when not empty, one of these
+  std::vector<Excluded> excluded{};  // SI; between low and high
 
   bool is_kind() const { return path == "texture.type"; }
   bool is_levels() const { return path == "texture.levels"; }

@@ -25,6 +25,7 @@ namespace papilla::report {
 extern const std::string_view kPageHtml, kPageScript;
 extern const std::string_view kOptimizeHtml, kOptimizeScript, kRankHtml, kRankScript;
 extern const std::string_view kCalibrateHtml, kCalibrateScript;
+extern const std::string_view kUnfinishedHtml, kUnfinishedScript;
 
 namespace {
 
@@ -63,8 +64,9 @@ std::string joined(const std::vector<std::string_view>& modules) {
 
 // The plots of all pages; only a page with a solid has the one for that.
 std::string plots(bool solid) {
-  std::vector<std::string_view> modules{kLookModule, kNumbersModule, kTablesModule,
-                                        kMapsModule, kChartsModule,  kCurvesModule};
+  std::vector<std::string_view> modules{kLookModule,   kNumbersModule, kTablesModule,
+                                        kMapsModule,   kChartsModule,  kDimensionsModule,
+                                        kCurvesModule, kFoundModule};
   if (solid) modules.push_back(kSolidModule);
   return joined(modules);
 }
@@ -187,6 +189,14 @@ std::string report_page(const std::string& folder, const std::string& pick) {
     return optimize_page(root, fs::path(picked_design_file(folder, pick)).parent_path());
   if (!pick.empty()) throw InputError("--pick is for a folder of `papilla optimize`");
   return ranked ? rank_page(root) : calibrate_page(root);
+}
+
+std::string unfinished_page(const std::string& folder, const Json& search) {
+  const fs::path root(folder);
+  const std::string study = read_bytes(root / "study.toml");
+  return page_text(root, read_study((root / "study.toml").string()).design.title,
+                   {kUnfinishedHtml, kUnfinishedScript, ""},
+                   {{"search", search}, {"study", study}});
 }
 
 }  // namespace papilla::report

@@ -12,8 +12,10 @@
 
 #include "base/files.h"
 #include "base/sha256.h"
+#include "config/describe.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
+#include "geometry/texture.h"
 
 namespace papilla::report {
 namespace {
@@ -48,17 +50,17 @@ Json bytes_json(const Grid& grid, const std::vector<double>& values) {
 
 // Heights along the middle of a row of features, on pixels that draw their walls as they are; null
 // for a texture that is not drawn of shapes on a lattice. "at": the row's share of the way up.
-Json section_json(const Texture& texture) {
-  constexpr int kPixels = 4096, kRows = 256;
+Json section_json(const Texture& texture, int pixels) {
+  constexpr int kRows = 256;
   const TextureFacts of = facts(texture);
   const auto* features = std::get_if<FeatureArray>(&of.outline);
   if (!of.cell || !features) return nullptr;
-  const Grid cell = patch_grid(texture, kPixels);
-  const Heightmap h = generate(texture, {kPixels, kRows, cell.lx, cell.ly});
+  const Grid cell = patch_grid(texture, pixels);
+  const Heightmap h = generate(texture, {pixels, kRows, cell.lx, cell.ly});
   // The row that the features cover most: through their middle.
   const auto row_mean = [&](int y) {
     const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, y));
-    return std::accumulate(begin, begin + kPixels, 0.0);
+    return std::accumulate(begin, begin + pixels, 0.0);
   };
   int middle = 0;
   double most = row_mean(0);
@@ -67,9 +69,36 @@ Json section_json(const Texture& texture) {
     if (features->deep ? mean < most : mean > most) std::tie(middle, most) = std::pair(y, mean);
   }
   const auto begin = h.z.begin() + static_cast<std::ptrdiff_t>(h.grid.index(0, middle));
-  Json out = bytes_json({kPixels, 1, cell.lx, h.grid.dy()}, {begin, begin + kPixels});
+  Json out = bytes_json({pixels, 1, cell.lx, h.grid.dy()}, {begin, begin + pixels});
   out["at"] = (middle + 0.5) / kRows;
   return out;
+}
+
+// The measures that a section shows, by the names of their keys; null for a kind without a period.
+Json measures_json(Texture texture) {
+  const Roles role = roles(texture);
+  const TextureFacts of = facts(texture);
+  if (!role.period || !of.relief.present) return nullptr;
+  const auto* features = std::get_if<FeatureArray>(&of.outline);
+  Json out{{"raised", features && !features->deep}};
+  for (const NumberField& field : number_fields(texture, "texture")) {
+    const auto add = [&](const char* measure, const double* value) {
+      if (field.value == value)
+        out[measure] = {{"name", field.path.substr(field.path.rfind('.') + 1)}, {"value", *value}};
+    };
+    add("period", role.period);
+    add("width", role.width);
+    add("depth", role.depth);
+  }
+  return out;
+}
+
+// pixels: along it.
+void add_section(const Texture& texture, int pixels, Json& out) {
+  if (Json section = section_json(texture, pixels); !section.is_null())
+    out["section"] = std::move(section);
+  if (Json measures = measures_json(texture); !measures.is_null())
+    out["measures"] = std::move(measures);
 }
 
 // What the charts need of a response.
@@ -123,16 +152,16 @@ Json design_json(const fs::path& folder, bool with_flat) {
   out["toml"] = read_bytes(folder / "design.toml");
   const Heightmap h = read_heightmap(folder / "heightmap.gsf");
   out["heights"] = picture_json(h.grid, h.z);
-  if (Json section = section_json(read_design((folder / "design.toml").string()).texture);
-      !section.is_null())
-    out["section"] = std::move(section);
+  constexpr int kSectionPixels = 4096;
+  add_section(read_design((folder / "design.toml").string()).texture, kSectionPixels, out);
   return out;
 }
 
 Json shape_json(const Texture& texture) {
   const Heightmap h = generate(texture, patch_grid(texture, kPicturePixels));
   Json out{{"heights", picture_json(h.grid, h.z)}};
-  if (Json section = section_json(texture); !section.is_null()) out["section"] = std::move(section);
+  constexpr int kSectionPixels = 1024;  // as wide as it is drawn under the hand, a quarter the time
+  add_section(texture, kSectionPixels, out);
   return out;
 }
 

@@ -19,7 +19,7 @@ nlohmann::ordered_json picture_json(const Grid& grid, const std::vector<double>&
 // and the surface without texture.
 nlohmann::ordered_json design_json(const std::filesystem::path& folder, bool with_flat);
 
-// {"heights", "section"}: what the pictures of a texture are made of.
+// {"heights", "section", "measures"}: what the pictures of a texture are made of.
 nlohmann::ordered_json shape_json(const Texture& texture);
 
 // Gap, pressure, pull and water of one patch at a humidity. Cost: that patch.

@@ -9,7 +9,7 @@
 namespace papilla::report {
 
 extern const std::string_view kLookModule, kNumbersModule, kTablesModule, kMapsModule,
-    kChartsModule, kCurvesModule, kSolidModule;
+    kChartsModule, kDimensionsModule, kCurvesModule, kFoundModule, kSolidModule;
 extern const std::string_view kPageStyle, kChartScript, kThreeScript;
 
 }  // namespace papilla::report

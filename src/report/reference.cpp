@@ -104,6 +104,8 @@ std::vector<Part> study_reference() {
           "the search may change this number; PATH is any number of the design, e.g. "
           "texture.depth"),
       key("design_space.\"PATH\" = { choice = [...] }", "the same, one of the listed values"),
+      key("design_space.\"PATH\" = { range = [low, high], exclude = [[from, to]] }",
+          "the same, without the values between from and to, any number of such pairs"),
       key("objective.maximise, objective.minimise",
           "a metric over humidity, e.g. \"mean(modulation)\", \"worst(modulation)\", "
           "\"variation(modulation)\"; two in all make a Pareto front"),

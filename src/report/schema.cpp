@@ -231,6 +231,11 @@ Json study_sections() {
                     {"required", {"choice"}},
                     {"additionalProperties", false}};
   const Json interval{{"type", "array"}, {"items", value}, {"minItems", 2}, {"maxItems", 2}};
+  const Json gapped{
+      {"type", "object"},
+      {"properties", {{"range", interval}, {"exclude", {{"type", "array"}, {"items", interval}}}}},
+      {"required", {"range"}},
+      {"additionalProperties", false}};
   const Json metric{{"type", "string"}, {"pattern", fmt::format("^\\s*{}\\s*$", metric_pattern())}};
   const Json metrics{{"anyOf", {metric, {{"type", "array"}, {"items", metric}, {"minItems", 1}}}}};
   Json scenario = object(
@@ -239,7 +244,7 @@ Json study_sections() {
   Json fingers =
       object({{"fingers", {{"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 1}}}});
   fingers["required"] = {"fingers"};
-  return {{"design_space", by_path({{"anyOf", {interval, choice}}})},
+  return {{"design_space", by_path({{"anyOf", {interval, choice, gapped}}})},
           {"objective", object({{"maximise", metrics},
                                 {"minimise", metrics},
                                 {"target", {{"type", "object"}, {"additionalProperties", value}}},

@@ -43,6 +43,11 @@ double on_grid(const Variable& v, double value, double grid) {
   double out = multiple(value, step, v.unit);
   if (out > v.high) out = multiple(out - step, step, v.unit);
   if (out < v.low) out = multiple(out + step, step, v.unit);
+  for (const Excluded& e : v.excluded) {
+    if (!e.holds(out)) continue;
+    const double below = std::floor(e.from / step) * step, above = std::ceil(e.to / step) * step;
+    out = multiple(value <= e.from ? below : above, step, v.unit);
+  }
   return out < v.low || out > v.high ? value : out;
 }
 

@@ -16,7 +16,7 @@ constexpr double kLeastDepth = 2e-9;
 
 DesignSpace::DesignSpace(const Study& study) : study_(study) {
   for (const Variable& v : study.variables) {
-    Dimension d{v.low, v.high, v.choices, !v.is_kind()};
+    Dimension d{v.low, v.high, v.choices, !v.is_kind(), v.excluded};
     std::sort(d.choices.begin(), d.choices.end());
     cube_.dimensions.push_back(d);
   }

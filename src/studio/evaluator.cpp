@@ -22,7 +22,8 @@ constexpr std::size_t kMostKnown = 24;            // designs whose answers are k
 constexpr int kGivesWay = 2;                      // niceness of refining
 
 Fidelity fidelity_of_step(const Design& design, Step step) {
-  Fidelity out = fidelity_level(step == Step::First ? "search" : name_of(step));
+  if (step == Step::First) return quick_fidelity(design);
+  Fidelity out = fidelity_level(name_of(step));
   out.seed = static_cast<std::uint64_t>(design.accuracy.seed);
   if (step == Step::Design && design.accuracy.grid > 0) out.grid = design.accuracy.grid;
   return out;
@@ -39,7 +40,7 @@ Design untitled(Design design) {
 const char* name_of(Step step) {
   switch (step) {
     case Step::First:
-      return "search";
+      return "first";
     case Step::Draft:
       return "draft";
     case Step::Design:
@@ -101,24 +102,13 @@ void Evaluator::answer_first() {
     });
     if (closing_) return;
     const Wish wish = *wanted_;
-    const std::map<Step, Response> before = known(wish.design).by_step;
-    const auto anchor = anchor_;
     lock.unlock();
     try {
-      if (!before.empty()) {  // an undo, a pin: the finest that is known
-        tell(wish, before.rbegin()->first, before.rbegin()->second);
-      } else {
-        const Scene scene = scene_of(wish.design);
-        const Fidelity fidelity = fidelity_of_step(wish.design, Step::First);
-        const Response search =
-            respond(scene, fidelity, kept_.solve(scene, wish.design.texture, fidelity));
-        {
-          const std::lock_guard again(mutex_);
-          known(wish.design).by_step[Step::First] = search;
-        }
-        tell(wish, Step::First, first_answer(search, wish.design, anchor));
+      answer(wish);
+      if (wish.design.texture != shaped_) {
+        listener_.shape(wish.revision, wish.design);
+        shaped_ = wish.design.texture;
       }
-      listener_.shape(wish.revision, wish.design);
     } catch (const std::exception& error) {
       listener_.failed(wish.revision, error.what());
     }
@@ -126,6 +116,28 @@ void Evaluator::answer_first() {
     answered_ = wish;
     changed_.notify_all();
   }
+}
+
+void Evaluator::answer(const Wish& wish) {
+  std::unique_lock lock(mutex_);
+  const std::map<Step, Response> before = known(wish.design).by_step;
+  const std::optional<Anchor> anchor = anchor_;
+  lock.unlock();
+  const bool refined = !before.empty() && before.rbegin()->first != Step::First;
+  if (refined)  // an undo, a pin: the finest that is known
+    tell(wish, before.rbegin()->first, before.rbegin()->second);
+  else
+    tell(wish, Step::First, first_answer(quick_of(wish.design, before), wish.design, anchor));
+}
+
+Response Evaluator::quick_of(const Design& design, const std::map<Step, Response>& before) {
+  if (const auto quick = before.find(Step::First); quick != before.end()) return quick->second;
+  const Scene scene = scene_of(design);
+  const Fidelity fidelity = quick_fidelity(design);
+  Response quick = respond(scene, fidelity, kept_.solve(scene, design.texture, fidelity));
+  const std::lock_guard lock(mutex_);
+  known(design).by_step[Step::First] = quick;
+  return quick;
 }
 
 void Evaluator::refine_while_idle() {
@@ -198,26 +210,35 @@ bool Evaluator::refine_to(const Wish& wish, const Design& design, Step step,
   return true;
 }
 
+// First answers are compared as they are shown, and only where one anchor carries both.
+std::optional<Response> Evaluator::response_at(const Design& design, Step step) {
+  const std::map<Step, Response>& steps = known(design).by_step;
+  const auto at = steps.find(step);
+  if (at == steps.end()) return std::nullopt;
+  if (step != Step::First) return at->second;
+  if (!anchor_ || !carries(*anchor_, design)) return std::nullopt;
+  return first_answer(at->second, design, anchor_);
+}
+
 std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
   constexpr std::array kMetrics{"mean(modulation)", "worst(modulation)", "variation(modulation)",
                                 "mean(friction)"};
   const std::lock_guard lock(mutex_);
   std::vector<Comparison> out;
+  const std::optional<Response> ours = response_at(wish.design, step);
   for (const auto& [number, design] : wish.pinned) {
-    const std::map<Step, Response> pinned = known(design).by_step;
-    const auto theirs = pinned.find(step);
-    const std::map<Step, Response> here = known(wish.design).by_step;
-    const auto ours = here.find(step);
-    if (theirs == pinned.end() || ours == here.end()) continue;
+    const std::optional<Response> theirs = response_at(design, step);
+    if (!theirs || !ours) continue;
+    const double drift = step == Step::First ? difference_drift(*anchor_, design, wish.design) : 0;
     for (const char* metric : kMetrics) {
       const MetricExpression expression = parse_metric(metric);
-      const auto a = summarise(expression.summary, expression.metric, ours->second);
-      const auto b = summarise(expression.summary, expression.metric, theirs->second);
+      const auto a = summarise(expression.summary, expression.metric, *ours);
+      const auto b = summarise(expression.summary, expression.metric, *theirs);
       if (!a || !b) continue;
-      out.push_back(
-          {number, metric, a->value - b->value,
-           difference_error(error_samples(expression.summary, expression.metric, ours->second),
-                            error_samples(expression.summary, expression.metric, theirs->second))});
+      auto error = difference_error(error_samples(expression.summary, expression.metric, *ours),
+                                    error_samples(expression.summary, expression.metric, *theirs));
+      if (error) error = std::hypot(*error, drift * a->value);
+      out.push_back({number, metric, a->value - b->value, error});
     }
   }
   return out;

@@ -30,7 +30,7 @@ struct Wish {
 
 // Finer and finer.
 enum class Step { First, Draft, Design };
-const char* name_of(Step step);  // "search", "draft", "design"
+const char* name_of(Step step);  // "first", "draft", "design"
 
 // A pinned design beside the one at hand: common skins, a paired error.
 struct Comparison {
@@ -51,6 +51,7 @@ struct Answer {
 
 struct Listener {
   std::function<void(const Answer&)> answer;
+  // shape: where the texture is another one than before.
   std::function<void(std::uint64_t revision, const Design&)> shape, look;
   std::function<void(std::uint64_t revision, const std::string& what, double share)> refining;
   std::function<void(std::uint64_t revision, const std::string& why)> failed;
@@ -71,16 +72,19 @@ class Evaluator {
  private:
   struct Known {  // of one design
     Design design;
-    std::map<Step, Response> by_step;
+    std::map<Step, Response> by_step;  // First: as it was computed, carried by no anchor
   };
 
   void answer_first();
+  void answer(const Wish& wish);
+  Response quick_of(const Design& design, const std::map<Step, Response>& before);
   void refine_while_idle();
   void refine(const Wish& wish);
   bool refine_to(const Wish& wish, const Design& design, Step step, const std::string& what);
   void tell(const Wish& wish, Step step, Response shown);
   Known& known(const Design& design);  // with the lock held
   std::vector<Comparison> comparisons(const Wish& wish, Step step);
+  std::optional<Response> response_at(const Design& design, Step step);  // with the lock held
   bool outdated(const Wish& wish) const;
 
   Listener listener_;
@@ -89,6 +93,7 @@ class Evaluator {
   std::optional<Wish> wanted_, answered_;  // the newest; the newest that has its first answer
   std::vector<Known> known_;               // designs used last, at the end
   std::optional<Anchor> anchor_;
+  std::optional<Texture> shaped_;                   // the texture whose shape was told last
   std::map<std::uint64_t, std::int64_t> asked_at_;  // by revision [ns]
   std::uint64_t wishes_ = 0, refined_ = 0;
   bool closing_ = false;

@@ -37,9 +37,12 @@ std::vector<Message> Events::since(std::uint64_t& seen, std::chrono::millisecond
   changed_.wait_for(lock, wait, [&] { return closed_ || count_ > seen; });
   std::vector<Message> out;
   if (closed_) return out;
+  // As they were told: a curve is not kept waiting by a picture that was made after it.
+  std::map<std::uint64_t, Message> in_order;
   for (const auto& [topic, newest] : newest_) {
-    if (newest.number > seen) out.push_back({topic, newest.text});
+    if (newest.number > seen) in_order[newest.number] = {topic, newest.text};
   }
+  for (auto& [number, message] : in_order) out.push_back(std::move(message));
   seen = count_;
   return out;
 }

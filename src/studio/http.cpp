@@ -1,6 +1,8 @@
 #include "studio/http.h"
 
 #include <fmt/format.h>
+// More than 5 that knock at once: a browser would try again a second later.
+#define CPPHTTPLIB_LISTEN_BACKLOG 256
 #include <httplib.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -9,6 +11,7 @@
 #include <chrono>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "base/error.h"
 
@@ -25,13 +28,22 @@ class TimedStream final : public httplib::Stream {
 
   void begin() { deadline_ = Clock::now() + each_; }
 
+  // The request was let in; what came of it until now was its head.
+  void admit() { admitted_ = true; }
+  // Too slow or too long: what comes now is the middle of something, no request.
+  bool broken() const { return broken_; }
+
   bool is_readable() const override { return wait(POLLIN); }
   bool is_writable() const override { return wait(POLLOUT); }
   ssize_t read(char* to, std::size_t size) override {
     if (used_ == filled_) {
-      if (!is_readable()) return -1;
+      if (!is_readable() || (!admitted_ && unadmitted_ > kMostHead)) {
+        broken_ = true;
+        return -1;
+      }
       const ssize_t got = ::recv(socket_, buffer_, sizeof buffer_, 0);
       if (got <= 0) return got;
+      unadmitted_ += static_cast<std::size_t>(got);
       used_ = 0;
       filled_ = static_cast<std::size_t>(got);
     }
@@ -59,6 +71,8 @@ class TimedStream final : public httplib::Stream {
   template <class On>
   bool next(std::chrono::seconds idle, const On& on) {
     constexpr std::chrono::milliseconds kGlance{200};
+    admitted_ = false;
+    unadmitted_ = 0;
     for (const auto end = Clock::now() + idle; on() && Clock::now() < end;) {
       deadline_ = Clock::now() + kGlance;
       const bool more = used_ < filled_ || is_readable();
@@ -78,22 +92,54 @@ class TimedStream final : public httplib::Stream {
     return ::poll(&asked, 1, static_cast<int>(left)) > 0 && !(asked.revents & POLLNVAL);
   }
 
+  static constexpr std::size_t kMostHead = std::size_t{64} << 10;  // bytes; no limit of the library
+
   int socket_;
   std::chrono::seconds each_;
   Clock::time_point deadline_;
   char buffer_[4096];
-  std::size_t used_ = 0, filled_ = 0;
+  std::size_t used_ = 0, filled_ = 0, unadmitted_ = 0;
+  bool admitted_ = false, broken_ = false;
+};
+
+// Connections whose request has not been let in: nobody knows yet whether one ever comes. Where
+// there are too many, the one that waits longest makes room.
+class Strangers {
+ public:
+  void enter(int socket) {
+    const std::lock_guard lock(mutex_);
+    since_.push_back(socket);
+  }
+  void leave(int socket) {
+    const std::lock_guard lock(mutex_);
+    std::erase(since_, socket);
+  }
+  // Its thread is free in a moment; false: there is none.
+  bool end_oldest() {
+    const std::lock_guard lock(mutex_);
+    if (since_.empty()) return false;
+    ::shutdown(since_.front(), SHUT_RDWR);
+    since_.erase(since_.begin());
+    return true;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<int> since_;  // sockets, the oldest first
 };
 
 thread_local bool turned_away = false;
+thread_local TimedStream* at_the_door = nullptr;  // of this thread
 
-// A thread each for so many connections; one more is closed unread.
+// A thread each for so many connections. For one more a stranger is sent away, or it is closed
+// unread.
 class BoundedQueue final : public httplib::TaskQueue {
  public:
-  explicit BoundedQueue(int most) : most_(most), pool_(static_cast<std::size_t>(most)) {}
+  BoundedQueue(int most, Strangers& strangers)
+      : most_(most), strangers_(strangers), pool_(static_cast<std::size_t>(most)) {}
 
   void enqueue(std::function<void()> work) override {
-    if (++running_ > most_) {
+    if (++running_ > most_ && !strangers_.end_oldest()) {
       turned_away = true;
       work();
       turned_away = false;
@@ -109,6 +155,7 @@ class BoundedQueue final : public httplib::TaskQueue {
 
  private:
   int most_;
+  Strangers& strangers_;
   std::atomic<int> running_{0};
   httplib::ThreadPool pool_;
 };
@@ -116,9 +163,14 @@ class BoundedQueue final : public httplib::TaskQueue {
 class BoundedServer final : public httplib::Server {
  public:
   explicit BoundedServer(const Limits& limits) : limits_(limits) {
-    new_task_queue = [this] { return new BoundedQueue(limits_.connections); };
+    new_task_queue = [this] { return new BoundedQueue(limits_.connections, strangers_); };
     set_payload_max_length(limits.body);
     set_tcp_nodelay(true);
+  }
+  // The request that this thread reads was let in.
+  void admit() {
+    at_the_door->admit();
+    strangers_.leave(at_the_door->socket());
   }
 
  private:
@@ -126,9 +178,13 @@ class BoundedServer final : public httplib::Server {
     constexpr int kRequests = 10000;  // of one connection
     TimedStream stream(socket, limits_.request);
     bool closed = turned_away;
+    at_the_door = &stream;
     for (int left = kRequests; left > 0 && !closed; --left) {
-      if (!stream.next(limits_.idle, [this] { return svr_sock_ != INVALID_SOCKET; })) break;
-      if (!process_request(stream, left == 1, closed, nullptr)) break;
+      strangers_.enter(socket);
+      const bool asks = stream.next(limits_.idle, [this] { return svr_sock_ != INVALID_SOCKET; });
+      const bool on = asks && process_request(stream, left == 1, closed, nullptr);
+      strangers_.leave(socket);
+      if (!on || stream.broken()) break;
     }
     ::shutdown(socket, SHUT_RDWR);
     ::close(socket);
@@ -136,6 +192,7 @@ class BoundedServer final : public httplib::Server {
   }
 
   Limits limits_;
+  Strangers strangers_;
 };
 
 // Nothing from another place, no frame around the page.
@@ -202,7 +259,10 @@ class HttpServer::Impl {
     });
     server_.set_pre_routing_handler([this](const httplib::Request& request, auto& response) {
       const Entry entry = door_->judge(sender_of(request));
-      if (entry == Entry::Admitted) return httplib::Server::HandlerResponse::Unhandled;
+      if (entry == Entry::Admitted) {
+        server_.admit();
+        return httplib::Server::HandlerResponse::Unhandled;
+      }
       response.status = status_of(entry);
       response.set_content(word_of(entry), "text/plain");
       return httplib::Server::HandlerResponse::Handled;

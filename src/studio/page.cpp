@@ -37,6 +37,8 @@ const std::array kFiles{
     Entry{"/plots/tables.js", kScript, &kTablesModule},
     Entry{"/plots/maps.js", kScript, &kMapsModule},
     Entry{"/plots/charts.js", kScript, &kChartsModule},
+    Entry{"/plots/dimensions.js", kScript, &kDimensionsModule},
+    Entry{"/plots/found.js", kScript, &kFoundModule},
     Entry{"/plots/curves.js", kScript, &kCurvesModule},
     Entry{"/plots/solid.js", kScript, &kSolidModule},
     Entry{"/chart.js", kScript, &kChartScript},

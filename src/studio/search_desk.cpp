@@ -140,7 +140,9 @@ void SearchDesk::find_last() {
   if (number_ == 0) return;
   try {
     begin_reading();
-    state_ = fs::exists(place() / "run.json", none) ? SearchState::Finished : SearchState::Paused;
+    // One that was interrupted has files too, but no end in its journal.
+    const bool finished = ended_ && fs::exists(place() / "run.json", none);
+    state_ = finished ? SearchState::Finished : SearchState::Paused;
   } catch (const InputError& error) {
     state_ = SearchState::Failed;
     trouble_ = error.what();
@@ -152,6 +154,7 @@ void SearchDesk::begin_reading() {
   total_ = search_problem(present_->problem).evaluations;
   found_.clear();
   read_ = 0;
+  ended_ = false;
   stage_ = "search";
   trouble_.clear();
   read_journal();
@@ -172,6 +175,7 @@ bool SearchDesk::read_journal() {
     if (!request) continue;
     news = true;
     stage_ = stage_name(request->stage);
+    ended_ = ended_ || request->stage == Stage::Done;
     if (request->stage != Stage::Search) continue;
     if (const auto judgement = decode_judgement(record.payload))
       found_.push_back({request->unit, *judgement});
@@ -207,9 +211,10 @@ void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish
 }
 
 // Asks the desk's thread, with which a search ends; with the lock held.
-void SearchDesk::launch(bool again) {
+void SearchDesk::launch(bool again, std::size_t evaluations) {
   state_ = SearchState::Running;
   again_ = again;
+  evaluations_ = evaluations;
   wants_child_ = true;
   changed_.notify_all();
 }
@@ -238,6 +243,15 @@ void SearchDesk::resume() {
   launch(true);
 }
 
+void SearchDesk::stop() {
+  std::unique_lock lock(mutex_);
+  if (state_ == SearchState::Running) stop_child(lock);
+  if (state_ != SearchState::Running && state_ != SearchState::Paused)
+    throw InputError("no search is running");
+  if (found_.empty()) throw InputError("no design was judged yet: pause the search instead");
+  launch(true, found_.size());
+}
+
 void SearchDesk::watch() {
   std::unique_lock lock(mutex_);
   while (!closing_) {
@@ -246,6 +260,8 @@ void SearchDesk::watch() {
       std::vector<std::string> words{program_, "optimize", folder + "/study.toml", "--out", folder};
       std::error_code none;
       if (again_ && fs::exists(folder + "/journal", none)) words.push_back("--resume");
+      if (evaluations_ > 0)
+        words.insert(words.end(), {"--evaluations", std::to_string(evaluations_)});
       child_ = started(words, folder + "/log.txt");
       wants_child_ = false;
     }

@@ -23,6 +23,7 @@ namespace papilla::studio {
 // What a person wants of a search: set on the page, and steered while it runs.
 struct VariableWish {
   std::string path, low, high;  // texts with units: "100 nm"; low == high: pinned
+  std::string excluding{};      // of them: "300 to 400 nm, 600 to 650 nm"
 };
 struct LimitWish {
   std::string name, limit;  // "min_hole", "1 um"
@@ -56,6 +57,8 @@ class SearchDesk {
   void start(const Draft& origin, const Study& study, const SearchWish& wish, bool steer);
   void pause();
   void resume();
+  // Looks for no more: the best of what was found is confirmed and reported.
+  void stop();
   // The design of an evaluation of the search, or of its front, as a draft.
   Draft design_of(std::size_t evaluation) const;
   Draft design_of(const std::string& front) const;
@@ -74,7 +77,7 @@ class SearchDesk {
   };
 
   void watch();  // the desk's thread
-  void launch(bool again);
+  void launch(bool again, std::size_t evaluations = 0);
   bool read_journal();
   void wait_for_child();
   void find_last();
@@ -95,6 +98,8 @@ class SearchDesk {
   std::size_t read_ = 0;  // bytes of the journal
   int total_ = 0;
   std::string stage_, trouble_;
+  std::size_t evaluations_ = 0;  // after which the child looks for no more; 0: as its study says
+  bool ended_ = false;           // by its journal
   int child_ = -1;
   bool wants_child_ = false, again_ = false, stopping_ = false, closing_ = false;
   std::thread thread_;

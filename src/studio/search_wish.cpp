@@ -29,6 +29,36 @@ Node value_node(const std::string& text) {
   return q && q->unit.empty() ? number_node(q->value) : text_node(text);
 }
 
+// "300 to 400 nm, 600 nm to 650 nm" as a list of pairs.
+Node excluded_node(const VariableWish& v) {
+  std::vector<Node> out;
+  for (const std::string& range : split(v.excluding, ',')) {
+    const std::size_t at = range.find(" to ");
+    const auto from = at == std::string::npos ? std::nullopt : parse_quantity(range.substr(0, at));
+    const auto to = at == std::string::npos ? std::nullopt : parse_quantity(range.substr(at + 4));
+    if (!from || !to)
+      throw InputError({Problem{"", 0, 0, v.path,
+                                "expected ranges to exclude such as \"300 to 400 "
+                                "nm\", got \"" +
+                                    range + "\""}});
+    const std::string unit = from->unit.empty() ? to->unit : from->unit;
+    const auto end = [](double value, const std::string& of) {
+      return value_node(of.empty() ? format_number(value) : format_number(value) + " " + of);
+    };
+    out.push_back(array_node({end(from->value, unit), end(to->value, to->unit)}));
+  }
+  return array_node(std::move(out));
+}
+
+Node range_node(const VariableWish& v) {
+  Node range = array_node({value_node(v.low), value_node(v.high)});
+  if (v.excluding.empty()) return range;
+  Node out = table_node();
+  out.set("range", std::move(range));
+  out.set("exclude", excluded_node(v));
+  return out;
+}
+
 Node space_node(const SearchWish& wish) {
   Node space = table_node();
   if (wish.kinds.size() > 1) {
@@ -37,7 +67,7 @@ Node space_node(const SearchWish& wish) {
     space.set("texture.type", std::move(choice));
   }
   for (const VariableWish& v : wish.variables) {
-    if (v.low != v.high) space.set(v.path, array_node({value_node(v.low), value_node(v.high)}));
+    if (v.low != v.high) space.set(v.path, range_node(v));
   }
   return space;
 }
@@ -58,9 +88,14 @@ Json proposed_variables(const Study& study) {
   Json out = Json::array();
   for (const Variable& v : study.variables) {
     if (v.is_kind() || v.is_levels() || !v.choices.empty()) continue;
+    std::string excluding;
+    for (const Excluded& e : v.excluded)
+      excluding += fmt::format("{}{} to {}", excluding.empty() ? "" : ", ",
+                               quantity(e.from, v.unit), quantity(e.to, v.unit));
     out.push_back({{"path", v.path},
                    {"low", quantity(v.low, v.unit)},
                    {"high", quantity(v.high, v.unit)},
+                   {"excluding", excluding},
                    {"vary", true}});
   }
   Design copy = study.design;
@@ -80,6 +115,7 @@ Json proposed_variables(const Study& study) {
     out.push_back({{"path", field.path},
                    {"low", rounded(low, field.unit)},
                    {"high", rounded(high, field.unit)},
+                   {"excluding", ""},
                    {"vary", usual}});
   }
   return out;
@@ -98,7 +134,7 @@ SearchWish search_wish(const Json& json) {
     };
     for (const Json& v : json.at("variables"))
       out.variables.push_back({v.at("path").get<std::string>(), v.at("low").get<std::string>(),
-                               v.at("high").get<std::string>()});
+                               v.at("high").get<std::string>(), v.value("excluding", "")});
     if (json.contains("limits")) {
       for (const Json& v : json.at("limits"))
         out.limits.push_back({v.at("name").get<std::string>(), v.at("limit").get<std::string>()});

@@ -12,6 +12,7 @@
 #include "forward/appearance.h"
 #include "geometry/texture.h"
 #include "report/json.h"
+#include "report/page.h"
 #include "report/page_data.h"
 #include "report/response.h"
 #include "studio/page.h"
@@ -302,6 +303,10 @@ void Studio::add_search_routes() {
     desk_->resume();
     return told();
   };
+  routes_["POST /search/stop"] = [this, told](const Asked&) {
+    desk_->stop();
+    return told();
+  };
   routes_["POST /search/pick"] = [this](const Asked& a) {
     return changed(session_.become(
         a.body.contains("front") ? desk_->design_of(a.text("front"))
@@ -309,18 +314,26 @@ void Studio::add_search_routes() {
   };
 }
 
+// Of a finished search its page; of the present one what it has so far.
+HttpAnswer Studio::report(const std::string& folder) const {
+  try {
+    const fs::path page = inside(files_.folder(), folder + "/report.html");
+    const Json search = desk_->json();
+    const bool present = search.value("folder", "") == folder;
+    const bool unfinished = present && search["state"] != "finished";
+    return {200, "text/html; charset=utf-8",
+            unfinished ? unfinished_page(page.parent_path().string(), search) : read_bytes(page),
+            true};
+  } catch (const InputError& error) {
+    return refusal(404, error);
+  }
+}
+
 HttpAnswer Studio::answer(const HttpRequest& request) {
   if (request.method == "GET") {
     if (const auto file = page_file(request.path))
       return {200, file->type, std::string(file->text)};
-    if (request.path.starts_with("/report/")) {
-      try {
-        const fs::path page = inside(files_.folder(), request.path.substr(8) + "/report.html");
-        return {200, "text/html; charset=utf-8", read_bytes(page), true};
-      } catch (const InputError& error) {
-        return refusal(404, error);
-      }
-    }
+    if (request.path.starts_with("/report/")) return report(request.path.substr(8));
   }
   const auto route = routes_.find(request.method + " " + request.path);
   if (route == routes_.end()) return {404, "application/json", R"({"error":"nothing here"})"};

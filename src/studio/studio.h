@@ -45,6 +45,7 @@ class Studio {
   void add_design_routes();
   void add_file_routes();
   void add_search_routes();
+  HttpAnswer report(const std::string& folder) const;
   Listener listener();
   void design_changed();
   std::string changed(std::uint64_t revision);

@@ -191,6 +191,35 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
   EXPECT_EQ(problems_of(head + "[population]\nfingers = [\"none.toml\"]\n"),
             ":3:12: population.fingers: no file \"none.toml\" beside this file or in the designs "
             "folder");
+  const std::string range = head +
+                            "[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n" +
+                            "\"finger.load\" = { range = [\"1 N\", \"2 N\"], exclude = ";
+  EXPECT_EQ(
+      problems_of(range + "[[\"1.5 N\", \"3 N\"]] }\n"),
+      ":5:54: design_space.finger.load.exclude: expected low < from < to < high; where nothing "
+      "is left at an end, narrow `range` instead");
+  EXPECT_EQ(problems_of(range + "[\"1.5 N\"] }\n"),
+            ":5:54: design_space.finger.load.exclude: expected [from, to], got \"1.5 N\"");
+}
+
+TEST(Study, ExcludesValuesOfAVariable) {
+  const std::string file = temporary("excluding.toml");
+  write_bytes(file,
+              "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n[design_space]\n"
+              "\"texture.depth\" = { range = [\"100 nm\", \"900 nm\"], exclude = "
+              "[[\"600 nm\", \"700 nm\"], [\"300 nm\", \"400 nm\"], [\"350 nm\", \"450 nm\"]] }\n"
+              "[objective]\nmaximise = \"mean(modulation)\"\n");
+  const Study study = read_study(file);
+  ASSERT_EQ(study.variables.size(), 1u);
+  const Variable& depth = study.variables.front();
+  ASSERT_EQ(depth.excluded.size(), 2u);  // in order, merged
+  EXPECT_DOUBLE_EQ(depth.low, 100e-9);
+  EXPECT_DOUBLE_EQ(depth.excluded[0].from, 300e-9);
+  EXPECT_DOUBLE_EQ(depth.excluded[0].to, 450e-9);
+  EXPECT_DOUBLE_EQ(depth.excluded[1].from, 600e-9);
+  const std::string again = temporary("excluded.toml");
+  write_bytes(again, resolved_toml(study));
+  EXPECT_EQ(read_study(again).variables, study.variables);
 }
 
 TEST(Design, AHoleLargerThanItsPeriodIsRefused) {

@@ -212,6 +212,49 @@ TEST(Search, ChoicesAreTaken) {
 }
 
 // Four kinds with minima of their own; the best of all is a kind between two poor ones.
+// 100 to 900 without 300 to 400 and 600 to 700: 600 are left, evenly over the unit interval.
+TEST(Space, HasNothingOfWhatIsExcluded) {
+  const Space space{{{100, 900, {}, true, {{300, 400}, {600, 700}}}}, {}};
+  const Dimension& d = space.dimensions[0];
+  int below = 0, between = 0;
+  constexpr int kPoints = 6000;
+  for (int i = 0; i < kPoints; ++i) {
+    const double v = space.value({(i + 0.5) / kPoints})[0];
+    ASSERT_FALSE(d.excluded[0].holds(v) || d.excluded[1].holds(v)) << v;
+    below += v <= 300;
+    between += v >= 400 && v <= 600;
+    EXPECT_NEAR(space.value(space.snapped({(i + 0.5) / kPoints}))[0], v, 1e-9);
+  }
+  EXPECT_NEAR(below, 2000, 1);
+  EXPECT_NEAR(between, 2000, 1);
+  // Ends are themselves, excluded values the nearer one.
+  for (const double end : {100., 300., 400., 600., 700., 900.})
+    EXPECT_EQ(space.value(space.unit({end}))[0], end);
+  EXPECT_EQ(space.value(space.unit({349}))[0], 300);
+  EXPECT_EQ(space.value(space.unit({351}))[0], 400);
+  EXPECT_EQ(space.value(space.unit({699}))[0], 700);
+}
+
+// The minimum of all lies at 355; of what is left at the nearer end, 400 before 301.
+TEST(Search, FindsTheBestOfWhatIsNotExcluded) {
+  SearchProblem p = box(2, 1, 60, 100, 900);
+  p.space.dimensions[0].excluded = {{301, 400}};
+  const auto bowl = [](const Point& v) {
+    return Outcome{true, "", {std::pow(v[0] - 355, 2) + std::pow(v[1] - 500, 2)}, {}, {}};
+  };
+  for (const char* method : {"bayesian", "cmaes", "direct"}) {
+    double best = 1e300;
+    for (const Evaluation& e : run(method, p, bowl)) {
+      EXPECT_FALSE(p.space.dimensions[0].excluded[0].holds(p.space.value(e.unit)[0])) << method;
+      best = std::min(best, e.outcome.objectives[0]);
+    }
+    EXPECT_GE(best, 45 * 45) << method;
+    if (method == std::string("bayesian")) {
+      EXPECT_LT(best, 54 * 54);  // the farther end
+    }
+  }
+}
+
 TEST(Search, KindsAreNotTakenForNeighbours) {
   SearchProblem p;
   p.space.dimensions = {{0, 3, {0, 1, 2, 3}, false}, {0, 1, {}}, {0, 1, {}}};

@@ -208,6 +208,10 @@ TEST(Rounding, LengthsGoToTheGridAndSmallOnesToAFinerOne) {
   EXPECT_DOUBLE_EQ(on_grid(depth, 103.4e-9, 10e-9), 103e-9);
   EXPECT_DOUBLE_EQ(on_grid(depth, 0, 10e-9), 0);
   EXPECT_DOUBLE_EQ(on_grid(depth, 996e-9, 10e-9), 1000e-9);
+  // Out of what is excluded, to the end where the value lies.
+  const Variable depths{"texture.depth", "nm", 0, 1e-6, {}, {{503e-9, 596e-9}}};
+  EXPECT_DOUBLE_EQ(on_grid(depths, 503e-9, 10e-9), 500e-9);
+  EXPECT_DOUBLE_EQ(on_grid(depths, 596e-9, 10e-9), 600e-9);
   // Within its interval: 10 um is out, 9.99 um in.
   const Variable narrow{"texture.period", "um", 3e-6, 9.998e-6, {}};
   EXPECT_DOUBLE_EQ(on_grid(narrow, 9.998e-6, 10e-9), 9.99e-6);

@@ -1,7 +1,8 @@
 """The studio in headless Chromium: browser.py PROGRAM PART [PICTURE_FOLDER]. Exit 0: all as it should be.
 
-Parts: smoke (page, sliders, undo, pin, keys alone, widths, dark, console), pages (two pages one state, reconnect, foreign
-origin), hour (open, change, pin, search, steer, pick, scan, export, verify, save, reopen).
+Parts: smoke (page, sliders, undo, pin, widths, dark, console), pages (two pages one state, reconnect, foreign
+origin), hour (open, change, pin, search, steer, pick, scan, export, verify, save, reopen), keys (the same hour by keys alone),
+thousand (events of a slider without a pause).
 """
 import json
 import os
@@ -113,7 +114,11 @@ def smoke(browser, folder):
         slide(browser, "drive.amplitude", 0.35)
         until(browser, f"papilla.charts.modulation.data.datasets[0].data[0].y < {0.9 * before[0]}", 30, "a weaker drive")
         check(browser.run("return document.getElementById('file').textContent").endswith("1 changed"), "no change is said")
-        # Keys alone: a slider by arrows, undo by its key, a pin.
+        until(browser, "papilla.charts.section", 20, "the section")
+        lines = browser.run("return papilla.charts.section.data.datasets[0].dimensions.lines.map(l => [l.text, l.to - l.from])")
+        check([t for t, _ in lines] == ["period 6 µm", "diameter 3 µm", "depth 600 nm"], f"dimension lines {lines}")
+        check(abs(lines[0][1] - 6) < 1e-6 and abs(lines[1][1] - 3) < 1e-6, f"dimension lines as long as {lines}")
+        # A slider by arrows, undo by its key, a pin.
         browser.run("document.getElementById('k-texture-depth').closest('.key').querySelector('input[type=range]').focus()")
         depth = value(browser, "texture.depth")
         press(browser, *["\ue014"] * 5)
@@ -190,6 +195,20 @@ def click(browser, text):
     browser.run(f"[...document.querySelectorAll('#dialogtools button')].find(b => b.textContent === '{text}').click()")
 
 
+def unfinished(browser):
+    """The report of a search that runs says that it does."""
+    page = browser.call("GET", "/window")
+    address = browser.run("return document.getElementById('report').href")
+    browser.call("POST", "/window", {"handle": browser.call("POST", "/window/new", {"type": "tab"})["handle"]})
+    browser.call("POST", "/url", {"url": address})
+    until(browser, "document.documentElement.dataset.charts", 20, "the report so far")
+    lead, rows = browser.run("return document.getElementById('lead').textContent"), browser.run("return document.querySelectorAll('#frontlist tbody tr').length")
+    check(lead.startswith("Not finished") and "of 30 designs" in lead and rows > 0, f"the report so far: {rows} rows, {lead}")
+    browser.picture(PICTURES, "unfinished.png")
+    browser.call("DELETE", "/window")
+    browser.call("POST", "/window", {"handle": page})
+
+
 def hour(browser, folder):
     shutil.copy(os.path.join(TREE, "designs", "measured_surface", "scan.gsf"), folder)
     studio = Studio(folder)
@@ -202,20 +221,25 @@ def hour(browser, folder):
         browser.run("document.getElementById('pin').click()")
         until(browser, "document.querySelectorAll('.pinned').length === 1", 10, "a pin")
         slide(browser, "texture.diameter", 0.7)
+        until(browser, "papilla.session().keys.find(k => k.path === 'texture.diameter').changed && +document.documentElement.dataset.shape === papilla.session().revision", 30, "the shape of the change")
         until(browser, "document.documentElement.dataset.idle === 'yes' && document.documentElement.dataset.step === 'design'", 120, "the comparison")
         browser.picture(PICTURES, "hour_2_pinned.png")
         # Search, steered once.
         browser.run("document.getElementById('evaluations').value = 30; document.getElementById('start').click()")
         until(browser, "papilla.charts.pareto && papilla.charts.pareto.data.datasets.some(s => s.data.length > 5)", 180, "designs of the search")
         browser.picture(PICTURES, "hour_3_search.png")
+        unfinished(browser)
         browser.run("document.querySelector('#frontlist button').click()")
         until(browser, "papilla.session().changes.length > 0", 20, "a picked design")
-        browser.run("""document.getElementById('evaluations').value = 10;
+        browser.run("""document.getElementById('evaluations').value = 4000;
             [...document.querySelectorAll('#variables tbody tr')].find(r => r.dataset.path === 'texture.depth').querySelectorAll('[type=text]')[1].value = '500 nm';
             document.getElementById('steer').click()""")
         until(browser, "document.getElementById('stage').textContent.includes('searches/002')", 60, "the steered search")
+        until(browser, "papilla.charts.pareto.data.datasets.some(s => s.data.length > 3)", 180, "designs of the steered search")
+        browser.run("document.getElementById('stop').click()")
         until(browser, "document.getElementById('searchstate').textContent === 'finished'", 600, "the end of the search")
         until(browser, "papilla.charts.pareto.data.datasets[0].label === 'front, confirmed'", 10, "a confirmed front")
+        check(browser.run("return document.getElementById('report').textContent") == "Report", "a finished search has no report")
         browser.picture(PICTURES, "hour_4_front.png")
         browser.run("document.querySelector('#frontlist button').click()")
         until(browser, "document.documentElement.dataset.idle === 'yes'", 180, "the picked design")
@@ -262,11 +286,126 @@ def hour(browser, folder):
         studio.close()
 
 
+TAB, ENTER, SPACE, DOWN, RIGHT, SHIFT, CONTROL = "\ue004", "\ue007", " ", "\ue015", "\ue014", "\ue008", "\ue009"
+
+
+def chord(browser, held, key):
+    browser.call("POST", "/actions", {"actions": [{"type": "key", "id": "keys", "actions": [
+        {"type": "keyDown", "value": held}, {"type": "keyDown", "value": key}, {"type": "keyUp", "value": key}, {"type": "keyUp", "value": held}]}]})
+
+
+def tab_to(browser, script, what, most=160):
+    """Walks by Tab until the element that has the focus, e, is as the script says."""
+    for _ in range(most):
+        press(browser, TAB)
+        if browser.run(f"const e = document.activeElement; return Boolean({script})"):
+            return
+    check(False, f"Tab does not reach {what}")
+
+
+def type_over(browser, text):
+    chord(browser, CONTROL, "a")
+    press(browser, *text)
+
+
+def keys(browser, folder):
+    """The hour, without a mouse and without a script that touches the page: keys go in, the page is only read."""
+    shutil.copy(os.path.join(TREE, "designs", "measured_surface", "scan.gsf"), folder)
+    studio = Studio(folder)
+    try:
+        browser.metrics(1440, 1000)
+        go(browser, studio)
+        tab_to(browser, "e.type === 'range' && e.closest('.key').querySelector('#k-texture-depth')", "the depth's slider")
+        press(browser, *[RIGHT] * 8)
+        until(browser, "papilla.session().keys.find(k => k.path === 'texture.depth').changed", 30, "the arrows' change")
+        press(browser, "p")
+        until(browser, "document.querySelectorAll('.pinned').length === 1", 10, "a pin")
+        tab_to(browser, "e.id === 'k-surface-contact_angle'", "the contact angle")
+        type_over(browser, "70 deg")
+        press(browser, ENTER)
+        until(browser, "papilla.session().keys.find(k => k.path === 'surface.contact_angle').value === '70 deg'", 20, "the typed angle")
+        until(browser, "/modulation (better|worse)|not told/.test(document.querySelector('.pinned p').textContent)", 200, "a paired difference")
+        # A search with a range left out, one that is steered, and a design of it.
+        tab_to(browser, "e.getAttribute('aria-label') === 'depth excluding'", "what the search leaves out")
+        type_over(browser, "500 to 600 nm")
+        tab_to(browser, "e.id === 'evaluations'", "the number of evaluations")
+        type_over(browser, "24")
+        tab_to(browser, "e.id === 'start'", "Start")
+        press(browser, ENTER)
+        until(browser, "document.getElementById('searchstate').textContent === 'running'", 60, "a search")
+        until(browser, "document.querySelector('#frontlist button')", 180, "a design of the search")
+        tab_to(browser, "e.id === 'steer'", "Steer")
+        press(browser, ENTER)
+        until(browser, "document.getElementById('stage').textContent.includes('searches/002')", 60, "the steered search")
+        until(browser, "document.querySelector('#frontlist button')", 180, "a design of the steered search")
+        tab_to(browser, "e.closest('#frontlist') && e.tagName === 'BUTTON'", "a design of the front")
+        press(browser, ENTER)
+        until(browser, "papilla.session().changes.length > 0", 30, "the picked design")
+        tab_to(browser, "e.id === 'pause'", "Pause")
+        press(browser, SPACE)
+        until(browser, "document.getElementById('searchstate').textContent === 'paused'", 30, "the pause")
+        depths = browser.run("return papilla.charts.pareto.data.datasets.flatMap(s => s.data).map(p => parseFloat(p.values[0]))")
+        check(depths and not [d for d in depths if 500 < d < 600], f"depths that were left out: {depths}")
+        # Out.
+        chord(browser, CONTROL, "s")
+        until(browser, "document.querySelector('#dialog').open", 10, "the dialog to save")
+        tab_to(browser, "e.type === 'text' && e.closest('#dialogbody')", "the name", 12)
+        type_over(browser, "typed.toml")
+        press(browser, ENTER)
+        until(browser, "document.documentElement.dataset.saved === 'typed.toml'", 30, "the saved file")
+        check(browser.run("return document.querySelector('[data-path=\"texture.depth\"] td:last-child input').value") == "500 to 600 nm", "the wish is gone after a save")
+        tab_to(browser, "e.id === 'export'", "Export")
+        press(browser, ENTER)
+        until(browser, "document.querySelector('#dialog').open && document.querySelector('#dialogbody table')", 20, "the dialog to export")
+        tab_to(browser, "e.textContent === 'Export and verify'", "Export and verify", 20)
+        press(browser, ENTER)
+        until(browser, "document.documentElement.dataset.exported", 180, "the verdict")
+        check(browser.run("return document.documentElement.dataset.exported") == "true", "the export is not sound")
+        tab_to(browser, "e.textContent === 'Close'", "Close", 20)
+        press(browser, ENTER)
+        until(browser, "!document.querySelector('#dialog').open", 10, "the closed dialog")
+        chord(browser, CONTROL, "z")
+        browser.picture(PICTURES, "keys.png")
+        quiet(browser)
+    finally:
+        studio.close()
+
+
+def thousand(browser, folder):
+    """A hand that does not rest: the page drops positions, never the last one."""
+    studio = Studio(folder)
+    try:
+        go(browser, studio)
+        until(browser, "document.documentElement.dataset.step !== 'first'", 120, "a refined answer")
+        browser.run("""
+            const row = document.getElementById('k-drive-amplitude').closest('.key').querySelector('input[type=range]');
+            let n = 0;
+            window.moved = 0;
+            const move = () => {
+              row.value = Math.round((0.5 + 0.45 * Math.sin(n / 40)) * row.max);
+              row.dispatchEvent(new Event('input', { bubbles: true }));
+              window.moved = ++n;
+              if (n < 1000) setTimeout(move, 16);
+              else { row.value = Math.round(0.3 * row.max); row.dispatchEvent(new Event('input', { bubbles: true })); row.dispatchEvent(new Event('change', { bubbles: true })); }
+            };
+            move();""")
+        until(browser, "window.moved === 1000", 120, "a thousand events")
+        shown = value(browser, "drive.amplitude").replace("µ", "u")
+        until(browser, f"papilla.session().keys.find(k => k.path === 'drive.amplitude').value === '{shown}'", 30, f"the last position, {shown}")
+        until(browser, "+document.documentElement.dataset.revision === papilla.session().revision && document.documentElement.dataset.step === 'design'", 120, "its refined answer")
+        done = browser.run("return papilla.latency.done.length")
+        check(done == 1001, f"{done} of 1001 events were answered")
+        check(len(browser.run("return papilla.session().changes")) == 1, "more than one key changed")
+        quiet(browser)
+    finally:
+        studio.close()
+
+
 def main():
     folder, profile = tempfile.mkdtemp(), tempfile.mkdtemp()
     browser = Browser(profile)
     try:
-        {"smoke": smoke, "pages": pages, "hour": hour}[sys.argv[2]](browser, folder)
+        {"smoke": smoke, "pages": pages, "hour": hour, "keys": keys, "thousand": thousand}[sys.argv[2]](browser, folder)
     finally:
         browser.close()
         shutil.rmtree(profile, ignore_errors=True)

@@ -72,5 +72,20 @@ TEST_F(Server, TellsAllPagesOfAChangeAndItsAnswer) {
   EXPECT_NE(third.read_until("\"262 nm\"", 20).find("\"262 nm\""), std::string::npos);
 }
 
+TEST_F(Server, ReportsASearchThatIsNotFinishedAsThat) {
+  EXPECT_EQ(replied(place_, place_.own("GET", "report/searches/001")).status, 404);
+  const Reply started = replied(
+      place_,
+      place_.own("POST", "search/start",
+                 R"~({"variables":[{"path":"texture.depth","low":"100 nm","high":"900 nm",)~"
+                 R"~("excluding":"300 to 400 nm"}],"maximise":["mean(modulation)"]})~"));
+  EXPECT_NE(started.text.find(R"("state":"running")"), std::string::npos) << started.text;
+  const Reply report = replied(place_, place_.own("GET", "report/searches/001"));
+  EXPECT_EQ(report.status, 200);
+  EXPECT_NE(report.text.find("a search that is not finished"), std::string::npos);
+  EXPECT_NE(report.text.find("script-src 'unsafe-inline'"), std::string::npos);
+  EXPECT_EQ(replied(place_, place_.own("GET", "report/searches/002")).status, 404);
+}
+
 }  // namespace
 }  // namespace papilla::tests

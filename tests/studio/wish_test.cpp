@@ -74,6 +74,20 @@ TEST(SearchWish, OffersTheMeasuresOfADesignWithoutAStudy) {
   EXPECT_EQ(proposed["maximise"], Json({"mean(modulation)"}));
 }
 
+TEST(SearchWish, LeavesOutWhatIsExcluded) {
+  SearchWish wish = depth_wish();
+  wish.variables.front().excluding = "300 to 400 nm, 0.6 um to 650 nm";
+  const Study made = reread(study_text(read_study(kHoles), wish));
+  ASSERT_EQ(made.variables.size(), 1u);
+  ASSERT_EQ(made.variables[0].excluded.size(), 2u);
+  EXPECT_DOUBLE_EQ(made.variables[0].excluded[0].from, 300e-9);
+  EXPECT_DOUBLE_EQ(made.variables[0].excluded[0].to, 400e-9);
+  EXPECT_DOUBLE_EQ(made.variables[0].excluded[1].from, 600e-9);
+  EXPECT_EQ(proposed_wish(made)["variables"][0]["excluding"], "300 nm to 400 nm, 600 nm to 650 nm");
+  wish.variables.front().excluding = "about 300 nm";
+  EXPECT_THROW(study_text(read_study(kHoles), wish), InputError);
+}
+
 TEST(SearchWish, RefusesWhatIsNoSearch) {
   const Study study = read_study(kHoles);
   SearchWish none = depth_wish();
@@ -83,6 +97,20 @@ TEST(SearchWish, RefusesWhatIsNoSearch) {
   pinned.variables.erase(pinned.variables.begin());
   EXPECT_THROW(study_text(study, pinned), InputError);
   EXPECT_THROW(search_wish(Json{{"maximise", {"x"}}}), InputError);
+}
+
+// `optimize` that is ended by a signal leaves files, run.json too, and a journal without an end.
+TEST(SearchDesk, FindsAnInterruptedSearchPaused) {
+  const TemporaryFolder place;
+  const std::filesystem::path folder = place.path() / "searches/001";
+  std::filesystem::create_directories(folder);
+  write_bytes(folder / "study.toml", study_text(read_study(kHoles), depth_wish()));
+  write_bytes(folder / "origin.json", R"({"file":")" + kHoles + R"(","changes":[]})");
+  write_bytes(folder / "journal", "");
+  write_bytes(folder / "run.json", "{}");
+  const SearchDesk desk(place.path(), "none", [] {});
+  EXPECT_EQ(desk.json()["state"], "paused");
+  EXPECT_EQ(desk.json()["total"], 12);
 }
 
 Response response_of(double modulation, double sampling) {
@@ -95,31 +123,66 @@ Response response_of(double modulation, double sampling) {
   return out;
 }
 
+constexpr double kUsual = 0.88, kDrift = 0.06, kUnusual = 0.5, kFloor = 0.012;
+
 // Eq. studio.1, studio.2
 TEST(FirstAnswer, IsCarriedByTheRatioOfTheLevelsNearby) {
   const Design at = read_design(kHoles);
   const Anchor anchor{at, response_of(0.5, 0.02), response_of(0.4, 0.01)};
   const Measured same = first_answer(response_of(0.5, 0.02), at, anchor).points[0].modulation;
   EXPECT_DOUBLE_EQ(same.value, 0.4);
-  EXPECT_NEAR(same.se(), std::hypot(0.01, 0.012 * 0.4), 1e-12);
+  EXPECT_NEAR(same.se(), std::hypot(0.01, kFloor * 0.4), 1e-12);
   Design away = at;
   set_number(away, "texture.depth", 300e-9);  // half: ln 2 away
   const Measured moved = first_answer(response_of(0.25, 0.02), away, anchor).points[0].modulation;
   EXPECT_DOUBLE_EQ(moved.value, 0.2);
-  EXPECT_NEAR(moved.se(), 0.2 * std::hypot(0.01 / 0.4, std::hypot(0.012, 0.06 * std::log(2.0))),
-              1e-12);
+  const double drift =
+      std::hypot(kFloor, (kDrift + kUnusual * std::log(kUsual / 0.8)) * std::log(2.0));
+  EXPECT_NEAR(moved.se(), 0.2 * std::hypot(0.01 / 0.4, drift), 1e-12);
 }
 
+// Eq. studio.3
 TEST(FirstAnswer, StandsAloneWithAWiderBandWhereNothingWasRefined) {
   const Design at = read_design(kHoles);
   const Measured alone =
       first_answer(response_of(0.5, 0.02), at, std::nullopt).points[0].modulation;
-  EXPECT_DOUBLE_EQ(alone.value, 0.5);
-  EXPECT_NEAR(alone.se(), std::hypot(0.02, 0.07 * 0.5), 1e-12);
+  EXPECT_DOUBLE_EQ(alone.value, kUsual * 0.5);
+  EXPECT_NEAR(alone.se(), kUsual * std::hypot(0.02, 0.125 * 0.5), 1e-12);
+}
+
+TEST(FirstAnswer, IsCarriedByDesignsThatDifferInNumbersAlone) {
+  const Design at = read_design(kHoles);
+  const Anchor anchor{at, response_of(0.5, 0.02), response_of(0.4, 0.01)};
+  EXPECT_NEAR(*distance(at, at), 0, 1e-15);
+  Design near = at;
+  set_number(near, "finger.load", 2 * at.finger.load);
+  EXPECT_NEAR(*distance(at, near), std::log(2.0), 1e-12);
+  EXPECT_TRUE(carries(anchor, near));
   Design pillars = at;
   pillars.texture = default_texture(2);
   EXPECT_EQ(distance(at, pillars), std::nullopt);
-  EXPECT_NEAR(*distance(at, at), 0, 1e-15);
+  EXPECT_FALSE(carries(anchor, pillars));
+  Design off = at;
+  off.drive.amplitude = 0;
+  EXPECT_FALSE(carries(anchor, off));
+  // Narrow holes are answered on other pixels: that ratio is another one.
+  Design narrow = at;
+  set_number(narrow, "texture.diameter", 0.5e-6);
+  EXPECT_EQ(quick_fidelity(at).grid, 64);
+  EXPECT_EQ(quick_fidelity(narrow).grid, 128);
+  EXPECT_FALSE(carries(anchor, narrow));
+}
+
+// Eq. studio.4
+TEST(FirstAnswer, DifferencesAreAsUnsureAsTheRatioBetweenThem) {
+  const Design at = read_design(kHoles);
+  const Anchor anchor{at, response_of(0.5, 0.02), response_of(0.4, 0.01)};
+  Design a = at, b = at;
+  set_number(a, "texture.depth", 300e-9);
+  set_number(b, "texture.depth", 330e-9);
+  EXPECT_NEAR(difference_drift(anchor, a, b),
+              std::hypot(kFloor, (kDrift + kUnusual * std::log(kUsual / 0.8)) * std::log(1.1)),
+              1e-12);
 }
 
 }  // namespace

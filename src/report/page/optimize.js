@@ -190,7 +190,7 @@ function showDesign() {
   const d = data.designs[state.design], map = d.heights, row = sectionRow(map, d.section);
   showSolid(map);
   drawMap($('top'), map, 'nm', 1e9, row);
-  draw('section', alongLine(heightLine(map, d.section, row), map.lx * 1e6));
+  draw('section', alongLine(heightLine(map, d.section, row), map.lx * 1e6, d.measures));
   showDimensions(d);
   const flat = data.designs.best.flat;
   // The difference has an error of its own: both met the same skins, droplets and grids.

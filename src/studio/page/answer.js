@@ -6,7 +6,7 @@ import { fixed, round } from '../plots/numbers.js';
 import { table } from '../plots/tables.js';
 import { ask } from './server.js';
 
-const levels = { search: 'first answer', draft: 'draft', design: 'design level' };
+const levels = { first: 'first answer', draft: 'draft', design: 'design level' };
 const state = { session: null, answer: null };
 const tint = (i) => colours[2 + i % 4];
 
@@ -30,7 +30,7 @@ export function showAnswer(answer) {
   const mn = (key, name, colour, dash) => curve(name, r.points, colour, dash, key, 1e3);
   show('friction', overHumidity([...mn('F_off', 'drive off', colours[5]), ...mn('F_on', 'drive on', colours[1])], 'friction [mN]', { min: 0 }));
   $('level').textContent = `${levels[answer.step]} · ${answer.seconds < 10 ? Math.round(1000 * answer.seconds) + ' ms' : round(answer.seconds) + ' s'}`;
-  $('level').title = answer.step === 'search' ? 'Refined while nothing moves; the band says what that may change.' : '';
+  $('level').title = answer.step === 'first' ? 'Refined while nothing moves; the band says what that may change.' : '';
   showNumbers(r);
   showPins();
   showModel(r.plan);
@@ -103,7 +103,11 @@ export function showSessionPins(session) {
   showPins();
 }
 
+let model = '';
 function showModel(plan) {
+  const now = JSON.stringify(plan);
+  if (now === model) return;
+  model = now;
   const error = (v) => v ? round(100 * v, 2) + ' %' : '';
   table($('skipped'), ['Not modelled', 'Why', 'Of friction'], plan.skipped.map((s) => [s.piece, s.reason, s.bound ? (s.estimate ? 'about ' : 'at most ') + error(s.bound) : '']), [2]);
   table($('modelled'), ['Modelled', 'How', 'Error'], plan.steps.map((s) => [s.piece, s.method, error(s.error)]), [2]);

@@ -48,6 +48,7 @@ export async function openDialog() {
   dialog(`Designs in ${files.folder}`, [files.designs.length ? field('Design', list) : make('p', { textContent: 'There is no design in this folder yet: save one.' })], files.designs.length ? [['Open', async () => { await post('open', { name: list.value }); return true; }, true]] : []);
 }
 
+export const saving = { name: '' };  // under which the design at hand goes on
 export function saveDialog(session) {
   const suggestion = session.in_folder ? session.file : session.file.replace(/^study/, 'design');
   const name = make('input', { type: 'text', value: suggestion, autocomplete: 'off' }), [over, overLabel] = check('overwrite a file of that name', session.in_folder);
@@ -55,7 +56,7 @@ export function saveDialog(session) {
   const rows = make('table');
   table(rows, ['Changed', 'Value'], changed.length ? changed : [['nothing', '']]);
   dialog('Save the design', [field('Name', name), overLabel, rows, make('p', { className: 'note', textContent: session.in_folder ? 'The file keeps its comments; only these values change.' : 'The new file stands on the shipped one and holds the changed keys alone.' })],
-    [['Save', async () => { const { file } = await post('save', { name: name.value, overwrite: over.checked }); notice(''); document.documentElement.dataset.saved = file; return true; }, true]]);
+    [['Save', async () => { saving.name = name.value; const { file } = await post('save', { name: name.value, overwrite: over.checked }); notice(''); document.documentElement.dataset.saved = file; return true; }, true]]);
 }
 
 export async function exportDialog(session) {

@@ -131,8 +131,11 @@ function build(k) {
   return box;
 }
 function update(k) {
-  const row = rows[k.path];
+  const row = rows[k.path], now = JSON.stringify(k), shown = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
+  const kept = row.drawn === now && !row.touched && row.field.value === shown;
   row.key = k;
+  row.drawn = now;
+  if (kept) return;
   row.box.classList.toggle('changed', k.changed);
   row.box.classList.remove('wrong');
   row.about.textContent = `${k.doc}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;
@@ -144,7 +147,7 @@ function update(k) {
   }
   // Not what the hand is at.
   if (row.held || performance.now() - row.touched < 600 || wait.busy && wait.next && wait.next.path === k.path) return;
-  if (document.activeElement !== row.field || row.field.tagName === 'SELECT') row.field.value = k.type === 'choice' || k.type === 'flag' ? k.value : people(k.value);
+  if (document.activeElement !== row.field || row.field.tagName === 'SELECT') row.field.value = shown;
   if (row.range) {
     row.range.value = Math.round(row.range.max * position(k, k.shown));
     row.range.setAttribute('aria-valuetext', people(k.value));

@@ -16,14 +16,23 @@ export function startScene() {
   $('rh').addEventListener('change', () => { state.shown = -1; fetchMaps(); });
 }
 
+// Curves come first: the picture of a texture that moves waits for a moment without answers, though not for long.
+const waiting = { shape: null, timer: 0, since: 0 };
 export function showShape(shape) {
-  const map = shape.heights, row = sectionRow(map, shape.section), line = heightLine(map, shape.section, row);
+  const now = performance.now(), still = 120, longest = 400;
+  if (!waiting.shape) waiting.since = now;
+  waiting.shape = shape;
+  clearTimeout(waiting.timer);
+  waiting.timer = setTimeout(drawShape, Math.max(0, Math.min(still, waiting.since + longest - now)));
+}
+function drawShape() {
+  const shape = waiting.shape, map = shape.heights, row = sectionRow(map, shape.section), line = heightLine(map, shape.section, row);
+  waiting.shape = null;
   showSolid(map);
   drawMap($('top'), map, 'nm', 1e9, row);
-  const config = alongLine(line, map.lx * 1e6);
+  const config = alongLine(line, map.lx * 1e6, shape.measures);
   if (charts.section) {
-    charts.section.data = config.data;
-    charts.section.options.scales.x.max = map.lx * 1e6;
+    Object.assign(charts.section, { data: config.data, options: config.options });
     charts.section.update('none');
   } else {
     draw('section', config);

@@ -1,6 +1,7 @@
 // The search: what may change and what is wanted, the front as it grows, designs to open.
-import { $, colours, faint } from '../plots/look.js';
-import { around, axis, charts, draw, errorBars } from '../plots/charts.js';
+import { $ } from '../plots/look.js';
+import { charts, draw, errorBars } from '../plots/charts.js';
+import { found, foundChart, foundTable } from '../plots/found.js';
 import { round } from '../plots/numbers.js';
 import { table } from '../plots/tables.js';
 import { people } from './form.js';
@@ -18,14 +19,15 @@ export function showWish(wish) {
   const body = $('variables').tBodies[0];
   body.textContent = '';
   wish.variables.forEach((v) => {
-    const row = body.insertRow(), name = called(v.path), box = make('input', { type: 'checkbox', checked: v.vary }), low = make('input', { type: 'text', value: people(v.low) }), high = make('input', { type: 'text', value: people(v.high) });
+    const row = body.insertRow(), name = called(v.path), box = make('input', { type: 'checkbox', checked: v.vary }), low = make('input', { type: 'text', value: people(v.low) }), high = make('input', { type: 'text', value: people(v.high) }), without = make('input', { type: 'text', value: people(v.excluding), placeholder: 'nothing', title: 'Values between these that the search leaves out: 300 to 400 nm, 600 to 650 nm' });
     box.setAttribute('aria-label', `vary ${name}`);
     low.setAttribute('aria-label', `${name} from`);
     high.setAttribute('aria-label', `${name} to`);
+    without.setAttribute('aria-label', `${name} excluding`);
     row.dataset.path = v.path;
     row.classList.toggle('off', !v.vary);
     box.addEventListener('change', () => row.classList.toggle('off', !box.checked));
-    [box, name, low, high].forEach((c) => row.insertCell().append(c));
+    [box, name, low, high, without].forEach((c) => row.insertCell().append(c));
   });
   const goals = $('goals');
   goals.querySelectorAll('.wishline, .add').forEach((e) => e.remove());
@@ -76,8 +78,8 @@ function wishNow() {
   const parts = (line) => [...line.querySelectorAll('select')].map((s) => s.value), of = (direction) => [...document.querySelectorAll('.goal')].map(parts).filter((p) => p[0] === direction).map((p) => `${p[1]}(${p[2]})`);
   return {
     variables: [...$('variables').tBodies[0].rows].filter((r) => r.querySelector('[type=checkbox]').checked).map((r) => {
-      const [low, high] = [...r.querySelectorAll('[type=text]')].map((t) => machine(t.value));
-      return { path: r.dataset.path, low, high };
+      const [low, high, excluding] = [...r.querySelectorAll('[type=text]')].map((t) => machine(t.value));
+      return { path: r.dataset.path, low, high, excluding };
     }),
     kinds: state.wish.kinds,
     maximise: of('maximise'),
@@ -91,6 +93,7 @@ export function startSearch() {
   $('steer').addEventListener('click', () => run('search/start', Object.assign(wishNow(), { steer: true })));
   $('pause').addEventListener('click', () => run('search/pause'));
   $('resume').addEventListener('click', () => run('search/resume'));
+  $('stop').addEventListener('click', () => run('search/stop'));
 }
 async function run(path, body) {
   const answer = await ask(path, body);
@@ -109,9 +112,9 @@ export function showSearch(search) {
   $('start').disabled = running;
   $('pause').disabled = !running;
   $('resume').disabled = search.state !== 'paused';
-  $('steer').disabled = !running && search.state !== 'paused';
-  $('report').hidden = search.state !== 'finished';
-  if (search.folder) { $('report').href = `report/${search.folder}`; $('report').textContent = 'Report'; }
+  $('steer').disabled = $('stop').disabled = !running && search.state !== 'paused';
+  $('report').hidden = !search.folder;
+  if (search.folder) { $('report').href = `report/${search.folder}`; $('report').textContent = search.state === 'finished' ? 'Report' : 'Report so far'; }
   $('progress').hidden = $('frontbox').hidden = !search.folder;
   if (!search.folder) return;
   const share = search.total ? Math.min(1, search.done / search.total) : 0;
@@ -120,23 +123,8 @@ export function showSearch(search) {
   $('stage').textContent = search.state === 'failed' ? search.trouble : `${search.done} of ${search.total} designs` + (running ? `; ${stages[search.stage] || ''}` : '') + `; ${search.folder}`;
   showFront(search);
 }
-function pointsOf(search) {
-  const [x, y] = search.objectives.map((o) => o.name), second = y || 'worst modulation';
-  const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: y ? p.objectives[1] : i + 1, evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter((p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined);
-  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, values: search.variables.map((v) => `${round(+r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) }));
-  return { searched, confirmed, names: [x, y || 'evaluation'] };
-}
 function showFront(search) {
-  const { searched, confirmed, names } = pointsOf(search), on = new Set(search.front);
-  const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
-  const sets = [
-    { label: 'searched', data: searched.filter((p) => p.ok && (confirmed.length || !on.has(p.evaluation))), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
-    { label: 'keeps not every limit', data: searched.filter((p) => !p.ok), pointStyle: 'crossRot', pointRadius: 4, borderColor: faint.dominated, backgroundColor: faint.dominated },
-  ];
-  if (!confirmed.length) sets.unshift({ label: 'front so far', data: front, showLine: names[1] !== 'evaluation', borderWidth: 1.5, pointRadius: 5.5, pointHoverRadius: 8, borderColor: colours[0], backgroundColor: colours[0] });
-  else sets.unshift({ label: 'front, confirmed', data: confirmed, bars: true, showLine: true, borderWidth: 1.5, pointRadius: 6, pointHoverRadius: 8, borderColor: colours[1], backgroundColor: colours[1] });
-  const all = confirmed.length ? confirmed : searched;
-  const scales = { x: axis(names[0], around(all, 'x', 'ex')), y: axis(names[1], around(all, 'y', 'ey')) };
+  const all = found(search), { searched, confirmed, front, names } = all, { sets, scales } = foundChart(all);
   if (charts.pareto && charts.pareto.$names === names.join()) {
     charts.pareto.data.datasets = sets;
     Object.assign(charts.pareto.options.scales.x, scales.x);
@@ -162,7 +150,8 @@ function showFront(search) {
   $('fronthint').textContent = searched.length ? (confirmed.length ? 'Bars: ± one standard error. Points of the search are of a cheaper level: compare them with each other only. ' : 'Searched at a cheap level: the finalists are confirmed at the end. ') + 'Select a point, or Open, to make it the design at hand.' : 'The first designs are on their way.';
   // The same by keys and for those who hear the page.
   const list = confirmed.length ? confirmed : front;
-  const body = table($('frontlist'), [''].concat(names[1] === 'evaluation' ? [names[0]] : names, search.variables.map((v) => called(v.path))), list.map((p) => [''].concat(names[1] === 'evaluation' ? [round(p.x, 3)] : [round(p.x, 3), round(p.y, 3)], p.values.map(people))));
+  const shown = foundTable(list, names, search.variables.map((v) => called(v.path)), people);
+  const body = table($('frontlist'), [''].concat(shown.head), shown.rows.map((r) => [''].concat(r)));
   list.forEach((p, i) => {
     const button = make('button', { type: 'button', textContent: 'Open' });
     button.setAttribute('aria-label', `open the design with ${names[0]} ${round(p.x, 3)}`);

@@ -3,7 +3,7 @@ import { $ } from '../plots/look.js';
 import { charts } from '../plots/charts.js';
 import { drawn, latency, showForm, showKinds } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
-import { exportDialog, openDialog, saveDialog, startFiles, state } from './files.js';
+import { exportDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
 import { showSearch, showWish, startSearch } from './search.js';
 import { ask, listen, notice, post } from './server.js';
@@ -21,13 +21,13 @@ function showSession(now) {
   showForm(now);
   showDimensions(now);
   showSessionPins(now);
-  // Other numbers may vary now.
-  if (file && (file !== now.file || kind !== now.kind)) post('search/propose').then(showWish);
+  // Other numbers may vary now; a design that was saved is the same.
+  if (file && (file !== now.file && now.file !== saving.name || kind !== now.kind)) post('search/propose').then(showWish);
   [file, kind] = [now.file, now.kind];
 }
 
 function told(answer) {
-  if (session && answer.revision < session.revision && answer.step !== 'search') return;
+  if (session && answer.revision < session.revision && answer.step !== 'first') return;
   showAnswer(answer);
   requestAnimationFrame(() => setTimeout(() => drawn(answer.revision)));
 }

@@ -1,6 +1,7 @@
 // Curves over humidity with their bands, and heights along a line.
 import { colours } from './look.js';
 import { axis } from './charts.js';
+import { dimensionLines, dimensionPlugin, roomForRows } from './dimensions.js';
 // Without the part of the finger's parameters, which moves all designs together.
 export const ownError = (q) => Math.sqrt(Math.max(0, q.se * q.se - Math.pow(q.parts.parameters || 0, 2)));
 // scale: of the quantity to the unit of its axis.
@@ -33,9 +34,17 @@ export const overHumidity = (sets, quantity, more = {}) => ({
     },
   },
 });
-// Heights along a line [µm, nm].
-export const alongLine = (line, length) => ({
-  type: 'line',
-  data: { datasets: [{ label: 'height', data: line, borderColor: colours[0], backgroundColor: colours[0] + '22', fill: 'start', pointRadius: 0, borderWidth: 2 }] },
-  options: { parsing: false, plugins: { legend: { display: false } }, scales: { x: axis('along the section [µm]', { type: 'linear', max: length, min: 0 }), y: axis('height [nm]') } },
-});
+// Heights along a line [µm, nm]; measures: of the texture, drawn as dimension lines.
+export function alongLine(line, length, measures) {
+  const lines = dimensionLines(line, measures, length), heights = line.map((p) => p.y), low = Math.min(...heights), high = Math.max(...heights);
+  return {
+    type: 'line',
+    data: { datasets: [{ label: 'height', data: line, dimensions: { lines, low, high }, borderColor: colours[0], backgroundColor: colours[0] + '22', fill: 'start', pointRadius: 0, borderWidth: 2 }] },
+    plugins: [dimensionPlugin],
+    options: {
+      parsing: false,
+      plugins: { legend: { display: false } },
+      scales: { x: axis('along the section [µm]', { type: 'linear', max: length, min: 0 }), y: axis('height [nm]', lines.length ? { suggestedMax: high + roomForRows * (high - low) } : {}) },
+    },
+  };
+}

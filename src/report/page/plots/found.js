@@ -1,0 +1,32 @@
+// What a search found so far: its designs, its front, what of it is confirmed. search: as the studio tells it.
+import { colours, faint } from './look.js';
+import { around, axis } from './charts.js';
+import { round } from './numbers.js';
+// { searched, confirmed, front, names }: points with x, y, the texts of their variables; names of the two axes.
+export function found(search) {
+  const [x, y] = search.objectives.map((o) => o.name), second = y || 'worst modulation', on = new Set(search.front);
+  const known = (p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined;
+  const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: y ? p.objectives[1] : i + 1, evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
+  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, values: search.variables.map((v) => `${round(+r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) }));
+  const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
+  return { searched, confirmed, front, names: [x, y || 'evaluation'] };
+}
+// The chart of that: its datasets and its axes.
+export function foundChart({ searched, confirmed, front, names }) {
+  const line = { borderWidth: 1.5, pointHoverRadius: 8 }, on = new Set(front);
+  const best = confirmed.length
+    ? Object.assign({ label: 'front, confirmed', data: confirmed, bars: true, showLine: true, pointRadius: 6, borderColor: colours[1], backgroundColor: colours[1] }, line)
+    : Object.assign({ label: 'front so far', data: front, showLine: names[1] !== 'evaluation', pointRadius: 5.5, borderColor: colours[0], backgroundColor: colours[0] }, line);
+  const sets = [
+    best,
+    { label: 'searched', data: searched.filter((p) => p.ok && (confirmed.length || !on.has(p))), pointRadius: 3, borderColor: faint.searched, backgroundColor: faint.searched },
+    { label: 'keeps not every limit', data: searched.filter((p) => !p.ok), pointStyle: 'crossRot', pointRadius: 4, borderColor: faint.dominated, backgroundColor: faint.dominated },
+  ];
+  const all = confirmed.length ? confirmed : searched;
+  return { sets, scales: { x: axis(names[0], around(all, 'x', 'ex')), y: axis(names[1], around(all, 'y', 'ey')) } };
+}
+// Head and rows of the table of a front; value: how a variable is shown.
+export function foundTable(list, names, variables, value) {
+  const objectives = names[1] === 'evaluation' ? names.slice(0, 1) : names;
+  return { head: objectives.concat(variables), rows: list.map((p) => [p.x, p.y].slice(0, objectives.length).map((v) => round(v, 3)).concat(p.values.map(value))) };
+}
