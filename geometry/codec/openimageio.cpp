@@ -1,6 +1,9 @@
 // EXR, TIFF and PNG through OpenImageIO: the module papilla_images.so (geometry/io/codec.h).
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "geometry/io/codec.h"
 
 namespace papilla::geometry {
@@ -67,15 +70,45 @@ class In : public ImageIn {
     return own_.get_string_attribute(attribute);
   }
   std::string read_rows(int begin, int end, Sample sample, void* rows) override {
+    if (own_.tile_width > 0) return rows_of_tiles(begin, end, sample, static_cast<char*>(rows));
     return file_->read_scanlines(0, 0, begin, end, 0, 0, own_.nchannels, type_of(sample), rows)
                ? ""
                : file_->geterror();
   }
 
  private:
+  // From the rows of tiles that hold them; the last one is kept, as rows are asked for in order.
+  std::string rows_of_tiles(int begin, int end, Sample sample, char* rows) {
+    const OIIO::TypeDesc type = type_of(sample);
+    const std::size_t row = static_cast<std::size_t>(own_.width) *
+                            static_cast<std::size_t>(own_.nchannels) * type.size();
+    for (int y = begin; y < end;) {
+      const int first = y - y % own_.tile_height;
+      const int last = std::min(first + own_.tile_height, own_.height);
+      if (first != band_first_ || sample != band_sample_) {
+        band_.resize(row * static_cast<std::size_t>(last - first));
+        band_first_ = -1;
+        if (!file_->read_tiles(0, 0, own_.x, own_.x + own_.width, own_.y + first, own_.y + last, 0,
+                               1, 0, own_.nchannels, type, band_.data()))
+          return file_->geterror();
+        band_first_ = first;
+        band_sample_ = sample;
+      }
+      const int stop = std::min(last, end);
+      std::copy_n(band_.data() + row * static_cast<std::size_t>(y - first),
+                  row * static_cast<std::size_t>(stop - y),
+                  rows + row * static_cast<std::size_t>(y - begin));
+      y = stop;
+    }
+    return "";
+  }
+
   std::unique_ptr<OIIO::ImageInput> file_;
   OIIO::ImageSpec own_;
   ImageSpec spec_;
+  std::vector<char> band_;  // a row of tiles
+  int band_first_ = -1;     // its first row
+  Sample band_sample_ = Sample::Other;
 };
 
 class Codec : public ImageCodec {

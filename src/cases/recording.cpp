@@ -33,7 +33,7 @@ std::optional<std::vector<double>> numbers_of(const std::vector<std::string>& ce
 }  // namespace
 
 std::vector<std::vector<double>> number_rows(const std::string& csv, const std::string& name,
-                                             const std::string& expected) {
+                                             const std::string& word, const std::string& expected) {
   std::vector<std::vector<double>> rows;
   std::istringstream lines(csv);
   std::string line;
@@ -42,8 +42,8 @@ std::vector<std::vector<double>> number_rows(const std::string& csv, const std::
     if (line.empty()) continue;
     const std::vector<std::string> cells = split(line, ',');
     const auto values = numbers_of(cells);
-    const bool words = line.find_first_of("abcdefghijklmnopqrstuvwxyz") != std::string::npos;
-    if (!values && rows.empty() && words && cells.size() > 1) continue;  // the head
+    if (!values && rows.empty() && line.find(word) != std::string::npos && cells.size() > 1)
+      continue;  // the head
     const bool alike =
         values && values->size() > 1 && (rows.empty() || values->size() == rows[0].size());
     if (!alike) {
@@ -73,7 +73,7 @@ double even_step(const std::vector<std::vector<double>>& rows, const std::string
 }
 
 Signal recorded_signal(const std::string& csv, const std::string& name) {
-  const auto rows = number_rows(csv, name, "\"time,value\" in s and V or A");
+  const auto rows = number_rows(csv, name, "time", "\"time,value\" in s and V or A");
   if (rows[0].size() != 2) refuse(name, 1, "expected \"time,value\" in s and V or A");
   const double step = even_step(rows, name);
   const auto count = static_cast<double>(rows.size());

@@ -70,7 +70,8 @@ Swipe run_swipe(const std::string& csv, const std::string& name, const StictionO
                 double filter) {
   StictionMachine machine(options);
   Swipe swipe;
-  const auto forces = forces_of(number_rows(csv, name, kForces), name, options.step, filter);
+  const auto forces =
+      forces_of(number_rows(csv, name, "lateral", kForces), name, options.step, filter);
   for (std::size_t i = 0; i < forces.size(); ++i) {
     const double current = machine.update(forces[i].lateral, forces[i].normal);
     add_step(static_cast<double>(i) * options.step, machine.state(), current, options.step, swipe);

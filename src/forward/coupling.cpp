@@ -143,7 +143,7 @@ class PatchSolver {
       if (out.volume > 0) {
         on = rewet_timed(undriven.water, gap, driven, out);
         out.capillary_on = on.capillary_force;
-out.retention_on = on.retention;
+        out.retention_on = on.retention;
       }
       pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
       note_field(pull, out);
@@ -258,7 +258,7 @@ out.retention_on = on.retention;
       if (out.volume > 0) {
         on = rewet_timed(off, gap, driven, out);
         out.capillary_on = on.capillary_force;
-out.retention_on = on.retention;
+        out.retention_on = on.retention;
       }
       pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
       note_field(pull, out);

@@ -136,8 +136,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     if (q.mean_of)
       point.*q.value = sampled_mean(patches, q.mean_of, q.whole_finger ? patches_per_finger : 1);
   }
-  Measured retention_on =
-      sampled_mean(patches, &PatchResult::retention_on, patches_per_finger);
+  Measured retention_on = sampled_mean(patches, &PatchResult::retention_on, patches_per_finger);
   if (!plan.retention) point.retention_force = retention_on = {};
   if (setting.fidelity.estimator == Estimator::Load || !plan.traction_solves) {
     areas_by_load(point, patches, setting.fidelity);

@@ -122,8 +122,7 @@ TEST(Droplets, ThePapersLawIsThePressureOnTheFootprint) {
       solve_bridge(v, h, water.theta_skin, water.theta_substrate, water.surface_tension);
   // The exact bridge's own pressure on the same footprint; the paper's waist is that of the rim.
   const double r = std::sqrt(v / (kPi * h));
-  EXPECT_NEAR(w.capillary_force, -exact.pressure * kPi * r * r,
-              0.02 * std::abs(w.capillary_force));
+  EXPECT_NEAR(w.capillary_force, -exact.pressure * kPi * r * r, 0.02 * std::abs(w.capillary_force));
   EXPECT_LT(w.capillary_force, 0.96 * exact.force);
   EXPECT_EQ(laplace_force(water, 2, 0.5, kInfinity),
             4 * wetting_gain(water.theta_skin, water.theta_substrate));

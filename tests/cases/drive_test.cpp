@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "report/drive.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -152,7 +153,7 @@ TEST(DriveFile, ARecordedSineIsTheSine) {
   std::string csv = "time,voltage\n";
   for (int i = 0; i < 1024; ++i)
     csv += fmt::format("{:.9g},{:.9g}\n", i / 1024e3, 100 * std::sin(2 * kPi * i / 1024.0));
-  const std::string path = testing::TempDir() + "papilla_recorded_sine.csv";
+  const std::string path = temporary("recorded_sine.csv");
   write_bytes(path, csv);
   std::vector<std::string> recorded = sine;
   recorded.push_back("source.file=" + path);

@@ -91,10 +91,10 @@ TEST(FieldRatio, TheErrorOfThePullReachesModulationAndFriction) {
   EXPECT_DOUBLE_EQ(*point.electrostatic_force.parts.field, 0.01 * point.electrostatic_force.value);
   const double relative = 0.84 * (after - before) / after * 0.01;
   EXPECT_NEAR(*point.modulation.parts.field, relative * (1 + point.modulation.value), 1e-12);
-  EXPECT_NEAR(*point.friction_on.parts.field,
-              relative * (point.friction_on.value - point.retention_force.value -
-                          point.retention_gain),
-              1e-12);
+  EXPECT_NEAR(
+      *point.friction_on.parts.field,
+      relative * (point.friction_on.value - point.retention_force.value - point.retention_gain),
+      1e-12);
   EXPECT_FALSE(point.friction_off.parts.field);
   EXPECT_GT(point.modulation.se(), r.points[0].modulation.se());
 }
