@@ -29,6 +29,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
 constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
+constexpr const char* kLastWord = "1 min";            // of a search that is stopped
 constexpr int kGivesWay = 19;                         // niceness of a search: the hand comes first
 
 const char* name_of(SearchState state) {
@@ -211,10 +212,10 @@ void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish
 }
 
 // Asks the desk's thread, with which a search ends; with the lock held.
-void SearchDesk::launch(bool again, std::size_t evaluations) {
+void SearchDesk::launch(bool again, bool to_its_end) {
   state_ = SearchState::Running;
   again_ = again;
-  evaluations_ = evaluations;
+  to_its_end_ = to_its_end;
   wants_child_ = true;
   changed_.notify_all();
 }
@@ -249,7 +250,7 @@ void SearchDesk::stop() {
   if (state_ != SearchState::Running && state_ != SearchState::Paused)
     throw InputError("no search is running");
   if (found_.empty()) throw InputError("no design was judged yet: pause the search instead");
-  launch(true, found_.size());
+  launch(true, true);
 }
 
 void SearchDesk::watch() {
@@ -260,8 +261,8 @@ void SearchDesk::watch() {
       std::vector<std::string> words{program_, "optimize", folder + "/study.toml", "--out", folder};
       std::error_code none;
       if (again_ && fs::exists(folder + "/journal", none)) words.push_back("--resume");
-      if (evaluations_ > 0)
-        words.insert(words.end(), {"--evaluations", std::to_string(evaluations_)});
+      // Another number of evaluations would be another path than the journal's; a clock is none.
+      if (to_its_end_) words.insert(words.end(), {"--time", kLastWord});
       child_ = started(words, folder + "/log.txt");
       wants_child_ = false;
     }

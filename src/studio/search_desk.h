@@ -77,7 +77,7 @@ class SearchDesk {
   };
 
   void watch();  // the desk's thread
-  void launch(bool again, std::size_t evaluations = 0);
+  void launch(bool again, bool to_its_end = false);
   bool read_journal();
   void wait_for_child();
   void find_last();
@@ -98,8 +98,8 @@ class SearchDesk {
   std::size_t read_ = 0;  // bytes of the journal
   int total_ = 0;
   std::string stage_, trouble_;
-  std::size_t evaluations_ = 0;  // after which the child looks for no more; 0: as its study says
-  bool ended_ = false;           // by its journal
+  bool to_its_end_ = false;  // the child looks for no more than kLastWord lets it
+  bool ended_ = false;       // by its journal
   int child_ = -1;
   bool wants_child_ = false, again_ = false, stopping_ = false, closing_ = false;
   std::thread thread_;

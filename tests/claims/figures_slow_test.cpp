@@ -32,7 +32,7 @@ const FigureRow& row(const std::string& sample, Preset preset, double humidity,
   throw std::runtime_error("no row of " + sample);
 }
 
-TEST(Figures, EverySampleStandsAtEveryHumidityByBothPresets) {
+TEST(FiguresOfOneRun, EverySampleStandsAtEveryHumidityByBothPresets) {
   std::set<std::tuple<std::string, std::string, Preset, double>> seen;
   for (const FigureRow& r : tables().rows)
     EXPECT_TRUE(seen.insert({r.sample, r.state, r.preset, r.relative_humidity}).second);
@@ -40,7 +40,7 @@ TEST(Figures, EverySampleStandsAtEveryHumidityByBothPresets) {
   EXPECT_EQ(seen.size(), 2u * (8 * 4 + 6 * 2));
 }
 
-TEST(Figures, NumbersOfARowBelongTogether) {
+TEST(FiguresOfOneRun, NumbersOfARowBelongTogether) {
   for (const FigureRow& r : tables().rows) {
     for (const FigureValue* v : {&r.friction_off, &r.friction_on, &r.capillary, &r.pull}) {
       EXPECT_LE(v->low, v->value.value);
@@ -59,7 +59,7 @@ TEST(Figures, NumbersOfARowBelongTogether) {
               0.02 * flat.friction_off.value.value);
 }
 
-TEST(Figures, ThePresetsDifferAsThePaperHasIt) {
+TEST(FiguresOfOneRun, ThePresetsDifferAsThePaperHasIt) {
   EXPECT_EQ(row("flat 110\u00b0", Preset::M3, 0.75).capillary.value.value, 0);
   EXPECT_GT(row("flat 110\u00b0", Preset::Papilla, 0.75).capillary.value.value, 0);
   EXPECT_LT(row("flat", Preset::M3, 0.75).capillary.value.value,
@@ -67,7 +67,7 @@ TEST(Figures, ThePresetsDifferAsThePaperHasIt) {
   EXPECT_GT(row("small film 1", Preset::M3, 0.55, "natural").capillary.value.value, 0);
 }
 
-TEST(Figures, PrintedNumbersStandBesideTheModels) {
+TEST(FiguresOfOneRun, PrintedNumbersStandBesideTheModels) {
   EXPECT_EQ(tables().printed.size(), 10u);
   const PrintedNumber ranged{"M5", "", 22.3, 24.1, {12.05, 1}, {23, 1}};
   EXPECT_NEAR(ranged.deviation(ranged.papilla), 12.05 / 22.3 - 1, 1e-12);
