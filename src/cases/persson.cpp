@@ -241,9 +241,6 @@ MeanFieldResult solve_mean_field(const MeanFieldCase& c) {
   for (double x : c.sweep.voltage) result.voltage.push_back(of.at(x, load, f));
   for (double x : c.sweep.load) result.load.push_back(of.at(v, x, f));
   for (double x : c.sweep.frequency) result.frequency.push_back(of.at(v, load, x));
-  for (double x : c.sweep.voltage) {
-    for (double y : c.sweep.load) result.grid.push_back(of.at(x, y, f));
-  }
   return result;
 }
 
@@ -259,6 +256,9 @@ MeanFieldCurves mean_field_curves(const MeanFieldCase& c) {
       shares = plastic_shares(pressure, rough.stress_measure(q), c.skin.hardness);
     out.roughness.push_back({q, of.given().at(q), field.spectrum().at(q), field.area(pressure, q),
                              shares.elastic, shares.plastic});
+  }
+  for (double x : c.sweep.voltage) {
+    for (double y : c.sweep.load) out.grid.push_back(of.at(x, y, of.frequency()));
   }
   const double smallest = c.touch.finite_size_pressure;
   for (const double p : spaced(1, 1e6, kCurve))
