@@ -10,23 +10,25 @@ namespace papilla::capillary {
 namespace {
 
 // Slopes of the gap beyond this are walls, not bowls: they are taken as this [rad].
-constexpr double kLargestTilt = kPi / 4;
+constexpr double kLargestTilt = kPi / 4, kLargestSlope = 1;
 // Slope of the rim at which half of the exact flat bridge's remainder has faded [rad].
 constexpr double kFlatTilt = kPi / 12;
 
 // How far the rim is moved for the change of the energy with its radius, by that radius.
 constexpr double kForceStep = 0.04;
 
-// Under a bowl the exact flat bridge's remainder fades (fitted on sphere and plate).
-double flatness(const GapTable::Rim& rim) {
-  return 1 / (1 + square(std::atan(rim.slope) / kFlatTilt));
-}
+// Under a bowl the exact flat bridge's remainder fades (fitted on sphere and plate). angle: of the
+// rim's slope [rad].
+double flatness(double angle) { return 1 / (1 + square(angle / kFlatTilt)); }
+
+double angle_of(const GapTable::Rim& rim) { return std::atan(rim.slope); }
 
 }  // namespace
 
-DropEnergy::DropEnergy(const Gap& gap, const WaterProperties& water, double gap_floor)
+DropEnergy::DropEnergy(const Gap& gap, const WaterProperties& water, double gap_floor,
+                       double largest_step)
     : grid_(gap.grid),
-      table_(gap, gap_floor),
+      table_(gap, gap_floor, largest_step),
       water_(water),
       gain_(wetting_gain(water.theta_skin, water.theta_substrate)),
       cos_skin_(std::cos(water.theta_skin)),
@@ -56,25 +58,25 @@ void DropEnergy::fit_meniscus() {
   tilt_terms_ = {odd - cubic, even - quartic, cubic, quartic};
 }
 
-double DropEnergy::meniscus_at(const GapTable::Rim& rim, double& tilt) const {
-  tilt = std::clamp(std::atan(rim.slope), -kLargestTilt, kLargestTilt);
-  const double x = tilt / kLargestTilt;
+double DropEnergy::meniscus_at(double angle) const {
+  const double x = std::clamp(angle / kLargestTilt, -1.0, 1.0);
   const auto& [a1, a2, a3, a4] = tilt_terms_;
   return meniscus_ + x * (a1 + x * (a2 + x * (a3 + x * a4)));
 }
 
 // Eq. capillary.4, per tension: wetting and meniscus, with the slope of the gap at the rim.
-double DropEnergy::slab_energy(double radius, const GapTable::Rim& rim) const {
-  double tilt;
-  const double factor = meniscus_at(rim, tilt);
-  const double bowl = square(std::tan(0.5 * tilt));  // wet area of a sphere over its base, less 1
-  return -(gain_ + cos_skin_ * bowl) * kPi * square(radius) + 2 * kPi * radius * factor * rim.gap;
+double DropEnergy::slab_energy(double radius, const GapTable::Rim& rim, double angle) const {
+  const double slope = std::clamp(rim.slope, -kLargestSlope, kLargestSlope);
+  // Wet area of a sphere over its base, less 1: the square of the tangent of half the angle.
+  const double bowl = square(slope / (1 + std::sqrt(1 + square(slope))));
+  return -(gain_ + cos_skin_ * bowl) * kPi * square(radius) +
+         2 * kPi * radius * meniscus_at(angle) * rim.gap;
 }
 
 // What the exact flat bridge of this volume and mean gap has beyond the slab, per tension.
 BridgeTable::Value DropEnergy::beyond_slab(double volume, double radius) const {
   if (!exact_->valid()) return {0, 0};
-  const double size = std::cbrt(volume);
+  const double size = size_of(volume);
   const double h = volume / (kPi * square(radius)) / size;
   if (h >= rupture_) return {0, 0};
   const BridgeTable::Value exact = (*exact_)(h);
@@ -84,12 +86,18 @@ BridgeTable::Value DropEnergy::beyond_slab(double volume, double radius) const {
 }
 
 double DropEnergy::bridge_energy(double volume, double radius, const GapTable::Rim& rim) const {
+  const double angle = angle_of(rim);
   return water_.surface_tension *
-         (slab_energy(radius, rim) + flatness(rim) * beyond_slab(volume, radius).energy);
+         (slab_energy(radius, rim, angle) + flatness(angle) * beyond_slab(volume, radius).energy);
+}
+
+double DropEnergy::size_of(double volume) const {
+  if (volume != sized_.volume) sized_ = {volume, std::cbrt(volume)};
+  return sized_.size;
 }
 
 double DropEnergy::cap_energy(double volume) const {
-  return water_.surface_tension * cap_.energy * square(std::cbrt(volume));
+  return water_.surface_tension * cap_.energy * square(size_of(volume));
 }
 
 // The footprint shrinks by dr/dh = -r / (2 h_edge).
@@ -99,18 +107,20 @@ double DropEnergy::force(const Drop& d) const {
     return water_.surface_tension * laplace_force(water_, kPi * square(r), d.edge_gap, r);
   const GapTable::Rule rule = table_.rule(r);
   const GapTable::Rim rim{d.edge_gap, d.edge_slope};
-  double tilt;
-  const double fixed = 2 * kPi * r * meniscus_at(rim, tilt);
+  const double angle = angle_of(rim);
+  const double fixed = 2 * kPi * r * meniscus_at(angle);
   const double step = kForceStep * r;
   const GapTable::Rim out = table_.rim(d.x, d.y, r + step, rule);
   const GapTable::Rim in = table_.rim(d.x, d.y, r - step, rule);
   const BridgeTable::Value beyond = beyond_slab(d.volume, r);
-  const double by_radius = (slab_energy(r + step, out) - slab_energy(r - step, in) +
-                            beyond.energy * (flatness(out) - flatness(in))) /
-                           (2 * step);
+  const double angle_out = angle_of(out), angle_in = angle_of(in);
+  const double by_radius =
+      (slab_energy(r + step, out, angle_out) - slab_energy(r - step, in, angle_in) +
+       beyond.energy * (flatness(angle_out) - flatness(angle_in))) /
+      (2 * step);
   const double mean_gap = d.volume / (kPi * square(r));
   return water_.surface_tension * (fixed - r / (2 * d.edge_gap) * by_radius +
-                                   flatness(rim) * beyond.force * mean_gap / d.edge_gap);
+                                   flatness(angle) * beyond.force * mean_gap / d.edge_gap);
 }
 
 double DropEnergy::retention(const Drop& d) const {
@@ -144,6 +154,10 @@ double DropEnergy::estimated(const Drop& d, double x, double y) {
                                                (-gain_ * r + meniscus_ * (rim.gap + r * rim.slope));
 }
 
+bool DropEnergy::floats_around(const Drop& d) const {
+  return table_.lowest_around(d.x, d.y) >= reach_ * size_of(d.volume);
+}
+
 Drop DropEnergy::placed(double x, double y, double volume, double guess, bool was_bridge) {
   return placed(x, y, volume, guess, was_bridge, false);
 }
@@ -158,7 +172,7 @@ Drop DropEnergy::placed(double x, double y, double volume, double guess, bool wa
   d.x = into_period(x, grid_.lx);
   d.y = into_period(y, grid_.ly);
   d.volume = volume;
-  const double size = std::cbrt(volume), centre = table_.at(d.x, d.y);
+  const double size = size_of(volume), centre = table_.at(d.x, d.y);
   const double cap = cap_energy(volume);
   if (was_bridge || centre < reach_ * size) {
     bridge_over(d, guess);

@@ -17,8 +17,9 @@ namespace papilla::capillary {
 // Eqs. capillary.4-6. Counts how often it was asked for a bridge: one object a solve and thread.
 class DropEnergy {
  public:
-  // gap_floor [m]: smaller gaps count as this.
-  DropEnergy(const Gap& gap, const WaterProperties& water, double gap_floor);
+  // gap_floor [m]: smaller gaps count as this. largest_step [m]: of a drop's search around it.
+  DropEnergy(const Gap& gap, const WaterProperties& water, double gap_floor,
+             double largest_step = 0);
 
   // The state of lowest energy of `volume` [m^3] at a place [m], which may lie outside the period;
   // a cap taller than the gap must bridge (snap-in). guess: radius of a nearby bridge [m], or 0.
@@ -28,6 +29,9 @@ class DropEnergy {
   Drop kept(double x, double y, double volume, double radius);
   // Energy of the same bridge at another place [J], to first order in the change of its radius.
   double estimated(const Drop& bridge, double x, double y);
+
+  // That a drop which does not bridge would do so nowhere within the largest step.
+  bool floats_around(const Drop& drop) const;
 
   // Eq. capillary.6: dE/dh [N] of a bridge when the whole gap opens, at fixed volume and place.
   double force(const Drop& bridge) const;
@@ -42,11 +46,12 @@ class DropEnergy {
   void fit_meniscus();
   Drop placed(double x, double y, double volume, double guess, bool was_bridge, bool stays);
   void bridge_over(Drop& d, double guess);
-  double meniscus_at(const GapTable::Rim& rim, double& tilt) const;
-  double slab_energy(double radius, const GapTable::Rim& rim) const;
+  double meniscus_at(double angle) const;  // factor, by the angle of the rim's slope [rad]
+  double slab_energy(double radius, const GapTable::Rim& rim, double angle) const;
   BridgeTable::Value beyond_slab(double volume, double radius) const;
   double bridge_energy(double volume, double radius, const GapTable::Rim& rim) const;
   double cap_energy(double volume) const;
+  double size_of(double volume) const;  // cube root [m]
 
   Grid grid_;
   GapTable table_;
@@ -60,6 +65,8 @@ class DropEnergy {
   double rupture_ = 0;  // gap per volume^(1/3) beyond which no flat bridge is stable
   double reach_ = 0;    // and beyond which none is worth trying
   long evaluations_ = 0;
+  // Of the last volume: the same drop is asked for many times.
+  mutable struct { double volume = 0, size = 0; } sized_;
 };
 
 }  // namespace papilla::capillary

@@ -8,13 +8,12 @@
 namespace papilla::capillary {
 
 void DropHash::build(const std::vector<Drop>& drops) {
-  // Cells hold about one drop, and are wide enough for all but a few drops of the end to count as
-  // small: the others are one list that every search goes through.
+  // Cells hold about two drops. What counts as small is a compromise: every search goes through the
+  // list of the others, and through all cells that a small one may reach it from.
   double typical = 0;
   for (const Drop& d : drops) typical += d.radius / static_cast<double>(drops.size());
-  small_radius_ = 6 * typical;
-  const double cell =
-      std::max(std::sqrt(lx_ * ly_ / static_cast<double>(drops.size() + 1)), small_radius_);
+  small_radius_ = 3 * typical;
+  const double cell = 1.5 * std::sqrt(lx_ * ly_ / static_cast<double>(drops.size() + 1));
   cells_x_ = std::max(1, static_cast<int>(lx_ / cell));
   cells_y_ = std::max(1, static_cast<int>(ly_ / cell));
   cell_x_ = lx_ / cells_x_;
@@ -65,11 +64,13 @@ void DropHash::collect_overlaps(const std::vector<Drop>& drops, const Drop& d,
   const int x1 = std::min(static_cast<int>(std::floor((d.x + reach) / cell_x_)), x0 + cells_x_ - 1);
   const int y0 = static_cast<int>(std::floor((d.y - reach) / cell_y_));
   const int y1 = std::min(static_cast<int>(std::floor((d.y + reach) / cell_y_)), y0 + cells_y_ - 1);
-  for (int cy = y0; cy <= y1; ++cy) {
-    for (int cx = x0; cx <= x1; ++cx) {
-      for (int j = head_[wrap(cy, cells_y_) * cells_x_ + wrap(cx, cells_x_)]; j >= 0; j = next_[j])
-        consider(j);
+  const int from = wrap(x0, cells_x_);
+  for (int cy = y0, row = wrap(y0, cells_y_); cy <= y1; ++cy) {
+    for (int cx = x0, column = from; cx <= x1; ++cx) {
+      for (int j = head_[row * cells_x_ + column]; j >= 0; j = next_[j]) consider(j);
+      if (++column == cells_x_) column = 0;
     }
+    if (++row == cells_y_) row = 0;
   }
 }
 

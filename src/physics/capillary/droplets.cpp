@@ -66,7 +66,7 @@ Wetting settle_droplets(const Gap& gap, const std::vector<DropletSeed>& droplets
   }
   for (double h : gap.value) space += h;
   if (volume >= space * gap.grid.pixel_area()) return fill_threshold(gap, volume, water);
-  DropEnergy energy(gap, water, options.gap_floor);
+  DropEnergy energy(gap, water, options.gap_floor, options.first_step);
   std::vector<Drop> placed;
   placed.reserve(droplets.size());
   for (const DropletSeed& d : droplets)

@@ -71,7 +71,7 @@ inline Cell locate(double u, int n) {
 
 }  // namespace
 
-GapTable::GapTable(const Gap& gap, double floor)
+GapTable::GapTable(const Gap& gap, double floor, double around)
     : grid_(gap.grid),
       floor_(floor),
       inverse_dx_(1 / gap.grid.dx()),
@@ -91,6 +91,43 @@ GapTable::GapTable(const Gap& gap, double floor)
       n[ix + 1].prefix = n[ix].prefix + 0.5 * (n[ix].value + n[ix + 1].value);
     }
   }
+  if (around > 0) find_lowest(around);
+}
+
+void GapTable::find_lowest(double around) {
+  // A gap between pixels is made of theirs: one pixel more than the distance.
+  block_x_ = std::min(static_cast<int>(std::ceil(around * inverse_dx_)) + 1, grid_.nx);
+  block_y_ = std::min(static_cast<int>(std::ceil(around * inverse_dy_)) + 1, grid_.ny);
+  blocks_x_ = grid_.nx / block_x_;  // the last one takes what is left
+  blocks_y_ = grid_.ny / block_y_;
+  std::vector<double> own(static_cast<std::size_t>(blocks_x_) * blocks_y_, kInfinity);
+  for (int iy = 0; iy < grid_.ny; ++iy) {
+    const Node* n = &node_[static_cast<std::size_t>(iy) * stride_];
+    double* row =
+        &own[static_cast<std::size_t>(std::min(iy / block_y_, blocks_y_ - 1)) * blocks_x_];
+    for (int b = 0; b < blocks_x_; ++b) {
+      const int end = b + 1 == blocks_x_ ? grid_.nx : (b + 1) * block_x_;
+      for (int ix = b * block_x_; ix < end; ++ix) row[b] = std::min(row[b], n[ix].value);
+    }
+  }
+  lowest_.assign(own.size(), kInfinity);
+  for (int by = 0; by < blocks_y_; ++by) {
+    for (int bx = 0; bx < blocks_x_; ++bx) {
+      double& low = lowest_[static_cast<std::size_t>(by) * blocks_x_ + bx];
+      for (int ey = -1; ey <= 1; ++ey) {
+        for (int ex = -1; ex <= 1; ++ex) {
+          low = std::min(low, own[static_cast<std::size_t>(wrap(by + ey, blocks_y_)) * blocks_x_ +
+                                  wrap(bx + ex, blocks_x_)]);
+        }
+      }
+    }
+  }
+}
+
+double GapTable::lowest_around(double x, double y) const {
+  const int bx = std::min(static_cast<int>(x * inverse_dx_) / block_x_, blocks_x_ - 1);
+  const int by = std::min(static_cast<int>(y * inverse_dy_) / block_y_, blocks_y_ - 1);
+  return lowest_[static_cast<std::size_t>(by) * blocks_x_ + bx];
 }
 
 inline double GapTable::row_integral(int iy, double u) const {
@@ -106,7 +143,7 @@ double GapTable::at(double x, double y) const {
   return bilinear(x * inverse_dx_ - 0.5, y * inverse_dy_ - 0.5);
 }
 
-double GapTable::bilinear(double u, double v) const {
+[[gnu::always_inline]] inline double GapTable::bilinear(double u, double v) const {
   const Cell cx = locate(u, grid_.nx), cy = locate(v, grid_.ny);
   const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
   const Node* a = &node_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];

@@ -11,8 +11,9 @@ namespace papilla::capillary {
 
 class GapTable {
  public:
-  // Gaps below `floor` [m] count as `floor`, so that a bridge in a contact stays finite.
-  GapTable(const Gap& gap, double floor);
+  // Gaps below `floor` [m] count as `floor`, so that a bridge in a contact stays finite. around
+  // [m]: how far lowest_around looks; 0: it is not asked.
+  GapTable(const Gap& gap, double floor, double around = 0);
 
   struct Rim {
     double gap;    // mean on the circle [m]
@@ -26,6 +27,8 @@ class GapTable {
   };
 
   double at(double x, double y) const;  // [m]
+  // No gap within `around` of a place inside the period is smaller [m]; a bound, not the smallest.
+  double lowest_around(double x, double y) const;
   Rule rule(double radius) const;
   double disc_volume(double x, double y, double radius, const Rule& rule) const;  // [m^3]
   Rim rim(double x, double y, double radius, const Rule& rule) const;
@@ -48,6 +51,11 @@ class GapTable {
     double prefix;  // integral from pixel centre 0 to here, in pixels
   };
   std::vector<Node> node_;  // rows of nx + 1 (first column repeated)
+
+  void find_lowest(double around);
+  // Smallest gap of a block of pixels and the eight around it; blocks are wider than `around`.
+  int block_x_ = 1, block_y_ = 1, blocks_x_ = 0, blocks_y_ = 0;  // pixels of one, and how many
+  std::vector<double> lowest_;
 };
 
 }  // namespace papilla::capillary

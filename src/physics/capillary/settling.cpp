@@ -67,6 +67,7 @@ class Walker {
     Watch::look();
     Downhill out;
     const Drop& d = drops_[i];
+    if (!d.bridge && energy_.floats_around(d)) return out;
     const double margin = kLeastGain * std::abs(d.energy);
     for (int k = 0; k < 8; ++k) {
       const double x = into_period(d.x + step * kDirections[k][0], gap_.grid.lx);
