@@ -191,7 +191,7 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
     // The flux over that of the column alone.
     gain[i] = square(phi[i] * (1 + column(i) * conductance[i]));
     const double flux = (1 - phi[i]) / column(i);
-    voltage[i] = (1 - phi[i]) / std::hypot(1, flux * p.skin_layer.imag());
+    voltage[i] = (1 - phi[i]) / std::sqrt(1 + square(flux * p.skin_layer.imag()));
   }
   const std::vector<double> open = air_screening_factor(gap, wetting, p.screening);
   FieldSolution out =
