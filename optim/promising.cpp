@@ -10,6 +10,31 @@ namespace papilla::optim {
 namespace {
 
 constexpr double kLeastGain = 0.01;  // of the hypervolume so far
+// Beside a point that failed, in the unit cube: the largest difference of a variable.
+constexpr double kBeside = 0.15;
+
+double largest_difference(const Point& a, const Point& b) {
+  double out = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) out = std::max(out, std::abs(a[k] - b[k]));
+  return out;
+}
+
+// How much worse each constraint was found by a surer judgement, at worst.
+std::vector<double> worsening(const std::vector<Evaluation>& evaluations,
+                              const std::vector<Evaluation>& judged) {
+  std::vector<double> out;
+  for (const Evaluation& j : judged) {
+    const auto same = std::find_if(evaluations.begin(), evaluations.end(),
+                                   [&](const Evaluation& e) { return e.unit == j.unit; });
+    if (same == evaluations.end() || !same->outcome.ok || !j.outcome.ok) continue;
+    const std::size_t count =
+        std::min(same->outcome.constraints.size(), j.outcome.constraints.size());
+    out.resize(std::max(out.size(), count), 0);
+    for (std::size_t k = 0; k < count; ++k)
+      out[k] = std::max(out[k], j.outcome.constraints[k] - same->outcome.constraints[k]);
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -82,6 +107,29 @@ std::vector<std::size_t> promising(const SearchProblem& problem,
   }
   std::sort(chosen.begin(), chosen.end());
   return chosen;
+}
+
+std::optional<std::size_t> next_safer(const std::vector<Evaluation>& evaluations,
+                                      const std::vector<Evaluation>& judged) {
+  const std::vector<double> worse = worsening(evaluations, judged);
+  const auto holds = [&](const Evaluation& e) {
+    if (!e.outcome.feasible()) return false;
+    for (std::size_t k = 0; k < std::min(worse.size(), e.outcome.constraints.size()); ++k) {
+      if (e.outcome.constraints[k] + worse[k] > 0) return false;
+    }
+    return std::none_of(judged.begin(), judged.end(), [&](const Evaluation& j) {
+      return largest_difference(e.unit, j.unit) < (j.outcome.ok ? 1e-9 : kBeside);
+    });
+  };
+  std::vector<Evaluation> left;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < evaluations.size(); ++i) {
+    if (!holds(evaluations[i])) continue;
+    left.push_back(evaluations[i]);
+    places.push_back(i);
+  }
+  if (left.empty()) return std::nullopt;
+  return places[pareto_front(left).front()];
 }
 
 }  // namespace papilla::optim

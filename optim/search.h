@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,12 @@ constexpr std::size_t kMostModelled = 300;
 // at most kMostModelled.
 std::vector<std::size_t> promising(const SearchProblem& problem,
                                    const std::vector<Evaluation>& evaluations, std::size_t count);
+
+// Where a surer judgement of the promising ones kept none: the next to judge, the best of those
+// that still keep every constraint when it is as much worse there as it was for a judged one, and
+// that are not beside one that failed. Nothing where none is left. Eq. search.13
+std::optional<std::size_t> next_safer(const std::vector<Evaluation>& evaluations,
+                                      const std::vector<Evaluation>& judged);
 
 class Searcher {
  public:

@@ -154,15 +154,31 @@ class VoltageSearch {
 
 }  // namespace
 
-double amplitude_limit(const Scene& scene, const Texture& texture) {
-  const double radius = scene.surface.electrode_edge_radius;
+double breakdown_voltage(const Surface& surface, const Texture& texture) {
+  const double radius = surface.electrode_edge_radius;
   const Relief relief = facts(texture).relief;
   const bool edges = radius > 0 && relief.present;
   const double deepest = relief.planes ? std::max(0.0, -relief.planes->low) : 0;
-  const double oxide = dielectric_margin(scene.surface.thinnest_layers(deepest), 1,
-                                         edges ? radius : kInfinity);  // 1 V
+  return dielectric_margin(surface.thinnest_layers(deepest), 1,
+                           edges ? radius : kInfinity);  // 1 V
+}
+
+double bridged_margin(const Surface& surface, const Texture& texture, const Drive& drive,
+                      double amplitude) {
+  constexpr double kInsulates = 0.01;  // corner frequency over the drive's
+  const bool leaks = drive.waveform == Waveform::Dc ||
+                     std::any_of(surface.dielectric.begin(), surface.dielectric.end(),
+                                 [&](const FilmDielectric& layer) {
+                                   return layer.corner_frequency() > kInsulates * drive.frequency;
+                                 });
+  if (leaks || amplitude <= 0) return kInfinity;
+  return breakdown_voltage(surface, texture) / amplitude;
+}
+
+double amplitude_limit(const Scene& scene, const Texture& texture) {
   const double source = scene.drive.source_compliance;
-  return std::min({oxide, source > 0 ? source : kInfinity, kLargestAmplitude});
+  return std::min({breakdown_voltage(scene.surface, texture), source > 0 ? source : kInfinity,
+                   kLargestAmplitude});
 }
 
 void add_voltages(Response& response, const Scene& scene, const Texture& texture,

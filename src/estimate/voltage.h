@@ -8,9 +8,17 @@
 
 namespace papilla::estimate {
 
-// Largest amplitude a design may be driven with [V]: its dielectric breaks down, edges of the
-// electrode's stated radius included (Eq. electrostatics.9), or the source ends; 0 without a
-// dielectric.
+// Amplitude at which the dielectric breaks down, edges of the electrode's stated radius included
+// (Eq. electrostatics.9) [V]; 0 without a dielectric.
+double breakdown_voltage(const Surface& surface, const Texture& texture);
+
+// That over an amplitude, known before any field is solved: a bridge or a contact puts all of it on
+// the thinnest place. Infinite where a layer leaks at the drive's frequency and the field alone can
+// say.
+double bridged_margin(const Surface& surface, const Texture& texture, const Drive& drive,
+                      double amplitude);
+
+// Largest amplitude a design may be driven with [V]: up to its breakdown, or what the source gives.
 double amplitude_limit(const Scene& scene, const Texture& texture);
 
 // Adds to every point of a response of that scene the amplitude at which its modulation reaches

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/check.h"
 #include "base/statistics.h"
@@ -72,6 +73,20 @@ Measured adhesion(const ResponsePoint& point) {
   return a;
 }
 
+// Eq. metrics.7, 8: whether the effect is felt there is yes or no, and known as well as the
+// modulation is; each part of its error has its share in that.
+Measured felt(const Measured& modulation, double threshold) {
+  const double above = modulation.value - threshold, se = modulation.se();
+  if (se <= 0) return {above > 0 ? 1.0 : 0.0, {}};
+  const double p = normal_cdf(above / se), spread = std::sqrt(p * (1 - p));
+  Measured out{p, {.sampling = spread * modulation.parts.sampling / se}};
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    const auto& part = modulation.parts.*origin.part;
+    if (part && origin.in_total) out.parts.*origin.part = spread * *part / se;
+  }
+  return out;
+}
+
 // Indentation over pressure [m/Pa]: how far the finger sinks in.
 Measured compliance(const ResponsePoint& point) {
   Measured c = point.indentation;
@@ -94,6 +109,10 @@ const std::vector<MetricInfo>& metric_list() {
     infos.push_back({"compliance", "m/Pa", "indentation since first touch over patch pressure",
                      Better::Neither, false});
     for (const AppearanceEntry& entry : appearance_entries()) infos.push_back(entry.info);
+    infos.push_back({kAmplitude, "V",
+                     "amplitude of the source: the design's; under current control what the "
+                     "current needs at that humidity",
+                     Better::Lower, true});
     infos.push_back(
         {kVoltageFor, "V",
          "voltage_for(modulation = 0.5): amplitude at which the modulation reaches that "
@@ -127,11 +146,8 @@ std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& 
     }
     return std::nullopt;
   }
-  if (const auto threshold = felt_threshold(name)) {  // Eq. metrics.7
-    const double above = point.modulation.value - *threshold, se = point.modulation.se();
-    const double step = above > 0 ? 1 : 0;
-    return Measured{se > 0 ? normal_cdf(above / se) : step, {}};
-  }
+  if (const auto threshold = felt_threshold(name)) return felt(point.modulation, *threshold);
+  if (name == kAmplitude) return Measured{point.source_voltage, {}};
   for (const Entry& entry : entries()) {
     if (entry.info.name == name) return point.*entry.member;
   }

@@ -25,6 +25,9 @@ struct MetricInfo {
 const std::vector<MetricInfo>& metric_list();
 const MetricInfo* find_metric(const std::string& name);
 
+// What the source applies, by the key that sets it.
+inline constexpr const char* kAmplitude = "drive.amplitude";
+
 // The one metric with a target of its own: the amplitude at which the modulation reaches a value.
 inline constexpr const char* kVoltageFor = "voltage_for";
 // The modulation of "voltage_for(modulation = 0.5)"; nothing for another metric. Throws InputError

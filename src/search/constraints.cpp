@@ -6,9 +6,12 @@
 
 #include "base/constants.h"
 #include "design/families.h"
+#include "estimate/voltage.h"
 
 namespace papilla::search {
 namespace {
+
+constexpr const char* kFilmMargin = "oxide_breakdown_margin";
 
 // Bounded by -1 and 11, yet larger for more: the least of large violations stays the least.
 double bounded(double violation) {
@@ -84,6 +87,16 @@ std::string StudyConstraints::refusal(const Design& design) const {
   return trouble.empty() && goals_.looks ? look_refusal(design) : trouble;
 }
 
+double StudyConstraints::film_margin(const Design& design) const {
+  if (!goals_.own_amplitude || design.drive.control != DriveControl::Voltage) return kInfinity;
+  double out = bridged_margin(design.surface, design.texture, design.drive, design.drive.amplitude);
+  for (const Scenario& scenario : study_.scenarios) {
+    const Design d = with_settings(design, scenario.set);
+    out = std::min(out, bridged_margin(d.surface, d.texture, d.drive, d.drive.amplitude));
+  }
+  return out;
+}
+
 std::vector<double> StudyConstraints::geometry(const Point& unit) const {
   const Design d = space_.design(unit);
   std::vector<double> out{refusal(d).empty() ? -1.0 : 1.0};
@@ -91,6 +104,8 @@ std::vector<double> StudyConstraints::geometry(const Point& unit) const {
     if (needs_evaluation(c) || of_appearance(c)) continue;
     out.push_back(relative_violation(shape_value(c.name, d), c.limit, c.at_least));
   }
+  if (const Constraint* film = film_limit())  // the last one: it is judged with the evaluation too
+    out.push_back(relative_violation(film_margin(d), film->limit, film->at_least));
   return out;
 }
 
@@ -118,9 +133,10 @@ std::string StudyConstraints::geometry_reason(const Point& unit) const {
   const Design d = space_.design(unit);
   if (const std::string wrong = refusal(d); !wrong.empty()) return wrong;
   for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c)) continue;
-    const double value =
-        of_appearance(c) ? look_value(c.name, appearance_of(d)) : shape_value(c.name, d);
+    if (needs_evaluation(c) && &c != film_limit()) continue;
+    const double value = &c == film_limit() ? film_margin(d)
+                         : of_appearance(c) ? look_value(c.name, appearance_of(d))
+                                            : shape_value(c.name, d);
     if (relative_violation(value, c.limit, c.at_least) <= 0) continue;
     const auto [u, scale] = unit_of(c);
     return fmt::format("{} {:.3g} {} is {} {:.3g} {}", c.name, value * scale, u,
@@ -129,24 +145,50 @@ std::string StudyConstraints::geometry_reason(const Point& unit) const {
   return {};
 }
 
+const Constraint* StudyConstraints::film_limit() const {
+  const auto found = std::find_if(study_.constraints.begin(), study_.constraints.end(),
+                                  [](const Constraint& c) { return c.name == kFilmMargin; });
+  return found == study_.constraints.end() ? nullptr : &*found;
+}
+
 // Looks of arrays cost about a millisecond and steer the search itself; of others they are known
 // with the evaluation.
 bool StudyConstraints::needs_evaluation(const Constraint& c) const {
-  return c.name == "oxide_breakdown_margin" || on_metric(c) || (of_appearance(c) && slow_look_);
+  return c.name == kFilmMargin || on_metric(c) || (of_appearance(c) && slow_look_);
+}
+
+// Of a refused design: the shape, its limits, the film, the look.
+std::optional<std::size_t> StudyConstraints::place_refused(const Constraint& of) const {
+  std::size_t place = 1;
+  const auto among = [&](const auto& counts) {
+    for (const Constraint& c : study_.constraints) {
+      if (!counts(c)) continue;
+      if (&c == &of) return true;
+      ++place;
+    }
+    return false;
+  };
+  const bool found =
+      among([&](const Constraint& c) { return !needs_evaluation(c) && !of_appearance(c); }) ||
+      among([&](const Constraint& c) { return &c == film_limit(); }) ||
+      among([&](const Constraint& c) { return !needs_evaluation(c) && of_appearance(c); });
+  return found ? std::optional(place) : std::nullopt;
 }
 
 std::vector<std::string> StudyConstraints::never_kept(const std::vector<Evaluation>& tried) const {
   std::vector<std::string> out;
-  std::size_t shape = 1, evaluated = 0;  // places in the constraints of a refused, a judged design
+  std::size_t evaluated = 0;  // place in the constraints of a judged design
   for (const Constraint& c : study_.constraints) {
     const bool judged = needs_evaluation(c);
-    const std::size_t place = judged ? evaluated++ : shape++;
+    const auto refused = place_refused(c);
     int known = 0, kept = 0;
     for (const Evaluation& e : tried) {
-      if (!e.outcome.ok && (judged || place >= e.outcome.constraints.size())) continue;
+      const std::vector<double>& values = e.outcome.constraints;
+      if (!e.outcome.ok && (!refused || *refused >= values.size())) continue;
       ++known;  // what was evaluated keeps every limit of the shape
-      kept += (e.outcome.ok && !judged) || e.outcome.constraints[place] <= 0;
+      kept += e.outcome.ok ? !judged || values[evaluated] <= 0 : values[*refused] <= 0;
     }
+    evaluated += judged;
     if (known > 0 && kept == 0) out.push_back(constraint_text(c));
   }
   return out;

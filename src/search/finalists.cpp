@@ -92,6 +92,19 @@ Evaluation as_evaluation(const StudyProblem& problem, const FinalDesign& f) {
   return e;
 }
 
+// A design on the edge of a constraint holds on fresh skins in half of all cases: where no finalist
+// does, the next safer one is confirmed too. Eq. search.13
+void add_safer(const Run& run, const JudgedDesigns& below, std::vector<Point>& chosen) {
+  std::vector<Evaluation> confirmed;
+  for (const FinalDesign& f : run.result.finalists) {
+    if (f.feasible) return;
+    confirmed.push_back(as_evaluation(run.problem, f));
+  }
+  if (confirmed.size() > kFinalists) return;
+  if (const auto safer = next_safer(below.evaluations, confirmed))
+    chosen.push_back(below.evaluations[*safer].unit);
+}
+
 // The confirmed numbers decide the front and its order.
 void judge(Run& run) {
   OptimiseResult& result = run.result;
@@ -185,25 +198,25 @@ double confirm_budget(const Run& run) {
 
 bool confirm(Run& run) {
   run.clock.enter(RunPart::Confirm);
-  const std::vector<Point> chosen =
-      to_confirm(run, run.narrowed.size() < kFewNarrowed ? run.history : run.narrowed);
+  const JudgedDesigns& below = run.narrowed.size() < kFewNarrowed ? run.history : run.narrowed;
+  std::vector<Point> chosen = to_confirm(run, below);
   run.confirm_seconds = confirm_budget(run);
   run.result.confirmed_with = stage_fidelity(run.problem, Stage::Confirm, run.confirm_seconds);
-  const std::size_t total = chosen.size();
   const bool done_before = run.replay.finished(Stage::Confirm);
-  run.progress("confirm", 0, static_cast<int>(total), run.seconds_from(RunPart::Confirm));
-  for (std::size_t done = 0; done < total; ++done) {
+  run.progress("confirm", 0, static_cast<int>(chosen.size()), run.seconds_from(RunPart::Confirm));
+  for (std::size_t done = 0; done < chosen.size(); ++done) {
     if (run.stopped()) return false;
     const auto next = run.replay.next();
     const bool recorded = next && next->stage == Stage::Confirm && !next->flat;
     const bool fits = done == 0 || run.fits(run.seconds_of_designs(1, Stage::Confirm));
     if (!recorded && (done_before || !fits)) break;
     run.result.finalists.push_back(finalist(run, chosen[done]));
-    run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(total),
-                 run.seconds_of_designs(total - done - 1, Stage::Confirm) +
+    if (done + 1 == chosen.size()) add_safer(run, below, chosen);
+    run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(chosen.size()),
+                 run.seconds_of_designs(chosen.size() - done - 1, Stage::Confirm) +
                      run.seconds_from(RunPart::Stability));
   }
-  run.cut(RunPart::Confirm, run.result.finalists.size(), total);
+  run.cut(RunPart::Confirm, run.result.finalists.size(), chosen.size());
   judge(run);
   return true;
 }

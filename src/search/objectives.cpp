@@ -35,6 +35,41 @@ StudyObjective wanted(const std::string& text, bool maximise) {
 
 bool has_look(const StudyObjective& o) { return find_metric(o.expression.metric)->appearance; }
 
+bool feels_drive(const StudyObjective& o) {
+  return find_metric(o.expression.metric)->needs_drive && o.expression.metric != kAmplitude;
+}
+
+// The amplitude as a wish has to differ between designs, and something has to ask for it.
+void check_amplitude(const Study& study, const StudyGoals& goals) {
+  const bool searched = std::any_of(study.variables.begin(), study.variables.end(),
+                                    [](const Variable& v) { return v.path == kAmplitude; });
+  const bool fixed = !searched && study.design.drive.control == DriveControl::Voltage;
+  const auto is_amplitude = [](const StudyObjective& o) {
+    return o.expression.metric == kAmplitude;
+  };
+  const auto any = [](const std::vector<StudyObjective>& of, const auto& is) {
+    return std::any_of(of.begin(), of.end(), is);
+  };
+  const bool wanted = any(goals.objectives, is_amplitude);
+  if ((wanted || any(goals.limited, is_amplitude)) && fixed) {
+    throw InputError(
+        "objective: drive.amplitude is the same for all designs of this study; give it bounds in "
+        "[design_space], \"drive.amplitude\" = [\"20 V\", \"250 V\"], or wish for "
+        "\"worst(voltage_for(modulation = 0.3))\"");
+  }
+  const bool felt = any(goals.objectives, feels_drive) || any(goals.limited, feels_drive);
+  if (wanted && !felt) {
+    throw InputError(
+        "objective: of drive.amplitude alone the lowest is best; say what it has to reach, as a "
+        "second objective or in [constraints], e.g. \"worst(modulation)\" = 0.3");
+  }
+  if (searched && !felt && !goals.voltage_targets.empty()) {
+    throw InputError(
+        "design_space: drive.amplitude has no effect on voltage_for, which finds its own; leave "
+        "the variable out, or minimise drive.amplitude under \"worst(modulation)\" = 0.3");
+  }
+}
+
 }  // namespace
 
 bool on_metric(const Constraint& c) { return c.name.find('(') != std::string::npos; }
@@ -80,6 +115,12 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
                                  goals.objectives.size()));
   }
   goals.risk = parse_risk(study.objective.risk);
+  check_amplitude(study, goals);
+  const auto own = [&](const std::vector<StudyObjective>& of) {
+    return std::any_of(of.begin(), of.end(), feels_drive);
+  };
+  goals.own_amplitude =
+      goals.voltage_targets.empty() || own(goals.objectives) || own(goals.limited);
   return goals;
 }
 

@@ -23,6 +23,9 @@ struct StudyGoals {
   std::vector<StudyObjective> objectives;
   std::vector<StudyObjective> limited;  // metrics of constraints, in their order
   std::vector<double> voltage_targets;  // of voltage_for in either
+  // What an objective or a limit is about depends on the study's own amplitude: not voltage_for,
+  // which has its own. The dielectric has to hold what counts.
+  bool own_amplitude = false;
   Risk risk;
   bool looks = false;  // an objective or a constraint is about the look
 

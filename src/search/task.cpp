@@ -110,6 +110,20 @@ TaskObjective objective_of(const StudyObjective& o, const SummaryValue& value,
   return out;
 }
 
+// What the dielectric holds over what counts: the design's own amplitude, the voltages that
+// voltage_for asks for, or both.
+double oxide_margin(const StudyGoals& goals, const Design& d, const Response& response) {
+  double out = kInfinity;
+  for (const ResponsePoint& p : response.points) {
+    if (goals.own_amplitude)
+      out = std::min(
+          {out, p.oxide_margin, bridged_margin(d.surface, d.texture, d.drive, p.source_voltage)});
+    for (const VoltageAnswer& v : p.voltages)
+      out = std::min(out, breakdown_voltage(d.surface, d.texture) / v.amplitude.value);
+  }
+  return out;
+}
+
 // The numbers of a response that a study is about.
 TaskAnswer answer_of(const StudyGoals& goals, const std::string& task, const Response& response) {
   TaskAnswer out;
@@ -124,8 +138,6 @@ TaskAnswer answer_of(const StudyGoals& goals, const std::string& task, const Res
     out.limited.push_back(value->value);
   }
   if (const auto w = summarise(Summary::Worst, "modulation", response)) out.worst = w->value;
-  for (const ResponsePoint& p : response.points)
-    out.oxide_margin = std::min(out.oxide_margin, p.oxide_margin);
   if (const auto& look = response.appearance)
     out.look = {look->haze, look->transmittance, look->gloss, look->colour_shift};
   if (!response.parameters.steps.empty()) out.steps = steps_of(goals, response);
@@ -150,9 +162,10 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
     if (response.appearance->refused())
       return TaskAnswer::refused(Kind::LookRefused, response.appearance->warning);
   }
+  // Of the study's own amplitude; voltage_for stops below pull-in by itself.
   const std::vector<PointTrouble> troubles = response.troubles();
-  if (std::any_of(troubles.begin(), troubles.end(),
-                  [](const PointTrouble& t) { return t.status.pull_in(); }))
+  if (goals.own_amplitude && std::any_of(troubles.begin(), troubles.end(),
+                                         [](const PointTrouble& t) { return t.status.pull_in(); }))
     return TaskAnswer::refused(Kind::NoEquilibrium, task.name + ", " + forward::text(troubles));
   if (!goals.voltage_targets.empty())
     add_voltages(response, scene, d.texture, work.fidelity, goals.voltage_targets);
@@ -160,6 +173,7 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
       !scene.finger.uncertainty.empty())
     add_parameter_errors(response, scene, d.texture, steps_fidelity(problem, work.fidelity));
   TaskAnswer out = answer_of(goals, task.name, response);
+  out.oxide_margin = oxide_margin(goals, d, response);
   if (!out.status.ok() || !work.confirmed) return out;
   out.samples = samples_of(goals, response);
   if (work.text) out.report = work.text(response);

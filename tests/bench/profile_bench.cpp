@@ -10,7 +10,7 @@
 int main() {
   using namespace papilla::tests;
   keep_freed_memory();
-  const Study study = read_study(design_roots().front() + "/electroadhesive_glass/conformal.toml");
+  const Study study = read_study(design_roots().front() + "/m3_glass/conformal.toml");
   fmt::print(
       "finger,texture,estimator,grid,skins,seconds,contact,water,field,rest,contact_solves,"
       "pairs_per_solve,area_off_15,area_off_75,pressure_15_kPa,pressure_75_kPa\n");

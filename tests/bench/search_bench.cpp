@@ -489,8 +489,11 @@ std::vector<Point> read_front(const std::string& path, const StudyProblem& probl
       const std::string name = v.unit.empty() ? v.path : v.path + " [" + v.unit + "]";
       const auto at = std::find(header.begin(), header.end(), name);
       if (at == header.end()) throw InputError(path + ": no column `" + name + "`");
-      value.push_back(
-          parse_si(row.at(static_cast<std::size_t>(at - header.begin())) + " " + v.unit, v.unit));
+      const std::string& cell = row.at(static_cast<std::size_t>(at - header.begin()));
+      const auto& kinds = texture_kinds();
+      value.push_back(v.is_kind() ? static_cast<double>(
+                                        std::find(kinds.begin(), kinds.end(), cell) - kinds.begin())
+                                  : parse_si(cell + " " + v.unit, v.unit));
     }
     out.push_back(problem.space().snapped(problem.space().unit(value)));
   }

@@ -12,7 +12,7 @@ namespace papilla::tests {
 namespace {
 
 Study family_study() {
-  return read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml",
+  return read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml",
                     {"design_space.texture.type={ choice = [\"flat\", \"hole_array\", "
                      "\"pillar_array\", \"grating\"] }"});
 }
@@ -80,7 +80,7 @@ TEST(Family, FlatDesignsAreOnePoint) {
 
 TEST(Family, AtDepthZeroPeriodAndDiameterCollapseWithoutKindsToo) {
   const Study study =
-      read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml");
+      read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   const StudyProblem problem(study);
   const auto flat = [&](double period, double diameter) {
     return problem.space().snapped(problem.space().unit({period, diameter, 0, 0.9}));
@@ -116,7 +116,7 @@ TEST(Family, LevelsCutAStackAndUnusedLevelsCollapse) {
 
 TEST(Family, WrongKindsAndLevelsAreReported) {
   const auto read = [](const char* text) {
-    read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml", {text});
+    read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml", {text});
   };
   EXPECT_THROW(read("design_space.texture.type={ choice = [\"holes\"] }"), InputError);
   EXPECT_THROW(read("design_space.texture.type=[\"flat\", \"grating\"]"), InputError);

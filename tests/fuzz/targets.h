@@ -57,7 +57,7 @@ inline std::vector<FuzzTarget> file_targets(const std::string& folder) {
   out.push_back(
       {"toml",
        0.24,
-       {design_text("electroadhesive_glass/conformal.toml"), design_text("fingers/reference.toml")},
+       {design_text("m3_glass/conformal.toml"), design_text("fingers/reference.toml")},
        [](const std::string& bytes) { parse_toml(bytes, "fuzz.toml"); }});
 
   out.push_back({"dose",

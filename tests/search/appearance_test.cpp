@@ -66,7 +66,7 @@ TEST(AppearanceInStudies, APeriodThatNoTheoryCoversIsOutsideTheSpace) {
 }
 
 TEST(AppearanceInStudies, NobodyPaysForALookThatIsNotAskedFor) {
-  const Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml",
+  const Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml",
                                  {"population.fingers=[\"../fingers/reference.toml\"]",
                                   "environment.relative_humidity=[\"35 %\"]"});
   const StudyProblem problem(study);

@@ -16,7 +16,7 @@ namespace papilla::tests {
 namespace {
 
 Study holes() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml");
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   study.population.clear();
   study.design.accuracy.level = AccuracyLevel::Draft;
   return study;

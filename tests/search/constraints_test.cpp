@@ -12,7 +12,7 @@ namespace papilla::tests {
 namespace {
 
 Study limited(const std::vector<Constraint>& constraints) {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml");
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   study.population.clear();
   study.constraints = constraints;
   return study;

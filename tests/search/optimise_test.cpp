@@ -182,7 +182,7 @@ TEST(Optimise, AnotherStudyIsRefusedByTheKeysThatDiffer) {
 
 // What the finger leaves open of two designs cancels where both answer alike, and only there.
 TEST(Results, DifferencesAreSaidToBeBetterKnownWhereTheyAre) {
-  const Study study = read_study(find_design("electroadhesive_glass/conformal.toml"));
+  const Study study = read_study(find_design("m3_glass/conformal.toml"));
   const StudyProblem problem(study);
   ASSERT_EQ(problem.objectives().size(), 2u);
   FinalDesign d;

@@ -13,7 +13,7 @@
 namespace papilla::tests {
 namespace {
 
-const std::string kStudy = PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml";
+const std::string kStudy = PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml";
 const std::vector<std::string> kSmall{"environment.relative_humidity=[\"55 %\"]",
                                       "population.fingers=[\"../fingers/reference.toml\"]"};
 

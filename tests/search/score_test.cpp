@@ -15,7 +15,7 @@ namespace papilla::tests {
 namespace {
 
 Study default_study() {
-  return read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml");
+  return read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
 }
 
 // Two scenarios of unlike weight, felt by one finger, at two humidities of unlike weight.

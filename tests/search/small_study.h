@@ -12,7 +12,7 @@ namespace papilla::tests {
 
 // One finger at two humidities.
 inline Study small_study() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml");
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   study.population.clear();
   study.design.environment.relative_humidity = {0.35, 0.75};
   study.design.accuracy.level = AccuracyLevel::Draft;

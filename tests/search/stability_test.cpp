@@ -10,7 +10,7 @@ namespace {
 // the flat design is alone on the front in every variant, and the other is unstable.
 TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
   Study study =
-      read_study(std::string(PAPILLA_DESIGNS_DIR) + "/electroadhesive_glass/conformal.toml");
+      read_study(std::string(PAPILLA_DESIGNS_DIR) + "/m3_glass/conformal.toml");
   study.objective.minimise.clear();
   study.population.resize(1);
   const StudyProblem problem(study);
