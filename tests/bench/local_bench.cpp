@@ -1,6 +1,7 @@
 // local_bench: searches of one objective on the least squares problems of More and Wild (2009), as
 // sums of squares, with noise, and as sums of absolute values; data profiles as CSV on standard
-// output. local_bench constrained: problem 71 of Hock and Schittkowski.
+// output. local_bench constrained: problem 71 of Hock and Schittkowski. local_bench polish: whether
+// a local search of NLopt at the end of the Gaussian process finds more than the process itself.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -267,11 +268,138 @@ void constrained() {
   }
 }
 
+// Smooth functions of a few hills, as studies have them, minimised over the unit cube; each about 1
+// from its start to its least value.
+struct Landscape {
+  std::string name;
+  std::size_t variables;
+  double least, scale;
+  std::function<double(const Point&)> value;
+};
+
+double hartmann(const Point& u, const std::vector<Point>& a, const std::vector<Point>& p) {
+  const double c[] = {1, 1.2, 3, 3.2};
+  double sum = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    double inside = 0;
+    for (std::size_t k = 0; k < u.size(); ++k) inside += a[i][k] * sq(u[k] - p[i][k]);
+    sum -= c[i] * std::exp(-inside);
+  }
+  return sum;
+}
+
+std::vector<Landscape> landscapes() {
+  const std::vector<Point> a3{{3, 10, 30}, {0.1, 10, 35}, {3, 10, 30}, {0.1, 10, 35}};
+  const std::vector<Point> p3{{0.3689, 0.1170, 0.2673},
+                              {0.4699, 0.4387, 0.7470},
+                              {0.1091, 0.8732, 0.5547},
+                              {0.0382, 0.5743, 0.8828}};
+  const std::vector<Point> a6{{10, 3, 17, 3.5, 1.7, 8},
+                              {0.05, 10, 17, 0.1, 8, 14},
+                              {3, 3.5, 1.7, 10, 17, 8},
+                              {17, 8, 0.05, 10, 0.1, 14}};
+  const std::vector<Point> p6{{0.1312, 0.1696, 0.5569, 0.0124, 0.8283, 0.5886},
+                              {0.2329, 0.4135, 0.8307, 0.3736, 0.1004, 0.9991},
+                              {0.2348, 0.1451, 0.3522, 0.2883, 0.3047, 0.6650},
+                              {0.4047, 0.8828, 0.8732, 0.5743, 0.1091, 0.0381}};
+  std::vector<Landscape> out;
+  out.push_back({"branin", 2, 0.397887, 50, [](const Point& u) {
+                   const double x = 15 * u[0] - 5, y = 15 * u[1];
+                   return sq(y - 5.1 / (4 * M_PI * M_PI) * x * x + 5 / M_PI * x - 6) +
+                          10 * (1 - 1 / (8 * M_PI)) * std::cos(x) + 10;
+                 }});
+  out.push_back(
+      {"hartmann 3", 3, -3.86278, 3.8, [=](const Point& u) { return hartmann(u, a3, p3); }});
+  out.push_back(
+      {"hartmann 6", 6, -3.32237, 3.3, [=](const Point& u) { return hartmann(u, a6, p6); }});
+  // A ridge that lies across the coordinates, its best place on a bound: voltage against film.
+  out.push_back({"ridge 4", 4, 0, 1, [](const Point& u) {
+                   const double across = u[0] - 0.8 * u[1], along = 1 - u[1];
+                   return 2 * sq(across - 0.1) + 0.5 * along + sq(u[2] - 0.7) +
+                          0.3 * sq(u[3] - 0.4);
+                 }});
+  return out;
+}
+
+std::vector<Evaluation> searched(const Landscape& f, const SearchProblem& s,
+                                 const std::string& method, double noise, RandomStream& random) {
+  const auto searcher = make_searcher(choose_method(method, s), s);
+  std::vector<Evaluation> all;
+  while (static_cast<int>(all.size()) < s.evaluations) {
+    std::vector<Evaluation> batch;
+    for (const Point& u : searcher->ask()) {
+      if (static_cast<int>(all.size()) >= s.evaluations) break;
+      const double seen = f.value(s.space.value(u)) + noise * f.scale * random.normal();
+      batch.push_back({u, {true, {}, {seen}, {}, {}}});
+      all.push_back({s.space.value(u), batch.back().outcome});
+    }
+    if (batch.empty()) break;
+    searcher->tell(batch);
+  }
+  return all;
+}
+
+// What is lost of the way from the start to the least value, of the design that the evaluations
+// speak for.
+double regret(const Landscape& f, const std::vector<Evaluation>& all) {
+  SearchProblem s;
+  s.space.dimensions.assign(f.variables, {});
+  const std::vector<std::size_t> best = promising(s, all, 1);
+  return (f.value(all.at(best.at(0)).unit) - f.least) / f.scale;
+}
+
+void polish() {
+  constexpr int kBudget = 60, kSeeds = 5;
+  constexpr double kShare = 0.3, kReach = 0.15;  // of the budget; of each variable, either way
+  fmt::print("landscape,noise,method,regret median,worst\n");
+  for (const Landscape& f : landscapes()) {
+    for (const double noise : {0.0, 0.01, 0.05}) {
+      for (const std::string method :
+           {"bayesian", "bayesian + bobyqa", "bayesian + sbplx", "bobyqa", "cmaes"}) {
+        std::vector<double> found;
+        for (int seed = 1; seed <= kSeeds; ++seed) {
+          SearchProblem s;
+          s.space.dimensions.assign(f.variables, {});
+          s.seed = static_cast<std::uint64_t>(seed);
+          s.evaluations = kBudget;
+          Point start(f.variables);
+          RandomStream random(s.seed, "polish");
+          for (double& u : start) u = random.uniform();
+          s.starts = {start};
+          const std::size_t plus = method.find(" + ");
+          if (plus != std::string::npos) s.evaluations = static_cast<int>((1 - kShare) * kBudget);
+          std::vector<Evaluation> all = searched(f, s, method.substr(0, plus), noise, random);
+          if (plus != std::string::npos) {  // around the design that these speak for
+            const Point centre = all[promising(s, all, 1).at(0)].unit;
+            SearchProblem near = s;
+            for (std::size_t k = 0; k < f.variables; ++k)
+              near.space.dimensions[k] = {
+                  std::max(0.0, centre[k] - kReach), std::min(1.0, centre[k] + kReach), {}};
+            near.starts = {near.space.unit(centre)};
+            near.evaluations = kBudget - s.evaluations;
+            for (const Evaluation& e : searched(f, near, method.substr(plus + 3), noise, random))
+              all.push_back(e);
+          }
+          found.push_back(regret(f, all));
+        }
+        std::sort(found.begin(), found.end());
+        fmt::print("{},{:g},{},{:.4f},{:.4f}\n", f.name, noise, method, found[kSeeds / 2],
+                   found.back());
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc > 1 && std::string(argv[1]) == "constrained") {
     constrained();
+    return 0;
+  }
+  if (argc > 1 && std::string(argv[1]) == "polish") {
+    polish();
     return 0;
   }
   fmt::print("set,problems,kind,tau,simplex gradients,bobyqa,sbplx,cmaes,direct,bayesian\n");

@@ -91,13 +91,18 @@ TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
 TEST(Study, TheMainStudyHasItsSpaceWishesLimitsAndFingers) {
   const Study study = read_study(kStudy);
   EXPECT_EQ(study.name, "electroadhesive_glass");
-  ASSERT_EQ(study.variables.size(), 5u);
+  ASSERT_EQ(study.variables.size(), 7u);
   EXPECT_EQ(study.design.surface.process, FilmProcess::Planar);
-  EXPECT_EQ(study.variables[0].path, "surface.dielectric.0.thickness");
+  EXPECT_EQ(study.variables[0].path, "texture.type");
+  EXPECT_EQ(study.variables[0].choices.size(), 5u);
+  EXPECT_EQ(study.variables[1].path, "texture.period");
+  EXPECT_EQ(study.variables[1].low, 2e-6);
   EXPECT_EQ(study.variables[3].path, "texture.depth");
   EXPECT_EQ(study.variables[3].low, 0);
   EXPECT_EQ(study.variables[3].high, 1e-6);
-  EXPECT_EQ(study.variables[4].high, 80 * 3.14159265358979323846 / 180);
+  EXPECT_EQ(study.variables[4].path, "texture.wall_angle");
+  EXPECT_EQ(study.variables[5].path, "surface.dielectric.0.thickness");
+  EXPECT_EQ(study.variables[6].high, 80 * 3.14159265358979323846 / 180);
   EXPECT_EQ(study.objective.maximise, std::vector<std::string>{"mean(modulation)"});
   EXPECT_EQ(study.objective.minimise, std::vector<std::string>{"variation(modulation)"});
   ASSERT_EQ(study.constraints.size(), 4u);
@@ -106,6 +111,15 @@ TEST(Study, TheMainStudyHasItsSpaceWishesLimitsAndFingers) {
   ASSERT_EQ(study.population.size(), 4u);
   EXPECT_EQ(study.population[1].name, "smooth");
   EXPECT_EQ(study.search.seed, 1);
+}
+
+TEST(Study, TheHoleArrayOfBeforeHasItsSpace) {
+  const Study study = read_study(kDesigns + "m3_glass/study.toml");
+  EXPECT_EQ(study.name, "m3_glass");
+  ASSERT_EQ(study.variables.size(), 5u);
+  EXPECT_EQ(study.design.surface.process, FilmProcess::Planar);
+  EXPECT_EQ(study.variables[0].path, "surface.dielectric.0.thickness");
+  EXPECT_EQ(study.variables[3].path, "texture.depth");
 }
 
 TEST(Study, ScenariosSetNumbersOfTheDesign) {
@@ -118,7 +132,7 @@ TEST(Study, ScenariosSetNumbersOfTheDesign) {
 }
 
 TEST(Study, TheResolvedFileReadsBackToTheSameStudy) {
-  for (const char* name : {"electroadhesive_glass", "hydrophobic_glass"}) {
+  for (const char* name : {"electroadhesive_glass", "m3_glass", "hydrophobic_glass"}) {
     const Study study =
         read_study(kDesigns + name + "/study.toml", {"texture.depth=123.456789 nm"});
     const Study again = read_study(written("resolved.toml", resolved_toml(study)));

@@ -134,7 +134,8 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
   for (const MetricInfo& info : metric_list())
     if (info.needs_drive) driven.insert(info.name);
   EXPECT_EQ(driven,
-            (std::set<std::string>{"modulation", "friction_on", "electrostatic_force", "felt"}));
+            (std::set<std::string>{"modulation", "friction_on", "electrostatic_force",
+                                   "drive.amplitude", "felt"}));
 }
 
 TEST(Metrics, WhatHumiditiesShareIsNoErrorOfTheirSpread) {
@@ -208,13 +209,38 @@ TEST(Felt, IsTheShareThatWouldNotice) {
   };
   EXPECT_NEAR(felt("felt(modulation = 0.2)"), (0.02275 + 0.5 + 0.97725 + 1) / 4, 1e-4);
   EXPECT_NEAR(felt("worst(felt(modulation=0.2))"), 0.02275, 1e-5);
-  for (ResponsePoint& p : r.points) p.modulation.parts.sampling = 0;
+  // Whether one feels it is yes or no: sqrt(p (1 - p)) at each humidity, common to all of them.
+  const auto mean = *summarise(Summary::Mean, "felt(modulation = 0.2)", r);
+  EXPECT_NEAR(mean.parts.sampling, (2 * 0.14910 + 0.5 + 0) / 4, 1e-4);
+  // Each part of the modulation's error has its share: 3 and 4 make 5.
+  ResponsePoint& edge = r.points[1];
+  edge.modulation.parts = {.sampling = 0.03, .parameters = 0.04, .water = 0.2};
+  const Measured there = *metric_at("felt(modulation = 0.2)", edge);
+  EXPECT_NEAR(there.parts.sampling, 0.5 * 3 / 5, 1e-12);
+  EXPECT_NEAR(*there.parts.parameters, 0.5 * 4 / 5, 1e-12);
+  EXPECT_FALSE(there.parts.water);
+  for (ResponsePoint& p : r.points) p.modulation.parts = {};
   EXPECT_EQ(felt("felt(modulation = 0.25)"), 0.5);
+  EXPECT_EQ(metric_at("felt(modulation = 0.25)", edge)->se(), 0);
   EXPECT_EQ(metric_text(parse_metric("felt( modulation=0.2 )")), "mean(felt(modulation = 0.2))");
   for (const char* wrong : {"felt", "felt(friction = 1)", "felt(modulation = -1)", "felter"})
     EXPECT_THROW(parse_metric(wrong), InputError) << wrong;
   r.driven = false;
   EXPECT_FALSE(summarise(Summary::Mean, "felt(modulation = 0.2)", r));
+}
+
+TEST(Amplitude, IsWhatTheSourceApplies) {
+  Response r;
+  r.driven = true;
+  for (const double volts : {120.0, 150.0}) {
+    ResponsePoint p;
+    p.source_voltage = volts;
+    r.points.push_back(p);
+  }
+  EXPECT_EQ(summarise(Summary::Mean, "drive.amplitude", r)->value, 135);
+  EXPECT_EQ(summarise(Summary::Worst, "drive.amplitude", r)->value, 150);  // less is better
+  r.driven = false;
+  EXPECT_FALSE(summarise(Summary::Mean, "drive.amplitude", r));
 }
 
 }  // namespace

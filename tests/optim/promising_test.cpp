@@ -208,5 +208,26 @@ TEST(Promising, AFeatureLetsAModelSeeARatio) {
             0.5 * GaussianProcess(without, values).leave_one_out_error());
 }
 
+// One variable, one objective, one constraint.
+Evaluation limited(double unit, double objective, double constraint, bool ok = true) {
+  return {{unit}, {ok, "", {objective}, {constraint}, {}}};
+}
+
+TEST(NextSafer, KeepsTheConstraintsAsMuchBetterAsTheyWereFoundWorse) {
+  const std::vector<Evaluation> all{limited(0.1, 1, -0.01), limited(0.3, 2, -0.04),
+                                    limited(0.5, 3, -0.06), limited(0.7, 4, -0.5),
+                                    limited(0.9, 0, 0.2)};
+  EXPECT_EQ(next_safer(all, {limited(0.1, 1, 0.04)}), 2u);  // 0.05 worse there
+  EXPECT_EQ(next_safer(all, {limited(0.1, 1, 0.04), limited(0.5, 3, 0.01)}), 3u);
+  EXPECT_EQ(next_safer(all, {limited(0.1, 1, 0.6)}), std::nullopt);
+  EXPECT_EQ(next_safer({}, {}), std::nullopt);
+}
+
+TEST(NextSafer, IsNotBesideOneThatFailed) {
+  const std::vector<Evaluation> all{limited(0.1, 1, -1), limited(0.2, 2, -1), limited(0.4, 3, -1)};
+  EXPECT_EQ(next_safer(all, {limited(0.1, 0, 0, false)}), 2u);
+  EXPECT_EQ(next_safer(all, {limited(0.1, 1, -1)}), 1u);  // judged and kept: not again
+}
+
 }  // namespace
 }  // namespace papilla::tests

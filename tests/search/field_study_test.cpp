@@ -88,6 +88,77 @@ TEST(FieldStudy, VoltageForIsAnObjectiveAndAConstraint) {
   EXPECT_LT(outcome.constraints[1], 0);
 }
 
+// 500 nm of 1 GV/m break down at 500 V: over the voltage that is asked for, not over the design's.
+TEST(FieldStudy, TheFilmHoldsTheVoltageThatTheWishAsksFor) {
+  const auto margin = [](const std::string& wishes) {
+    const Study study =
+        read_study(study_file("held",
+                              "[drive]\namplitude = \"400 V\"\n"
+                              "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n" +
+                                  wishes));
+    const StudyProblem problem(study);
+    const TaskAnswer task = evaluate_task(problem, study.design, 0, {small()});
+    EXPECT_TRUE(task.status.ok()) << task.status.text;
+    return std::pair(task.oxide_margin, task.objectives.at(0).value);
+  };
+  const std::string voltage = "[objective]\nminimise = \"worst(voltage_for(modulation = 0.3))\"\n";
+  const auto [asked, volts] = margin(voltage);
+  EXPECT_NEAR(asked, 500 / volts, 1e-9);
+  EXPECT_NE(asked, 500.0 / 400);
+  const auto [own, same] = margin(voltage + "[constraints]\n\"worst(modulation)\" = 0.1\n");
+  EXPECT_EQ(same, volts);
+  EXPECT_NEAR(own, std::min(500.0 / 400, 500 / volts), 1e-6);
+}
+
+// What is left of a planar film below the texture holds the voltage or not: nobody evaluates that.
+TEST(FieldStudy, AFilmThatCannotHoldIsRefusedBeforeItsEvaluation) {
+  const auto study_of = [](const std::string& drive) {
+    return read_study(
+        study_file("film", drive + "[surface]\nprocess = \"planar\"\n"
+                                   "[design_space]\n\"texture.depth\" = [\"0 nm\", \"300 nm\"]\n"
+                                   "[objective]\nmaximise = \"mean(modulation)\"\n"
+                                   "[constraints]\noxide_breakdown_margin = 2\n"));
+  };
+  const Study study = study_of("[drive]\namplitude = \"150 V\"\n");
+  const StudyProblem problem(study);
+  const auto& limits = problem.constraints();
+  const Point shallow = problem.space().unit({190e-9}), deep = problem.space().unit({210e-9});
+  EXPECT_NEAR(limits.geometry(shallow).back(), 2 / (310.0 / 150) - 1, 1e-9);
+  EXPECT_NEAR(limits.geometry(deep).back(), 2 / (290.0 / 150) - 1, 1e-9);
+  EXPECT_EQ(limits.geometry_reason(shallow), "");
+  EXPECT_NE(limits.geometry_reason(deep).find("oxide_breakdown_margin 1.93"), std::string::npos)
+      << limits.geometry_reason(deep);
+  Evaluation refused{deep, {}};
+  refused.outcome.constraints = limits.geometry(deep);
+  EXPECT_EQ(limits.never_kept({refused}),
+            std::vector<std::string>{"oxide_breakdown_margin (at least 2)"});
+  // A direct voltage falls across the film as it leaks: the field has to say.
+  const Study direct = study_of("[drive]\namplitude = \"150 V\"\nwaveform = \"dc\"\n");
+  EXPECT_LE(StudyProblem(direct).constraints().geometry(deep).back(), 0);
+}
+
+TEST(FieldStudy, WishesForTheAmplitudeThatMakeNoSenseAreRefused) {
+  const auto refusal = [](const std::string& rest) -> std::string {
+    const Study study = read_study(study_file("wish", "[drive]\namplitude = \"150 V\"\n" + rest));
+    try {
+      const StudyProblem problem(study);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string depth = "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n",
+                    volts = depth + "\"drive.amplitude\" = [\"50 V\", \"200 V\"]\n",
+                    least = "[objective]\nminimise = \"drive.amplitude\"\n",
+                    strong = "[constraints]\n\"worst(modulation)\" = 0.3\n";
+  EXPECT_NE(refusal(depth + least + strong).find("the same for all designs"), std::string::npos);
+  EXPECT_NE(refusal(volts + least).find("the lowest is best"), std::string::npos);
+  EXPECT_NE(refusal(volts + "[objective]\nminimise = \"voltage_for(modulation = 0.3)\"\n")
+                .find("no effect on voltage_for"),
+            std::string::npos);
+  EXPECT_EQ(refusal(volts + least + strong), "");
+}
+
 TEST(FieldStudy, AVoltageThatCannotBeReachedIsARefusalWithItsReason) {
   const Study study = read_study(
       study_file("unreached",
