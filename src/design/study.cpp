@@ -34,7 +34,8 @@ const std::vector<ConstraintKind>& constraint_kinds() {
       {"aspect_ratio", "", false, "largest depth / smallest width of a hole"},
       {"oxide_breakdown_margin", "", true,
        "breakdown field of the dielectric / largest field in it, at the drive's amplitude and at "
-       "the voltages that voltage_for asks for; a bridge or a contact at the thinnest place counted"},
+       "the voltages that voltage_for asks for; a bridge or a contact at the thinnest place "
+       "counted"},
       {"haze", "%", false, "share of the transmitted light beyond 2.5 deg"},
       {"transmittance", "%", true, "undeviated share of the light on the plate"},
       {"gloss", "%", true, "specular reflection at 60 deg over that of flat glass"},

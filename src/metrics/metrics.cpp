@@ -73,8 +73,8 @@ Measured adhesion(const ResponsePoint& point) {
   return a;
 }
 
-// Eq. metrics.7, 8: whether the effect is felt there is yes or no, and known as well as the
-// modulation is; each part of its error has its share in that.
+// Eq. metrics.7, Eq. metrics.8: whether the effect is felt there is yes or no, and known as well as
+// the modulation is; each part of its error has its share in that.
 Measured felt(const Measured& modulation, double threshold) {
   const double above = modulation.value - threshold, se = modulation.se();
   if (se <= 0) return {above > 0 ? 1.0 : 0.0, {}};

@@ -20,7 +20,7 @@ class StudyConstraints {
   // Fabrication limits, known without an evaluation; the first is 1 for a shape that cannot exist.
   // Of the shape, and what is left of the film below it under the drive's amplitude: microseconds.
   std::vector<double> geometry(const Point& unit) const;
-  std::vector<double> look(const Point& unit) const;      // of its look: an optical calculation
+  std::vector<double> look(const Point& unit) const;  // of its look: an optical calculation
   bool limits_look() const;
   // Why the shape or its look is refused, for people; "" where it is not.
   std::string geometry_reason(const Point& unit) const;

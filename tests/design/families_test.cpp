@@ -79,8 +79,7 @@ TEST(Family, FlatDesignsAreOnePoint) {
 }
 
 TEST(Family, AtDepthZeroPeriodAndDiameterCollapseWithoutKindsToo) {
-  const Study study =
-      read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  const Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   const StudyProblem problem(study);
   const auto flat = [&](double period, double diameter) {
     return problem.space().snapped(problem.space().unit({period, diameter, 0, 0.9}));

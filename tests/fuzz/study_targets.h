@@ -20,8 +20,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
   out.push_back(
       {"study",
        0.03,
-       {read_bytes(PAPILLA_TEST_DATA "/study/tiny.toml"),
-        design_text("m3_glass/conformal.toml"),
+       {read_bytes(PAPILLA_TEST_DATA "/study/tiny.toml"), design_text("m3_glass/conformal.toml"),
         design_text("two_level_glass/study.toml"),
         "schema_version = 1\n[texture]\ntype = \"flat\"\n"
         "[[finger.uncertainty]]\nparameter = \"skin.rms\"\ndeviation = \"15 %\"\n"

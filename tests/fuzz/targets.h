@@ -54,11 +54,10 @@ inline std::string design_text(const std::string& name) {
 // Of config and geometry. Files are written into `folder`, the scratch of the targets.
 inline std::vector<FuzzTarget> file_targets(const std::string& folder) {
   std::vector<FuzzTarget> out;
-  out.push_back(
-      {"toml",
-       0.24,
-       {design_text("m3_glass/conformal.toml"), design_text("fingers/reference.toml")},
-       [](const std::string& bytes) { parse_toml(bytes, "fuzz.toml"); }});
+  out.push_back({"toml",
+                 0.24,
+                 {design_text("m3_glass/conformal.toml"), design_text("fingers/reference.toml")},
+                 [](const std::string& bytes) { parse_toml(bytes, "fuzz.toml"); }});
 
   out.push_back({"dose",
                  0.05,

@@ -133,9 +133,8 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
   std::set<std::string> driven;
   for (const MetricInfo& info : metric_list())
     if (info.needs_drive) driven.insert(info.name);
-  EXPECT_EQ(driven,
-            (std::set<std::string>{"modulation", "friction_on", "electrostatic_force",
-                                   "drive.amplitude", "felt"}));
+  EXPECT_EQ(driven, (std::set<std::string>{"modulation", "friction_on", "electrostatic_force",
+                                           "drive.amplitude", "felt"}));
 }
 
 TEST(Metrics, WhatHumiditiesShareIsNoErrorOfTheirSpread) {

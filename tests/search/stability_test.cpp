@@ -9,8 +9,7 @@ namespace {
 // raises the mean modulation, whatever finger or model choice, so
 // the flat design is alone on the front in every variant, and the other is unstable.
 TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
-  Study study =
-      read_study(std::string(PAPILLA_DESIGNS_DIR) + "/m3_glass/conformal.toml");
+  Study study = read_study(std::string(PAPILLA_DESIGNS_DIR) + "/m3_glass/conformal.toml");
   study.objective.minimise.clear();
   study.population.resize(1);
   const StudyProblem problem(study);
