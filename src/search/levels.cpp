@@ -61,14 +61,16 @@ Fidelity draft_fidelity(const StudyProblem& problem) {
   return f;
 }
 
-// Between search and confirmation: two thirds of the search's scatter about design level, at a
-// tenth of the confirmation's cost (`search_bench scatter`, results/bench/search_scatter.csv).
+// Between search and confirmation: what the field rule lacks is not alike for all kinds and depths
+// and decides their order, so the pull is corrected to the 3-D field of a skin; other skins, twice
+// as many. A third of the search's scatter about design level in the mean modulation, a tenth of
+// the confirmation's cost (`stack_bench order`, results/search/stack_order.csv).
 Fidelity narrow_fidelity(const StudyProblem& problem) {
   Fidelity f = search_fidelity(problem);
   f.level = "narrow";
-  f.grid = std::min(2 * f.grid, kMostSearchPixels);
   f.first_skin = kNarrowSkins;
   f.skins *= 2;
+  f.field_skins = 1;
   return f;
 }
 

@@ -228,6 +228,27 @@ TEST(Felt, IsTheShareThatWouldNotice) {
   EXPECT_FALSE(summarise(Summary::Mean, "felt(modulation = 0.2)", r));
 }
 
+// What the fit of the finger leaves open moves all humidities together: two of four change sides
+// between the finger one standard deviation stronger and the one weaker.
+TEST(Felt, HasTheErrorOfTheFinger) {
+  const auto points = [](double shift) {
+    std::vector<ResponsePoint> out;
+    for (const double m : {0.05, 0.19, 0.21, 0.6}) {
+      ResponsePoint p;
+      p.modulation = {m + shift, {}};
+      out.push_back(p);
+    }
+    return out;
+  };
+  Response r;
+  r.driven = true;
+  r.points = points(0);
+  r.parameters.steps = {{{points(0.05), {}}, {points(-0.05), {}}}};
+  const auto share = *summarise(Summary::Mean, "felt(modulation = 0.2)", r);
+  EXPECT_EQ(share.value, 0.5);
+  EXPECT_EQ(share.parts.parameters, (0.75 - 0.25) / 2);
+}
+
 TEST(Amplitude, IsWhatTheSourceApplies) {
   Response r;
   r.driven = true;
