@@ -193,7 +193,9 @@ TEST(Levels, NoTwoJudgeOnTheSameSkins) {
                    confirmed = stage_fidelity(problem, Stage::Confirm);
     EXPECT_EQ(search.skins * static_cast<int>(fingers), 16);
     EXPECT_EQ(between.skins, 2 * search.skins);
-    EXPECT_EQ(between.grid, 2 * search.grid);
+    EXPECT_EQ(between.grid, search.grid);
+    EXPECT_EQ(between.field_skins, 1);  // what decides the order of kinds
+    EXPECT_EQ(search.field_skins, 0);
     EXPECT_EQ(confirmed.skins, fingers == 1 ? 16 : 10);
     EXPECT_EQ(search.first_skin, 0);
     EXPECT_GT(between.first_skin, search.first_skin + search.skins);
