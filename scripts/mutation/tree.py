@@ -43,8 +43,10 @@ class Tree:
         return sorted(f for f in set(out) if f and (self.top / f).is_file())
 
     def mutable(self, folders):
+        """Headers, and the sources that this build compiles: what stands in for a library that it has is in none of its programs."""
+        built = self.commands()
         chosen = [f for f in self.files
-                  if f.endswith((".cpp", ".h")) and f.split("/")[0] in SOURCES and not f.startswith(LEFT_OUT)]
+                  if (f.endswith(".h") or f in built) and f.split("/")[0] in SOURCES and not f.startswith(LEFT_OUT)]
         if folders:
             chosen = [f for f in chosen if any(f.startswith(x.rstrip("/") + "/") or f == x for x in folders)]
         return chosen

@@ -56,6 +56,32 @@ TEST(Areal, TheDirectionIsThatOfTheWave) {
   }
 }
 
+// Along a side or between the sides, a wave of a fifth more amplitude decides.
+TEST(Areal, TheStrongerOfTwoWavesHasTheDirection) {
+  const double k = 2 * kPi / 3e-6;
+  for (const double first : {0.0, 0.5, 1.0}) {
+    for (const double second : {0.0, 0.5, 1.0}) {  // of a right angle
+      if (first == second) continue;
+      const auto wave = [&](double share, double x, double y) {
+        return std::cos(k * (x * std::cos(0.5 * kPi * share) + y * std::sin(0.5 * kPi * share)));
+      };
+      const double found = areal_parameters(map_of(kGrid, [&](double x, double y) {
+                             return 1e-8 * (1.2 * wave(first, x, y) + wave(second, x, y));
+                           })).std;
+      const double off = found - 0.5 * kPi * first;
+      EXPECT_NEAR(off - kPi * std::round(off / kPi), 0, 0.02) << first << " " << second;
+    }
+  }
+}
+
+// Between the middles of twenty pixels the curve is a line, at its ends level: 0.4 of them from an
+// end fall by 7.5 steps.
+TEST(Areal, TheMaterialOfAFewPixelsEndsWithThem) {
+  const ArealParameters p =
+      areal_parameters(map_of({20, 1, 20e-6, 1e-6}, [](double x, double) { return 0.01 * x; }));
+  EXPECT_NEAR(p.sk, 7.5 / 0.4 * 0.01e-6, 1e-12);
+}
+
 // Height above a share m of the material: a straight line has no peaks and no valleys.
 TEST(Areal, ARampIsCoreAlone) {
   const ArealParameters p =

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -221,6 +222,55 @@ TEST(MiddleOfAMap, ALargerPixelIsTheMeanOverItsArea) {
                                        mean(coarse.dy()) * std::cos(k * (4e-6 + coarse.y(iy))));
       ASSERT_NEAR(cut(ix, iy), expected, 0.2e-9) << ix << " " << iy;
     }
+  }
+}
+
+// Pixels of the same size are taken over, not smeared; the rest is blended over the border, where a
+// wave that is no whole number of periods would leave a step.
+TEST(MiddleOfAMap, RepeatsWithoutAStepAndIsTheMapElsewhere) {
+  const Grid grid{300, 200, 15e-6, 10e-6}, part{140, 140, 7e-6, 7e-6};
+  const Heightmap h = map_of(grid, [](double x, double y) {
+    return 50e-9 * std::sin(2 * kPi * x / 3e-6) + 40e-9 * std::sin(2 * kPi * y / 2.5e-6 + 1);
+  });
+  const std::string file = temporary("odd.gsf");
+  write_gsf(file, h, {});
+  const Scan scan = read_scan({file, 0});
+  const Heightmap cut = middle_of_map({file, 0}, 7e-6, part);
+  double inside = 0, across = 0, step = 0;
+  for (int i = 0; i < 140; ++i) {
+    for (int k = 1; k < 140; ++k)
+      inside = std::max(
+          {inside, std::abs(cut(k, i) - cut(k - 1, i)), std::abs(cut(i, k) - cut(i, k - 1))});
+    across =
+        std::max({across, std::abs(cut(0, i) - cut(139, i)), std::abs(cut(i, 0) - cut(i, 139))});
+    step = std::max(step, std::abs(h(80, 30 + i) - h(219, 30 + i)));
+  }
+  EXPECT_GT(step, 3 * inside);  // without a seam
+  EXPECT_LT(across, 1.2 * inside);
+  for (int iy = 0; iy < 126; ++iy) {
+    for (int ix = 0; ix < 126; ++ix) ASSERT_NEAR(cut(ix, iy), scan.map(80 + ix, 30 + iy), 1e-15);
+  }
+}
+
+// Cuts of a bowl, as skin: each has its own plane taken away, its height with it.
+TEST(MeasuredSkin, IsLevelWhereverItIsCut) {
+  const Grid grid{200, 160, 40e-6, 32e-6};
+  const Heightmap h = map_of(grid, [](double x, double y) {
+    return (std::pow(x - 20e-6, 2) + std::pow(y - 16e-6, 2)) / 2e-3;
+  });
+  const std::string file = temporary("bowl.gsf");
+  write_gsf(file, h, {});
+  const double own = std::pow(4e-6, 2) / 2e-3;  // from its middle to its corner, along a side
+  for (std::uint64_t index = 0; index < 8; ++index) {
+    const Heightmap cut = measured_skin(file, 0, {40, 40, 8e-6, 8e-6}, 3, index);
+    // Between the seams, of either hand: symmetric and near zero.
+    double mean = 0;
+    for (int iy = 4; iy < 36; ++iy) {
+      for (int ix = 4; ix < 36; ++ix) mean += cut(ix, iy) / (32 * 32);
+    }
+    EXPECT_NEAR(mean, 0, 0.5 * own) << index;
+    EXPECT_NEAR(cut(4, 20), cut(35, 20), 0.6 * own) << index;
+    EXPECT_NEAR(cut(20, 4), cut(20, 35), 0.6 * own) << index;
   }
 }
 
