@@ -120,5 +120,60 @@ TEST(PublishedSamples, ACaseIsItsDesignUnderItsConditions) {
   EXPECT_EQ(m3_sample_names().size(), 6u);
 }
 
+// Each target again from the samples that its words name, by means over all skins; its error is of
+// the size that the skins' own numbers scatter by.
+TEST(PublishedTargets, AreTheNumbersThatTheyName) {
+  FingerModel model = small_model();
+  const auto targets = published_targets();
+  const auto value = [&](const char* claim, const char* what) {
+    for (const PublishedTarget& t : targets) {
+      if (t.claim == claim && t.what.find(what) != std::string::npos) return t.model(model);
+    }
+    ADD_FAILURE() << claim << " " << what;
+    return Estimate{};
+  };
+  const Skins all = Skins::all();
+  const auto flat = [&](double angle, bool water) -> const Sample& {
+    return sample(model, {.design = "m3_samples/flat.toml", .angle = angle, .water = water});
+  };
+  const Sample &own = flat(0, true), &dry = flat(0, false), &repelling = flat(110, true);
+  const auto area = [&](const Sample& s, int rh) { return all.mean(s.at(rh).area_off); };
+  const auto expect = [](const Estimate& e, double number, double scale) {
+    EXPECT_NEAR(e.value, number, std::max(0.03 * scale, 2 * e.se));  // a jackknife of few skins
+    EXPECT_LT(e.se, 0.5 * scale);
+  };
+  const double off =
+      own.point(kWet).strength * area(own, kWet) / (own.point(kDry).strength * area(own, kDry));
+  expect(value("M1", ""), off, off);
+  expect(value("M2", ""), friction_on(own, kWet, all) / friction_on(own, kDry, all), off);
+  const MacroContact& macro = model.finger().macro;
+  const Estimate gross = value("M3", "");
+  EXPECT_NEAR(gross.value, 100 * (macro.gross_area(0.2, 0.75) / macro.gross_area(0.2, 0.15) - 1),
+              1e-9);
+  EXPECT_EQ(gross.se, 0);
+  expect(value("M4", ""), 100 * (area(own, kWet) / area(own, kDry) - 1), 100);
+  expect(value("M5", ""), 100 * (area(own, kWet) / area(dry, kWet) - 1), 50);
+  EXPECT_GT(value("M5", "").value, 0);  // capillaries add
+  expect(value("M9", "flat"), effect(own, kDamp, all) / effect(own, kDry, all) - 1, 1);
+  const Sample& deep = m3_sample(model, "a4h600");
+  expect(value("M10", "15 to 35"), effect(deep, kDamp, all) / effect(deep, kDry, all) - 1, 1);
+  expect(value("M10", "15 to 75"), effect(deep, kWet, all) / effect(deep, kDry, all) - 1, 1);
+  expect(value("M13", ""),
+         100 * (modulation(repelling, kWet, all) / modulation(own, kWet, all) - 1), 100);
+  double most = 0;
+  for (int rh = 0; rh < kHumidities; ++rh)
+    most = std::max(most, modulation(flat(110, false), rh, all));
+  expect(value("M15", ""), most, most);
+  const ResponsePoint& wet = own.response.points[kWet];
+  const Estimate retained = value("M17", "");
+  EXPECT_NEAR(retained.value, 100 * wet.retention_force.value / wet.friction_off.value, 1e-9);
+  EXPECT_NEAR(retained.se, 100 * wet.retention_force.se() / wet.friction_off.value, 1e-9);
+  EXPECT_NEAR(value(kGapTarget, "").value, 1e6 * capacitance_gap(model.finger()), 1e-9);
+  for (const PublishedTarget& t : targets) {
+    EXPECT_LE(t.low, t.high) << t.what;
+    EXPECT_GT(t.sd, 0) << t.what;
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests
