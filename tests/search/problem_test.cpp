@@ -21,9 +21,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-Study oxide_study() {
-  return read_study(PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/conformal.toml");
-}
+Study oxide_study() { return read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"); }
 
 Names names_of(const std::vector<StudyTask>& tasks) {
   Names out;
@@ -191,28 +189,28 @@ TEST(Levels, GiveUpSkinsThenPixelsThenMoreSkins) {
   Study study = oxide_study();
   study.population.clear();
   const StudyProblem problem(study);
-  const Fidelity whole = stage_fidelity(problem, Stage::Narrow);
-  const double price = task_price(problem, Stage::Narrow);
+  const Fidelity whole = stage_fidelity(problem, Stage::Confirm);
+  const double price = task_price(problem, Stage::Confirm);
   ASSERT_GT(whole.skins, 8);
   ASSERT_GT(whole.grid, 64);
-  EXPECT_EQ(stage_fidelity(problem, Stage::Narrow, 1.001 * price).skins, whole.skins);
+  EXPECT_EQ(stage_fidelity(problem, Stage::Confirm, 1.001 * price).skins, whole.skins);
   int skins = whole.skins, grid = whole.grid;
   for (const double share : {0.9, 0.6, 0.3, 0.2, 0.1, 0.05, 0.02, 1e-3, 1e-6}) {
-    const Fidelity f = stage_fidelity(problem, Stage::Narrow, share * price);
+    const Fidelity f = stage_fidelity(problem, Stage::Confirm, share * price);
     EXPECT_LE(f.skins, skins) << share;
     EXPECT_LE(f.grid, grid) << share;
     EXPECT_TRUE(f.grid == whole.grid || f.skins <= 8) << share;  // skins go first
     EXPECT_TRUE(f.skins >= 8 || f.grid == 64) << share;          // then pixels
     EXPECT_GE(f.skins, 4) << share;
     EXPECT_GE(f.grid, 64) << share;
-    const double taken = task_price(problem, Stage::Narrow, share * price);
+    const double taken = task_price(problem, Stage::Confirm, share * price);
     EXPECT_TRUE(taken <= share * price || (f.skins == 4 && f.grid == 64)) << share;
     skins = f.skins, grid = f.grid;
   }
   EXPECT_EQ(skins, 4);
   EXPECT_EQ(grid, 64);
   EXPECT_EQ(stage_fidelity(problem, Stage::Draft).skins, 2);
-  EXPECT_EQ(stage_fidelity(problem, Stage::Confirm).level, "design");
+  EXPECT_EQ(whole.level, "design");
 }
 
 // Two pixels across the smallest feature, from 64 to 256 along 12 um.
