@@ -71,7 +71,8 @@ class In : public ImageIn {
   }
   std::string read_rows(int begin, int end, Sample sample, void* rows) override {
     if (own_.tile_width > 0) return rows_of_tiles(begin, end, sample, static_cast<char*>(rows));
-    return file_->read_scanlines(0, 0, begin, end, 0, 0, own_.nchannels, type_of(sample), rows)
+    return file_->read_scanlines(0, 0, own_.y + begin, own_.y + end, 0, 0, own_.nchannels,
+                                 type_of(sample), rows)
                ? ""
                : file_->geterror();
   }

@@ -43,8 +43,10 @@ class Tree:
         return sorted(f for f in set(out) if f and (self.top / f).is_file())
 
     def mutable(self, folders):
+        """Headers, and the sources that this build compiles: what stands in for a library that it has is in none of its programs."""
+        built = self.built()
         chosen = [f for f in self.files
-                  if f.endswith((".cpp", ".h")) and f.split("/")[0] in SOURCES and not f.startswith(LEFT_OUT)]
+                  if (f.endswith(".h") or f in built) and f.split("/")[0] in SOURCES and not f.startswith(LEFT_OUT)]
         if folders:
             chosen = [f for f in chosen if any(f.startswith(x.rstrip("/") + "/") or f == x for x in folders)]
         return chosen
@@ -157,6 +159,13 @@ class Tree:
             elif word not in ("-MD", "-MMD") and not word.startswith("-W"):
                 kept.append(word)
         return words[0], kept
+
+    def built(self):
+        """Sources that are compiled, alone or several in one file."""
+        out = set(self.commands())
+        for together in self.build.glob("**/Unity/unity_*.cxx"):
+            out |= {os.path.relpath(f, self.copy) for f in re.findall(r'#include "(.+)"', together.read_text())}
+        return out
 
     # -- candidates -----------------------------------------------------------
     def all_candidates(self, files, report):

@@ -30,6 +30,32 @@ TEST(Statistics, ARatioToAConstantIsAMean) {
   EXPECT_DOUBLE_EQ(exact.se, 0);
 }
 
+// Two samples are enough for an error, one is not.
+TEST(Statistics, TwoSamplesHaveAnError) {
+  EXPECT_DOUBLE_EQ(mean_estimate(std::vector<double>{1, 3}).se, 1);
+  const std::vector<double> a{2, 4}, b{2, 2};
+  EXPECT_DOUBLE_EQ(ratio_estimate(a, b).value, 1.5);
+  EXPECT_DOUBLE_EQ(ratio_estimate(a, b).se, 0.5);
+  EXPECT_EQ(ratio_estimate(std::vector<double>{3}, std::vector<double>{2}), (Estimate{1.5, 0}));
+}
+
+// The series over 1/n against the distribution itself, by bisection: its first term left out is of
+// order 1/n^5.
+TEST(Statistics, StudentQuantilesInvertTheirDistribution) {
+  for (const double p : {0.6, 0.9, 0.975, 0.995}) {
+    for (const auto& [degrees, error] : {std::pair{10, 2e-3}, {20, 6e-5}, {40, 2e-6}, {80, 6e-8}}) {
+      double low = 0, high = 20;
+      for (int i = 0; i < 70; ++i) {
+        const double t = 0.5 * (low + high);
+        (student_t_cdf(t, degrees) < p ? low : high) = t;
+      }
+      EXPECT_NEAR(student_t_quantile(p, degrees), low, error) << p << " " << degrees;
+      EXPECT_NEAR(student_t_quantile(1 - p, degrees), -low, error) << p << " " << degrees;
+      EXPECT_NEAR(student_t_cdf(-low, degrees), 1 - p, 1e-12) << p << " " << degrees;
+    }
+  }
+}
+
 // The jackknife of a mean gives the samples back.
 TEST(Statistics, TheJackknifeOfAMeanIsItsSamples) {
   const std::vector<double> samples{1, 2, 4, 9};

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <string>
 #include <tuple>
+#include <vector>
 
 #include "base/constants.h"
 #include "base/error.h"
@@ -62,6 +64,39 @@ TEST(Units, AreWhatTheSiSays) {
   }
   for (const char* none : {"parsec", "m//s", "m/s/s", "m ", " m", "kmin", "m5", "u"})
     EXPECT_FALSE(find_unit(none)) << none;
+}
+
+TEST(Units, PowersOfAnglesAreNoAngles) {
+  EXPECT_EQ(find_unit("rad2")->radian, 2);
+  EXPECT_EQ(find_unit("1/rad")->radian, -1);
+  EXPECT_FALSE(find_unit("rad2")->same_dimension(*find_unit("rad")));
+  EXPECT_EQ(find_unit("A2")->ampere, 2);
+  EXPECT_EQ(find_unit("s3")->second, 3);
+}
+
+// Those of one factor, with their prefixes; minutes and hours have none.
+TEST(Units, NamesOfADimensionAreAllThatReadAsIt) {
+  for (const char* like : {"m", "Pa", "s", "%", "rad", "V"}) {
+    const Unit unit = *find_unit(like);
+    const std::vector<std::string> names = unit_names(unit);
+    EXPECT_NE(std::find(names.begin(), names.end(), like), names.end()) << like;
+    for (const std::string& name : names) {
+      const auto found = find_unit(name);
+      ASSERT_TRUE(found) << name;
+      EXPECT_TRUE(found->same_dimension(unit)) << name;
+    }
+  }
+  const std::vector<std::string> times = unit_names(*find_unit("s"));
+  for (const char* name : {"ms", "min", "h", "ns"})
+    EXPECT_NE(std::find(times.begin(), times.end(), name), times.end()) << name;
+  for (const char* name : {"mh", "kmin", "m", "Hz"})
+    EXPECT_EQ(std::find(times.begin(), times.end(), name), times.end()) << name;
+}
+
+TEST(Units, WhatHasNoUnitIsWrittenAsItIs) {
+  EXPECT_EQ(format_quantity(3, "parsec"), "3 parsec");
+  EXPECT_EQ(format_quantity(kInfinity, "um"), "inf um");
+  EXPECT_EQ(format_quantity(0.25, ""), "0.25");
 }
 
 TEST(Units, DimensionsHaveNames) {

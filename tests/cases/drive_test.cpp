@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "design/design.h"
 #include "report/drive.h"
 #include "tests/temporary.h"
 
@@ -188,7 +189,16 @@ TEST(DriveFile, ContactSpotsConductAsStifflyAsTheyPress) {
     return solve_drive(read_drive_case(kFingertip, all));
   };
   const DriveResult one = spots({});
-  EXPECT_GT(one.spots, 0);
+  // A rough contact is as stiff as its pressure over some half of its rms gap (Persson 2007): here
+  // the finger's pressure over 0.1 to 10 um, whatever the rest of the network.
+  const Finger finger = read_design(kSamples + "flat.toml").finger;
+  const DriveCase c = read_drive_case(kFingertip, {"gap.design=" + kSamples + "flat.toml"});
+  const double modulus = finger.skin.layer_modulus *
+                         finger.skin.modulus_factor(c.gap.relative_humidity) /
+                         (1 - square(finger.skin.layer_poisson));
+  const double stiffness = modulus * c.skin.resistivity / (2 * one.spots * one.area);
+  EXPECT_LT(finger.patch_pressure(c.gap.relative_humidity) / stiffness, 10e-6);
+  EXPECT_GT(finger.patch_pressure(c.gap.relative_humidity) / stiffness, 10e-9);
   EXPECT_NEAR(spots({"skin.resistivity=4e4 ohm m"}).spots / one.spots, 2, 1e-9);
   const DriveResult counted = spots({"gap.contact_spots=true"});
   EXPECT_NEAR(counted.network.gap.layer.resistance,
@@ -239,6 +249,24 @@ TEST(DriveFile, WritesTablesAndAPicture) {
   const std::string csv = drive_series_csv(r);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
             r.friction.value.size() + 1);
+}
+
+// Lines reach four times the carrier, or the end of a chirp, and no further.
+TEST(DriveFile, LinesAreListedUpToFourTimesTheCarrier) {
+  const std::vector<std::string> sine{"drive.control=voltage", "drive.waveform=square",
+                                      "drive.amplitude=100 V", "drive.frequency=100 Hz",
+                                      "tones.frequency=[]"};
+  const auto highest = [](const std::vector<std::string>& overrides) {
+    double out = 0;
+    for (const SpectrumLine& line : solve_drive(read_drive_case(kFingertip, overrides)).lines)
+      out = std::max(out, line.frequency);
+    return out;
+  };
+  EXPECT_NEAR(highest(sine), 400, 1e-6);
+  std::vector<std::string> chirp = sine;
+  chirp[1] = "drive.waveform=sine";
+  chirp.insert(chirp.end(), {"source.chirp_to=500 Hz", "source.chirp_time=100 ms"});
+  EXPECT_NEAR(highest(chirp), 2000, 1e-6);
 }
 
 }  // namespace

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "cases/droplets.h"
+#include "design/design.h"
 #include "report/reference.h"
 
 namespace papilla::tests {
@@ -86,6 +90,26 @@ TEST(Keys, OfCasesAreThoseOfTheReference) {
   }
 }
 
+// The water of the design's scene: its amount at this humidity, its droplets, its angles.
+TEST(DropletCase, OfADesignHasTheWaterOfItsScene) {
+  const std::string file = std::string(PAPILLA_DESIGNS_DIR) + "/m3_samples/flat.toml";
+  const Design design = read_design(file);
+  const SkinWater& water = design.finger.water;
+  const DropletCase c = droplets_of_design(file, 0.55, 0, true, false);
+  EXPECT_NEAR(c.how.drops_per_volume, water.drops_per_um3 * 1e18, 1e-6 * c.how.drops_per_volume);
+  EXPECT_EQ(c.how.first_step, design.model.droplet_step);
+  EXPECT_TRUE(c.how.rim_pinning);
+  EXPECT_FALSE(c.how.corner_wicking);
+  EXPECT_TRUE(c.how.rims);
+  EXPECT_EQ(c.water.surface_tension, water.surface_tension);
+  EXPECT_NEAR(c.volume, water.volume_per_area(0.55) * c.gap.grid.area(), 1e-12 * c.volume);
+  EXPECT_NEAR(c.volume / droplets_of_design(file, 0.15, 0, true, false).volume,
+              water.volume_per_area(0.55) / water.volume_per_area(0.15), 1e-9);
+  // In contact somewhere, nowhere below the surface.
+  EXPECT_EQ(*std::min_element(c.gap.value.begin(), c.gap.value.end()), 0);
+  EXPECT_TRUE(droplets_of_design(file, 0.55, 0, false, true).how.corner_wicking);
+}
+
 // Both volumes and every placement once: what single placements give, averaged by hand.
 TEST(DropletEnsemble, IsTheMeanOfItsPlacements) {
   const DropletCase c = droplets_of_design(
@@ -137,6 +161,12 @@ TEST(MeanFieldCurves, AddUpToThePointThatTheyBelongTo) {
   EXPECT_NEAR(curves.separation.front().held_gap, curves.separation[80].gap, 1e-7);  // at 10 kPa
   EXPECT_GT(curves.separation.front().gap, 1.5 * curves.separation.front().held_gap);
   EXPECT_EQ(curves.separation.back().gap, curves.separation.back().held_gap);
+  EXPECT_NEAR(curves.separation.front().pressure, 1, 1e-9);  // evenly over six decades
+  EXPECT_NEAR(curves.separation.back().pressure, 1e6, 1e-3);
+  EXPECT_NEAR(curves.separation[1].pressure / curves.separation[0].pressure,
+              std::pow(1e6, 1.0 / static_cast<double>(curves.separation.size() - 1)), 1e-9);
+  EXPECT_NEAR(curves.stress.front().gap, 1e-11, 1e-17);
+  EXPECT_NEAR(curves.stress.back().gap, 1e-3, 1e-9);
   EXPECT_TRUE(curves.step.empty());  // a skin that does not leak takes no time
 }
 

@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "claims/predict.h"
 #include "design/design.h"
@@ -57,6 +62,36 @@ TEST(PredictionsOfOneRun, RougherGlassIsHazierAndDuller) {
     EXPECT_LT(find("gloss at 60 deg", rougher).value.value,
               find("gloss at 60 deg", smoother).value.value);
   }
+}
+
+// Exponents and ratios again from the numbers that are said beside them: "0.15 N: 12.3 mN; ...".
+TEST(PredictionsOfOneRun, AreTheSlopesAndRatiosOfTheNumbersBesideThem) {
+  int exponents = 0, ratios = 0;
+  for (const Prediction& p : few_skins()) {
+    if (p.quantity != "exponent" && p.quantity != "ratio") continue;
+    std::vector<double> x, y;
+    std::istringstream parts(p.beside);
+    for (std::string part; std::getline(parts, part, ';');) {
+      x.push_back(std::log(std::stod(part)));
+      y.push_back(std::log(std::stod(part.substr(part.find(':') + 1))));
+    }
+    ASSERT_GE(x.size(), 2u) << p.id;
+    if (p.quantity == "ratio") {
+      EXPECT_NEAR(p.value.value / std::exp(y.back() - y.front()), 1, 2e-3) << p.id;
+      ++ratios;
+      continue;
+    }
+    const double n = static_cast<double>(x.size()),
+                 mx = std::accumulate(x.begin(), x.end(), 0.0) / n,
+                 my = std::accumulate(y.begin(), y.end(), 0.0) / n;
+    double xx = 0, xy = 0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      xx += (x[i] - mx) * (x[i] - mx), xy += (x[i] - mx) * (y[i] - my);
+    EXPECT_NEAR(p.value.value, xy / xx, 2e-3) << p.id << ", " << p.condition;
+    ++exponents;
+  }
+  EXPECT_GE(exponents, 8);
+  EXPECT_EQ(ratios, 4);
 }
 
 TEST(PredictionsOfOneRun, ReadBackFromTheirTables) {

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "base/constants.h"
+#include "base/random.h"
 #include "geometry/roughness.h"
 
 namespace papilla::tests {
@@ -53,6 +54,32 @@ TEST(Areal, TheDirectionIsThatOfTheWave) {
     }));
     EXPECT_NEAR(p.std * 180 / kPi, degrees, 0.5);
   }
+}
+
+// Along a side or between the sides, a wave of a fifth more amplitude decides.
+TEST(Areal, TheStrongerOfTwoWavesHasTheDirection) {
+  const double k = 2 * kPi / 3e-6;
+  for (const double first : {0.0, 0.5, 1.0}) {
+    for (const double second : {0.0, 0.5, 1.0}) {  // of a right angle
+      if (first == second) continue;
+      const auto wave = [&](double share, double x, double y) {
+        return std::cos(k * (x * std::cos(0.5 * kPi * share) + y * std::sin(0.5 * kPi * share)));
+      };
+      const double found = areal_parameters(map_of(kGrid, [&](double x, double y) {
+                             return 1e-8 * (1.2 * wave(first, x, y) + wave(second, x, y));
+                           })).std;
+      const double off = found - 0.5 * kPi * first;
+      EXPECT_NEAR(off - kPi * std::round(off / kPi), 0, 0.02) << first << " " << second;
+    }
+  }
+}
+
+// Between the middles of twenty pixels the curve is a line, at its ends level: 0.4 of them from an
+// end fall by 7.5 steps.
+TEST(Areal, TheMaterialOfAFewPixelsEndsWithThem) {
+  const ArealParameters p =
+      areal_parameters(map_of({20, 1, 20e-6, 1e-6}, [](double x, double) { return 0.01 * x; }));
+  EXPECT_NEAR(p.sk, 7.5 / 0.4 * 0.01e-6, 1e-12);
 }
 
 // Height above a share m of the material: a straight line has no peaks and no valleys.
@@ -181,6 +208,133 @@ TEST(Histogram, SharesOfEqualBinsSumToOne) {
   const std::vector<double> shares =
       height_histogram(map_of(kGrid, [](double x, double) { return x; }), 40);
   for (const double share : shares) EXPECT_NEAR(share, 1.0 / 40, 1e-9);
+}
+
+// Of x and y alone differ: which side is which, and which pixels are longer.
+TEST(Areal, SidesThatAreSwappedSwapTheDirectionAlone) {
+  const Grid grid{240, 130, 30e-6, 13e-6}, turned{130, 240, 13e-6, 30e-6};
+  const double k = 2 * kPi / 3e-6;
+  // One wave, a step, and 24 waves of many directions, so that it is unlike itself far away.
+  const auto z = [&](double x, double y) {
+    double sum = 15e-9 * std::cos(k * (0.8 * x + 0.6 * y)) + (x > 25e-6 && y < 4e-6 ? 60e-9 : 0);
+    for (int i = 0; i < 24; ++i) {
+      const double angle = kPi * (i + 0.3) / 24;
+      sum += 8e-9 * std::cos((1 + 0.02 * i) * k * (x * std::cos(angle) + 2 * y * std::sin(angle)) +
+                             2.4 * i * i);
+    }
+    return sum;
+  };
+  const Heightmap map = map_of(grid, z),
+                  other = map_of(turned, [&](double x, double y) { return z(y, x); });
+  const ArealParameters a = areal_parameters(map), b = areal_parameters(other);
+  for (const auto member :
+       {&ArealParameters::sa, &ArealParameters::sq, &ArealParameters::sz, &ArealParameters::sp,
+        &ArealParameters::sv, &ArealParameters::ssk, &ArealParameters::sku, &ArealParameters::sdq,
+        &ArealParameters::sdr, &ArealParameters::sk, &ArealParameters::spk, &ArealParameters::svk,
+        &ArealParameters::smr1, &ArealParameters::smr2})
+    EXPECT_NEAR(a.*member, b.*member, 1e-9 * std::abs(a.*member) + 1e-18);
+  ASSERT_TRUE(a.sal && b.sal && a.str && b.str);
+  EXPECT_NEAR(*a.sal, *b.sal, 1e-9 * *a.sal);
+  EXPECT_NEAR(*a.str, *b.str, 1e-9);
+  const auto wave = [&](double x, double y) { return 40e-9 * std::cos(k * (0.8 * x + 0.6 * y)); };
+  const auto direction = [](const Heightmap& h) { return areal_parameters(h).std; };
+  EXPECT_NEAR(direction(map_of(grid, wave)) +
+                  direction(map_of(turned, [&](double x, double y) { return wave(y, x); })),
+              0.5 * kPi, 1e-6);
+  // Upside down, peaks are valleys.
+  Heightmap down = map;
+  for (double& v : down.z) v = 1e-6 - v;
+  const ArealParameters d = areal_parameters(down);
+  EXPECT_NEAR(d.sp, a.sv, 1e-15);
+  EXPECT_NEAR(d.ssk, -a.ssk, 1e-9);
+  EXPECT_NEAR(d.spk, a.svk, 0.01 * a.sk);
+  EXPECT_NEAR(d.svk, a.spk, 0.01 * a.sk);
+  EXPECT_NEAR(d.sk, a.sk, 1e-3 * a.sk);
+  EXPECT_NEAR(*d.sal, *a.sal, 1e-9 * *a.sal);
+  const std::vector<SpectrumRing> one = radial_spectrum(map), two = radial_spectrum(other);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_NEAR(one[i].wavelength / two[i].wavelength, 1, 1e-12);
+    EXPECT_NEAR(one[i].density / two[i].density, 1, 1e-9);
+  }
+}
+
+// Slopes along x and y that differ: their squares add, and no difference crosses the border.
+TEST(Areal, APlaneHasOneSlopeAndItsArea) {
+  for (const Grid& grid : {kGrid, Grid{50, 90, 10e-6, 45e-6}}) {
+    const ArealParameters p =
+        areal_parameters(map_of(grid, [](double x, double y) { return 0.3 * x - 0.4 * y; }));
+    EXPECT_NEAR(p.sdq, 0.5, 1e-9);
+    EXPECT_NEAR(p.sdr, std::sqrt(1.25) - 1, 1e-9);
+  }
+}
+
+// A step of a quarter of all heights in a pixel is more than its slope can be told from.
+TEST(Areal, AStepOfAQuarterIsLimitedByItsPixels) {
+  for (const auto& [step, limited] : {std::pair{0.24, false}, {0.26, true}}) {
+    for (const bool along_x : {true, false}) {
+      const ArealParameters p = areal_parameters(map_of(kGrid, [&](double x, double y) {
+        const double share = along_x ? x / 40e-6 : y / 30e-6;
+        return 1e-7 * (share * (1 - step) + (share > 0.5 ? step : 0));
+      }));
+      EXPECT_EQ(p.sampling_limited, limited) << step << along_x;
+    }
+  }
+}
+
+// Exponential heights -s ln m: the flattest 40 % are the last, their line meets the axis at
+// s ln(1/0.6) / 0.4 = 1.277 s = Sk; what lies above it, a share exp(-1.277), is as high as all is:
+// Spk = 2 s, and there are no valleys.
+TEST(Areal, ExponentialHeightsHavePeaksAlone) {
+  const double s = 10e-9;
+  Heightmap h{kGrid, std::vector<double>(kGrid.size())};
+  const auto n = static_cast<double>(h.z.size());
+  for (std::size_t i = 0; i < h.z.size(); ++i)
+    h.z[i * 7919 % h.z.size()] = -s * std::log((static_cast<double>(i) + 0.5) / n);
+  const ArealParameters p = areal_parameters(h);
+  const double core = std::log(1 / 0.6) / 0.4;
+  EXPECT_NEAR(p.sk, core * s, 2e-3 * s);
+  EXPECT_NEAR(p.smr1, std::exp(-core), 1e-3);
+  EXPECT_NEAR(p.smr2, 1, 1e-3);
+  EXPECT_NEAR(p.spk, 2 * s, 5e-3 * s);
+  EXPECT_NEAR(p.svk, 0, 1e-3 * s);
+  EXPECT_NEAR(p.ssk, 2, 0.01);
+  EXPECT_NEAR(p.sku, 9, 0.1);
+}
+
+// Heights that know nothing of each other: equal power at every wavelength, variance times the
+// area of a pixel over (2 pi)^2; down to two pixels of the longer side, up to the longer side.
+TEST(Spectrum, OfNoiseIsTheSameInEveryRing) {
+  const Grid grid{360, 300, 18e-6, 30e-6};
+  Heightmap h{grid, std::vector<double>(grid.size())};
+  RandomStream random(3, "noise of a test", 0);
+  for (double& z : h.z) z = 5e-9 * random.normal();
+  const double flat = square(5e-9) * grid.pixel_area() / square(2 * kPi);
+  const std::vector<SpectrumRing> rings = radial_spectrum(h);
+  ASSERT_GT(rings.size(), 18u);  // of log10(30 um / 0.2 um) 10 = 21.8
+  EXPECT_LE(rings.size(), 23u);
+  EXPECT_LE(rings.front().wavelength, 30e-6 * (1 + 1e-9));
+  EXPECT_GE(rings.front().wavelength, 20e-6);
+  EXPECT_GE(rings.back().wavelength, 0.2e-6 * (1 - 1e-9));
+  EXPECT_LE(rings.back().wavelength, 0.26e-6);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    EXPECT_TRUE(i == 0 || rings[i].wavelength < rings[i - 1].wavelength);
+    const double least = rings[i].wavelength;  // short waves are many, their mean is sharper
+    const double scatter = least < 0.35e-6 ? 0.05 : least < 0.6e-6 ? 0.1 : least < 3e-6 ? 0.25 : 3;
+    EXPECT_NEAR(rings[i].density / flat, 1, scatter) << least;
+  }
+  EXPECT_DOUBLE_EQ(known_band(h, rings, 0).longest, 4.5e-6);  // a quarter of the shorter side
+  EXPECT_DOUBLE_EQ(known_band(h, rings, 0).shortest, 0.2e-6);
+}
+
+TEST(Histogram, HoldsTheLowestAndTheHighest) {
+  const Heightmap two = map_of(kGrid, [](double x, double) { return x < 10e-6 ? -3e-6 : 1e-6; });
+  std::vector<double> shares = height_histogram(two, 8);
+  EXPECT_NEAR(shares.front(), 0.25, 1e-9);
+  EXPECT_NEAR(shares.back(), 0.75, 1e-9);
+  for (std::size_t i = 1; i < 7; ++i) EXPECT_EQ(shares[i], 0);
+  EXPECT_NEAR(height_histogram(map_of(kGrid, [](double, double) { return 1.0; }), 5).front(), 1,
+              1e-9);
 }
 
 }  // namespace

@@ -153,8 +153,21 @@ TEST(Stl, IsAClosedBodyOfTheRightVolume) {
   std::map<std::pair<Point, Point>, int> edges;  // directed
   double volume = 0;
   for (std::uint32_t f = 0; f < faces; ++f) {
-    std::array<Point, 3> p;
-    std::memcpy(p.data(), bytes.data() + 84 + 50 * static_cast<std::size_t>(f) + 12, 36);
+    std::array<Point, 4> own;  // its normal, then its corners
+    std::memcpy(own.data(), bytes.data() + 84 + 50 * static_cast<std::size_t>(f), 48);
+    const Point& normal = own[0];
+    const std::array<Point, 3> p{own[1], own[2], own[3]};
+    for (std::size_t i = 0; i < 3; ++i) {  // of length one, upright on both sides: out of the body
+      const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+      const auto side = [&](std::size_t to, std::size_t axis) { return p[to][axis] - p[0][axis]; };
+      const double cross = side(1, j) * side(2, k) - side(1, k) * side(2, j);
+      double twice = 0;
+      for (std::size_t a = 0; a < 3; ++a) {
+        const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+        twice += square(double{side(1, b)} * side(2, c) - double{side(1, c)} * side(2, b));
+      }
+      EXPECT_NEAR(normal[i], cross / std::sqrt(twice), 1e-4);
+    }
     for (std::size_t i = 0; i < 3; ++i) ++edges[{p[i], p[(i + 1) % 3]}];
     volume += (static_cast<double>(p[0][0]) * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) -
                static_cast<double>(p[0][1]) * (p[1][0] * p[2][2] - p[1][2] * p[2][0]) +

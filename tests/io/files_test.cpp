@@ -12,6 +12,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
 #include "tests/temporary.h"
@@ -94,9 +95,17 @@ TEST_F(Files, AnObliqueMapOnOblongPixelsComesBackInEveryFormat) {
   write_tiff_float(path("f.tif"), h, {});
   write_tiff16(path("high.tif"), h, Polarity::WhiteHigh, {});
   write_tiff16(path("deep.tif"), h, Polarity::WhiteDeep, {});
-  for (const char* name : {"h.npy", "h.gsf", "h.exr", "f.tif", "high.tif", "deep.tif"}) {
+  write_png16(path("h.png"), h);
+  write_x3p(path("h.x3p"), h);
+  for (const char* name :
+       {"h.npy", "h.gsf", "h.exr", "f.tif", "high.tif", "deep.tif", "h.png", "h.x3p"}) {
     const bool sized = std::string(name) != "h.npy";
-    const Heightmap back = read_heightmap(path(name), sized ? 0 : h.grid.lx);
+    const auto rows = open_height_rows(path(name));
+    EXPECT_EQ(rows->header().lx > 0, sized);
+    const bool grey = std::string(name).ends_with("h.tif") || std::string(name) == "deep.tif" ||
+                      std::string(name) == "h.png";
+    EXPECT_NEAR(rows->header().step, grey ? span / 65535 : 0, 1e-6 * span / 65535) << name;
+    const Heightmap back = whole_map(*rows, h.grid.lx);
     ASSERT_EQ(back.grid.nx, 48) << name;
     ASSERT_EQ(back.grid.ny, 30) << name;
     EXPECT_NEAR(back.grid.lx, 9e-6, 1e-11) << name;
@@ -109,6 +118,14 @@ TEST_F(Files, AnObliqueMapOnOblongPixelsComesBackInEveryFormat) {
       }
     }
   }
+}
+
+// What is told while many tiles are written: once a row of them, the share that is done.
+TEST_F(Files, ProgressIsTheShareOfTheRowsOfTiles) {
+  std::vector<double> told;
+  write_exr_repeated(path("tiles.exr"), holes(), 4, {},
+                     [&](double share) { told.push_back(share); });
+  EXPECT_EQ(told, (std::vector<double>{0, 0.25, 0.5, 0.75}));
 }
 
 TEST_F(Files, TheSameHeightmapGivesTheSameBytes) {

@@ -3,12 +3,14 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "geometry/io/files.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
@@ -31,8 +33,8 @@ void write(const std::string& path, OIIO::ImageSpec spec, const std::vector<T>& 
   if (spec.tile_width > 0) {
     ASSERT_TRUE(out->write_image(OIIO::TypeDescFromC<T>::value(), pixels.data()));
   } else {
-    ASSERT_TRUE(
-        out->write_scanlines(0, spec.height, 0, OIIO::TypeDescFromC<T>::value(), pixels.data()));
+    ASSERT_TRUE(out->write_scanlines(spec.y, spec.y + spec.height, 0,
+                                     OIIO::TypeDescFromC<T>::value(), pixels.data()));
   }
   ASSERT_TRUE(out->close());
 }
@@ -181,6 +183,132 @@ TEST(ForeignImages, ThoseOfOursHaveTheirNumbersForOthers) {
   for (int x = 0; x < kNx; ++x)
     EXPECT_NEAR(first[static_cast<std::size_t>(x)], 1e-6 * static_cast<double>(height(x, 0)),
                 3e-11);
+}
+
+std::string refusal(const std::string& ending, const std::string& bytes) {
+  const std::string path = temporary("damaged." + ending);
+  std::ofstream(path, std::ios::binary) << bytes;
+  try {
+    read_heightmap(path, 1e-6);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A header is judged before the library makes room for what it claims.
+TEST(ForeignImages, AnExrHeaderIsJudgedBeforeItIsTrusted) {
+  const std::string path = temporary("head.exr");
+  OIIO::ImageSpec spec(kNx, kNy, 1, OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"Y"};
+  spec.x = 11, spec.y = 23;  // its window begins elsewhere
+  spec.full_x = 11, spec.full_y = 23;
+  write(path, spec, heights());
+  expect_heights(path, 1e-18);
+  const std::string bytes = read_bytes(path);
+  for (const std::size_t at : {0u, 1u, 2u, 3u}) {
+    std::string other = bytes;
+    ++other[at];
+    EXPECT_NE(refusal("exr", other).find("no OpenEXR file"), std::string::npos) << at;
+  }
+  for (const int flag : {0x08, 0x10}) {
+    std::string other = bytes;
+    other[5] = static_cast<char>(other[5] | flag);
+    EXPECT_NE(refusal("exr", other).find("several or deep parts"), std::string::npos) << flag;
+  }
+  for (const std::size_t length : {0u, 7u, 9u, 40u, 120u}) {
+    const std::string why = refusal("exr", bytes.substr(0, length));
+    EXPECT_NE(why.find(length < 8 ? "no OpenEXR file" : "the header is cut off"), std::string::npos)
+        << length << why;
+  }
+  // A window of 2^28 pixels and a row, from its own corner: the least that is refused for its size.
+  const std::size_t box = bytes.find("dataWindow") + std::string("dataWindow.box2i.0000").size();
+  const auto window = [&](std::int32_t x0, std::int32_t y0, std::int32_t x1, std::int32_t y1) {
+    std::string other = bytes;
+    for (const auto& [place, value] : {std::pair{0, x0}, {4, y0}, {8, x1}, {12, y1}})
+      std::memcpy(&other[box + static_cast<std::size_t>(place)], &value, 4);
+    return refusal("exr", other);
+  };
+  EXPECT_NE(window(11, 23, 11 + 16383, 23 + 16384).find("16384 x 16385 pixels; at most 2^28"),
+            std::string::npos);
+  EXPECT_NE(window(-5, -7, -5 + 16384, -7 + 16383).find("16385 x 16384 pixels; at most 2^28"),
+            std::string::npos);
+  const std::string most = window(0, 0, 16383, 16383);  // refused for its length alone
+  EXPECT_NE(most, "");
+  EXPECT_EQ(most.find("at most 2^28"), std::string::npos) << most;
+}
+
+// Sides by the tags that other programs take for the size.
+TEST(ForeignImages, ResolutionsAreReadInTheirUnits) {
+  for (const auto& [unit, metres] : {std::pair{"cm", 1e-2}, {"in", 25.4e-3}, {"none", 0.0}}) {
+    OIIO::ImageSpec spec(kNx, kNy, 1, OIIO::TypeDesc::FLOAT);
+    spec.attribute("XResolution", 2000.0F);
+    spec.attribute("YResolution", 500.0F);
+    spec.attribute("PixelAspectRatio", 0.25F);  // else unequal ones are made equal
+    spec.attribute("ResolutionUnit", unit);
+    const std::string path = temporary("tags.tif");
+    write(path, spec, heights());
+    const auto rows = open_height_rows(path);
+    EXPECT_EQ(rows->header().tag_x.has_value(), metres > 0) << unit;
+    if (metres == 0) continue;
+    EXPECT_NEAR(*rows->header().tag_x, kNx * metres / 2000, 1e-9 * metres) << unit;
+    EXPECT_NEAR(*rows->header().tag_y, kNy * metres / 500, 1e-9 * metres) << unit;
+    const auto picture = open_picture_rows(path);
+    EXPECT_EQ(picture->width, kNx);
+    EXPECT_EQ(picture->height, kNy);
+    EXPECT_EQ(picture->channels, 1);
+    EXPECT_NEAR(*picture->tag_y, kNy * metres / 500, 1e-9 * metres) << unit;
+  }
+}
+
+// Of several channels the one named Y counts, else the first.
+TEST(ForeignImages, TheChannelOfHeightsIsTakenByItsName) {
+  for (const bool named : {true, false}) {
+    OIIO::ImageSpec spec(kNx, kNy, 2, OIIO::TypeDesc::FLOAT);
+    spec.channelnames = {named ? "R" : "P", named ? "Y" : "Q"};
+    std::vector<float> pixels;
+    for (const float z : heights()) {
+      pixels.push_back(named ? 7.0F : z);
+      pixels.push_back(named ? z : 7.0F);
+    }
+    const std::string path = temporary("channels.exr");
+    write(path, spec, pixels);
+    expect_heights(path, 1e-18);
+  }
+}
+
+// Whole numbers say nothing of heights by themselves; by their description they do, black and white
+// at their own heights, whichever is higher.
+TEST(ForeignImages, GreyHasTheHeightsOfItsDescription) {
+  std::vector<std::uint16_t> grey;
+  for (int i = 0; i < kNx * kNy; ++i) grey.push_back(static_cast<std::uint16_t>(35 * i));
+  OIIO::ImageSpec spec(kNx, kNy, 1, OIIO::TypeDesc::UINT16);
+  const std::string path = temporary("grey.tif");
+  write(path, spec, grey);
+  try {
+    read_heightmap(path, 1e-6);
+    FAIL() << "read without a scale";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("without its height scale"), std::string::npos);
+  }
+  const std::string sides = R"("size_x_m": 4e-6, "size_y_m": 3e-6)";
+  spec.attribute("ImageDescription", "{" + sides + R"(, "black_m": 1e-7})");
+  write(path, spec, grey);
+  EXPECT_THROW(read_heightmap(path), InputError);
+  spec.attribute(
+      "ImageDescription",
+      "{" + sides + R"(, "polarity": "white-is-deep", "black_m": 1e-7, "white_m": -2e-7})");
+  write(path, spec, grey);
+  const auto rows = open_height_rows(path);
+  EXPECT_EQ(rows->header().polarity, Polarity::WhiteDeep);
+  EXPECT_NEAR(rows->header().step, 3e-7 / 65535, 1e-18);
+  const Heightmap h = read_heightmap(path);
+  EXPECT_NEAR(h.grid.lx, 4e-6, 1e-18);
+  EXPECT_NEAR(h.grid.ly, 3e-6, 1e-18);
+  for (int y = 0; y < kNy; ++y) {
+    for (int x = 0; x < kNx; ++x)
+      ASSERT_NEAR(h(x, kNy - 1 - y), 1e-7 - 3e-7 * 35 * (y * kNx + x) / 65535.0, 1e-13);
+  }
 }
 
 }  // namespace

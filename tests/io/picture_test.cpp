@@ -55,7 +55,7 @@ TEST(Pictures, TheBarIsARoundLengthBelowAThirdOfTheWidth) {
        {std::pair{10.0, 2.0}, {20.0, 5.0}, {4.0, 1.0}, {0.4, 0.1}, {100.0, 20.0}}) {
     const Grid grid{64, 32, 1e-6 * width_um, 1e-6};
     const Picture p(grid, std::vector<double>(grid.size()));
-    int rows = 0, longest = 0;
+    int rows = 0, longest = 0, left = 0, lowest = 0;
     for (int y = 0; y < p.height; ++y) {
       int count = 0, first = 0, last = 0;
       for (int x = 0; x < p.width; ++x) {
@@ -67,6 +67,8 @@ TEST(Pictures, TheBarIsARoundLengthBelowAThirdOfTheWidth) {
       if (count == 0) continue;
       ++rows;
       longest = count;
+      left = first;
+      lowest = y;
       EXPECT_GT(y, p.height / 2);  // below, at the left
       EXPECT_LT(first, p.width / 10);
       EXPECT_EQ(last - first + 1, count);
@@ -74,8 +76,23 @@ TEST(Pictures, TheBarIsARoundLengthBelowAThirdOfTheWidth) {
       EXPECT_EQ(p.at(last + 1, y), black);
     }
     EXPECT_GE(rows, 3);
+    // As far from the left as from below, with its rim all round.
+    EXPECT_EQ(left, p.height - 1 - lowest);
+    for (int x = left - 1; x <= left + longest; ++x) {
+      EXPECT_EQ(p.at(x, lowest + 1), black);
+      EXPECT_EQ(p.at(x, lowest - rows), black);
+    }
     EXPECT_NEAR(longest * width_um / p.width, bar_um, 0.51 * width_um / p.width) << width_um;
   }
+}
+
+TEST(Pictures, ABarHigherThanItsPictureIsCutAtTheTop) {
+  const Grid grid{600, 6, 1e-3, 1e-5};
+  const Picture p(grid, std::vector<double>(grid.size()));
+  ASSERT_EQ(p.height, 6);
+  for (const int y : {0, 1}) EXPECT_EQ(p.at(10, y), (Colour{255, 255, 255})) << y;
+  EXPECT_EQ(p.at(10, 2), (Colour{0, 0, 0}));
+  EXPECT_EQ(p.at(10, 3), (Colour{253, 231, 37}));
 }
 
 }  // namespace

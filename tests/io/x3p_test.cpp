@@ -1,12 +1,18 @@
 // X3P as another language reads it: a zip whose sums hold, heights with the top row first.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "base/error.h"
+#include "base/files.h"
+#include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
+#include "geometry/io/sums.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -16,6 +22,13 @@ constexpr const char* kReader = R"(
 import hashlib, re, struct, sys, zipfile
 archive = zipfile.ZipFile(sys.argv[1])
 assert archive.testzip() is None
+assert archive.namelist() == ["main.xml", "bindata/data.bin", "md5checksum.hex"]
+for entry in archive.infolist():
+    assert entry.date_time == (2000, 1, 1, 0, 0, 0) and entry.extract_version == 20
+    assert entry.create_version == 20 and entry.compress_type == 0
+    assert not (entry.flag_bits or entry.volume or entry.internal_attr or entry.external_attr)
+    assert not (entry.extra or entry.comment)
+assert open(sys.argv[1], "rb").read()[-18:-14] == bytes(4) and archive.comment == b""
 xml, data = archive.read("main.xml"), archive.read("bindata/data.bin")
 assert archive.read("md5checksum.hex").split()[0].decode() == hashlib.md5(xml).hexdigest()
 text = xml.decode()
@@ -56,6 +69,87 @@ TEST(X3p, IsReadByAnotherLanguageWithAllItsSums) {
       }
     }
   }
+}
+
+Heightmap oblong() {
+  const Grid grid{7, 4, 6e-6, 2e-6};
+  Heightmap h{grid, std::vector<double>(grid.size())};
+  for (std::size_t i = 0; i < h.z.size(); ++i) h.z[i] = -1e-9 * static_cast<double>(i * i) / 3;
+  return h;
+}
+
+// What reading every row of the file says; "" where all of it is sound.
+std::string refusal(const std::string& path, Heightmap* read = nullptr) {
+  try {
+    const auto rows = open_height_rows(path);
+    Heightmap h = whole_map(*rows, 0);
+    if (read) *read = h;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(X3p, IsReadBackToTheLastBit) {
+  const Heightmap h = oblong();
+  const std::string path = temporary("own.x3p");
+  write_x3p(path, h);
+  Heightmap back;
+  ASSERT_EQ(refusal(path, &back), "");
+  EXPECT_EQ(back.z, h.z);
+  EXPECT_EQ(back.grid.nx, 7);
+  EXPECT_NEAR(back.grid.lx, 6e-6, 1e-18);
+  EXPECT_NEAR(back.grid.ly, 2e-6, 1e-18);
+}
+
+TEST(X3p, AChangedBitAndACutEndAreNoticed) {
+  const std::string path = temporary("own.x3p"), wrong = temporary("wrong.x3p");
+  write_x3p(path, oblong());
+  const std::string bytes = read_bytes(path);
+  const std::size_t xml = bytes.find("<?xml"), end = bytes.find("</p:ISO5436_2>"),
+                    name = bytes.find("bindata/data.bin", end), data = name + 16;
+  ASSERT_NE(name, std::string::npos);
+  const auto reading = [&](const std::string& other) {
+    std::ofstream(wrong, std::ios::binary) << other;
+    return refusal(wrong);
+  };
+  const auto changed = [&](std::size_t at) {
+    std::string other = bytes;
+    other[at] = static_cast<char>(other[at] ^ 4);
+    return reading(other);
+  };
+  for (std::size_t at = xml; at < end; at += 5) ASSERT_NE(changed(at), "") << at;
+  for (std::size_t at = data; at < data + 28 * 8; at += 3) {
+    const std::string why = changed(at);
+    ASSERT_NE(why.find("the sum of its heights is another"), std::string::npos) << at << why;
+  }
+  for (std::size_t length = 0; length < bytes.size(); length += length < 80 ? 1 : 17) {
+    ASSERT_NE(reading(bytes.substr(0, length)), "") << length;
+  }
+}
+
+// The examples of RFC 1321 and the usual one of the sum of zips, by pieces of any size.
+TEST(Sums, AreThoseOfTheirStandards) {
+  for (const auto& [text, sum] :
+       {std::pair{"", "d41d8cd98f00b204e9800998ecf8427e"},
+        {"abc", "900150983cd24fb0d6963f7d28e17f72"},
+        {"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789",
+         "d174ab98d277d9f5a5611c2c9f419d9f"},
+        {"12345678901234567890123456789012345678901234567890123456789012345678901234567890",
+         "57edf4a22be3c955ac49da2e2107b67a"}}) {
+    for (const std::size_t step : {1u, 7u, 64u, 100u}) {
+      Md5 md5;
+      const std::string all = text;
+      for (std::size_t at = 0; at < all.size(); at += step)
+        md5.add(all.data() + at, std::min(step, all.size() - at));
+      EXPECT_EQ(md5.finish(), sum) << text;
+    }
+  }
+  Crc32 crc;
+  crc.add("1234", 4);
+  crc.add("56789", 5);
+  EXPECT_EQ(crc.sum(), 0xcbf43926u);
+  EXPECT_EQ(little(0x01020304, 3), (std::string{4, 3, 2}));
 }
 
 }  // namespace

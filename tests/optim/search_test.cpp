@@ -9,6 +9,8 @@
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -462,6 +464,43 @@ TEST(Method, WhatCannotDoTheProblemIsRefused) {
   EXPECT_THROW(choose_method("annealing", box(2, 1, 10)), InputError);
   EXPECT_EQ(choose_method("auto", box(4, 2, 100)).name, "bayesian");
   EXPECT_EQ(choose_method("auto", box(4, 3, 10000)).name, "nsga2");
+}
+
+// The method for every number of objectives, evaluations and variables, on both sides of each
+// limit.
+TEST(Searchers, AutoTakesTheMethodThatTheStudyHasRoomFor) {
+  for (const auto& [variables, objectives, evaluations, method] :
+       {std::tuple{20, 1, 400, "bayesian"},
+        {20, 2, 400, "bayesian"},
+        {20, 1, 401, "cmaes"},
+        {20, 2, 401, "nsga2"},
+        {21, 1, 400, "cmaes"},
+        {21, 2, 400, "nsga2"},
+        {4, 3, 100, "nsga2"}}) {
+    const SearchMethod chosen = choose_method("auto", box(variables, objectives, evaluations));
+    EXPECT_EQ(chosen.name, method) << variables << " " << objectives << " " << evaluations;
+    EXPECT_FALSE(chosen.why.empty());
+  }
+  EXPECT_EQ(choose_method("cmaes", box(4, 1, 100)).why, "asked for");
+  EXPECT_THROW(choose_method("bayesian", box(2, 3, 10)), InputError);
+  EXPECT_THROW(choose_method("nsga2", box(2, 1, 10)), InputError);
+  EXPECT_THROW(choose_method("least_squares", box(2, 1, 10)), InputError);
+}
+
+// What is known without an evaluation must be kept, the cheap and the costly of it.
+TEST(Searchers, APointIsFeasibleWhereEveryConstraintIsKept) {
+  SearchProblem p = box(2, 1, 10);
+  const Point point{0.5, 0.5};
+  EXPECT_TRUE(p.feasible_before_evaluation(point));
+  double cheap = -1, costly = -1;
+  p.cheap_constraints = [&](const Point&) { return std::vector<double>{-1, cheap}; };
+  p.costly_constraints = [&](const Point&) { return std::vector<double>{costly, -1}; };
+  for (const auto& [a, b] :
+       {std::pair{-1.0, -1.0}, {0.0, 0.0}, {0.1, -1.0}, {-1.0, 0.1}, {1.0, 1.0}}) {
+    cheap = a, costly = b;
+    EXPECT_EQ(p.cheaply_feasible(point), a <= 0) << a;
+    EXPECT_EQ(p.feasible_before_evaluation(point), a <= 0 && b <= 0) << a << " " << b;
+  }
 }
 
 }  // namespace

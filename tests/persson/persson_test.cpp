@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <map>
 
@@ -136,6 +137,105 @@ TEST(MeanField, GapDistributionHasItsNormAndItsMean) {
     if (p < 1e5) {
       EXPECT_LT(relative(mean, gaps.mean_gap), 5e-3) << p;
     }
+  }
+}
+
+// Bands that are narrow, wide, at a wall and below the smallest gap, integrated step by step.
+TEST(GapDistribution, OfBandsIsTheIntegralOverThem) {
+  GapDistribution gaps;
+  gaps.contact = 0.1;
+  gaps.share = {0.2, 0.3, 0.25, 0.15};
+  gaps.offset = {3e-6, 4e-7, 5e-8, 0};
+  gaps.width = {1e-7, 2e-7, 9e-8, 3e-8};
+  gaps.wave_number = {1e4, 1e5, 1e6, 1e7};
+  for (const double least : {0.0, 1e-9, 4e-8}) {
+    gaps.smallest_gap = least;
+    // Mean of f over the bands but for the contact, their share below `least` on the rest.
+    const auto mean = [&](std::size_t count, const auto& f) {
+      double sum = 0, kept = 0, all = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double top = gaps.offset[i] + 8 * gaps.width[i], step = top / 40000;
+        for (double u = 0.5 * step; u < top; u += step) {
+          if (u < least) continue;
+          double density = 0;
+          for (const double sign : {1.0, -1.0})
+            density += std::exp(-0.5 * std::pow((u - sign * gaps.offset[i]) / gaps.width[i], 2));
+          density *= gaps.share[i] * step / (gaps.width[i] * std::sqrt(2 * kPi));
+          sum += density * f(u);
+          kept += density;
+        }
+        all += gaps.share[i];
+      }
+      return sum * all / kept;
+    };
+    for (const double h0 : {2e-8, 2e-7, 3e-6}) {
+      const double inverse = mean(4, [&](double u) { return 1 / (u + h0); });
+      EXPECT_LT(relative(gaps.inverse(h0), gaps.contact / h0 + inverse), 2e-4) << least << h0;
+      const std::complex<double> lossy(h0, 0.4 * h0);
+      const auto square_of = [&](double u) { return 1 / std::norm(u + lossy); };
+      EXPECT_LT(relative(gaps.inverse_square(lossy),
+                         gaps.contact / std::norm(lossy) + mean(4, square_of)),
+                2e-4)
+          << least << h0;
+      EXPECT_LT(relative(gaps.far_inverse_square(lossy, 1e5), mean(2, square_of)), 2e-4);
+    }
+  }
+  gaps.smallest_gap = 0;
+  double below = gaps.contact, previous = 0;
+  for (double u = 1e-11; u < 5e-6; u *= 1.002) {
+    below += gaps.density(0.5 * (u + previous)) * (u - previous);
+    previous = u;
+  }
+  EXPECT_NEAR(below, 1, 1e-4);
+  EXPECT_NEAR(gaps.cumulative(previous), 1, 1e-9);
+  EXPECT_NEAR(gaps.cumulative(2e-6), 0.8, 1e-6);  // all but the widest band
+}
+
+// The equilibrium is one: its pressure is the load and the pull of its own gaps.
+TEST(Pull, BalancesLoadAndField) {
+  const MeanField field(wrist_spectrum(), {}, kPure);
+  const double h0 = 1e-6 / 8;
+  for (const double external : {2e3, 2e4, 2e5}) {
+    for (const double volts : {10.0, 60.0, 150.0, 220.0}) {
+      const PullState s = solve_pull(field, external, volts, h0, 0);
+      if (s.status != PullStatus::Solved) continue;
+      EXPECT_LT(relative(s.pressure, external + s.pull), 3e-8) << external << " " << volts;
+      const double pull =
+          0.5 * kVacuumPermittivity * volts * volts * field.gaps(s.pressure).inverse_square(h0);
+      EXPECT_LT(relative(s.pull, pull), 1e-5) << external << " " << volts;
+      EXPECT_LT(relative(s.area, field.area(s.pressure)), 1e-12);
+      EXPECT_LT(relative(s.mean_gap, field.mean_gap(s.pressure)), 1e-12);
+    }
+  }
+}
+
+// However finely the spectrum is divided, between the knots as on them.
+TEST(MeanField, StressesDoNotDependOnTheDivision) {
+  MeanFieldOptions fine = kPure;
+  fine.intervals *= 3;
+  const MeanField a(wrist_spectrum(), {}, kPure), b(wrist_spectrum(), {}, fine);
+  double last = 0;
+  for (double q = 900; q < 1e8; q *= 1.37) {
+    EXPECT_LT(relative(a.stress_measure(q), b.stress_measure(q)), 2e-4) << q;
+    EXPECT_GT(a.stress_measure(q), last) << q;
+    last = a.stress_measure(q);
+  }
+  EXPECT_LT(relative(a.mean_gap(1e4), b.mean_gap(1e4)), 1e-3);
+}
+
+TEST(MeanField, PressuresCarryTheLoadOnTheirArea) {
+  const MeanField field(wrist_spectrum(), {}, kPure);
+  for (const double p : {1e4, 3e6}) {
+    const double q = 5e5, most = p + 8 * std::sqrt(field.stress_measure(q));
+    const Quadrature rule = gauss_legendre(800, 0, most);
+    double area = 0, load = 0;
+    for (std::size_t k = 0; k < rule.nodes.size(); ++k) {
+      const double density = rule.weights[k] * field.pressure_density(rule.nodes[k], p, q);
+      area += density;
+      load += density * rule.nodes[k];
+    }
+    EXPECT_LT(relative(area, field.area(p, q)), 1e-9) << p;
+    EXPECT_LT(relative(load, p), 1e-9) << p;
   }
 }
 

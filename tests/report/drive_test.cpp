@@ -229,6 +229,15 @@ TEST(DriveReport, ThePictureIsReadBackByItsLabels) {
     EXPECT_NEAR(decibel, std::max(-120.0, 20 * std::log10(d.r.lines[k + 1].amplitude / 0.05)), 0.1);
   }
   EXPECT_NE(svg.find(">50 mN<"), std::string::npos);  // the largest line
+  // Labels of the sides end just before their frame, at its upper and its lower edge.
+  const auto sides =
+      numbers_in(svg, "<text x=\"" + number + "\" y=\"" + number + "\" text-anchor=\"end\">");
+  ASSERT_EQ(sides.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto& f = frames[i / 2];
+    EXPECT_EQ(sides[i][0], f[0] - 6);
+    EXPECT_EQ(sides[i][1], i % 2 == 0 ? f[1] + 10 : f[1] + f[3]) << i;
+  }
 }
 
 }  // namespace

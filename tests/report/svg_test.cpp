@@ -241,5 +241,79 @@ TEST(SvgPictures, ASweepOfAccuracyStandsOnItsDecades) {
   EXPECT_EQ(accuracy_svg(rows, "none").find("<line"), std::string::npos);
 }
 
+// What is written stands beside what it names and over nothing else.
+TEST(SvgPictures, NamesStandBesideTheirMarksAndTitlesBesideTheirAxes) {
+  const SvgSeries one{.name = "a name of some length",
+                      .colour = "#111111",
+                      .x = {1, 2},
+                      .y = {3, 4},
+                      .ex = {},
+                      .ey = {}};
+  SvgSeries two = one;
+  two.name = "b";
+  const SvgPlot plot{.title = "title", .x = "along", .y = "up", .series = {one, two}};
+  const std::string svg = svg_picture({plot, plot});
+  const Matches names =
+      matches(svg, R"(<circle cx="@" cy="50" r="4" fill="#111111"/><text x="@" y="54">[ab][^<]*<)");
+  ASSERT_EQ(names.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double dot = std::stod(names[i][1]), text = std::stod(names[i][2]);
+    EXPECT_EQ(text - dot, 9);
+    EXPECT_EQ(dot, i % 2 == 0 ? 64 + 460 * static_cast<double>(i / 2)
+                              : std::round(std::stod(names[i - 1][1]) + 26 + 6.6 * 21));
+  }
+  const Matches titles = matches(svg, R"(<text x="@" y="22" [^>]*>title<)"),
+                along = matches(svg, R"(<text x="@" y="@" text-anchor="middle">along<)"),
+                up = matches(svg, R"re(<text x="@" y="@" [^>]*rotate.-90 @ @.">up<)re");
+  ASSERT_EQ(titles.size(), 2u);
+  ASSERT_EQ(along.size(), 2u);
+  ASSERT_EQ(up.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double left = 460 * static_cast<double>(i);
+    EXPECT_EQ(std::stod(titles[i][1]), left + 12);
+    EXPECT_EQ(std::stod(along[i][1]), left + 254);  // the middle of 64 to 444
+    EXPECT_GT(std::stod(along[i][2]), 330 + 16 + 12);
+    EXPECT_LT(std::stod(along[i][2]), 380);
+    EXPECT_EQ(std::stod(up[i][1]), left + 16);
+    EXPECT_EQ(std::stod(up[i][2]), 203);
+    EXPECT_EQ(up[i][3] + up[i][4], up[i][1] + up[i][2]);  // turned about its own middle
+  }
+  // The numbers of an axis end before it.
+  const Matches numbers =
+      matches(svg, R"re(<line x1="@" y1="@" x2="@" [^>]*/><text x="@" y="@" text-anchor="end">)re");
+  ASSERT_FALSE(numbers.empty());
+  for (const auto& m : numbers) EXPECT_EQ(std::stod(m[1]) - std::stod(m[4]), 6);
+}
+
+// Steps of 1, 2 and 5 at every size, as many as can be read; one number stands in the middle.
+TEST(SvgPictures, TicksAreRoundAtEverySize) {
+  const auto alone = [](const std::vector<double>& x, const std::vector<double>& y) {
+    const SvgSeries s{.name = "", .colour = "#111111", .x = x, .y = y, .ex = {}, .ey = {}};
+    return svg_picture({{.title = "", .x = "", .y = "", .series = {s}}});
+  };
+  for (const double size : {1e-7, 1.0, 1e5}) {
+    for (const double most : {1.0, 1.9, 2.1, 3.9, 4.1, 7.9, 8.1, 9.9}) {
+      const auto ticks = ReadPlot::x_ticks(alone({-most * size, most * size}, {0, 1}), 0);
+      ASSERT_GE(ticks.size(), 3u) << most;
+      EXPECT_LE(ticks.size(), 9u) << most;
+      const double step = ticks[1].second - ticks[0].second;
+      const double digit = step / std::pow(10, std::floor(std::log10(step) + 1e-6));
+      EXPECT_TRUE(std::abs(digit - 1) < 1e-4 || std::abs(digit - 2) < 1e-4 ||
+                  std::abs(digit - 5) < 1e-4)
+          << step;
+      EXPECT_LE(ticks.front().second, -most * size * (1 - 1e-3));
+      EXPECT_GT(ticks.front().second, -most * size - step);
+      EXPECT_NEAR(ticks.front().second, -ticks.back().second, 1e-3 * step);
+    }
+  }
+  for (const double value : {0.0, 40.0, -0.2}) {
+    const ReadPlot plot(alone({value}, {value}), 0);
+    const double half = std::max(0.5 * std::abs(value), 0.5);
+    EXPECT_LE(plot.x.v0, value - half + 1e-9) << value;
+    EXPECT_GE(plot.x.v1, value + half - 1e-9) << value;
+    EXPECT_LE(plot.x.v1 - plot.x.v0, 4 * half) << value;
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests

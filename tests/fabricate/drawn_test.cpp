@@ -1,0 +1,274 @@
+// What an export makes of a size, a period and pixels that were asked for, and what it says where
+// that is not the same; what is said of files whose heights are others.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "fabricate/checks.h"
+#include "tests/fabricate/exported_folder.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+HoleArray holes_of(double period, double diameter) {
+  HoleArray holes;
+  holes.period = period, holes.diameter = diameter, holes.depth = 200e-9;
+  holes.wall_angle = kPi / 2;
+  return holes;
+}
+
+struct Drawn {
+  Export out;
+  std::string refused;
+
+  Drawn(const Texture& texture, const ExportOptions& options) {
+    Design design;
+    design.texture = texture;
+    try {
+      out = prepare_export(design, options);
+    } catch (const InputError& error) {
+      refused = error.what();
+    }
+  }
+  std::string warning() const { return out.warnings.empty() ? "" : out.warnings.front(); }
+};
+
+ExportOptions options_of(const char* format, int pixels, double size) {
+  ExportOptions options;
+  options.formats = {format};
+  options.pixels = pixels, options.size = size;
+  options.polarity = Polarity::WhiteDeep;
+  return options;
+}
+
+TEST(Period, OfALayoutIsTheNearestNanometreAndSaidToBe) {
+  for (const auto& [asked, made, words] :
+       {std::tuple{6000.3e-9, 6000e-9, "6000 nm, 0.3 nm (0.005 %) less"},
+        {6000.7e-9, 6001e-9, "6001 nm, 0.3 nm (0.005 %) more"},
+        {2000.5004e-9, 2001e-9, "2001 nm, 0.5 nm (0.025 %) more"},
+        {6000.00005e-9, 6000.00005e-9, ""}}) {
+    for (const char* format : {"gds", "oasis"}) {
+      const Drawn drawn(Texture{holes_of(asked, 1e-6)}, options_of(format, 64, 30e-6));
+      EXPECT_NEAR(facts(drawn.out.texture).period(), made, 1e-18) << asked;
+      const std::vector<std::string>& said = drawn.out.warnings;
+      const bool found = std::any_of(said.begin(), said.end(), [&](const std::string& w) {
+        return w.find("grid of layouts") != std::string::npos && w.find(words) != std::string::npos;
+      });
+      EXPECT_EQ(found, *words != '\0') << asked << " " << drawn.warning();
+    }
+    EXPECT_EQ(facts(Drawn(Texture{holes_of(asked, 1e-6)}, options_of("npy", 64, 30e-6)).out.texture)
+                  .period(),
+              asked);
+  }
+  // Rounded down, the wall would be nothing: up.
+  EXPECT_NEAR(
+      facts(
+          Drawn(Texture{holes_of(2000.3e-9, 2000.1e-9)}, options_of("gds", 64, 30e-6)).out.texture)
+          .period(),
+      2001e-9, 1e-18);
+}
+
+// A quarter of the smallest hole or wall a pixel, else a warning that says how many would do; half
+// of it, else no mask.
+TEST(Pixels, AreFourAcrossTheSmallestFeatureOrAreSaidToBeTooFew) {
+  const Texture holes{holes_of(6e-6, 5.19e-6)};  // walls of 810 nm
+  for (const auto& [pixels, warned] : {std::pair{60, false}, {58, true}}) {
+    const Drawn maps(holes, options_of("npy", pixels, 12e-6));
+    EXPECT_EQ(!maps.out.warnings.empty(), warned) << maps.warning();
+    if (!warned) continue;
+    EXPECT_NE(maps.warning().find("a pixel of 207 nm is more than a quarter of the smallest hole "
+                                  "or wall, 810 nm"),
+              std::string::npos)
+        << maps.warning();
+    EXPECT_NE(maps.warning().find("--pixels 60 would do"), std::string::npos) << maps.warning();
+  }
+  for (const auto& [pixels, drawn] : {std::pair{30, true}, {28, false}}) {
+    const Drawn mask(holes, options_of("mask", pixels, 12e-6));
+    EXPECT_EQ(mask.refused.empty(), drawn) << mask.refused;
+    if (drawn) continue;
+    EXPECT_NE(mask.refused.find("a pixel of 429 nm is more than half the smallest hole or wall, "
+                                "810 nm; --pixels 60 would do"),
+              std::string::npos)
+        << mask.refused;
+  }
+  // Up to 2^14 pixels a side; beyond, another way.
+  const auto remedy = [&](double size) {
+    return Drawn(holes, options_of("npy", 64, size)).warning();
+  };
+  EXPECT_NE(remedy(3.312e-3).find("--pixels 16356 would do"), std::string::npos);
+  EXPECT_NE(remedy(3.324e-3).find("would take 16416 pixels per side: ask for a smaller --size"),
+            std::string::npos)
+      << remedy(3.324e-3);
+  const Drawn most(holes, options_of("npy", 16400, 3.312e-3));
+  EXPECT_NE(most.refused.find("16400 x 16400 pixels are more than 2^28"), std::string::npos)
+      << most.refused;
+  EXPECT_TRUE(Drawn(Texture{RandomRough{}}, options_of("npy", 8, 12e-6)).out.warnings.empty());
+}
+
+TEST(Sides, AreWholePeriodsAndSaidWhereTheyAreOthers) {
+  const auto drawn = [](const Texture& texture, double size, double size_y) {
+    ExportOptions options = options_of("npy", 96, size);
+    options.size_y = size_y;
+    return Drawn(texture, options);
+  };
+  const Texture square{holes_of(3e-6, 1e-6)};
+  HoleArray hexagons = holes_of(3e-6, 1e-6);
+  hexagons.lattice = Lattice::Hexagonal;
+  const double row = std::sqrt(3.0) * 3e-6;
+  const auto expect_cells = [](const Drawn& d, int x, int y, double lx, double ly) {
+    EXPECT_EQ(d.out.cells_x, x);
+    EXPECT_EQ(d.out.cells_y, y);
+    EXPECT_NEAR(d.out.heightmap.grid.lx, lx, 1e-15);
+    EXPECT_NEAR(d.out.heightmap.grid.ly, ly, 1e-15);
+  };
+  expect_cells(drawn(square, 12e-6, 0), 4, 4, 12e-6, 12e-6);
+  EXPECT_EQ(drawn(square, 12e-6, 0).warning(), "");
+  expect_cells(drawn(square, 13e-6, 0), 4, 4, 12e-6, 12e-6);
+  EXPECT_EQ(drawn(square, 13e-6, 0).warning(),
+            "13 um were asked for, 12 um are written: a whole number of periods");
+  expect_cells(drawn(square, 12e-6, 7e-6), 4, 2, 12e-6, 6e-6);
+  EXPECT_EQ(drawn(square, 12e-6, 7e-6).warning(),
+            "12 x 7 um were asked for, 12 x 6 um are written: a whole number of periods");
+  EXPECT_EQ(drawn(square, 12e-6, 6e-6).warning(), "");
+  // Of less than one and a half periods there is one, of hexagons with its two rows.
+  expect_cells(drawn(square, 3e-6, 0), 1, 1, 3e-6, 3e-6);
+  expect_cells(drawn(square, 4.4e-6, 0), 1, 1, 3e-6, 3e-6);
+  expect_cells(drawn(square, 4.6e-6, 0), 2, 2, 6e-6, 6e-6);
+  expect_cells(drawn(Texture{hexagons}, 3e-6, 0), 1, 1, 3e-6, row);
+  expect_cells(drawn(Texture{hexagons}, 12e-6, 0), 4, 2, 12e-6, 2 * row);
+  EXPECT_EQ(drawn(Texture{hexagons}, 12e-6, 0).warning(), "");  // its height is that of its rows
+  // What does not repeat has no cells, and is as large as it must be.
+  const Texture film{ParticleFilm{.radius = 1e-6}};
+  EXPECT_EQ(drawn(film, 5e-6, 0).out.cells_x, 0);
+  EXPECT_EQ(drawn(film, 5e-6, 0).warning(),
+            "5 um were asked for, 8 um are written: the smallest patch that holds the texture");
+  EXPECT_EQ(drawn(film, 9e-6, 0).warning(), "");
+  Measured3d scan;
+  scan.file = PAPILLA_DESIGNS_DIR "/measured_surface/scan.gsf";
+  scan.patch = 12e-6;
+  EXPECT_NE(drawn(Texture{scan}, 20e-6, 0)
+                .warning()
+                .find("20 um were asked for, 12 um are written: a measured surface is its patch"),
+            std::string::npos);
+}
+
+TEST(Formats, ThatCannotBeWrittenSayWhatTheyNeed) {
+  const Texture holes{HoleArray{}};
+  const auto refused = [&](const char* format) {
+    ExportOptions options;
+    options.formats = {format};
+    return Drawn(holes, options).refused;
+  };
+  EXPECT_NE(refused("dose").find("needs --dose-curve"), std::string::npos);
+  EXPECT_NE(refused("mask").find("needs a polarity: white-high"), std::string::npos);
+  EXPECT_EQ(refused("gds"), "");
+  EXPECT_NE(refused("jpeg"), "");
+}
+
+// Files of the right kind with other heights: what is said of them is what was done to them.
+class Changed : public ::testing::Test {
+ protected:
+  std::string said(const char* format, const std::function<void(Heightmap&)>& change) const {
+    const ExportFormat& kind = find_export_format(format);
+    Heightmap h = folder_.made().heightmap;
+    change(h);
+    write_again({format, folder_.path() + "/" + kind.file}, h, folder_.made().texture,
+                folder_.options());
+    std::string out;
+    for (const FileVerdict& file : verify_folder(folder_.path(), kind.file)) {
+      EXPECT_NE(file.state, FileState::Sound) << format;
+      for (const std::string& fault : file.faults) out += fault + "\n";
+    }
+    return out;
+  }
+  static bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  }
+
+  const Workplace place_;
+  const Folder folder_{place_.path() / "f", Texture{holes_of(6e-6, 3e-6)}, Polarity::WhiteDeep};
+};
+
+TEST_F(Changed, OnePixelIsFoundByItsPlaceAndHowFarItIsOff) {
+  const Grid& grid = folder_.made().heightmap.grid;
+  ASSERT_EQ(grid.nx, 64);
+  for (const char* format : {"npy", "gsf", "exr", "tiff32"}) {
+    const std::string why = said(format, [](Heightmap& h) { h(41, 20) += 10e-9; });
+    const std::string place =
+        fmt::format("({:.4g}, {:.4g}) um", 1e6 * grid.x(41), 1e6 * grid.y(20));
+    EXPECT_TRUE(has(why, "1 of 4096 heights are off")) << format << why;
+    EXPECT_TRUE(has(why, "by 10 nm at most, at " + place)) << format << why;
+    EXPECT_FALSE(has(why, "upside down")) << why;
+    EXPECT_FALSE(has(why, "critical dimension")) << why;
+  }
+}
+
+TEST_F(Changed, HeightsAndSidesAreSaidInTheirUnits) {
+  std::string why = said("gsf", [](Heightmap& h) {
+    for (double& z : h.z) z *= 1.02;
+  });
+  EXPECT_TRUE(has(why, "its depth is 204 nm, the design's 200 nm: 2 % more")) << why;
+  why = said("gsf", [](Heightmap& h) {
+    for (double& z : h.z) z = -200e-9 - z;
+  });
+  EXPECT_TRUE(has(why, "it is upside down: what is deep is high")) << why;
+  why = said("gsf", [](Heightmap& h) { h.grid.lx *= 1.5; });
+  EXPECT_TRUE(has(why, "its width is 18 um, the design's 12 um: 50 % more")) << why;
+  EXPECT_FALSE(has(why, "its height")) << why;
+  why = said("gsf", [](Heightmap& h) { h.grid.ly *= 0.75; });
+  EXPECT_TRUE(has(why, "its height is 9 um, the design's 12 um: 25 % less")) << why;
+  why = said("tiff", [](Heightmap& h) { h.grid.ly *= 0.75; });
+  EXPECT_TRUE(has(why, "its height by the TIFF tags is 9 um, the design's 12 um")) << why;
+  why = said("npy", [](Heightmap& h) {
+    h.grid.ny = 32;
+    h.z.resize(h.grid.size());
+  });
+  EXPECT_TRUE(has(why, "64 x 32 pixels, the design's 64 x 64")) << why;
+  why = said("gsf", [](Heightmap& h) {
+    for (double& z : h.z) z = 0;
+  });
+  EXPECT_TRUE(has(why, "its depth is 0 nm, the design's 200 nm: 100 % less")) << why;
+}
+
+TEST_F(Changed, PicturesAreComparedLevelByLevel) {
+  std::string why = said("dose", [](Heightmap& h) { h(3, 60) -= 300e-9; });
+  EXPECT_TRUE(has(why, "levels differ from the design's")) << why;
+  why = said("png", [](Heightmap& h) {
+    h.grid.ny = 32, h.grid.ly *= 0.5;
+    h.z.resize(h.grid.size());
+  });
+  EXPECT_TRUE(has(why, "512 x 256 pixels in 3 channels, the design's 512 x 512 in 3")) << why;
+}
+
+// By volume where the depth is another too: holes a tenth wider and a fifth deeper.
+TEST_F(Changed, WidthsAreToldFromDepths) {
+  HoleArray other = holes_of(6e-6, 3.3e-6);
+  other.depth = 240e-9;
+  const Heightmap made = generate(Texture{other}, folder_.made().heightmap.grid);
+  const std::string why = said("gsf", [&](Heightmap& h) { h.z = made.z; });
+  EXPECT_TRUE(has(why, "its depth is 240 nm, the design's 200 nm: 20 % more")) << why;
+  EXPECT_TRUE(has(why, "its critical dimension (width of the holes) is 3.")) << why;
+  const std::size_t at = why.find("um: ", why.find("width of the holes"));
+  ASSERT_NE(at, std::string::npos) << why;
+  EXPECT_NEAR(std::stod(why.substr(at + 4)), 10, 0.3) << why;  // per cent more
+}
+
+TEST(Differences, AreShownToTheDigitWhereTheyAre) {
+  EXPECT_EQ(differs(101e-9, 100e-9, 1e-9, "nm"), "is 101 nm, the design's 100 nm: 1 % more");
+  EXPECT_EQ(differs(99.99e-9, 100e-9, 1e-9, "nm"), "is 99.99 nm, the design's 100 nm: 0.01 % less");
+  EXPECT_EQ(differs(6.0000012e-6, 6e-6, 1e-6, "um"),
+            "is 6.0000012 um, the design's 6 um: 2e-05 % more");
+  EXPECT_EQ(differs(2e-9, 0, 1e-9, "nm"), "is 2 nm, the design's 0");
+}
+
+}  // namespace
+}  // namespace papilla::tests

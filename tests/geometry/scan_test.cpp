@@ -1,0 +1,307 @@
+// What is changed in a measured map before anything is computed from it: a plane, outliers, places
+// without a number; and what is said about it.
+#include "geometry/scan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "geometry/io/files.h"
+#include "geometry/measured_map.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+constexpr Grid kGrid{200, 120, 20e-6, 9e-6};  // oblong pixels
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Heightmap map_of(const Grid& grid, const std::function<double(double x, double y)>& height) {
+  Heightmap h{grid, std::vector<double>(grid.size())};
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) h(ix, iy) = height(grid.x(ix), grid.y(iy));
+  }
+  return h;
+}
+
+// Whole waves, even about the middle: their plane is level.
+double waves(double x, double y) {
+  return 50e-9 * std::cos(2 * kPi * x / 4e-6) + 30e-9 * std::cos(2 * kPi * y / 3e-6);
+}
+
+// Heights of -1 to 1 nm, each as often, in an order that is none: their median deviation is 0.5 nm.
+Heightmap even_shares() {
+  Heightmap h{kGrid, std::vector<double>(kGrid.size())};
+  const std::size_t n = h.z.size();
+  for (std::size_t i = 0; i < n; ++i)
+    h.z[i * 7919 % n] = 1e-9 * (2 * (static_cast<double>(i) + 0.5) / static_cast<double>(n) - 1);
+  return h;
+}
+
+Scan scanned(const Heightmap& h, bool fill = false, bool as_is = false) {
+  const std::string file = temporary("scan.gsf");  // holds both sides
+  write_gsf(file, h, {});
+  return read_scan({file, 0, fill, as_is});
+}
+
+std::string refusal(const Heightmap& h, bool fill) {
+  try {
+    scanned(h, fill);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Scan, IsLevelledMendedAndSaysByHowMuchAndWhere) {
+  Heightmap h = map_of(kGrid, [](double x, double y) { return waves(x, y) + 0.02 * x - 0.03 * y; });
+  h(30, 20) += 5e-6;
+  h(33, 25) -= 4e-6;
+  const Scan scan = scanned(h);
+  const ScanChanges& c = scan.changes;
+  EXPECT_FALSE(c.as_is);
+  EXPECT_NEAR(c.width, 20e-6, 1e-15);
+  EXPECT_NEAR(c.height, 9e-6, 1e-15);
+  EXPECT_EQ(c.pixels, 24000u);
+  EXPECT_NEAR(c.slope_x, 0.02, 1e-4);  // two spikes tilt it a little
+  EXPECT_NEAR(c.slope_y, -0.03, 1e-4);
+  EXPECT_NEAR(c.rise, 0.02 * 20e-6 + 0.03 * 9e-6, 4e-9);
+  EXPECT_NEAR(c.tilt(), std::atan(std::hypot(0.02, 0.03)), 1e-4);
+  EXPECT_EQ(c.replaced, 2u);
+  EXPECT_NEAR(c.furthest, 5e-6, 0.02 * 5e-6);
+  EXPECT_NEAR(c.where.x0, kGrid.x(30), 1e-15);
+  EXPECT_NEAR(c.where.x1, kGrid.x(33), 1e-15);
+  EXPECT_NEAR(c.where.y0, kGrid.y(20), 1e-15);
+  EXPECT_NEAR(c.where.y1, kGrid.y(25), 1e-15);
+  EXPECT_EQ(c.filled, 0u);
+  // Each is the mean of the eight around it, all others are what they were.
+  double around = 0;
+  for (int j = -1; j <= 1; ++j) {
+    for (int i = -1; i <= 1; ++i) around += i == 0 && j == 0 ? 0 : scan.map(30 + i, 20 + j) / 8;
+  }
+  EXPECT_NEAR(scan.map(30, 20), around, 1e-16);
+  for (int iy = 0; iy < kGrid.ny; ++iy) {
+    for (int ix = 0; ix < kGrid.nx; ++ix)
+      ASSERT_NEAR(scan.map(ix, iy), waves(kGrid.x(ix), kGrid.y(iy)), 3e-9) << ix << " " << iy;
+  }
+  // As it is: to the last bit of the file, and nothing is said to have changed.
+  const Scan same = scanned(h, false, true);
+  EXPECT_TRUE(same.changes.as_is);
+  EXPECT_EQ(same.changes.replaced, 0u);
+  EXPECT_EQ(same.changes.rise, 0);
+  EXPECT_EQ(same.map(33, 25), static_cast<double>(static_cast<float>(h(33, 25))));
+}
+
+TEST(Scan, AnOutlierIsBeyondEightMedianDeviations) {
+  for (const double sign : {1.0, -1.0}) {
+    Heightmap h = even_shares();
+    h(100, 60) = sign * 3.9e-9;
+    h(40, 60) = sign * 4.1e-9;
+    const ScanChanges c = scanned(h).changes;
+    EXPECT_EQ(c.replaced, 1u);
+    EXPECT_NEAR(c.where.x0, kGrid.x(40), 1e-15);
+    EXPECT_NEAR(c.furthest, 4.1e-9, 0.05e-9);
+  }
+}
+
+TEST(Scan, MoreThanFiftyInAHundredAreNoOutliersButFeatures) {
+  for (const auto& [spikes, replaced] : {std::pair{470u, 470u}, {490u, 0u}}) {  // 2 % are 480
+    Heightmap h = even_shares();
+    for (std::size_t i = 0; i < spikes; ++i) h.z[i * 49] = 20e-9;
+    EXPECT_EQ(scanned(h).changes.replaced, replaced);
+  }
+}
+
+TEST(Scan, WhatIsNoNumberIsFilledWhenAskedAndCountsForNoPlane) {
+  Heightmap h = map_of(kGrid, [](double x, double y) { return 0.01 * x + 0.02 * y; });
+  for (int iy = 0; iy < 4; ++iy) {
+    for (int ix = 0; ix < 5; ++ix) h(ix, iy) = kNan;
+  }
+  const Scan scan = scanned(h, true);
+  EXPECT_EQ(scan.changes.filled, 20u);
+  EXPECT_EQ(scan.changes.replaced, 0u);
+  EXPECT_NEAR(scan.changes.slope_x, 0.01, 1e-8);
+  EXPECT_NEAR(scan.changes.slope_y, 0.02, 1e-8);
+  for (const double z : scan.map.z) ASSERT_NEAR(z, 0, 1e-13);
+  EXPECT_NE(refusal(h, false), "");
+  // As it is, a corner gets the mean of the nearest square around it: row 4 and column 5 of it.
+  const Scan flat = scanned(h, true, true);
+  EXPECT_NEAR(flat.map(4, 3), (h(3, 4) + h(4, 4) + h(5, 4) + h(5, 3) + h(5, 2)) / 5, 1e-14);
+  EXPECT_NEAR(flat.map(0, 0), (h(0, 4) + h(1, 4) + h(2, 4) + h(3, 4) + h(4, 4)) / 5, 1e-14);
+}
+
+TEST(Scan, AFifthWithoutNumbersIsTheMost) {
+  for (const auto& [share, taken] : {std::pair{0.199, true}, {0.201, false}}) {
+    Heightmap h = even_shares();
+    const auto bad = static_cast<std::size_t>(share * 24000);
+    for (std::size_t i = 0; i < bad; ++i) h.z[i * 4] = kNan;
+    const std::string why = refusal(h, true);
+    EXPECT_EQ(why.empty(), taken) << why;
+    if (!taken) {
+      EXPECT_NE(why.find("4824 of 24000 pixels (20 %) are no numbers"), std::string::npos) << why;
+    }
+  }
+}
+
+TEST(Scan, HeightsOfTenTimesTheWidthAreOfAnotherUnit) {
+  for (const double times : {9.5, 10.5}) {
+    const Heightmap h =
+        map_of(kGrid, [&](double x, double) { return x > 7e-6 && x < 13e-6 ? 0 : times * 20e-6; });
+    const std::string why = refusal(h, false);
+    EXPECT_EQ(why.empty(), times < 10) << why;
+    if (times > 10) {
+      EXPECT_NE(why.find("over 210 um on a width of 20 um"), std::string::npos) << why;
+    }
+  }
+}
+
+TEST(Scan, ItsWordsHoldItsNumbersInTheirUnits) {
+  ScanChanges c;
+  c.slope_x = 0.03, c.slope_y = -0.04, c.rise = 540e-9, c.pixels = 4000;
+  const std::string plane = "a.gsf: a plane of 2.86 deg (540 nm over the map) was taken away; ";
+  EXPECT_EQ(text("a.gsf", c), plane + "no pixel was replaced");
+  c.replaced = 3, c.furthest = 1.25e-6, c.where = {1e-6, 2e-6, 3e-6, 4.5e-6};
+  const std::string mended =
+      plane +
+      "3 of 4000 pixels (0.075 %) replaced by their neighbours, 1250 nm from the median at "
+      "most, within x = 1 to 2 um, y = 3 to 4.5 um";
+  EXPECT_EQ(text("a.gsf", c), mended);
+  c.filled = 8;
+  EXPECT_EQ(text("a.gsf", c),
+            mended + "; 8 of 4000 pixels (0.2 %) were no numbers and were filled");
+  c = ScanChanges{};
+  c.as_is = true;
+  EXPECT_EQ(text("b.npy", c), "b.npy: taken as it is, neither levelled nor mended");
+}
+
+// A map that repeats is taken to the last bit on its own pixels, and between them by straight
+// lines.
+TEST(MiddleOfAMap, IsTheMapItselfWhereItIsKnown) {
+  const Heightmap h = map_of(kGrid, [](double x, double y) { return 1e-3 * x - 2e-3 * y; });
+  const std::string file = temporary("known.gsf");
+  write_gsf(file, h, {});
+  const ScanSource source{file, 0, false, true};
+  const Heightmap same = middle_of_map(source, 9e-6, kGrid);
+  for (std::size_t i = 0; i < h.z.size(); ++i)
+    ASSERT_EQ(same.z[i], static_cast<double>(static_cast<float>(h.z[i])));
+  EXPECT_EQ(changes_of_map(source).as_is, true);
+  // Finer pixels, a part of it about its middle: 7.5 um and 1 um from the corner.
+  const Grid part{60, 70, 5e-6, 7e-6};
+  const Heightmap cut = middle_of_map(source, 7e-6, part);
+  for (int iy = 0; iy < part.ny; ++iy) {
+    for (int ix = 0; ix < part.nx; ++ix) {
+      ASSERT_NEAR(cut(ix, iy), 1e-3 * (7.5e-6 + part.x(ix)) - 2e-3 * (1e-6 + part.y(iy)), 1e-14);
+    }
+  }
+  // The border's value holds beyond the centres of the last pixels.
+  const Grid whole{800, 480, 20e-6, 9e-6};
+  const Heightmap fine = middle_of_map(source, 9e-6, whole);
+  EXPECT_EQ(fine(0, 0), same(0, 0));
+  EXPECT_EQ(fine(799, 479), same(199, 119));
+}
+
+TEST(MiddleOfAMap, ALargerPixelIsTheMeanOverItsArea) {
+  const double k = 2 * kPi / 4e-6;
+  const Grid fine{400, 400, 16e-6, 16e-6}, coarse{16, 8, 8e-6, 8e-6};
+  const Heightmap h =
+      map_of(fine, [&](double x, double y) { return 50e-9 * (std::cos(k * x) + std::cos(k * y)); });
+  const std::string file = temporary("fine.gsf");
+  write_gsf(file, h, {});
+  const Heightmap cut = middle_of_map({file, 0, false, true}, 8e-6, coarse);
+  const auto mean = [&](double pixel) { return std::sin(0.5 * k * pixel) / (0.5 * k * pixel); };
+  for (int iy = 0; iy < coarse.ny; ++iy) {
+    for (int ix = 0; ix < coarse.nx; ++ix) {
+      const double expected = 50e-9 * (mean(coarse.dx()) * std::cos(k * (4e-6 + coarse.x(ix))) +
+                                       mean(coarse.dy()) * std::cos(k * (4e-6 + coarse.y(iy))));
+      ASSERT_NEAR(cut(ix, iy), expected, 0.2e-9) << ix << " " << iy;
+    }
+  }
+}
+
+// Pixels of the same size are taken over, not smeared; the rest is blended over the border, where a
+// wave that is no whole number of periods would leave a step.
+TEST(MiddleOfAMap, RepeatsWithoutAStepAndIsTheMapElsewhere) {
+  const Grid grid{300, 200, 15e-6, 10e-6}, part{140, 140, 7e-6, 7e-6};
+  const Heightmap h = map_of(grid, [](double x, double y) {
+    return 50e-9 * std::sin(2 * kPi * x / 3e-6) + 40e-9 * std::sin(2 * kPi * y / 2.5e-6 + 1);
+  });
+  const std::string file = temporary("odd.gsf");
+  write_gsf(file, h, {});
+  const Scan scan = read_scan({file, 0});
+  const Heightmap cut = middle_of_map({file, 0}, 7e-6, part);
+  double inside = 0, across = 0, step = 0;
+  for (int i = 0; i < 140; ++i) {
+    for (int k = 1; k < 140; ++k)
+      inside = std::max(
+          {inside, std::abs(cut(k, i) - cut(k - 1, i)), std::abs(cut(i, k) - cut(i, k - 1))});
+    across =
+        std::max({across, std::abs(cut(0, i) - cut(139, i)), std::abs(cut(i, 0) - cut(i, 139))});
+    step = std::max(step, std::abs(h(80, 30 + i) - h(219, 30 + i)));
+  }
+  EXPECT_GT(step, 3 * inside);  // without a seam
+  EXPECT_LT(across, 1.2 * inside);
+  for (int iy = 0; iy < 126; ++iy) {
+    for (int ix = 0; ix < 126; ++ix) ASSERT_NEAR(cut(ix, iy), scan.map(80 + ix, 30 + iy), 1e-15);
+  }
+}
+
+// Cuts of a bowl, as skin: each has its own plane taken away, its height with it.
+TEST(MeasuredSkin, IsLevelWhereverItIsCut) {
+  const Grid grid{200, 160, 40e-6, 32e-6};
+  const Heightmap h = map_of(grid, [](double x, double y) {
+    return (std::pow(x - 20e-6, 2) + std::pow(y - 16e-6, 2)) / 2e-3;
+  });
+  const std::string file = temporary("bowl.gsf");
+  write_gsf(file, h, {});
+  const double own = std::pow(4e-6, 2) / 2e-3;  // from its middle to its corner, along a side
+  for (std::uint64_t index = 0; index < 8; ++index) {
+    const Heightmap cut = measured_skin(file, 0, {40, 40, 8e-6, 8e-6}, 3, index);
+    // Between the seams, of either hand: symmetric and near zero.
+    double mean = 0;
+    for (int iy = 4; iy < 36; ++iy) {
+      for (int ix = 4; ix < 36; ++ix) mean += cut(ix, iy) / (32 * 32);
+    }
+    EXPECT_NEAR(mean, 0, 0.5 * own) << index;
+    EXPECT_NEAR(cut(4, 20), cut(35, 20), 0.6 * own) << index;
+    EXPECT_NEAR(cut(20, 4), cut(20, 35), 0.6 * own) << index;
+  }
+}
+
+std::string message_of(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(MeasuredMap, OneThatIsTooSmallIsRefusedWithItsSides) {
+  const std::string file = temporary("small.gsf");
+  write_gsf(file, map_of(kGrid, waves), {});
+  const auto middle = [&](double patch) {
+    return message_of([&] { middle_of_map({file, 0}, patch, {32, 32, patch, patch}); });
+  };
+  EXPECT_EQ(middle(9e-6), "");
+  EXPECT_EQ(middle(9.1e-6),
+            file + ": 20 x 9 um is smaller than the patch of 9.1 um; lower texture.patch");
+  // As skin it needs a tenth more on either side, for the seam.
+  const auto skin = [&](double lx, double ly) {
+    return message_of([&] { measured_skin(file, 0, {32, 32, lx, ly}, 1, 0); });
+  };
+  EXPECT_EQ(skin(20e-6 / 1.1, 9e-6 / 1.1), "");
+  EXPECT_NE(skin(18.3e-6, 8e-6).find("20 x 9 um is smaller than the patch of 18.3 x 8 um"),
+            std::string::npos);
+  EXPECT_NE(skin(18e-6, 8.3e-6), "");
+  EXPECT_DOUBLE_EQ(measured_skin_cutoff(file, 0), 2 * kGrid.dx());  // of the longer pixel side
+}
+
+}  // namespace
+}  // namespace papilla::tests

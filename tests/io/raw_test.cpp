@@ -1,0 +1,166 @@
+// GSF and NPY as others write them: units, kinds of numbers, headers that are cut off or say what
+// cannot be read, each refused by the words that tell what is wrong.
+#include "geometry/io/raw.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "geometry/io/files.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+constexpr const char* kStart = "Gwyddion Simple Field 1.0\n";
+
+// Three columns and two rows of 0, 1, 2 (the upper row) and 3, 4, 5.
+std::string gsf(const std::string& header, std::size_t values = 6) {
+  std::string out = kStart + header;
+  out.append(4 - out.size() % 4, '\0');
+  for (std::size_t i = 0; i < values; ++i) {
+    const auto value = static_cast<float>(i);
+    out.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  return out;
+}
+
+std::string npy(const std::string& header, std::size_t bytes, int version = 1) {
+  std::string out = "\x93NUMPY";
+  out += static_cast<char>(version);
+  out += '\0';
+  const auto length = static_cast<std::uint32_t>(header.size());
+  out.append(reinterpret_cast<const char*>(&length), version == 1 ? 2 : 4);
+  out += header;
+  out.append(bytes, '\0');
+  return out;
+}
+
+// What reading the bytes says; "" where they are read.
+std::string refusal(const std::string& ending, const std::string& bytes) {
+  const std::string path = temporary("raw." + ending);
+  write_bytes(path, bytes);
+  try {
+    read_heightmap(path, 6e-6);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+constexpr const char* kSides = "XRes = 3\nYRes = 2\nXReal = 6\nYReal = 5\n";
+
+TEST(Gsf, SidesAndHeightsAreInTheirOwnUnits) {
+  for (const auto& [units, side, height] : {std::tuple{"", 1.0, 1.0},
+                                            {"XYUnits = um\nZUnits = nm\n", 1e-6, 1e-9},
+                                            {"XYUnits=nm\nZUnits=um\n", 1e-9, 1e-6},
+                                            {"XYUnits =   m  \nTitle = a\n", 1.0, 1.0}}) {
+    const std::string path = temporary("units.gsf");
+    write_bytes(path, gsf(std::string(kSides) + units));
+    const Heightmap h = read_heightmap(path);
+    EXPECT_EQ(h.grid.nx, 3);
+    EXPECT_EQ(h.grid.ny, 2);
+    EXPECT_DOUBLE_EQ(h.grid.lx, 6 * side) << units;
+    EXPECT_DOUBLE_EQ(h.grid.ly, 5 * side) << units;
+    for (int ix = 0; ix < 3; ++ix) {
+      EXPECT_NEAR(h(ix, 1), ix * height, 1e-12 * height) << units;  // rows from the top
+      EXPECT_NEAR(h(ix, 0), (3 + ix) * height, 1e-12 * height) << units;
+    }
+  }
+}
+
+TEST(Gsf, SidesArePicometresToKilometres) {
+  const auto of = [](const char* x, const char* y) {
+    return refusal("gsf",
+                   gsf(std::string("XRes = 3\nYRes = 2\nXReal = ") + x + "\nYReal = " + y + "\n"));
+  };
+  EXPECT_EQ(of("1.1e-12", "999"), "");
+  EXPECT_EQ(of("999", "1.1e-12"), "");
+  EXPECT_NE(of("9e-13", "1").find("size of 9e-13 x 1 m; expected 1 pm to 1 km"), std::string::npos);
+  for (const auto& [x, y] : {std::pair{"1", "9e-13"}, {"1001", "1"}, {"1", "1001"}})
+    EXPECT_NE(of(x, y).find("expected 1 pm to 1 km"), std::string::npos) << x;
+}
+
+TEST(Gsf, WhatIsMissingOrNoNumberIsNamed) {
+  const std::string sides = kSides;
+  EXPECT_EQ(refusal("gsf", gsf(sides)), "");
+  for (const auto& [bytes, why] : std::vector<std::pair<std::string, std::string>>{
+           {gsf(sides, 5) + "abc", "the data are cut off"},  // a byte less than needed
+           {gsf("YRes = 2\nXReal = 6\nYReal = 5\n"), "no XRes in the header"},
+           {gsf("XRes = 3\nYRes = 2\nXReal = 6\n"), "no YReal in the header"},
+           {gsf("XRes = 3\nYRes = 2\nXReal = 0\nYReal = 5\n"), "XReal is not a positive number"},
+           {gsf("XRes = 3\nYRes = 2\nXReal = 6\nYReal = -5\n"), "YReal is not a positive number"},
+           {gsf("XRes = 3\nYRes = 2\nXReal = inf\nYReal = 5\n"), "XReal is not a positive number"},
+           {gsf("XRes = 3\nYRes = two\nXReal = 6\nYReal = 5\n"), "YRes is not a positive number"},
+           {gsf("XRes = 2.5\nYRes = 2\nXReal = 6\nYReal = 5\n"), "not a whole number of pixels"},
+           {gsf("XRes = 3\nYRes = 1.5\nXReal = 6\nYReal = 5\n"), "not a whole number of pixels"},
+           {gsf(sides + "XYUnits = s\n"), "XYUnits is not a length unit"},
+           {gsf(sides + "ZUnits = V\n"), "ZUnits is not a length unit"},
+           {"Gwyddion Simple Field 2.0\n" + sides, "not a Gwyddion Simple Field"},
+           {kStart + sides, "the header does not end"},
+       })
+    EXPECT_NE(refusal("gsf", bytes).find(why), std::string::npos)
+        << why << ": " << refusal("gsf", bytes);
+}
+
+TEST(Npy, BothKindsOfNumbersAndBothVersionsAreRead) {
+  const std::string wide = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 3), }\n",
+                    narrow = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }\n";
+  for (const int version : {1, 2}) {
+    const std::string path = temporary("kinds.npy");
+    std::string bytes = npy(wide, 0, version);
+    for (int i = 0; i < 6; ++i) {
+      const double value = 1e-9 * i;
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    write_bytes(path, bytes);
+    Heightmap h = read_heightmap(path, 6e-6);
+    EXPECT_EQ(h(2, 1), 5e-9);  // rows from below, as they are in memory
+    EXPECT_EQ(h(1, 0), 1e-9);
+    EXPECT_NEAR(h.grid.ly, 4e-6, 1e-18);  // square pixels
+    bytes = npy(narrow, 0, version);
+    for (int i = 0; i < 6; ++i) {
+      const float value = 0.25F * static_cast<float>(i);
+      bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    write_bytes(path, bytes);
+    h = read_heightmap(path, 6);
+    EXPECT_EQ(h(2, 1), 1.25);
+    EXPECT_EQ(h(0, 1), 0.75);
+  }
+}
+
+TEST(Npy, WhatCannotBeReadIsNamed) {
+  const auto header = [](const std::string& type, const std::string& order,
+                         const std::string& shape) {
+    return "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }\n";
+  };
+  const std::string good = header("<f8", "False", "(2, 3)");
+  EXPECT_EQ(refusal("npy", npy(good, 48)), "");
+  for (const auto& [bytes, why] : std::vector<std::pair<std::string, std::string>>{
+           {npy(good, 47), "the data are cut off"},
+           {npy(header("<f4", "False", "(2, 3)"), 23), "the data are cut off"},
+           {npy(good, 0).substr(0, 40), "the header is cut off"},
+           {"\x93NUMP", "not a .npy file"},
+           {npy(header(">f8", "False", "(2, 3)"), 48), "needs float64 or float32"},
+           {npy(header("<i8", "False", "(2, 3)"), 48), "needs float64 or float32"},
+           {npy(header("<f8", "True", "(2, 3)"), 48), "needs C order"},
+           {npy(header("<f8", "False", "(6,)"), 48), "two-dimensional"},
+           {npy(header("<f8", "False", "(0, 3)"), 48), "3 x 0 pixels"},
+           {npy(header("<f8", "False", "(2, -3)"), 48), "-3 x 2 pixels"},
+           {npy(header("<f8", "False", "(16385, 16384)"), 48),
+            "16384 x 16385 pixels; at most 2^28 can be read"},
+           // The largest that may be is refused for its length alone.
+           {npy(header("<f8", "False", "(16384, 16384)"), 48), "the data are cut off"},
+       })
+    EXPECT_NE(refusal("npy", bytes).find(why), std::string::npos)
+        << why << ": " << refusal("npy", bytes);
+}
+
+}  // namespace
+}  // namespace papilla::tests

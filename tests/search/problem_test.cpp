@@ -1,0 +1,392 @@
+// What a study asks of a search, worked out by hand: its tasks, goals, space, levels and price. No
+// contact is solved.
+#include "search/problem.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/statistics.h"
+#include "forward/plan.h"
+#include "search/levels.h"
+#include "search/stability.h"
+
+namespace papilla::tests {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Study oxide_study() { return read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"); }
+
+Names names_of(const std::vector<StudyTask>& tasks) {
+  Names out;
+  for (const StudyTask& t : tasks) out.push_back(t.name);
+  return out;
+}
+
+std::string refusal(const Study& study) {
+  try {
+    const StudyProblem problem(study);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Tasks, AreEveryFingerInEveryScenarioThenBothEndsOfEachScatter) {
+  Study study = oxide_study();
+  study.population.resize(2);
+  study.population[0].name = "one", study.population[1].name = "two";
+  study.scenarios = {{"new", 3, {}},
+                     {"worn", 1, {{"surface.contact_angle", 1.2}, {"finger.load", 0.5}}}};
+  study.scatter = {{"texture.depth", 20e-9}, {"texture.diameter", 50e-9}};
+  const std::vector<StudyTask> tasks = study_tasks(study);
+  ASSERT_EQ(tasks.size(), 4u * 5u);
+  const Names names = names_of(tasks);
+  EXPECT_EQ(Names(names.begin(), names.begin() + 9),
+            (Names{"one, new", "two, new", "one, worn", "two, worn", "one, new, texture.depth low",
+                   "one, new, texture.depth high", "one, new, texture.diameter low",
+                   "one, new, texture.diameter high", "two, new, texture.depth low"}));
+  EXPECT_EQ(names.back(), "two, worn, texture.diameter high");
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    const std::size_t own = t < 4 ? t : (t - 4) / 4;
+    EXPECT_EQ(tasks[t].nominal(), t < 4);
+    EXPECT_EQ(tasks[t].weight, own < 2 ? 3 : 1) << t;
+    EXPECT_EQ(tasks[t].finger.name, own % 2 == 0 ? "one" : "two") << t;
+    const Design d = task_design(study, study.design, tasks[t]);
+    EXPECT_EQ(d.finger.name, tasks[t].finger.name);
+    EXPECT_EQ(d.surface.contact_angle, own < 2 ? study.design.surface.contact_angle : 1.2);
+    const auto& holes = std::get<HoleArray>(d.texture.kind);
+    const int k = t < 4 ? -1 : static_cast<int>((t - 4) % 4);
+    EXPECT_NEAR(holes.depth, 350e-9 + (k == 0 ? -20e-9 : k == 1 ? 20e-9 : 0), 1e-18) << t;
+    EXPECT_NEAR(holes.diameter, 3e-6 + (k == 2 ? -50e-9 : k == 3 ? 50e-9 : 0), 1e-18) << t;
+  }
+  // No number leaves the range that it may have at all.
+  Design shallow = study.design;
+  std::get<HoleArray>(shallow.texture.kind).depth = 5e-9;
+  const auto depth = [&](std::size_t t) {
+    return std::get<HoleArray>(task_design(study, shallow, tasks[t]).texture.kind).depth;
+  };
+  EXPECT_EQ(depth(4), 0);
+  EXPECT_NEAR(depth(5), 25e-9, 1e-18);
+  study.scenarios = {{"new", 0, {}}, {"worn", 0, {}}};
+  EXPECT_NE(refusal(study).find("at least one weight above 0"), std::string::npos);
+}
+
+TEST(Tasks, WithoutAPopulationTheDesignsOwnFingerIsTheOnlyOne) {
+  Study study = oxide_study();
+  study.population.clear();
+  study.design.finger.name = "own";
+  EXPECT_EQ(names_of(study_tasks(study)), Names{"own"});
+  study.population = {study.design.finger, study.design.finger};
+  EXPECT_EQ(StudyProblem(study).nominal_tasks(), 2u);
+}
+
+TEST(Goals, AreNamedInTheOrderOfTheirFileAndAtMostThree) {
+  Study study = oxide_study();
+  study.objective = {};
+  study.objective.maximise = {"modulation", "worst(friction_on)"};
+  study.objective.targets = {{"friction_on", 0.4}};
+  study.constraints = {{"mean(friction)", 0.4, false},
+                       {"min_wall", 0.5e-6, true},
+                       {"worst(voltage_for(modulation = 0.3))", 100, false},
+                       {"mean(voltage_for(modulation = 0.3))", 80, false}};
+  {
+    const StudyProblem problem(study);
+    const auto& wanted = problem.objectives();
+    ASSERT_EQ(wanted.size(), 3u);
+    EXPECT_EQ(wanted[0].name, "mean(modulation)");
+    EXPECT_EQ(wanted[1].name, "worst(friction_on)");
+    EXPECT_EQ(wanted[2].name, "distance(friction_on, 0.4)");
+    EXPECT_TRUE(wanted[0].maximise && wanted[1].maximise && !wanted[2].maximise);
+    EXPECT_TRUE(wanted[2].aimed && !wanted[0].aimed);
+    ASSERT_EQ(problem.goals().limited.size(), 3u);  // the wall is no metric
+    EXPECT_FALSE(problem.goals().limited[0].maximise);
+    EXPECT_EQ(problem.goals().voltage_targets, std::vector<double>{0.3});  // once
+    EXPECT_FALSE(problem.goals().looks);
+    // By the quantity at each humidity: an aim always, a mean under a risk.
+    const auto by_points = [](const StudyProblem& p) {
+      return std::vector<bool>{p.goals().by_points(0), p.goals().by_points(1),
+                               p.goals().by_points(2)};
+    };
+    EXPECT_EQ(by_points(problem), (std::vector<bool>{false, false, true}));
+    study.objective.risk = "worst";
+    EXPECT_EQ(by_points(StudyProblem(study)), (std::vector<bool>{true, false, true}));
+  }
+  study.objective.minimise = {"haze"};
+  EXPECT_NE(refusal(study).find("one to three objectives are possible, got 4"), std::string::npos)
+      << refusal(study);
+  study.objective = {};
+  EXPECT_NE(refusal(study).find("got 0"), std::string::npos);
+  study.objective.minimise = {"haze"};
+  EXPECT_TRUE(StudyProblem(study).goals().looks);
+}
+
+TEST(Goals, OfADriveAreRefusedWhereNothingIsDriven) {
+  Study study = oxide_study();
+  EXPECT_TRUE(StudyProblem(study).driven());
+  study.design.drive.amplitude = 0;
+  EXPECT_NE(refusal(study).find("mean(modulation) needs a driven design"), std::string::npos);
+  // A search that may drive it does, but only from a voltage above 0 on.
+  study.variables.push_back({"drive.amplitude", "V", 10, 100, {}});
+  EXPECT_EQ(refusal(study), "");
+  EXPECT_TRUE(StudyProblem(study).driven());
+  study.variables.back().low = 0;
+  EXPECT_NE(refusal(study), "");
+  study.variables.pop_back();
+  study.objective.maximise = {"mean(friction)"}, study.objective.minimise.clear();
+  study.constraints.clear();
+  EXPECT_FALSE(StudyProblem(study).driven());
+}
+
+// What a searcher minimises, and what it must keep: shapes before an evaluation, the rest after it.
+TEST(Outcomes, KeepEveryLimit) {
+  Study study = oxide_study();
+  study.population.clear();
+  const StudyProblem problem(study);
+  const Point unit = problem.space().unit_of_study();
+  Score score;
+  score.ok = true;
+  score.values = {0.6, 0.2};
+  score.oxide_margin = 4;
+  EXPECT_EQ(problem.outcome(score).constraints, std::vector<double>{2.0 / 4 - 1});
+  EXPECT_TRUE(problem.feasible(score, unit));
+  score.oxide_margin = 1;
+  EXPECT_FALSE(problem.feasible(score, unit));
+  score.oxide_margin = 4;
+  const Point thin = problem.space().unit({3e-6, 2.9e-6, 350e-9, 0.87});  // walls of 100 nm
+  EXPECT_FALSE(problem.feasible(score, thin));
+  EXPECT_EQ(problem.residuals(), 0u);
+}
+
+TEST(Evaluations, AreAsManyAsTheMethodAndTheVariablesAsk) {
+  Study study = oxide_study();
+  for (const auto& [method, objectives, variables, expected] : {std::tuple{"auto", 2, 0, 20},
+                                                                {"auto", 2, 1, 25},
+                                                                {"auto", 2, 3, 75},
+                                                                {"auto", 2, 5, 100},
+                                                                {"auto", 3, 1, 50},
+                                                                {"auto", 3, 3, 150},
+                                                                {"auto", 3, 9, 400},
+                                                                {"bayesian", 3, 2, 50},
+                                                                {"evolution", 1, 0, 50},
+                                                                {"evolution", 1, 4, 200}}) {
+    study.search.method = method;
+    study.objective.maximise.assign(1, "mean(modulation)");
+    study.objective.minimise.assign(objectives > 1 ? 1 : 0, "mean(friction)");
+    study.objective.targets.assign(objectives > 2 ? 1 : 0, {"friction_on", 0.4});
+    study.variables.assign(static_cast<std::size_t>(variables), Variable{});
+    EXPECT_EQ(default_evaluations(study), expected) << method << objectives << variables;
+  }
+}
+
+TEST(Levels, GiveUpSkinsThenPixelsThenMoreSkins) {
+  Study study = oxide_study();
+  study.population.clear();
+  const StudyProblem problem(study);
+  const Fidelity whole = stage_fidelity(problem, Stage::Confirm);
+  const double price = task_price(problem, Stage::Confirm);
+  ASSERT_GT(whole.skins, 8);
+  ASSERT_GT(whole.grid, 64);
+  EXPECT_EQ(stage_fidelity(problem, Stage::Confirm, 1.001 * price).skins, whole.skins);
+  int skins = whole.skins, grid = whole.grid;
+  for (const double share : {0.9, 0.6, 0.3, 0.2, 0.1, 0.05, 0.02, 1e-3, 1e-6}) {
+    const Fidelity f = stage_fidelity(problem, Stage::Confirm, share * price);
+    EXPECT_LE(f.skins, skins) << share;
+    EXPECT_LE(f.grid, grid) << share;
+    EXPECT_TRUE(f.grid == whole.grid || f.skins <= 8) << share;  // skins go first
+    EXPECT_TRUE(f.skins >= 8 || f.grid == 64) << share;          // then pixels
+    EXPECT_GE(f.skins, 4) << share;
+    EXPECT_GE(f.grid, 64) << share;
+    const double taken = task_price(problem, Stage::Confirm, share * price);
+    EXPECT_TRUE(taken <= share * price || (f.skins == 4 && f.grid == 64)) << share;
+    skins = f.skins, grid = f.grid;
+  }
+  EXPECT_EQ(skins, 4);
+  EXPECT_EQ(grid, 64);
+  EXPECT_EQ(stage_fidelity(problem, Stage::Draft).skins, 2);
+  EXPECT_EQ(whole.level, "design");
+}
+
+// Two pixels across the smallest feature, from 64 to 256 along 12 um.
+TEST(Levels, TheSearchSeesTheSmallestFeature) {
+  Study study = oxide_study();
+  study.population.clear();
+  study.constraints.clear();
+  study.variables = {{"texture.depth", "nm", 100e-9, 200e-9, {}}};
+  HoleArray& holes = std::get<HoleArray>(study.design.texture.kind);
+  holes.wall_angle = kPi / 2, holes.edge_radius = 0;
+  for (const auto& [period, diameter, grid] : {std::tuple{3e-6, 2e-6, 64},
+                                               {1e-6, 0.6e-6, 64},
+                                               {1e-6, 0.64e-6, 128},
+                                               {1e-6, 0.8e-6, 128},
+                                               {1e-6, 0.82e-6, 256},
+                                               {1e-6, 0.95e-6, 256}}) {
+    holes.period = period, holes.diameter = diameter;
+    const StudyProblem problem(study);
+    const double feature = std::min(diameter, period - diameter);
+    EXPECT_NEAR(problem.smallest_feature(), feature, 1e-12);
+    EXPECT_EQ(stage_fidelity(problem, Stage::Search).grid, grid) << diameter;
+    const StudyCost cost = study_cost(study);
+    EXPECT_EQ(cost.pixels, grid);
+    EXPECT_NEAR(cost.feature_pixels, feature * grid / 12e-6, 1e-9);
+  }
+}
+
+// Every stage by its own price.
+TEST(Price, OfAStudyIsThatOfItsStages) {
+  Study study = oxide_study();
+  study.search.evaluations = 60;
+  const StudyProblem problem(study);
+  const StudyCost cost = study_cost(study);
+  EXPECT_EQ(cost.evaluations, 60);
+  EXPECT_EQ(cost.tasks, 4);
+  EXPECT_EQ(cost.narrowed, 20u);
+  EXPECT_EQ(cost.finalists, 9u);
+  const auto price = [&](double count, Stage stage) { return count * task_price(problem, stage); };
+  double seconds =
+      price(60 * 4, Stage::Search) + price(20 * 4, Stage::Narrow) +
+      price((9 + 3) * 4, Stage::Confirm) +
+      price(8.0 * static_cast<double>(stability_variants(problem).size()), Stage::Stability) +
+      price((1 + 2 * 4) * 4, Stage::Sensitivity);
+  if (problem.parameters_unknown().empty()) seconds += price(2 * 4, Stage::Steps);
+  EXPECT_NEAR(cost.seconds, seconds, 1e-9 * seconds);
+  EXPECT_GT(seconds, 0);
+  // Memory by the patch of the confirmation.
+  const Design& d = study.design;
+  const Grid grid = make_plan({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture,
+                              stage_fidelity(problem, Stage::Confirm))
+                        .grid;
+  EXPECT_NEAR(cost.bytes, 50e6 + 210.0 * static_cast<double>(grid.size()), 1);
+}
+
+TEST(Space, AReliefOfLessThanTwoNanometresIsNone) {
+  Study study = oxide_study();
+  const StudyProblem problem(study);
+  const DesignSpace& space = problem.space();
+  const auto at = [&](double depth) {
+    return space.value(space.snapped(space.unit({5e-6, 2e-6, depth, 1.0})));
+  };
+  EXPECT_NEAR(at(2.1e-9)[2], 2.1e-9, 1e-15);
+  EXPECT_NEAR(at(2.1e-9)[0], 5e-6, 1e-12);
+  // Flat, its measures are the study's own; its finish stays.
+  const std::vector<double> flat = at(1.9e-9), own = space.value(space.unit_of_study());
+  EXPECT_EQ(flat[2], 0);
+  EXPECT_NEAR(flat[0], own[0], 1e-12);
+  EXPECT_NEAR(flat[1], own[1], 1e-12);
+  EXPECT_NEAR(flat[3], 1.0, 1e-12);
+  // A search starts at the study's own design and at its flat surface.
+  const std::vector<Point> starts = space.starts();
+  ASSERT_EQ(starts.size(), 2u);
+  EXPECT_EQ(starts[0], space.unit_of_study());
+  EXPECT_EQ(space.value(starts[1])[2], 0);
+  const auto without = space.flattened(space.unit({5e-6, 2e-6, 400e-9, 1.0}));
+  ASSERT_TRUE(without);
+  EXPECT_EQ(space.value(*without)[2], 0);
+  EXPECT_NEAR(space.value(*without)[3], 1.0, 1e-12);
+  EXPECT_FALSE(space.flattened(starts[1]));  // is flat already
+  ASSERT_TRUE(space.has_features());
+  EXPECT_NEAR(space.features(space.unit({4e-6, 2e-6, 400e-9, 1.0}))[0], std::sqrt(kPi / 16), 1e-9);
+  study.variables.erase(study.variables.begin());  // the period is given
+  EXPECT_FALSE(StudyProblem(study).space().has_features());
+}
+
+TEST(Stability, NamesEachFingerAndEachChoiceOfTheModel) {
+  Study study = oxide_study();
+  study.population.resize(2);
+  study.population[0].name = "one", study.population[1].name = "two";
+  EXPECT_EQ(
+      stability_variants(StudyProblem(study)),
+      (Names{"finger one", "finger two", "first droplet step 50 nm", "first droplet step 800 nm",
+             "a quarter of the droplets", "three times the droplets",
+             "droplets do not raise the pull", "breakdown cap", "self-consistent coupling"}));
+  for (Finger& f : study.population) f.water.volume.clear();
+  EXPECT_EQ(stability_variants(StudyProblem(study)),
+            (Names{"finger one", "finger two", "breakdown cap", "self-consistent coupling"}));
+}
+
+// A design is beaten by one that is better by more than a hundredth in all, whatever it is asked.
+TEST(Stability, ADesignIsBeatenOnlyInAllObjectivesByMoreThanTheTolerance) {
+  Study study = oxide_study();  // maximises the first, minimises the second
+  study.population.resize(1);
+  const StudyProblem problem(study);
+  const std::size_t variants = stability_variants(problem).size();
+  ASSERT_EQ(variants, 8u);
+  const auto judged = [&](const std::vector<std::vector<double>>& values) {
+    std::vector<std::vector<TaskAnswer>> answers;
+    for (const std::vector<double>& v : values) {
+      TaskAnswer a;
+      for (const double x : v) a.objectives.push_back({x, 0, {}});
+      answers.emplace_back(variants, a);
+    }
+    return judge_stability(problem, answers).times_on_front;
+  };
+  EXPECT_EQ(judged({{0.5, 0.20}, {0.506, 0.197}}), (std::vector<int>{0, 8}));
+  EXPECT_EQ(judged({{0.5, 0.20}, {0.504, 0.1}}), (std::vector<int>{8, 8}));   // 0.8 % better
+  EXPECT_EQ(judged({{0.5, 0.20}, {0.9, 0.1985}}), (std::vector<int>{8, 8}));  // 0.75 %
+  EXPECT_EQ(judged({{0.5, 0.20}, {0.4, 0.3}}), (std::vector<int>{8, 0}));
+  EXPECT_EQ(judged({{-0.5, 0.20}, {-0.49, 0.19}}), (std::vector<int>{0, 8}));
+  EXPECT_EQ(judged({{0.5, 0.20}, {}}), (std::vector<int>{8, 0}));  // one that failed
+  // Stable from two thirds of them on.
+  Stability s;
+  s.variants.resize(8);
+  s.times_on_front = {5, 6};
+  EXPECT_FALSE(s.stable(0));
+  EXPECT_TRUE(s.stable(1));
+  EXPECT_TRUE(s.judged(1));
+  EXPECT_FALSE(s.judged(2));
+}
+
+// Samples of a mean over tasks are the means of their samples, and so is every change.
+TEST(Samples, OfAMeanOverTasksAreTheirMeans) {
+  Study study = oxide_study();
+  study.population.clear();
+  study.scenarios = {{"new", 3, {}}, {"worn", 1, {}}};
+  const StudyProblem problem(study);
+  const std::vector<std::vector<double>> sampling{{0.2, 0.3, 0.7}, {0.5, 0.1, 0.3}},
+      grid{{0.01, 0.03}, {-0.02, 0.05}}, method{{0.004, -0.001}, {0.002, 0.003}};
+  std::vector<TaskAnswer> answers(2);
+  for (std::size_t t = 0; t < 2; ++t) {
+    const double value = mean_estimate(sampling[t]).value;
+    for (std::size_t k = 0; k < 2; ++k) {
+      answers[t].objectives.push_back({value, 0.01, {}});
+      answers[t].samples.push_back({{sampling[t], grid[t], method[t]}});
+    }
+  }
+  const Score score = problem.score(answers);
+  ASSERT_TRUE(score.ok) << score.reason;
+  ASSERT_EQ(score.samples.size(), 2u);
+  const auto expect_means = [](const std::vector<double>& found,
+                               const std::vector<std::vector<double>>& of) {
+    ASSERT_EQ(found.size(), of[0].size());
+    for (std::size_t i = 0; i < found.size(); ++i)
+      EXPECT_NEAR(found[i], (3 * of[0][i] + of[1][i]) / 4, 1e-12) << i;
+  };
+  for (const ErrorSamples& s : score.samples) {
+    expect_means(s.sampling, sampling);
+    expect_means(s.grid, grid);
+    expect_means(s.method, method);
+  }
+  // Of a difference of two designs the skins that both share count for nothing.
+  Score other = score;
+  for (ErrorSamples& s : other.samples) {
+    for (double& v : s.sampling) v += 0.2;
+  }
+  for (double& v : other.values) v += 0.2;
+  EXPECT_NEAR(difference_error(score, other, 0), 0, 1e-12);
+  EXPECT_FALSE(no_better(problem.objectives(), score, other));  // the second is minimised
+  EXPECT_TRUE(no_better(problem.objectives(), other, other));
+  // Without samples the larger of both errors.
+  other.samples.clear();
+  other.errors = {0.5, 0.001};
+  EXPECT_EQ(difference_error(score, other, 0), 0.5);
+  EXPECT_EQ(difference_error(score, other, 1), score.errors[1]);
+}
+
+}  // namespace
+}  // namespace papilla::tests
