@@ -12,9 +12,9 @@ namespace papilla::geometry {
 
 // Smallest width of what is deep (holes) and of what is not (walls): by the distance between
 // opposite borders across the middle line, and up to six pixels by opening with growing discs, the
-// width at which the opening loses more than a corner. Right to about a pixel; infinite where there
-// is none of one kind. Below half the depth counts as deep. The map is periodic. Cost: some twenty
-// distance transforms.
+// width at which the opening loses more than a corner. Right to a quarter of a pixel from four
+// pixels on, up to two too wide below; infinite where there is none of one kind. Below half the
+// depth counts as deep. The map is periodic. Cost: some twenty distance transforms.
 struct PixelMargins {
   double min_hole = 0, min_wall = 0;  // [m]
   double pixel = 0;                   // [m]
