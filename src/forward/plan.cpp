@@ -175,7 +175,7 @@ Entry tractions(const Setting& s) {
   // published samples.
   const char* worst =
       field ? ": within 4 % of F_on/F_off and 12 % of the modulation on 95 % of 180 random scenes, "
-              "10 and 34 % on the worst"
+              "10 and 25 % on the worst"
             : "";
   return PlanSkip{Piece::Tractions,
                   fmt::format("the load law F ~ L^{:g} stands for it (Eq. friction.3){}",

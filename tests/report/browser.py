@@ -41,6 +41,8 @@ def inspect_optimize(browser):
     check(held, "error bars leave the chart of the trade-offs")
     check("What the best design is sensitive to" in browser.run(headings), f"headings {browser.run(headings)}")
     check(browser.run("return document.querySelectorAll('#sensitivity tbody tr').length") >= 2, "no sensitivities")
+    nothing = "return [...document.querySelectorAll('#finalists td')].filter(t => t.textContent === '–').length"
+    check(browser.run(nothing) == 0, "finalists with a number or a kind that is not shown")
     cut = "return [...document.querySelectorAll('#numbers, #finalists')].map(t => t.parentElement.scrollWidth - t.parentElement.clientWidth)"
     check(max(browser.run(cut)) <= 0, f"tables cut by {browser.run(cut)} px")
     check(browser.run(COLOURS.replace("arguments_id", "'top'")) > 4, "the picture from above is empty")

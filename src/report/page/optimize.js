@@ -30,7 +30,7 @@ const second = objectives[1] || (data.run.driven ? 'worst modulation' : objectiv
 const label = (name) => name === 'best' ? 'best' : name.replace('front/', 'design ');
 const describe = (row) => variables.map((v) => {
   const unit = / \[(.*)\]$/.exec(v);
-  return `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${round(+row[v])}${unit ? ' ' + unit[1] : ''}`;
+  return `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${entry(row[v])}${unit ? ' ' + unit[1] : ''}`;
 });
 const state = { design: 'best', finger: 'mean' };
 const run = data.run;
@@ -95,7 +95,7 @@ function showPareto() {
 }
 function showFinalists() {
   const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' ? r[c] : round(+r[c]);
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' ? r[c] : entry(r[c]);
   // Keys break where people read a break, not inside words.
   const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));

@@ -1,13 +1,13 @@
 // What a search found so far: its designs, its front, what of it is confirmed. search: as the studio tells it.
 import { colours, faint } from './look.js';
 import { around, axis } from './charts.js';
-import { round } from './numbers.js';
+import { entry, round } from './numbers.js';
 // { searched, confirmed, front, names }: points with x, y, the texts of their variables; names of the two axes.
 export function found(search) {
   const [x, y] = search.objectives.map((o) => o.name), second = y || 'worst modulation', on = new Set(search.front);
   const known = (p) => p.x !== null && p.x !== undefined && p.y !== null && p.y !== undefined;
   const searched = search.points.map((p, i) => ({ x: p.objectives[0], y: y ? p.objectives[1] : i + 1, evaluation: i, ok: p.ok && p.feasible, values: p.values })).filter(known);
-  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, values: search.variables.map((v) => `${round(+r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) }));
+  const confirmed = search.confirmed.filter((r) => r['on front'] === 'yes' && r[x] !== '').map((r) => ({ x: +r[x], y: +r[second], ex: +r[x + ' se'] || 0, ey: +r[second + ' se'] || 0, front: r.design, values: search.variables.map((v) => `${entry(r[v.path + (v.unit ? ` [${v.unit}]` : '')])} ${v.unit}`) }));
   const front = searched.filter((p) => on.has(p.evaluation)).sort((a, b) => a.x - b.x);
   return { searched, confirmed, front, names: [x, y || 'evaluation'] };
 }

@@ -1,5 +1,7 @@
 // Numbers as people read them.
 export const round = (v, digits = 3) => v === null || v === undefined || !isFinite(v) ? '–' : String(+v.toPrecision(digits) + 0);
+// Of a table's cell; kinds of texture and other choices are words.
+export const entry = (text) => text === '' || Number.isNaN(+text) ? text : round(+text);
 // "640 ± 130": both as far as the second digit of the error.
 export function withBar(value, error) {
   if (!(error > 0) || !isFinite(error) || !isFinite(value)) return `${round(value, 4)} ± ${round(error, 2)}`;
