@@ -237,7 +237,8 @@ Json study_sections() {
       {"required", {"range"}},
       {"additionalProperties", false}};
   const Json metric{{"type", "string"}, {"pattern", fmt::format("^\\s*{}\\s*$", metric_pattern())}};
-  const Json metrics{{"anyOf", {metric, {{"type", "array"}, {"items", metric}, {"minItems", 1}}}}};
+  // An empty list takes away what a base wishes for.
+  const Json metrics{{"anyOf", {metric, {{"type", "array"}, {"items", metric}}}}};
   Json scenario = object(
       {{"name", {{"type", "string"}}}, {"weight", quantity("", 0, 1e6)}, {"set", by_path(value)}});
   scenario["required"] = {"name"};
