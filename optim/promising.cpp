@@ -109,23 +109,35 @@ std::vector<std::size_t> promising(const SearchProblem& problem,
   return chosen;
 }
 
+std::vector<Evaluation> tightened(std::vector<Evaluation> evaluations,
+                                  const std::vector<Evaluation>& judged) {
+  const std::vector<double> worse = worsening(evaluations, judged);
+  for (Evaluation& e : evaluations) {
+    for (std::size_t k = 0; k < std::min(worse.size(), e.outcome.constraints.size()); ++k)
+      e.outcome.constraints[k] += worse[k];
+  }
+  for (const Evaluation& j : judged) {
+    const auto same = std::find_if(evaluations.begin(), evaluations.end(),
+                                   [&](const Evaluation& e) { return e.unit == j.unit; });
+    if (same == evaluations.end())
+      evaluations.push_back(j);
+    else
+      *same = j;
+  }
+  return evaluations;
+}
+
 std::optional<std::size_t> next_safer(const std::vector<Evaluation>& evaluations,
                                       const std::vector<Evaluation>& judged) {
-  const std::vector<double> worse = worsening(evaluations, judged);
-  const auto holds = [&](const Evaluation& e) {
-    if (!e.outcome.feasible()) return false;
-    for (std::size_t k = 0; k < std::min(worse.size(), e.outcome.constraints.size()); ++k) {
-      if (e.outcome.constraints[k] + worse[k] > 0) return false;
-    }
-    return std::none_of(judged.begin(), judged.end(), [&](const Evaluation& j) {
-      return largest_difference(e.unit, j.unit) < (j.outcome.ok ? 1e-9 : kBeside);
-    });
-  };
+  const std::vector<Evaluation> all = tightened(evaluations, judged);
   std::vector<Evaluation> left;
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < evaluations.size(); ++i) {
-    if (!holds(evaluations[i])) continue;
-    left.push_back(evaluations[i]);
+    const bool beside = std::any_of(judged.begin(), judged.end(), [&](const Evaluation& j) {
+      return largest_difference(all[i].unit, j.unit) < (j.outcome.ok ? 1e-9 : kBeside);
+    });
+    if (beside || !evaluations[i].outcome.feasible() || !all[i].outcome.feasible()) continue;
+    left.push_back(all[i]);
     places.push_back(i);
   }
   if (left.empty()) return std::nullopt;

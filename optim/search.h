@@ -57,8 +57,13 @@ constexpr std::size_t kMostModelled = 300;
 std::vector<std::size_t> promising(const SearchProblem& problem,
                                    const std::vector<Evaluation>& evaluations, std::size_t count);
 
+// The evaluations as a surer judgement of some of them says: those as they were judged, every
+// constraint of the others as much worse as it was for a judged one at most. Eq. search.13
+std::vector<Evaluation> tightened(std::vector<Evaluation> evaluations,
+                                  const std::vector<Evaluation>& judged);
+
 // Where a surer judgement of the promising ones kept none: the next to judge, the best of those
-// that still keep every constraint when it is as much worse there as it was for a judged one, and
+// that keep every constraint tightened so, and
 // that are not beside one that failed. Nothing where none is left. Eq. search.13
 std::optional<std::size_t> next_safer(const std::vector<Evaluation>& evaluations,
                                       const std::vector<Evaluation>& judged);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/constants.h"
@@ -97,6 +96,26 @@ class JudgedScene {
   Response truth_;
 };
 
+// One of four: alike everywhere, by the angle, level, and a level one under a coat of another
+// oxide. Below a rough surface a level film has no stated depth to hold: it is alike everywhere
+// there.
+void lay_film(int which, double depth, const Texture& texture, RandomStream& random,
+              Surface& surface) {
+  const bool holds = facts(texture).relief.height().has_value();
+  if (which == 1) surface.process = FilmProcess::Directional;
+  if (which >= 2 && holds) {
+    surface.process = FilmProcess::Planar;
+    surface.dielectric.front().thickness += depth;
+  }
+  if (which != 3) return;
+  FilmDielectric coat;
+  coat.material = "Al2O3";
+  coat.thickness = random.uniform(30e-9, 200e-9);
+  coat.permittivity = random.uniform(6, 10);
+  coat.process = LayerProcess::Conformal;
+  surface.dielectric.push_back(coat);
+}
+
 }  // namespace
 
 bool CoverageRow::inside() const { return std::abs(value - reference) <= half_width; }
@@ -150,17 +169,7 @@ Scene random_scene(int index, Texture& texture) {
   const double wet = log_uniform(0.3, 3);
   for (double& v : finger.water.volume) v *= wet;
   scene.surface.contact_angle = random.uniform(0.6, 1.9);
-  // Below a rough surface a planar film has no stated depth to hold.
-  const bool planar_holds = facts(texture).relief.height().has_value();
-  scene.surface.process = std::array{FilmProcess::Conformal, FilmProcess::Directional,
-                                     FilmProcess::Planar}[static_cast<std::size_t>(index / 8 % 3)];
-  if (scene.surface.process == FilmProcess::Planar) {
-    if (planar_holds) {
-      scene.surface.dielectric.front().thickness += depth;
-    } else {
-      scene.surface.process = FilmProcess::Conformal;
-    }
-  }
+  lay_film(index / 8 % 4, depth, texture, random, scene.surface);
   scene.drive.amplitude = random.uniform(80, 220);
   const double low = random.uniform(0.15, 0.45);
   scene.environment.relative_humidity = {low, low + random.uniform(0.1, 0.3)};

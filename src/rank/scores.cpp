@@ -101,7 +101,7 @@ double Scores::probability_ahead(std::size_t a, std::size_t b) const {
   const std::vector<double> paired = minus(skins[a], skins[b]);
   const Estimate e = mean_estimate(paired);
   const double se = std::hypot(e.se, step_error(step_difference(a, b)));
-  if (!(se > 0)) return e.value > 0 ? 1 : 0.5;
+  if (!(se > 0)) return e.value > 0 ? 1 : e.value < 0 ? 0 : 0.5;
   // Few skins know their own scatter badly; the finger's part is as good as normal.
   const double freedom = static_cast<double>(paired.size()) - 1;
   return e.se > 0 ? student_t_cdf(e.value / se, freedom * std::pow(se / e.se, 4))

@@ -30,6 +30,8 @@ std::string changes(const ResultFiles& f, const Score& design, const Score& othe
     const double change = design.values[k] - other.values[k];
     const double error = difference_error(design, other, k);
     if ((o.maximise == better ? change : -change) <= error) continue;
+    // A quantity without an error, an appearance, changes by rounding alone.
+    if (shown_value(o.expression, change) == shown_value(o.expression, 0)) continue;
     const std::string unit = shown_unit(o.expression).unit;
     out.push_back(fmt::format("{} {} ± {}{}", o.name, shown_value(o.expression, change, true),
                               shown_error(o.expression, error), unit.empty() ? "" : " " + unit));
@@ -106,6 +108,11 @@ const char* advice_name(Advice advice) {
   return "texture";
 }
 
+// The constraints that a surface beside the best design breaks: "worst(modulation) (at least 0.3)".
+std::string broken_by(const ResultFiles& f, const Score& other) {
+  return join_names(f.problem.constraints().never_kept({{{}, f.problem.outcome(other)}}));
+}
+
 }  // namespace
 
 Advice advice_of(const ResultFiles& f) {
@@ -115,10 +122,12 @@ Advice advice_of(const ResultFiles& f) {
   const auto& objectives = f.problem.objectives();
   const bool textured = facts(best_of(f).design.texture).relief.present;
   if (textured && !r.flat) return Advice::Unknown;
-  if (textured && !no_better(objectives, best, *r.flat)) return Advice::Texture;
+  const auto beats = [&](const Score& design, const Score& other) {
+    return !no_better(objectives, design, other) || !broken_by(f, other).empty();
+  };
+  if (textured && beats(best, *r.flat)) return Advice::Texture;
   if (!r.flat_before) return finish_text(f).empty() ? Advice::LeaveFlat : Advice::Finish;
-  return no_better(objectives, r.flat ? *r.flat : best, *r.flat_before) ? Advice::LeaveFlat
-                                                                        : Advice::Finish;
+  return beats(r.flat ? *r.flat : best, *r.flat_before) ? Advice::Finish : Advice::LeaveFlat;
 }
 
 std::string recommendation(const ResultFiles& f) {
@@ -148,12 +157,18 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Texture:
       break;
   }
-  const std::string finish = finish_text(f);
+  const std::string finish = finish_text(f), broken = broken_by(f, *r.flat);
+  const std::string gain = changes(f, best_of(f).confirmed, *r.flat, true);
   const std::string cost = changes(f, best_of(f).confirmed, *r.flat, false);
-  return fmt::format("Build {}: beside the same surface without it, its texture gains {}{}{}.",
-                     best_of(f).folder, changes(f, best_of(f).confirmed, *r.flat, true),
-                     cost.empty() ? "" : fmt::format(" and costs {}", cost),
-                     finish.empty() ? "" : fmt::format("; the finish changes too ({})", finish));
+  std::vector<std::string> clauses;
+  if (!broken.empty())
+    clauses.push_back(fmt::format("the same surface without its texture breaks {}", broken));
+  if (!gain.empty())
+    clauses.push_back(fmt::format("{}its texture gains {}{}",
+                                  broken.empty() ? "beside the same surface without it, " : "",
+                                  gain, cost.empty() ? "" : fmt::format(" and costs {}", cost)));
+  if (!finish.empty()) clauses.push_back(fmt::format("the finish changes too ({})", finish));
+  return fmt::format("Build {}: {}.", best_of(f).folder, fmt::join(clauses, "; "));
 }
 
 Design built_design(const ResultFiles& f) {

@@ -93,17 +93,43 @@ Evaluation as_evaluation(const StudyProblem& problem, const FinalDesign& f) {
 }
 
 // A design on the edge of a constraint holds on fresh skins in half of all cases: where no finalist
-// does, the next safer one is confirmed too. Eq. search.13
-void add_safer(const Run& run, const JudgedDesigns& below, std::vector<Point>& chosen) {
-  std::vector<Evaluation> confirmed;
-  for (const FinalDesign& f : run.result.finalists) {
-    if (f.feasible) return;
-    confirmed.push_back(as_evaluation(run.problem, f));
+// does, the next safer one is confirmed too (Eq. search.13). Where none is left, the confirmation
+// searches itself, by the level below with its limits tightened, until it has confirmed as many as
+// ever.
+class SaferDesigns {
+ public:
+  SaferDesigns(const Run& run, const JudgedDesigns& below)
+      : run_(run), below_(known_drafts(below.evaluations)) {}
+
+  std::optional<Point> next() {
+    std::vector<Evaluation> confirmed;
+    bool held = false;
+    for (const FinalDesign& f : run_.result.finalists) {
+      held = held || f.feasible;
+      confirmed.push_back(as_evaluation(run_.problem, f));
+    }
+    if ((held && !searching_) || confirmed.size() > kFinalists) return std::nullopt;
+    if (!searching_) {
+      if (const auto safer = next_safer(below_, confirmed)) return below_[*safer].unit;
+    }
+    searching_ = true;
+    SearchProblem problem = run_.search;
+    problem.residuals = 0;
+    problem.known_drafts = known_drafts(run_.history.evaluations);
+    if (problem.objectives > 2 || problem.known_drafts.empty()) return std::nullopt;
+    const auto searcher = make_searcher({"bayesian", ""}, problem);
+    searcher->tell(tightened(below_, confirmed));
+    const std::vector<Point> asked = searcher->ask();
+    if (asked.empty() || !run_.search.feasible_before_evaluation(asked.front()))
+      return std::nullopt;
+    return asked.front();
   }
-  if (confirmed.size() > kFinalists) return;
-  if (const auto safer = next_safer(below.evaluations, confirmed))
-    chosen.push_back(below.evaluations[*safer].unit);
-}
+
+ private:
+  const Run& run_;
+  std::vector<Evaluation> below_;
+  bool searching_ = false;
+};
 
 // The confirmed numbers decide the front and its order.
 void judge(Run& run) {
@@ -200,6 +226,7 @@ bool confirm(Run& run) {
   run.clock.enter(RunPart::Confirm);
   const JudgedDesigns& below = run.narrowed.size() < kFewNarrowed ? run.history : run.narrowed;
   std::vector<Point> chosen = to_confirm(run, below);
+  SaferDesigns safer(run, below);
   run.confirm_seconds = confirm_budget(run);
   run.result.confirmed_with = stage_fidelity(run.problem, Stage::Confirm, run.confirm_seconds);
   const bool done_before = run.replay.finished(Stage::Confirm);
@@ -211,7 +238,9 @@ bool confirm(Run& run) {
     const bool fits = done == 0 || run.fits(run.seconds_of_designs(1, Stage::Confirm));
     if (!recorded && (done_before || !fits)) break;
     run.result.finalists.push_back(finalist(run, chosen[done]));
-    if (done + 1 == chosen.size()) add_safer(run, below, chosen);
+    if (done + 1 == chosen.size()) {
+      if (const auto unit = safer.next()) chosen.push_back(*unit);
+    }
     run.progress("confirm", static_cast<int>(done + 1), static_cast<int>(chosen.size()),
                  run.seconds_of_designs(chosen.size() - done - 1, Stage::Confirm) +
                      run.seconds_from(RunPart::Stability));

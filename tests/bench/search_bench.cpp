@@ -23,23 +23,21 @@
 #include <cmath>
 #include <cstdlib>
 #include <ctime>
-#include <fstream>
 #include <functional>
 #include <map>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "base/statistics.h"
-#include "base/units.h"
 #include "optim/algorithms/searchers.h"
 #include "optim/pareto.h"
 #include "optim/search.h"
 #include "search/problem.h"
 #include "search/task.h"
+#include "tests/bench/front_file.h"
 
 using namespace papilla::tests;
 
@@ -429,14 +427,17 @@ void single(const std::string& file, int evaluations, int step, int grid, int sk
 }
 
 // Share of a reference front's hypervolume that searches of few evaluations reach, all at the same
-// level. The reference: a sweep; refined: of half the evaluations, then NSGA-II from its front.
+// level, its pull corrected to the 3-D field of a skin. The reference: a sweep; refined: of half
+// the evaluations, then NSGA-II from its front.
 void fronts(bool refined, const std::string& file, int evaluations, int few, int grid, int skins,
             int seeds, double limit, const std::string& out) {
   const double begin = seconds();
   const Study study = read_study(file);
   const StudyProblem problem(study);
   SearchProblem p = search_of(problem);
-  Judge judge(problem, level(grid, skins));
+  Fidelity corrected = level(grid, skins);
+  corrected.field_skins = 1;  // over kinds and films the field rule alone misleads
+  Judge judge(problem, corrected);
   std::vector<Evaluation> all;
   const auto evaluate = [&](const Point& u) {
     all.push_back({u, judge(u)});
@@ -468,47 +469,6 @@ void fronts(bool refined, const std::string& file, int evaluations, int few, int
   table(bench, {"sweep", "nsga2", "bayesian"}, few, seeds, best);
 }
 
-// The designs of a front's CSV: a column a variable, named as the header of fronts() names it.
-std::vector<Point> read_front(const std::string& path, const StudyProblem& problem,
-                              const std::vector<Variable>& variables) {
-  const auto cells = [](const std::string& line) {
-    std::vector<std::string> out;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
-    return out;
-  };
-  std::ifstream in(path);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = cells(line);
-  std::vector<Point> out;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> row = cells(line);
-    Point value;
-    for (const Variable& v : variables) {
-      const std::string name = v.unit.empty() ? v.path : v.path + " [" + v.unit + "]";
-      const auto at = std::find(header.begin(), header.end(), name);
-      if (at == header.end()) throw InputError(path + ": no column `" + name + "`");
-      const std::string& cell = row.at(static_cast<std::size_t>(at - header.begin()));
-      const auto& kinds = texture_kinds();
-      value.push_back(v.is_kind() ? static_cast<double>(
-                                        std::find(kinds.begin(), kinds.end(), cell) - kinds.begin())
-                                  : parse_si(cell + " " + v.unit, v.unit));
-    }
-    out.push_back(problem.space().snapped(problem.space().unit(value)));
-  }
-  return out;
-}
-
-// At most `most` designs along a front, both ends with it.
-std::vector<Point> evenly(const std::vector<Point>& designs, std::size_t most) {
-  if (designs.size() <= most) return designs;
-  std::vector<Point> kept;
-  for (std::size_t i = 0; i < most; ++i)
-    kept.push_back(designs[i * (designs.size() - 1) / (most - 1)]);
-  return kept;
-}
-
 // Design level on skins that no search has seen.
 Fidelity fresh_level() {
   Fidelity fresh = fidelity_level("design");
@@ -525,8 +485,7 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
   Point reference;
   double best = 0;
   for (const std::string& path : fronts) {
-    const std::vector<Point> front = read_front(path, problem, study.variables);
-    const std::vector<Point> designs = evenly(front, most);
+    const std::vector<Point> designs = read_front(path, problem, most);
     std::vector<Evaluation> judged;
     for (const Point& u : designs) {
       judged.push_back({u, judge(u)});
@@ -539,8 +498,8 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
     if (reference.empty()) reference = beyond(points);
     const double volume = hypervolume(points, reference);
     if (best == 0) best = volume;
-    fmt::print("{},{},{},{},{:.4g},{:.4f}\n", path, front.size(), designs.size(), points.size(),
-               volume, volume / best);
+    fmt::print("{},{},{},{:.4g},{:.4f}\n", path, designs.size(), points.size(), volume,
+               volume / best);
     std::fflush(stdout);
   }
 }
@@ -550,7 +509,7 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
 void scatter(const std::string& file, const std::string& front, std::size_t most) {
   const Study study = read_study(file);
   const StudyProblem problem(study);
-  const std::vector<Point> designs = evenly(read_front(front, problem, study.variables), most);
+  const std::vector<Point> designs = read_front(front, problem, most);
   const auto objectives = [&](Judge& judge) {
     std::vector<std::vector<double>> out(problem.objectives().size());
     for (const Point& u : designs) {
@@ -624,7 +583,7 @@ int main(int argc, char** argv) {
       most = static_cast<std::size_t>(number(a.size() - 1));
       fronts.resize(fronts.size() - 2);
     }
-    fmt::print("front,designs,judged,on the front,hypervolume,share of the first\n");
+    fmt::print("front,judged,on the front,hypervolume,share of the first\n");
     shares(a.at(1), fronts, most);
     return 0;
   }

@@ -13,66 +13,23 @@
 #include <ctime>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/statistics.h"
-#include "base/units.h"
 #include "optim/pareto.h"
 #include "report/svg.h"
 #include "search/problem.h"
 #include "search/task.h"
+#include "tests/bench/front_file.h"
 
 using namespace papilla::tests;
 
 namespace {
 
 constexpr int kFreshSkins = 100000;
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> out;
-  std::istringstream in(line);
-  for (std::string cell; std::getline(in, cell, ',');) out.push_back(cell);
-  return out;
-}
-
-double value_of(const Variable& v, const std::string& cell) {
-  const auto& kinds = texture_kinds();
-  if (v.is_kind())
-    return static_cast<double>(std::find(kinds.begin(), kinds.end(), cell) - kinds.begin());
-  return parse_si(cell + " " + v.unit, v.unit);
-}
-
-// The designs of a table with one column a variable, evenly along it.
-std::vector<Point> designs_of(const std::string& path, const StudyProblem& problem,
-                              std::size_t most) {
-  std::ifstream in(path);
-  if (!in) throw InputError("cannot read " + path);
-  std::string line;
-  std::getline(in, line);
-  const std::vector<std::string> header = cells(line);
-  const auto column = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
-  };
-  const std::size_t front = column("on front");
-  std::vector<Point> all;
-  while (std::getline(in, line)) {
-    const std::vector<std::string> row = cells(line);
-    if (front < header.size() && row.at(front) != "yes") continue;
-    Point value;
-    for (const Variable& v : problem.study().variables)
-      value.push_back(
-          value_of(v, row.at(column(v.unit.empty() ? v.path : v.path + " [" + v.unit + "]"))));
-    all.push_back(problem.space().snapped(problem.space().unit(value)));
-  }
-  std::vector<Point> kept;
-  for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
-    kept.push_back(all[all.size() <= most ? i : i * (all.size() - 1) / (most - 1)]);
-  return kept;
-}
 
 Score judged(const StudyProblem& problem, const Design& design, const Fidelity& fidelity) {
   std::vector<TaskAnswer> answers;
@@ -122,7 +79,7 @@ Front judged_front(const std::string& text, const Fidelity& fidelity, std::size_
   const StudyProblem problem(study);
   Front out;
   out.name = text.substr(0, equals);
-  for (const Point& u : designs_of(text.substr(colon + 1), problem, most)) {
+  for (const Point& u : read_front(text.substr(colon + 1), problem, most)) {
     const Score score = judged(problem, problem.space().design(u), fidelity);
     if (!score.ok || !problem.feasible(score, u)) continue;
     out.mean.push_back(score.values.at(0));
@@ -198,7 +155,7 @@ struct Model {
 void order(const std::vector<std::string>& a) {
   const Study study = read_study(a.at(1));
   const StudyProblem problem(study);
-  const std::vector<Point> designs = designs_of(a.at(2), problem, std::stoul(a.at(3)));
+  const std::vector<Point> designs = read_front(a.at(2), problem, std::stoul(a.at(3)));
   const std::vector<Model> models{
       {"as confirmed, 256 pixels", FieldMethod::Spread, Coupling::OnePass, Estimator::Area, 256},
       {"128 pixels"},

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -188,6 +189,15 @@ TEST(Scans, EveryCommandSaysOnceAndInTheSameWordsWhatItChanged) {
               "[environment]\nrelative_humidity = [\"35 %\"]\n[accuracy]\nlevel = \"draft\"\n");
   const Outcome surface = place.run("surface s.gsf --fill");
   ASSERT_EQ(surface.status, 0) << surface.err;
+  // In nanometres, from the deepest to the highest.
+  const json areal = json::parse(place.run("surface s.gsf --fill --json").out)["areal"];
+  double low = 0, high = 0;
+  const std::size_t heights = surface.out.find("heights from ");
+  ASSERT_NE(heights, std::string::npos) << surface.out;
+  ASSERT_EQ(std::sscanf(surface.out.c_str() + heights, "heights from %lf to %lf nm", &low, &high),
+            2);
+  EXPECT_LT(low, 0);
+  EXPECT_NEAR(high - low, 1e9 * areal["Sz"].get<double>(), 0.2);
   std::istringstream first(surface.out);
   std::string line;
   std::getline(first, line);

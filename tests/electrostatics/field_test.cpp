@@ -241,6 +241,44 @@ TEST(Electrode, FollowsTheProcessOfEachLayer) {
   EXPECT_EQ(CoveredSurface(step(), {}).film[land], 0);
 }
 
+// Eq. capillary.22: of water that is a film by the share s the disc fades as its factor to the
+// power 1 - s and the film as its own to the power s.
+TEST(Screening, WaterOnItsWayFromDiscToFilmFadesAsBothByItsShare) {
+  const Gap gap = uniform_gap(1e-7, 128, 1.6e-6);
+  const double oxide = 5e-8;
+  const auto wetting = [&](double film, bool discs) {
+    Wetting w;
+    w.grid = gap.grid;
+    w.status = WettingStatus::Film;
+    w.bridged.assign(gap.grid.size(), 0);
+    w.film.assign(gap.grid.size(), FilmPixel::None);
+    for (int ix = 60; ix < 68; ++ix) {
+      w.bridged[gap.grid.index(ix, 64)] = 1;
+      if (film > 0)
+        w.film[gap.grid.index(ix, 64)] = film < 1 ? FilmPixel::OnItsWay : FilmPixel::Film;
+    }
+    Droplet drop;
+    drop.state = DropletState::Bridge;
+    drop.x = drop.y = 0.8e-6, drop.radius = 50e-9, drop.edge_gap = 1e-7, drop.film = film;
+    if (discs) w.droplets = {drop};
+    return w;
+  };
+  const auto factor = [&](double film, bool discs) {
+    return screening_factor(gap, wetting(film, discs), oxide, true);
+  };
+  const std::vector<double> disc = factor(0, true), film = factor(1, false);
+  int partly = 0;
+  for (const double share : {0.25, 0.8}) {
+    const std::vector<double> both = factor(share, true);
+    for (std::size_t i = 0; i < both.size(); ++i) {
+      const double expected = std::pow(disc[i], 1 - share) * std::pow(film[i], share);
+      ASSERT_NEAR(both[i], expected, 1e-12) << share << " " << i;
+      partly += disc[i] > 0.1 && disc[i] < 0.9 && film[i] > 0.1 && film[i] < 0.9;
+    }
+  }
+  EXPECT_GT(partly, 40);
+}
+
 // Lost pull around a bridge, as the radius of a disc without pull beyond the bridge.
 TEST(Screening, TheReachIsWithinItsStatedErrorOfFiniteVolumes) {
   for (const Row& row : read_table("screening_bridge.csv")) {

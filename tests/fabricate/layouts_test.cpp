@@ -62,8 +62,10 @@ TEST(ChangedLayouts, OfASquareArrayAreSaidByWidthPlaceAndNumber) {
   std::string why = said(folder, [&](Layout& l) { reference(l).x += 30, reference(l).y -= 40; });
   EXPECT_TRUE(has(why, "its holes are up to 50 nm off their places")) << why;
   // A pitch that is wrong by 5 nm: the last of two columns is off by it.
-  why = said(folder, [&](Layout& l) { reference(l).step_x += 5; });
-  EXPECT_TRUE(has(why, "up to 5 nm off")) << why;
+  for (const int by : {5, -5}) {
+    why = said(folder, [&](Layout& l) { reference(l).step_x += by; });
+    EXPECT_TRUE(has(why, "up to 5 nm off")) << why;
+  }
   why = said(folder, [&](Layout& l) { reference(l).step_y += 7; });
   EXPECT_TRUE(has(why, "up to 7 nm off their places, in the row that begins at (3, 9) um")) << why;
   why = said(folder, [&](Layout& l) { reference(l).columns -= 1; });
@@ -132,7 +134,11 @@ TEST(ChangedBodies, AreSaidByTheirCorners) {
     write_bytes(path, sound);
     return out;
   };
-  for (const std::size_t number : {0u, 1u, 2u, 5u, 8u}) EXPECT_NE(changed(400, number, 0.01F), "");
+  for (const std::size_t number : {0u, 1u, 2u, 5u, 8u}) {
+    for (const float by : {0.01F, -0.01F})
+      EXPECT_TRUE(has(changed(400, number, by), "1 corners are off the surface, by 10 nm at most"))
+          << number << ": " << changed(400, number, by);
+  }
   write_bytes(path, sound.substr(0, sound.size() - 50));
   EXPECT_NE(faults_of(folder, find_export_format("stl").file), "");
 }

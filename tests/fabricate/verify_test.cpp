@@ -1,6 +1,8 @@
 // What is said of files that differ from their design.
 #include "fabricate/verify.h"
 
+#include <fmt/format.h>
+
 #include "base/constants.h"
 #include "fabricate/export.h"
 #include "geometry/io/drawing.h"
@@ -73,6 +75,24 @@ TEST(Verify, KnowsThePlaceOfEveryRow) {
   write_gds(path, layout);
   EXPECT_NE(faults_of(folder, "texture.gds").find("polygons, the design's"), std::string::npos)
       << faults_of(folder, "texture.gds");
+}
+
+// Hexagons need an oblong map.
+TEST(Verify, SaysHowManyPixelsAMapShouldHaveAlongEitherSide) {
+  const Workplace place;
+  HoleArray holes;
+  holes.period = 6e-6, holes.diameter = 3e-6, holes.lattice = Lattice::Hexagonal;
+  const Folder folder(place.path() / "f", Texture{holes}, Polarity::WhiteDeep);
+  Grid grid = folder.made().heightmap.grid;
+  const int nx = grid.nx, ny = grid.ny;
+  ASSERT_NE(nx, ny);
+  grid.nx += 8, grid.ny -= 4;
+  write_again({"npy", folder.path() + "/" + find_export_format("npy").file},
+              generate(Texture{holes}, grid), Texture{holes}, folder.options());
+  const std::string why = faults_of(folder, find_export_format("npy").file);
+  EXPECT_NE(why.find(fmt::format("{} x {} pixels, the design's {} x {}", nx + 8, ny - 4, nx, ny)),
+            std::string::npos)
+      << why;
 }
 
 TEST(Verify, RefusesAFolderWithoutARecord) {

@@ -48,6 +48,17 @@ TEST(Forward, WithoutVoltageOnIsOff) {
   EXPECT_FALSE(summarise(Summary::Mean, "modulation", r));
 }
 
+// Eq. accuracy.1: of a ratio on/off - 1 both sides are as unsure as their solver.
+TEST(Forward, TheSolversErrorOfAModulationIsThatOfItsRatio) {
+  const Response r = evaluate(driven_scene(), Texture{HoleArray{}}, small());
+  for (const ResponsePoint& p : r.points) {
+    const double relative = *p.friction_off.parts.solver / p.friction_off.value;
+    EXPECT_GT(relative, 0);
+    EXPECT_NEAR(*p.modulation.parts.solver, relative * (1 + std::abs(p.modulation.value)),
+                0.2 * relative * (1 + std::abs(p.modulation.value)));
+  }
+}
+
 TEST(Forward, WithoutWaterThereIsNoCapillaryForce) {
   Scene scene = driven_scene();
   scene.finger.water.volume = {0, 0, 0, 0};

@@ -77,6 +77,24 @@ TEST(MeasuredMap, ASpikeIsMendedByItsNeighboursUpAndDown) {
   }
 }
 
+// Eq. geometry.4 where it can be known: a wave that fits the patch meets itself in the band, and
+// two equal waves are as much higher as two strange ones need for their variance.
+TEST(MeasuredMap, BandsMixBothEndsAndKeepTheVarianceOfStrangers) {
+  const Heightmap h = cut_of("plain", as_it_is);
+  const double x0 = 0.5 * (kWidth - kPatch), y0 = 0.5 * (kHeight - kPatch), band = 0.1 * kPatch;
+  int mixed = 0;
+  for (int iy = 0; iy < 96; ++iy) {
+    const double b = (h.grid.y(iy) - (kPatch - band)) / band;
+    if (b <= 0) continue;
+    ++mixed;
+    for (int ix = 0; ix < 84; ++ix) {
+      const double expected = wave(x0 + h.grid.x(ix), y0 + h.grid.y(iy)) / std::hypot(b, 1 - b);
+      ASSERT_NEAR(h(ix, iy), expected, 3e-9) << ix << " " << iy;
+    }
+  }
+  EXPECT_GE(mixed, 9);
+}
+
 // Every cut of a map as skin lies somewhere in it, as it is or mirrored along a side, its sides
 // never swapped: an oblique wave keeps both of its lengths, and its hand half of the time.
 TEST(MeasuredMap, CutsOfASkinAreOfTheMapAndAnywhereInIt) {

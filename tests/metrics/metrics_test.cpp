@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "metrics/series.h"
 
 namespace papilla::tests {
 namespace {
@@ -31,6 +32,16 @@ TEST(Metrics, VariationIsThePopulationStandardDeviationOverTheMean) {
   EXPECT_DOUBLE_EQ(summarise(Summary::Variation, "modulation", r)->value, std::sqrt(2.5) / 3);
   EXPECT_DOUBLE_EQ(summarise(Summary::Range, "modulation", r)->value, 4.0 / 3);
   EXPECT_DOUBLE_EQ(summarise(Summary::Worst, "modulation", r)->value, 1);
+}
+
+TEST(Metrics, ASummaryShiftsByWhatItsValuesChangeBy) {
+  const Series series({1, 2, 4, 5}, {1, 1, 1, 1}, Better::Higher);
+  EXPECT_NEAR(series.shift(Summary::Mean, {0.4, -0.2, 0.4, -0.2}), 0.1, 1e-15);
+  EXPECT_NEAR(series.shift(Summary::Worst, {-3, 0, 0, 0}), -3, 1e-15);
+  // Twice all values: as much variation, and twice the spread.
+  EXPECT_NEAR(series.shift(Summary::Variation, {1, 2, 4, 5}), 0, 1e-15);
+  EXPECT_NEAR(series.shift(Summary::Std, {1, 2, 4, 5}), std::sqrt(2.5), 1e-15);
+  EXPECT_EQ(series.shift(Summary::Variation, {-1, -2, -4, -5}), 0);  // of nothing: not defined
 }
 
 TEST(Metrics, WeightsCount) {

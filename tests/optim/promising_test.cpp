@@ -223,6 +223,18 @@ TEST(NextSafer, KeepsTheConstraintsAsMuchBetterAsTheyWereFoundWorse) {
   EXPECT_EQ(next_safer({}, {}), std::nullopt);
 }
 
+TEST(NextSafer, LimitsAreTightenedByTheLargestWorseningAndJudgedPointsStandAsJudged) {
+  const std::vector<Evaluation> all{limited(0.1, 1, -0.01), limited(0.3, 2, -0.04),
+                                    limited(0.5, 3, -0.06)};
+  const std::vector<Evaluation> sure =
+      tightened(all, {limited(0.1, 1.5, 0.02), limited(0.3, 2, -0.05), limited(0.8, 9, 0.5)});
+  ASSERT_EQ(sure.size(), 4u);
+  EXPECT_EQ(sure[0].outcome.objectives[0], 1.5);
+  EXPECT_EQ(sure[1].outcome.constraints[0], -0.05);
+  EXPECT_NEAR(sure[2].outcome.constraints[0], -0.06 + 0.03, 1e-15);
+  EXPECT_EQ(sure[3].unit, Point{0.8});
+}
+
 TEST(NextSafer, IsNotBesideOneThatFailed) {
   const std::vector<Evaluation> all{limited(0.1, 1, -1), limited(0.2, 2, -1), limited(0.4, 3, -1)};
   EXPECT_EQ(next_safer(all, {limited(0.1, 0, 0, false)}), 2u);

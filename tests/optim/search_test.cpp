@@ -80,6 +80,18 @@ Outcome zdt2(const Point& x) {
   return outcome({x[0], g * (1 - (x[0] / g) * (x[0] / g))});
 }
 
+// Points (0, 1), (2, 2), (4, 0): the box to the best is 4 x 2, and infeasible ones count nothing.
+TEST(Hypervolume, ItsSharesAreOfTheBoxBetweenWorstAndBest) {
+  std::vector<Evaluation> all{{{0.0}, outcome({0, 1})},
+                              {{0.1}, outcome({-9, -9})},
+                              {{0.2}, outcome({2, 2})},
+                              {{0.3}, outcome({4, 0})}};
+  all[1].outcome.constraints = {1};
+  EXPECT_EQ(hypervolume_shares(all), (std::vector<double>{0.5, 0.5, 0.5, 0.5}));
+  all.push_back({{0.4}, outcome({1, 0})});
+  EXPECT_EQ(hypervolume_shares(all).back(), (4.0 + 3.0) / 8);
+}
+
 TEST(Hypervolume, HasItsClosedForms) {
   EXPECT_DOUBLE_EQ(hypervolume({{1, 2}, {2, 1}}, {3, 3}), 3);
   EXPECT_DOUBLE_EQ(hypervolume({{1, 1, 1}}, {2, 3, 4}), 6);

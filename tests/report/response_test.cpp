@@ -146,6 +146,18 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
     EXPECT_NE(table.find(line), std::string::npos) << line << table;
 }
 
+TEST(ResponseReport, UnderCurrentTheVoltagesAreNamedWithTheirHumidities) {
+  Response r = driven();
+  r.points.push_back(r.points[0]);
+  r.points[0].source_voltage = 81.4, r.points[1].source_voltage = 12.6;
+  r.points[1].relative_humidity = 0.75;
+  EXPECT_NE(response_table(r).find("the current takes 13 V at 75 % RH to 81 V at 35 %\n"),
+            std::string::npos)
+      << response_table(r);
+  r.points[1].source_voltage = 81.4;
+  EXPECT_EQ(response_table(r).find("the current takes"), std::string::npos);
+}
+
 TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
   const Response r = driven();
   const auto json = nlohmann::json::parse(response_json(r));

@@ -118,26 +118,34 @@ TEST(Findings, ABoundIsNamedWithWhatWideningGives) {
   EXPECT_NE(remarks[1].find("widen it to see whether more helps"), std::string::npos);
 }
 
-// What the finish does takes a second surface, for which there may be no time.
-TEST(Sheet, WithoutTheStudysOwnSurfaceTheFinishIsNotJudged) {
-  const Study study = holes();
-  const StudyProblem problem(study);
-  const auto score = [](double mean, double variation) {
-    Score s;
-    s.ok = true;
-    s.values = {mean, variation};
-    s.errors = {0.01, 0.01};
-    return s;
-  };
+Score score(double mean, double variation, double oxide_margin = 3) {
+  Score s;
+  s.ok = true;
+  s.values = {mean, variation};
+  s.errors = {0.01, 0.01};
+  s.oxide_margin = oxide_margin;
+  return s;
+}
+
+// One design that holds, 0.5 / 0.3; the study's own contact angle is 50 deg.
+OptimiseResult one_design(const StudyProblem& problem) {
   OptimiseResult result;
   FinalDesign best;
-  best.unit = tried(problem, 5, 300, 70).unit;  // the study's own angle is 50 deg
+  best.unit = tried(problem, 5, 300, 70).unit;
   best.design = problem.space().design(best.unit);
   best.confirmed = score(0.5, 0.3);
   best.on_front = best.feasible = true;
   best.folder = "front/01";
   result.finalists = {best};
   result.any_feasible = true;
+  return result;
+}
+
+// What the finish does takes a second surface, for which there may be no time.
+TEST(Sheet, WithoutTheStudysOwnSurfaceTheFinishIsNotJudged) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  OptimiseResult result = one_design(problem);
   result.flat = score(0.6, 0.2);
   const JudgedDesigns history;
   const ResultFiles files{"", study, problem, history, result, ""};
@@ -147,6 +155,23 @@ TEST(Sheet, WithoutTheStudysOwnSurfaceTheFinishIsNotJudged) {
       << recommendation(files);
   result.flat_before = score(0.4, 0.4);
   EXPECT_EQ(recommendation(files).find("not known"), std::string::npos) << recommendation(files);
+}
+
+TEST(Sheet, ATextureThatAloneKeepsALimitIsWorthBuilding) {
+  const Study study = holes();
+  const StudyProblem problem(study);
+  OptimiseResult result = one_design(problem);
+  result.flat = result.flat_before = score(0.6, 0.2, 1.5);  // better, but its film does not hold
+  const JudgedDesigns history;
+  const ResultFiles files{"", study, problem, history, result, ""};
+  EXPECT_EQ(advice_of(files), Advice::Texture);
+  EXPECT_EQ(
+      recommendation(files).find("Build front/01: the same surface without its texture breaks "
+                                 "oxide_breakdown_margin (at least 2)"),
+      0u)
+      << recommendation(files);
+  result.flat = result.flat_before = score(0.6, 0.2, 2.5);
+  EXPECT_EQ(advice_of(files), Advice::LeaveFlat) << recommendation(files);
 }
 
 // At a lower bound a widening goes the other way than a step up.

@@ -2,12 +2,16 @@
 // takes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "report/results.h"
+#include "search/levels.h"
 #include "search/problem.h"
 #include "search/run.h"
 #include "search/task.h"
@@ -108,6 +112,31 @@ TEST(FieldStudy, TheFilmHoldsTheVoltageThatTheWishAsksFor) {
   const auto [own, same] = margin(voltage + "[constraints]\n\"worst(modulation)\" = 0.1\n");
   EXPECT_EQ(same, volts);
   EXPECT_NEAR(own, std::min(500.0 / 400, 500 / volts), 1e-6);
+}
+
+// A price is a promise about time: with the search for a voltage and without it, on one machine.
+TEST(FieldStudy, ThePriceOfAnEvaluationKnowsItsVoltages) {
+  const auto cost_of = [](const std::string& wish) {
+    const Study study =
+        read_study(study_file("priced",
+                              "[drive]\namplitude = \"200 V\"\n"
+                              "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n"
+                              "[objective]\nminimise = \"" +
+                                  wish + "\"\n"));
+    const StudyProblem problem(study);
+    const Fidelity fidelity = stage_fidelity(problem, Stage::Search);
+    double least = 1e9;
+    for (int run = 0; run < 5; ++run) {
+      const std::clock_t from = std::clock();
+      EXPECT_TRUE(evaluate_task(problem, study.design, 0, {fidelity}).status.ok());
+      least = std::min(least, static_cast<double>(std::clock() - from));
+    }
+    return std::pair(task_price(problem, Stage::Search), least);
+  };
+  const auto [plain_price, plain_time] = cost_of("variation(contact_area)");
+  const auto [price, time] = cost_of("worst(voltage_for(modulation = 0.3))");
+  EXPECT_GT(price, 1.3 * plain_price);
+  EXPECT_NEAR(std::log(time / plain_time), std::log(price / plain_price), std::log(2.0));
 }
 
 // What is left of a planar film below the texture holds the voltage or not: nobody evaluates that.

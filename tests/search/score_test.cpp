@@ -122,7 +122,7 @@ TEST(Slopes, OfALinearModelAreItsOwn) {
   const DesignSpace& space = problem.space();
   const Point centre = space.unit({6e-6, 3e-6, 400e-9, 1.1});
   const std::vector<double> at = space.value(centre);
-  const std::vector<std::vector<double>> slope{{0.02e6, -0.05e6, -2e5, 0.1},
+  const std::vector<std::vector<double>> slope{{0.4e6, -0.05e6, -2e6, 0.1},
                                                {-0.01e6, 0.03e6, -5e5, 0.3}};
   const auto scored = [&](const Point& unit) {
     const std::vector<double> v = space.value(unit);
