@@ -123,6 +123,34 @@ TEST(DriveFile, ARecordingAtAnotherRateIsLowPassedAndTakenEveryMillisecond) {
   EXPECT_THROW(run_swipe("0,1,1\n0.001,1,1\n0.005,1,1\n", "f.csv", options, 0), InputError);
 }
 
+// Straight between its rows, a recording at a tenth of the rate says the same.
+TEST(DriveFile, ARecordingIsStraightBetweenItsRows) {
+  const auto recorded = [](int every) {  // [ms]
+    std::string csv = "time,lateral,normal\n";
+    const auto slow = [](int ten) {
+      return std::max(0.0, 0.4 * std::sin(kPi * (0.01 * ten - 0.1)));
+    };
+    for (int ms = 0; ms <= 1100; ms += every) {
+      const double part = 0.1 * (ms % 10);
+      const double lateral = slow(ms / 10) * (1 - part) + slow(ms / 10 + 1) * part;
+      csv += fmt::format("{:.3f},{:.9f},0.5\n", 1e-3 * ms, lateral);
+    }
+    return csv;
+  };
+  StictionOptions options;
+  options.stuck_current = options.partial_current = 4e-3;
+  const Swipe often = run_swipe(recorded(1), "forces.csv", options, 0);
+  const Swipe seldom = run_swipe(recorded(10), "forces.csv", options, 0);
+  ASSERT_GT(often.steps.size(), 2u);
+  ASSERT_EQ(often.steps.size(), seldom.steps.size());
+  for (std::size_t k = 0; k < often.steps.size(); ++k) {
+    EXPECT_EQ(often.steps[k].state, seldom.steps[k].state) << k;
+    EXPECT_NEAR(often.steps[k].time, seldom.steps[k].time, 1.5e-3) << k;
+  }
+  EXPECT_NEAR(often.duration, seldom.duration, 1.5e-3);
+  EXPECT_NEAR(often.driven, seldom.driven, 3e-3);
+}
+
 TEST(DriveFile, ARenderedSwipeIsDrivenWhileItSticks) {
   const std::vector<std::string> free{"source.shunt=0 ohm"};
   const DriveCase c = read_drive_case(kFingertip, free);

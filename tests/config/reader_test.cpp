@@ -194,6 +194,11 @@ TEST(Reader, OverridesReachTheItemsOfADefaultList) {
   EXPECT_EQ(problems_of("schema_version = 1\n", {"surface.dielectric.1.thickness=1 um"}),
             "--set surface.dielectric.1.thickness=1 um: surface.dielectric: no item 1 in a list of "
             "1");
+  for (const char* text :
+       {"schema_version = 1\n", "[[surface.dielectric]]\nmaterial = \"HfO2\"\n"}) {
+    EXPECT_TRUE(problems_of(text, {"surface.dielectric..thickness=1 um"})
+                    .starts_with("--set surface.dielectric..thickness=1 um: surface.dielectric"));
+  }
   EXPECT_EQ(problems_of("schema_version = 1\n", {"surface.dielectric.0.thikness=1 um"}),
             "--set surface.dielectric.0.thikness=1 um: surface.dielectric.0: unknown key "
             "`thikness`, did you mean `thickness`?");

@@ -131,6 +131,9 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   EXPECT_NE(narrow.faults[0].find(" um, below 2.5 um (pixel 0.062 um)"), std::string::npos)
       << narrow.faults[0];
   EXPECT_EQ(verify_export(study, file, 0).faults.size(), 1u + (narrow.loss > 0));
+  // A file a pixel off its limit is not narrower than it can show.
+  study.constraints[0].limit = sound.pixels.min_wall + 0.5 * 0.0625e-6;
+  EXPECT_TRUE(verify_export(study, file, 0.2).faults.empty());
 }
 
 }  // namespace

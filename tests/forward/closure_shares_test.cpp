@@ -74,6 +74,18 @@ TEST(ClosureShares, WhatIsOfThePatchesInContactIsTheirMean) {
               1e-6 * bridge.mean_pressure());
 }
 
+// A stiff layer over soft tissue: the thicker it is, the less it follows the ridge's roughness.
+TEST(ClosureShares, AThickerCorneumTouchesWithLessAtMorePressure) {
+  Scene scene = persson(0);
+  double last = 0;
+  for (double thickness : {20e-6, 200e-6, 2e-3}) {
+    scene.finger.macro.corneum_thickness = thickness;
+    const ScaleBridge bridge(scene, fidelity_level("search"), kGrid, 0.5);
+    EXPECT_GT(bridge.mean_pressure(), 1.02 * last) << thickness;
+    last = bridge.mean_pressure();
+  }
+}
+
 TEST(ClosureShares, WithoutVoltageOnIsOff) {
   const ScaleBridge bridge(persson(0), fidelity_level("search"), kGrid, 0.5);
   EXPECT_EQ(shares(bridge, &PatchResult::area_on), shares(bridge, &PatchResult::area_off));

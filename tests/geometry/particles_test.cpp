@@ -46,5 +46,33 @@ TEST(Particles, HaveTheVolumeOfTheirCaps) {
   }
 }
 
+// Against every pixel asked of every particle and its images: clustered ones of several sizes
+// across the edges of an oblong patch of oblong pixels.
+TEST(Particles, AreTheHighestSphereOverEveryPixel) {
+  const Grid grid{96, 72, 12e-6, 15e-6};
+  for (double embedding : {0.1, 0.7}) {
+    ParticleFilm film = equal_spheres(embedding);
+    film.radius_spread = 0.3, film.coverage = 0.3, film.clustering = 0.6;
+    const std::vector<Particle> particles = place_particles(film, grid);
+    const Heightmap h = generate(Texture{film}, grid);
+    int raised = 0;
+    for (int iy = 0; iy < grid.ny; ++iy) {
+      for (int ix = 0; ix < grid.nx; ++ix) {
+        double expected = 0;
+        for (const Particle& p : particles) {
+          const double dx = std::remainder((ix + 0.5) * grid.dx() - p.x, grid.lx);
+          const double dy = std::remainder((iy + 0.5) * grid.dy() - p.y, grid.ly);
+          const double above2 = p.radius * p.radius - dx * dx - dy * dy;
+          if (above2 > 0)
+            expected = std::max(expected, p.radius * (1 - 2 * embedding) + std::sqrt(above2));
+        }
+        raised += expected > 0;
+        ASSERT_NEAR(h(ix, iy), expected, 1e-12 * film.radius) << ix << " " << iy;
+      }
+    }
+    EXPECT_GT(raised, grid.nx * grid.ny / 5);
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -180,6 +180,23 @@ std::vector<std::vector<double>> numbers_in(const std::string& text, const std::
   return out;
 }
 
+// Decades begin below the first line, wherever it lies in its own.
+TEST(DriveReport, ALineBetweenTwoDecadesStandsBetweenTheirLabels) {
+  Driven d;
+  d.r.lines = {{0, 0.3}, {250, 0.05}, {4000, 0.01}};
+  const std::string svg = drive_svg(d.c, d.r), number = "([-+.e0-9]+)";
+  const auto decades = numbers_in(svg, "<text x=\"" + number + "\" y=\"[0-9.]+\" " +
+                                           "text-anchor=\"middle\">" + number + " Hz<");
+  ASSERT_EQ(decades.size(), 3u);
+  const auto lines = numbers_in(svg, "<line x1=\"" + number + "\"");
+  ASSERT_EQ(lines.size(), 2u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(decades[k][1], std::pow(10, k + 2)) << k;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double decade = (lines[k][0] - decades[0][0]) / (decades[1][0] - decades[0][0]);
+    EXPECT_NEAR(decade, std::log10(d.r.lines[k + 1].frequency / 100), 2e-3) << k;
+  }
+}
+
 // Friction from its lowest to its highest line, and each line of the spectrum where the labels of
 // the decades put it, down 120 dB.
 TEST(DriveReport, ThePictureIsReadBackByItsLabels) {

@@ -6,10 +6,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/units.h"
 #include "report/results.h"
 #include "search/pick.h"
 #include "search/run.h"
@@ -90,6 +92,33 @@ TEST(OptimiseOfOneRun, WritesItsResults) {
   EXPECT_NEAR(shares, 1, 1e-12);
   EXPECT_EQ(read_design(run.folder + "/best/design.toml"),
             run.result.finalists[run.result.best].design);
+}
+
+// Of the design that is built, in the units beside the numbers; the best one is told by its rule.
+TEST(OptimiseOfOneRun, TheSheetHasTheNumbersOfTheBestDesign) {
+  const FinishedRun& run = run_of_all();
+  const nlohmann::json sheet = nlohmann::json::parse(run.file("run.json")).at("sheet");
+  const Design& best = run.result.finalists[run.result.best].design;
+  int free = 0;
+  for (const nlohmann::json& row : sheet) {
+    const std::string path = row.at("name"), unit = row.at("unit");
+    const double value = get_number(best, path);
+    EXPECT_NEAR(row.at("value").get<double>() * find_unit(unit)->to_si, value,
+                1e-9 * std::abs(value))
+        << path;
+    const double build = row.at("build").get<double>() * find_unit(unit)->to_si;
+    const double fab = run.study.search.rounding;
+    if (unit == "um" && row.at("free")) {
+      EXPECT_NEAR(build, fab * std::round(value / fab), 1e-6 * fab) << path;
+    }
+    EXPECT_TRUE(row.at("text").at("build").get<std::string>().ends_with(unit)) << path;
+    free += row.at("free").get<bool>();
+  }
+  EXPECT_EQ(free, static_cast<int>(run.study.variables.size()));
+  EXPECT_NE(run.file("summary.md")
+                .find("`best/` is " + run.result.finalists[run.result.best].folder +
+                      ": the highest worst modulation over fingers and humidity"),
+            std::string::npos);
 }
 
 // The level between judges a third as many designs as the search.
