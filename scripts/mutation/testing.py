@@ -68,12 +68,12 @@ class Runner:
 def _limited():
     os.setsid()
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    resource.setrlimit(resource.RLIMIT_DATA, (MEMORY, MEMORY))  # a browser reserves far more addresses than it fills
 
 
 def reach(tests, runners, folder, kept, report, stop):
     """name -> (passed, seconds, ids reached, state of the program) without a mutant; `kept` is what an earlier call found."""
-    found = {t.name: kept[t.name] for t in tests if t.name in kept and kept[t.name][3] == t.state}
+    found = {t.name: kept[t.name] for t in tests if t.name in kept and kept[t.name][0] and kept[t.name][3] == t.state}
     free = list(runners)
 
     def one(test):
