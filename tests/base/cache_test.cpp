@@ -32,5 +32,22 @@ TEST(Cache, KeepsWhatItsWeightAllowsAndTheNewestAlways) {
   EXPECT_EQ(*heavy, 90);  // who holds a value keeps it
 }
 
+// What went and what was cleared weighs nothing.
+TEST(Cache, WeighsWhatItHolds) {
+  Cache<int, int> cache(100, 10);
+  value_of(cache, 1, 6);
+  value_of(cache, 2, 4);
+  EXPECT_EQ(cache.size(), 2u);  // 10 is allowed
+  cache.clear();
+  value_of(cache, 1, 3);
+  value_of(cache, 2, 3);
+  value_of(cache, 3, 4);
+  EXPECT_EQ(cache.size(), 3u);
+  value_of(cache, 4, 2);  // 12: the first goes, 9 stay
+  EXPECT_EQ(cache.size(), 3u);
+  value_of(cache, 5, 1);
+  EXPECT_EQ(cache.size(), 4u);
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace papilla::tests {
 namespace {
 
@@ -45,6 +47,13 @@ TEST(Text, AValueEndsWhereItsErrorDoes) {
   EXPECT_EQ(with_error(0.6123, 0.0996), "0.61 ± 0.10");
   EXPECT_EQ(with_error(-0.0004, 0.021), "0.000 ± 0.021");
   EXPECT_EQ(with_error(12.345, 0), "12.35 ± 0");
+  EXPECT_EQ(with_error(1670, 1), "1670.0 ± 1.0");
+  EXPECT_EQ(with_error(86420, 9960), "86000 ± 10000");  // 9960 is 10000 in two digits
+  // Six decimals at most.
+  EXPECT_EQ(with_error(0.5, 1.2e-5), "0.500000 ± 0.000012");
+  EXPECT_EQ(with_error(0.5, 1.2e-6), "0.5 ± 1.2e-06");
+  EXPECT_EQ(with_error(2, INFINITY), "2 ± inf");
+  EXPECT_EQ(with_error(INFINITY, 2), "inf ± 2");
 }
 
 TEST(Text, ColumnsAreAsWideAsTheirWidestCell) {

@@ -1,8 +1,10 @@
 // Calibration: wrong files are told where, a fit that explains nothing is no success.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "design/design.h"
 #include "report/fit.h"
@@ -125,6 +127,89 @@ TEST_F(Calibrate, TheReferenceFitReadsAndHoldsOutMoreThanItFits) {
   const Calibration c = read(find_design("fingers/reference.calibration.toml"));
   EXPECT_LT(c.fit.size(), c.hold_out.size());
   for (const CalibrationParameter& p : c.parameters) EXPECT_GT(p.fit.prior_sd, 0) << p.path;
+}
+
+// A datum is a row in mN for each of its frictions, named by its line.
+TEST_F(Calibrate, RowsAreTheDataInMillinewtons) {
+  write("two.csv", std::string(kHeader) +
+                       "m3_samples/flat.toml,35 %,200,5000,0.2,0.09,0.005,0.15,0.01\n"
+                       "m3_samples/a3h350.toml,0.55,0,0,0.2,0.12,0.02,,\n");
+  const Calibration calibration = read(write("fit.toml", R"(schema_version = 1
+finger = "fingers/reference.toml"
+data = "two.csv"
+[parameters]
+"skin.softening" = { low = 1.2, high = 4.0 }
+)"));
+  Residuals residuals(calibration, 1);
+  const std::vector<FitRow>& rows = residuals.rows();
+  ASSERT_EQ(rows.size(), 3u);
+  const auto expect_row = [&](std::size_t i, const std::string& source, const std::string& what,
+                              double value, double sd) {
+    EXPECT_EQ(rows[i].source, source);
+    EXPECT_EQ(rows[i].what, what);
+    EXPECT_NEAR(rows[i].low, value, 1e-12);
+    EXPECT_NEAR(rows[i].high, value, 1e-12);
+    EXPECT_NEAR(rows[i].sd, sd, 1e-12);
+    EXPECT_EQ(rows[i].sampling_sd, 0);
+  };
+  expect_row(0, "line 2", "F_off of flat at 35 % RH, 200 V, mN", 90, 5);
+  expect_row(1, "line 2", "F_on of flat at 35 % RH, 200 V, mN", 150, 10);
+  expect_row(2, "line 3", "F_off of a3h350 at 55 % RH, 0 V, mN", 120, 20);
+}
+
+// What a fit says of its finger: relative deviations, and each parameter's correlations with those
+// before it, of a matrix that is the same both ways.
+TEST_F(Calibrate, TheFittedFingerCarriesItsDeviationsAndCorrelations) {
+  write("one.csv", std::string(kHeader) + "m3_samples/flat.toml,35 %,200,5000,0.2,0.1,0.1,,\n");
+  const Calibration calibration = read(write("fit.toml", R"(schema_version = 1
+finger = "fingers/reference.toml"
+data = "one.csv"
+iterations = 1
+[sampling]
+level = "draft"
+grid = 64
+skins = 4
+[check]
+level = "draft"
+grid = 64
+skins = 4
+[parameters]
+"macro.shear_strength" = { low = "1 MPa", high = "90 MPa", prior = "9 MPa", factor = 1.5 }
+"skin.layer_modulus" = { low = "5 MPa", high = "600 MPa", prior = "66 MPa", factor = 1.5 }
+"skin.softening" = { low = 1.05, high = 8.0, prior = 2.0, factor = 1.5 }
+"macro.load_share" = { low = 0.0005, high = 0.08, prior = 0.006, factor = 1.5 }
+)"));
+  CalibrationOptions options;
+  options.check = false;
+  options.threads = 1;
+  const CalibrationResult r = fit_finger(calibration, options);
+  const std::size_t n = r.fit.parameters.size();
+  ASSERT_EQ(n, 4u);
+  ASSERT_EQ(r.finger.uncertainty.size(), n);
+  bool correlated = false;
+  for (std::size_t i = 0; i < n; ++i) {
+    const ParameterDeviation& row = r.finger.uncertainty[i];
+    EXPECT_EQ(row.parameter, calibration.parameters[i].path);
+    EXPECT_DOUBLE_EQ(row.deviation, r.fit.parameters[i].se / r.fit.parameters[i].value);
+    EXPECT_GT(row.deviation, 0);
+    ASSERT_EQ(row.correlation.size(), i);
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_NEAR(row.correlation[j], r.fit.correlation[j * n + i], 1e-12) << i << j;
+      correlated = correlated || std::abs(row.correlation[j]) > 1e-3;
+    }
+  }
+  EXPECT_TRUE(correlated);
+  // Before and after: the model of the finger at the start and of the fitted one.
+  Residuals residuals(calibration, 1);
+  residuals.correct(r.start);
+  ASSERT_EQ(r.rows.size(), 1u);
+  EXPECT_NEAR(r.rows[0].before, residuals.model(r.start)[0].value, 1e-9 * r.rows[0].before);
+  EXPECT_NEAR(r.chi2_before,
+              square((r.rows[0].before - 100) / std::hypot(100, r.rows[0].sampling_sd)), 1e-9);
+  residuals.correct(r.finger);
+  EXPECT_NEAR(r.rows[0].after, residuals.model(r.finger)[0].value, 1e-9 * r.rows[0].after);
+  EXPECT_EQ(r.finger.fitted_to, "");
+  EXPECT_TRUE(explains_data(r));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "base/constants.h"
 #include "base/random.h"
+#include "physics/capillary/bridge_branch.h"
 #include "physics/capillary/bridge_table.h"
 #include "physics/capillary/water.h"
 
@@ -193,6 +194,34 @@ TEST(SphereBridge, AgreesWithTheReferenceTable) {
     ++judged;
   }
   EXPECT_GE(judged, 97);
+}
+
+// Where stability ends is a bridge of its own: of volume 1, with the height and the angle that it
+// is said to have.
+TEST(BridgeLimit, IsABridgeOfTheBranch) {
+  using namespace papilla::capillary::bridge_branch;
+  const double degree = kPi / 180;
+  for (const auto& [a, b] :
+       {std::pair{80.0, 80.0}, {50.0, 50.0}, {120.0, 120.0}, {80.0, 50.0}, {110.0, 60.0}}) {
+    const double theta1 = a * degree, theta2 = b * degree;
+    const Limit limit = Branch(theta1, theta2).limit();
+    ASSERT_TRUE(limit.found) << a << " " << b;
+    const Profile q = profile(limit.at, theta1);
+    // A fold is interpolated over 1e-5 of arclength.
+    const double tolerance = limit.pitchfork ? 1e-9 : 1e-7;
+    EXPECT_NEAR(q.volume, 1, tolerance) << a << " " << b;
+    EXPECT_NEAR(q.height, limit.height, tolerance);
+    EXPECT_NEAR(q.w * std::sin(theta2), q.u * std::cos(theta2), tolerance);
+    if (a == b) {
+      EXPECT_NEAR(q.r2, limit.at.r1, tolerance);
+    }
+    // Just below it there is a bridge nearby.
+    Branch branch(theta1, theta2);
+    ASSERT_TRUE(branch.go_to(limit.height * (1 - 1e-4)));
+    EXPECT_NEAR(branch.at().p, limit.at.p, 0.05);
+    EXPECT_NEAR(branch.at().r1, limit.at.r1, 0.05);
+    EXPECT_FALSE(branch.go_to(limit.height * 1.01));
+  }
 }
 
 }  // namespace

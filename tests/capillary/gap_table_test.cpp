@@ -84,5 +84,24 @@ TEST(GapTable, AFootprintHoldsItsVolumeWhateverTheGuess) {
   }
 }
 
+// Pockets in a nearly closed gap: whatever the guess, the disc holds the volume by its own rule.
+TEST(Footprint, HoldsItsVolumeInPocketsToo) {
+  Gap gap = rough_gap();
+  for (double& h : gap.value) h = 1e-6 * std::pow(1e6 * h, 8);
+  const GapTable table(gap, 1e-10);
+  RandomStream random(7, "pockets", 0);
+  int off = 0;
+  for (int k = 0; k < 400; ++k) {
+    const double x = random.uniform() * gap.grid.lx, y = random.uniform() * gap.grid.ly;
+    const double volume = 1e-20 * std::pow(10, 3 * random.uniform());
+    const double guess = k % 2 ? 0 : 1e-7 * std::pow(10, 1.5 * random.uniform());
+    const Footprint f = solve_footprint(table, x, y, volume, guess);
+    const double held = table.disc_volume(x, y, f.radius, table.rule(f.radius));
+    off += std::abs(held - volume) > 1e-8 * volume;
+    EXPECT_DOUBLE_EQ(f.rim.gap, table.rim(x, y, f.radius, table.rule(f.radius)).gap);
+  }
+  EXPECT_LE(off, 4);  // where two rules ask for each other, the finer one's counts
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "design/design.h"
+#include "forward/forward.h"
 #include "report/drive.h"
 #include "tests/temporary.h"
 
@@ -295,6 +296,64 @@ TEST(DriveFile, LinesAreListedUpToFourTimesTheCarrier) {
   chirp[1] = "drive.waveform=sine";
   chirp.insert(chirp.end(), {"source.chirp_to=500 Hz", "source.chirp_time=100 ms"});
   EXPECT_NEAR(highest(chirp), 2000, 1e-6);
+}
+
+// The first sample counts: stuck for a millisecond, then too light a touch.
+TEST(DriveFile, ASwipeBeginsWithItsFirstSample) {
+  StictionOptions options;
+  options.stuck_current = 4e-3;
+  const Swipe swipe = run_swipe("lateral,normal\n0,0.5\n0,0.01\n0,0.01\n", "f.csv", options, 0);
+  ASSERT_EQ(swipe.steps.size(), 2u);
+  EXPECT_EQ(swipe.steps[0].time, 0);
+  EXPECT_EQ(swipe.steps[0].state, SlipState::Stuck);
+  EXPECT_EQ(swipe.steps[0].current, 4e-3);
+  EXPECT_DOUBLE_EQ(swipe.steps[1].time, 1e-3);
+  EXPECT_EQ(swipe.steps[1].state, SlipState::Idle);
+  EXPECT_EQ(swipe.steps[1].current, 0);
+  EXPECT_DOUBLE_EQ(swipe.driven, 1e-3);
+  EXPECT_DOUBLE_EQ(swipe.duration, 3e-3);
+  SwipeSettings shares;
+  shares.stuck = 0.5, shares.partial = 0.25, shares.full = 0.125;
+  EXPECT_EQ(shares.machine(8e-3).stuck_current, 4e-3);
+  EXPECT_EQ(shares.machine(8e-3).partial_current, 2e-3);
+  EXPECT_EQ(shares.machine(8e-3).full_current, 1e-3);
+}
+
+// Layer by layer: films by their thickness over permittivity, skin by its corner, the gap by the
+// mean over its pixels (Eq. drive.3).
+TEST(DriveFile, TheNetworkOfADesignIsThatOfItsLayers) {
+  const std::string file = kSamples + "a3h350.toml";
+  const DriveCase c = read_drive_case(
+      kFingertip, {"gap.design=" + file, "gap.skins=2", "gap.resistivity=1e8 ohm m"});
+  const DriveResult r = solve_drive(c);
+  const Design d = read_design(file);
+  const double rh = c.gap.relative_humidity;
+  const double film = d.surface.equivalent_thickness(),
+               skin = d.finger.electrical.equivalent_thickness(rh);
+  EXPECT_NEAR(r.network.dielectric.capacitance, kVacuumPermittivity * r.area / film,
+              1e-9 * r.network.dielectric.capacitance);
+  EXPECT_NEAR(r.network.skin.capacitance, kVacuumPermittivity * r.area / skin,
+              1e-9 * r.network.skin.capacitance);
+  EXPECT_NEAR(r.network.skin.corner_frequency(), d.finger.electrical.corner_frequency,
+              1e-9 * d.finger.electrical.corner_frequency);
+  double inverse = 0, inverse_square = 0, count = 0;
+  for (int k = 0; k < 2; ++k) {
+    Scene scene = scene_of(d);
+    scene.drive.amplitude = 0;
+    for (double g : picture_patch(scene, d.texture, fidelity_of(d), rh, k).fields.off.gap) {
+      inverse += 1 / (std::max(g, 0.0) + film + skin);
+      inverse_square += 1 / square(std::max(g, 0.0) + film + skin);
+      ++count;
+    }
+  }
+  const double distance = count / inverse - film - skin;
+  EXPECT_NEAR(r.network.gap.distance, distance, 1e-6 * distance);
+  EXPECT_NEAR(r.network.gap.layer.resistance, 1e8 * distance / r.area,
+              1e-6 * r.network.gap.layer.resistance);
+  EXPECT_NEAR(r.network.gap.force_factor,
+              0.5 * kVacuumPermittivity * r.area * inverse_square / count *
+                  square(1 + (film + skin) / distance),
+              1e-6 * r.network.gap.force_factor);
 }
 
 }  // namespace

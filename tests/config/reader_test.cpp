@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/units.h"
 #include "config/describe.h"
 #include "config/writer.h"
+#include "geometry/facts.h"
 #include "scene/environment.h"
 #include "scene/finger.h"
 #include "tests/temporary.h"
@@ -275,6 +277,79 @@ TEST(Reader, BasesOutsideTheRootsAndCyclesAreRefused) {
   EXPECT_NE(message("base = \"link.toml\"").find("outside"), std::string::npos);
 }
 
+// A part in 10^12 of the largest limit beyond either, and of a smaller one near nothing.
+TEST(Reader, LimitsHoldButForTheRoundingOfUnits) {
+  Document document = parse_document("a = 1\n", "x.toml");
+  const auto fits = [&](const NumberSpec& spec, double value) {
+    Node node = number_node(value * find_unit(spec.unit)->to_si);
+    node.si = true;
+    double out = -1;
+    const bool good = document.number(node, "k", spec, out);
+    EXPECT_EQ(out, good ? node.number : -1);
+    return good;
+  };
+  const NumberSpec angle{"k", "deg", 45, 90, ""};
+  EXPECT_TRUE(fits(angle, 90 * (1 + 5e-13)));
+  EXPECT_FALSE(fits(angle, 90 * (1 + 2e-12)));
+  EXPECT_TRUE(fits(angle, 45 - 4.5e-11));
+  EXPECT_FALSE(fits(angle, 45 - 1.8e-10));
+  const NumberSpec wide{"k", "um", 1e-6, 1e6, ""};
+  EXPECT_TRUE(fits(wide, 1e-6 * (1 - 5e-10)));
+  EXPECT_FALSE(fits(wide, 1e-6 * (1 - 2e-9)));
+  EXPECT_FALSE(fits(wide, 0.5e-6));
+  EXPECT_FALSE(fits(wide, 0));
+  const NumberSpec from_nothing{"k", "V", 0, 10, ""};
+  EXPECT_TRUE(fits(from_nothing, 0));
+  EXPECT_FALSE(fits(from_nothing, -1e-15));
+  EXPECT_TRUE(fits(from_nothing, 10 * (1 + 5e-13)));
+  const NumberSpec below{"k", "um", -100, 1, ""};
+  EXPECT_TRUE(fits(below, -100 - 5e-11));
+  EXPECT_FALSE(fits(below, -100 - 2e-10));
+  EXPECT_TRUE(fits(below, 1 + 5e-11));
+  EXPECT_FALSE(fits(below, 1 + 2e-10));
+}
+
+TEST(Reader, WhatIsTakenByItsPathCountsAsRead) {
+  const std::string text = "note = 1\n[drive]\nvoltage = \"2 V\"\nremark = 3\n";
+  const auto said = [&](const std::vector<std::string>& taken) -> std::string {
+    Document document = parse_document(text, "hole.toml");
+    Source3 drive;
+    read_section(document, "drive", drive);
+    EXPECT_EQ(drive.voltage, 2);
+    for (const std::string& path : taken) {
+      const Node* node = document.take(path);
+      EXPECT_NE(node, nullptr);
+      EXPECT_EQ(document.origins().at(path).line, node->place.line);
+    }
+    EXPECT_EQ(document.take("drive.none"), nullptr);
+    EXPECT_EQ(document.origins().count("drive.none"), 0u);
+    EXPECT_TRUE(document.has("drive.remark"));
+    EXPECT_FALSE(document.has("drive.none"));
+    try {
+      finish(document);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said({"note", "drive.remark"}), "");
+  EXPECT_EQ(said({"note"}),
+            "hole.toml:4:1: drive: unknown key `remark`; known here: none, voltage");
+  EXPECT_EQ(said({"drive.remark"}), "hole.toml:1:1: unknown key `note`; known here: drive");
+}
+
+TEST(Reader, AProblemStandsAtItsValueOrAtTheNearestSectionAroundIt) {
+  Document document = parse_document("a = 1\n[drive]\nvoltage = \"2 V\"\n", "hole.toml");
+  document.problem_at("drive.voltage", "one");
+  document.problem_at("drive.none.deeper", "two");
+  document.problem_at("nothing", "three");
+  std::vector<std::string> said;
+  for (const Problem& p : document.problems()) said.push_back(p.text());
+  EXPECT_EQ(said, (std::vector<std::string>{"hole.toml:3:11: drive.voltage: one",
+                                            "hole.toml:2:1: drive.none.deeper: two",
+                                            "hole.toml:1:1: nothing: three"}));
+}
+
 TEST(Writer, TheResolvedFileReadsBackToTheSameValues) {
   Whole whole;
   whole.finger.skin.rms = 256.123456789e-9 / 3;
@@ -295,6 +370,125 @@ TEST(Writer, EveryValueSaysWhereItCameFrom) {
   EXPECT_NE(text.find("amplitude = \"150 V\"  # study.toml:2:13\n"), std::string::npos) << text;
   EXPECT_NE(text.find("load = \"1 N\"  # --set finger.load=1 N\n"), std::string::npos) << text;
   EXPECT_NE(text.find("frequency = \"5 kHz\"  # default (paper: M3: 5 kHz)\n"), std::string::npos);
+}
+
+struct Part {
+  double share = 0.25;
+};
+void fields(FieldVisitor& v, Part& s) {
+  v.number({"share", "%", 0, 100, "of the whole", Source::Measured}, s.share);
+}
+
+// One of each kind.
+struct Each {
+  double length = 3e-6, plain = 2;
+  std::vector<double> angles{0, 1.5707963267948966};
+  int count = 4, version = 1;
+  bool on = true;
+  std::string name = "a \"b\"\\\n\t\x01", file = "/x/y.csv";
+  Lattice lattice = Lattice::Hexagonal;
+  Part part;
+  std::vector<Part> parts{{0.5}, {1}};
+};
+void fields(FieldVisitor& v, Each& s) {
+  v.number({"length", "um", 0.5, 50, "a side", Source::Paper, "M3", Presence::Required}, s.length);
+  v.number({"plain", "", -1, 1e7, "a factor", Source::Fit, "to M3"}, s.plain);
+  v.numbers({"angles", "deg", 0, 90, "of views"}, s.angles);
+  v.integer({"count", "of parts"}, 1, 8, s.count);
+  v.integer({"version", "of all"}, 1, 1, s.version);
+  v.flag({"on", "whether"}, s.on);
+  v.text({"name", "for people", Source::Estimate}, s.name);
+  v.path({"file", "beside it"}, s.file);
+  v.choice({"lattice", "arrangement"}, {"square", "hexagonal"}, s.lattice);
+  v.section({"part", "one"}, s.part);
+  v.list({"parts", "more"}, s.parts);
+}
+
+TEST(Describe, ARowSaysAllOfItsField) {
+  const std::vector<FieldRow> rows = field_rows(Each{}, "each");
+  std::vector<std::string> said;
+  for (const FieldRow& r : rows) {
+    if (r.path == "each.name") continue;
+    said.push_back(r.path + " | " + r.kind + " | " + r.range + " | " + r.default_value + " | " +
+                   r.doc + " | " + r.source + " | " + r.reference + (r.required ? " | must" : "") +
+                   (r.section ? " | section" : ""));
+  }
+  EXPECT_EQ(said, (std::vector<std::string>{
+                      "each.length | a length in um | 0.5 to 50 um | 3 um | a side | paper | M3 | "
+                      "must",
+                      "each.plain | a number | -1 to 1e7 | 2 | a factor | fit | to M3",
+                      "each.angles | a list, each an angle in deg | 0 to 90 deg | [0 deg, 90 deg] "
+                      "| of views | choice | ",
+                      "each.count | a whole number | 1 to 8 | 4 | of parts | choice | ",
+                      "each.version | a whole number | 1 | 1 | of all | choice | ",
+                      "each.on | true or false |  | true | whether | choice | ",
+                      "each.file | a file |  | /x/y.csv | beside it | choice | ",
+                      "each.lattice | one of square, hexagonal |  | hexagonal | arrangement | "
+                      "choice | ",
+                      "each.part | a section |  |  | one | choice |  | section",
+                      "each.part.share | a share in % | 0 to 100 % | 25 % | of the whole | "
+                      "measured | ",
+                      "each.parts | a list of sections |  |  | more | choice |  | section",
+                      "each.parts.0.share | a share in % | 0 to 100 % | 50 % | of the whole | "
+                      "measured | ",
+                      "each.parts.1.share | a share in % | 0 to 100 % | 100 % | of the whole | "
+                      "measured | "}));
+}
+
+TEST(Describe, RowsAreTextOrATable) {
+  std::vector<FieldRow> rows = field_rows(Each{});
+  rows = {rows[0], rows[1], rows[5], rows[9], rows[10]};
+  const std::string blank(36, ' ');
+  EXPECT_EQ(reference_text(rows),
+            "length" + std::string(31, ' ') + "a side\n" + blank +
+                "   a length in um, 0.5 to 50 um, required\n" + "plain" + std::string(32, ' ') +
+                "a factor\n" + blank + "   a number, -1 to 1e7, default 2 (fit: to M3)\n" + "on" +
+                std::string(35, ' ') + "whether\n" + blank +
+                "   true or false, default true (choice)\n" + "\n[part]  one\n" + "part.share" +
+                std::string(27, ' ') + "of the whole\n" + blank +
+                "   a share in %, 0 to 100 %, default 25 % (measured)\n");
+  EXPECT_EQ(reference_markdown(rows),
+            "| key | meaning | kind | range | default | source |\n|---|---|---|---|---|---|\n"
+            "| `length` | a side | a length in um | 0.5 to 50 um | required | paper: M3 |\n"
+            "| `plain` | a factor | a number | -1 to 1e7 | `2` | fit: to M3 |\n"
+            "| `on` | whether | true or false |  | `true` | choice |\n"
+            "| **`part`** | one | a section | | | |\n"
+            "| `part.share` | of the whole | a share in % | 0 to 100 % | `25 %` | measured |\n");
+}
+
+TEST(Describe, NumbersAloneAreFoundWithTheirLimits) {
+  Each each;
+  std::vector<std::string> paths;
+  for (const NumberField& n : number_fields(each, "each")) paths.push_back(n.path);
+  EXPECT_EQ(paths, (std::vector<std::string>{"each.length", "each.plain", "each.angles.0",
+                                             "each.angles.1", "each.part.share",
+                                             "each.parts.0.share", "each.parts.1.share"}));
+  const NumberField angle = find_number(each, "angles.1");
+  EXPECT_EQ(std::tuple(angle.low, angle.high, std::string(angle.unit), std::string(angle.doc)),
+            std::tuple(0.0, 90.0, "deg", "of views"));
+  set_number(each, "angles.1", 0.5);
+  EXPECT_EQ(each.angles, (std::vector<double>{0, 0.5}));
+  set_number(each, "parts.1.share", 0.75);
+  EXPECT_EQ(each.parts[1].share, 0.75);
+  EXPECT_EQ(each.parts[0].share, 0.5);
+}
+
+TEST(Writer, WritesEachKindAsAFileHasIt) {
+  EXPECT_EQ(to_toml(Each{}),
+            "length = \"3 um\"\nplain = 2.0\nangles = [\"0 deg\", \"90 deg\"]\ncount = 4\n"
+            "version = 1\non = true\nname = \"a \\\"b\\\"\\\\\\n\\t\\u0001\"\n"
+            "file = \"/x/y.csv\"\nlattice = \"hexagonal\"\n\n[part]\nshare = \"25 %\"\n\n"
+            "[[parts]]\nshare = \"50 %\"\n\n[[parts]]\nshare = \"100 %\"\n");
+  const Origins origins{{"plain", {"a.toml", 3, 7}}, {"parts.1.share", {"--set x", 0, 0}}};
+  const std::string text = to_toml(Each{}, &origins);
+  EXPECT_TRUE(
+      text.starts_with("length = \"3 um\"  # default (paper: M3)\nplain = 2.0  # a.toml:3:7\n"
+                       "angles = [\"0 deg\", \"90 deg\"]  # default (choice)\n"))
+      << text;
+  EXPECT_TRUE(text.ends_with(
+      "[part]\nshare = \"25 %\"  # default (measured)\n\n[[parts]]\nshare = \"50 %\"  # default "
+      "(measured)\n\n[[parts]]\nshare = \"100 %\"  # --set x\n"))
+      << text;
 }
 
 TEST(Describe, FindsNumbersByPath) {

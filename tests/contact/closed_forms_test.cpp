@@ -133,6 +133,50 @@ TEST(ClosedForms, AdhesiveSpheresPullOffWhereTheirForceIsLeast) {
   EXPECT_NEAR(s.tabor(1e-9) / s.tabor(8e-9), 8, 1e-12);
 }
 
+// Beyond full contact the wave of pressure is as high as at it, on a higher mean.
+TEST(ClosedForms, BeyondFullContactTheWholeWaveIsPressed) {
+  const Westergaard wave{1e6, 1e-8, 1e-6};
+  const EggBox box{1e6, 1e-8, 1e-6};
+  const double full = kPi * 1e6 * 1e-8 / 1e-6;
+  EXPECT_DOUBLE_EQ(wave.full_pressure(), full);
+  EXPECT_DOUBLE_EQ(box.full_pressure(), std::sqrt(2.0) * full);
+  for (const double p : {1.0 * full, 3 * full}) {
+    EXPECT_DOUBLE_EQ(wave.area(p), 1);
+    EXPECT_DOUBLE_EQ(wave.peak_pressure(p), p + full);
+    EXPECT_NEAR(wave.pressure(p, 0.5e-6), p - full, 1e-9 * full);
+    EXPECT_NEAR(wave.pressure(p, 0.25e-6), p, 1e-9 * full);
+    EXPECT_DOUBLE_EQ(box.area(std::sqrt(2.0) * p), 1);
+    EXPECT_DOUBLE_EQ(box.peak_pressure(std::sqrt(2.0) * p), std::sqrt(2.0) * (p + full));
+  }
+  for (const double p : {0.0, -full}) {
+    EXPECT_EQ(wave.area(p), 0);
+    EXPECT_EQ(wave.peak_pressure(p), 0);
+    EXPECT_EQ(box.area(p), 0);
+    EXPECT_EQ(box.peak_pressure(p), 0);
+  }
+  // The mean over a period is the load, below full contact and beyond.
+  for (const double p : {0.3 * full, 2 * full}) {
+    double sum = 0;
+    for (int k = 0; k < 100000; ++k) sum += wave.pressure(p, 1e-6 * (k + 0.5 - 50000) / 1e5) / 1e5;
+    EXPECT_NEAR(sum, p, 1e-5 * p);
+  }
+}
+
+// Without force a JKR sphere is pressed in by a third of what its contact takes without work
+// (Johnson, Kendall and Roberts 1971), and its force is the slope of its energy.
+TEST(ClosedForms, ApproachesOfConeAndAdhesiveSphereFollowFromTheirForces) {
+  const AdhesiveSphere s{1e6, 1e-6, 0.05};
+  const double rest = std::cbrt(9 * kPi * 0.05 * square(1e-6) / (2 * 1e6));
+  EXPECT_NEAR(s.jkr_approach(rest), square(rest) / 3e-6, 1e-9 * square(rest) / 1e-6);
+  EXPECT_NEAR(s.jkr_pull_off() / (kPi * 0.05 * 1e-6), -1.5, 1e-12);
+  EXPECT_NEAR(s.dmt_pull_off() / (kPi * 0.05 * 1e-6), -2, 1e-12);
+  EXPECT_NEAR(s.tabor(1e-9), std::cbrt(1e-6 * square(0.05) / (square(1e6) * cube(1e-9))), 1e-9);
+  const Cone cone{2e6, 0.1};
+  const double a = cone.contact_radius(3e-6);
+  EXPECT_NEAR(cone.approach(3e-6), kPi * a * 0.1 / 2, 1e-12 * a);
+  EXPECT_NEAR(kPi * 2e6 * a * a * 0.1 / 2, 3e-6, 1e-15);
+}
+
 // A soft body on what does not give: a half-space for waves short against it, a bonded film for
 // long ones. Eq. contact.9
 TEST(Kernel, AFiniteCounterBodyGivesAsABondedFilm) {

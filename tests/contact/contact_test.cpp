@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
+#include "physics/contact/facts.h"
 
 namespace papilla::tests {
 namespace {
@@ -257,6 +258,53 @@ TEST(Contact, StiffnessRatiosOfTenThousandConverge) {
     const ContactSolution s = solve_contact(kernel, skin.z, 1e3, {}, {.tolerance = 1e-6});
     EXPECT_TRUE(s.converged()) << ratio << " " << s.reason;
   }
+}
+
+// Five times the certificate (Eq. accuracy.1); a certificate costs at least three transform pairs,
+// and 3.3 a digit beyond.
+TEST(ContactFacts, AreThePriceAndTheErrorOfACertificate) {
+  EXPECT_DOUBLE_EQ(contact::contact_error(3e-4), 1.5e-3);
+  EXPECT_EQ(contact::contact_method(1e-4), "layered half-space, certified to 0.0001");
+  const Grid grid{128, 64, 1, 1};
+  const double pair = contact::contact_seconds(grid, 1e-1) / 3;
+  EXPECT_GT(pair, 0);
+  EXPECT_NEAR(contact::contact_seconds(grid, 1e-2), 3 * pair, 1e-12);
+  EXPECT_NEAR(contact::contact_seconds(grid, 1e-4), 8.2 * pair, 1e-9 * pair);
+  EXPECT_NEAR(contact::contact_seconds(grid, 1e-6), 14.8 * pair, 1e-9 * pair);
+}
+
+// Pressed flat, a wave A cos(qx) takes the pressure A / C(q) and stores A^2 / (4 C) per area.
+TEST(Contact, AWavePressedFlatStoresItsEnergy) {
+  const Grid grid{64, 32, 2e-6, 1e-6};
+  const LayeredSolid solid{5e6, 0.3, 3e-7, 1e6, 0.45};
+  const ContactKernel kernel(grid, solid);
+  const double amplitude = 1e-9, q = 2 * kPi / 1e-6, peak = amplitude / compliance(solid, q);
+  std::vector<double> height(grid.size());
+  for (std::size_t i = 0; i < height.size(); ++i)
+    height[i] = amplitude * std::cos(q * grid.x(static_cast<int>(i) % 64));
+  const ContactSolution s = solve_contact(kernel, height, 2 * peak, {}, {.tolerance = 1e-10});
+  ASSERT_TRUE(s.converged()) << s.reason;
+  EXPECT_NEAR(s.elastic_energy, square(amplitude) / (4 * compliance(solid, q)) * grid.area(),
+              1e-6 * s.elastic_energy);
+  EXPECT_NEAR(s.shift, 0, 1e-6 * amplitude);  // of the mean surface, whose displacement is none
+  for (std::size_t i = 0; i < height.size(); ++i)
+    EXPECT_NEAR(s.pressure[i], peak * (2 + height[i] / amplitude), 1e-4 * peak);
+}
+
+TEST(Contact, WhatIsNotCertifiedSaysHowFarItCame) {
+  const Grid grid{64, 64, 12e-6, 12e-6};
+  const ContactKernel kernel(grid, kHalfSpace);
+  const Heightmap h = random_surface({1e-7, 6e-6, 0.8, 5e-7}, grid, 1, 0);
+  const ContactSolution s =
+      solve_contact(kernel, h.z, 1e4, {},
+                    {.tolerance = 1e-12, .max_iterations = 3, .method = ContactMethod::Dense});
+  EXPECT_EQ(s.status, ContactStatus::IterationLimit);
+  EXPECT_FALSE(s.converged());
+  EXPECT_GT(s.certificate, 1e-12);
+  EXPECT_TRUE(s.reason.starts_with("certificate ")) << s.reason;
+  EXPECT_TRUE(
+      s.reason.ends_with(" above 1e-12 after " + std::to_string(s.iterations) + " iterations"))
+      << s.reason;
 }
 
 TEST(Contact, AWarmStartGivesTheSameAnswer) {

@@ -216,6 +216,147 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
             ":5:54: design_space.finger.load.exclude: expected [from, to], got \"1.5 N\"");
 }
 
+TEST(Study, AnAmplitudeAboveItsSourceIsSaidOfAVoltageAlone) {
+  const std::string head = "schema_version = 1\n[drive]\n";
+  const std::string volts = "amplitude = \"200 V\"\nsource_compliance = ";
+  EXPECT_EQ(problems_of(head + volts + "\"150 V\"\n"),
+            ":3:13: drive.amplitude: 200 V is above source_compliance, 150 V");
+  EXPECT_EQ(problems_of(head + volts + "\"200 V\"\n"), "");
+  EXPECT_EQ(problems_of(head + volts + "\"0 V\"\n"), "");  // not given
+  EXPECT_EQ(problems_of(head + "control = \"current\"\n" + volts + "\"150 V\"\n"),
+            ":4:13: drive.amplitude: a voltage, beside control = \"current\": give drive.current, "
+            "and the largest voltage as drive.source_compliance");
+}
+
+TEST(Study, ScenariosHaveNamesWeightsAndSettings) {
+  const std::string head = "schema_version = 1\n";
+  const auto read = [&](const std::string& items) {
+    return parse_study(head + "scenarios = [" + items + "]\n", "s.toml").scenarios;
+  };
+  const std::vector<Scenario> both = read(
+      "{ name = \"new\" }, { name = \"worn\", weight = 0.25, set = { "
+      "\"surface.contact_angle\" = \"90 deg\" } }");
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_EQ(both[0], (Scenario{"new", 1, {}}));
+  EXPECT_EQ(both[1].name, "worn");
+  EXPECT_EQ(both[1].weight, 0.25);
+  ASSERT_EQ(both[1].set.size(), 1u);
+  EXPECT_EQ(both[1].set[0].path, "surface.contact_angle");
+  EXPECT_DOUBLE_EQ(both[1].set[0].value, 0.5 * 3.14159265358979323846);
+  EXPECT_EQ(read("{ name = \"never\", weight = 0 }").at(0).weight, 0);
+  const auto wrong = [&](const std::string& value) {
+    return problems_of(head + "scenarios = " + value + "\n");
+  };
+  EXPECT_EQ(wrong("[{ name = \"a\", weight = -1 }]"),
+            ":2:37: scenarios.0.weight: -1 is outside 0 to 1000000");
+  EXPECT_EQ(wrong("[{ name = \"a\", weight = 1000001 }]"),
+            ":2:37: scenarios.0.weight: 1000001 is outside 0 to 1000000");
+  EXPECT_EQ(wrong("3"), ":2:13: scenarios: expected a list of sections [[scenarios]], got 3");
+  EXPECT_EQ(wrong("[{ name = \"a\" }, 3]"),
+            ":2:30: scenarios.1: expected a section { ... }, got 3");
+  EXPECT_EQ(wrong("[{ weight = 1 }]"), ":2:14: scenarios.0: missing `name` (a text)");
+  EXPECT_EQ(wrong("[{ name = 3 }]"), ":2:23: scenarios.0: missing `name` (a text)");
+  EXPECT_EQ(wrong("[{ name = \"a\", wieght = 1 }]"),
+            ":2:28: scenarios.0: unknown key `wieght`, did you mean `weight`?");
+  EXPECT_EQ(wrong("[{ name = \"a\", set = 3 }]"),
+            ":2:34: scenarios.0.set: expected a section, e.g. { \"surface.contact_angle\" = \"80 "
+            "deg\" }");
+}
+
+// What another kind of texture has is left out; of anything else there is a mistake.
+TEST(Settings, ChangeTheNumbersThatADesignHas) {
+  Design design;
+  design.texture = Texture{HoleArray{}};
+  const Design out = with_settings(
+      design,
+      {{"texture.depth", 2e-7}, {"texture.rms", 1e-8}, {"surface.dielectric.0.thickness", 3e-7}});
+  EXPECT_EQ(get_number(out, "texture.depth"), 2e-7);
+  EXPECT_EQ(out.surface.dielectric.at(0).thickness, 3e-7);
+  EXPECT_EQ(get_number(out, "texture.diameter"), get_number(design, "texture.diameter"));
+  EXPECT_THROW(with_settings(design, {{"surface.thickness", 1e-7}}), InputError);
+}
+
+// Overlapping ones become one, whose end is the farther.
+TEST(Study, ExcludedRangesWithinOthersAreOne) {
+  const Study study = parse_study(
+      "schema_version = 1\n[objective]\nmaximise = \"mean(modulation)\"\n[design_space]\n"
+      "\"finger.load\" = { range = [\"1 N\", \"9 N\"], exclude = [[\"2 N\", \"6 N\"], [\"3 N\", "
+      "\"4 N\"], [\"6 N\", \"7 N\"], [\"7.5 N\", \"8 N\"]] }\n"
+      "\"surface.contact_angle\" = { choice = [\"60 deg\", \"30 deg\", \"90 deg\"] }\n",
+      "s.toml");
+  ASSERT_EQ(study.variables.size(), 2u);
+  const Variable& load = study.variables[0];
+  ASSERT_EQ(load.excluded.size(), 2u);
+  EXPECT_EQ(load.excluded[0].from, 2);
+  EXPECT_EQ(load.excluded[0].to, 7);
+  EXPECT_EQ(load.excluded[1].from, 7.5);
+  EXPECT_EQ(load.excluded[1].to, 8);
+  EXPECT_EQ(std::tuple(load.low, load.high, load.unit), std::tuple(1.0, 9.0, "N"));
+  const Variable& angle = study.variables[1];
+  ASSERT_EQ(angle.choices.size(), 3u);
+  const double degree = 3.14159265358979323846 / 180;
+  EXPECT_DOUBLE_EQ(angle.choices[0], 60 * degree);
+  EXPECT_DOUBLE_EQ(angle.low, 30 * degree);
+  EXPECT_DOUBLE_EQ(angle.high, 90 * degree);
+}
+
+TEST(Study, ScatterIsALengthAboveNothing) {
+  const std::string head = "schema_version = 1\n[scatter]\n\"surface.dielectric.0.thickness\" = ";
+  const std::vector<Scatter> scatter = parse_study(head + "\"25 nm\"\n", "s.toml").scatter;
+  ASSERT_EQ(scatter.size(), 1u);
+  EXPECT_EQ(scatter[0].path, "surface.dielectric.0.thickness");
+  EXPECT_DOUBLE_EQ(scatter[0].tolerance, 25e-9);
+  const std::string where = ":3:36: scatter.surface.dielectric.0.thickness: ";
+  EXPECT_EQ(problems_of(head + "\"0 nm\"\n"), where + "expected a tolerance above 0");
+  EXPECT_EQ(problems_of(head + "\"-1 nm\"\n"), where + "-1 nm is outside 0 to 1e9 nm");
+}
+
+// A metric is limited on its bad side: what is wished high from below, and what should vary little
+// from above.
+TEST(Study, LimitsAndWishesAreReadWithTheirSides) {
+  const Study study = parse_study(
+      "schema_version = 1\n[objective]\nmaximise = \"mean(modulation)\"\n"
+      "minimise = [\"variation(modulation)\", \"mean(friction)\"]\nrisk = \"worst\"\n"
+      "target = { modulation = 0.8 }\n[constraints]\nmin_wall = \"0.4 um\"\naspect_ratio = 1.5\n"
+      "\"worst(modulation)\" = 0.2\n\"variation(modulation)\" = 0.3\n",
+      "s.toml");
+  EXPECT_EQ(study.objective, (Objective{{"mean(modulation)"},
+                                        {"variation(modulation)", "mean(friction)"},
+                                        {{"modulation", 0.8}},
+                                        "worst"}));
+  EXPECT_EQ(study.constraints, (std::vector<Constraint>{{"min_wall", 0.4e-6, true},
+                                                        {"aspect_ratio", 1.5, false},
+                                                        {"worst(modulation)", 0.2, true},
+                                                        {"variation(modulation)", 0.3, false}}));
+}
+
+TEST(Study, APopulationTouchesAsTheStudySays) {
+  const std::string fingers = "[population]\nfingers = [\"fingers/smooth.toml\"]\n";
+  const Finger own = read_finger(kDesigns + "fingers/smooth.toml");
+  ASSERT_NE(own.load, 2);
+  ASSERT_NE(own.state, FingerState::Natural);
+  const auto read = [&](const std::string& head) {
+    return parse_study("schema_version = 1\n" + head + fingers, "s.toml").population.at(0);
+  };
+  EXPECT_EQ(read(""), own);
+  Finger expected = own;
+  expected.load = 2;
+  EXPECT_EQ(read("[finger]\nload = \"2 N\"\n"), expected);
+  expected = own;
+  expected.state = FingerState::Natural;
+  EXPECT_EQ(read("[finger]\nstate = \"natural\"\n"), expected);
+}
+
+// By its file, or by its folder where the file has the name that all have.
+TEST(Study, IsNamedByItsFileOrItsFolder) {
+  const auto name = [](const std::string& file) {
+    return parse_study("schema_version = 1\n", file).name;
+  };
+  EXPECT_EQ(name("glass/fine.toml"), "fine");
+  for (const char* file : {"glass/study.toml", "glass/resolved.toml", "glass/design.toml"})
+    EXPECT_EQ(name(file), "glass") << file;
+}
+
 TEST(Study, ExcludesValuesOfAVariable) {
   const std::string file = temporary("excluding.toml");
   write_bytes(file,

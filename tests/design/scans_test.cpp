@@ -17,5 +17,26 @@ TEST(DesignScans, APartThatAloneIsTakenIsSaid) {
   EXPECT_EQ(text(scan).find("the middle"), std::string::npos) << text(scan);
 }
 
+// The map of a texture is cut to its patch, that of a skin as each window needs it.
+TEST(DesignScans, AreThoseOfTheTextureAndOfTheSkin) {
+  EXPECT_TRUE(scans_of(Design{}).empty());
+  const std::string file = PAPILLA_DESIGNS_DIR "/measured_surface/scan.gsf";
+  Measured3d measured;
+  measured.file = file, measured.patch = 12e-6;
+  Design design;
+  design.texture = Texture{measured};
+  const std::vector<DesignScan> one = scans_of(design);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].file, file);
+  EXPECT_EQ(one[0].taken, 12e-6);
+  EXPECT_GT(one[0].changes.width, 12e-6);
+  design.finger.skin.map = file;
+  const std::vector<DesignScan> two = scans_of(design);
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[1].file, file);
+  EXPECT_EQ(two[1].taken, 0);
+  EXPECT_EQ(two[1].changes.width, one[0].changes.width);
+}
+
 }  // namespace
 }  // namespace papilla::tests

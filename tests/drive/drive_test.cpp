@@ -268,6 +268,73 @@ TEST(Onset, FrictionOfAPatchInStaticContactIsItsAdhesionAlone) {
   EXPECT_DOUBLE_EQ(onset_friction(9e6, 1e-8, 0.3, 0.5, 0.2, 0), 0.09 + 0.21);
 }
 
+TEST(Network, AnInsulatorIsItsCapacitance) {
+  const ImpedanceLayer insulator{kInfinity, 2e-9};
+  const std::complex<double> z = insulator.impedance(50);
+  EXPECT_EQ(z.real(), 0);
+  EXPECT_NEAR(z.imag(), -1 / (2 * kPi * 50 * 2e-9), 1e-6);
+  EXPECT_EQ(insulator.impedance(0).real(), kInfinity);
+  EXPECT_EQ(insulator.corner_frequency(), 0);
+  // What leaks next to nothing is nearly the same.
+  EXPECT_LT(std::abs(ImpedanceLayer{1e15, 2e-9}.impedance(50) / z - 1.0), 1e-5);
+  const ImpedanceLayer layer = slab(2e-6, 3, 1e8, 5e-6);
+  EXPECT_DOUBLE_EQ(layer.resistance, 4e7);
+  EXPECT_DOUBLE_EQ(layer.capacitance, kVacuumPermittivity * 7.5);
+  EXPECT_EQ(std::abs(slab(0, 3, 1e8, 5e-6).impedance(10)), 0);
+}
+
+// Dahl's law under a constant limit, while the finger moves one way: force = limit (1 - e^(-k x /
+// limit)), here in fifty steps a sample.
+TEST(Rubbing, FrictionBuildsUpByDahlsLaw) {
+  RubbingFinger finger;
+  finger.frequency = 2;
+  finger.duration = 0.1;
+  StictionOptions options;
+  options.step = 2e-3;
+  options.stuck_current = 3e-3, options.partial_current = 2e-3;
+  std::vector<double> asked;
+  const auto samples = rub(finger, options, [&](double current) {
+    asked.push_back(current);
+    return 0.25;
+  });
+  ASSERT_EQ(samples.size(), 50u);
+  double left = 1, before = 0;  // 1 - force over limit
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double time = 2e-3 * static_cast<double>(i);
+    const double place = 10e-3 * std::sin(4 * kPi * time);
+    left *= std::pow(1 - 800 * (place - before) / 50 / 0.25, 50);
+    before = place;
+    EXPECT_DOUBLE_EQ(samples[i].time, time);
+    EXPECT_NEAR(samples[i].place, place, 1e-15);
+    EXPECT_NEAR(samples[i].lateral, 0.25 * (1 - left), 1e-12) << i;
+    EXPECT_EQ(asked[i], i == 0 ? 0 : samples[i - 1].current);
+    const double current = samples[i].state == SlipState::Stuck     ? 3e-3
+                           : samples[i].state == SlipState::Partial ? 2e-3
+                                                                    : 0;
+    EXPECT_EQ(samples[i].current, current);
+  }
+  EXPECT_EQ(samples[0].state, SlipState::Stuck);
+  EXPECT_NEAR(samples[20].lateral, 0.25 * (1 - std::exp(-800 * samples[20].place / 0.25)), 1e-6);
+}
+
+// Each state by hand: rates per second of a ratio that is sampled every 0.1 s.
+TEST(Stiction, StatesFollowTheRatioAndItsRate) {
+  StictionOptions options;
+  options.step = 0.1;
+  options.stuck_current = 1, options.partial_current = 2, options.full_current = 3;
+  StictionMachine machine(options);
+  EXPECT_EQ(machine.update(0.04, 0.5), 1);   // 0.08: inside the band
+  EXPECT_EQ(machine.update(0.08, 0.5), 1);   // 0.16, rate 0.8: the largest
+  EXPECT_EQ(machine.update(0.117, 0.5), 1);  // 0.234, rate 0.74: not below 0.72
+  EXPECT_EQ(machine.update(0.152, 0.5), 2);  // 0.304, rate 0.70
+  EXPECT_EQ(machine.update(0.16, 0.5), 2);   // still rising
+  EXPECT_EQ(machine.update(0.16, 0.5), 3);   // rises no more
+  EXPECT_EQ(machine.update(0.2, 0.5), 3);    // whatever comes, until the band
+  EXPECT_EQ(machine.update(-0.049, 0.5), 1);
+  EXPECT_EQ(machine.update(-0.049, 0.024), 0);
+  EXPECT_EQ(machine.state(), SlipState::Idle);
+}
+
 // Butterworth of second order: flat below, 3 dB at the corner, 40 dB a decade above.
 TEST(LowPass, PassesWhatIsSlow) {
   const auto gain = [](double frequency) {

@@ -50,6 +50,38 @@ TEST(FullField, AFlatStackIsExactAtAnyGap) {
   }
 }
 
+// As many cells as the thickness has in half pixels of the finer side, and two.
+TEST(FullField, CellsOfTheDielectricFollowTheFinerPixel) {
+  for (const bool along_x : {true, false}) {
+    PotentialProblem p =
+        bodies(along_x ? Grid{16, 8, 1.6e-6, 3.2e-6} : Grid{8, 16, 3.2e-6, 1.6e-6});
+    for (std::size_t i = 0; i < p.skin.size(); ++i) {
+      p.electrode[i] = -0.8e-6;  // 8 of the finer pixels
+      p.skin[i] = 1e-7 * (1 + static_cast<double>(i % 5));
+    }
+    fill(p, 4);
+    const PotentialSolution s = solve_potential(p, {});
+    EXPECT_EQ(s.square_field, solve_potential(p, {.dielectric_cells = 6}).square_field);
+    EXPECT_NE(s.square_field, solve_potential(p, {.dielectric_cells = 5}).square_field);
+  }
+}
+
+// All of the field of a flat stack stands along z.
+TEST(FullField, PeaksOfAFlatStackAreItsFields) {
+  PotentialProblem p = bodies({8, 6, 1e-6, 1e-6});
+  for (std::size_t i = 0; i < p.skin.size(); ++i) {
+    p.electrode[i] = -400e-9;
+    p.skin[i] = 150e-9;
+  }
+  fill(p, 4);
+  const PotentialSolution s = solve_potential(p, {.tolerance = 1e-9});
+  ASSERT_TRUE(s.ok) << s.reason;
+  EXPECT_NEAR(s.peak_air, 1 / 250e-9, 1e-5 / 250e-9);
+  EXPECT_NEAR(s.peak_dielectric, 0.25 / 250e-9, 1e-5 / 250e-9);
+  for (double& z : p.skin) z = 0;  // no air left
+  EXPECT_EQ(solve_potential(p, {}).peak_air, 0);
+}
+
 TEST(FullField, SinusoidalElectrodesMatchTheExactSeries) {
   for (const Row& row : read_table("sinusoidal_electrode.csv")) {
     const double kg = number(row, "kg"), a = number(row, "a_over_g");

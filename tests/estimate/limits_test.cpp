@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 
 #include "base/constants.h"
 #include "estimate/parameters.h"
 #include "estimate/target.h"
 #include "estimate/voltage.h"
+#include "forward/undriven.h"
+#include "metrics/metrics.h"
 
 namespace papilla::tests {
 namespace {
@@ -91,6 +94,109 @@ TEST(PilotFidelity, IsTheSmallestPlanWithATenthOfAPercentOfTheTarget) {
   EXPECT_DOUBLE_EQ(pilot_fidelity(options).contact_tolerance, 1e-3);
   options.target = 1e-6;
   EXPECT_DOUBLE_EQ(pilot_fidelity(options).contact_tolerance, 1e-6);
+}
+
+// dV/V = dm/m over the power with which the modulation m goes with the voltage V.
+TEST(VoltageErrors, FollowTheSlopeBetweenTheBrackets) {
+  Scene scene;
+  scene.drive.amplitude = 60;
+  scene.environment.relative_humidity = {0.35};
+  Fidelity f = fidelity_level("search");
+  f.grid = 32;
+  f.skins = 4;
+  f.threads = 1;
+  Response r = evaluate(scene, Texture{}, f);
+  const double m = r.points[0].modulation.value;
+  const std::vector<double> targets{4 * m, 3 * m, 0.1 * m};
+  add_voltages(r, scene, Texture{}, f, targets);
+  const UndrivenPatches patches(scene, Texture{}, f);
+  for (const VoltageAnswer& answer : r.points[0].voltages) {
+    ASSERT_TRUE(answer.reached()) << text(answer);
+    const double v = answer.amplitude.value;
+    const Measured at = patches.drive(v, Estimator::Load).modulation;
+    const double power = std::log(patches.drive(1.02 * v, Estimator::Load).modulation.value /
+                                  patches.drive(v / 1.02, Estimator::Load).modulation.value) /
+                         (2 * std::log(1.02));
+    EXPECT_NEAR(answer.amplitude.parts.sampling, v * at.parts.sampling / (power * at.value),
+                0.01 * answer.amplitude.parts.sampling);
+  }
+}
+
+// A contact that is solved to no tolerance at all is a trouble that no voltage cures.
+TEST(VoltageFor, EndsWhereTheModelItselfIsUnsound) {
+  Scene scene;
+  scene.drive.amplitude = 60;
+  scene.environment.relative_humidity = {0.35};
+  Fidelity f = fidelity_level("search");
+  f.grid = 32;
+  f.skins = 2;
+  f.threads = 1;
+  f.control_skins = 0;
+  f.contact_tolerance = 1e-300;
+  Response r = evaluate(scene, Texture{}, f);
+  ASSERT_EQ(r.points[0].status.trouble, Trouble::ContactUnsolved);
+  add_voltages(r, scene, Texture{}, f, std::vector<double>{0.1});
+  const VoltageAnswer& answer = r.points[0].voltages.at(0);
+  EXPECT_EQ(answer.end, VoltageEnd::Unsound);
+  EXPECT_EQ(answer.model.trouble, Trouble::ContactUnsolved);
+  EXPECT_EQ(answer.evaluations, 1);
+  EXPECT_EQ(answer.amplitude.value, 0);
+}
+
+// Nine skins are enough by the pilot's scatter, and nine are the most: no tenth is run.
+TEST(Target, NeverRunsMoreSkinsThanItMay) {
+  Scene scene;
+  scene.environment.relative_humidity = {0.35};
+  scene.finger.skin.cutoff = 1.5e-6;  // resolved by the pilot: the scatter is what is left
+  TargetOptions options{.target = 10, .largest_grid = 64, .most_skins = 9, .threads = 2};
+  const Response pilot = evaluate_to_target(scene, Texture{}, options);
+  EXPECT_EQ(pilot.accuracy.end, TargetEnd::Reached);
+  EXPECT_EQ(pilot.accuracy.steps.size(), 1u);
+  EXPECT_EQ(pilot.fidelity.skins, 8);
+  EXPECT_EQ(pilot.accuracy.quantity, "mean(friction)");
+  const auto friction = *summarise(Summary::Mean, "friction", pilot);
+  EXPECT_NEAR(pilot.accuracy.reached, friction.parts.total() / friction.value, 1e-12);
+  // The tolerance of the contact follows the target: once more with nearly the one to come.
+  options.target = 1.001 * pilot.accuracy.reached;
+  const Response again = evaluate_to_target(scene, Texture{}, options);
+  ASSERT_EQ(again.accuracy.steps.size(), 1u);
+  const auto there = *summarise(Summary::Mean, "friction", again);
+  options.target =
+      std::sqrt(square(there.parts.total()) - square(there.parts.sampling) * (1 - 8 / 8.5)) /
+      there.value;
+  const Response more = evaluate_to_target(scene, Texture{}, options);
+  ASSERT_EQ(more.accuracy.steps.size(), 2u);
+  EXPECT_EQ(more.points[0].samples.load_off.size(), 9u);
+  EXPECT_GT(more.contact_solves, pilot.contact_solves);
+}
+
+// Eight skins on 64 pixels are all there may be: what is left is said, by its largest part.
+TEST(Target, OutOfReachNamesTheLargestPartAndTheLimits) {
+  Scene scene;
+  scene.environment.relative_humidity = {0.35};
+  TargetOptions options{.target = 0.003, .largest_grid = 64, .most_skins = 8, .threads = 2};
+  const Response r = evaluate_to_target(scene, Texture{}, options);
+  EXPECT_EQ(r.accuracy.end, TargetEnd::LimitsReached);
+  EXPECT_EQ(r.accuracy.target, 0.003);
+  EXPECT_EQ(r.accuracy.largest_grid, 64);
+  EXPECT_EQ(r.accuracy.most_skins, 8);
+  const auto friction = *summarise(Summary::Mean, "friction", r);
+  const double grid = *friction.parts.grid / friction.value;
+  EXPECT_GT(grid, friction.parts.sampling / friction.value);
+  EXPECT_STREQ(r.accuracy.largest_part, "grid");
+  EXPECT_NEAR(r.accuracy.largest_share, grid, 1e-12);
+  EXPECT_NEAR(r.accuracy.reached, friction.parts.total() / friction.value, 1e-12);
+  char first[100];
+  std::snprintf(first, sizeof first,
+                "pilot: 64 pixels, load law, 8 skins: sampling %.2f %%, grid %.2f %%",
+                100 * friction.parts.sampling / friction.value, 100 * grid);
+  EXPECT_TRUE(r.accuracy.steps.front().starts_with(first)) << r.accuracy.steps.front();
+  options.target = 0.01;
+  options.largest_grid = 512;
+  options.most_seconds = 1e-9;
+  const Response spent = evaluate_to_target(scene, Texture{}, options);
+  EXPECT_EQ(spent.accuracy.end, TargetEnd::TimeSpent);
+  EXPECT_EQ(spent.accuracy.steps.size(), 1u);
 }
 
 // Modulation goes with the square of a voltage that is small: half of its relative error is the

@@ -262,6 +262,82 @@ TEST_F(Changed, WidthsAreToldFromDepths) {
   EXPECT_NEAR(std::stod(why.substr(at + 4)), 10, 0.3) << why;  // per cent more
 }
 
+// By the area below half the depth where the depth is right, whatever the zero of the format.
+TEST_F(Changed, WidthsOfHolesOfTheRightDepthAreThoseOfTheirPixels) {
+  const Heightmap made = generate(Texture{holes_of(6e-6, 3.3e-6)}, folder_.made().heightmap.grid);
+  const auto width = [](const Heightmap& h) {
+    double deep = 0;
+    for (const double z : h.z) deep += z < -100e-9;
+    return 6 * std::sqrt(4 / kPi * deep / static_cast<double>(h.z.size()));  // um
+  };
+  const double is = width(made), design = width(folder_.made().heightmap);
+  EXPECT_NEAR(is, 3.3, 0.5 * 12 / 64);  // half a pixel
+  EXPECT_NEAR(design, 3, 0.5 * 12 / 64);
+  for (const char* format : {"exr", "tiff32", "mask"}) {
+    const std::string why = said(format, [&](Heightmap& h) { h.z = made.z; });
+    EXPECT_TRUE(has(why, fmt::format("its critical dimension (width of the holes) is {:.4g} um, "
+                                     "the design's {:.4g} um: {:.3g} % more",
+                                     is, design, 100 * (is / design - 1))))
+        << format << why;
+    EXPECT_FALSE(has(why, "its depth")) << format << why;
+  }
+}
+
+// Of a texture without equal features the area is said in per cent: 41 pixels more of 4096.
+TEST(ChangedRough, TheAreaBelowHalfTheDepthIsSaidInPerCent) {
+  const Workplace place;
+  RandomRough rough;
+  rough.rms = 30e-9;
+  const Folder folder(place.path() / "f", Texture{rough}, Polarity::WhiteDeep);
+  const std::string name = find_export_format("npy").file;
+  Heightmap h = folder.made().heightmap;
+  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+  const double middle = 0.5 * (*low + *high), top = *high;
+  const auto share = [&] {
+    double deep = 0;
+    for (const double z : h.z) deep += z < middle;
+    return 100 * deep / static_cast<double>(h.z.size());
+  };
+  ASSERT_EQ(h.z.size(), 4096u);
+  const double design = share();
+  int moved = 0;
+  for (double& z : h.z) {
+    if (z < middle || z == top || moved == 41) continue;
+    z = middle - 1e-9;
+    ++moved;
+  }
+  EXPECT_NEAR(share() - design, 1.001, 0.001);
+  write_again({"npy", folder.path() + "/" + name}, h, folder.made().texture, folder.options());
+  const FileVerdict verdict = verify_folder(folder.path(), name).at(0);
+  ASSERT_EQ(verdict.faults.size(), 2u);
+  EXPECT_EQ(verdict.faults[0], fmt::format("{:.4g} % of its area is below half the depth, of the "
+                                           "design's {:.4g} %",
+                                           share(), design));
+  EXPECT_TRUE(verdict.faults[1].starts_with("41 of 4096 heights are off")) << verdict.faults[1];
+}
+
+// 300 nm of 2 um are 38.25 of 255 levels; a picture of one channel is no preview.
+TEST_F(Changed, PicturesSayHowManyLevelsAreOffAndByHowMuch) {
+  ASSERT_EQ(folder_.made().heightmap(0, 63), 0);  // land
+  std::string why = said("dose", [](Heightmap& h) { h(0, 63) -= 300e-9; });
+  EXPECT_EQ(why, "1 of 4096 levels differ from the design's, by 38 of 255 at most\n");
+  // One level more or less is the rounding of another processor.
+  const std::string dose = folder_.path() + "/" + find_export_format("dose").file;
+  for (const auto& [by, state] : {std::pair{8e-9, FileState::Sound}, {16e-9, FileState::Differs}}) {
+    Heightmap h = folder_.made().heightmap;
+    h(0, 63) -= by;  // of 7.84 nm a level
+    write_again({"dose", dose}, h, folder_.made().texture, folder_.options());
+    EXPECT_EQ(verify_folder(folder_.path(), find_export_format("dose").file).at(0).state, state);
+  }
+  const std::string png = find_export_format("png").file;
+  const Grid grid{512, 512, 12e-6, 12e-6};
+  write_dose(folder_.path() + "/" + png, {grid, std::vector<double>(grid.size())},
+             {{0, 1e-6}, {0, 255}});
+  const FileVerdict grey = verify_folder(folder_.path(), png).at(0);
+  ASSERT_EQ(grey.faults.size(), 1u);
+  EXPECT_EQ(grey.faults[0], "512 x 512 pixels in 1 channels, the design's 512 x 512 in 3");
+}
+
 TEST(Differences, AreShownToTheDigitWhereTheyAre) {
   EXPECT_EQ(differs(101e-9, 100e-9, 1e-9, "nm"), "is 101 nm, the design's 100 nm: 1 % more");
   EXPECT_EQ(differs(99.99e-9, 100e-9, 1e-9, "nm"), "is 99.99 nm, the design's 100 nm: 0.01 % less");

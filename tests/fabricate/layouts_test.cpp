@@ -143,5 +143,49 @@ TEST(ChangedBodies, AreSaidByTheirCorners) {
   EXPECT_NE(faults_of(folder, find_export_format("stl").file), "");
 }
 
+// The volume above a base that lies 1 um below the lowest place.
+TEST(ChangedBodies, AreSaidByTheirVolumeAndSides) {
+  const Workplace place;
+  const Folder folder(place.path() / "f", Texture{holes()}, Polarity::WhiteDeep);
+  const Heightmap& design = folder.made().heightmap;
+  const std::string name = find_export_format("stl").file;
+  const auto volume = [](const Heightmap& h) {  // um3
+    const double base = *std::min_element(h.z.begin(), h.z.end()) - 1e-6;
+    double sum = 0;
+    for (const double z : h.z) sum += 1e18 * (z - base) * h.grid.pixel_area();
+    return sum;
+  };
+  const auto why = [&](const Heightmap& h) {
+    write_again({"stl", folder.path() + "/" + name}, h, folder.made().texture, folder.options());
+    return faults_of(folder, name);
+  };
+  for (const double times : {0.5, 1.5}) {
+    Heightmap h = design;
+    for (double& z : h.z) z *= times;
+    const std::string said = why(h);
+    const std::size_t at = said.find("its volume is ");
+    ASSERT_NE(at, std::string::npos) << said;
+    EXPECT_NEAR(std::stod(said.substr(at + 14)), volume(h), 0.01 * volume(h));
+    const std::size_t wanted = said.find("um3, the design's ", at);
+    ASSERT_NE(wanted, std::string::npos) << said;
+    EXPECT_NEAR(std::stod(said.substr(wanted + 18)), volume(design), 1e-3 * volume(design));
+    EXPECT_TRUE(has(said, times < 1 ? "% less" : "% more")) << said;
+  }
+  for (const double times : {0.5, 2.0}) {
+    Heightmap wide = design, high = design;
+    wide.grid.lx *= times, high.grid.ly *= times;
+    const char* words = times < 1 ? "is 6 um, the design's 12 um: 50 % less"
+                                  : "is 24 um, the design's 12 um: 100 % more";
+    EXPECT_TRUE(has(why(wide), std::string("its width ") + words)) << why(wide);
+    EXPECT_FALSE(has(why(wide), "its height")) << why(wide);
+    EXPECT_TRUE(has(why(high), std::string("its height ") + words)) << why(high);
+  }
+  folder.restore();
+  EXPECT_EQ(faults_of(folder, name), "");
+  write_bytes(folder.path() + "/" + name,
+              read_bytes(folder.path() + "/" + name) + std::string(50, '\0'));
+  EXPECT_EQ(faults_of(folder, name), "more after its last triangle\n");
+}
+
 }  // namespace
 }  // namespace papilla::tests

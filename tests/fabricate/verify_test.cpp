@@ -95,6 +95,75 @@ TEST(Verify, SaysHowManyPixelsAMapShouldHaveAlongEitherSide) {
       << why;
 }
 
+// Of a folder that an export without a polarity wrote.
+TEST(Verify, TellsSoundMissingBrokenAndForeignFilesApart) {
+  const Workplace place;
+  Study study;
+  HoleArray holes;
+  holes.period = 6e-6, holes.diameter = 3e-6, holes.depth = 200e-9;
+  study.design.texture = Texture{holes};
+  ExportOptions options;
+  options.pixels = 32, options.formats = {"gsf", "npy"};
+  const std::string folder = (place.path() / "f").string();
+  const Export made = export_with_record(study, options, folder);
+  const auto file_of = [](const char* format) { return find_export_format(format).file; };
+  const auto judged = [&](const char* format) {
+    const std::vector<FileVerdict> all = verify_folder(folder, file_of(format));
+    EXPECT_EQ(all.size(), 1u);
+    EXPECT_EQ(all.at(0).path, folder + "/" + file_of(format));
+    return all.at(0);
+  };
+  for (const FileVerdict& file : verify_folder(folder))
+    EXPECT_EQ(file.state, FileState::Sound) << file.path;
+  EXPECT_THROW(verify_folder(folder, file_of("exr")), InputError);
+  fs::remove(folder + "/" + file_of("npy"));
+  EXPECT_EQ(judged("npy").state, FileState::Missing);
+  EXPECT_EQ(judged("npy").faults, std::vector<std::string>{"is missing"});
+  const std::string gsf = folder + "/" + file_of("gsf");
+  write_bytes(gsf, read_bytes(gsf).substr(0, 100));
+  EXPECT_EQ(judged("gsf").state, FileState::Unreadable);
+  // Files of a known name that the export did not write.
+  const std::string foreign = "is not among the files of this export";
+  options.polarity = Polarity::WhiteDeep;
+  const auto write = [&](const char* format, double times) {
+    Heightmap h = made.heightmap;
+    for (double& z : h.z) z *= times;
+    write_again({format, folder + "/" + file_of(format)}, h, made.texture, options);
+  };
+  write("mask", 1);  // the record says no polarity to judge it by
+  EXPECT_EQ(judged("mask").state, FileState::Differs);
+  EXPECT_EQ(judged("mask").faults, std::vector<std::string>{foreign});
+  write("exr", 1);
+  EXPECT_EQ(judged("exr").state, FileState::Sound);
+  write("exr", 1.1);
+  const FileVerdict deep = judged("exr");
+  EXPECT_EQ(deep.state, FileState::Differs);
+  ASSERT_EQ(deep.faults.size(), 3u);
+  EXPECT_EQ(deep.faults[0], foreign);
+  EXPECT_EQ(deep.faults[1], "its depth is 220 nm, the design's 200 nm: 10 % more");
+}
+
+TEST(Verify, NamesTheFirstLineInWhichADesignIsAnother) {
+  const Workplace place;
+  ExportRecord record;
+  HoleArray holes;
+  holes.depth = 200e-9;
+  record.design.texture = Texture{holes};
+  const std::string path = (place.path() / "design.toml").string();
+  record.files = {{kDesignFormat, path}};
+  write_design(path, record.design);
+  EXPECT_EQ(verify_files(record, {}).at(0).state, FileState::Sound);
+  Design other = record.design;
+  holes.depth = 250e-9;
+  other.texture = Texture{holes};
+  write_design(path, other);
+  const FileVerdict verdict = verify_files(record, {}).at(0);
+  EXPECT_EQ(verdict.state, FileState::Differs);
+  EXPECT_EQ(verdict.faults,
+            std::vector<std::string>{"is another design than the files were made from: `depth = "
+                                     "\"250 nm\"`, there `depth = \"200 nm\"`"});
+}
+
 TEST(Verify, RefusesAFolderWithoutARecord) {
   const Workplace place;
   EXPECT_THROW(verify_folder(place.path().string()), InputError);

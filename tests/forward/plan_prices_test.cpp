@@ -1,8 +1,12 @@
 // What a plan decides and what it says its pieces cost.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "base/constants.h"
+#include "forward/electric_path.h"
 #include "forward/forward.h"
 
 namespace papilla::tests {
@@ -139,6 +143,87 @@ TEST(PlanPrices, ATimeIsSaidInItsUnit) {
   EXPECT_EQ(duration(150.1), "3 min");
   EXPECT_EQ(duration(7200), "120 min");
   EXPECT_EQ(duration(9000.1), "3 h");
+}
+
+bool warns(const Plan& plan, const std::string& said) {
+  for (const std::string& warning : plan.warnings) {
+    if (warning.find(said) != std::string::npos) return true;
+  }
+  return false;
+}
+
+// Some two pixels wide: a grid of as many times more as double them to eight.
+TEST(PlanWarnings, CoarseFeaturesNameTheGridThatResolvesThem) {
+  Fidelity f = fidelity_level("search");
+  f.grid = 64;
+  const Texture texture{PillarArray{.period = 0.9e-6, .diameter = 0.42e-6, .height = 200e-9}};
+  const Plan plan = make_plan(driven(), texture, f);
+  const double smallest = facts(texture).margins.smallest();
+  const double pixels = smallest / std::max(plan.grid.dx(), plan.grid.dy());
+  EXPECT_NEAR(plan.feature_pixels, pixels, 1e-9);
+  ASSERT_TRUE(pixels > 2 && pixels < 4) << pixels;
+  char said[200];
+  std::snprintf(said, sizeof said, "feature of the texture, %.3g nm, is %.2g pixels wide",
+                1e9 * smallest, pixels);
+  EXPECT_TRUE(warns(plan, said)) << said << plan.warnings.front();
+  std::snprintf(said, sizeof said, "accuracy.grid = 256 gives it %.2g", 4 * pixels);
+  EXPECT_TRUE(warns(plan, said)) << said << plan.warnings.front();
+  f.grid = 256;
+  EXPECT_FALSE(warns(make_plan(driven(), texture, f), "pixels wide"));
+  const Texture fine{PillarArray{.period = 20e-9, .diameter = 10e-9, .height = 5e-9}};
+  EXPECT_TRUE(warns(make_plan(driven(), fine, f), "no grid up to 4096 resolves it"));
+}
+
+TEST(PlanWarnings, ADirectVoltageSaysWhenItsPullStays) {
+  Scene scene = driven();
+  EXPECT_FALSE(warns(plan_of(scene, fidelity_level("search")), "direct voltage"));
+  scene.drive.waveform = Waveform::Dc;
+  const double a = 1e3 * relaxation_time(scene, 0.5, 0.1e-6),
+               b = 1e3 * relaxation_time(scene, 0.5, 1e-6);
+  char said[100];
+  std::snprintf(said, sizeof said, "%.2g to %.2g ms after the touch (gaps of 0.1 and 1 um)",
+                std::min(a, b), std::max(a, b));
+  EXPECT_TRUE(warns(plan_of(scene, fidelity_level("search")), said)) << said;
+  scene.finger.electrical.gap_resistivity = 0;
+  scene.finger.electrical.corner_frequency = 0;
+  for (FilmDielectric& layer : scene.surface.dielectric) layer.resistivity = 0;
+  EXPECT_TRUE(warns(plan_of(scene, fidelity_level("search")), "nothing leaks"));
+}
+
+TEST(PlanWarnings, ACurrentBeyondTheSourceIsNamedByItsHumidities) {
+  Scene scene;
+  scene.environment.relative_humidity = {0.15, 0.75};
+  scene.drive.control = DriveControl::Current;
+  scene.drive.current = 0.25e-3;
+  scene.drive.source_compliance = 0;
+  const double dry = source_voltage(scene, 0.15).peak, moist = source_voltage(scene, 0.75).peak;
+  ASSERT_LT(moist, dry);
+  scene.drive.source_compliance = 0.5 * (dry + moist);
+  EXPECT_TRUE(warns(plan_of(scene, fidelity_level("search")),
+                    "at 15 % RH 0.25 mA would need more than source_compliance, "));
+  scene.drive.source_compliance = 0.5 * moist;
+  EXPECT_TRUE(warns(plan_of(scene, fidelity_level("search")), "at 15 %, 75 % RH 0.25 mA"));
+  scene.drive.source_compliance = 2 * dry;
+  EXPECT_TRUE(plan_of(scene, fidelity_level("search")).warnings.empty());
+}
+
+// What a person reads: a line for each piece, its time and error, its bound, and the sum.
+TEST(PlanText, SaysEveryPieceWithItsNumbers) {
+  Plan plan;
+  plan.grid = {128, 64, 12e-6, 6e-6};
+  plan.steps = {{Piece::Contact, "method", "reason", 3, 0.05}, {Piece::Retention, "m", "r", 0, 0}};
+  plan.skipped = {{Piece::Kelvin, "why", kInfinity, false},
+                  {Piece::Retention, "no water", 0.051, false},
+                  {Piece::Coupling, "once", 0.6, true},
+                  {Piece::Optics, "apart", 0, true}};
+  plan.warnings = {"beware"};
+  const std::string text = plan.text();
+  EXPECT_TRUE(text.starts_with("patch 12 x 6 um, 128 x 64 pixels of 94 nm\nmodelled:\n"));
+  for (const char* said :
+       {" reason; about 3 s; error 5.0 %\n", " r\n", " why (no bound)\n",
+        " no water (bound 5.1 % of friction)\n", " once (estimate 60 % of friction)\n", " apart\n",
+        "\nnot modelled:\n  Kelvin condensation ", "\nexpected 3 s on one core\nwarning: beware\n"})
+    EXPECT_NE(text.find(said), std::string::npos) << said << text;
 }
 
 TEST(TargetReport, SaysWhichPartIsLeftAndTheLimits) {

@@ -38,6 +38,54 @@ TEST(Status, OnlyATroubleWithoutEquilibriumIsPullIn) {
   EXPECT_EQ(pull_in, 4);
 }
 
+TEST(Status, NumbersAndReasonsAreSaidInTheirUnits) {
+  EXPECT_EQ(text(ModelStatus{Trouble::WaterMoves, 200, ""}),
+            "water: droplets not at rest after 200 moves of one");
+  EXPECT_EQ(text(ModelStatus{Trouble::ContactUnsolved, 0, "why"}), "contact: why");
+  EXPECT_EQ(text(ModelStatus{Trouble::FieldUnsolved, 0, "why"}), "field: why");
+  EXPECT_TRUE(text(ModelStatus{Trouble::SecondPassPullIn, 1.25, ""})
+                  .starts_with("pull-in: the gap closes, a second pass would raise the pull by "
+                               "125 % ("));
+  EXPECT_EQ(text(ModelStatus{Trouble::PassesUsedUp, 12, ""}),
+            "coupling: not settled after 12 passes");
+  EXPECT_TRUE(text(ModelStatus{Trouble::FullContact, 1.5, ""})
+                  .starts_with("full contact: the area estimate is 1.5 times the patch, "));
+  EXPECT_EQ(text(std::vector<PointTrouble>{}), "");
+  EXPECT_EQ(text(std::vector<PointTrouble>{{0.15, {Trouble::ContactUnsolved, 0, "a"}},
+                                           {0.75, {Trouble::FieldUnsolved, 0, "b"}}}),
+            "15 % RH: contact: a; 75 % RH: field: b");
+}
+
+TEST(Status, AResponseTellsItsTroublesByHumidity) {
+  Response r;
+  for (const double rh : {0.2, 0.4, 0.6}) r.points.emplace_back().relative_humidity = rh;
+  EXPECT_TRUE(r.troubles().empty());
+  r.points[1].status.note({Trouble::Flooded, 3, ""});
+  ASSERT_EQ(r.troubles().size(), 1u);
+  EXPECT_EQ(r.troubles()[0], (PointTrouble{0.4, {Trouble::Flooded, 3, ""}}));
+}
+
+TEST(Status, EveryEndOfASearchForAVoltageHasItsWords) {
+  VoltageAnswer a;
+  a.limit = 312.345;
+  a.model = {Trouble::ContactUnsolved, 0, "why"};
+  const auto said = [&](VoltageEnd end) {
+    a.end = end;
+    return text(a);
+  };
+  EXPECT_EQ(said(VoltageEnd::Reached), "reached");
+  EXPECT_EQ(said(VoltageEnd::NoDielectric), "no dielectric: contact would short the drive");
+  EXPECT_EQ(said(VoltageEnd::Breakdown), "the dielectric breaks down at 312.3 V");
+  EXPECT_EQ(said(VoltageEnd::Unsound), "contact: why");
+  EXPECT_EQ(said(VoltageEnd::NotConverged), "the search for the voltage has not converged");
+  EXPECT_FALSE(a.reached());
+  TargetReport r;
+  r.end = TargetEnd::PlanUnsettled;
+  EXPECT_EQ(text(r), "not reached: the plan does not settle");
+  r.end = TargetEnd::TimeSpent;
+  EXPECT_EQ(text(r), "not reached: the time limit of the run left no more");
+}
+
 TEST(Status, AVoltageThatIsNotReachedNamesWhatCameFirst) {
   VoltageAnswer answer;
   answer.limit = 512.34;

@@ -171,6 +171,55 @@ TEST(Polygons, BelowRectanglesAreTheirPixels) {
   EXPECT_NEAR(inside.y / inside.area, 1.3e-6, 1e-12);
 }
 
+// Share of a triangle below a level, by its corners' heights in order.
+double share_below(std::array<double, 3> h, double level) {
+  std::sort(h.begin(), h.end());
+  if (level <= h[0]) return 0;
+  if (level >= h[2]) return 1;
+  if (level <= h[1]) return square(level - h[0]) / ((h[1] - h[0]) * (h[2] - h[0]));
+  return 1 - square(h[2] - level) / ((h[2] - h[0]) * (h[2] - h[1]));
+}
+
+// Every neighbourhood of pixels, against the triangles one by one. Pixels of 40 x 50 um, so that
+// whole nanometres are fine.
+TEST(Polygons, BelowARandomMapHaveTheAreaOfEachOfItsTriangles) {
+  const Grid grid{11, 9, 440e-6, 450e-6};
+  RandomStream random(3, "triangles of a test", 0);
+  Heightmap h{grid, std::vector<double>(grid.size())};
+  for (double& z : h.z) z = random.uniform();
+  const auto at = [&](int i, int j) {
+    return h(std::clamp(i, 0, grid.nx - 1), std::clamp(j, 0, grid.ny - 1));
+  };
+  // Half a pixel at the border.
+  const auto side = [](int i, int n, double pixel) {
+    return i < 0 || i == n - 1 ? 0.5 * pixel : pixel;
+  };
+  for (const double level : {0.2, 0.5, 0.8}) {
+    double area = 0;
+    for (int j = -1; j < grid.ny; ++j) {
+      for (int i = -1; i < grid.nx; ++i) {
+        const double a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+        area += 0.5 * side(i, grid.nx, grid.dx()) * side(j, grid.ny, grid.dy()) *
+                (share_below({a, b, c}, level) + share_below({a, c, d}, level));
+      }
+    }
+    // Corners are rounded by half a nanometre: of 120 cells some 1e-5 of a cell each at most.
+    EXPECT_NEAR(Moments(polygons_below(h, level)).area, area, 120 * 1e-5 * grid.pixel_area())
+        << level;
+  }
+}
+
+TEST(Polygons, BelowAWholeMapAreOneStripARow) {
+  const Grid grid{4, 3, 400e-9, 600e-9};
+  const std::vector<Polygon> strips =
+      polygons_below(pixels(grid, [](int, int) { return true; }), -50e-9);
+  const std::vector<std::int32_t> y{0, 100, 300, 500, 600};  // the border and the pixels' centres
+  ASSERT_EQ(strips.size(), 4u);
+  for (std::size_t j = 0; j < 4; ++j) {
+    EXPECT_EQ(strips[j], (Polygon{{0, 400, 400, 0}, {y[j], y[j], y[j + 1], y[j + 1]}})) << j;
+  }
+}
+
 // Levels of a cone: each contour holds the area below its own height, deeper ones less.
 TEST(Contours, LieHalfWayBetweenTheirSteps) {
   const Grid grid{120, 120, 12e-6, 12e-6};

@@ -96,6 +96,15 @@ TEST(LayoutArray, APeriodOffTheGridIsRefusedAndFacetsKeepTheirError) {
   EXPECT_EQ(fine.drift, 0);
 }
 
+// pi / acos(1 - error / radius), in fours, 8 to 1024: 60.8, 19.2, 1217 and 3 for 3 um.
+TEST(LayoutArray, CirclesHaveSidesInFoursWithinTheirBounds) {
+  HoleArray holes;
+  holes.diameter = 3e-6;
+  for (const auto& [error, sides] :
+       {std::pair{2e-9, 64}, {20e-9, 20}, {5e-12, 1024}, {1.5e-6, 8}, {1.0, 8}})
+    EXPECT_EQ(draw_array(array_of(holes), 1e-4, 1e-4, error).array.sides, sides) << error;
+}
+
 TEST(ExportedFiles, AllHaveThePeriodThatALayoutCanHold) {
   Study study;
   Design& design = study.design;
@@ -175,6 +184,18 @@ TEST(Dose, IsTheInverseOfTheCurveAndCountsWhatItClips) {
     std::ofstream(path) << wrong;
     EXPECT_THROW(read_dose_curve(path), InputError) << wrong;
   }
+}
+
+// Rows from the top; half a nanometre beyond either end is the end.
+TEST(Dose, IsThatOfEachPixelFromTheTopRowOn) {
+  const Heightmap h{{3, 2, 3e-6, 2e-6}, {0, -99.6e-9, -100e-9, -200e-9, -300.4e-9, -301e-9}};
+  DoseMap dose;
+  const std::vector<std::uint8_t> grey = dose_levels(h, {{100e-9, 300e-9}, {60, 160}}, dose);
+  EXPECT_EQ(grey, (std::vector<std::uint8_t>{110, 160, 160, 60, 60, 60}));
+  EXPECT_EQ(dose.shallow, 1u);
+  EXPECT_EQ(dose.deep, 1u);
+  EXPECT_EQ(dose.lowest, 60);
+  EXPECT_EQ(dose.highest, 160);
 }
 
 // Deep is dark, or the table runs upwards: the same curve.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -123,6 +124,39 @@ TEST(LeastSquares, SenselessParametersAreRefused) {
   EXPECT_THROW(least_squares({{"p", 0, 1, 0}}, 1, f), InputError);
   EXPECT_THROW(least_squares({{"p", 5, 0, 1}}, 1, f), InputError);
   EXPECT_THROW(least_squares({{"p", 0.5, 0, 1, 0, 0, true}}, 1, f), InputError);
+}
+
+// Where the differences of a step of a twentieth are taken: a logarithm's by factors e^0.05,
+// whatever its prior; a number's by that share of itself, next to zero of its prior's width.
+TEST(LeastSquares, DifferencesAreTakenAtTheStepOfTheParameter) {
+  const auto asked_at = [](const FitParameter& p) {
+    std::vector<double> out;
+    LeastSquaresOptions once;
+    once.iterations = 1;
+    once.profile_iterations = 0;
+    least_squares(
+        {p}, 2,
+        [&](std::span<const double> at, std::span<double> r) {
+          out.push_back(at[0]);
+          r[0] = at[0] - p.start, r[1] = 0.5 * (at[0] - p.start);  // is there already
+          return true;
+        },
+        once);
+    return std::pair{*std::min_element(out.begin(), out.end()),
+                     *std::max_element(out.begin(), out.end())};
+  };
+  const auto expect_ends = [&](const FitParameter& p, double low, double high) {
+    const auto [from, to] = asked_at(p);
+    EXPECT_NEAR(from, low, 1e-9 * std::abs(high));
+    EXPECT_NEAR(to, high, 1e-9 * std::abs(high));
+  };
+  for (const double sd : {0.0, 0.3, 2.0})
+    expect_ends({"p", 2, 0.1, 40, sd > 0 ? 2.0 : 0, sd, true, 0.05}, 2 * std::exp(-0.05),
+                2 * std::exp(0.05));
+  expect_ends({"p", 40, 0, 100, 40, 10, false, 0.05}, 38, 42);
+  expect_ends({"p", 0, -100, 100, 0, 10, false, 0.05}, -0.5, 0.5);
+  expect_ends({"p", 0, -100, 100, 0, 0, false, 0.05}, -0.01, 0.01);     // a thousandth of the range
+  expect_ends({"p", 99, 0, 100, 99, 10, false, 0.05}, 99 * 0.95, 100);  // no further than a bound
 }
 
 }  // namespace

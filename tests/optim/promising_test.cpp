@@ -241,5 +241,23 @@ TEST(NextSafer, IsNotBesideOneThatFailed) {
   EXPECT_EQ(next_safer(all, {limited(0.1, 1, -1)}), 1u);  // judged and kept: not again
 }
 
+// An interval is its unit, one with a gap goes by its values, a kind is one of so many halves.
+TEST(ModelCoordinates, AreAsFarApartAsTheValues) {
+  SearchProblem p;
+  p.space.dimensions = {{100, 900, {}},
+                        {100, 900, {}, true, {{300, 500}}},
+                        {0, 2, {0, 1, 2}, false},
+                        {0, 0, {1, 5, 9}}};
+  const Point unit = p.space.unit({300, 700, 1, 9});
+  const Point seen_as = model_coordinates(p, unit), expected{0.25, 0.75, 0, 0.5, 0, 2.5 / 3};
+  ASSERT_EQ(seen_as.size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) EXPECT_NEAR(seen_as[k], expected[k], 1e-9) << k;
+  p.features = [](const Point& u) { return std::vector<double>{7 * u[0], -1}; };
+  const Point told = model_coordinates(p, unit);
+  ASSERT_EQ(told.size(), 8u);
+  EXPECT_NEAR(told[6], 7 * 0.25, 1e-12);
+  EXPECT_EQ(told[7], -1);
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -515,5 +515,73 @@ TEST(Searchers, APointIsFeasibleWhereEveryConstraintIsKept) {
   }
 }
 
+// A study's own points are none of the drafts where it asks for none.
+TEST(Bayesian, WithoutDraftsTheStartsAreEvaluatedThemselves) {
+  SearchProblem p = box(2, 1, 30);
+  p.starts = {{0.25, 0.75}};
+  const auto searcher = make_searcher({"bayesian", ""}, p);
+  const std::vector<Point> asked = searcher->ask();
+  EXPECT_FALSE(searcher->asks_drafts());
+  ASSERT_EQ(asked.size(), 3u * 2 + 4);  // the first design
+  EXPECT_EQ(asked[0], p.space.snapped(p.starts[0]));
+  p.drafts = 12;
+  const auto drafting = make_searcher({"bayesian", ""}, p);
+  EXPECT_EQ(drafting->ask().size(), 8u);  // two thirds at once, the starts among them
+  EXPECT_TRUE(drafting->asks_drafts());
+}
+
+// As long as nothing can be evaluated, what is asked keeps the limits and is new.
+TEST(Bayesian, WhereEverythingFailsItGoesOnWithinTheLimits) {
+  SearchProblem p = box(2, 1, 40);
+  p.cheap_constraints = [](const Point& u) { return std::vector<double>{0.9 - u[0]}; };
+  const auto all = run("bayesian", p, [](const Point&) { return Outcome{}; });
+  ASSERT_EQ(all.size(), 40u);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_GE(all[i].unit[0], 0.9) << i;
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(all[i].unit, all[j].unit) << i << " " << j;
+  }
+}
+
+TEST(Outcomes, OfAnotherNumberOfValuesOrNoNumbersAreFailures) {
+  EXPECT_TRUE(guarded(outcome({1, 2}, {-1}), 2, 1).ok);
+  for (const auto& [wrong, why] : {std::pair{outcome({1}, {-1}), "number of values"},
+                                   {outcome({1, 2, 3}, {-1}), "number of values"},
+                                   {outcome({1, 2}), "number of values"},
+                                   {outcome({1, 2}, {-1, -1}), "number of values"},
+                                   {outcome({1, std::nan("")}, {-1}), "an objective is not"},
+                                   {outcome({1, INFINITY}, {-1}), "an objective is not"},
+                                   {outcome({1, 2}, {std::nan("")}), "a constraint is not"}}) {
+    const Outcome guard = guarded(wrong, 2, 1);
+    EXPECT_FALSE(guard.ok);
+    EXPECT_NE(guard.reason.find(why), std::string::npos) << guard.reason;
+    EXPECT_TRUE(guard.objectives.empty() && guard.constraints.empty());
+  }
+  EXPECT_EQ(guarded({false, "refused", {1}, {1}, {}}, 1, 1).reason, "refused");
+  EXPECT_EQ(guarded({}, 1, 1).reason, "the evaluation failed");
+  EXPECT_EQ(outcome({1}, {2, -5, 0.5}).violation(), 2.5);
+  EXPECT_FALSE(outcome({1}, {2, -5}).feasible());
+  EXPECT_TRUE(outcome({1}, {0, -5}).feasible());
+  EXPECT_FALSE(Outcome{}.feasible());
+}
+
+// A process with values 10^6 times as large, somewhere else, says the same of them.
+TEST(GaussianProcess, GoesWithTheScaleAndThePlaceOfItsValues) {
+  std::vector<Point> x;
+  std::vector<double> y, moved;
+  for (int i = 0; i < 9; ++i) {
+    x.push_back({i / 8.0});
+    y.push_back(std::sin(4 * i / 8.0));
+    moved.push_back(3e6 + 1e6 * y.back());
+  }
+  const GaussianProcess one(x, y), other(x, moved);
+  for (const double at : {0.05, 0.33, 0.9}) {
+    const Prediction a = one.predict({at}), b = other.predict({at});
+    EXPECT_NEAR(b.mean, 3e6 + 1e6 * a.mean, 1);
+    EXPECT_NEAR(b.sd, 1e6 * a.sd, 1e-4 * b.sd + 1e-3);
+  }
+  EXPECT_NEAR(other.leave_one_out_error(), 1e6 * one.leave_one_out_error(),
+              1e-4 * other.leave_one_out_error());
+}
+
 }  // namespace
 }  // namespace papilla::tests

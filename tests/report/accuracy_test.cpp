@@ -1,8 +1,11 @@
 // Tables of accuracy as people and programs read them: made-up numbers, each another.
 #include "report/accuracy.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <string>
 
 #include "base/files.h"
@@ -123,6 +126,69 @@ TEST(AccuracyReport, OfTheFieldRulesIsInPercentAndKilopascals) {
   r.pull = 4500, r.error = -0.0125, r.seconds = 0.5;
   const std::string table = field_accuracy_csv({r});
   EXPECT_EQ(table.substr(table.find('\n') + 1), "flat,35,full,64,4.5,-1.25,0.5,ok\n");
+}
+
+// Value 2 with 0.25 stated, 12.5 %; -3 % of error is 0.062 off and within two of them.
+TEST(AccuracyReport, ThePageHasARowASettingUnderItsSweep) {
+  AccuracyRow grid = row(), off = row(), model = row(), level = row();
+  const std::vector<AccuracyQuantity>& quantities = accuracy_quantities();
+  off.setting = "32 pixels";
+  off.stated[0] = 0.0125, off.error[0] = 0.25;  // 0.4 off: 32 of its errors
+  off.error[1] = -0.5, off.stated[1] = 1.5;     // 3 off is two of them
+  level.sweep = "level", level.error[0] = NAN, level.value[1] = 0, level.stated[1] = 0;
+  level.error[1] = NAN;
+  model.sweep = "model", model.error[0] = 0.5, model.stated[0] = 0.01;
+  const std::string folder = temporary("accuracy");
+  std::filesystem::create_directories(folder);
+  write_bytes(folder + "/sweeps.csv", accuracy_csv({grid, off, model, level}, "# made up\n"));
+  std::vector<CoverageRow> rows(2);
+  for (int k = 0; k < 2; ++k) {
+    CoverageRow& r = rows[static_cast<std::size_t>(k)];
+    r.scene = k, r.texture = "holes", r.fidelity = "draft", r.quantity = "friction";
+    r.value = 102 + 3 * k, r.half_width = 3.92, r.reference = 100;
+  }
+  write_bytes(folder + "/coverage.csv", coverage_csv(rows, "# of two scenes\n"));
+  rows[0].fidelity = rows[1].fidelity = "tight";
+  write_bytes(folder + "/coverage_tight.csv", coverage_csv(rows, "# again\n"));
+  const std::string page = accuracy_page(folder);
+  std::string head = "| setting |", rule = "|---|", line = "| 64 pixels | -3.00 % (12.5 %) |";
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    head += " " + quantities[q].name + " |", rule += "---|";
+    if (q == 0) continue;
+    line += fmt::format(" {:.2f} % ({:.1f} %) |", 100 * grid.error[q],
+                        100 * grid.stated[q] / grid.value[q]);
+  }
+  double modulation = 0;
+  for (std::size_t q = 0; q < quantities.size(); ++q) {
+    if (quantities[q].name == "modulation") modulation = grid.value[q];
+  }
+  ASSERT_GT(modulation, 0);
+  head += " mean modulation | FFT pairs | work, pairs of 256² | seconds | status |\n";
+  line += fmt::format(" {:.4f} | 345 | 21.5 | 1.25 | ok; nearly |\n", modulation);
+  EXPECT_NE(page.find("docs/theory/accuracy.md.\n\n- made up\n\n## grid\n\nPixels along the patch; "
+                      "same skins and droplets; error against the finest. Error of the value, in "
+                      "brackets the standard error stated beside it.\n\n"
+                      "![grid](../results/accuracy/grid.svg)\n\n" +
+                      head + rule + "---|---|---|---|---|\n" + line),
+            std::string::npos)
+      << page;
+  EXPECT_NE(page.find("| 32 pixels | +25.00 % (0.6 %) | -50.00 % (50.0 %) |"), std::string::npos);
+  EXPECT_NE(page.find("\nBeyond two of the standard errors stated: 32 pixels, " +
+                      quantities[0].name + " (32.0).\n\n## model\n"),
+            std::string::npos)
+      << page;
+  // Shifts of the model are no errors; what has no error has a dash.
+  EXPECT_EQ(page.find("Beyond", page.find("## model")), page.find("Beyond", page.find("## level")));
+  EXPECT_NE(page.find("| 64 pixels | – (12.5 %) | – (0.0 %) |", page.find("## level")),
+            std::string::npos)
+      << page;
+  EXPECT_NE(page.find("\nBeyond two of the standard errors stated: none.\n\n## Error bars on "
+                      "held-out scenes\n\n- of two scenes\n- again\n\n"),
+            std::string::npos)
+      << page;
+  // Errors of 2 and 5: one within 3.92, their 95 % quantile 4.85, against 2: 1 and 2.5.
+  const std::string numbers = "friction | 2 | 50 % | 50 % | 3.92 | 4.85 | 0.81 | 1.90 |\n";
+  EXPECT_TRUE(page.ends_with("| draft | " + numbers + "| tight | " + numbers)) << page;
 }
 
 }  // namespace

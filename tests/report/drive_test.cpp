@@ -257,5 +257,47 @@ TEST(DriveReport, ThePictureIsReadBackByItsLabels) {
   }
 }
 
+// No friction at all is a line along the lower edge.
+TEST(DriveReport, FrictionThatStaysZeroIsDrawn) {
+  Driven d;
+  d.r.friction.value = {0, 0, 0, 0};
+  const std::string svg = drive_svg(d.c, d.r);
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  const std::string points = svg.substr(svg.find("points=\"") + 8);
+  for (const auto& p : numbers_in(points.substr(0, points.find('"')), "([-+.e0-9]+),([-+.e0-9]+)"))
+    ASSERT_EQ(p[1], 240);
+}
+
+TEST(DriveReport, ASwipeForProgramsIsInSi) {
+  Swipe swipe;
+  swipe.steps = {{0.25, SlipState::Stuck, 0.002}, {0.5, SlipState::Full, 0.001}};
+  swipe.duration = 1.5, swipe.driven = 0.625;
+  swipe.samples = {{.time = 0.125,
+                    .place = 0.01,
+                    .lateral = 0.3,
+                    .state = SlipState::Partial,
+                    .current = 0.004}};
+  EXPECT_EQ(swipe_csv(swipe),
+            "t [s],place [m],lateral [N],state,current [A]\n0.1250,0.01,0.3,partial slip,0.004\n");
+  Driven d;
+  d.r.spots = 4e6;
+  const auto json = nlohmann::json::parse(drive_json(d.c, d.r, {swipe}));
+  EXPECT_EQ(json["contact_spots"], 4e6);
+  expect_same(json["swipes"][0],
+              {{"duration", 1.5},
+               {"driven", 0.625},
+               {"steps",
+                {{{"time", 0.25}, {"state", "stuck"}, {"current", 0.002}},
+                 {{"time", 0.5}, {"state", "full slip"}, {"current", 0.001}}}}},
+              "swipe");
+  for (const bool counted : {false, true}) {
+    d.c.gap.contact_spots = counted;
+    EXPECT_NE(drive_text(d.c, d.r).find(
+                  std::string("spots        4 Mohm through the skin to its contact spots, ") +
+                  (counted ? "beside the gap\n" : "not counted (gap.contact_spots)\n")),
+              std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests

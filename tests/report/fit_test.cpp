@@ -174,5 +174,50 @@ TEST(FitReport, ClaimsAreCountedBeforeAndAfter) {
               "claims");
 }
 
+TEST(FitReport, SaysWhatTheDataKnowOfEachParameter) {
+  Fitted f;
+  const auto verdict = [&f] {
+    const std::string page = calibration_markdown(f.c, f.r);
+    const std::size_t at = page.find("\nVerdict: ") + 1;
+    return page.substr(at, page.find('\n', at) - at);
+  };
+  const std::string apart = "; skin.rms and water.scale are not told apart by these data.";
+  EXPECT_EQ(verdict(),
+            "Verdict: skin.rms is not identified: 75 % of what is known of it is the prior's; "
+            "water.scale is known to one side only: its interval ends at a bound" +
+                apart);
+  // Half of 0.5 um of 2.5 um, half of 0.95 of 1.25; a share of a half is enough.
+  f.r.fit.parameters[0].data_share = 0.5, f.r.fit.parameters[0].high_open = false;
+  f.r.fit.parameters[1].at_bound = false;
+  EXPECT_EQ(verdict(), "Verdict: skin.rms is known to 10 %; water.scale is known to 38 %" + apart);
+  f.r.fit.parameters[0].low_open = true;
+  f.r.fit.directions[1] = {0.5, {0.1, 0.99}};  // one parameter is not apart from itself
+  EXPECT_EQ(verdict(),
+            "Verdict: skin.rms is known to one side only: its interval ends at a bound; "
+            "water.scale is known to 38 %.");
+  f.r.fit.directions = {{1, {0.7, 0.7}}, {0.99, {0.2, -0.2}}};  // below 1 the prior decides
+  EXPECT_TRUE(verdict().ends_with("38 %" + apart)) << verdict();
+  EXPECT_EQ(verdict().find(apart), verdict().rfind(apart));
+  EXPECT_EQ(nlohmann::json::parse(calibration_json(f.c, f.r))["verdicts"].size(), 3u);
+}
+
+TEST(FitReport, EndsOfRowsThatAreOpenAreSaidSo) {
+  Fitted f;
+  f.r.rows[2].low = -kInfinity, f.r.rows[2].high = 0.125;
+  f.r.fit.converged = false, f.r.fit.message = "budget";
+  f.c.parameters[0].fit.prior_sd = 0;
+  f.c.check.level = "draft";
+  f.c.title = "", f.c.finger.name = "mine";
+  const std::string page = calibration_markdown(f.c, f.r);
+  EXPECT_TRUE(page.starts_with("# Fit: mine\n")) << page;
+  EXPECT_NE(page.find("| M3 | more | below 0.125 |"), std::string::npos) << page;
+  EXPECT_NE(page.find("17 evaluations of the model; stopped: budget.\n"), std::string::npos);
+  EXPECT_NE(page.find("2.25 um to 2.75 um (bound) | none | 25 |"), std::string::npos);
+  EXPECT_NE(page.find("Skins 5 to 16 at level draft.\n"), std::string::npos);
+  const auto json = nlohmann::json::parse(calibration_json(f.c, f.r));
+  EXPECT_TRUE(json["parameters"][0]["prior"].is_null());
+  EXPECT_EQ(json["converged"], false);
+}
+
 }  // namespace
 }  // namespace papilla::tests

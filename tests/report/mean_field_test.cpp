@@ -86,5 +86,58 @@ TEST(MeanFieldReport, ForProgramsIsInSi) {
                                                 {"seconds", 0.25}});
 }
 
+TEST(MeanFieldReport, CurvesHaveTheColumnsOfTheirHead) {
+  MeanFieldPoint unloaded = point();
+  unloaded.load = 0;
+  EXPECT_EQ(mean_field_grid_csv({point(), unloaded}),
+            "voltage,load,pull,area,area_off,mean_gap,friction,coefficient\n"
+            "150,0.5,7000,0.0075,0.005,4.5e-06,0.6,1.2\n"
+            "150,0,7000,0.0075,0.005,4.5e-06,0.6,\n");
+  MeanFieldCurves curves;
+  curves.roughness = {{2000, 1e-12, 2e-12, 0.5, 0.25, 0.125}, {5000, 3e-12, 4e-12, 0.4, 0.3, 0.2}};
+  EXPECT_EQ(roughness_csv(curves),
+            "wave_number,magnification,density,density_smoothed,area,area_elastic,area_yielded\n"
+            "2000,1,1e-12,2e-12,0.5,0.25,0.125\n5000,2.5,3e-12,4e-12,0.4,0.3,0.2\n");
+  curves.stress = {{1e-6, 20, 0.5, 700}};
+  EXPECT_EQ(stress_csv(curves), "gap,stress,density,pull_per_decade\n1e-06,20,0.5,700\n");
+  curves.separation = {{3e3, 4e-6, 5e-6}};
+  EXPECT_EQ(separation_csv(curves), "pressure,mean_gap,mean_gap_held\n3000,4e-06,5e-06\n");
+  curves.step = {{0.01, 2e6, 300}};
+  EXPECT_EQ(step_csv(curves), "time,field_in_mean_gap,pull\n0.01,2e+06,300\n");
+}
+
+// Below the pressure of the finite body, at it, and above; without a load or a contact; pulled in.
+TEST(MeanFieldReport, SaysWhatHasNoNumberAndWhatIsHeld) {
+  MeanFieldCase c;
+  c.touch.finite_size_pressure = 12e3;  // that of the point
+  MeanFieldResult r;
+  r.point = point();
+  EXPECT_EQ(mean_field_text(c, r, 0).find("held"), std::string::npos);
+  MeanFieldPoint lighter = point();
+  lighter.on.pull.pressure = 11e3;
+  lighter.load = 0, lighter.area_off = 0;
+  for (auto* points : {&r.voltage, &r.load, &r.frequency}) {
+    *points = {point(), lighter};
+    const std::string text = mean_field_text(c, r, 0);
+    EXPECT_NE(text.find("gap held: limited by the finite body; below 12 kPa"), std::string::npos);
+    EXPECT_NE(text.find("    -  gap held\n"), std::string::npos) << text;
+    points->clear();
+  }
+  const auto json = [&] { return nlohmann::json::parse(mean_field_json(c, r, 0))["point"]; };
+  EXPECT_EQ(json()["gap_held"], false);
+  EXPECT_EQ(json()["area_ratio"], 1.5);
+  r.point = lighter;
+  r.point.on.pull.status = PullStatus::Collapsed;
+  EXPECT_TRUE(json()["area_ratio"].is_null() && json()["coefficient"].is_null());
+  EXPECT_EQ(json()["gap_held"], true);
+  EXPECT_EQ(json()["collapsed"], true);
+  const std::string text = mean_field_text(c, r, 0.25);
+  EXPECT_NE(text.find("off 0 %, ratio -\nmean gap         4.5 um, held\n"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("(coefficient -)"), std::string::npos);
+  EXPECT_NE(text.find("\npulled in: no equilibrium below 1 GPa\n"), std::string::npos);
+  EXPECT_TRUE(text.ends_with("0.25 s\n"));
+}
+
 }  // namespace
 }  // namespace papilla::tests

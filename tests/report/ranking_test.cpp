@@ -145,5 +145,81 @@ TEST(RankingReport, TheRadarHasTheBestOnItsRim) {
   EXPECT_NE(svg.find(">mean(friction):low<"), std::string::npos);
 }
 
+TEST(RankingReport, ALineADesignHasEachNumberUnderItsHead) {
+  Ranked r;
+  const std::string columns =
+      "finger,rank,design,title,mean(friction) [N],mean(friction) low,mean(friction) high,"
+      "mean(friction) p(best),variation(friction),variation(friction) low,variation(friction) high,"
+      "variation(friction) p(best),mean(compliance) [m/Pa],mean(compliance) low,"
+      "mean(compliance) high,mean(compliance) p(best)";
+  RankedCandidate& first = r.ranking.states[0].candidates[0];
+  first.p_best_by = {0.125, 0.25, 0.75};
+  const std::string best =
+      "natural,1,fine,Fine coat,0.1,0.09,0.11,0.125,0.25,0.2,0.3,0.25,3e-12,2e-12,4e-12,0.75,";
+  const std::string other =
+      "natural,2,hard,Hard coat,0.2,0.18,0.22,0.5,-0.5,-0.6,-0.4,0.5,1.5e-12,1e-12,2e-12,0.5,";
+  EXPECT_EQ(ranking_csv(r.names, r.options, r.ranking),
+            columns + ",score,score low,score high,p(best),p(ahead),skins\n" + best +
+                "0.3,0.2,0.4,0.8,0.9,24\n" + other + "0.1,0,0.2,0.2,,18\n");
+  r.options.weights.clear();
+  r.ranking.states[0].candidates[1].over = {Relation::Open, Relation::Worse};
+  EXPECT_EQ(ranking_csv(r.names, r.options, r.ranking),
+            columns + ",beaten by,skins\n" + best + ",24\n" + other + "fine,18\n");
+}
+
+TEST(RankingReport, WithoutWeightsItSaysWhoIsBeatenByWhom) {
+  Ranked r;
+  r.options.weights.clear();
+  r.options.parameters = false;
+  r.ranking.directions = 0;
+  StateRanking& state = r.ranking.states[0];
+  state.candidates[0].over = {Relation::Better, Relation::Open};
+  state.candidates[1].over = {Relation::Open, Relation::Worse};
+  state.candidates[0].p_best_by = {0.9995, 0.25, 0.75};
+  state.candidates[1].p_best_by = {0.0005, 0.125, 0.625};
+  state.open = {{1, 0, 2}};
+  state.equal_skins = 42;
+  r.ranking.conditions = {{"finger.load", "hard", "0.3 N", "0.2 N", "fine"}};
+  const std::string table = ranking_table(r.names, r.options, r.ranking);
+  const std::vector<std::string> lines = split(table, '\n');
+  using Cells = std::vector<std::string>;
+  EXPECT_EQ(cells(lines[1]),
+            (Cells{"rank", "design", "mean(friction):low mN", "p(best)", "variation(friction):low",
+                   "p(best)", "mean(compliance):high um/MPa", "p(best)", "skins"}));
+  EXPECT_EQ(cells(lines[2]), (Cells{"1", "fine", "100 ± 10", ">0.999", "0.250 ± 0.050", "0.250",
+                                    "3.0 ± 1.0", "0.750", "24"}));
+  EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "<0.001", "-0.50 ± 0.10", "0.125",
+                                    "1.50 ± 0.50", "0.625", "18"}));
+  EXPECT_EQ(cells(lines[5]), (Cells{"row against column", "fine", "hard"}));
+  EXPECT_EQ(cells(lines[6]), (Cells{"fine", "-", "better"}));
+  EXPECT_EQ(cells(lines[7]), (Cells{"hard", "worse", "-"}));
+  EXPECT_EQ(lines[9],
+            "the budget of 96 skins per design (--max-skins) is spent with the order open: fine "
+            "and hard in mean(compliance):high; 42 patches of skin tried");
+  EXPECT_NE(table.find("  finger.load: 0.3 N in hard, 0.2 N in fine\n"), std::string::npos);
+  EXPECT_NE(table.find("no weights (--weights)"), std::string::npos);
+  EXPECT_NE(table.find("what the fit of the finger leaves open"), std::string::npos);
+  EXPECT_EQ(table.find("directions of its covariance"), std::string::npos);
+  const auto json = nlohmann::json::parse(ranking_json(r.names, r.options, r.ranking));
+  expect_same(
+      json["states"][0]["open"],
+      nlohmann::json::array({{{"designs", {"fine", "hard"}}, {"by", "mean(compliance):high"}}}),
+      "open");
+  expect_same(json["conditions_differ"],
+              nlohmann::json::array({{{"key", "finger.load"},
+                                      {"designs", {"hard", "fine"}},
+                                      {"values", {"0.3 N", "0.2 N"}}}}),
+              "conditions");
+  EXPECT_FALSE(json["candidates"][0].contains("score"));
+  EXPECT_EQ(json["candidates"][1]["over"], (std::vector<std::string>{"open", "worse"}));
+  EXPECT_EQ(json["scored"], false);
+  EXPECT_TRUE(json["parameters"].is_null());
+}
+
+TEST(RankingReport, DesignsAreFilesByTheirNumbers) {
+  EXPECT_EQ(ranked_design_file(0, 0), "designs/01.toml");
+  EXPECT_EQ(ranked_design_file(11, 1), "designs/12_2.toml");
+}
+
 }  // namespace
 }  // namespace papilla::tests

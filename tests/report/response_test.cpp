@@ -272,5 +272,41 @@ TEST(ResponseReport, ASweepHasALineAValue) {
   EXPECT_EQ(json["runs"][1]["response"]["points"][0]["weight"], 2);
 }
 
+// Each in parts of the mean's size, whatever its sign.
+TEST(ResponseReport, ATargetNamesWhatItLeavesOut) {
+  Response r = driven();
+  r.accuracy.target = 0.02;
+  EXPECT_EQ(response_table(r).find("not counted in it"), std::string::npos);
+  for (const double modulation : {0.2, -0.2}) {
+    r.points[0].modulation.value = modulation;
+    r.points[0].modulation.parts = {.sampling = 0.01, .field = 0.01, .parameters = 0.03};
+    EXPECT_NE(response_table(r).find("\nnot counted in it: field 5 %, parameters 15 %\n"),
+              std::string::npos)
+        << response_table(r);
+  }
+  r.points[0].modulation.parts = {.sampling = 0.01, .field = 0.0, .parameters = 0.03};
+  EXPECT_NE(response_table(r).find("\nnot counted in it: parameters 15 %\n"), std::string::npos)
+      << response_table(r);
+  r.driven = false;  // then it is the friction that was asked for, 0.1 N
+  r.points[0].friction_off.parts = {.sampling = 0.01, .field = 0.002};
+  EXPECT_NE(response_table(r).find("\nnot counted in it: field 2 %\n"), std::string::npos)
+      << response_table(r);
+}
+
+TEST(ResponseReport, StepsOfTheFingerHaveALine) {
+  Response r = driven();
+  const Resampled same = r;
+  r.parameters.steps.assign(3, {same, same});
+  r.parameters.skins = 16, r.parameters.grid = 64;
+  const std::string line =
+      "parameters: 3 directions of the finger's covariance, one standard deviation up and down, 16 "
+      "skins, 64 pixels";
+  EXPECT_NE(response_table(r).find(line + "\n"), std::string::npos) << response_table(r);
+  r.parameters.troubles = {{0.35, {Trouble::Flooded, 0, ""}}};
+  EXPECT_NE(response_table(r).find(line + "; a step is not sound: " + text(r.parameters.troubles)),
+            std::string::npos)
+      << response_table(r);
+}
+
 }  // namespace
 }  // namespace papilla::tests

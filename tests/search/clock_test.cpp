@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "report/remarks.h"
@@ -245,6 +246,26 @@ TEST(Rounding, LengthsGoToTheGridAndSmallOnesToAFinerOne) {
   EXPECT_NEAR(on_grid(angle, 63.43 * degree, 10e-9), 63 * degree, 1e-12);
   const Variable volts{"drive.amplitude", "V", 10, 500, {}};
   EXPECT_DOUBLE_EQ(on_grid(volts, 187.65, 10e-9), 188);
+}
+
+// Of what comes later each keeps its share of 100 s, or less where it wants less.
+TEST(Clock, EachLaterPartKeepsItsShareOrWhatItWants) {
+  PartSeconds wanted{};
+  wanted[static_cast<std::size_t>(RunPart::Narrow)] = 50;      // its share is 12
+  wanted[static_cast<std::size_t>(RunPart::Confirm)] = 10;     // of 16
+  wanted[static_cast<std::size_t>(RunPart::Parameters)] = 99;  // 2
+  wanted[static_cast<std::size_t>(RunPart::Files)] = 1;        // of 4
+  EXPECT_NEAR(part_deadline(100, RunPart::Search, wanted), 100 - 12 - 10 - 2 - 1, 1e-12);
+  EXPECT_NEAR(part_deadline(100, RunPart::Narrow, wanted), 100 - 10 - 2 - 1, 1e-12);
+  EXPECT_NEAR(part_deadline(100, RunPart::Confirm, wanted), 100 - 2 - 1, 1e-12);
+  EXPECT_NEAR(part_deadline(100, RunPart::Parameters, wanted), 100 - 1, 1e-12);
+  RunClock clock(1000);
+  EXPECT_TRUE(clock.limited());
+  EXPECT_NEAR(clock.left(wanted), 1000 - 50 - 10 - 20 - 1, 1);  // less what passes meanwhile
+  clock.enter(RunPart::Files);
+  EXPECT_NEAR(clock.left(wanted), 1000, 1);
+  EXPECT_EQ(RunClock(0).left(wanted), std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(RunClock(0).limited());
 }
 
 }  // namespace

@@ -116,27 +116,29 @@ TEST(FieldStudy, TheFilmHoldsTheVoltageThatTheWishAsksFor) {
 
 // A price is a promise about time: with the search for a voltage and without it, on one machine.
 TEST(FieldStudy, ThePriceOfAnEvaluationKnowsItsVoltages) {
-  const auto cost_of = [](const std::string& wish) {
-    const Study study =
-        read_study(study_file("priced",
-                              "[drive]\namplitude = \"200 V\"\n"
-                              "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n"
-                              "[objective]\nminimise = \"" +
-                                  wish + "\"\n"));
-    const StudyProblem problem(study);
-    const Fidelity fidelity = stage_fidelity(problem, Stage::Search);
-    double least = 1e9;
-    for (int run = 0; run < 5; ++run) {
-      const std::clock_t from = std::clock();
-      EXPECT_TRUE(evaluate_task(problem, study.design, 0, {fidelity}).status.ok());
-      least = std::min(least, static_cast<double>(std::clock() - from));
-    }
-    return std::pair(task_price(problem, Stage::Search), least);
+  const auto study_of = [](const std::string& wish) {
+    return read_study(study_file("priced",
+                                 "[drive]\namplitude = \"200 V\"\n"
+                                 "[design_space]\n\"texture.depth\" = [\"0 nm\", \"500 nm\"]\n"
+                                 "[objective]\nminimise = \"" +
+                                     wish + "\"\n"));
   };
-  const auto [plain_price, plain_time] = cost_of("variation(contact_area)");
-  const auto [price, time] = cost_of("worst(voltage_for(modulation = 0.3))");
-  EXPECT_GT(price, 1.3 * plain_price);
-  EXPECT_NEAR(std::log(time / plain_time), std::log(price / plain_price), std::log(2.0));
+  const Study without = study_of("variation(contact_area)"),
+              with = study_of("worst(voltage_for(modulation = 0.3))");
+  const StudyProblem plain(without), wish(with);
+  const double ratio = task_price(wish, Stage::Search) / task_price(plain, Stage::Search);
+  EXPECT_GT(ratio, 1.3);
+  const auto time_of = [](const StudyProblem& problem) {
+    const std::clock_t from = std::clock();
+    EXPECT_TRUE(
+        evaluate_task(problem, problem.study().design, 0, {stage_fidelity(problem, Stage::Search)})
+            .status.ok());
+    return static_cast<double>(std::clock() - from);
+  };
+  std::vector<double> measured;  // side by side, as other work comes and goes
+  for (int run = 0; run < 9; ++run) measured.push_back(time_of(wish) / time_of(plain));
+  std::nth_element(measured.begin(), measured.begin() + 4, measured.end());
+  EXPECT_NEAR(std::log(measured[4]), std::log(ratio), std::log(2.0));
 }
 
 // What is left of a planar film below the texture holds the voltage or not: nobody evaluates that.

@@ -372,6 +372,8 @@ TEST(Samples, OfAMeanOverTasksAreTheirMeans) {
     expect_means(s.grid, grid);
     expect_means(s.method, method);
   }
+  // The error of a mean is that which the tasks state.
+  for (const double error : score.errors) EXPECT_NEAR(error, 0.01, 1e-12);
   // Of a difference of two designs the skins that both share count for nothing.
   Score other = score;
   for (ErrorSamples& s : other.samples) {
@@ -386,6 +388,41 @@ TEST(Samples, OfAMeanOverTasksAreTheirMeans) {
   other.errors = {0.5, 0.001};
   EXPECT_EQ(difference_error(score, other, 0), 0.5);
   EXPECT_EQ(difference_error(score, other, 1), score.errors[1]);
+}
+
+// Under the risk of the worst humidity its samples alone count, and they say the error.
+TEST(Samples, OfTheWorstHumidityAreItsOwn) {
+  Study study = oxide_study();
+  study.population.clear();
+  study.design.environment.relative_humidity = {0.2, 0.7};
+  study.objective = {};
+  study.objective.maximise = {"modulation"};
+  study.objective.risk = "worst";
+  const StudyProblem problem(study);
+  const ErrorSamples dry{{0.85, 0.9, 0.95}, {0.5, 0.4}, {0.3, 0.2}},
+      moist{{0.2, 0.3, 0.7}, {0.01, 0.03}, {0.004, 0.002}};
+  TaskAnswer answer;
+  answer.objectives = {{0.65, 0.01, {0.9, 0.4}}};
+  answer.samples = {{dry, moist}};
+  const Score score = problem.score({answer});
+  ASSERT_TRUE(score.ok) << score.reason;
+  EXPECT_NEAR(score.values[0], 0.4, 1e-12);
+  ASSERT_EQ(score.samples.size(), 1u);
+  const auto expect_same = [](const std::vector<double>& found, const std::vector<double>& own) {
+    ASSERT_EQ(found.size(), own.size());
+    for (std::size_t i = 0; i < own.size(); ++i) EXPECT_NEAR(found[i], own[i], 1e-12) << i;
+  };
+  expect_same(score.samples[0].sampling, moist.sampling);
+  expect_same(score.samples[0].grid, moist.grid);
+  expect_same(score.samples[0].method, moist.method);
+  // Variance of the mean of three; mean and error of two in squares; their difference.
+  const double sampling = (0.04 + 0.01 + 0.09) / 6, grid = 4e-4 + 1e-4, method = 9e-6 - 1e-6;
+  EXPECT_NEAR(score.errors[0], std::sqrt(sampling + grid + method), 1e-12);
+  // Tasks of unlike numbers of skins have none in common.
+  answer.samples[0][0].sampling.pop_back();
+  const Score unlike = problem.score({answer});
+  EXPECT_TRUE(unlike.samples[0].sampling.empty());
+  EXPECT_NEAR(unlike.errors[0], 0.01, 1e-12);
 }
 
 }  // namespace

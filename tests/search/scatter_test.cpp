@@ -153,5 +153,19 @@ TEST(Target, TheDistanceIsTheRootMeanSquareOverHumidityAndFingers) {
   EXPECT_THROW(small_study({"objective={ target = { modulatoin = 0.8 } }"}), InputError);
 }
 
+// Over all of the scatter the tail is the mean, nominal + sum of b/3; a slope alone is even.
+TEST(Scatter, TheSampleOfATailLiesOnTheQuadratic) {
+  const auto sample = [](double a, double b) {
+    return scattered_values(parse_risk("cvar 20 %"), true, 2, {2 - a + b}, {2 + a + b});
+  };
+  for (const auto& [a, b] : {std::pair{0.0, 0.6}, {0.0, -0.6}, {0.3, 0.0}, {0.3, 0.6}}) {
+    const std::vector<double> values = sample(a, b);
+    ASSERT_EQ(values.size(), 128u);
+    EXPECT_NEAR(mean_of(values), 2 + b / 3, 0.01) << a << " " << b;
+    EXPECT_NEAR(std_of(values), std::sqrt(a * a / 3 + 4 * b * b / 45), 0.02) << a << " " << b;
+  }
+  for (const double v : sample(0, 0.6)) EXPECT_GE(v, 2);
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -122,6 +122,23 @@ TEST(FormSliders, GoAroundTheValueThatTheFileHad) {
   const auto zero = row("texture.depth")["slider"];
   EXPECT_EQ(zero["low"], 0);
   EXPECT_FALSE(zero["log"]);
+  // A whole number: eight beyond its least, twice itself where that is more, and no further than
+  // the key goes.
+  study.design.texture = default_texture(0);
+  for (const auto& [number, high] : {std::pair{1, 9}, {4, 9}, {7, 15}, {20, 41}, {40, 64}}) {
+    Design at = opened;
+    at.accuracy.droplet_seeds = number;
+    study.design.accuracy.droplet_seeds = number;
+    bool found = false;
+    for (const auto& r : form_json(study, at, {})) {
+      if (r["path"] != "accuracy.droplet_seeds") continue;
+      found = true;
+      EXPECT_EQ(r["slider"]["low"], 1) << number;
+      EXPECT_EQ(r["slider"]["high"], high) << number;
+      EXPECT_FALSE(r["slider"]["log"]) << number;
+    }
+    EXPECT_TRUE(found);
+  }
 }
 
 // Letters that a name may not have, one by one; up to two hundred of the others.

@@ -1,11 +1,15 @@
 // Saved files are what a person would have written.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/units.h"
+#include "geometry/io/files.h"
 #include "studio/files.h"
 #include "tests/temporary.h"
 
@@ -101,6 +105,29 @@ TEST_F(Saving, AScanStandsBesideTheFileThatNamesIt) {
   EXPECT_THROW(files_.keep_scan("mine.exe", bytes), InputError);
   EXPECT_THROW(files_.keep_scan("../mine.gsf", bytes), InputError);
   EXPECT_THROW(files_.with_scan({shipped_, {}}, "../scan.gsf", "", false, false), InputError);
+}
+
+// The whole map where it is small, of its shorter side; else a square of 24 um.
+TEST_F(Saving, APatchOfAScanIsAsLargeAsTheScanAtMost24um) {
+  for (const auto& [lx, ly, expected] :
+       {std::tuple{12e-6, 6e-6, 6e-6}, {6e-6, 12e-6, 6e-6}, {30e-6, 48e-6, 24e-6}}) {
+    Heightmap map{{static_cast<int>(std::lround(lx / 0.5e-6)),
+                   static_cast<int>(std::lround(ly / 0.5e-6)), lx, ly},
+                  {}};
+    map.z.resize(map.grid.size());
+    for (std::size_t i = 0; i < map.z.size(); ++i) map.z[i] = 1e-8 * static_cast<double>(i % 7);
+    fs::create_directories(place_.path() / "scans");
+    write_gsf((place_.path() / "scans/map.gsf").string(), map, {});
+    const Draft draft = files_.with_scan({shipped_, {{"texture.depth", "1 nm"}}}, "scans/map.gsf",
+                                         "", false, false);
+    std::string patch;
+    for (const Change& c : draft.changes) {
+      EXPECT_NE(c.path, "texture.depth");  // of the texture before
+      if (c.path == "texture.patch") patch = c.text;
+    }
+    patch = patch.substr(patch.find_first_of("0123456789"));
+    EXPECT_NEAR(parse_si(patch.substr(0, patch.find('"')), "um"), expected, 1e-12) << patch;
+  }
 }
 
 }  // namespace

@@ -87,5 +87,23 @@ TEST_F(Server, ReportsASearchThatIsNotFinishedAsThat) {
   EXPECT_EQ(replied(place_, place_.own("GET", "report/searches/002")).status, 404);
 }
 
+// 64 KiB are read and what came with the last of them, no more.
+TEST_F(Server, CutsALongHead) {
+  const auto request = [&](std::size_t size) {
+    std::string out = "GET " + place_.root + "state HTTP/1.1\r\nHost: " + place_.host() +
+                      "\r\nOrigin: http://" + place_.host() + "\r\nConnection: close\r\n";
+    const std::string end = "\r\n";
+    while (out.size() + end.size() < size) {
+      const std::size_t room = size - out.size() - end.size();
+      const std::size_t line = room > 9000 ? 7000 : room > 7000 ? room - 4000 : room;
+      out += "X-Y: " + std::string(line - 7, 'z') + "\r\n";
+    }
+    return out + end;
+  };
+  EXPECT_EQ(replied(place_, request(2000)).status, 200);
+  EXPECT_EQ(replied(place_, request((64 << 10) + 1)).status, 200);
+  EXPECT_NE(replied(place_, request(80 << 10)).status, 200);
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -1,8 +1,10 @@
 // A wish on the page as a study file, and the first answer's band.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -183,6 +185,55 @@ TEST(FirstAnswer, DifferencesAreAsUnsureAsTheRatioBetweenThem) {
   EXPECT_NEAR(difference_drift(anchor, a, b),
               std::hypot(kFloor, (kDrift + kUnusual * std::log(kUsual / 0.8)) * std::log(1.1)),
               1e-12);
+}
+
+// A search whose program is this script; what became of it.
+Json ended_search(const std::string& script) {
+  const TemporaryFolder place;
+  const std::filesystem::path program = place.path() / "program.sh";
+  write_bytes(program, "#!/bin/sh\n# $1 optimize, $2 study, $3 --out, $4 folder\n" + script);
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  SearchDesk desk(place.path(), program, [] {});
+  const Study study = read_study(kHoles);
+  desk.start({kHoles, {}}, study, depth_wish(), false);
+  EXPECT_EQ(desk.json()["state"], "running");
+  for (int i = 0; i < 500 && desk.json()["state"] == "running"; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  return desk.json();
+}
+
+TEST(SearchDesk, AFinishedSearchShowsItsFront) {
+  const Json json = ended_search(
+      "echo looking\n[ $1$3 = optimize--out ] && [ $2 = $4/study.toml ] || exit 3\n"
+      "echo '{}' > $4/run.json\n"
+      "printf 'folder,mean\\nfront/01,0.5\\n\\nfront/02,0.4,more\\nfront/03\\n' > $4/pareto.csv\n"
+      "exit 1\n");  // 1: with a remark
+  EXPECT_EQ(json["state"], "finished") << json.dump();
+  EXPECT_EQ(json["trouble"], "");
+  EXPECT_EQ(json["number"], 1);
+  EXPECT_EQ(json["folder"], "searches/001");
+  EXPECT_EQ(json["confirmed"], Json::parse(R"([{"folder":"front/01","mean":"0.5"},
+      {"folder":"front/02","mean":"0.4"},{"folder":"front/03"}])"));
+}
+
+TEST(SearchDesk, AFailedSearchSaysTheEndOfItsLog) {
+  const Json json =
+      ended_search("printf '%01000d' 7; echo no water\necho '{}' > $4/run.json\nexit 2\n");
+  EXPECT_EQ(json["state"], "failed");
+  EXPECT_EQ(json["trouble"], std::string(590, '0') + "7no water\n");
+  EXPECT_EQ(json["confirmed"], Json::array());
+}
+
+// 128 and more: by a signal that it heard.
+TEST(SearchDesk, ASearchThatWasEndedIsPaused) {
+  EXPECT_EQ(ended_search("exit 128\n")["state"], "paused");
+  EXPECT_EQ(ended_search("exit 127\n")["state"], "failed");
+}
+
+// Killed, or at its end without its results.
+TEST(SearchDesk, ASearchWithoutAnEndFailed) {
+  EXPECT_EQ(ended_search("echo '{}' > $4/run.json\nkill -9 $$\n")["state"], "failed");
+  EXPECT_EQ(ended_search("exit 0\n")["state"], "failed");
 }
 
 }  // namespace

@@ -1,0 +1,107 @@
+// What a set of solved patches answers with: points, those without each skin, and measured errors.
+#include "forward/patch_set.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "forward/forward.h"
+
+namespace papilla::tests {
+namespace {
+
+struct Solved {
+  Scene scene;
+  Fidelity fidelity = fidelity_level("search");
+  PatchSet set;
+
+  Solved() {
+    scene.drive.amplitude = 100;
+    scene.environment.relative_humidity = {0.35, 0.65};
+    scene.environment.weights = {0.25, 0.75};
+    fidelity.grid = 32;
+    fidelity.skins = 3;
+    fidelity.threads = 1;
+    set = solve_patches(scene, Texture{}, fidelity);
+  }
+};
+
+TEST(PatchSet, WithoutASkinIsTheAnswerOfTheOthers) {
+  const Solved s;
+  const Response all = respond(s.scene, s.fidelity, s.set);
+  EXPECT_TRUE(all.driven);
+  EXPECT_EQ(all.fidelity.skins, 3);
+  ASSERT_EQ(all.without.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) {
+    PatchSet others = s.set;
+    for (auto& skins : others.results) skins.erase(skins.begin() + static_cast<std::ptrdiff_t>(k));
+    const Response rest = respond(s.scene, s.fidelity, others);
+    EXPECT_EQ(rest.fidelity.skins, 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(all.without[k][i].weight, i == 0 ? 0.25 : 0.75);
+      EXPECT_EQ(all.without[k][i].relative_humidity, i == 0 ? 0.35 : 0.65);
+      for (const PointQuantity& q : kPointQuantities) {
+        const double value = (rest.points[i].*q.value).value;
+        EXPECT_NEAR((all.without[k][i].*q.value).value, value, 1e-12 * std::abs(value)) << k;
+      }
+    }
+  }
+}
+
+TEST(PatchSet, ABatchGoesOnAndCountsItsCostsFromItsFirstSkin) {
+  Solved s;
+  Fidelity next = s.fidelity;
+  next.first_skin = 3;
+  next.skins = 2;
+  const PatchSet batch = solve_patches(s.scene, Texture{}, next);
+  Fidelity five = s.fidelity;
+  five.skins = 5;
+  const PatchSet whole = solve_patches(s.scene, Texture{}, five);
+  const double before = s.set.seconds;
+  s.set.add(batch);
+  EXPECT_DOUBLE_EQ(s.set.seconds, before + batch.seconds);
+  EXPECT_EQ(s.set.skins(), 5);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 5; ++k)
+      EXPECT_DOUBLE_EQ(s.set.results[i][k].area_dry, whole.results[i][k].area_dry) << k;
+  }
+  EXPECT_EQ(s.set.costs(3).contact_solves, batch.costs().contact_solves);
+  EXPECT_DOUBLE_EQ(s.set.costs(3).fft_pairs, batch.costs().fft_pairs);
+  EXPECT_EQ(s.set.costs(5).contact_solves, 0);
+}
+
+// Relative sizes, by humidity and quantity; costs of the controls are costs of the answer.
+TEST(PatchSet, MeasuredErrorsAreSharesOfTheNumbersOfTheirHumidity) {
+  Solved s;
+  const Response plain = respond(s.scene, s.fidelity, s.set);
+  MeasuredError grid{&ErrorParts::grid, {}}, method{&ErrorParts::method, {}};
+  for (MeasuredError* e : {&grid, &method}) e->size.resize(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t m = 0; m < kPointQuantities.size(); ++m) {
+      grid.size[i][m] = 0.01 * static_cast<double>(1 + m + 20 * i);
+      method.size[i][m] = 0.5;
+    }
+  }
+  grid.costs.contact_solves = 7;
+  grid.costs.fft_pairs = 11;
+  grid.seconds = 100;
+  method.pull_in = {{}, {Trouble::ClosedPullIn, 0, ""}};
+  s.set.errors = {grid, grid, method};
+  const Response r = respond(s.scene, s.fidelity, s.set);
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t m = 0; m < kPointQuantities.size(); ++m) {
+      const Measured& q = r.points[i].*kPointQuantities[m].value;
+      EXPECT_NEAR(q.parts.grid.value(), std::sqrt(2.0) * grid.size[i][m] * std::abs(q.value),
+                  1e-12 * std::abs(q.value));
+      EXPECT_NEAR(q.parts.method.value(), 0.5 * std::abs(q.value), 1e-12 * std::abs(q.value));
+    }
+  }
+  EXPECT_TRUE(r.points[0].status.sound());
+  EXPECT_EQ(r.points[1].status.trouble, Trouble::ClosedPullIn);
+  EXPECT_EQ(r.contact_solves, plain.contact_solves + 14);
+  EXPECT_DOUBLE_EQ(r.fft_pairs, plain.fft_pairs + 22);
+  EXPECT_DOUBLE_EQ(r.seconds, plain.seconds + 200);
+}
+
+}  // namespace
+}  // namespace papilla::tests

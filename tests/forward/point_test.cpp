@@ -1,0 +1,179 @@
+// The answer of a humidity from patches whose numbers are written down here.
+#include "forward/point.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "forward/scene_terms.h"
+#include "physics/contact/facts.h"
+
+namespace papilla::tests {
+namespace {
+
+// Three skins; every number of one is proportional to the same share.
+struct Case {
+  Scene scene;
+  Fidelity fidelity = fidelity_level("search");
+  Plan plan;
+  std::vector<PatchResult> patches;
+
+  Case() {
+    scene.drive.amplitude = 100;
+    plan = make_plan(scene, Texture{}, fidelity);
+    plan.water = false;  // no band of its own
+    for (const double x : {1.0, 2.0, 3.0}) {
+      PatchResult p;
+      p.load = 1e-6;
+      p.capillary_off = 1e-7 * x;
+      p.capillary_on = 2e-7 * x;
+      p.pull = 3e-7 * x;
+      p.retention = 1e-8 * x;
+      p.retention_on = 1.5e-8 * x;
+      p.area_dry = 0.01 * x;
+      p.area_off = 0.02 * x;
+      p.area_on = 0.03 * x * x;
+      p.bridges = 5 * x;
+      p.wetted = 0.1 * x;
+      p.bridge_volume = 1e-18 * x;
+      p.volume = 4e-18;
+      p.mean_gap = 1e-7 * x;
+      p.indentation = 2e-7 * x;
+      p.over_limit_area = 0.1 * x;
+      p.over_limit_share = 0.2 * x;
+      p.peak_oxide_field = 1e8 * (4 - x);
+      p.peak_air_field = 2e7 * x;
+      p.oxide_margin = 5 - x;
+      p.certificate = 1e-4 * x;
+      patches.push_back(p);
+    }
+  }
+
+  ResponsePoint point(double area_factor = 1) const {
+    const ScaleBridge bridge(scene, fidelity, plan.grid, 0.5);
+    return response_point({scene, plan, fidelity, area_factor}, 0.5, 0.25, bridge, patches);
+  }
+  // Load-carrying area of the finger [m^2].
+  double carrying() const {
+    const MacroContact& macro = scene.finger.macro;
+    return macro.load_share * macro.gross_area(scene.finger.load, 0.5);
+  }
+};
+
+void expect(const Measured& m, double value, double sampling) {
+  EXPECT_NEAR(m.value, value, 1e-12 * std::abs(value));
+  EXPECT_NEAR(m.parts.sampling, sampling, 1e-12 * std::abs(value));
+}
+
+// The mean of 1, 2, 3 is 2 and its standard error 1 over the root of 3.
+const double kSe = 1 / std::sqrt(3.0);
+
+TEST(Point, MeansAreOfThePatchesAndForcesOfTheFinger) {
+  const Case c;
+  const ResponsePoint p = c.point();
+  const double n = c.carrying() / c.plan.grid.area();
+  EXPECT_EQ(p.relative_humidity, 0.5);
+  EXPECT_EQ(p.weight, 0.25);
+  EXPECT_DOUBLE_EQ(p.source_voltage, 100);
+  EXPECT_DOUBLE_EQ(p.patch_pressure, c.scene.finger.patch_pressure(0.5));
+  expect(p.capillary_force, 2e-7 * n, 1e-7 * kSe * n);
+  expect(p.electrostatic_force, 6e-7 * n, 3e-7 * kSe * n);
+  expect(p.retention_force, 2e-8 * n, 1e-8 * kSe * n);
+  expect(p.bridges, 10, 5 * kSe);
+  expect(p.wetted_fraction, 0.2, 0.1 * kSe);
+  expect(p.mean_gap, 2e-7, 1e-7 * kSe);
+  expect(p.indentation, 4e-7, 2e-7 * kSe);
+  EXPECT_NEAR(p.over_limit_area, 0.2, 1e-12);
+  EXPECT_NEAR(p.over_limit_share, 0.4, 1e-12);
+  EXPECT_DOUBLE_EQ(p.oxide_margin, 2);
+  EXPECT_DOUBLE_EQ(p.peak_oxide_field, 3e8);
+  EXPECT_DOUBLE_EQ(p.peak_air_field, 6e7);
+  EXPECT_NEAR(p.bridge_water_share, 0.5, 1e-12);
+  EXPECT_NEAR(p.retention_gain, 1e-8 * n, 1e-20 * n);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto x = static_cast<double>(k + 1);
+    EXPECT_DOUBLE_EQ(p.samples.load_off[k], 1e-6 + 1e-7 * x);
+    EXPECT_DOUBLE_EQ(p.samples.load_on[k], 1e-6 + 5e-7 * x);
+    EXPECT_DOUBLE_EQ(p.samples.area_off[k], 0.02 * x);
+    EXPECT_DOUBLE_EQ(p.samples.area_on[k], 0.03 * x * x);
+  }
+}
+
+TEST(Point, ByTheLoadLawAreasGoWithThePowerOfTheLoads) {
+  const Case c;
+  const ResponsePoint p = c.point();
+  const double beta = c.fidelity.load_exponent, off = std::pow(1.2, beta), on = std::pow(2, beta);
+  EXPECT_NEAR(p.area_fraction_off.value, 0.02 * off, 1e-12);
+  EXPECT_NEAR(p.area_fraction_on.value, 0.02 * on, 1e-12);
+  // The dry area's scatter, and that of the load's ratio through the power.
+  EXPECT_NEAR(p.area_fraction_off.parts.sampling,
+              0.02 * off * std::hypot(kSe / 2, beta * 0.1 * kSe / 1.2), 1e-10);
+  EXPECT_NEAR(p.area_fraction_on.parts.sampling,
+              0.02 * on * std::hypot(kSe / 2, beta * 0.5 * kSe / 2), 1e-10);
+  EXPECT_DOUBLE_EQ(p.strength, shear_strength(c.scene, 0.5) * c.carrying());
+  const double n = c.carrying() / c.plan.grid.area();
+  const double friction = p.strength * 0.02 * off + 2e-8 * n,
+               driven = p.strength * 0.02 * on + 3e-8 * n;
+  EXPECT_NEAR(p.friction_off.value, friction, 1e-12 * friction);
+  EXPECT_NEAR(p.friction_on.value, driven, 1e-12 * driven);
+  EXPECT_NEAR(p.modulation.value, driven / friction - 1, 1e-12);
+  EXPECT_NEAR(p.friction_off.parts.sampling,
+              std::hypot(p.strength * p.area_fraction_off.parts.sampling, 1e-8 * kSe * n),
+              1e-12 * friction);
+}
+
+TEST(Point, BySolvedAreasTheModulationIsThatOfTheirSums) {
+  Case c;
+  c.fidelity.estimator = Estimator::Area;
+  c.plan.traction_solves = true;
+  c.plan.retention = false;
+  const ResponsePoint p = c.point(0.5);
+  expect(p.area_fraction_off, 0.5 * 0.04, 0.5 * 0.02 * kSe);
+  EXPECT_NEAR(p.area_fraction_on.value, 0.5 * 0.03 * 14 / 3, 1e-12);
+  EXPECT_NEAR(p.modulation.value, 0.42 / 0.12 - 1, 1e-12);
+  EXPECT_EQ(p.retention_force.value, 0);
+  EXPECT_EQ(p.retention_gain, 0);
+  EXPECT_NEAR(p.friction_on.value, p.strength * 0.07, 1e-12 * p.friction_on.value);
+  EXPECT_DOUBLE_EQ(p.samples.area_off[2], 0.03);
+  EXPECT_DOUBLE_EQ(p.samples.area_on[2], 0.135);
+  // A plan without solves under tractions has the load law alone.
+  c.plan.traction_solves = false;
+  EXPECT_NEAR(c.point().area_fraction_on.value, 0.02 * std::pow(2, c.fidelity.load_exponent),
+              1e-12);
+}
+
+TEST(Point, TheSolversPartIsOfTheWorstCertificate) {
+  const Case c;
+  const ResponsePoint p = c.point();
+  const double relative = contact::contact_error(3e-4);
+  for (const PointQuantity& q : kPointQuantities) {
+    const Measured& m = p.*q.value;
+    const double of = q.value == &PointQuantities::modulation ? 1 + m.value : std::abs(m.value);
+    EXPECT_NEAR(*m.parts.solver, relative * of, 1e-12 * of);
+  }
+}
+
+TEST(Point, TroubleIsTheFirstPatchesOrContactOfMoreThanThePatch) {
+  Case c;
+  EXPECT_TRUE(c.point().status.sound());
+  EXPECT_EQ(c.point(1000).status.trouble, Trouble::FullContact);
+  EXPECT_NEAR(c.point(1000).status.number, 20 * std::pow(1.2, c.fidelity.load_exponent), 1e-9);
+  c.patches[1].status.note({Trouble::Flooded, 0, ""});
+  c.patches[2].status.note({Trouble::ClosedPullIn, 0, ""});
+  EXPECT_EQ(c.point(1000).status.trouble, Trouble::Flooded);
+}
+
+TEST(Point, WithoutADriveThereIsNoModulation) {
+  Case c;
+  c.plan.field = false;
+  const ResponsePoint p = c.point();
+  EXPECT_EQ(p.modulation.value, 0);
+  EXPECT_EQ(p.modulation.parts.sampling, 0);
+  EXPECT_EQ(p.source_voltage, 0);
+  for (PatchResult& patch : c.patches) patch.volume = 0;
+  EXPECT_EQ(c.point().bridge_water_share, 0);
+}
+
+}  // namespace
+}  // namespace papilla::tests

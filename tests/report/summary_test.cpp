@@ -1,0 +1,397 @@
+// A run in words and tables: made-up numbers, each another.
+#include "report/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/files.h"
+#include "report/remarks.h"
+#include "report/results.h"
+#include "report/sheet.h"
+#include "tests/report/same_json.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+// Of period, diameter, depth and contact angle; more mean(modulation), less variation of it.
+Study holes() {
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  study.population.clear();
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  study.search.time = 60;
+  return study;
+}
+
+Score score(double mean, double variation, double worst) {
+  Score s;
+  s.ok = true;
+  s.values = {mean, variation};
+  s.errors = {0.013, 0.023};
+  s.worst = worst;
+  s.oxide_margin = 3;
+  return s;
+}
+
+struct Searched {
+  Study study = holes();
+  StudyProblem problem{study};
+  JudgedDesigns history;
+  OptimiseResult result;
+  std::string folder, pick;
+
+  Searched() {
+    result.method = "nsga2", result.why = "two objectives";
+    result.evaluations = result.asked = 40;
+    result.refused = 3, result.failures = 2;
+    FinalDesign best, other;
+    best.unit = problem.space().unit({5e-6, 3e-6, 300e-9, 70 * kPi / 180});
+    best.design = problem.space().design(best.unit);
+    best.confirmed = score(0.5, 0.3, 0.25);
+    best.on_front = best.feasible = true;
+    best.folder = "front/01";
+    other = best;
+    other.unit = problem.space().unit({8e-6, 4e-6, 500e-9, 40 * kPi / 180});
+    other.on_front = false, other.folder = "";
+    other.confirmed = score(0.45, 0.4, 0.2);
+    result.finalists = {best, other};
+    result.any_feasible = true;
+    result.flat = score(0.4, 0.35, 0.2);
+    result.flat_before = score(0.35, 0.45, 0.15);
+    result.sensitivity = {
+        {.variable = 0,
+         .change = {0.01, -0.02},
+         .share = {0.6, 0.25},
+         .step = 0.35e-6,
+         .down = 0.12e-6,
+         .up = 0.5e-6,
+         .up_beyond = true},
+        {.variable = 2, .change = {}, .share = {}, .step = 50e-9, .down = 0, .up = 20e-9}};
+    result.stability.variants = {{"rough", {{0.5, 0.3}, {0.4, 0.35}}, {true, false}},
+                                 {"smooth", {{0.55, 0.25}, {}}, {true, false}}};
+    result.stability.times_on_front = {2, 0};
+  }
+
+  ResultFiles files() const { return {folder, study, problem, history, result, pick}; }
+};
+
+TEST(RunSummary, TheTableOfTheFinalistsIsInTheUnitsOfTheStudy) {
+  const Searched run;
+  const std::string table = result_table(run.study, run.result);
+  EXPECT_TRUE(table.starts_with(
+      "Finalists, confirmed on fresh skins at level \"draft\":\n\n| design | texture.period | "
+      "texture.diameter | texture.depth | surface.contact_angle | max mean(modulation) | min "
+      "variation(modulation) | worst modulation |\n|---|---|---|---|---|---|---|---|\n"
+      "| front/01 | 5 um | 3 um | 300 nm | 70 deg | 0.500 ± 0.013 | 0.300 ± 0.023 | 0.250 |\n"
+      "| (dominated) | 8 um | 4 um | 500 nm | 40 deg | 0.450 ± 0.013 | 0.400 ± 0.023 | 0.200 "
+      "|\n"))
+      << table;
+  OptimiseResult failed = run.result;
+  failed.finalists[0].feasible = failed.finalists[1].feasible = false;
+  failed.finalists[1].confirmed.ok = false;
+  const std::string second = result_table(run.study, failed);
+  EXPECT_NE(second.find("\n| front/01 (infeasible) | 5 um |"), std::string::npos) << second;
+  EXPECT_NE(second.find("\n| (infeasible) | 8 um | 4 um | 500 nm | 40 deg | failed | failed |"),
+            std::string::npos)
+      << second;
+}
+
+TEST(RunSummary, EachPartHasItsNumbers) {
+  Searched run;
+  run.study.design.accuracy.target = 0.02;
+  run.result.finalists[0].confirmed.reports = {
+      R"({"accuracy": {"reached": 0.015, "quantity": "friction", "status": "reached"}})"};
+  const std::string page = run_summary(run.files());
+  EXPECT_TRUE(
+      page.starts_with("# Hole array under a grown oxide\n\nSearch: nsga2 (two objectives). 40 "
+                       "evaluations, 3 refused by the fabrication limits, **2 failed** "
+                       "(history.csv says why).\n\n\n## What to build\n\n"))
+      << page;
+  for (const std::string& part :
+       {"\nAccuracy asked for (`accuracy.target`): 2 %. Of the best design " +
+            run.problem.tasks()[0].name + ": 1.5 % of friction, reached.\n",
+        std::string("\n`best/` is front/01: the highest worst modulation over fingers and "
+                    "humidity.\n"),
+        std::string(
+            "\n## What the texture does, and what the finish does\n\n| surface | mean(modulation) "
+            "| variation(modulation) | worst modulation |\n|---|---|---|---|\n"
+            "| flat, finish and drive of the study file | 0.350 ± 0.013 | 0.450 ± 0.023 | 0.150 "
+            "|\n"
+            "| flat, finish and drive of the best design | 0.400 ± 0.013 | 0.350 ± 0.023 | 0.200 "
+            "|\n"
+            "| best design | 0.500 ± 0.013 | 0.300 ± 0.023 | 0.250 |\n"
+            "| difference made by the texture | +0.100 ± 0.013 | -0.050 ± 0.023 | |\n"),
+        std::string("; mean(modulation), variation(modulation); * on the front of these "
+                    "designs):\n\n| | front/01 | (dominated) |\n|---|---|---|\n"
+                    "| rough | 0.500, 0.300 * | 0.400, 0.350 |\n"
+                    "| smooth | 0.550, 0.250 * | |\n"
+                    "| **on the front** | 2 of 2 | 0 of 2, **unstable** |\n"),
+        std::string("\n\n| variable | step | mean(modulation), share | variation(modulation), "
+                    "share | tolerance down | up |\n|---|---|---|---|---|---|\n"
+                    "| texture.period | 0.35 um | +0.01, 60 % | -0.02, 25 % | 0.12 um | at least "
+                    "0.5 um |\n"
+                    "| texture.depth | 50 nm | - | - | its bound is near | 20 nm |\n")})
+    EXPECT_NE(page.find(part), std::string::npos) << part << "\n---\n" << page;
+  EXPECT_EQ(page.find(kNoBetter), std::string::npos);
+  run.result.stability.times_on_front = {1, 2};
+  run.pick = "knee";
+  EXPECT_NE(run_summary(run.files())
+                .find("\n`best/` is front/01: picked by \"knee\"; under other choices of the model "
+                      "its neighbours beat it, see below.\n"),
+            std::string::npos);
+  run.result.flat = score(0.5, 0.3, 0.2);
+  EXPECT_NE(run_summary(run.files()).find(kNoBetter), std::string::npos);
+}
+
+TEST(RunSummary, WhatEndedEarlyHasNoTables) {
+  Searched run;
+  run.result.interrupted = true;
+  run.result.evaluations = 1;
+  EXPECT_EQ(run_summary(run.files()),
+            "# Hole array under a grown oxide\n\nInterrupted after 1 evaluation; continue with "
+            "--resume.\n");
+  run.result.interrupted = false;
+  run.result.refused = run.result.failures = 0;
+  run.result.asked = 1;
+  run.result.finalists.clear();
+  EXPECT_EQ(run_summary(run.files()),
+            "# Hole array under a grown oxide\n\nSearch: nsga2 (two objectives). 1 evaluation.\n\n"
+            "**No design could be evaluated**: every one failed; history.csv says why for each.\n");
+  OptimiseResult none;
+  EXPECT_EQ(infeasible_text(none),
+            "each is kept by some design that was tried, but not all by one");
+  none.never_kept = {"min_hole", "min_wall"};
+  EXPECT_EQ(infeasible_text(none),
+            "no design of the space that was tried keeps min_hole, nor min_wall");
+}
+
+TEST(RunRemarks, EveryCutSaysWhatItLeavesUnsure) {
+  Searched run;
+  OptimiseResult& r = run.result;
+  r.end = SearchEnd::Clock;
+  r.cuts = {{RunPart::Search, 12, 40},    {RunPart::Narrow, 2, 5},    {RunPart::Confirm, 3, 9},
+            {RunPart::Stability, 0, 1},   {RunPart::Flat, 0, 2},      {RunPart::Rounding, 0, 1},
+            {RunPart::Sensitivity, 0, 1}, {RunPart::Parameters, 0, 1}};
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(run_remarks(run.study, run.problem, r),
+            (Lines{"Stopped by the clock (60 s) after 12 of 40 evaluations; 2 of 5 designs judged "
+                   "again before the confirmation; 3 of 9 finalists confirmed; the order under "
+                   "other models not checked; the surface without texture not computed; the "
+                   "rounded design not evaluated; the sensitivity not computed; the finger's "
+                   "parameters not varied. Unsure: the best of 4 variables may lie where no design "
+                   "was tried; a better design may have been passed over for one with lucky skins; "
+                   "those left out may be as good; other choices of the model may order the "
+                   "designs otherwise; whether the texture helps at all is not known; what "
+                   "rounding does is not known; tolerances are not known; what they leave open is "
+                   "not known."}));
+  r.cuts = {{RunPart::Flat, 1, 2}};
+  EXPECT_EQ(run_remarks(run.study, run.problem, r),
+            (Lines{"Cut short by the clock (60 s): the study's own surface without texture not "
+                   "computed. Unsure: what the finish does is not known."}));
+}
+
+TEST(RunRemarks, SayWhatNeverMovedAndWhatLiesOnItsBound) {
+  Searched run;
+  OptimiseResult& r = run.result;
+  r.evaluations = 12;
+  r.end = SearchEnd::Refusals;
+  r.one_value = {{3, 50 * kPi / 180}};
+  r.at_bound = {{2, false, 0, true, 0, {}},
+                {3, true, 80 * kPi / 180, false, 2.5 * kPi / 180, {0.031, -0.0052}},
+                {1, false, 1e-6, false, 0, {}}};
+  EXPECT_EQ(run_remarks(run.study, run.problem, r),
+            (std::vector<std::string>{
+                "12 evaluations where 40 were asked for: the limits of the shape refused ten times "
+                "as many designs; loosen them or narrow the design space.",
+                "surface.contact_angle took one value only, 50 deg, in 12 evaluations: what it "
+                "does is not known.",
+                "The best design has texture.depth on its lower bound, 0 nm, the last value that "
+                "the model takes.",
+                "The best design has surface.contact_angle on its upper bound, 80 deg; 2.5 deg "
+                "beyond it, going on as inside, would change mean(modulation) +0.031, "
+                "variation(modulation) -0.0052.",
+                "The best design has texture.diameter on its lower bound, 1 um: widen it to see "
+                "whether more helps."}));
+  r.evaluations = 40;
+  r.one_value.clear(), r.at_bound.clear();
+  EXPECT_TRUE(run_remarks(run.study, run.problem, r).empty());
+}
+
+TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
+  const Searched run;
+  const std::string gains =
+      "Build front/01: beside the same surface without it, its texture gains mean(modulation) "
+      "+0.100 ± 0.013, variation(modulation) -0.050 ± 0.023; the finish changes too "
+      "(surface.contact_angle 50 deg to 70 deg).";
+  EXPECT_EQ(advice_of(run.files()), Advice::Texture);
+  EXPECT_EQ(recommendation(run.files()), gains);
+  const std::string sheet = sheet_text(run.files());
+  EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + gains +
+                                "**\n\n"
+                                "| dimension | build | tolerance down | up |\n|---|---|---|---|\n"))
+      << sheet;
+  for (const char* line : {"| texture.period | 5 um | 0.12 um | at least 0.5 um |\n",
+                           "| texture.diameter | 3 um | not known | not known |\n",
+                           "| texture.depth | 300 nm | its bound is near | 20 nm |\n",
+                           "| texture.wall_angle | 88 deg | fixed | fixed |\n",
+                           "| surface.contact_angle | 70 deg | not known | not known |\n"})
+    EXPECT_NE(sheet.find(line), std::string::npos) << line << sheet;
+  Searched costly;
+  costly.result.flat = score(0.4, 0.2, 0.2);  // 0.1 more variation with the texture
+  EXPECT_NE(recommendation(costly.files())
+                .find("its texture gains mean(modulation) +0.100 ± 0.013 and costs "
+                      "variation(modulation) +0.100 ± 0.023; the finish"),
+            std::string::npos)
+      << recommendation(costly.files());
+  costly.result.flat = score(0.49, 0.29, 0.2);  // the texture gains 0.010, within its error
+  EXPECT_EQ(recommendation(costly.files()),
+            "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): "
+            "mean(modulation) +0.140 ± 0.013, variation(modulation) -0.160 ± 0.023; no texture of "
+            "this search adds more than the error of the difference.");
+  costly.result.flat.reset();
+  EXPECT_EQ(advice_of(costly.files()), Advice::Unknown);
+  costly.result.finalists[0].feasible = false;
+  EXPECT_EQ(advice_of(costly.files()), Advice::Nothing);
+}
+
+TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
+  Searched run;
+  run.result.at_bound = {{0, true, 5e-6, false, 0, {}}};
+  const auto json = nlohmann::json::parse(run_json(run.files()));
+  EXPECT_EQ(json["advice"], "texture");
+  EXPECT_EQ(json["evaluations"], 40);
+  EXPECT_EQ(json["asked"], 40);
+  EXPECT_EQ(json["stopped_by_the_clock"], false);
+  EXPECT_EQ(json["driven"], true);
+  EXPECT_EQ(json["remarks"].size(), 1u);
+  EXPECT_EQ(json["finish"], "surface.contact_angle 50 deg to 70 deg");
+  expect_same(json["shown"]["mean(modulation)"], {{"scale", 1}, {"unit", ""}}, "shown");
+  expect_same(json["sheet"][0],
+              {{"name", "texture.period"},
+               {"unit", "um"},
+               {"value", 5},
+               {"build", 5},
+               {"free", true},
+               {"down", 0.12},
+               {"down_at_least", false},
+               {"up", 0.5},
+               {"up_at_least", true},
+               {"bound", "upper"},
+               {"text", {{"build", "5 um"}, {"down", "0.12 um"}, {"up", "at least 0.5 um"}}}},
+              "sheet");
+  const auto step = [](const char* surface, double mean, double variation) {
+    return nlohmann::json{{"surface", surface},
+                          {"objectives",
+                           {{"mean(modulation)", {{"value", mean}, {"se", 0.013}}},
+                            {"variation(modulation)", {{"value", variation}, {"se", 0.023}}}}}};
+  };
+  expect_same(json["steps"],
+              {step("flat, finish and drive of the study", 0.35, 0.45),
+               step("flat, finish and drive of the best", 0.4, 0.35),
+               step("best, with its texture", 0.5, 0.3)},
+              "steps");
+  run.result.interrupted = true;
+  EXPECT_FALSE(nlohmann::json::parse(run_json(run.files())).contains("advice"));
+}
+
+// The folder of a run: every cell of its tables.
+TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
+  Searched run;
+  run.folder = temporary("run");
+  std::filesystem::create_directories(run.folder);
+  FinalDesign& best = run.result.finalists[0];
+  best.searched = score(0.52, 0.32, 0.27);
+  best.confirmed.oxide_margin = 2.5;
+  best.on_front = false;  // else its folder would be written twice
+  best.confirmed.reports = {R"({"a": 1})"};
+  run.result.flat->reports = {R"({"b": 2})"};
+  run.result.finalists[1].confirmed.ok = false;
+  run.result.finalists[1].confirmed.reason = "no, it \"failed\"";
+  run.result.finalists[1].confirmed.oxide_margin = kInfinity;
+  run.result.finalists[1].feasible = false;
+  run.history.evaluations = {{best.unit, {true, "", {-0.51, 0.31}, {-1}, {}}},
+                             {run.result.finalists[1].unit, {true, "", {-0.41, 0.21}, {0.5}, {}}},
+                             {run.result.finalists[1].unit, {false, "a, b", {}, {}, {}}}};
+  run.history.worst = {0.26, 0.16, 0};
+  run.result.hypervolumes = {0.125, 0.25, 0.375};
+  write_results(run.files());
+  const std::string variables =
+      ",texture.period [um],texture.diameter [um],texture.depth [nm],surface.contact_angle [deg]";
+  EXPECT_EQ(read_bytes(run.folder + "/history.csv"),
+            "evaluation" + variables +
+                ",mean(modulation),variation(modulation),worst modulation,feasible,hypervolume,"
+                "status\n1,5,3,300,70,0.51,0.31,0.26,yes,0.125,ok\n"
+                "2,8,4,500,40,0.41,0.21,0.16,no,0.25,ok\n3,8,4,500,40,,,,no,0.375,a; b\n");
+  EXPECT_EQ(read_bytes(run.folder + "/pareto.csv"),
+            "design" + variables +
+                ",mean(modulation),mean(modulation) se,mean(modulation) parameters,"
+                "mean(modulation) at search level,variation(modulation),variation(modulation) se,"
+                "variation(modulation) parameters,variation(modulation) at search level,worst "
+                "modulation,breakdown margin,feasible,on front,status\n"
+                "front/01,5,3,300,70,0.5,0.013,,0.52,0.3,0.023,,0.32,0.25,2.5,yes,no,ok\n"
+                "infeasible,8,4,500,40,,,,,,,,,0.2,,no,no,no; it ;failed;\n");
+  expect_document(
+      read_bytes(run.folder + "/sensitivity.json"),
+      {{"schema", 1},
+       {"variables",
+        {{"texture.period",
+          {{"step", 0.35e-6},
+           {"change", {{"mean(modulation)", 0.01}, {"variation(modulation)", -0.02}}},
+           {"variance_share", {{"mean(modulation)", 0.6}, {"variation(modulation)", 0.25}}},
+           {"tolerance",
+            {{"down", 0.12e-6}, {"down_at_least", false}, {"up", 0.5e-6}, {"up_at_least", true}}}}},
+         {"texture.depth",
+          {{"step", 50e-9},
+           {"change", nlohmann::json::object()},
+           {"variance_share", nlohmann::json::object()},
+           {"tolerance",
+            {{"down", 0}, {"down_at_least", false}, {"up", 20e-9}, {"up_at_least", false}}}}}}}});
+  auto metrics = nlohmann::json::parse(read_bytes(run.folder + "/best/metrics.json"));
+  expect_same(metrics["variables"],
+              {{"texture.period", 5e-6},
+               {"texture.diameter", 3e-6},
+               {"texture.depth", 300e-9},
+               {"surface.contact_angle", 70 * kPi / 180}},
+              "variables");
+  const auto value = [](double v, double se, bool maximise) {
+    return nlohmann::json{
+        {"value", v}, {"maximise", maximise}, {"se", se}, {"parameters", nullptr}};
+  };
+  expect_same(metrics["objectives"],
+              {{"mean(modulation)", value(0.5, 0.013, true)},
+               {"variation(modulation)", value(0.3, 0.023, false)}},
+              "objectives");
+  expect_same(metrics["objectives_at_search_level"],
+              {{"mean(modulation)", value(0.52, 0.013, true)},
+               {"variation(modulation)", value(0.32, 0.023, false)}},
+              "search");
+  EXPECT_EQ(metrics["worst_modulation"], 0.25);
+  EXPECT_EQ(metrics["oxide_breakdown_margin"], 2.5);
+  EXPECT_EQ(metrics["feasible"], true);
+  expect_same(metrics["stability"], {{"on_front", 2}, {"variants", 2}, {"stable", true}}, "stable");
+  expect_same(metrics["flat"],
+              {{"objectives",
+                {{"mean(modulation)", value(0.4, 0.013, true)},
+                 {"variation(modulation)", value(0.35, 0.023, false)}}},
+               {"worst_modulation", 0.2},
+               {"difference",
+                {{"mean(modulation)", {{"value", 0.5 - 0.4}, {"se", 0.013}}},
+                 {"variation(modulation)", {{"value", 0.3 - 0.35}, {"se", 0.023}}}}},
+               {"no_better", nullptr}},
+              "flat");
+  expect_same(metrics["tasks"],
+              nlohmann::json::array({{{"name", run.problem.tasks()[0].name},
+                                      {"response", {{"a", 1}}},
+                                      {"flat", {{"b", 2}}}}}),
+              "tasks");
+  EXPECT_FALSE(std::filesystem::exists(run.folder + "/front"));
+  EXPECT_NE(recommendation_of(run.folder).find("Build front/01"), std::string::npos);
+  EXPECT_EQ(recommendation_of(run.folder + "/best"), "");
+}
+
+}  // namespace
+}  // namespace papilla::tests

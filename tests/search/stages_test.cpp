@@ -1,0 +1,424 @@
+// The stages of a run with formulas for answers: which designs are asked of at each, what their
+// numbers decide, and that a run goes on from its journal. No contact is solved.
+#include "search/stages.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <tuple>
+
+#include "search/levels.h"
+#include "tests/search/small_study.h"
+
+namespace papilla::tests {
+namespace {
+
+using Formula = std::function<TaskAnswer(const TaskRequest&)>;
+using Requests = std::vector<TaskRequest>;
+
+class FormulaTeam : public Team {
+ public:
+  FormulaTeam(Formula formula, Requests& asked) : formula_(std::move(formula)), asked_(asked) {}
+  std::size_t size() const override { return 1; }
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
+    std::vector<WorkAnswer> out;
+    for (const Bytes& bytes : requests) {
+      asked_.push_back(*decode_request(bytes));
+      out.push_back({encode(formula_(asked_.back())), {}});
+    }
+    return out;
+  }
+
+ private:
+  Formula formula_;
+  Requests& asked_;
+};
+
+// Two variables: depth from flat on, and contact angle, of which 50 deg is the study's own.
+Study two_variables() {
+  Study study = small_study();
+  study.design.finger.uncertainty.clear();
+  study.variables = {study.variables[2], study.variables[3]};
+  study.search.evaluations = 15;
+  study.search.jobs = 1;
+  study.search.rounding = 10e-9;
+  return study;
+}
+Study evolved() {
+  Study study = two_variables();
+  study.search.method = "nsga2";
+  study.search.evaluations = 12;
+  return study;
+}
+constexpr double kOwnAngle = 0.4;  // (50 - 30) / (80 - 30)
+
+// Straight lines in both variables, each level with an offset of its own.
+TaskAnswer lines(const TaskRequest& r) {
+  const double depth = r.flat ? 0 : r.unit[0], angle = r.unit[1];
+  const double offset = r.stage == Stage::Search ? 0.04 : r.stage == Stage::Narrow ? 0.02 : 0;
+  TaskAnswer out;
+  const double mean = 0.8 - 0.3 * depth + 0.1 * angle + offset,
+               variation = 0.5 - 0.4 * depth + 0.02 * angle;
+  out.objectives = {{mean, 0.01, {mean}}, {variation, 0.01, {variation}}};
+  out.worst = 0.2 + 0.1 * depth;
+  out.oxide_margin = 10;
+  return out;
+}
+
+// A run that a formula answers, in folders of its own.
+struct AnsweredRun {
+  AnsweredRun(const Study& of, const std::string& folder, const Formula& formula,
+              bool resume = false, const std::atomic<bool>* stop = nullptr)
+      : study(of), options{folder + "_own", false, {}, stop}, run(study, options, mpi) {
+    std::filesystem::create_directories(folder);
+    std::destroy_at(&run.replay);
+    std::construct_at(&run.replay, run.problem, run.search, folder, resume,
+                      std::make_unique<FormulaTeam>(formula, asked));
+  }
+  ~AnsweredRun() { std::filesystem::remove_all(options.folder); }
+  AnsweredRun(const AnsweredRun&) = delete;
+  AnsweredRun& operator=(const AnsweredRun&) = delete;
+
+  bool whole() {
+    const bool done = search_designs(run) && narrow(run) && confirm(run) && check(run);
+    if (done) run.replay.end();
+    return done;
+  }
+  std::ptrdiff_t count(Stage stage, bool flat = false) const {
+    return std::count_if(asked.begin(), asked.end(),
+                         [&](const TaskRequest& r) { return r.stage == stage && r.flat == flat; });
+  }
+
+  const Study study;
+  const OptimiseOptions options;
+  const MpiSession mpi;
+  Requests asked;
+  Run run;
+};
+
+// One that several tests read.
+const AnsweredRun& whole_run() {
+  static AnsweredRun run(two_variables(), fresh_folder("stages"), lines);
+  static const bool done = run.whole();
+  EXPECT_TRUE(done);
+  return run;
+}
+
+TEST(Stages, EachAsksAsManyDesignsAsItSays) {
+  const AnsweredRun& a = whole_run();
+  const OptimiseResult& result = a.run.result;
+  EXPECT_EQ(result.evaluations, 15);
+  EXPECT_EQ(result.failures, 0);
+  EXPECT_EQ(result.end, SearchEnd::Budget);
+  EXPECT_EQ(a.count(Stage::Search), 15);
+  EXPECT_EQ(a.count(Stage::Draft), 0);
+  EXPECT_EQ(a.run.narrowed.size(), narrowings(a.run.search));
+  EXPECT_EQ(a.count(Stage::Narrow), 5);  // a third
+  ASSERT_GE(result.finalists.size(), 3u);
+  EXPECT_LE(result.finalists.size(), kFinalists + 1);
+  EXPECT_EQ(a.count(Stage::Confirm), static_cast<std::ptrdiff_t>(result.finalists.size()));
+  const auto front = std::count_if(result.finalists.begin(), result.finalists.end(),
+                                   [](const FinalDesign& f) { return f.on_front; });
+  EXPECT_EQ(a.count(Stage::Stability),
+            front * static_cast<std::ptrdiff_t>(stability_variants(a.run.problem).size()));
+  EXPECT_TRUE(result.cuts.empty());
+  EXPECT_EQ(a.run.confirm_seconds, 0);
+  // Finalists come from the level between; flat is the best in the first objective anyhow.
+  const JudgedDesigns& between = a.run.narrowed;
+  for (const FinalDesign& f : result.finalists) {
+    EXPECT_TRUE(std::any_of(between.evaluations.begin(), between.evaluations.end(),
+                            [&](const Evaluation& e) { return e.unit == f.unit; }));
+    if (f.searched.ok) {
+      EXPECT_NEAR(f.searched.values[0], f.confirmed.values[0] + 0.04, 1e-12);
+      EXPECT_NEAR(f.searched.values[1], f.confirmed.values[1], 1e-12);
+    }
+  }
+}
+
+// Where flat is nowhere on the front, the first finalist's own surface is confirmed without its
+// texture, second of all.
+TEST(Stages, TheFlatSurfaceIsConfirmedSecond) {
+  AnsweredRun a(evolved(), fresh_folder("stages_second"), [](const TaskRequest& r) {
+    TaskAnswer out = lines(r);
+    out.objectives[0].value += (r.flat ? 0 : 0.6 * r.unit[0]);  // a texture is better in both
+    return out;
+  });
+  ASSERT_TRUE(search_designs(a.run) && narrow(a.run) && confirm(a.run));
+  std::vector<Point> confirmed;
+  for (const TaskRequest& r : a.asked) {
+    if (r.stage == Stage::Confirm) confirmed.push_back(r.unit);
+  }
+  ASSERT_GE(confirmed.size(), 2u);
+  EXPECT_GT(confirmed[0][0], 0);
+  EXPECT_EQ(confirmed[1][0], 0);
+  double best = 0, angle = 0;  // of the finalists by the level between
+  for (const Evaluation& e : a.run.narrowed.evaluations) {
+    const bool chosen = std::find(confirmed.begin(), confirmed.end(), e.unit) != confirmed.end();
+    if (chosen && e.outcome.objectives[0] < best) best = e.outcome.objectives[0], angle = e.unit[1];
+  }
+  EXPECT_EQ(confirmed[1][1], angle);
+}
+
+// Over at once: one design is judged and confirmed for a fiftieth of its price, the rest is cut.
+TEST(Stages, WithoutTimeOneDesignIsConfirmedAndTheRestIsSaidToBeCut) {
+  Study study = two_variables();
+  study.search.time = 1e-6;
+  study.search.rounding = 0;
+  AnsweredRun a(study, fresh_folder("stages_clock"), lines);
+  ASSERT_TRUE(a.whole());
+  const OptimiseResult& result = a.run.result;
+  EXPECT_EQ(result.end, SearchEnd::Clock);
+  EXPECT_EQ(a.asked.size(), 2u);
+  EXPECT_EQ(result.finalists.size(), 1u);
+  EXPECT_TRUE(result.finalists[0].on_front);
+  EXPECT_FALSE(result.flat || result.flat_before || result.rounded);
+  EXPECT_TRUE(result.sensitivity.empty());
+  EXPECT_NEAR(a.run.confirm_seconds, 0.02 * task_price(a.run.problem, Stage::Confirm),
+              1e-9 * a.run.confirm_seconds);
+  EXPECT_EQ(a.asked[1].most_seconds, a.run.confirm_seconds);
+  EXPECT_EQ(result.confirmed_with.skins, 4);
+  const std::vector<std::tuple<RunPart, std::size_t, std::size_t>> expected{
+      {RunPart::Search, 1, 15},   {RunPart::Narrow, 0, 5}, {RunPart::Confirm, 1, 2},
+      {RunPart::Stability, 0, 1}, {RunPart::Flat, 0, 1},   {RunPart::Sensitivity, 0, 1}};
+  ASSERT_EQ(result.cuts.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(std::tuple(result.cuts[i].part, result.cuts[i].done, result.cuts[i].of), expected[i])
+        << i;
+}
+
+TEST(Stages, TheConfirmedNumbersDecideTheFrontAndItsOrder) {
+  const AnsweredRun& a = whole_run();
+  const OptimiseResult& result = a.run.result;
+  EXPECT_TRUE(result.any_feasible);
+  EXPECT_TRUE(result.never_kept.empty());
+  std::size_t front = 0;
+  double worst = 0;
+  for (const FinalDesign& f : result.finalists) {
+    const bool beaten =
+        std::any_of(result.finalists.begin(), result.finalists.end(), [&](const FinalDesign& g) {
+          const std::vector<double>&x = f.confirmed.values, &y = g.confirmed.values;
+          return y[0] >= x[0] && y[1] <= x[1] && y != x;
+        });
+    EXPECT_EQ(f.on_front, !beaten);
+    EXPECT_TRUE(f.feasible);
+    EXPECT_EQ(f.folder, f.on_front ? "front/0" + std::to_string(front + 1) : "");
+    if (&f != &result.finalists.front() && f.on_front) {
+      EXPECT_LE(f.confirmed.values[0], (&f - 1)->confirmed.values[0]);
+      EXPECT_TRUE((&f - 1)->on_front);
+    }
+    front += f.on_front;
+    if (f.on_front) worst = std::max(worst, f.confirmed.worst);
+  }
+  ASSERT_GE(front, 2u);
+  EXPECT_EQ(result.finalists[result.best].confirmed.worst, worst);
+  // Along the lines what one gains of the first it loses of the second.
+  const int variants = static_cast<int>(result.stability.variants.size());
+  for (const int times : result.stability.times_on_front) EXPECT_EQ(times, variants);
+}
+
+TEST(Stages, TheChecksSayWhatTheTextureAndTheFinishDo) {
+  const AnsweredRun& a = whole_run();
+  const OptimiseResult& result = a.run.result;
+  const FinalDesign& best = result.finalists[result.best];
+  ASSERT_TRUE(result.flat);
+  EXPECT_NEAR(result.flat->values[0], 0.8 + 0.1 * best.unit[1], 1e-12);
+  ASSERT_EQ(result.flat_before.has_value(),
+            best.unit[1] != a.run.problem.space().unit_of_study()[1]);
+  EXPECT_EQ(a.count(Stage::Confirm, true), result.flat_before ? 2 : 1);
+  if (result.flat_before) {
+    EXPECT_NEAR(result.flat_before->values[0], 0.8 + 0.1 * kOwnAngle, 1e-9);
+  }
+  // Straight lines: nine tenths of the first objective's change are the depth's.
+  ASSERT_EQ(result.sensitivity.size(), 2u);
+  for (const VariableSensitivity& s : result.sensitivity) {
+    const bool depth = s.variable == 0;
+    EXPECT_NEAR(s.share[0], depth ? 0.9 : 0.1, 1e-9);
+    EXPECT_NEAR(s.change[0], 0.05 * (depth ? -0.3 : 0.1), 1e-9);
+    EXPECT_NEAR(s.change[1], 0.05 * (depth ? -0.4 : 0.02), 1e-9);
+  }
+  if (result.rounded) {
+    EXPECT_NEAR(result.rounded->confirmed.values[0],
+                0.8 - 0.3 * result.rounded->unit[0] + 0.1 * result.rounded->unit[1], 1e-12);
+    EXPECT_TRUE(result.rounded->feasible);
+    EXPECT_EQ(a.count(Stage::Rounding), 1);
+  }
+}
+
+// Interrupted anywhere, and continued: the same answers to the same questions, none asked twice.
+void expect_to_go_on(std::size_t after) {
+  static AnsweredRun straight(evolved(), fresh_folder("stages_straight"), lines);
+  static const bool done = straight.whole();
+  ASSERT_TRUE(done);
+  const std::string folder = fresh_folder("stages_continued");
+  Requests asked;
+  std::atomic<bool> stop{false};
+  {
+    std::size_t answered = 0;
+    AnsweredRun first(
+        evolved(), folder,
+        [&](const TaskRequest& r) {
+          stop = ++answered >= after;
+          return lines(r);
+        },
+        false, &stop);
+    EXPECT_FALSE(first.whole());
+    asked = first.asked;
+    EXPECT_EQ(asked.size(), after);
+  }
+  AnsweredRun second(evolved(), folder, lines, true);
+  ASSERT_TRUE(second.whole());
+  asked.insert(asked.end(), second.asked.begin(), second.asked.end());
+  EXPECT_EQ(asked, straight.asked);
+  const OptimiseResult &one = straight.run.result, &other = second.run.result;
+  EXPECT_EQ(other.evaluations, 12);
+  EXPECT_EQ(other.best, one.best);
+  ASSERT_EQ(other.finalists.size(), one.finalists.size());
+  for (std::size_t i = 0; i < one.finalists.size(); ++i) {
+    EXPECT_EQ(other.finalists[i].unit, one.finalists[i].unit);
+    EXPECT_EQ(other.finalists[i].folder, one.finalists[i].folder);
+  }
+}
+
+TEST(Stages, ASearchThatIsContinuedAsksOnlyWhatIsLeft) { expect_to_go_on(4); }
+TEST(Stages, ALevelBetweenThatIsContinuedAsksOnlyWhatIsLeft) { expect_to_go_on(14); }
+TEST(Stages, AConfirmationThatIsContinuedAsksOnlyWhatIsLeft) { expect_to_go_on(17); }
+
+TEST(Stages, ARunThatIsDoneAsksNothingMore) {
+  const std::string folder = fresh_folder("stages_done");
+  {
+    AnsweredRun first(evolved(), folder, lines);
+    ASSERT_TRUE(first.whole());
+  }
+  AnsweredRun again(evolved(), folder, lines, true);
+  ASSERT_TRUE(again.whole());
+  EXPECT_TRUE(again.asked.empty());
+  EXPECT_EQ(again.run.result.end, SearchEnd::Budget);
+  EXPECT_EQ(again.run.replay.evaluated(), 12);
+  const auto last = again.run.replay.next();
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->stage, Stage::Done);
+}
+
+// On fresh skins every film is too weak: one more than the finalists is confirmed, none twice, and
+// the least bad is what there is.
+TEST(Stages, WhereNothingHoldsSaferDesignsAreConfirmed) {
+  AnsweredRun a(evolved(), fresh_folder("stages_none"), [](const TaskRequest& r) {
+    TaskAnswer out = lines(r);
+    const bool sure = r.stage == Stage::Confirm;
+    out.oxide_margin = sure ? 1.5 + 0.1 * r.unit[1] : 2.5;
+    return out;
+  });
+  ASSERT_TRUE(search_designs(a.run) && narrow(a.run) && confirm(a.run));
+  const OptimiseResult& result = a.run.result;
+  EXPECT_FALSE(result.any_feasible);
+  ASSERT_EQ(result.finalists.size(), kFinalists + 1);
+  double least = 0;
+  int best = 0;
+  for (std::size_t i = 0; i < result.finalists.size(); ++i) {
+    const FinalDesign& f = result.finalists[i];
+    EXPECT_FALSE(f.feasible || f.on_front);
+    for (std::size_t j = 0; j < i; ++j) EXPECT_NE(f.unit, result.finalists[j].unit);
+    least = std::max(least, f.confirmed.oxide_margin);
+    best += f.folder == "best";
+  }
+  EXPECT_EQ(best, 1);
+  EXPECT_EQ(result.finalists.front().folder, "best");
+  EXPECT_EQ(result.finalists.front().confirmed.oxide_margin, least);
+}
+
+// Along the front none holds on fresh skins, beside it some do: until one of them is confirmed.
+TEST(Stages, ASaferDesignThatHoldsIsFound) {
+  AnsweredRun a(evolved(), fresh_folder("stages_safer"), [](const TaskRequest& r) {
+    TaskAnswer out = lines(r);
+    out.objectives[0].value -= 0.2 * r.unit[1];  // a large angle is worse in both
+    out.oxide_margin = (r.stage == Stage::Confirm ? 1.5 : 2.2) + r.unit[1];
+    return out;
+  });
+  ASSERT_TRUE(search_designs(a.run) && narrow(a.run) && confirm(a.run));
+  const OptimiseResult& result = a.run.result;
+  EXPECT_TRUE(result.any_feasible);
+  EXPECT_LE(result.finalists.size(), kFinalists + 1);
+  for (const FinalDesign& f : result.finalists) {
+    EXPECT_EQ(f.feasible, f.unit[1] >= 0.5) << f.unit[1];
+    EXPECT_TRUE(!f.on_front || f.feasible);
+  }
+  EXPECT_TRUE(result.finalists.front().on_front);
+  // The last one asked of is it, unless the confirmation had to search itself.
+  if (result.finalists.size() < kFinalists + 1) {
+    EXPECT_GE(a.asked.back().unit[1], 0.5);
+  }
+}
+
+// A failure is an evaluation, and no refusal.
+TEST(Stages, FailuresAreCounted) {
+  AnsweredRun a(evolved(), fresh_folder("stages_failures"), [](const TaskRequest& r) {
+    if (r.stage == Stage::Search && r.unit[0] > 0.5)
+      return TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed");
+    return lines(r);
+  });
+  ASSERT_TRUE(search_designs(a.run));
+  int failed = 0;
+  for (const Evaluation& e : a.run.history.evaluations) {
+    EXPECT_EQ(e.outcome.ok, e.unit[0] <= 0.5);
+    failed += !e.outcome.ok;
+  }
+  EXPECT_EQ(a.run.result.failures, failed);
+  EXPECT_GT(failed, 0);
+  EXPECT_EQ(a.run.result.evaluations, 12);
+  EXPECT_EQ(a.run.result.refused, 0);
+}
+
+// What is left of a run is priced by what was timed: the same stage by itself, another by plans.
+TEST(Stages, TimesAreThoseOfTheTasksThatWereDone) {
+  AnsweredRun a(evolved(), fresh_folder("stages_times"), lines);
+  search::Run& run = a.run;
+  EXPECT_EQ(run.seconds_of(3, Stage::Search), 0);  // nothing timed yet
+  ASSERT_TRUE(search_designs(run));
+  const Replay::Spent& spent = run.replay.spent(Stage::Search);
+  EXPECT_EQ(spent.tasks, 12);
+  const double each = spent.seconds / 12;
+  ASSERT_GT(each, 0);
+  EXPECT_NEAR(run.seconds_of(6, Stage::Search), 6 * each, 1e-9 * each);
+  for (const Stage stage : {Stage::Narrow, Stage::Confirm, Stage::Stability, Stage::Sensitivity}) {
+    const double ratio = task_price(run.problem, stage) / task_price(run.problem, Stage::Search);
+    EXPECT_NEAR(run.seconds_of_designs(2, stage), 2 * each * ratio, 1e-9 * each * ratio);
+  }
+  const PartSeconds all = run.wanted();
+  const auto part = [&](RunPart p) { return all[static_cast<std::size_t>(p)]; };
+  EXPECT_EQ(part(RunPart::Search), 0);
+  EXPECT_DOUBLE_EQ(part(RunPart::Narrow), run.seconds_of(4, Stage::Narrow));
+  EXPECT_DOUBLE_EQ(part(RunPart::Confirm), run.seconds_of(9, Stage::Confirm));
+  EXPECT_DOUBLE_EQ(part(RunPart::Stability),
+                   run.seconds_of(8 * stability_variants(run.problem).size(), Stage::Stability));
+  EXPECT_DOUBLE_EQ(part(RunPart::Flat), run.seconds_of(2, Stage::Confirm));
+  EXPECT_DOUBLE_EQ(part(RunPart::Rounding), run.seconds_of(1, Stage::Confirm));
+  EXPECT_DOUBLE_EQ(part(RunPart::Sensitivity), run.seconds_of(5, Stage::Sensitivity));
+  EXPECT_EQ(part(RunPart::Parameters), 0);
+  EXPECT_DOUBLE_EQ(part(RunPart::Files), 1 + run.seconds_of(1, Stage::Confirm) / 8);
+  EXPECT_DOUBLE_EQ(run.seconds_from(RunPart::Files), part(RunPart::Files));
+  EXPECT_DOUBLE_EQ(run.seconds_from(RunPart::Sensitivity),
+                   part(RunPart::Sensitivity) + part(RunPart::Parameters) + part(RunPart::Files));
+}
+
+// Drafts come first and count for nothing but the searcher.
+TEST(Stages, DraftsSteerAndAreNoEvaluations) {
+  Study study = two_variables();
+  study.search.drafts = 6;
+  study.search.evaluations = 8;
+  AnsweredRun a(study, fresh_folder("stages_drafts"), lines);
+  ASSERT_TRUE(search_designs(a.run));
+  EXPECT_EQ(a.count(Stage::Draft), 6);
+  EXPECT_EQ(a.count(Stage::Search), 8);
+  for (std::size_t i = 0; i < a.asked.size(); ++i)
+    EXPECT_EQ(a.asked[i].stage, i < 6 ? Stage::Draft : Stage::Search) << i;
+  EXPECT_EQ(a.run.history.size(), 8u);
+  EXPECT_EQ(a.run.result.evaluations, 8);
+  EXPECT_EQ(a.run.replay.evaluated(), 8);
+}
+
+}  // namespace
+}  // namespace papilla::tests
