@@ -40,11 +40,12 @@ class TargetRun {
     Response response = fresh(kFewestSkins, "pilot"), best = response;
     Parts best_parts = parts_;
     report_.target = options_.target;
-    for (int plans = 0; !(parts_.total() <= options_.target);) {
+    for (int plans = 0;;) {
       if (!(value_ > 0)) {
         report_.end = TargetEnd::NoRelativeError;
         break;
       }
+      if (parts_.total() <= options_.target) break;
       const Choice choice = cheapest();
       if (!(choice.cost < kInfinity)) {
         report_.end = TargetEnd::TimeSpent;

@@ -199,6 +199,18 @@ TEST(Target, OutOfReachNamesTheLargestPartAndTheLimits) {
   EXPECT_EQ(spent.accuracy.steps.size(), 1u);
 }
 
+TEST(Target, OfZeroHasNoRelativeError) {
+  Scene scene;
+  scene.environment.relative_humidity = {0.35};
+  scene.finger.macro.shear_strength = 0;
+  scene.finger.water.hysteresis = 0;
+  const Response r =
+      evaluate_to_target(scene, Texture{}, {.target = 0.05, .largest_grid = 64, .threads = 1});
+  EXPECT_EQ(summarise(Summary::Mean, "friction", r)->value, 0);
+  EXPECT_EQ(r.accuracy.end, TargetEnd::NoRelativeError);
+  EXPECT_EQ(r.accuracy.steps.size(), 1u);
+}
+
 // Modulation goes with the square of a voltage that is small: half of its relative error is the
 // voltage's, and the search adds a thousandth.
 TEST(VoltageErrors, AreHalfThoseOfTheModulation) {
