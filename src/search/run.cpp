@@ -127,7 +127,8 @@ void write_files(Run& run, const StageSeconds& at) {
 
 }  // namespace
 
-Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi)
+Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi,
+         std::unique_ptr<Team> team)
     : clock(of.search.time),
       study(of),
       options(how),
@@ -136,7 +137,8 @@ Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi)
       method(choose_method(of.search.method, search)),
       folder(checked_folder(how, problem)),
       lock(folder),
-      replay(problem, search, folder, how.resume, make_team(problem, how, mpi)) {}
+      replay(problem, search, folder, how.resume,
+             team ? std::move(team) : make_team(problem, how, mpi)) {}
 
 void Run::progress(const char* stage, int done, int total, double left) const {
   if (!options.progress) return;

@@ -15,8 +15,10 @@
 namespace papilla::search {
 
 struct Run {
-  // Refuses what can be refused before anything is written. Throws InputError.
-  Run(const Study& study, const OptimiseOptions& options, const MpiSession& mpi);
+  // Refuses what can be refused before anything is written. Without a team workers here answer, or
+  // the ranks of the session. Throws InputError.
+  Run(const Study& study, const OptimiseOptions& options, const MpiSession& mpi,
+      std::unique_ptr<Team> team = nullptr);
 
   bool stopped() const { return options.stop && options.stop->load(); }
   // Before a new evaluation: what the journal answers costs nothing.

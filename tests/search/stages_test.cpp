@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <tuple>
@@ -69,17 +68,13 @@ TaskAnswer lines(const TaskRequest& r) {
   return out;
 }
 
-// A run that a formula answers, in folders of its own.
+// A run that a formula answers.
 struct AnsweredRun {
   AnsweredRun(const Study& of, const std::string& folder, const Formula& formula,
               bool resume = false, const std::atomic<bool>* stop = nullptr)
-      : study(of), options{folder + "_own", false, {}, stop}, run(study, options, mpi) {
-    std::filesystem::create_directories(folder);
-    std::destroy_at(&run.replay);
-    std::construct_at(&run.replay, run.problem, run.search, folder, resume,
-                      std::make_unique<FormulaTeam>(formula, asked));
-  }
-  ~AnsweredRun() { std::filesystem::remove_all(options.folder); }
+      : study(of),
+        options{folder, resume, {}, stop},
+        run(study, options, mpi, std::make_unique<FormulaTeam>(formula, asked)) {}
   AnsweredRun(const AnsweredRun&) = delete;
   AnsweredRun& operator=(const AnsweredRun&) = delete;
 
