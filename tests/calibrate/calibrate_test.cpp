@@ -72,6 +72,20 @@ TEST_F(Calibrate, FrictionBeyondTenTimesTheLoadIsRefusedAsAnotherUnit) {
   EXPECT_EQ(problems[1].key, "F_on_N");
 }
 
+TEST_F(Calibrate, FrictionOfLessThanFiftyTimesTheLoadIsNotTakenForMillinewtons) {
+  for (const auto& [force, guess] :
+       {std::pair("9", "no finger rubs so"), std::pair("11", "are these mN? Then 0.011 N")}) {
+    const auto problems = problems_of([&, force = force] {
+      read_friction(write(
+          "n.csv",
+          std::string(kHeader) + "m3_samples/flat.toml,35 %,200,5000,0.2," + force + ",1,12,1\n"));
+    });
+    ASSERT_EQ(problems.size(), 2u);
+    EXPECT_NE(problems[0].message.find(std::string(force) + " N is "), std::string::npos);
+    EXPECT_NE(problems[0].message.find(guess), std::string::npos) << problems[0].message;
+  }
+}
+
 TEST_F(Calibrate, AFitThatExplainsNothingIsNoSuccess) {
   write("far.csv", std::string(kHeader) +
                        "m3_samples/flat.toml,35 %,200,5000,0.2,1.2,0.01,1.2,"

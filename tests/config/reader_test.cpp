@@ -138,6 +138,8 @@ TEST(Reader, NamesEachKindOfMistake) {
   EXPECT_EQ(problems_of("[environment]\nrelative_humidity = [\"15 %\", 0.35]\n"),
             "hole.toml:2:30: environment.relative_humidity.1: needs a unit: \"35 %\" if 0.35 is a "
             "share of 1, \"0.35 %\" if it is in percent");
+  EXPECT_EQ(problems_of("[environment]\nrelative_humidity = [\"15 %\", 1.5]\n"),
+            "hole.toml:2:30: environment.relative_humidity.1: needs a unit, e.g. \"1.5 %\"");
   EXPECT_EQ(problems_of("finger = 3\n"),
             "hole.toml:1:10: finger: expected a section [finger], got 3");
   EXPECT_EQ(problems_of("[surface]\ndielectric = [{ thickness = \"1 V\" }, 3]\n"),

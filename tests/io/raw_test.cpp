@@ -135,6 +135,23 @@ TEST(Npy, BothKindsOfNumbersAndBothVersionsAreRead) {
   }
 }
 
+// As its format asks for, whatever the length of the header.
+TEST(Npy, HeightsBeginAtAMultipleOfSixtyFourBytes) {
+  const std::string path = temporary("aligned.npy");
+  for (const int nx : {1, 12, 123, 1234}) {
+    for (const int ny : {1, 56, 567}) {
+      const Heightmap h{{nx, ny, 1e-6, 1e-6}, std::vector<double>(std::size_t(nx) * ny)};
+      write_npy(path, h);
+      const std::string bytes = read_bytes(path);
+      const std::size_t begin = 10 + static_cast<unsigned char>(bytes[8]) +
+                                256 * std::size_t{static_cast<unsigned char>(bytes[9])};
+      EXPECT_EQ(begin % 64, 0u) << nx << " " << ny;
+      EXPECT_EQ(bytes[begin - 1], '\n');
+      EXPECT_EQ(bytes.size(), begin + 8 * h.z.size());
+    }
+  }
+}
+
 TEST(Npy, WhatCannotBeReadIsNamed) {
   const auto header = [](const std::string& type, const std::string& order,
                          const std::string& shape) {

@@ -10,6 +10,7 @@
 
 #include "base/constants.h"
 #include "base/quadrature.h"
+#include "physics/persson/gap_integrals.h"
 #include "tests/persson/table.h"
 
 namespace papilla::tests {
@@ -509,6 +510,18 @@ TEST(GfmdSimulation, AreaIsWithinTenPercent) {
     PowerSpectrum s = self_affine_spectrum(1e-6, 1e3, 1e3, 1e5, 0.8);
     const MeanField field(s, {1e6, 0, 0, 1e6, 0}, {});
     EXPECT_LT(relative(field.area(v[1] * 1e6 * s.slope()), v[2]), 0.11) << v[1];
+  }
+}
+
+// Eq. persson.7 with gamma = 1 is half an exponential integral, E1(1/y) / 2.
+TEST(GapIntegrals, NodesOfTheTableAreExponentialIntegrals) {
+  const std::vector<double> table = gap_integral_table(1);
+  for (int exponent = -3; exponent < 60; exponent += 7) {
+    for (int cell : {0, 1, 77, 127}) {
+      const double y = std::ldexp(1 + cell / 128.0, exponent);
+      const double expected = -0.5 * std::expint(-1 / y) / std::sqrt(y);
+      EXPECT_NEAR(look_up(table, y), expected, 1e-9 * expected) << y;
+    }
   }
 }
 
