@@ -49,6 +49,33 @@ TEST(Area, OfASphereIsHertzsWhereverItLiesBetweenThePixels) {
   }
 }
 
+// A periodic surface begins nowhere: across the corner of the grid the area is the same.
+TEST(Area, IsTheSameWhereverTheGridBegins) {
+  const Grid grid{48, 40, 1, 1};
+  const ContactKernel kernel(grid, {1, 0, 0, 1, 0});
+  std::vector<double> height(grid.size());
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix)
+      height[grid.index(ix, iy)] = -square(grid.x(ix) - 0.52) - square(grid.y(iy) - 0.47);
+  }
+  const ContactSolution middle = solve_contact(kernel, height, 0.01, {}, {.tolerance = 1e-9});
+  ContactSolution corner = middle;
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const std::size_t from = grid.index(ix, iy),
+                        to = grid.index((ix + grid.nx / 2) % grid.nx, (iy + grid.ny / 2) % grid.ny);
+      corner.pressure[to] = middle.pressure[from];
+      corner.gap[to] = middle.gap[from];
+    }
+  }
+  ASSERT_GT(corner.pressure.front(), 0);
+  const ContactArea here = measure_area(kernel, middle), there = measure_area(kernel, corner);
+  EXPECT_NEAR(there.raw, here.raw, 1e-12);
+  EXPECT_NEAR(there.near_edge, here.near_edge, 1e-9);
+  EXPECT_NEAR(there.perimeter, here.perimeter, 1e-12);
+  EXPECT_NEAR(there.se, here.se, 1e-9);
+}
+
 // The reference finger's skin: an area on 256^2 lies within the stated error of that on 1024^2, the
 // change of area with the load agrees ten times better.
 TEST(Area, OfRoughSkinAgreesWithAFinerGridWithinItsStatedError) {
