@@ -189,6 +189,7 @@ TEST(Study, ProblemsAcrossFieldsAreLocated) {
       problems_of(head + "[drive]\ncontrol = \"current\"\nwaveform = \"dc\"\ncurrent = \"1 mA\"\n"),
       ":4:12: drive.waveform: a constant current through a film that insulates has no end: give "
       "an alternating one");
+  EXPECT_EQ(problems_of(head + "[drive]\ncontrol = \"current\"\nwaveform = \"dc\"\n"), "");
   EXPECT_EQ(
       problems_of(head + "[design_space]\n\"surface.contact_agle\" = [\"1 deg\", \"2 deg\"]\n"),
       ":3:1: design_space: `surface.contact_agle` is no number of this design, did you mean "

@@ -107,6 +107,7 @@ TEST(Network, UnderCurrentOnlyTheGapMatters) {
   for (double f : {1.0, 100.0, 25e3}) {
     EXPECT_DOUBLE_EQ(respond(a, DriveControl::Current, 1e-3, f).mean_force,
                      respond(b, DriveControl::Current, 1e-3, f).mean_force);
+    EXPECT_EQ(respond(a, DriveControl::Current, 1e-3, f).current, 1e-3);  // all that is driven
   }
 }
 

@@ -199,7 +199,12 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   EXPECT_TRUE(narrow.faults[0].starts_with("min_wall of the file is ")) << narrow.faults[0];
   EXPECT_NE(narrow.faults[0].find(" um, below 2.5 um (pixel 0.062 um)"), std::string::npos)
       << narrow.faults[0];
-  EXPECT_EQ(verify_export(study, file, 0).faults.size(), 1u + (narrow.loss > 0));
+  ASSERT_GT(narrow.loss, 0);
+  const Verification strict = verify_export(study, file, 0.5 * narrow.loss);
+  ASSERT_EQ(strict.faults.size(), 2u);
+  EXPECT_TRUE(strict.faults[1].ends_with(
+      fmt::format(": {:.2g} % off, more than {:.2g} %", 100 * narrow.loss, 50 * narrow.loss)))
+      << strict.faults[1];
   // A file a pixel off its limit is not narrower than it can show.
   study.constraints[0].limit = sound.pixels.min_wall + 0.5 * 0.0625e-6;
   EXPECT_TRUE(verify_export(study, file, 0.2).faults.empty());

@@ -54,6 +54,10 @@ TEST(Metrics, AnUndrivenDesignHasNoModulation) {
   Response r = response_of({0, 0});
   r.driven = false;
   EXPECT_FALSE(summarise(Summary::Mean, "modulation", r));
+  EXPECT_EQ(why_undefined("modulation", r), "not driven (0 V)");
+  EXPECT_EQ(why_undefined("friction", r), "");
+  r.driven = true;
+  EXPECT_EQ(why_undefined("modulation", r), "");
 }
 
 TEST(Metrics, VariationOfAZeroMeanIsUndefined) {

@@ -41,7 +41,11 @@ TEST(LeastSquares, APriorAddsItsInformation) {
   EXPECT_NEAR(prior.parameters[1].value, (5 * (69.9 + 100) - 10 * 25.2) / det, 1e-8);
   EXPECT_NEAR(prior.parameters[1].se, std::sqrt(5 / det), 1e-8);
   EXPECT_NEAR(prior.parameters[1].data_share, 30.0 / 130, 1e-8);
-  EXPECT_EQ(prior.degrees_of_freedom, free.degrees_of_freedom + 1);
+  EXPECT_EQ(free.degrees_of_freedom, 3);  // five values, two parameters
+  EXPECT_EQ(prior.degrees_of_freedom, 4);
+  EXPECT_EQ(
+      line({{"a", 0, -100, 100, 0.0, 1}, {"b", 1, -100, 100, 1.0, 0.1}}, known).degrees_of_freedom,
+      5);
 }
 
 TEST(LeastSquares, AtABoundTheIntervalIsTheProfileOfTheLikelihood) {

@@ -24,6 +24,11 @@ Evaluation seen(Point u, std::vector<double> values) {
   return {std::move(u), {true, {}, std::move(values), {}, {}}};
 }
 
+TEST(Hypervolume, OfOneObjectiveIsTheLengthAheadOfTheReference) {
+  EXPECT_DOUBLE_EQ(hypervolume({{0.25}, {0.5}, {1.5}}, {1}), 0.75);
+  EXPECT_EQ(hypervolume({{1.5}}, {1}), 0);
+}
+
 TEST(Promising, AddsMoreHypervolumeThanPointsSpreadAlongTheFront) {
   std::vector<Evaluation> all;
   std::vector<std::vector<double>> front;
