@@ -9,7 +9,8 @@
 //   search_bench sweep ...                        the same, the reference a sweep alone
 //   search_bench share FILE CSV FRONT... [-- MOST] the hypervolume of each FRONT over that of the
 //                                                 reference front CSV, all designs judged again at
-//                                                 design level on fresh skins, at most MOST a front
+//                                                 design level on fresh skins, at most MOST a
+//                                                 front; then that of all of them together
 //   search_bench single FILE N STEP GRID SKINS PREFIX SEED
 //                                                 a search at one level alone (GRID 0: that of the
 //                                                 confirmation): its front after every STEP
@@ -484,6 +485,17 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
   Judge judge(problem, fresh_level());
   Point reference;
   double best = 0;
+  std::vector<Evaluation> all;
+  const auto row = [&](const std::string& name, const std::vector<Evaluation>& judged) {
+    std::vector<std::vector<double>> points;
+    for (std::size_t i : pareto_front(judged)) points.push_back(judged[i].outcome.objectives);
+    if (reference.empty()) reference = beyond(points);
+    const double volume = hypervolume(points, reference);
+    if (best == 0) best = volume;
+    fmt::print("{},{},{},{:.4g},{:.4f}\n", name, judged.size(), points.size(), volume,
+               volume / best);
+    std::fflush(stdout);
+  };
   for (const std::string& path : fronts) {
     const std::vector<Point> designs = read_front(path, problem, most);
     std::vector<Evaluation> judged;
@@ -493,15 +505,10 @@ void shares(const std::string& file, const std::vector<std::string>& fronts, std
       for (double v : judged.back().outcome.objectives) fmt::print(stderr, " {:.4f}", v);
       fmt::print(stderr, "{}\n", judged.back().outcome.feasible() ? "" : " infeasible");
     }
-    std::vector<std::vector<double>> points;
-    for (std::size_t i : pareto_front(judged)) points.push_back(judged[i].outcome.objectives);
-    if (reference.empty()) reference = beyond(points);
-    const double volume = hypervolume(points, reference);
-    if (best == 0) best = volume;
-    fmt::print("{},{},{},{:.4g},{:.4f}\n", path, designs.size(), points.size(), volume,
-               volume / best);
-    std::fflush(stdout);
+    row(path, judged);
+    all.insert(all.end(), judged.begin(), judged.end());
   }
+  row("all of them", all);
 }
 
 // What cheaper levels know of the designs of a front, at most `most` of them: their scatter about
