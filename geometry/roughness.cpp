@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <tuple>
 
+#include "base/cache.h"
 #include "base/constants.h"
 #include "base/fft.h"
 #include "base/random.h"
@@ -33,6 +36,35 @@ double plateau(const Spectrum& s) {
   return sum > 0 ? s.rms * s.rms / (sum * dq * dq) : 0;
 }
 
+// Amplitudes of the modes on the half spectrum of Fft2d: root of their variance [m]; 0: none.
+using Amplitudes = std::vector<double>;
+
+Amplitudes mode_amplitudes(const Spectrum& s, const Grid& grid) {
+  const int half = grid.nx / 2 + 1;
+  Amplitudes out(static_cast<std::size_t>(half) * grid.ny);
+  const double dqx = 2 * kPi / grid.lx, dqy = 2 * kPi / grid.ly;
+  const double c0 = plateau(s) * dqx * dqy;
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const int ky = signed_mode(iy, grid.ny);
+    if (2 * std::abs(ky) >= grid.ny) continue;
+    for (int kx = 0; kx < half; ++kx) {
+      if (2 * kx >= grid.nx || (kx == 0 && ky == 0)) continue;
+      out[static_cast<std::size_t>(iy) * half + kx] =
+          std::sqrt(c0 * shape(s, std::hypot(kx * dqx, ky * dqy)));
+    }
+  }
+  return out;
+}
+
+// The same for every skin of a finger.
+std::shared_ptr<const Amplitudes> known_amplitudes(const Spectrum& s, const Grid& grid) {
+  using Key = std::tuple<Spectrum, Grid>;
+  constexpr double kMostBytes = 64e6;
+  static Cache<Key, Amplitudes> cache(32, kMostBytes);
+  return cache.get({s, grid}, 0.5 * sizeof(double) * static_cast<double>(grid.size()),
+                   [&] { return std::make_shared<const Amplitudes>(mode_amplitudes(s, grid)); });
+}
+
 // A phase [0, 2 pi) of the mode pair (k, -k), keyed by the one of the two with ky > 0 or kx > 0.
 double mode_phase(std::uint64_t key, int kx, int ky) {
   const auto a = static_cast<std::uint64_t>(kx + (1 << 20));
@@ -49,15 +81,13 @@ Heightmap random_surface(const Spectrum& s, const Grid& grid, std::uint64_t seed
   const auto fft = Fft2d::shared(grid.nx, grid.ny);
   SpectrumArray spectrum(fft->spectrum_size());
   const double dqx = 2 * kPi / grid.lx, dqy = 2 * kPi / grid.ly;
-  const double c0 = plateau(s) * dqx * dqy;
+  const std::shared_ptr<const Amplitudes> amplitudes = known_amplitudes(s, grid);
   const std::uint64_t key = RandomStream(seed, "skin", index).bits();
   for (int iy = 0; iy < grid.ny; ++iy) {
     const int ky = signed_mode(iy, grid.ny);
-    if (2 * std::abs(ky) >= grid.ny) continue;
     for (int kx = 0; kx < fft->half(); ++kx) {
-      if (2 * kx >= grid.nx || (kx == 0 && ky == 0)) continue;
-      const double c = c0 * shape(s, std::hypot(kx * dqx, ky * dqy));
-      if (c <= 0) continue;
+      const std::size_t mode = static_cast<std::size_t>(iy) * fft->half() + kx;
+      if ((*amplitudes)[mode] <= 0) continue;
       // Real field: the modes k and -k carry conjugate values; each has variance c.
       const bool upper = kx > 0 || ky > 0;
       const double phase = upper ? mode_phase(key, kx, ky) : -mode_phase(key, -kx, -ky);
@@ -65,8 +95,7 @@ Heightmap random_surface(const Spectrum& s, const Grid& grid, std::uint64_t seed
       // Pixel centres sit half a pixel in.
       const double centre =
           kPi * (static_cast<double>(kx) / grid.nx + static_cast<double>(ky) / grid.ny);
-      spectrum[static_cast<std::size_t>(iy) * fft->half() + kx] =
-          std::polar(std::sqrt(c), phase - shift + centre);
+      spectrum[mode] = std::polar((*amplitudes)[mode], phase - shift + centre);
     }
   }
   RealArray z(grid.size());

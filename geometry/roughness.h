@@ -13,6 +13,8 @@ namespace papilla::geometry {
 struct Spectrum {
   double rms = 0, roll_off = 1e-6, hurst = 0.8, cutoff = 1e-7;  // [m, m, -, m]
   double reference_length = 12e-6;
+
+  bool operator==(const Spectrum&) const = default;
 };
 
 // A periodic surface. Amplitudes are those of the spectrum, phases random and keyed by the integer

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/statistics.h"
@@ -19,8 +20,11 @@ constexpr int kMostPixels = 128;  // along the window: the ratio does not follow
 // of docs/theory/electrostatics.md.
 constexpr double kOfOneSkin = 0.03;
 
-struct Pulls {
-  double rule = 0, full = 0;  // [Pa]
+// One skin at one humidity under the drive, the gap at rest.
+struct AtRest {
+  Gap gap;
+  Wetting wetting;
+  double pull = 0;  // by the rule [Pa]
 };
 
 Fidelity control_fidelity(const Fidelity& fidelity) {
@@ -32,14 +36,14 @@ Fidelity control_fidelity(const Fidelity& fidelity) {
   return out;
 }
 
-// One skin at every humidity.
-std::vector<Pulls> pulls_of(const PatchSetup& setup, int k) {
+// One skin at every humidity: contact starts from that of the humidity before.
+std::vector<AtRest> at_rest(const PatchSetup& setup, int k) {
   const Scene& scene = setup.scene();
   const Heightmap skin = setup.skin(k);
   const std::vector<double> height = setup.height(skin);
   const WaterMember mean{1, static_cast<std::uint64_t>(setup.fidelity().first_skin + k)};
   PatchStates start;
-  std::vector<Pulls> out;
+  std::vector<AtRest> out;
   for (const double rh : scene.environment.relative_humidity) {
     const auto kernel = contact_kernel(scene, setup.body(), setup.plan().grid, rh);
     const double pressure =
@@ -47,17 +51,19 @@ std::vector<Pulls> pulls_of(const PatchSetup& setup, int k) {
     PatchFields fields;
     solve_patch(setup.problem(height, *kernel, rh, pressure, mean), setup.plan(), setup.fidelity(),
                 start, &fields);
-    Pulls pulls;
-    pulls.rule = fields.pull.mean();
-    if (!fields.off.gap.empty()) {
-      const Gap gap{setup.plan().grid, fields.off.gap};
-      const FieldSolution full =
-          solve_full_field(gap, &setup.surface(), fields.wetting_on, field_problem(scene, rh));
-      if (full.ok) pulls.full = full.mean_pressure;
-    }
-    out.push_back(pulls);
+    out.push_back({{setup.plan().grid, std::move(fields.off.gap)},
+                   std::move(fields.wetting_on),
+                   fields.pull.mean()});
   }
   return out;
+}
+
+// By the 3-D field [Pa]; 0 where there is none.
+double full_pull(const PatchSetup& setup, const AtRest& patch, double relative_humidity) {
+  if (patch.gap.value.empty()) return 0;
+  const FieldSolution full = solve_full_field(patch.gap, &setup.surface(), patch.wetting,
+                                              field_problem(setup.scene(), relative_humidity));
+  return full.ok ? full.mean_pressure : 0;
 }
 
 FieldRatio ratio_of(const std::vector<double>& full, const std::vector<double>& rule,
@@ -105,21 +111,27 @@ FieldRatios field_ratios(const Scene& scene, const Texture& texture, const Fidel
     return out;
   }
   if (fidelity.field_skins == 0 || holds_all_voltage(field_problem(scene, 0.5))) return out;
-  Scene at_rest = scene;  // both fields over the gap before the drive
-  at_rest.model.coupling = Coupling::OnePass;
-  const PatchSetup setup(at_rest, texture, control_fidelity(fidelity));
-  std::vector<std::vector<Pulls>> pulls(static_cast<std::size_t>(fidelity.field_skins));
+  Scene once = scene;  // both fields over the gap before the drive
+  once.model.coupling = Coupling::OnePass;
+  const PatchSetup setup(once, texture, control_fidelity(fidelity));
+  const auto skins = static_cast<std::size_t>(fidelity.field_skins);
+  std::vector<std::vector<AtRest>> patches(skins);
   parallel_for(
-      fidelity.field_skins, [&](int k) { pulls[static_cast<std::size_t>(k)] = pulls_of(setup, k); },
+      fidelity.field_skins,
+      [&](int k) { patches[static_cast<std::size_t>(k)] = at_rest(setup, k); }, fidelity.threads);
+  // The dear part, by single patches: one skin keeps all threads at work.
+  std::vector<std::vector<double>> full(humidities, std::vector<double>(skins)), rule = full;
+  parallel_for(
+      static_cast<int>(skins * humidities),
+      [&](int at) {
+        const std::size_t i = static_cast<std::size_t>(at) % humidities,
+                          k = static_cast<std::size_t>(at) / humidities;
+        rule[i][k] = patches[k][i].pull;
+        full[i][k] = full_pull(setup, patches[k][i], scene.environment.relative_humidity[i]);
+      },
       fidelity.threads);
-  for (std::size_t i = 0; i < humidities; ++i) {
-    std::vector<double> full, rule;
-    for (const std::vector<Pulls>& skin : pulls) {
-      full.push_back(skin[i].full);
-      rule.push_back(skin[i].rule);
-    }
-    out[i] = ratio_of(full, rule, method == FieldMethod::Spread);
-  }
+  for (std::size_t i = 0; i < humidities; ++i)
+    out[i] = ratio_of(full[i], rule[i], method == FieldMethod::Spread);
   return out;
 }
 

@@ -53,10 +53,10 @@ void DropHash::unlink(int i, const Drop& drop) {
 void DropHash::collect_overlaps(const std::vector<Drop>& drops, const Drop& d,
                                 std::vector<int>& members) const {
   const auto consider = [&](int j) {
-    if (std::find(members.begin(), members.end(), j) != members.end()) return;
     const double ex = nearest_image(drops[j].x - d.x, lx_);
     const double ey = nearest_image(drops[j].y - d.y, ly_);
-    if (square(ex) + square(ey) < square(d.radius + drops[j].radius)) members.push_back(j);
+    if (square(ex) + square(ey) >= square(d.radius + drops[j].radius)) return;
+    if (std::find(members.begin(), members.end(), j) == members.end()) members.push_back(j);
   };
   for (int j : large_) consider(j);
   const double reach = d.radius + small_radius_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "base/check.h"
 #include "base/constants.h"
@@ -44,6 +45,13 @@ const std::array<Nodes, kCounts.size()>& nodes() {
     return all;
   }();
   return table;
+}
+
+template <class Four>
+Four load(const double* values) {
+  Four out;
+  std::memcpy(&out, values, sizeof out);
+  return out;
 }
 
 int count_index(double wanted) {
@@ -139,6 +147,21 @@ inline double GapTable::row_integral(int iy, double u) const {
          c.turns * node_[row + grid_.nx].prefix;
 }
 
+// Four rows, from their beginning to u; without wrapping. row: index of their first node.
+[[gnu::always_inline]] inline GapTable::Four GapTable::row_integrals(const Index& row,
+                                                                     const Four& u) const {
+  const Index ix = __builtin_convertvector(u, Index), at = row + ix;
+  Four prefix, here, next;
+  for (int k = 0; k < 4; ++k) {
+    const Node* n = &node_[static_cast<std::size_t>(at[k])];
+    prefix[k] = n[0].prefix;
+    here[k] = n[0].value;
+    next[k] = n[1].value;
+  }
+  const Four f = u - __builtin_convertvector(ix, Four);
+  return prefix + f * (here + 0.5 * f * (next - here));
+}
+
 double GapTable::at(double x, double y) const {
   return bilinear(x * inverse_dx_ - 0.5, y * inverse_dy_ - 0.5);
 }
@@ -170,25 +193,19 @@ double GapTable::disc_volume(double x, double y, double radius, const Rule& rule
   const double *t = n.t.data(), *half = n.half_width.data(), *weight = n.weight.data();
   double sum = 0;
   if (inside(u0, v0, ru, rv)) {  // no wrapping
-    const Node* node = node_.data();
-    const int stride = stride_;
-    for (int j = 0; j < count; ++j) {
-      const double v = v0 + rv * t[j];
-      const int iy = static_cast<int>(v);
-      const double fy = v - iy;
-      const double left = u0 - ru * half[j], right = u0 + ru * half[j];
-      const int il = static_cast<int>(left), ir = static_cast<int>(right);
-      const double fl = left - il, fr = right - ir;
-      const int a = iy * stride + il, b = iy * stride + ir;
-      const int c = a + stride, d = b + stride;
-      const double low = node[b].prefix - node[a].prefix +
-                         fr * (node[b].value + 0.5 * fr * (node[b + 1].value - node[b].value)) -
-                         fl * (node[a].value + 0.5 * fl * (node[a + 1].value - node[a].value));
-      const double high = node[d].prefix - node[c].prefix +
-                          fr * (node[d].value + 0.5 * fr * (node[d + 1].value - node[d].value)) -
-                          fl * (node[c].value + 0.5 * fl * (node[c + 1].value - node[c].value));
-      sum += weight[j] * (low + fy * (high - low));
+    Four sums{};
+    for (int j = 0; j < count; j += 4) {
+      const Four v = v0 + rv * load<Four>(t + j), w = ru * load<Four>(half + j);
+      const Index iy = __builtin_convertvector(v, Index);
+      const Index row = iy * stride_;
+      const Four to_left = row_integrals(row, u0 - w), to_right = row_integrals(row, u0 + w);
+      const Four next_left = row_integrals(row + stride_, u0 - w),
+                 next_right = row_integrals(row + stride_, u0 + w);
+      const Four low = to_right - to_left, high = next_right - next_left;
+      sums +=
+          load<Four>(weight + j) * (low + (v - __builtin_convertvector(iy, Four)) * (high - low));
     }
+    sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
     return sum * grid_.dx() * radius;
   }
   for (int j = 0; j < count; ++j) {
@@ -211,14 +228,25 @@ double GapTable::ring(double x, double y, double radius, const Rule& rule) const
   const Node* node = node_.data();
   double sum = 0;
   if (inside(u0, v0, ru, rv)) {  // no wrapping
-    for (int j = 0; j < count; ++j) {
-      const double u = u0 + ru * cosine[j], v = v0 + rv * sine[j];
-      const int ix = static_cast<int>(u), iy = static_cast<int>(v);
-      const Node* a = node + iy * stride_ + ix;
-      const Node* b = a + stride_;
-      const double fx = u - ix, low = a[0].value + fx * (a[1].value - a[0].value);
-      sum += low + (v - iy) * (b[0].value + fx * (b[1].value - b[0].value) - low);
+    Four sums{};
+    for (int j = 0; j < count; j += 4) {
+      const Four u = u0 + ru * load<Four>(cosine + j), v = v0 + rv * load<Four>(sine + j);
+      const Index ix = __builtin_convertvector(u, Index), iy = __builtin_convertvector(v, Index);
+      const Four fx = u - __builtin_convertvector(ix, Four);
+      const Four fy = v - __builtin_convertvector(iy, Four);
+      const Index at = iy * stride_ + ix;
+      Four a, b, c, d;
+      for (int k = 0; k < 4; ++k) {
+        const Node *low = node + at[k], *high = low + stride_;
+        a[k] = low[0].value;
+        b[k] = low[1].value;
+        c[k] = high[0].value;
+        d[k] = high[1].value;
+      }
+      const Four low = a + fx * (b - a);
+      sums += low + fy * (c + fx * (d - c) - low);
     }
+    sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
   } else {
     for (int j = 0; j < count; ++j) sum += bilinear(u0 + ru * cosine[j], v0 + rv * sine[j]);
   }

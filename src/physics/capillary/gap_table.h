@@ -37,7 +37,12 @@ class GapTable {
   double floor() const { return floor_; }
 
  private:
+  // Nodes of a circle or chords of a disc, four at a time; their counts are multiples of it.
+  using Four = double __attribute__((vector_size(32)));
+  using Index = int __attribute__((vector_size(16)));
+
   double row_integral(int iy, double u) const;
+  Four row_integrals(const Index& row, const Four& u) const;
   double bilinear(double u, double v) const;                               // [m]; places in pixels
   double ring(double x, double y, double radius, const Rule& rule) const;  // mean on a circle [m]
   bool inside(double u0, double v0, double ru, double rv) const;           // needs no wrapping

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "base/constants.h"
+#include "base/lanes.h"
 #include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
@@ -81,6 +83,105 @@ bool holds_all_voltage(const FieldProblem& problem) {
   return problem.dielectric > kBetter * problem.dielectric_thickness;
 }
 
+namespace {
+
+// Eight pixels of what `pull` goes through.
+struct Columns {
+  Lanes open, film, air, gain, water, voltage;
+  bool known_voltage;
+
+  Columns(std::size_t i, const CoveredSurface* surface, const FieldProblem& p,
+          const AirColumns& columns, const FluxFactors& factors)
+      : open(lanes_at(factors.open, i, 1)),
+        film(surface ? lanes_at(surface->effective, i) : all_lanes(p.dielectric)),
+        air(lanes_at(columns.air, i, kNoPull)),
+        gain(lanes_at(factors.gain, i, 1)),
+        water(lanes_at(columns.water, i)),
+        voltage(lanes_at(factors.voltage, i)),
+        known_voltage(!factors.voltage.empty()) {}
+};
+
+// Lanes of a condition that hold, and what they are worth elsewhere.
+using Mask = decltype(Lanes{} < Lanes{});
+
+// The air of a column breaks down: the voltage across it is beyond Paschen's.
+bool breaks_down(double v_peak, double air, double distance2) {
+  return air > 0 && square(v_peak * air) > square(air_breakdown_voltage(air)) * distance2;
+}
+
+class PullSum {
+ public:
+  PullSum(const FieldProblem& p, bool walls) : p_(p), walls_(walls) {}
+
+  // The pressure of eight columns [Pa].
+  Lanes add(const Columns& c) {
+    // A gap that is no number pulls: the sum must show it.
+    const Mask bridge = c.open <= 0, pulls = ~bridge & ~(c.air < 0), film = c.film > 0;
+    const Lanes in_series = c.film + p_.skin_layer.real() + c.water / kWaterPermittivity;
+    const Lanes reach = c.air + in_series;
+    const Lanes distance2 = (reach * reach + square(p_.skin_layer.imag())) / c.gain;
+    const Lanes free = scale_ / distance2;
+    const Lanes pressure = pulls ? (cap_ < free ? all_lanes(cap_) : free) * c.open : Lanes{};
+    sum_ += pressure;
+    // Water leads around the skin's layer: under a bridge the dielectric carries everything.
+    const Lanes share = p_.film_phase * (c.known_voltage ? c.voltage : c.film / root(distance2));
+    const Lanes of_film = (bridge | (share > 1) ? all_lanes(1) : share) / c.film;
+    raise(strongest_film_, (pulls | bridge) & film ? of_film : Lanes{});
+    const Lanes of_air = pulls & (c.air > 0) ? distance2 : all_lanes(HUGE_VAL);
+    least_air2_ = of_air < least_air2_ ? of_air : least_air2_;
+    add_breakdown(c, pulls, distance2, pressure);
+    return pressure;
+  }
+
+  void finish(std::size_t columns, FieldSolution& out) const {
+    const auto n = static_cast<double>(columns);
+    const double sum = total(sum_);
+    if (!std::isfinite(sum)) {
+      out.ok = false;
+      out.reason = "the pull is not finite";
+      return;
+    }
+    set_peaks(p_, walls_, {least(least_air2_), largest(strongest_film_)}, out);
+    out.mean_pressure = sum / n;
+    out.over_limit_area = static_cast<double>(over_) / n;
+    out.over_limit_share = sum > 0 ? total(over_sum_) / sum : 0;
+  }
+
+ private:
+  static Lanes root(const Lanes& v) {
+    Lanes out;
+    for (std::size_t k = 0; k < kLanes; ++k) out[k] = std::sqrt(v[k]);
+    return out;
+  }
+  static void raise(Lanes& most, const Lanes& value) { most = most < value ? value : most; }
+
+  void add_breakdown(const Columns& c, const Mask& pulls, const Lanes& distance2,
+                     const Lanes& pressure) {
+    // No gap breaks down below either: most columns ask for nothing more.
+    const Lanes field = kAirStrength * c.air;
+    const Lanes limit = field < kPaschenMinimum ? field : all_lanes(kPaschenMinimum);
+    const Lanes across = p_.v_peak * c.air;
+    const Mask near = pulls & (across * across > limit * limit * distance2), none{};
+    if (std::memcmp(&near, &none, sizeof near) == 0) return;
+    Lanes beyond{};
+    for (std::size_t k = 0; k < kLanes; ++k) {
+      if (!near[k] || !breaks_down(p_.v_peak, c.air[k], distance2[k])) continue;
+      ++over_;
+      beyond[k] = pressure[k];
+    }
+    over_sum_ += beyond;
+  }
+
+  const FieldProblem& p_;
+  bool walls_;
+  double scale_ = 0.5 * kVacuumPermittivity * square(p_.v_rms);
+  double cap_ = p_.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
+  Lanes sum_{}, over_sum_{}, strongest_film_{}, least_air2_ = all_lanes(HUGE_VAL);
+  std::size_t over_ = 0;
+};
+
+}  // namespace
+
 FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldProblem& p,
                    const AirColumns& columns, const FluxFactors& factors) {
   FieldSolution out;
@@ -93,50 +194,11 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
     out.reason = "no dielectric anywhere: contact would short the drive";
     return out;
   }
-  const double scale = 0.5 * kVacuumPermittivity * square(p.v_rms);
-  const double cap = p.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
-  const double quadrature = square(p.skin_layer.imag());
-  double sum = 0, over_sum = 0;
-  std::size_t over = 0;
-  Strongest strongest;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double open = factors.open.empty() ? 1 : factors.open[i];
-    const double film = surface ? surface->effective[i] : p.dielectric;
-    if (open <= 0) {
-      // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-      if (film > 0) strongest.dielectric = std::max(strongest.dielectric, 1 / film);
-      continue;
-    }
-    const double g = columns.air[i];
-    if (g < 0) continue;
-    const double gain = factors.gain.empty() ? 1 : factors.gain[i];
-    const double water = columns.water.empty() ? 0 : columns.water[i];
-    const double in_series = film + p.skin_layer.real() + water / kWaterPermittivity;
-    const double distance2 = (square(g + in_series) + quadrature) / gain;
-    const double pressure = std::min(scale / distance2, cap) * open;
-    out.traction.value[i] = pressure;
-    sum += pressure;
-    const double share = factors.voltage.empty() ? film / std::sqrt(distance2) : factors.voltage[i];
-    if (film > 0)
-      strongest.dielectric =
-          std::max(strongest.dielectric, std::min(share * p.film_phase, 1.0) / film);
-    if (g > 0) {
-      strongest.air2 = std::min(strongest.air2, distance2);
-      if (square(p.v_peak * g) > square(air_breakdown_voltage(g)) * distance2) {
-        ++over;
-        over_sum += pressure;
-      }
-    }
+  PullSum sum(p, surface && surface->walls);
+  for (std::size_t i = 0; i < n; i += kLanes) {
+    store_lanes(sum.add({i, surface, p, columns, factors}), out.traction.value, i);
   }
-  if (!std::isfinite(sum)) {
-    out.ok = false;
-    out.reason = "the pull is not finite";
-    return out;
-  }
-  set_peaks(p, surface && surface->walls, strongest, out);
-  out.mean_pressure = sum / static_cast<double>(n);
-  out.over_limit_area = static_cast<double>(over) / static_cast<double>(n);
-  out.over_limit_share = sum > 0 ? over_sum / sum : 0;
+  sum.finish(n, out);
   return out;
 }
 

@@ -13,6 +13,7 @@ FieldColumns::FieldColumns(const PotentialProblem& problem, int dielectric_cells
       below_(dielectric_cells),
       nodes_(dielectric_cells + air_cells + 1),
       z_(grid_.size() * nodes_),
+      inverse_height_(z_.size()),
       rise_(z_.size(), 0),
       permittivity_(z_.size(), 1),
       resistance_(z_.size()),
@@ -26,7 +27,8 @@ FieldColumns::FieldColumns(const PotentialProblem& problem, int dielectric_cells
 // bodies, which a grid does not resolve, out of it.
 void FieldColumns::place_nodes(std::size_t column, const PotentialProblem& p) {
   const double thinnest = kThinnest * std::min(grid_.dx(), grid_.dy());
-  double *z = &z_[at(column, 0)], *rise = &rise_[at(column, 0)];
+  double *z = &z_[at(column, 0)], *inverse_height = &inverse_height_[at(column, 0)];
+  double* rise = &rise_[at(column, 0)];
   double *permittivity = &permittivity_[at(column, 0)], *resistance = &resistance_[at(column, 0)];
   const double surface = p.surface[column];
   const double thickness = std::max(surface - p.electrode[column], thinnest);
@@ -54,7 +56,10 @@ void FieldColumns::place_nodes(std::size_t column, const PotentialProblem& p) {
     rise[nodes_ - 1] = 1;
     permittivity[last] = (high * kWaterPermittivity + p.skin_layer) / (high + p.skin_layer);
   }
-  for (int k = 0; k + 1 < nodes_; ++k) resistance[k] = (z[k + 1] - z[k]) / permittivity[k];
+  for (int k = 0; k + 1 < nodes_; ++k) {
+    resistance[k] = (z[k + 1] - z[k]) / permittivity[k];
+    inverse_height[k] = 1 / (z[k + 1] - z[k]);
+  }
   if (high > 0) resistance[last] = high / kWaterPermittivity + p.skin_layer;
   top_[column] = !p.bridged.empty() && p.bridged[column] ? below_ : nodes_ - 1;
 }

@@ -38,6 +38,9 @@ class FieldColumns {
   int nodes() const { return nodes_; }  // of a column, the two at the bodies included
   int cells_below_surface() const { return below_; }
   double z(std::size_t column, int k) const { return z_[at(column, k)]; }  // [m]
+  double inverse_height(std::size_t column, int cell) const {              // [1/m]
+    return inverse_height_[at(column, cell)];
+  }
   // How far node k rises when the skin above the column does. 0 to 1
   double rise(std::size_t column, int k) const { return rise_[at(column, k)]; }
   double permittivity(std::size_t column, int cell) const {
@@ -51,10 +54,10 @@ class FieldColumns {
   bool fixed(std::size_t column, int k) const { return k == 0 || k >= top_[column]; }
   double body_potential(int k) const { return k == 0 ? 1 : 0; }
 
-  // Everything that column i exchanges with its neighbour j, `step` away across a face of that
-  // width [m].
+  // Everything that column i exchanges with its neighbour j across a face as wide as `face` times
+  // its distance.
   template <class Visit>
-  void exchanges(std::size_t i, std::size_t j, double step, double width, Visit&& visit) const;
+  void exchanges(std::size_t i, std::size_t j, double face, Visit&& visit) const;
 
  private:
   std::size_t at(std::size_t column, int k) const { return column * nodes_ + k; }
@@ -62,15 +65,14 @@ class FieldColumns {
 
   Grid grid_;
   int below_, nodes_;
-  std::vector<double> z_, rise_, permittivity_, resistance_;
+  std::vector<double> z_, inverse_height_, rise_, permittivity_, resistance_;
   std::vector<int> top_;
 };
 
 // Eq. electrostatics.13: at one height the flux follows the two potentials there, through half a
 // step of either medium; where the neighbour is a body, over the distance to its surface.
 template <class Visit>
-void FieldColumns::exchanges(std::size_t i, std::size_t j, double step, double width,
-                             Visit&& visit) const {
+void FieldColumns::exchanges(std::size_t i, std::size_t j, double face, Visit&& visit) const {
   // Nearer to the start of a body's slope the potential nearly is the body's: nothing flows.
   constexpr double kLeastShare = 1e-3;
   const double *a = &z_[at(i, 0)], *b = &z_[at(j, 0)];
@@ -93,7 +95,7 @@ void FieldColumns::exchanges(std::size_t i, std::size_t j, double step, double w
       double medium = 0;
       if (in_a && in_b) {
         const double ea = permittivity_[at(i, p)], eb = permittivity_[at(j, q)];
-        medium = 2 * ea * eb / (ea + eb);
+        medium = ea == eb ? ea : 2 * ea * eb / (ea + eb);
       } else {
         const bool below = in_a ? q < 0 : p < 0;
         const double from = below ? (in_a ? a[0] : b[0]) : (in_a ? a[top_a] : b[top_b]);
@@ -103,11 +105,11 @@ void FieldColumns::exchanges(std::size_t i, std::size_t j, double step, double w
         e.share = e.body == Body::Water
                       ? 0.5
                       : std::clamp((e.middle - from) / (to - from), kLeastShare, 1.0);
-        medium = in_a ? permittivity_[at(i, p)] : permittivity_[at(j, q)];
+        medium = (in_a ? permittivity_[at(i, p)] : permittivity_[at(j, q)]) / e.share;
       }
       e.here = in_a ? p : -1;
       e.there = in_b ? q : -1;
-      e.conductance = medium * (end - z) * width / (e.share * step);
+      e.conductance = medium * (end - z) * face;
       visit(e);
     }
     z = end;

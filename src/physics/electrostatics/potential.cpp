@@ -35,15 +35,14 @@ struct Interpolation {
   double lower() const { return 1 - upper; }
 };
 Interpolation interpolate(const FieldColumns& c, std::size_t column, int cell, double z) {
-  const double low = c.z(column, cell);
-  return {cell, (z - low) / (c.z(column, cell + 1) - low)};
+  return {cell, (z - c.z(column, cell)) * c.inverse_height(column, cell)};
 }
 
 // The neighbour of a column across its eastern or northern face.
 struct Neighbour {
   std::size_t column;
   int ix, iy;
-  double step, width;
+  double face;  // its width over the distance of the columns
   bool east;
 };
 
@@ -53,8 +52,8 @@ void for_each_face(const Grid& g, Visit&& visit) {
     for (int ix = 0; ix < g.nx; ++ix) {
       const std::size_t i = g.index(ix, iy);
       const int e = ix + 1 < g.nx ? ix + 1 : 0, n = iy + 1 < g.ny ? iy + 1 : 0;
-      if (g.nx > 1) visit(i, ix, iy, Neighbour{g.index(e, iy), e, iy, g.dx(), g.dy(), true});
-      if (g.ny > 1) visit(i, ix, iy, Neighbour{g.index(ix, n), ix, n, g.dy(), g.dx(), false});
+      if (g.nx > 1) visit(i, ix, iy, Neighbour{g.index(e, iy), e, iy, g.dy() / g.dx(), true});
+      if (g.ny > 1) visit(i, ix, iy, Neighbour{g.index(ix, n), ix, n, g.dx() / g.dy(), false});
     }
   }
 }
@@ -74,7 +73,11 @@ class PotentialSolver {
       : problem_(problem),
         options_(options),
         columns_(problem, dielectric_cells(problem, options), options.air_cells),
-        unknowns_(columns_.nodes() - 2) {}
+        unknowns_(columns_.nodes() - 2) {
+    for (int iy = 0; iy < problem.grid.ny; ++iy) {
+      for (int ix = 0; ix < problem.grid.nx; ++ix) first_.push_back(node(ix, iy, 1));
+    }
+  }
 
   PotentialSolution run(PotentialSolution out) {
     ColumnMultigrid multigrid(assembled());
@@ -99,7 +102,7 @@ class PotentialSolver {
       }
     }
     for_each_face(g, [&](std::size_t i, int ix, int iy, const Neighbour& n) {
-      columns_.exchanges(i, n.column, n.step, n.width,
+      columns_.exchanges(i, n.column, n.face,
                          [&](const Exchange& e) { add_exchange(a, e, i, ix, iy, n); });
     });
     return a;
@@ -126,10 +129,41 @@ class PotentialSolver {
     }
   }
 
+  bool free(std::size_t column, int cell) const {  // both nodes of it
+    return cell > 0 && cell + 1 < columns_.top(column);
+  }
+
   // The square of a difference between interpolated potentials as conductances between nodes.
   void add_exchange(ColumnOperator& m, const Exchange& e, std::size_t i, int ix, int iy,
                     const Neighbour& n) {
     const double c = e.conductance / problem_.grid.dx();
+    if (e.body == Body::None && free(i, e.here) && free(n.column, e.there)) {
+      add_between_free(m, e, c, i, ix, iy, n);
+    } else {
+      add_between(m, e, c, i, ix, iy, n);
+    }
+  }
+
+  // Most exchanges: four nodes, none of them at a body.
+  void add_between_free(ColumnOperator& m, const Exchange& e, double c, std::size_t i, int ix,
+                        int iy, const Neighbour& n) const {
+    const Interpolation a = interpolate(columns_, i, e.here, e.middle);
+    const Interpolation b = interpolate(columns_, n.column, e.there, e.middle);
+    const int p = e.here - 1, q = e.there - 1;  // unknowns of the lower nodes
+    m.add_own(ix, iy, p, p + 1, -c * a.lower() * a.upper);
+    m.add_own(n.ix, n.iy, q, q + 1, -c * b.lower() * b.upper);
+    const auto across = [&](int above_a, int above_b, double weight) {
+      n.east ? m.add_east(ix, iy, p + above_a, q + above_b, c * weight)
+             : m.add_north(ix, iy, p + above_a, q + above_b, c * weight);
+    };
+    across(0, 0, a.lower() * b.lower());
+    across(0, 1, a.lower() * b.upper);
+    across(1, 0, a.upper * b.lower());
+    across(1, 1, a.upper * b.upper);
+  }
+
+  void add_between(ColumnOperator& m, const Exchange& e, double c, std::size_t i, int ix, int iy,
+                   const Neighbour& n) {
     std::array<Node, 4> nodes;
     std::array<double, 4> weight{};
     int count = 0;
@@ -232,7 +266,7 @@ class PotentialSolver {
       }
     }
     for_each_face(g, [&](std::size_t i, int, int, const Neighbour& n) {
-      columns_.exchanges(i, n.column, n.step, n.width,
+      columns_.exchanges(i, n.column, n.face,
                          [&](const Exchange& e) { add_loss(e, i, n.column, loss, out); });
     });
     for (std::size_t i = 0; i < g.size(); ++i) {
@@ -260,8 +294,8 @@ class PotentialSolver {
       const Interpolation at = interpolate(columns_, column, cell, e.middle);
       const double rise =
           at.lower() * columns_.rise(column, cell) + at.upper * columns_.rise(column, cell + 1);
-      const double gradient = (phi(column, cell + 1) - phi(column, cell)) /
-                              (columns_.z(column, cell + 1) - columns_.z(column, cell));
+      const double gradient =
+          (phi(column, cell + 1) - phi(column, cell)) * columns_.inverse_height(column, cell);
       loss[column] += sign * 2 * e.conductance * difference * gradient * rise;
     };
     falls(i, e.here, 1);
@@ -309,17 +343,17 @@ class PotentialSolver {
   }
   double phi(std::size_t column, int k) const {
     if (columns_.fixed(column, k)) return columns_.body_potential(k);
-    const int nx = problem_.grid.nx;
-    return phi_[node(static_cast<int>(column % nx), static_cast<int>(column / nx), k)];
+    return phi_[first_[column] + static_cast<std::size_t>(k - 1) * problem_.grid.nx];
   }
 
   const PotentialProblem& problem_;
   const PotentialOptions& options_;
   FieldColumns columns_;
-  int unknowns_;               // of a column
-  std::vector<double> drive_;  // of the electrode's volt
-  std::vector<double> phi_;    // at the nodes between the bodies
-  double energy_ = 0;          // of the columns by themselves, over eps0 dx: the residual's scale
+  int unknowns_;                    // of a column
+  std::vector<std::size_t> first_;  // node of each column
+  std::vector<double> drive_;       // of the electrode's volt
+  std::vector<double> phi_;         // at the nodes between the bodies
+  double energy_ = 0;  // of the columns by themselves, over eps0 dx: the residual's scale
 };
 
 PotentialSolution failed(PotentialSolution out, std::string reason) {

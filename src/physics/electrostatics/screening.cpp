@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "base/constants.h"
@@ -15,10 +16,6 @@ namespace {
 constexpr double kReach = 4;        // tanh^2(4) = 0.9987
 constexpr double kLeastGap = 1e-9;  // [m]
 
-double widest(const Gap& gap) {
-  return std::max(*std::max_element(gap.value.begin(), gap.value.end()), kLeastGap);
-}
-
 // tanh^2 on [0, kReach] by linear interpolation, within 1e-5.
 class TanhSquare {
  public:
@@ -26,7 +23,7 @@ class TanhSquare {
     for (int i = 0; i <= kSteps; ++i) table_[i] = square(std::tanh(kReach * i / kSteps));
     table_[kSteps + 1] = table_[kSteps];
   }
-  double operator()(double x) const {  // 0 <= x < kReach
+  double operator()(double x) const {  // 0 <= x <= kReach
     const double s = x * (kSteps / kReach);
     const int i = static_cast<int>(s);
     return table_[i] + (s - i) * (table_[i + 1] - table_[i]);
@@ -83,49 +80,91 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
 // Squared distances in steps of a row, single precision: a fading factor asks for no more.
 // Distances to the nearest wet pixel of a periodic row; infinite without one.
 void row_distance(const std::uint8_t* wet, int n, float step, float* out) {
-  float since = std::numeric_limits<float>::infinity();
-  for (int lap = 0; lap < 2; ++lap) {
-    for (int i = 0; i < n; ++i) out[i] = since = wet[i] ? 0 : since + step;
+  const int first =
+      static_cast<int>(std::find_if(wet, wet + n, [](auto w) { return w != 0; }) - wet);
+  std::fill(out, out + n, std::numeric_limits<float>::infinity());
+  if (first == n) return;
+  // Once around from a wet pixel to itself, each way.
+  float since = 0;
+  for (int k = 0, i = first; k < n; ++k) {
+    out[i] = since = wet[i] ? 0 : since + step;
+    if (++i == n) i = 0;
   }
-  since = std::numeric_limits<float>::infinity();
-  for (int lap = 0; lap < 2; ++lap) {
-    for (int i = n; i-- > 0;) {
-      since = wet[i] ? 0 : since + step;
-      out[i] = std::min(out[i], since);
-    }
+  since = 0;
+  for (int k = 0, i = first; k < n; ++k) {
+    since = wet[i] ? 0 : since + step;
+    out[i] = std::min(out[i], since);
+    if (i-- == 0) i = n - 1;
   }
   for (int i = 0; i < n; ++i) out[i] *= out[i];
 }
 
-// Distance of each pixel to the nearest wet one, where that is less than `most` [m]; more
-// elsewhere.
+// Distance of each pixel to the nearest wet one, where that is less than most(pixel) [m]; that or
+// more elsewhere.
 class WaterDistance {
  public:
-  WaterDistance(const Grid& g, const std::vector<std::uint8_t>& wet, double most)
-      : step_(g.dy()), squared_(g.size()) {
-    std::vector<float> along(g.size());
+  template <class Most>
+  WaterDistance(const Grid& g, const std::vector<std::uint8_t>& wet, const Most& most)
+      : step_(g.dy()), rows_(g.ny), strips_((g.nx + kLanes - 1) / kLanes), squared_(g.size()) {
+    // Rows of whole strips; what no pixel has asks for nothing.
+    const auto stride = static_cast<std::size_t>(strips_) * kLanes;
+    std::vector<float> along(stride * g.ny), reach(along.size());
     for (int iy = 0; iy < g.ny; ++iy) {
-      row_distance(wet.data() + g.index(0, iy), g.nx, static_cast<float>(g.dx() / g.dy()),
-                   along.data() + g.index(0, iy));
+      const std::size_t row = g.index(0, iy);
+      row_distance(wet.data() + row, g.nx, static_cast<float>(g.dx() / g.dy()),
+                   along.data() + iy * stride);
+      for (int ix = 0; ix < g.nx; ++ix) {
+        reach[iy * stride + ix] = static_cast<float>(std::min(most(row + ix) / g.dy(), 0.5 * g.ny));
+      }
     }
-    squared_ = along;
-    const int reach = static_cast<int>(std::min(most / g.dy(), 0.5 * g.ny));
     for (int iy = 0; iy < g.ny; ++iy) {
-      float* row = squared_.data() + g.index(0, iy);
-      for (int j = 1; j <= reach; ++j) {
-        const float* above = along.data() + g.index(0, wrap(iy + j, g.ny));
-        const float* below = along.data() + g.index(0, wrap(iy - j, g.ny));
-        const auto across = static_cast<float>(j * j);
-        for (int ix = 0; ix < g.nx; ++ix) {
-          row[ix] = std::min(row[ix], std::min(above[ix], below[ix]) + across);
-        }
+      for (int s = 0; s < strips_; ++s) {
+        const Strip nearest = nearest_row(along, reach, s, iy);
+        const int ix = s * kLanes;
+        std::memcpy(&squared_[g.index(ix, iy)], &nearest,
+                    sizeof(float) * std::min(kLanes, g.nx - ix));
       }
     }
   }
   double operator()(std::size_t i) const { return step_ * std::sqrt(squared_[i]); }  // [m]
+  double squared(std::size_t i) const { return square(step_) * squared_[i]; }        // [m^2]
 
  private:
+  static constexpr int kLanes = 16;
+  using Strip = float __attribute__((vector_size(kLanes * sizeof(float))));
+
+  static float largest(const Strip& v) {
+    float out = v[0];
+    for (int lane = 1; lane < kLanes; ++lane) out = std::max(out, v[lane]);
+    return out;
+  }
+
+  // Of pixels side by side: rows farther and farther off, until none of the pixels asks for one as
+  // far, or all know a nearer one.
+  Strip nearest_row(const std::vector<float>& along, const std::vector<float>& reach, int strip,
+                    int iy) const {
+    constexpr int kLooks = 4;  // rows between two looks at what the pixels know
+    const auto load = [&](const std::vector<float>& from, int row) {
+      Strip out;
+      std::memcpy(&out, &from[(static_cast<std::size_t>(row) * strips_ + strip) * kLanes],
+                  sizeof out);
+      return out;
+    };
+    Strip nearest = load(along, iy);
+    const int rows = static_cast<int>(largest(load(reach, iy)));
+    float farthest = largest(nearest);
+    for (int j = 1; j <= rows && static_cast<float>(j * j) < farthest; ++j) {
+      const Strip above = load(along, wrap(iy + j, rows_)),
+                  below = load(along, wrap(iy - j, rows_));
+      const Strip there = (above < below ? above : below) + static_cast<float>(j * j);
+      nearest = there < nearest ? there : nearest;
+      if (j % kLooks == 0) farthest = largest(nearest);
+    }
+    return nearest;
+  }
+
   double step_;
+  int rows_, strips_;
   std::vector<float> squared_;
 };
 
@@ -135,9 +174,10 @@ void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double sh
   const TanhSquare& profile = tanh_square();
   // The fit never exceeds 0.64 gaps + 0.42 thicknesses.
   const auto farthest = [&](double g) { return kReach * (0.64 * g + 0.42 * thickness); };
-  const WaterDistance distance(gap.grid, wet, farthest(widest(gap)));
+  const auto gap_at = [&](std::size_t i) { return std::max(gap.value[i], kLeastGap); };
+  const WaterDistance distance(gap.grid, wet, [&](std::size_t i) { return farthest(gap_at(i)); });
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    const double g = std::max(gap.value[i], kLeastGap);
+    const double g = gap_at(i);
     if (distance(i) >= farthest(g)) continue;  // spares the power
     const double x = distance(i) / screening_length(g, thickness);
     if (x < kReach) factor[i] *= share < 1 ? std::pow(profile(x), share) : profile(x);
@@ -205,13 +245,13 @@ std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting,
   if (std::none_of(wetting.bridged.begin(), wetting.bridged.end(), wet)) return {};
   if (!fade) return screening_factor(gap, wetting, 0, false);
   const TanhSquare& profile = tanh_square();
-  const auto width_at = [](double g) { return 2 / kPi * g; };
-  const WaterDistance distance(gap.grid, wetting.bridged, kReach * width_at(widest(gap)));
+  const auto width = [&](std::size_t i) { return 2 / kPi * std::max(gap.value[i], kLeastGap); };
+  const WaterDistance distance(gap.grid, wetting.bridged,
+                               [&](std::size_t i) { return kReach * width(i); });
   std::vector<double> factor(gap.grid.size(), 1.0);
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    const double width = width_at(std::max(gap.value[i], kLeastGap));
-    const double x = distance(i) / width;
-    if (x < kReach) factor[i] = profile(x);
+    if (distance.squared(i) >= square(kReach * width(i))) continue;
+    factor[i] = profile(distance(i) / width(i));
   }
   return factor;
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <numeric>
+#include <memory>
+#include <tuple>
 
+#include "base/cache.h"
 #include "base/constants.h"
 #include "base/convolution.h"
 #include "base/fft.h"
+#include "base/lanes.h"
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
 
@@ -42,53 +44,83 @@ class Filter {
   SpectrumArray scratch_;
 };
 
+// What the film answers to potentials on it, K: of a flat layer of one thickness.
+struct FilmResponse {
+  RealArray half;    // on the half spectrum of Fft2d [1/m]
+  double mean;       // what K couples a pixel with [1/m]
+  RealArray symbol;  // as Filter takes it, with the transforms' scale
+};
+
+FilmResponse film_response(const Grid& grid, double thickness, double permittivity) {
+  const Filter filter(grid);
+  const double scale = 1 / static_cast<double>(grid.size());  // of the unnormalised transforms
+  const int half = grid.nx / 2 + 1;
+  RealArray k(static_cast<std::size_t>(half) * grid.ny), scaled(k.size());
+  for (int iy = 0; iy <= grid.ny / 2; ++iy) {
+    const double qy = 2 * kPi * iy / grid.ly;
+    for (int ix = 0; ix < half; ++ix) {
+      const double q = std::sqrt(square(2 * kPi * ix / grid.lx) + square(qy));
+      const double response =
+          q > 0 ? permittivity * q / std::tanh(q * thickness) : permittivity / thickness;
+      for (int mirrored : {iy, (grid.ny - iy) % grid.ny}) {
+        k[static_cast<std::size_t>(mirrored) * half + ix] = response;
+      }
+    }
+  }
+  for (std::size_t o = 0; o < k.size(); ++o) scaled[o] = scale * k[o];
+  const double mean = sum(k) / static_cast<double>(k.size());
+  return {std::move(k), mean, filter.symbol(scaled)};
+}
+
+// The same for every skin and humidity of a design.
+std::shared_ptr<const FilmResponse> known_film_response(const Grid& grid, double thickness,
+                                                        double permittivity) {
+  using Key = std::tuple<Grid, double, double>;
+  constexpr double kMostBytes = 64e6;
+  static Cache<Key, FilmResponse> cache(16, kMostBytes);
+  return cache.get(
+      {grid, thickness, permittivity}, 2 * sizeof(double) * static_cast<double>(grid.size()), [&] {
+        return std::make_shared<const FilmResponse>(film_response(grid, thickness, permittivity));
+      });
+}
+
 // phi for one volt on the electrode: K phi + (1/D - eps/d + c) phi = 1/D, zero on wet pixels; K of
 // a flat layer of the mean thickness d, D the d/eps of each column. Conjugate gradients
 // preconditioned by 1/(K + mean of the rest) between weights that follow it. Eq. electrostatics.16
 class SurfacePotential {
  public:
-  // conductance: to the skin; dielectric: d/eps of the columns; may be one for all.
+  // conductance: to the skin [1/m]; dielectric: d/eps of the columns [m].
   SurfacePotential(const Grid& grid, const std::vector<double>& conductance,
                    const std::vector<double>& dielectric, const std::vector<std::uint8_t>& wet,
                    double thickness, double permittivity)
-      : filter_(grid), c_(conductance), dry_(conductance.size(), 1), drive_(conductance.size()) {
+      : filter_(grid),
+        film_(known_film_response(grid, thickness, permittivity)),
+        c_(conductance),
+        dry_(conductance.size(), 1),
+        drive_(conductance.size()),
+        start_(conductance.size()) {
     const double flat = permittivity / thickness;
     for (std::size_t i = 0; i < c_.size(); ++i) {
-      drive_[i] = 1 / dielectric[dielectric.size() > 1 ? i : 0];
-      start_.push_back(drive_[i] / (drive_[i] + c_[i]));
+      drive_[i] = 1 / dielectric[i];
+      start_[i] = drive_[i] / (drive_[i] + c_[i]);
       // At least what keeps the sum with K positive.
       c_[i] += drive_[i] - flat;
     }
-    for (std::size_t i = 0; i < wet.size(); ++i) {
-      if (wet[i]) dry_[i] = 0;
-    }
-    const double scale = 1 / static_cast<double>(grid.size());  // of the unnormalised transforms
-    const int half = grid.nx / 2 + 1;
-    RealArray kernel(static_cast<std::size_t>(half) * grid.ny), inverse(kernel.size());
-    for (int iy = 0; iy <= grid.ny / 2; ++iy) {
-      const double qy = 2 * kPi * iy / grid.ly;
-      for (int ix = 0; ix < half; ++ix) {
-        const double q = std::sqrt(square(2 * kPi * ix / grid.lx) + square(qy));
-        const double k = q > 0 ? permittivity * q / std::tanh(q * thickness) : flat;
-        for (int mirrored : {iy, (grid.ny - iy) % grid.ny}) {
-          const std::size_t o = static_cast<std::size_t>(mirrored) * half + ix;
-          kernel[o] = k * scale;
-        }
-      }
-    }
+    for (std::size_t i = 0; i < wet.size(); ++i) dry_[i] = wet[i] ? 0 : 1;
     // Contact spots of a bare skin raise c by orders of magnitude over a few pixels: the weight
     // follows c where it exceeds what K couples a pixel with, k; the rest is left to K + mean c,
     // the mean taken as 1/(k + c).
-    const double k = std::accumulate(kernel.begin(), kernel.end(), 0.0) /
-                     (scale * static_cast<double>(kernel.size()));
-    double sum = 0;
-    for (const double c : c_) sum += 1 / (k + c);
-    const double level = static_cast<double>(c_.size()) / sum;  // k + mean c
+    const double k = film_->mean;
+    RealArray shared(c_.size());
+    for (std::size_t i = 0; i < c_.size(); ++i) shared[i] = 1 / (k + c_[i]);
+    const double level = static_cast<double>(c_.size()) / sum(shared);  // k + mean c
     weight_ = dry_;
-    for (std::size_t i = 0; i < c_.size(); ++i) weight_[i] *= std::sqrt(level / (k + c_[i]));
-    for (std::size_t o = 0; o < kernel.size(); ++o)
-      inverse[o] = scale / (kernel[o] / scale + level - k);
-    kernel_ = filter_.symbol(kernel);
+    for (std::size_t i = 0; i < c_.size(); ++i) weight_[i] *= std::sqrt(level * shared[i]);
+    RealArray inverse(film_->half.size());
+    const double scale = 1 / static_cast<double>(grid.size());
+    for (std::size_t o = 0; o < inverse.size(); ++o) {
+      inverse[o] = scale / (film_->half[o] + level - k);
+    }
     inverse_ = filter_.symbol(inverse);
   }
 
@@ -128,37 +160,21 @@ class SurfacePotential {
   }
 
  private:
-  // In eight partial sums, the same on every machine: one would wait for itself at each term.
-  static double dot(const RealArray& a, const RealArray& b) {
-    using Vector = double __attribute__((vector_size(64)));
-    constexpr std::size_t kLanes = 8;
-    Vector sum{};
-    std::size_t i = 0;
-    for (; i + kLanes <= a.size(); i += kLanes) {
-      Vector x, y;
-      std::memcpy(&x, &a[i], sizeof x);
-      std::memcpy(&y, &b[i], sizeof y);
-      sum += x * y;
-    }
-    for (; i < a.size(); ++i) sum[0] += a[i] * b[i];
-    double out = 0;
-    for (std::size_t k = 0; k < kLanes; ++k) out += sum[k];
-    return out;
-  }
   // out = (K + c) in on dry pixels; in . out.
   double apply(const RealArray& in, RealArray& out) {
-    filter_.apply(in, kernel_, out);
+    filter_.apply(in, film_->symbol, out);
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = dry_[i] * (out[i] + c_[i] * in[i]);
     return dot(in, out);
   }
 
   Filter filter_;
+  std::shared_ptr<const FilmResponse> film_;
   std::vector<double> c_;  // beside K [1/m]
   RealArray dry_;          // 0 under bridges, 1 elsewhere
   RealArray drive_;        // 1/D [1/m]
   RealArray start_;        // the columns by themselves
   RealArray weight_;       // of the preconditioner, either side of 1/(K + mean c)
-  RealArray kernel_, inverse_;
+  RealArray inverse_;      // 1/(K + mean c) as the filter takes it
 };
 
 }  // namespace
@@ -171,26 +187,26 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
   const std::size_t n = gap.grid.size();
   std::vector<double> conductance(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const double water = columns.water.empty() ? 0 : columns.water[i];
-    const double air = columns.air[i] < 0 ? gap.value[i] : columns.air[i];
-    conductance[i] =
-        1 / std::max(air + water / kWaterPermittivity + p.skin_layer.real(), kLeastDistance);
+    const double above = columns.air[i] < 0 ? gap.value[i] : columns.air[i];
+    conductance[i] = above + p.skin_layer.real();
   }
+  if (!columns.water.empty()) {
+    for (std::size_t i = 0; i < n; ++i) conductance[i] += columns.water[i] / kWaterPermittivity;
+  }
+  for (double& c : conductance) c = 1 / (c > kLeastDistance ? c : kLeastDistance);
   FieldSolution status;
   const double permittivity = p.dielectric_thickness / p.dielectric;
-  const std::vector<double> flat{p.dielectric};
+  const std::vector<double> flat(surface ? 0 : n, p.dielectric);
   const std::vector<double>& dielectric = surface ? surface->effective : flat;
-  const auto column = [&](std::size_t i) { return dielectric[surface ? i : 0]; };
-  const double mean = std::accumulate(dielectric.begin(), dielectric.end(), 0.0) /
-                      static_cast<double>(dielectric.size());
+  const double mean = sum(dielectric) / static_cast<double>(n);
   SurfacePotential potential(gap.grid, conductance, dielectric, wetting.bridged,
                              permittivity * mean, permittivity);
   const RealArray phi = potential.solve(tolerance, status);
   std::vector<double> gain(n), voltage(n);
   for (std::size_t i = 0; i < n; ++i) {
     // The flux over that of the column alone.
-    gain[i] = square(phi[i] * (1 + column(i) * conductance[i]));
-    const double flux = (1 - phi[i]) / column(i);
+    gain[i] = square(phi[i] * (1 + dielectric[i] * conductance[i]));
+    const double flux = (1 - phi[i]) / dielectric[i];
     voltage[i] = (1 - phi[i]) / std::sqrt(1 + square(flux * p.skin_layer.imag()));
   }
   const std::vector<double> open = air_screening_factor(gap, wetting, p.screening);

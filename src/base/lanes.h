@@ -1,0 +1,59 @@
+// Eight numbers side by side, the same sums on every machine, whatever its registers hold.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <span>
+
+#include "base/rooms.h"
+
+namespace papilla::base {
+
+using Lanes = double __attribute__((vector_size(64)));
+constexpr std::size_t kLanes = 8;
+
+inline Lanes all_lanes(double value) { return Lanes{} + value; }
+
+// values[i] to values[i + 7]; `otherwise` beyond the end.
+inline Lanes lanes_at(std::span<const double> values, std::size_t i, double otherwise = 0) {
+  Lanes out = all_lanes(otherwise);
+  if (i + kLanes <= values.size()) {
+    std::memcpy(&out, values.data() + i, sizeof out);
+  } else if (i < values.size()) {
+    std::memcpy(&out, values.data() + i, (values.size() - i) * sizeof(double));
+  }
+  return out;
+}
+
+inline void store_lanes(const Lanes& lanes, std::span<double> values, std::size_t i) {
+  std::memcpy(values.data() + i, &lanes, std::min(kLanes, values.size() - i) * sizeof(double));
+}
+
+inline double total(const Lanes& lanes) {
+  double out = 0;
+  for (std::size_t k = 0; k < kLanes; ++k) out += lanes[k];
+  return out;
+}
+
+inline double least(const Lanes& lanes) {
+  double out = lanes[0];
+  for (std::size_t k = 1; k < kLanes; ++k) out = std::min(out, lanes[k]);
+  return out;
+}
+
+inline double largest(const Lanes& lanes) { return -least(-lanes); }
+
+inline double sum(std::span<const double> a) {
+  Lanes sums{};
+  for (std::size_t i = 0; i < a.size(); i += kLanes) sums += lanes_at(a, i);
+  return total(sums);
+}
+
+inline double dot(std::span<const double> a, std::span<const double> b) {
+  Lanes sums{};
+  for (std::size_t i = 0; i < a.size(); i += kLanes) sums += lanes_at(a, i) * lanes_at(b, i);
+  return total(sums);
+}
+
+}  // namespace papilla::base
