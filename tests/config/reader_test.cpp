@@ -493,6 +493,251 @@ TEST(Writer, WritesEachKindAsAFileHasIt) {
       << text;
 }
 
+// What a file says of one of each kind beside the length that it must have; "": it is taken.
+std::string said_of(const std::string& line, const std::string& length = "length = \"3 um\"\n") {
+  Document document = parse_document(length + line + "\n", "e.toml");
+  Each each;
+  read_section(document, "", each);
+  try {
+    finish(document);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Reader, EachKindOfFieldSaysWhatItTakes) {
+  EXPECT_EQ(said_of("plain = 1", ""), "e.toml:1:1: missing `length` (a side), a length in um");
+  for (const auto& [line, message] : std::vector<std::pair<std::string, std::string>>{
+           {"plain = 2", ""},
+           {"plain = \"2\"", ""},
+           {"plain = \"2 %\"", ""},
+           {"plain = \"2 um\"", "plain: expected a plain number, got \"2 um\""},
+           {"plain = \"x\"", "plain: expected a plain number, got \"x\""},
+           {"plain = true", "plain: expected a plain number, got true"},
+           {"plain = inf", "plain: expected a finite number, got inf"},
+           {"plain = -1.5", "plain: -1.5 is outside -1 to 1e7"},
+           {"plain = 1.1e7", "plain: 11000000 is outside -1 to 1e7"},
+           {"angles = []", ""},
+           {"angles = [\"90 deg\", \"1 rad\"]", ""},
+           {"angles = 3", "angles: expected a list, e.g. [\"1 deg\"], got 3"},
+           {"angles = [3]", "angles.0: needs a unit, e.g. \"3 deg\""},
+           {"angles = [\"1 deg\", \"91 deg\"]", "angles.1: 91 deg is outside 0 to 90 deg"},
+           {"angles = [\"x\"]", "angles.0: expected an angle, got \"x\"; write it like \"1 deg\""},
+           {"count = 8", ""},
+           {"count = 1", ""},
+           {"count = 9", "count: 9 is outside 1 to 8"},
+           {"count = 0", "count: 0 is outside 1 to 8"},
+           {"count = 2.0", "count: expected a whole number, got 2"},
+           {"version = 1", ""},
+           {"version = 0", "version: expected 1, got 0"},
+           {"on = false", ""},
+           {"on = 1", "on: expected true or false, got 1"},
+           {"name = \"\"", ""},
+           {"name = 3", "name: expected a text in quotes, got 3"},
+           {"file = \"\"", ""},
+           {"file = 3", "file: expected the name of a file in quotes, got 3"},
+           {"file = \"none.csv\"", "file: no such file: \"none.csv\""},
+           {"lattice = \"square\"", ""},
+           {"lattice = \"sqare\"",
+            "lattice: expected one of square, hexagonal, got \"sqare\"; did you mean \"square\"?"},
+           {"lattice = \"xyz\"", "lattice: expected one of square, hexagonal, got \"xyz\""},
+           {"lattice = 1", "lattice: expected one of square, hexagonal, got 1"},
+           {"part = { share = \"25 %\" }", ""},
+           {"part = { share = 1.0 }",
+            "part.share: needs a unit: \"100 %\" if 1 is a share of 1, \"1 %\" if it is in "
+            "percent"},
+           {"part = { share = 0 }", "part.share: needs a unit, e.g. \"0 %\""},
+           {"part = [1]", "part: expected a section [part], got a list"},
+           {"parts = []", ""},
+           {"parts = 3", "parts: expected a list of sections, [[parts]] or [{ ... }], got 3"},
+           {"parts = [{ share = \"1 %\" }, 3]", "parts.1: expected a section { ... }, got 3"},
+           {"parts = [{ share = \"101 %\" }]", "parts.0.share: 101 % is outside 0 to 100 %"},
+           {"parts = { 1 = { share = \"1 %\" } }", ""},
+           {"parts = { 2 = { share = \"1 %\" } }", "parts: no item 2 in a list of 2"}}) {
+    const std::string said = said_of(line);
+    const std::size_t at = said.find(": ");  // behind the place
+    EXPECT_EQ(said.empty() ? "" : said.substr(at + 2), message) << line;
+    EXPECT_EQ(said.substr(0, 9), message.empty() ? "" : "e.toml:2:") << line;
+  }
+}
+
+TEST(Reader, ReadsEachKindAsItStands) {
+  const TemporaryFolder place;
+  const std::string file = place.path() / "a.csv";
+  std::ofstream(file) << "x";
+  Document document = parse_document(
+      "length = \"4 um\"\nplain = -1\nangles = [\"45 deg\"]\ncount = 8\nversion = 1\non = false\n"
+      "name = \"b\"\nfile = \"" +
+          file +
+          "\"\nlattice = \"square\"\npart = { share = \"5 %\" }\n"
+          "[[parts]]\n[[parts]]\nshare = \"75 %\"\n[[parts]]\nshare = \"0 %\"\n",
+      "e.toml");
+  Each each;
+  read_section(document, "", each);
+  finish(document);
+  EXPECT_DOUBLE_EQ(each.length, 4e-6);
+  EXPECT_EQ(each.plain, -1);
+  ASSERT_EQ(each.angles.size(), 1u);
+  EXPECT_DOUBLE_EQ(each.angles[0], 3.14159265358979323846 / 4);
+  EXPECT_EQ(each.count, 8);
+  EXPECT_FALSE(each.on);
+  EXPECT_EQ(each.name, "b");
+  EXPECT_EQ(each.file, fs::weakly_canonical(file).string());
+  EXPECT_EQ(each.lattice, Lattice::Square);
+  EXPECT_DOUBLE_EQ(each.part.share, 0.05);
+  ASSERT_EQ(each.parts.size(), 3u);
+  EXPECT_DOUBLE_EQ(each.parts[0].share, 0.25);  // its own default, not the list's
+  EXPECT_DOUBLE_EQ(each.parts[1].share, 0.75);
+  EXPECT_EQ(each.parts[2].share, 0);
+  EXPECT_EQ(document.origins().at("parts.1.share").line, 13);
+  EXPECT_EQ(document.origins().count("parts.0.share"), 0u);
+}
+
+// What --set makes of a file.
+std::string set(const std::string& text, const std::vector<std::string>& settings) {
+  try {
+    Document document = parse_document(text, "e.toml", settings);
+    Node root = table_node();
+    for (const char* key : {"a", "b", "texture", "list"}) {
+      if (const Node* node = document.take(key)) root.set(key, *node);
+    }
+    return write_toml(root);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(Reader, OverridesAreValuesOrTexts) {
+  EXPECT_EQ(set("a = 1\n", {"a=2"}), "a = 2\n");
+  EXPECT_EQ(set("a = 1\n", {" a = 2"}), "a = 1\n");  // another key
+  EXPECT_EQ(set("a = 1\n", {"a = 2"}), "a = 2\n");
+  EXPECT_EQ(set("a = 1\n", {"a=  3 um "}), "a = \"3 um \"\n");
+  EXPECT_EQ(set("a = 1\n", {"a=x=y"}), "a = \"x=y\"\n");
+  EXPECT_EQ(set("a = 1\n", {"a=1\nb = 2"}), "a = \"1\\nb = 2\"\n");
+  EXPECT_EQ(set("a = 1\n", {"a = 2", "a=3"}), "a = 3\n");
+  EXPECT_EQ(set("a = 1\n", {"b.c.d=[1, 2]"}), "a = 1\n\n[b]\n\n[b.c]\nd = [1, 2]\n");
+  EXPECT_EQ(set("list = [1, 2]\n", {"list.1=5"}), "list = [1, 5]\n");
+  EXPECT_EQ(set("list = [{ a = 1 }]\n", {"list.0.a=5", "list.0.b=6"}),
+            "\n[[list]]\na = 5\nb = 6\n");
+  const std::string wrong = "expected KEY=VALUE, e.g. drive.amplitude=150V";
+  EXPECT_EQ(set("a = 1\n", {"=2"}), "--set =2: " + wrong);
+  EXPECT_EQ(set("a = 1\n", {"a"}), "--set a: " + wrong);
+  EXPECT_EQ(set("list = [1, 2]\n", {"list.2=5"}),
+            "--set list.2=5: list.2: no item 2 in a list of 2");
+  EXPECT_EQ(set("list = [1, 2]\n", {"list.x=5"}),
+            "--set list.x=5: list.x: no item x in a list of 2");
+  EXPECT_EQ(set("a = 1\n", {"a.b=5"}), "--set a.b=5: a.b: has no members");
+}
+
+// Another kind takes the members away, whatever the order of the settings.
+TEST(Reader, AKindComesBeforeItsMembers) {
+  const std::string text = "[texture]\ntype = \"x\"\ndepth = 1\n";
+  EXPECT_EQ(set(text, {"texture.width=2", "texture.type=y"}),
+            "\n[texture]\ntype = \"y\"\nwidth = 2\n");
+  EXPECT_EQ(set(text, {"texture.width=2", "texture.type=x"}),
+            "\n[texture]\ntype = \"x\"\ndepth = 1\nwidth = 2\n");
+}
+
+// Of tables the members that the file has not; of lists and of another kind nothing.
+TEST(Reader, ABaseFillsWhatIsMissing) {
+  const Folder folder("fills");
+  folder.write("base.toml",
+               "schema_version = 1\na = 1\nb = 2\nlist = [1, 2]\n[texture]\ntype = \"x\"\nd = 3\n"
+               "[texture.in]\ne = 4\nf = 5\n");
+  const auto merged = [&](const std::string& text) {
+    Document document = load_document(
+        folder.write("top.toml", "schema_version = 1\nbase = \"base.toml\"\n" + text));
+    Node root = table_node();
+    for (const char* key : {"a", "b", "list", "texture", "base"}) {
+      if (const Node* node = document.take(key)) root.set(key, *node);
+    }
+    return write_toml(root);
+  };
+  EXPECT_EQ(merged("b = 7\nlist = [3]\n[texture.in]\ne = 6\n"),
+            "a = 1\nb = 7\nlist = [3]\n\n[texture]\ntype = \"x\"\nd = 3\n\n[texture.in]\ne = 6\n"
+            "f = 5\n");
+  EXPECT_EQ(merged("texture = { type = \"x\" }\n"),
+            "a = 1\nb = 2\nlist = [1, 2]\n\n[texture]\ntype = \"x\"\nd = 3\n\n[texture.in]\ne = 4\n"
+            "f = 5\n");
+  EXPECT_EQ(merged("texture = { type = \"y\" }\n"),
+            "a = 1\nb = 2\nlist = [1, 2]\n\n[texture]\ntype = \"y\"\n");
+  EXPECT_EQ(merged("texture = 3\n"), "a = 1\nb = 2\nlist = [1, 2]\ntexture = 3\n");
+}
+
+TEST(Reader, FilesThatAreNoneAreRefusedWithWhatTheyAre) {
+  const Folder folder("none");
+  const auto why = [&](const std::string& path) {
+    try {
+      load_document(path);
+    } catch (const InputError& error) {
+      const Problem& p = error.problems().at(0);
+      EXPECT_TRUE(p.file == path || p.file.ends_with("old.toml")) << p.file;
+      return p.message;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(why(folder.path() + "/a.toml"), "no such file");
+  EXPECT_EQ(why(folder.path()), "is a folder, expected a TOML file");
+  for (const char* ending : {".gsf", ".npy", ".exr", ".tif", ".tiff", ".x3p"}) {
+    const std::string map = folder.write(std::string("a") + ending, "a = 1\n");
+    EXPECT_EQ(why(map), "is a map of heights, expected a TOML file; `papilla surface " + map +
+                            "` shows it, and a design has it as `texture.file` of `texture.type = "
+                            "\"measured\"`");
+  }
+  const std::string large = folder.write("large.toml", "a = 1\n");
+  fs::resize_file(large, (16 << 20) + 1);
+  EXPECT_EQ(why(large), "larger than 16 MiB, expected a TOML file");
+  EXPECT_EQ(why(folder.write("b.toml", "base = 3\n")), "expected the name of a file, got 3");
+  folder.write("old.toml", "schema_version = 2\n");
+  EXPECT_EQ(why(folder.write("c.toml", "base = \"old.toml\"\n")), "expected 1, got 2");
+  EXPECT_EQ(why(folder.write("d.toml", "base = \"d.toml\"\n")), "\"d.toml\" is based on itself");
+}
+
+TEST(Toml, IsWrittenAsItIsRead) {
+  const std::string text =
+      "z = 1\na = -2.5\nlarge = 1e300\nwhole = 3.0\nup = inf\ndown = -inf\nnone = nan\n"
+      "yes = true\nno = false\n\"two words\" = \"x\"\n\"\" = \"\"\nmixed = [1, { b = 2 }, [3, "
+      "[]]]\n"
+      "empty = []\nescaped = \"\\\\ \\\" \\n \\t \\u0001 \\u007F\"\n\n[A-b_9]\n\n"
+      "[A-b_9.\"c.d\"]\n\n[[list]]\na = 1\n\n[[list]]\n\n[list.in]\nb = 2\n";
+  EXPECT_EQ(write_toml(parse_toml(text, "x")), text);
+}
+
+TEST(Toml, EachKindIsDescribed) {
+  const Node root = parse_toml(
+      "a = {}\nb = []\nc = \"x\"\nd = 12\ne = 1.5\nf = true\ng = false\nh = 2020-01-02\n", "x");
+  std::string said;
+  for (const Node& node : root.children) said += describe(node) + "; ";
+  EXPECT_EQ(said, "a section; a list; \"x\"; 12; 1.5; true; false; a date or time; ");
+  EXPECT_EQ(root.children[4].place.line, 5);
+  EXPECT_EQ(root.children[4].place.column, 5);
+  EXPECT_EQ(root.children[4].key_place.column, 1);
+}
+
+TEST(Toml, KeysHaveTwoHundredDotsAtMost) {
+  const auto deep = [](int dots) {
+    std::string out = "x = 1\na";
+    for (int i = 0; i < dots; ++i) out += ".a";
+    return out + " = 1\n";
+  };
+  EXPECT_NO_THROW(parse_toml(deep(200), "x"));
+  try {
+    parse_toml(deep(201), "x");
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems()[0].text(), "x:2:1: more than 200 dots in a key");
+  }
+  // Counted anew behind a comma, an equals sign and a line.
+  for (const char* between : {",", "=", "\n"}) {
+    try {
+      parse_toml("# " + std::string(150, '.') + between + "# " + std::string(150, '.') + "\n", "x");
+    } catch (const InputError& error) {
+      ADD_FAILURE() << error.what();
+    }
+  }
+}
+
 TEST(Describe, FindsNumbersByPath) {
   Whole whole;
   EXPECT_EQ(get_number(whole, "surface.dielectric.0.thickness"), 500e-9);

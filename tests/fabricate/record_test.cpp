@@ -160,6 +160,37 @@ TEST_F(Record, TextsListsAndFilesAreOfTheirKind) {
   EXPECT_EQ(file({{"format", "exr"}, {"file", "../a.exr"}}), wrong);
 }
 
+TEST_F(Record, AFileThatSaysNothingOfItsOriginIsRefusedWithWhatIsMissing) {
+  const auto why = [&](const std::string& text) {
+    place_.write(kRecordName, text);
+    try {
+      read_record(place_.path().string());
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problems().at(0).key, "");
+      EXPECT_EQ(error.problems().at(0).file, place_.path().string() + "/" + kRecordName);
+      return error.problems().at(0).message;
+    }
+    return std::string();
+  };
+  for (const char* text : {"", "{", "3", "[1]", "null", "\"made_from\""})
+    EXPECT_EQ(why(text), "no JSON object; export the design again") << text;
+  for (const char* text : {"{}", R"({"made_from":3})", R"({"made_from":null})",
+                           R"({"made_from":[]})", R"({"made_from":"x"})", R"({"design":{}})"}) {
+    EXPECT_EQ(why(text), "it does not say what the files were made from; export the design again")
+        << text;
+  }
+  const std::string none = (place_.path() / "none").string();
+  try {
+    read_record(none);
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.problems().at(0).file, none + "/" + kRecordName);
+    EXPECT_EQ(error.problems().at(0).message,
+              "not there: no folder of `papilla export`, nor best/ or front/ of a run; without it "
+              "nothing says what the files should hold");
+  }
+}
+
 // Of a study its widths alone, and of an export the formats of its files.
 TEST(RecordOf, AStudyKeepsTheLimitsOfWidths) {
   Study study;

@@ -5,7 +5,10 @@
 
 #include "base/constants.h"
 #include "fabricate/export.h"
+#include "forward/forward.h"
 #include "geometry/io/drawing.h"
+#include "geometry/io/files.h"
+#include "metrics/metrics.h"
 #include "tests/fabricate/exported_folder.h"
 #include "tests/temporary.h"
 
@@ -208,6 +211,32 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   // A file a pixel off its limit is not narrower than it can show.
   study.constraints[0].limit = sound.pixels.min_wall + 0.5 * 0.0625e-6;
   EXPECT_TRUE(verify_export(study, file, 0.2).faults.empty());
+}
+
+// The patch of this design is 12 um wide: of a file of twice that only as much is judged, one that
+// is hardly larger is judged whole.
+TEST(Verify, OfAFileThatIsMuchLargerThanItsDesignsPatchAPatchIsJudged) {
+  Study study;
+  study.design.environment.relative_humidity = {0.35};
+  HoleArray holes;
+  holes.period = 6e-6, holes.diameter = 4e-6, holes.depth = 200e-9;
+  study.design.texture = Texture{holes};
+  const std::string file = temporary("patch.gsf");
+  const Scene scene = scene_of(study.design);
+  const auto judged = [&](double patch) {
+    Measured3d map;
+    map.file = file, map.as_is = true, map.patch = patch;
+    return summarise(Summary::Mean, "friction",
+                     evaluate(scene, Texture{map}, fidelity_level("draft")))
+        ->value;
+  };
+  for (const auto& [side, other] : {std::pair{24, 12}, {15, 15}}) {
+    const Grid grid{16 * side / 3, 16 * side / 3, 1e-6 * side, 1e-6 * side};
+    write_gsf(file, generate(study.design.texture, grid), {});
+    const double found = verify_export(study, file, 1).file;
+    EXPECT_NEAR(found, judged(1e-6 * other), 1e-9 * found) << side;
+    EXPECT_GT(std::abs(found - judged(1e-6 * (other == 12 ? side : 12))), 1e-6 * found) << side;
+  }
 }
 
 }  // namespace

@@ -168,6 +168,57 @@ TEST(Slopes, OfALinearModelAreItsOwn) {
   }
 }
 
+// Half the change between both sides where both were judged, else that of the side that was.
+TEST(Slopes, AreTheMeanOfBothSidesOrThoseOfTheOneThatThereIs) {
+  const Study study = default_study();
+  const StudyProblem problem(study);
+  const DesignSpace& space = problem.space();
+  const Point centre = space.unit({6e-6, 3e-6, 400e-9, 1.1});
+  const auto moved_to = [&](std::size_t k, int sign) {
+    Point u = centre;
+    u[k] += 0.05 * sign;
+    return SensitivityMove{k, sign, u};
+  };
+  const auto scored = [](double first, double second, bool ok = true) {
+    Score s;
+    s.ok = ok;
+    s.values = {first, second};
+    return s;
+  };
+  const std::vector<SensitivityMove> moves{moved_to(0, -1), moved_to(0, 1), moved_to(1, 1),
+                                           moved_to(2, -1), moved_to(2, 1), moved_to(3, -1)};
+  // From 0.5 and 0.25. Of the third variable the lower side failed.
+  const std::vector<Score> moved{scored(0.47, 0.26),  scored(0.51, 0.25), scored(0.52, 0.24),
+                                 scored(9, 9, false), scored(0.46, 0.29), scored(0.53, 0.25)};
+  const auto found = sensitivity(problem, centre, moves, scored(0.5, 0.25), moved);
+  ASSERT_EQ(found.size(), 4u);
+  const double change[4][2] = {
+      {0.5 * (0.03 + 0.01), 0.5 * (-0.01 + 0)}, {0.02, -0.01}, {-0.04, 0.04}, {-0.03, 0}};
+  for (std::size_t o = 0; o < 2; ++o) {
+    double squares = 0;
+    for (const auto& c : change) squares += square(c[o]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      EXPECT_EQ(found[k].variable, k);
+      EXPECT_NEAR(found[k].change[o], change[k][o], 1e-12) << k << o;
+      EXPECT_NEAR(found[k].share[o], square(change[k][o]) / squares, 1e-12) << k << o;
+    }
+  }
+  // A twentieth of the first is 0.025, of the second 0.0125.
+  EXPECT_NEAR(found[0].down, found[0].step * 0.025 / 0.03, 1e-9 * found[0].step);
+  EXPECT_FALSE(found[0].down_beyond);
+  EXPECT_TRUE(found[0].up_beyond && found[1].up_beyond && found[3].down_beyond);
+  EXPECT_EQ(found[0].up, found[0].step);
+  EXPECT_NEAR(found[2].up, found[2].step * 0.0125 / 0.04, 1e-9 * found[2].step);
+  EXPECT_TRUE(sensitivity(problem, centre, moves, scored(0.5, 0.25, false), moved).empty());
+  // A variable of which nothing was judged has no share, and a sum of nothing none either.
+  const auto none = sensitivity(problem, centre, {moved_to(1, -1), moved_to(2, 1)},
+                                scored(0.5, 0.25), {scored(9, 9, false), scored(0.5, 0.3)});
+  ASSERT_EQ(none.size(), 2u);
+  EXPECT_TRUE(none[0].change.empty());
+  EXPECT_EQ(none[0].share, (std::vector<double>{0, 0}));
+  EXPECT_EQ(none[1].share, (std::vector<double>{0, 1}));
+}
+
 TEST(Levels, OneDesignInThreeIsJudgedAgainAndNoMoreThan32) {
   SearchProblem p;
   p.space.dimensions.assign(2, Dimension{});

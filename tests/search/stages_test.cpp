@@ -71,9 +71,10 @@ TaskAnswer lines(const TaskRequest& r) {
 // A run that a formula answers.
 struct AnsweredRun {
   AnsweredRun(const Study& of, const std::string& folder, const Formula& formula,
-              bool resume = false, const std::atomic<bool>* stop = nullptr)
+              bool resume = false, const std::atomic<bool>* stop = nullptr,
+              std::function<void(const Progress&)> progress = {})
       : study(of),
-        options{folder, resume, {}, stop},
+        options{folder, resume, std::move(progress), stop},
         run(study, options, mpi, std::make_unique<FormulaTeam>(formula, asked)) {}
   AnsweredRun(const AnsweredRun&) = delete;
   AnsweredRun& operator=(const AnsweredRun&) = delete;
@@ -397,6 +398,79 @@ TEST(Stages, TimesAreThoseOfTheTasksThatWereDone) {
   EXPECT_DOUBLE_EQ(run.seconds_from(RunPart::Files), part(RunPart::Files));
   EXPECT_DOUBLE_EQ(run.seconds_from(RunPart::Sensitivity),
                    part(RunPart::Sensitivity) + part(RunPart::Parameters) + part(RunPart::Files));
+}
+
+// What a run says while it runs, and what its clock and the prices of its parts said then.
+struct Said {
+  Progress said;
+  double since = 0, confirm = 0, stability = 0, confirmations = 0;
+};
+
+std::vector<Said> said_by(const Study& study, const std::string& folder) {
+  std::vector<Said> out;
+  search::Run* run = nullptr;
+  AnsweredRun a(study, folder, lines, false, nullptr, [&](const Progress& p) {
+    const int left = p.total - p.done;
+    out.push_back(
+        {p, run->clock.seconds(), run->seconds_from(RunPart::Confirm),
+         run->seconds_from(RunPart::Stability),
+         run->seconds_of_designs(static_cast<std::size_t>(std::max(0, left)), Stage::Confirm)});
+  });
+  run = &a.run;
+  EXPECT_TRUE(a.whole());
+  const auto front = std::count_if(a.run.result.finalists.begin(), a.run.result.finalists.end(),
+                                   [](const FinalDesign& f) { return f.on_front; });
+  EXPECT_EQ(out.back().said.stage, "check");
+  EXPECT_EQ(out.back().said.total, 4 + front);  // and the flat one, two of the best, its fit
+  return out;
+}
+
+// Each stage counts up to its end; what is left is what the rest of it takes at the pace so far,
+// and what the next ones cost.
+TEST(Progress, CountsUpAndSaysWhatTheRestWillTake) {
+  Study study = two_variables();
+  study.search.drafts = 3;
+  const std::vector<Said> all = said_by(study, fresh_folder("stages_said"));
+  std::string stages;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Progress& p = all[i].said;
+    const bool first = i == 0 || p.stage != all[i - 1].said.stage;
+    if (first) stages += p.stage + " ";
+    EXPECT_LE(p.done, p.total) << p.stage;
+    const bool last = i + 1 == all.size() || all[i + 1].said.stage != p.stage;
+    EXPECT_GT(p.done, first ? -1 : all[i - 1].said.done);
+    EXPECT_EQ(p.done == p.total, last) << p.stage;
+    const double rest = all[i].since / std::max(1, p.done) * (p.total - p.done);  // at most
+    if (p.stage == "draft") {
+      EXPECT_LT(p.seconds_left, 0);  // not known yet
+    } else if (p.stage == "narrow") {
+      EXPECT_GE(p.seconds_left, all[i].confirm);
+      EXPECT_LE(p.seconds_left, all[i].confirm + rest);
+    } else if (p.stage == "confirm" && p.done == 0) {
+      EXPECT_DOUBLE_EQ(p.seconds_left, all[i].confirm);
+      EXPECT_GT(p.seconds_left, 0);
+    } else if (p.stage == "confirm") {
+      EXPECT_DOUBLE_EQ(p.seconds_left, all[i].confirmations + all[i].stability);
+    } else if (p.stage == "check") {
+      EXPECT_GE(p.seconds_left, 0);
+      EXPECT_LE(p.seconds_left, rest);
+    }
+  }
+  EXPECT_EQ(stages, "draft search narrow confirm check ");
+}
+
+// A clock leaves no more than itself; what is not known stays so.
+TEST(Progress, OfALimitedRunLeavesNoMoreThanItsClock) {
+  Study study = two_variables();
+  study.search.drafts = 3;
+  study.search.time = 100;
+  bool drafted = false;
+  for (const Said& s : said_by(study, fresh_folder("stages_limited"))) {
+    EXPECT_LE(s.said.seconds_left, 100);
+    EXPECT_EQ(s.said.seconds_left < 0, s.said.stage == "draft") << s.said.stage;
+    drafted = drafted || s.said.stage == "draft";
+  }
+  EXPECT_TRUE(drafted);
 }
 
 // Drafts come first and count for nothing but the searcher.

@@ -1,4 +1,5 @@
 // Saved files are what a person would have written.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,6 +36,73 @@ TEST(EditedToml, TakesListsTablesInALineAndOtherLetters) {
   EXPECT_EQ(edited_toml("[a]\nb = 1.5e-3# why\n", {{"a.b", "2"}}), "[a]\nb = 2# why\n");
 }
 
+// From its first letter to its last, whatever stands in it and behind it.
+TEST(EditedToml, FindsTheEndOfAValue) {
+  for (const auto& [before, after] : {std::pair{"a = \"\"\nb = \"x\"\n", "a = 7\nb = \"x\"\n"},
+                                      {"a = \"x\"\n", "a = 7\n"},
+                                      {"a = ''\nb = 'x'\n", "a = 7\nb = 'x'\n"},
+                                      {"a = 'c:\\'\nb = 'x'\n", "a = 7\nb = 'x'\n"},
+                                      {"a = \"it's\"  # it's\n", "a = 7  # it's\n"},
+                                      {"a = \"\\\\\"\nb = \"x\"\n", "a = 7\nb = \"x\"\n"},
+                                      {"a = \"say \\\"no\\\"\"  # b\n", "a = 7  # b\n"},
+                                      {"a = [\"]\", ']', \"\"] # ]\n", "a = 7 # ]\n"},
+                                      {"a = [[1, 2], [3]]\nb = [4]\n", "a = 7\nb = [4]\n"},
+                                      {"a = []\nb = []\n", "a = 7\nb = []\n"},
+                                      {"a = true \t # b\n", "a = 7 \t # b\n"},
+                                      {"a = -1.5e-3", "a = 7"},
+                                      {"a = 1\r\nb = 2\r\n", "a = 7\r\nb = 2\r\n"},
+                                      {"b = \"\u00b5\u00b5\"\nc = { d = \"\u00b5\" }\na = 1\n",
+                                       "b = \"\u00b5\u00b5\"\nc = { d = \"\u00b5\" }\na = 7\n"}})
+    EXPECT_EQ(edited_toml(before, {{"a", "7"}}), after);
+  for (const auto& [before, after] :
+       {std::pair{"s = { a = 1, b = 2 }\n", "s = { a = 7, b = 2 }\n"},
+        {"s = { b = 2 , a = 1 }\n", "s = { b = 2 , a = 7 }\n"},
+        {"s = { b = \"\u00b5\u00b5\", a = 1 } # c\n", "s = { b = \"\u00b5\u00b5\", a = 7 } # c\n"},
+        {"s = {a=[1],b=2}\n", "s = {a=7,b=2}\n"}})
+    EXPECT_EQ(edited_toml(before, {{"s.a", "7"}}), after);
+}
+
+// Bare where TOML takes it so.
+TEST(EditedToml, QuotesWhatIsNoValueOfToml) {
+  for (const auto& [text, written] : {std::pair{"2", "2"},
+                                      {"-1e-3", "-1e-3"},
+                                      {"true", "true"},
+                                      {"[1, 2]", "[1, 2]"},
+                                      {"\"x\"", "\"x\""},
+                                      {"262 nm", "\"262 nm\""},
+                                      {"on", "\"on\""}})
+    EXPECT_EQ(edited_toml("a = 0\n", {{"a", text}}), std::string("a = ") + written + "\n");
+}
+
+TEST(EditedToml, ANewKeyStandsBehindTheLastThatItsSectionSays) {
+  const std::vector<Change> x{{"a.x", "1"}};
+  for (const auto& [before, after] :
+       {std::pair{"", "[a]\nx = 1\n"},
+        {"b = 2", "b = 2\n\n[a]\nx = 1\n"},
+        {"b = 2\n", "b = 2\n\n[a]\nx = 1\n"},
+        {"b = 2\n\n", "b = 2\n\n[a]\nx = 1\n"},
+        {"[a]\n", "[a]\nx = 1\n"},
+        {"[a]", "[a]\nx = 1"},
+        {"  [ a ]  # a\ny = 2 # y\n\n  # of b\n [b]\nz = 3\n",
+         "  [ a ]  # a\ny = 2 # y\nx = 1\n\n  # of b\n [b]\nz = 3\n"},
+        {"[a]\r\ny = 2\r\n\r\n[b]\r\n", "[a]\r\ny = 2\r\nx = 1\n\r\n[b]\r\n"},
+        {"[a]\n# y = 1\ny = 2\n\n# z\nz = 3\n", "[a]\n# y = 1\ny = 2\n\n# z\nz = 3\nx = 1\n"},
+        {"[b]\n[a]\ny = 2\n[c]\n", "[b]\n[a]\ny = 2\nx = 1\n[c]\n"}})
+    EXPECT_EQ(edited_toml(before, x), after);
+  try {
+    edited_toml("s = { a = 1 }\n", {{"s.b", "2"}});
+    ADD_FAILURE();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1u);
+    EXPECT_EQ(error.problems()[0].key, "s.b");
+    EXPECT_EQ(error.problems()[0].message,
+              "the file has this section within one line: save under another name, or write it "
+              "as [s]");
+  }
+  // Said by a section below it alone.
+  EXPECT_THROW(edited_toml("[a.b]\ny = 2\n", x), InputError);
+}
+
 TEST(EditedToml, PutsANewKeyAtTheEndOfItsSection) {
   EXPECT_EQ(edited_toml("[a]\nx = 1\n\n# of b\n[b]\ny = 2\n", {{"a.z", "on"}, {"c.d.e", "4 V"}}),
             "[a]\nx = 1\nz = \"on\"\n\n# of b\n[b]\ny = 2\n\n[c.d]\ne = \"4 V\"\n");
@@ -44,6 +112,20 @@ TEST(EditedToml, ANewKindTakesThePlaceOfTheOld) {
   EXPECT_EQ(edited_toml("[texture]\ntype = \"hole_array\"\ndepth = \"1 um\"\n\n[surface]\n",
                         {{"texture.type", "grating"}, {"texture.width", "2 um"}}),
             "[texture]\ntype = \"grating\"\nwidth = \"2 um\"\n\n[surface]\n");
+}
+
+// Of the same kind nothing goes, nor of another section.
+TEST(EditedToml, OnlyANewKindTakesTheMembersAway) {
+  const std::string text =
+      "[surface]\nd = 1\n\n[texture]\n# holes\ntype = \"hole_array\"\ndepth = 2 # deep\n\n"
+      "# drive\n[drive]\namplitude = 3\n";
+  EXPECT_EQ(edited_toml(text, {{"texture.type", "hole_array"}}), text);
+  EXPECT_EQ(edited_toml(text, {{"texture.type", "\"hole_array\""}}), text);
+  EXPECT_EQ(edited_toml(text, {{"texture.type", "flat"}}),
+            "[surface]\nd = 1\n\n[texture]\ntype = \"flat\"\n\n# drive\n[drive]\n"
+            "amplitude = 3\n");
+  EXPECT_EQ(edited_toml("texture = { type = \"flat\", a = 1 }\n", {{"texture.type", "hole_array"}}),
+            "texture = { type = \"hole_array\", a = 1 }\n");
 }
 
 class Saving : public ::testing::Test {
@@ -85,6 +167,29 @@ TEST_F(Saving, WritesAListWholeWhereOneOfItsItemsChanged) {
             std::string::npos);
 }
 
+TEST_F(Saving, TwoChangedItemsOfAListAreOneList) {
+  const std::string text = save({shipped_,
+                                 {{"surface.dielectric.0.thickness", "700 nm"},
+                                  {"surface.dielectric.0.permittivity", "4.5"}}},
+                                "film.toml");
+  std::size_t lists = 0;
+  for (std::size_t at = text.find("dielectric"); at != std::string::npos;
+       at = text.find("dielectric", at + 1))
+    ++lists;
+  EXPECT_EQ(lists, 1u) << text;
+}
+
+// A base below a folder of designs is named from there, any other from the file that names it.
+TEST_F(Saving, ABaseIsNamedFromTheFolderOfItsFile) {
+  save({shipped_, {{"texture.depth", "262 nm"}}}, "sub/mine.toml");
+  const std::string own = place_.path() / "sub/mine.toml";
+  EXPECT_EQ(save({own, {{"drive.amplitude", "120 V"}}}, "copy.toml"),
+            "schema_version = 1\nbase = \"sub/mine.toml\"\n\n[drive]\namplitude = \"120 V\"\n");
+  // From beside it would lead out of what a file may stand on; nothing is left of the attempt.
+  EXPECT_THROW(save({own, {{"drive.amplitude", "110 V"}}}, "other/copy.toml"), InputError);
+  EXPECT_TRUE(fs::is_empty(place_.path() / "other"));
+}
+
 TEST_F(Saving, RefusesNamesOutsideAndFilesThatAreThere) {
   const Draft draft{shipped_, {{"texture.depth", "262 nm"}}};
   const Study study = study_of(draft);
@@ -105,6 +210,90 @@ TEST_F(Saving, AScanStandsBesideTheFileThatNamesIt) {
   EXPECT_THROW(files_.keep_scan("mine.exe", bytes), InputError);
   EXPECT_THROW(files_.keep_scan("../mine.gsf", bytes), InputError);
   EXPECT_THROW(files_.with_scan({shipped_, {}}, "../scan.gsf", "", false, false), InputError);
+}
+
+// Designs to the fourth folder down; nothing hidden, and no resolved copies.
+TEST_F(Saving, ListsDesignsAndFinishedSearches) {
+  for (const char* name : {"b.toml", "a.toml", "resolved.toml", ".hidden.toml", ".in/c.toml",
+                           "c.txt", "d/e/f/g.toml", "d/e/f/x/y.toml", "s/001/study.toml",
+                           "s/001/run.json", "s/002/study.toml", "s/resolved.toml"}) {
+    fs::create_directories((place_.path() / name).parent_path());
+    write_bytes(place_.path() / name, "");
+  }
+  const auto list = files_.list();
+  EXPECT_EQ(list["folder"], place_.path().filename().string());
+  EXPECT_EQ(list["designs"], nlohmann::ordered_json({"a.toml", "b.toml", "d/e/f/g.toml",
+                                                     "s/001/study.toml", "s/002/study.toml"}));
+  EXPECT_EQ(list["results"], nlohmann::ordered_json({"s/001"}));
+  EXPECT_EQ(list.size(), 3u);
+  EXPECT_EQ(files_.open("a.toml"), fs::weakly_canonical(place_.path() / "a.toml").string());
+  for (const char* name : {"c.txt", "../a.toml", ".hidden.toml", ""})
+    EXPECT_THROW(files_.open(name), InputError) << name;
+  for (int i = 0; i < 200; ++i) write_bytes(place_.path() / fmt::format("e{:03}.toml", i), "");
+  EXPECT_EQ(files_.list()["designs"].size(), 200u);
+}
+
+TEST_F(Saving, AnExportIsShownBeforeItIsMade) {
+  Study study = read_study(shipped_);
+  study.constraints = {{"min_wall", 1e-6, true}, {"aspect_ratio", 0.5, false}};
+  const auto preview = files_.export_preview(study);
+  // Holes of 3 um at a pitch of 6 um, 600 nm deep.
+  const auto row = [&](std::size_t i) { return preview["margins"][i]; };
+  EXPECT_EQ(preview["margins"].size(), 2u);
+  EXPECT_EQ(row(0)["name"], "smallest hole");
+  EXPECT_NEAR(row(0)["value"].get<double>(), 3e-6, 1e-15);
+  EXPECT_TRUE(row(0)["limit"].is_null());
+  EXPECT_EQ(row(1)["name"], "smallest wall");
+  EXPECT_NEAR(row(1)["value"].get<double>(), 3e-6, 1e-15);
+  EXPECT_EQ(row(1)["limit"], 1e-6);
+  EXPECT_NEAR(preview["aspect_ratio"]["value"].get<double>(), 0.2, 1e-12);
+  EXPECT_EQ(preview["aspect_ratio"]["limit"], 0.5);
+  bool mask = false;
+  for (const auto& f : preview["formats"]) {
+    EXPECT_EQ(f.size(), 3u);
+    mask = mask || (f["name"] == "mask" && f["file"] == "mask.tif");
+  }
+  EXPECT_TRUE(mask);
+}
+
+TEST_F(Saving, AScanIsKeptWithItsNameAndLength) {
+  for (const char* name : {"a.npy", "a.gsf", "a.exr", "a.tif"})
+    EXPECT_EQ(files_.keep_scan(name, "12345"),
+              (nlohmann::ordered_json{{"name", std::string("scans/") + name}, {"bytes", 5}}));
+  EXPECT_EQ(read_bytes(place_.path() / "scans/a.tif"), "12345");
+  for (const char* name : {"a.png", "a", "a.gsf.txt", ".gsf", "a.GSF"})
+    EXPECT_THROW(files_.keep_scan(name, ""), InputError) << name;
+}
+
+// What was asked of the scan stands in the draft, and nothing of the texture before.
+TEST_F(Saving, AScanIsADraftOfWhatWasAskedOfIt) {
+  Heightmap map{{16, 16, 8e-6, 8e-6}, std::vector<double>(256, 0.0)};
+  for (std::size_t i = 0; i < 256; ++i) map.z[i] = 1e-8 * static_cast<double>(i % 7);
+  fs::create_directories(place_.path() / "scans");
+  write_gsf((place_.path() / "scans/map.gsf").string(), map, {});
+  write_npy((place_.path() / "scans/map.npy").string(), map);
+  const Draft from{shipped_, {{"texture.depth", "1 nm"}, {"drive.amplitude", "120 V"}}};
+  const auto changes = [&](const char* name, const char* size, bool fill, bool as_is) {
+    return files_.with_scan(from, name, size, fill, as_is).changes;
+  };
+  const std::string folder = fs::weakly_canonical(place_.path()).string() + "/scans/";
+  const Change voltage{"drive.amplitude", "120 V"}, type{"texture.type", "measured"},
+      gsf{"texture.file", '"' + folder + "map.gsf\""},
+      npy{"texture.file", '"' + folder + "map.npy\""};
+  EXPECT_EQ(changes("scans/map.gsf", "", false, false),
+            (std::vector<Change>{voltage, type, gsf, {"texture.patch", "8 um"}}));
+  EXPECT_EQ(changes("scans/map.gsf", "", true, false),
+            (std::vector<Change>{
+                voltage, type, gsf, {"texture.fill", "true"}, {"texture.patch", "8 um"}}));
+  EXPECT_EQ(changes("scans/map.npy", "12 um", false, true),
+            (std::vector<Change>{voltage,
+                                 type,
+                                 npy,
+                                 {"texture.width", "12 um"},
+                                 {"texture.as_is", "true"},
+                                 {"texture.patch", "12 um"}}));
+  EXPECT_THROW(changes("scans/map.npy", "-1 um", false, true), InputError);
+  EXPECT_THROW(changes("scans/map.npy", "1 V", false, true), InputError);
 }
 
 // The whole map where it is small, of its shorter side; else a square of 24 um.

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/files.h"
@@ -128,6 +130,155 @@ TEST(Session, BeginsAnewWhereItsFileIsDamaged) {
   write_bytes(place.path() / ".studio/session.json", "{\"draft\": 3");
   Session session(place.path(), kHoles);
   EXPECT_DOUBLE_EQ(depth(session), 600e-9);
+}
+
+// Any other step, none at all, or a way back between them begins a new one.
+TEST(Session, OnlyTheSameGestureIsTheSameStep) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  const auto at = [&](int nm, std::uint64_t step) {
+    session.set("texture.depth", std::to_string(nm) + " nm", step);
+  };
+  const auto back = [&] {
+    session.undo();
+    return std::lround(1e9 * depth(session));
+  };
+  at(510, 0), at(520, 0), at(530, 7), at(540, 7), at(550, 8), at(560, 8);
+  EXPECT_EQ(back(), 540);
+  at(570, 8);  // after the way back
+  EXPECT_FALSE(session.view().can_redo);
+  at(580, 8);
+  session.pin("between");
+  EXPECT_EQ(back(), 540);
+  EXPECT_EQ(back(), 520);
+  EXPECT_EQ(back(), 510);
+  EXPECT_EQ(back(), 600);
+  const auto revision = session.view().revision;
+  EXPECT_EQ(session.undo(), revision);  // there is nothing before
+  for (const int nm : {510, 520, 540, 580}) {
+    session.redo();
+    EXPECT_EQ(std::lround(1e9 * depth(session)), nm);
+  }
+  EXPECT_EQ(session.redo(), session.view().revision);
+}
+
+TEST(Session, WhatChangesNothingIsNoStep) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  session.set("texture.depth", "500 nm", 0);
+  const auto revision = session.view().revision;
+  EXPECT_EQ(session.set("texture.depth", "0.5 um", 0), revision);
+  EXPECT_EQ(session.reset("drive.amplitude"), revision);
+  EXPECT_EQ(session.become(session.view().draft), revision);
+  EXPECT_EQ(session.reset("texture.depth"), revision + 1);
+  EXPECT_TRUE(session.view().draft.changes.empty());
+  session.undo();
+  EXPECT_EQ(session.view().draft.changes, (std::vector<Change>{{"texture.depth", "500 nm"}}));
+  session.become({PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml", {}});
+  EXPECT_EQ(texture_name(session.view().study.design.texture), "flat");
+  EXPECT_EQ(texture_name(session.view().opened.texture), "flat");
+  EXPECT_FALSE(session.view().can_redo);
+  session.undo();
+  EXPECT_DOUBLE_EQ(depth(session), 500e-9);
+  EXPECT_DOUBLE_EQ(get_number(session.view().opened, "texture.depth"), 600e-9);
+}
+
+TEST(Session, PinsAtMostEightUnderNumbersThatNeverComeAgain) {
+  const TemporaryFolder place;
+  {
+    Session session(place.path(), kHoles);
+    EXPECT_EQ(session.pin(""), 1);
+    EXPECT_EQ(session.pin(std::string(60, 'a')), 2);
+    EXPECT_EQ(session.pin(std::string(60, 'b') + "c"), 3);
+    for (int number = 4; number <= 8; ++number) EXPECT_EQ(session.pin("more"), number);
+    EXPECT_THROW(session.pin("too many"), InputError);
+    EXPECT_EQ(session.view().pins.size(), 8u);
+    session.unpin(2);
+    session.unpin(17);  // nobody
+    EXPECT_EQ(session.pin(""), 9);
+    session.unpin(4);
+  }
+  Session again(place.path(), kHoles);
+  std::vector<std::pair<int, std::string>> pins;
+  for (const Pin& p : again.view().pins) pins.emplace_back(p.number, p.name);
+  EXPECT_EQ(pins, (std::vector<std::pair<int, std::string>>{{1, "design 1"},
+                                                            {3, std::string(60, 'b')},
+                                                            {5, "more"},
+                                                            {6, "more"},
+                                                            {7, "more"},
+                                                            {8, "more"},
+                                                            {9, "design 9"}}));
+  EXPECT_EQ(again.pin("next"), 10);
+  EXPECT_THROW(again.take(2), InputError);
+  EXPECT_THROW(again.pin("too many"), InputError);
+}
+
+nlohmann::json kept_in(const TemporaryFolder& place) {
+  return nlohmann::json::parse(read_bytes(place.path() / ".studio/session.json"));
+}
+
+TEST(Session, KeepsTwoHundredStepsTheNewest) {
+  const TemporaryFolder place;
+  { Session session(place.path(), kHoles); }
+  nlohmann::json kept = kept_in(place);
+  EXPECT_EQ(kept,
+            (nlohmann::json{{"schema", 1},
+                            {"draft", {{"file", kHoles}, {"changes", nlohmann::json::array()}}},
+                            {"past", nlohmann::json::array()},
+                            {"future", nlohmann::json::array()},
+                            {"pins", nlohmann::json::array()}}));
+  const auto step = [](int nm) {
+    const nlohmann::json change = {"texture.depth", std::to_string(nm) + " nm"};
+    return nlohmann::json{{"file", kHoles}, {"changes", nlohmann::json::array({change})}};
+  };
+  for (int i = 0; i < 199; ++i) kept["past"].push_back(step(100 + i));
+  kept["draft"] = step(299);
+  write_bytes(place.path() / ".studio/session.json", kept.dump());
+  Session session(place.path(), kHoles);
+  session.set("texture.depth", "300 nm", 0);
+  kept = kept_in(place);
+  EXPECT_EQ(kept["past"].size(), 200u);
+  EXPECT_EQ(kept["past"][0], step(100));
+  session.set("texture.depth", "301 nm", 0);
+  kept = kept_in(place);
+  EXPECT_EQ(kept["past"].size(), 200u);
+  EXPECT_EQ(kept["past"][0], step(101));
+  EXPECT_EQ(kept["past"][199], step(300));
+  EXPECT_EQ(kept["draft"], step(301));
+  session.undo();
+  kept = kept_in(place);
+  EXPECT_EQ(kept["past"].size(), 199u);
+  EXPECT_EQ(kept["future"], nlohmann::json::array({step(301)}));
+}
+
+// Pins stay, the draft and its way back do not.
+TEST(Session, OfAnotherFileKeepsThePinsAlone) {
+  const TemporaryFolder place;
+  {
+    Session session(place.path(), kHoles);
+    session.set("texture.depth", "350 nm", 0);
+    session.pin("holes");
+  }
+  const std::string flat = PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml";
+  Session session(place.path(), flat);
+  EXPECT_EQ(session.view().draft, (Draft{flat, {}}));
+  EXPECT_FALSE(session.view().can_undo);
+  ASSERT_EQ(session.view().pins.size(), 1u);
+  session.take(1);
+  EXPECT_DOUBLE_EQ(depth(session), 350e-9);
+  EXPECT_DOUBLE_EQ(get_number(session.view().opened, "texture.depth"), 600e-9);
+}
+
+TEST(Session, StaysAsItWasWhereItsFileCannotBeSaved) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  session.set("texture.depth", "350 nm", 0);
+  const SessionView before = session.view();
+  EXPECT_THROW(
+      session.save_as(kHoles, [](const Draft&, const Study&) { throw InputError("full"); }),
+      InputError);
+  EXPECT_EQ(session.view().draft, before.draft);
+  EXPECT_EQ(session.view().revision, before.revision);
 }
 
 TEST(Changes, MakeOneDesignOfAnother) {

@@ -1,6 +1,7 @@
 // A wish on the page as a study file, and the first answer's band.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,8 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "config/describe.h"
+#include "optim/journal.h"
+#include "search/protocol.h"
 #include "studio/first_answer.h"
 #include "studio/search_desk.h"
 #include "tests/temporary.h"
@@ -99,6 +102,242 @@ TEST(SearchWish, RefusesWhatIsNoSearch) {
   pinned.variables.erase(pinned.variables.begin());
   EXPECT_THROW(study_text(study, pinned), InputError);
   EXPECT_THROW(search_wish(Json{{"maximise", {"x"}}}), InputError);
+}
+
+// Half to twice of each number, as far as its key goes; what is usually searched is let vary.
+TEST(SearchWish, ProposesHalfToTwiceOfWhatADesignHas) {
+  const auto rows = [](const Study& study) {
+    std::vector<std::string> out;
+    const Json wish = proposed_wish(study);
+    for (const Json& v : wish["variables"]) {
+      EXPECT_EQ(v["excluding"], "");
+      out.push_back(v["path"].get<std::string>() + " " + v["low"].get<std::string>() + " to " +
+                    v["high"].get<std::string>() + (v["vary"] == true ? " *" : ""));
+    }
+    return out;
+  };
+  Study holes = read_study(kHoles);
+  EXPECT_EQ(rows(holes),
+            (std::vector<std::string>{
+                "texture.period 3 um to 12 um", "texture.diameter 1.5 um to 6 um *",
+                "texture.depth 300 nm to 1200 nm *", "texture.wall_angle 45 deg to 90 deg",
+                "surface.contact_angle 25 deg to 100 deg", "drive.amplitude 100 V to 400 V"}));
+  holes.variables = {{"texture.depth", "nm", 100e-9, 800e-9, {}}};  // its own come first, alone
+  EXPECT_EQ(rows(holes),
+            (std::vector<std::string>{
+                "texture.depth 100 nm to 800 nm *", "texture.period 3 um to 12 um",
+                "texture.diameter 1.5 um to 6 um", "texture.wall_angle 45 deg to 90 deg",
+                "surface.contact_angle 25 deg to 100 deg", "drive.amplitude 100 V to 400 V"}));
+}
+
+TEST(SearchWish, ProposesTheGoalsAndLimitsOfItsStudy) {
+  Study study = read_study(kHoles);
+  Json wish = proposed_wish(study);
+  EXPECT_EQ(wish["minimise"], Json({"variation(modulation)"}));
+  EXPECT_EQ(wish["limits"], Json::array());
+  EXPECT_EQ(wish["kinds"], Json::array());
+  EXPECT_EQ(wish["evaluations"], 0);
+  study.design.drive.amplitude = 0;
+  wish = proposed_wish(study);
+  EXPECT_EQ(wish["maximise"], Json({"mean(friction)"}));
+  EXPECT_EQ(wish["minimise"], Json::array());
+  study.objective.minimise = {"worst(friction)"};
+  study.constraints = {{"min_hole", 1.5e-6, true}, {"aspect_ratio", 2, false}};
+  study.search.evaluations = 40;
+  wish = proposed_wish(study);
+  EXPECT_EQ(wish["maximise"], Json::array());
+  EXPECT_EQ(wish["minimise"], Json({"worst(friction)"}));
+  EXPECT_EQ(wish["limits"], Json::parse(R"([{"name":"min_hole","limit":"1.5 um"},
+      {"name":"aspect_ratio","limit":"2"}])"));
+  EXPECT_EQ(wish["evaluations"], 40);
+  bool known = false;
+  for (const Json& limit : wish["known_limits"])
+    known = known ||
+            (limit["name"] == "min_hole" && limit["unit"] == "um" && limit["at_least"] == true);
+  EXPECT_TRUE(known);
+  for (const Json& metric : wish["metrics"]) EXPECT_NE(metric["name"], "haze");
+  EXPECT_FALSE(wish["metrics"].empty());
+}
+
+TEST(SearchWish, IsReadAsThePageSendsIt) {
+  const Json sent = Json::parse(R"({"variables":[{"path":"a","low":"1 nm","high":"2 nm"},
+      {"path":"b","low":"3","high":"4","excluding":"3.2 to 3.4"}],"kinds":["x","y"],
+      "maximise":["m"],"minimise":["n","o"],"limits":[{"name":"p","limit":"5"}],"evaluations":7})");
+  const SearchWish wish = search_wish(sent);
+  ASSERT_EQ(wish.variables.size(), 2u);
+  EXPECT_EQ(wish.variables[0].path + wish.variables[0].low + wish.variables[0].high, "a1 nm2 nm");
+  EXPECT_EQ(wish.variables[0].excluding, "");
+  EXPECT_EQ(wish.variables[1].excluding, "3.2 to 3.4");
+  EXPECT_EQ(wish.kinds, (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(wish.maximise, std::vector<std::string>{"m"});
+  EXPECT_EQ(wish.minimise, (std::vector<std::string>{"n", "o"}));
+  ASSERT_EQ(wish.limits.size(), 1u);
+  EXPECT_EQ(wish.limits[0].name + wish.limits[0].limit, "p5");
+  EXPECT_EQ(wish.evaluations, 7);
+  EXPECT_EQ(search_wish(Json{{"variables", Json::array()}}).evaluations, 0);
+  const auto refused = [&](const char* key, const Json& value) {
+    Json other = sent;
+    other[key] = value;
+    try {
+      search_wish(other);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string why =
+      "a search needs variables, each with path, low and high, and an objective";
+  EXPECT_EQ(refused("variables", 3), why);
+  EXPECT_EQ(refused("variables", Json::parse(R"([{"path":"a","low":"1"}])")), why);
+  EXPECT_EQ(refused("variables", Json::parse(R"([{"path":"a","low":1,"high":2}])")), why);
+  EXPECT_EQ(refused("limits", Json::parse(R"([{"name":"p"}])")), why);
+  EXPECT_EQ(refused("evaluations", "many"), why);
+  EXPECT_EQ(refused("maximise", "m"), why);
+  for (const char* key : {"kinds", "maximise", "minimise"}) {
+    EXPECT_EQ(refused(key, std::vector<std::string>(40, "x")), "");
+    EXPECT_EQ(refused(key, std::vector<std::string>(41, "x")),
+              std::string(key) + ": too many of them");
+  }
+}
+
+TEST(SearchWish, KeepsWhatThePageDoesNotSay) {
+  const Study study = reread(study_text(read_study(kHoles), depth_wish()));
+  SearchWish wish;
+  wish.variables = {{"surface.contact_angle", "30 deg", "80 deg"},
+                    {"drive.amplitude", "100", "100"}};
+  wish.minimise = {"mean(modulation)"};
+  const Study made = reread(study_text(study, wish));
+  EXPECT_TRUE(made.objective.maximise.empty());
+  EXPECT_EQ(made.objective.minimise, wish.minimise);
+  EXPECT_TRUE(made.constraints.empty());
+  EXPECT_EQ(made.search.evaluations, 12);  // 0: as it was
+  wish.evaluations = 1;
+  wish.kinds = {"hole_array"};  // one is no choice
+  const Study one = reread(study_text(study, wish));
+  EXPECT_EQ(one.search.evaluations, 1);
+  ASSERT_EQ(one.variables.size(), 1u);
+  EXPECT_EQ(one.variables[0].path, "surface.contact_angle");
+  wish.kinds = {"hole_array", "pillar_array"};
+  const Study two = reread(study_text(study, wish));
+  ASSERT_EQ(two.variables.size(), 2u);
+  EXPECT_TRUE(two.variables[0].is_kind() || two.variables[1].is_kind());
+  EXPECT_EQ(proposed_wish(two)["kinds"], Json({"hole_array", "pillar_array"}));
+}
+
+TEST(SearchWish, AnExcludedRangeHasItsUnitOnceOrTwice) {
+  const auto excluded = [](const char* text) {
+    SearchWish wish = depth_wish();
+    wish.variables.front().excluding = text;
+    const Study made = reread(study_text(read_study(kHoles), wish));
+    EXPECT_EQ(made.variables.at(0).excluded.size(), 1u);
+    const Excluded e = made.variables.at(0).excluded.at(0);
+    return std::pair(std::lround(1e9 * e.from), std::lround(1e9 * e.to));
+  };
+  EXPECT_EQ(excluded("300 to 400 nm"), std::pair(300l, 400l));
+  EXPECT_EQ(excluded("300 nm to 0.4 um"), std::pair(300l, 400l));
+  EXPECT_EQ(excluded("0.3 to 0.4 um"), std::pair(300l, 400l));
+  for (const char* wrong : {"300 nm", "300 nm to", "to 400 nm", "300-400 nm", "x to 400 nm"}) {
+    SearchWish wish = depth_wish();
+    wish.variables.front().excluding = wrong;
+    EXPECT_THROW(study_text(read_study(kHoles), wish), InputError) << wrong;
+  }
+}
+
+// A search of two designs that were judged, one that failed and one too weak, left in its middle.
+class LeftSearch : public ::testing::Test {
+ protected:
+  LeftSearch() {
+    std::filesystem::create_directories(folder_);
+    write_bytes(folder_ / "study.toml", study_text(read_study(kHoles), depth_wish()));
+    write_bytes(folder_ / "origin.json",
+                R"({"file":")" + kHoles + R"(","changes":[["texture.depth","500 nm"]]})");
+    add(Stage::Draft, 0.1, judged(-0.9));
+    add(Stage::Search, 0.5, judged(-0.3));
+    journal_ += "damaged\n";
+    add(Stage::Search, 0, judged(-0.6, 0.5));
+    Outcome failed;
+    failed.reason = "crashed";
+    add(Stage::Search, 1, failed);
+    add(Stage::Search, 0.2, judged(-0.4));
+  }
+  static Outcome judged(double objective, double constraint = -1) {
+    Outcome out;
+    out.ok = true, out.objectives = {objective}, out.constraints = {constraint};
+    return out;
+  }
+  static std::string line(Stage stage, double unit, const Outcome& outcome) {
+    TaskRequest request;
+    request.stage = stage, request.unit = {unit};
+    return journal_line({encode(request), encode(search::Judgement{outcome, 0})}) + "\n";
+  }
+  void add(Stage stage, double unit, const Outcome& outcome) {
+    journal_ += line(stage, unit, outcome);
+  }
+  Json json() const {
+    write_bytes(folder_ / "journal", journal_);
+    return SearchDesk(place_.path(), "none", [] {}).json();
+  }
+
+  const TemporaryFolder place_;
+  const std::filesystem::path folder_ = place_.path() / "searches/003";
+  std::string journal_;
+};
+
+TEST_F(LeftSearch, ShowsWhatWasFound) {
+  const std::string next = line(Stage::Search, 0.3, judged(-0.5));
+  journal_ += next.substr(0, next.size() - 3);  // still being written
+  Json left = json();
+  EXPECT_EQ(left["points"],
+            Json::parse(R"([{"values":["450 nm"],"objectives":[0.3],"ok":true,"feasible":true},
+      {"values":["100 nm"],"objectives":[0.6],"ok":true,"feasible":false},
+      {"values":["800 nm"],"objectives":[],"ok":false,"feasible":false},
+      {"values":["240 nm"],"objectives":[0.4],"ok":true,"feasible":true}])"));
+  left.erase("points");
+  EXPECT_EQ(left, Json::parse(R"json({"state":"paused","number":3,"folder":"searches/003",
+      "stage":"search","done":4,"total":12,"trouble":"",
+      "variables":[{"path":"texture.depth","unit":"nm"}],
+      "objectives":[{"name":"mean(modulation)","maximise":true}],"front":[3],"confirmed":[]})json"));
+}
+
+TEST_F(LeftSearch, SaysHowFarItCame) {
+  for (const auto& [stage, name] : {std::pair{Stage::Narrow, "narrow"},
+                                    {Stage::Confirm, "confirm"},
+                                    {Stage::Stability, "check"},
+                                    {Stage::Sensitivity, "check"},
+                                    {Stage::Draft, "search"}}) {
+    add(stage, 0.2, judged(0));
+    EXPECT_EQ(json()["stage"], name);
+    EXPECT_EQ(json()["done"], 4);
+    EXPECT_EQ(json()["state"], "paused");
+  }
+  add(Stage::Done, 0, {});
+  EXPECT_EQ(json()["state"], "paused");  // its results are not there
+  write_bytes(folder_ / "pareto.csv", "folder,mean\nfront/01,0.4\n");
+  EXPECT_EQ(json()["confirmed"], Json::array());
+  write_bytes(folder_ / "run.json", "{}");
+  EXPECT_EQ(json()["state"], "finished");
+  EXPECT_EQ(json()["confirmed"], Json::parse(R"([{"folder":"front/01","mean":"0.4"}])"));
+  // The newest is shown; what is no search is passed over.
+  std::filesystem::create_directories(place_.path() / "searches/007");
+  EXPECT_EQ(json()["number"], 3);
+  write_bytes(place_.path() / "searches/007/study.toml", "nothing");
+  EXPECT_EQ(json()["number"], 7);
+  EXPECT_EQ(json()["state"], "failed");
+}
+
+TEST_F(LeftSearch, GivesItsDesigns) {
+  write_bytes(folder_ / "journal", journal_);
+  const SearchDesk desk(place_.path(), "none", [] {});
+  EXPECT_EQ(desk.design_of(0), (Draft{kHoles, {{"texture.depth", "450 nm"}}}));
+  EXPECT_EQ(desk.design_of(3), (Draft{kHoles, {{"texture.depth", "240 nm"}}}));
+  EXPECT_THROW(desk.design_of(4), InputError);
+  EXPECT_THROW(desk.design_of("front/01"), InputError);
+  std::filesystem::create_directories(folder_ / "front/01");
+  write_design((folder_ / "front/01/design.toml").string(),
+               read_design(kHoles, {"texture.depth=300 nm", "drive.amplitude=100 V"}));
+  EXPECT_EQ(desk.design_of("front/01"),
+            (Draft{kHoles, {{"texture.depth", "300 nm"}, {"drive.amplitude", "100 V"}}}));
+  EXPECT_THROW(desk.design_of("front/../front/01"), InputError);
 }
 
 // `optimize` that is ended by a signal leaves files, run.json too, and a journal without an end.
@@ -222,6 +461,54 @@ TEST(SearchDesk, AFailedSearchSaysTheEndOfItsLog) {
   EXPECT_EQ(json["state"], "failed");
   EXPECT_EQ(json["trouble"], std::string(590, '0') + "7no water\n");
   EXPECT_EQ(json["confirmed"], Json::array());
+}
+
+// A search that waits until it is told to end; each start leaves its words.
+TEST(SearchDesk, APausedSearchWasAskedToEndAndGoesOnFromItsJournal) {
+  const TemporaryFolder place;
+  const std::filesystem::path program = place.path() / "program.sh";
+  write_bytes(program,
+              "#!/bin/sh\ntrap 'echo heard >> $4/heard; kill $!; exit 143' TERM\n"
+              ": > $4/journal\necho \"$@\" >> $4/words\nwhile :; do sleep 1 & wait $!; done\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  SearchDesk desk(place.path(), program, [] {});
+  EXPECT_THROW(desk.pause(), InputError);
+  EXPECT_THROW(desk.resume(), InputError);
+  EXPECT_THROW(desk.stop(), InputError);
+  desk.start({kHoles, {}}, read_study(kHoles), depth_wish(), false);
+  const std::filesystem::path folder = place.path() / "searches/001";
+  const auto wait_for_words = [&](std::size_t lines) {
+    const auto seen = [&] {
+      if (!std::filesystem::exists(folder / "words")) return false;
+      const std::string text = read_bytes(folder / "words");
+      return std::count(text.begin(), text.end(), '\n') == static_cast<std::ptrdiff_t>(lines);
+    };
+    for (int i = 0; i < 500 && !seen(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    EXPECT_TRUE(seen());
+  };
+  wait_for_words(1);
+  EXPECT_THROW(desk.resume(), InputError);
+  EXPECT_THROW(desk.start({kHoles, {}}, read_study(kHoles), depth_wish(), false), InputError);
+  desk.pause();
+  EXPECT_EQ(desk.json()["state"], "paused");
+  EXPECT_EQ(read_bytes(folder / "heard"), "heard\n");
+  EXPECT_THROW(desk.pause(), InputError);
+  EXPECT_THROW(desk.stop(), InputError);  // nothing was judged
+  desk.resume();
+  EXPECT_EQ(desk.json()["state"], "running");
+  wait_for_words(2);
+  // Steered: the running one ends, the next has a folder of its own.
+  desk.start({kHoles, {{"texture.depth", "500 nm"}}}, read_study(kHoles, {"texture.depth=500 nm"}),
+             depth_wish(), true);
+  EXPECT_EQ(read_bytes(folder / "heard"), "heard\nheard\n");
+  const std::string words =
+      "optimize " + (folder / "study.toml").string() + " --out " + folder.string();
+  EXPECT_EQ(read_bytes(folder / "words"), words + "\n" + words + " --resume\n");
+  EXPECT_EQ(desk.json()["number"], 2);
+  EXPECT_EQ(desk.json()["folder"], "searches/002");
+  EXPECT_EQ(Json::parse(read_bytes(place.path() / "searches/002/origin.json")),
+            Json::parse(R"({"file":")" + kHoles + R"(","changes":[["texture.depth","500 nm"]]})"));
 }
 
 // 128 and more: by a signal that it heard.
