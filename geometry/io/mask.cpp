@@ -112,11 +112,7 @@ double narrowest_neck(const Grid& grid, const std::vector<std::uint8_t>& set, co
         const double ax = n.dx[i] * grid.dx(), ay = n.dy[i] * grid.dy();
         const double bx = n.dx[j] * grid.dx(), by = n.dy[j] * grid.dy();
         if (ax * bx + ay * by > cosine * n.distance[i] * n.distance[j]) continue;
-        // Neither pixel need stand on the middle line itself: the longer of the way through both
-        // and the straight line between their borders.
-        const double through = n.distance[i] + n.distance[j] + (sx ? grid.dx() : grid.dy());
-        const double straight = std::hypot(bx + sx * grid.dx() - ax, by + sy * grid.dy() - ay);
-        best = std::min(best, std::max(through, straight));
+        best = std::min(best, n.distance[i] + n.distance[j] + (sx ? grid.dx() : grid.dy()));
       }
     }
   }

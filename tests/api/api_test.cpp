@@ -70,6 +70,9 @@ TEST(Library, ASensitivityIsAFiniteStepOnCommonSkins) {
   options.keys = {"texture.depth"};
   const auto found = papilla::sensitivity(design, "mean(friction)", options);
   ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].path, "texture.depth");
+  EXPECT_EQ(found[0].unit, "nm");
+  EXPECT_DOUBLE_EQ(found[0].value, 350e-9);
   const auto friction = [&](double depth) {
     return papilla::evaluate(design.with("texture.depth:", std::to_string(1e9 * depth) + "e-9"))
         .points()

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -221,6 +222,25 @@ TEST(BridgeLimit, IsABridgeOfTheBranch) {
     EXPECT_NEAR(branch.at().p, limit.at.p, 0.05);
     EXPECT_NEAR(branch.at().r1, limit.at.r1, 0.05);
     EXPECT_FALSE(branch.go_to(limit.height * 1.01));
+  }
+}
+
+TEST(Bridge, OfWhatIsNoneHasNoForceNoEnergyAndNoCircle) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const Bridge right = solve_sphere_bridge(1, 0.1, 2, 1, 1, 1);
+  ASSERT_EQ(right.status, BridgeStatus::Converged);
+  EXPECT_GT(right.force, 0);
+  for (const Bridge& b :
+       {Bridge{}, solve_bridge(-1, 0.1, 1, 1, 1), solve_bridge(1, 100, 1, 1, 1),
+        solve_sphere_bridge(-1, 0.1, 2, 1, 1, 1), solve_sphere_bridge(1, -0.1, 2, 1, 1, 1),
+        solve_sphere_bridge(1, 0.1, -2, 1, 1, 1), solve_sphere_bridge(1, 0.1, 2, 4, 1, 1),
+        solve_sphere_bridge(1, 0.1, 2, 1, -1, 1), solve_sphere_bridge(1, 0.1, 2, 1, 1, 0),
+        solve_sphere_bridge(infinity, 0.1, 2, 1, 1, 1),
+        solve_sphere_bridge(1, infinity, 2, 1, 1, 1),
+        solve_sphere_bridge(1, 0.1, infinity, 1, 1, 1)}) {
+    EXPECT_TRUE(b.status == BridgeStatus::Invalid || b.status == BridgeStatus::Ruptured);
+    for (const double v : {b.energy, b.force, b.pressure, b.radius1, b.radius2, b.free_area, b.arc})
+      EXPECT_EQ(v, 0);
   }
 }
 

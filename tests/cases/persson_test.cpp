@@ -150,6 +150,12 @@ TEST(MeanFieldCurves, AddUpToThePointThatTheyBelongTo) {
   const MeanFieldPoint p = solve_mean_field(c).point;
   const MeanFieldCurves curves = mean_field_curves(c);
   EXPECT_NEAR(curves.roughness.back().area, p.area_off, 1e-9 * p.area_off);
+  // Wave numbers from the lowest to the highest, each beside its roughness.
+  const auto spectrum = c.roughness.spectrum();
+  EXPECT_NEAR(curves.roughness.front().wave_number, spectrum.lowest(), 1e-9 * spectrum.lowest());
+  EXPECT_NEAR(curves.roughness.back().wave_number, spectrum.highest(), 1e-9 * spectrum.highest());
+  for (const auto& at : curves.roughness)
+    EXPECT_NEAR(at.given, spectrum.at(at.wave_number), 1e-9 * at.given) << at.wave_number;
   // The pull is that of the gaps in the table and of those below, whose stress is the largest.
   const double largest = 0.5 * kVacuumPermittivity * 5e3 / square(std::abs(p.thickness));
   const MeanField field(c.roughness.spectrum(), c.skin.solid,

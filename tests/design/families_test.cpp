@@ -122,5 +122,21 @@ TEST(Family, WrongKindsAndLevelsAreReported) {
   EXPECT_THROW(read("design_space.texture.levels={ choice = [2] }"), InputError);
 }
 
+TEST(Parts, AreFoundByTheirNumberAndWhatIsNoneIsTheWhole) {
+  HoleArray holes;
+  Grating grooves;
+  PillarArray pillars;
+  Stack inner, outer;
+  inner.parts = {Texture{grooves}, Texture{pillars}};
+  outer.parts = {Texture{holes}, Texture{inner}};
+  const Texture whole{outer};
+  EXPECT_EQ(part_at(whole, "texture.parts.0.depth"), Texture{holes});
+  EXPECT_EQ(part_at(whole, "texture.parts.1"), Texture{inner});
+  EXPECT_EQ(part_at(whole, "texture.parts.1.parts.0.width"), Texture{grooves});
+  EXPECT_EQ(part_at(whole, "texture.parts.1.parts.1.height"), Texture{pillars});
+  for (const char* path : {"texture.parts.2.depth", "texture.parts.x", "texture.combine", "drive"})
+    EXPECT_EQ(part_at(whole, path), whole) << path;
+}
+
 }  // namespace
 }  // namespace papilla::tests

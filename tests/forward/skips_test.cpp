@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <map>
@@ -166,6 +167,33 @@ TEST(SkipBounds, HoldForKelvinCondensation) {
         std::abs(measure_area(*kernel, wet).near_edge / measure_area(*kernel, dry).near_edge - 1));
   }
   expect_bounds("Kelvin condensation", bounds, actual);
+}
+
+// Each is a force over the load, in a law of friction over the load: twice the exponent, twice the
+// bound. On a flat glass the attraction is that of its gaps.
+TEST(SkipBounds, GoWithTheExponentOfTheLaw) {
+  Fidelity once = small(), twice = small();
+  once.load_exponent = 0.4, twice.load_exponent = 0.8;
+  const std::array bounds{&SkipBounds::van_der_waals, &SkipBounds::kelvin,
+                          &SkipBounds::self_consistency};
+  std::array<double, 3> sum{};
+  for (int i = 0; i < 6; ++i) {
+    Texture texture;
+    const Scene scene = scene_at(i, texture);
+    const SkipBounds a = skip_bounds(scene, texture, once, 1),
+                     b = skip_bounds(scene, texture, twice, 1);
+    for (std::size_t k = 0; k < bounds.size(); ++k) {
+      if (!std::isfinite(a.*bounds[k])) continue;
+      EXPECT_NEAR(b.*bounds[k], 2 * (a.*bounds[k]), 1e-9 * (a.*bounds[k])) << i << " " << k;
+      sum[k] += a.*bounds[k];
+    }
+    const double rh = scene.environment.relative_humidity[0];
+    const PatchPicture p = picture_patch(scene, texture, once, rh, 0);
+    const double waals = van_der_waals_traction({p.texture.grid, p.fields.off.gap}).mean();
+    EXPECT_NEAR(a.van_der_waals, 0.8 * waals / mean_estimate(p.fields.off.pressure).value,
+                0.05 * a.van_der_waals);
+  }
+  for (const double s : sum) EXPECT_GT(s, 0);
 }
 
 }  // namespace

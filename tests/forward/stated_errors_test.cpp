@@ -71,6 +71,12 @@ TEST(StatedErrors, TheScatterBetweenSkinsIsTheSamplingPart) {
   fidelity.threads = 1;
   PatchSet set = solve_patches(scene, Texture{}, fidelity);
   ASSERT_EQ(set.skins(), 5);
+  // Two are the fewest that say how they scatter.
+  for (const int skins : {1, 2, 5}) {
+    PatchSet first = set;
+    for (auto& results : first.results) results.resize(static_cast<std::size_t>(skins));
+    EXPECT_EQ(respond(scene, fidelity, first).without.size(), skins > 1 ? skins : 0u) << skins;
+  }
   const std::vector<double> scatter = planted(1, 0.03);
   for (std::size_t k = 0; k < 5; ++k) {
     set.results[0][k].pull = 2e-6 * scatter[k];
@@ -112,6 +118,11 @@ TEST(StatedErrors, OctavesThatTheGridLeavesOutAreTakenOffTheAreas) {
     EXPECT_NEAR(resolved_areas(runs), 1 - lacking, 1e-9) << octaves;
     EXPECT_NEAR(grid_part(runs, area), 0.12 * lacking, 1e-9) << octaves;
   }
+  // Coarse features add a fifth of a step that drops an octave of the skin as well.
+  runs.octaves = 1;
+  runs.coarse_features = 1;
+  EXPECT_NEAR(grid_part(runs, area), 0.2 * 0.1, 1e-9);
+  runs.coarse_features = 0;
   // Of a grid that leaves next to nothing out nothing is taken off, and that its areas are known no
   // better than by 0.6 of an octave is not forgotten.
   runs.octaves = 0;

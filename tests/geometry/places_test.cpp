@@ -8,6 +8,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "geometry/profile.h"
 #include "geometry/roughness.h"
 #include "geometry/texture.h"
 #include "geometry/textures/particle_film.h"
@@ -207,6 +208,19 @@ TEST(Places, PixelsOfASlantedWallAreAveragesOverTheirSquares) {
 }
 
 // The margins of an array by hand: walls of 60 degrees narrow a hole of 4 um by twice 0.3 um / tan.
+// A hole shallower than the radius of its rim: the floor cuts the arc, which begins a radius before
+// the edge of an upright wall.
+TEST(WallProfile, OfAShallowHoleIsTheArcDownToItsFloor) {
+  const double radius = 200e-9, depth = 50e-9, pixel = 0.01e-9;
+  const WallProfile wall(depth, kPi / 2, radius);
+  for (const double t : {-20e-9, 10e-9, 60e-9, 130e-9, 134e-9, 180e-9, 300e-9}) {
+    const double arc = t <= 0       ? 0
+                       : t < radius ? radius - std::sqrt(radius * radius - t * t)
+                                    : radius;
+    EXPECT_NEAR(wall.mean_drop(t - radius, pixel), std::min(arc, depth), 1e-12) << t;
+  }
+}
+
 TEST(Margins, AreThoseOfTheFloorAndTheLand) {
   const double run = 3e-7 / std::tan(kPi / 3);
   const HoleArray holes{.period = 6e-6, .diameter = 4e-6, .depth = 3e-7, .wall_angle = kPi / 3};

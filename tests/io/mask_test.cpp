@@ -46,6 +46,31 @@ TEST(PixelMargins, AreThoseOfHolesPillarsAndGrooves) {
   EXPECT_EQ(measure_margins(generate({}, patch_grid({}, 32))).min_hole, kInfinity);
 }
 
+// Two round holes that run into one another: the line through both of their crossings is the neck,
+// whichever way it lies.
+TEST(PixelMargins, AShortNeckBetweenTwoHolesIsTheirNarrowestPlace) {
+  const double radius = 3e-6;
+  for (const double apart : {4.4e-6, 4.8e-6}) {
+    for (const bool upright : {false, true}) {
+      Heightmap h{upright ? Grid{150, 200, 12e-6, 20e-6} : Grid{200, 150, 20e-6, 12e-6}, {}};
+      h.z.assign(h.grid.size(), 0);
+      const double x = 0.5 * h.grid.lx, y = 0.5 * h.grid.ly;
+      for (int iy = 0; iy < h.grid.ny; ++iy) {
+        for (int ix = 0; ix < h.grid.nx; ++ix) {
+          const double along =
+                           upright ? (iy + 0.5) * h.grid.dy() - y : (ix + 0.5) * h.grid.dx() - x,
+                       across =
+                           upright ? (ix + 0.5) * h.grid.dx() - x : (iy + 0.5) * h.grid.dy() - y;
+          if (std::hypot(std::abs(along) - 0.5 * apart, across) < radius) h(ix, iy) = -100e-9;
+        }
+      }
+      const double neck = 2 * std::sqrt(radius * radius - 0.25 * apart * apart);
+      const PixelMargins found = measure_margins(h);
+      EXPECT_NEAR(found.min_hole, neck, 1.6 * found.pixel) << apart << upright;
+    }
+  }
+}
+
 TEST(PixelMargins, DistancesAreThoseOfEveryPair) {
   const Grid grid{24, 17, 24e-6, 34e-6};
   RandomStream random(5, "mask test", 0);
@@ -184,6 +209,13 @@ TEST(Dose, IsTheInverseOfTheCurveAndCountsWhatItClips) {
     std::ofstream(path) << wrong;
     EXPECT_THROW(read_dose_curve(path), InputError) << wrong;
   }
+}
+
+TEST(Dose, TwoLinesAreACurve) {
+  const std::string path = temporary("two.csv");
+  std::ofstream(path) << "0,10\n100,60\n";
+  const DoseCurve curve = read_dose_curve(path);
+  EXPECT_EQ(curve.grey, (std::vector<double>{10, 60}));
 }
 
 // Rows from the top; half a nanometre beyond either end is the end.

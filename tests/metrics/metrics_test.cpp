@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "metrics/series.h"
+#include "metrics/shown.h"
 
 namespace papilla::tests {
 namespace {
@@ -276,6 +277,15 @@ TEST(Amplitude, IsWhatTheSourceApplies) {
   EXPECT_EQ(summarise(Summary::Worst, "drive.amplitude", r)->value, 150);  // less is better
   r.driven = false;
   EXPECT_FALSE(summarise(Summary::Mean, "drive.amplitude", r));
+}
+
+TEST(Metrics, ErrorsAreShownInTheUnitsOfTheirValues) {
+  const MetricExpression friction = parse_metric("mean(friction)"),
+                         variation = parse_metric("variation(friction)");
+  EXPECT_EQ(shown_value(friction, 0.1234, false), "123.4");
+  EXPECT_EQ(shown_error(friction, 0.00123), "1.2");  // mN
+  EXPECT_EQ(shown_error(variation, 0.01234), "0.012");
+  EXPECT_EQ(shown_error(parse_metric("mean(mean_gap)"), 43.2e-9), "43");  // nm
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -41,6 +42,12 @@ TEST(LeastSquares, APriorAddsItsInformation) {
   EXPECT_NEAR(prior.parameters[1].value, (5 * (69.9 + 100) - 10 * 25.2) / det, 1e-8);
   EXPECT_NEAR(prior.parameters[1].se, std::sqrt(5 / det), 1e-8);
   EXPECT_NEAR(prior.parameters[1].data_share, 30.0 / 130, 1e-8);
+  // The sum of the squares of each: what is missed of the values, and of the prior.
+  const double a = prior.parameters[0].value, b = prior.parameters[1].value;
+  const Values missed{1.2 - a, 2.9 - a - b, 5.1 - a - 2 * b, 7.2 - a - 3 * b, 8.8 - a - 4 * b};
+  EXPECT_NEAR(prior.chi2, std::inner_product(missed.begin(), missed.end(), missed.begin(), 0.0),
+              1e-12);
+  EXPECT_NEAR(prior.prior_chi2, std::pow((b - 1) / 0.1, 2), 1e-9);
   EXPECT_EQ(free.degrees_of_freedom, 3);  // five values, two parameters
   EXPECT_EQ(prior.degrees_of_freedom, 4);
   EXPECT_EQ(

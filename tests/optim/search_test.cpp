@@ -583,5 +583,42 @@ TEST(GaussianProcess, GoesWithTheScaleAndThePlaceOfItsValues) {
               1e-4 * other.leave_one_out_error());
 }
 
+// Two values by hand: Eq. search.6 with the fitted length and noise.
+TEST(GaussianProcess, OfTwoValuesIsItsClosedForm) {
+  const GaussianProcess process({{0.0}, {1.0}}, {10, 16});  // mean 13, scale 3
+  const double length = std::exp(process.parameters()[0]),
+               own = 1 + std::exp(process.parameters()[1]);
+  const auto alike = [&](double distance) {
+    const double r = std::sqrt(5.0) * distance / length;
+    return (1 + r + r * r / 3) * std::exp(-r);
+  };
+  const double both = alike(1), signal = 1 / (own - both);
+  for (const double x : {0.1, 0.25, 0.5, 0.9}) {
+    const double a = alike(x), b = alike(1 - x);
+    const double known = (own * (a * a + b * b) - 2 * both * a * b) / (own * own - both * both);
+    const Prediction p = process.predict({x});
+    EXPECT_NEAR(p.mean, 13 + 3 * (b - a) / (own - both), 1e-6) << x;
+    EXPECT_NEAR(p.sd, 3 * std::sqrt(signal * (1 - known)), 1e-5) << x;
+  }
+}
+
+TEST(DraftedProcess, FindsHowManyTimesTheDraftTheValuesAre) {
+  std::vector<Point> dense, few;
+  std::vector<double> draft_values, values;
+  for (int i = 0; i <= 24; ++i) {
+    dense.push_back({i / 24.0});
+    draft_values.push_back(std::sin(9 * i / 24.0));
+  }
+  for (int i = 0; i < 6; ++i) {
+    few.push_back({(4 * i + 1) / 24.0});
+    values.push_back(2 - 3 * std::sin(9 * few.back()[0]));
+  }
+  const GaussianProcess draft(dense, draft_values);
+  const DraftedProcess process(few, values, &draft);
+  EXPECT_NEAR(process.ratio(), -3, 0.02);
+  for (const double x : {0.13, 0.4, 0.71, 0.95})
+    EXPECT_NEAR(process.predict({x}).mean, 2 - 3 * std::sin(9 * x), 0.05) << x;
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -11,6 +11,7 @@
 #include "base/constants.h"
 #include "base/quadrature.h"
 #include "physics/persson/gap_integrals.h"
+#include "physics/persson/power_law.h"
 #include "tests/persson/table.h"
 
 namespace papilla::tests {
@@ -523,6 +524,13 @@ TEST(GapIntegrals, NodesOfTheTableAreExponentialIntegrals) {
       EXPECT_NEAR(look_up(table, y), expected, 1e-9 * expected) << y;
     }
   }
+}
+
+TEST(PowerIntegral, IsThatOfAPowerAndOfTheLogarithmBetweenThem) {
+  EXPECT_DOUBLE_EQ(power_integral(-1, 2, 6), std::log(3.0));
+  EXPECT_NEAR(power_integral(-1 + 1e-9, 2, 6), std::log(3.0), 1e-8);
+  EXPECT_NEAR(power_integral(2, 1, 3), 26.0 / 3, 1e-12);
+  EXPECT_NEAR(power_integral(-3, 1, 2), 3.0 / 8, 1e-12);
 }
 
 }  // namespace

@@ -120,6 +120,7 @@ TEST(BenchReport, ATargetIsMetOnItsSide) {
                              "| at it | 2 s | ≤ 2 s | yes |\n"))
       << bench_page(rows, "made up");
   const auto json = nlohmann::json::parse(bench_json(rows));
+  EXPECT_EQ(bench_json(rows), nlohmann::ordered_json::parse(bench_json(rows)).dump(2));
   EXPECT_EQ(json["schema"], 1);
   expect_same(json["rows"][0],
               {{"what", "pairs, cold"},

@@ -32,6 +32,9 @@ inline void expect_same(const nlohmann::json& a, const nlohmann::json& b, const 
 
 inline void expect_document(const std::string& text, const nlohmann::json& expected) {
   expect_same(nlohmann::json::parse(text), expected, "");
+  // Printed documents step by two blanks, files of a run by one and end their last line.
+  const auto own = nlohmann::ordered_json::parse(text);
+  EXPECT_EQ(text, text.ends_with('\n') ? own.dump(1) + "\n" : own.dump(2));
 }
 
 }  // namespace papilla::tests

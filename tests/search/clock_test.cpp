@@ -238,6 +238,8 @@ TEST(Rounding, LengthsGoToTheGridAndSmallOnesToAFinerOne) {
   const Variable depths{"texture.depth", "nm", 0, 1e-6, {}, {{503e-9, 596e-9}}};
   EXPECT_DOUBLE_EQ(on_grid(depths, 503e-9, 10e-9), 500e-9);
   EXPECT_DOUBLE_EQ(on_grid(depths, 596e-9, 10e-9), 600e-9);
+  EXPECT_DOUBLE_EQ(on_grid(depths, 203.4e-9, 10e-9), 203e-9);  // beside it as anywhere
+  EXPECT_DOUBLE_EQ(on_grid(depths, 703.4e-9, 10e-9), 700e-9);
   // Within its interval: 10 um is out, 9.99 um in.
   const Variable narrow{"texture.period", "um", 3e-6, 9.998e-6, {}};
   EXPECT_DOUBLE_EQ(on_grid(narrow, 9.998e-6, 10e-9), 9.99e-6);

@@ -12,6 +12,7 @@
 #include "report/response.h"
 #include "report/results.h"
 #include "report/summary.h"
+#include "search/folder.h"
 #include "search/run.h"
 #include "search/task.h"
 #include "tests/search/small_study.h"
@@ -178,6 +179,17 @@ TEST(Optimise, AnotherStudyIsRefusedByTheKeysThatDiffer) {
     EXPECT_NE(why.find("drive.amplitude \"200 V\", \"150 V\""), std::string::npos) << why;
     EXPECT_EQ(why.find("evaluations"), std::string::npos) << why;
   }
+}
+
+// Three are enough to see what is other; keys that a run may be continued with are none of them.
+TEST(DifferingKeys, AreThreeAtMostWithBothOfTheirValues) {
+  const std::string here = "a = 1\nb = 2\nc = 3\nd = 4\nonly = 5\n[search]\ntime = \"1 h\"\n";
+  EXPECT_EQ(differing_keys(here, here), "");
+  EXPECT_EQ(
+      differing_keys("a = 9\nb = 2\nc = 3\nd = 4\nother = 7\n[search]\ntime = \"2 h\"\n", here),
+      "a 9, 1; only none, 5; other 7, none");
+  EXPECT_EQ(differing_keys("a = 9\nb = 8\nc = 7\nd = 6\nonly = 5\n", here),
+            "a 9, 1; b 8, 2; c 7, 3");
 }
 
 // What the finger leaves open of two designs cancels where both answer alike, and only there.

@@ -1,6 +1,8 @@
 // The real server over the loopback: who is answered, what two pages see.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/studio/loopback.h"
 #include "tests/temporary.h"
 
@@ -37,6 +39,11 @@ TEST_F(Server, RefusesOtherOriginsHostsAndTokens) {
   const Reply state = replied(place_, place_.own("GET", "state"));
   EXPECT_NE(state.text.find(R"("path":"texture.depth","type":"number","value":"600 nm")"),
             std::string::npos);
+  const auto parts = nlohmann::json::parse(state.text.substr(state.text.find("\r\n\r\n") + 4));
+  EXPECT_TRUE(parts.at("session").contains("undo"));
+  EXPECT_TRUE(parts.at("search").contains("state"));
+  EXPECT_FALSE(parts.at("files").contains("undo"));
+  EXPECT_FALSE(parts.at("wish").contains("state"));
 }
 
 TEST_F(Server, SaysWhatIsWrongWithARequest) {
