@@ -31,6 +31,7 @@ NUMBER = re.compile(rb"^(0[xX][0-9a-fA-F']+|[0-9][0-9'.eE+-]*|\.[0-9]+[eE0-9+-]*
 COMMENT = re.compile(rb"//[^\n]*|/\*.*?\*/", re.S)
 
 # A literal is as likely as an operator, though there are many more of them.
+TRUTH = "static_cast<bool>("
 WEIGHTS = {"arithmetic": 28, "comparison": 12, "constant": 24, "order": 10, "dropped": 14,
            "function": 6, "logic": 6}
 
@@ -56,8 +57,15 @@ class Finder:
         return bisect.bisect_right(self.lines, offset)
 
     def show(self, pieces):
+        if pieces[0] == TRUTH:
+            pieces = pieces[1:-1]
         text = b"".join(p.encode() if isinstance(p, str) else self.text[p[0]:p[1]] for p in pieces)
         return " ".join(text.decode(errors="replace").split())
+
+    @staticmethod
+    def truth(start, end):
+        """What is asked whether it is true: an optional beside a bool would make that bool one that is there."""
+        return [TRUTH, (start, end), ")"]
 
     def add(self, kind, start, end, *mutations):
         if start >= end or b"#" in self.text[start:end]:
@@ -128,7 +136,7 @@ class Finder:
         types = [x.type.get_canonical().kind for x in children]
         if sign in LOGIC:
             self.add("logic", start, end, *[[(a, b), f" {o} ", (c, d)] for o in LOGIC[sign]])
-            self.add("dropped", start, end, [(a, b)], [(c, d)])
+            self.add("dropped", start, end, self.truth(a, b), self.truth(c, d))
             return
         if all(t in FLOATS | INTEGERS for t in types):
             operators = FLOAT_OPERATORS if any(t in FLOATS for t in types) else INTEGER_OPERATORS
@@ -160,7 +168,7 @@ class Finder:
         if sign == b"-" and canonical in FLOATS | INTEGERS:
             self.add("arithmetic", start, end, [self.span(child)])
         elif sign == b"!" and canonical == cindex.TypeKind.BOOL:
-            self.add("logic", start, end, [self.span(child)])
+            self.add("logic", start, end, self.truth(*self.span(child)))
 
     def literal(self, kind, start, end):
         text = self.text[start:end]

@@ -104,6 +104,22 @@ TEST(Rims, AHoleHasItsAreaPerimeterDepthAndWalls) {
   EXPECT_FALSE(RimMap(cone).valid());
 }
 
+// A fillet grows up to the top of the wall, in a narrow hole up to its middle: half the radius of a
+// round one, whose area over its perimeter that is.
+TEST(Rims, TheCornerOfAHoleHoldsAFilletUpToItsWallOrItsMiddle) {
+  const double theta = 20 * kDegree;
+  const Fillet fillet = corner_fillet(theta, kPi / 2);
+  for (const auto& [diameter, depth] : {std::pair{5e-6, 600e-9}, {2e-6, 900e-9}, {2e-6, 3e-6}}) {
+    const RimMap map(holed(diameter, depth));
+    const RimMap::Hole& hole = map.holes().at(0);
+    const double leg = std::min(depth, 2 * hole.area / hole.perimeter);
+    EXPECT_NEAR(2 * hole.area / hole.perimeter, 0.5 * diameter, 0.04 * diameter);
+    const double held = hole.perimeter * fillet.area * square(leg / fillet.leg);
+    EXPECT_NEAR(map.capacity(hole, theta), held, 1e-9 * held) << diameter << " " << depth;
+    EXPECT_EQ(map.capacity(hole, 50 * kDegree), 0);  // water creeps along no right angle
+  }
+}
+
 TEST(Rims, APinnedBridgeStaysOnItsSideOfTheEdge) {
   // A shallow hole under a skin that comes down towards its middle: free bridges run in.
   const Heightmap texture = holed(5e-6, 5e-9);

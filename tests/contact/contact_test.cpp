@@ -317,5 +317,19 @@ TEST(Contact, AWarmStartGivesTheSameAnswer) {
   EXPECT_NEAR(measure_area(*kernel, warm).near_edge, measure_area(*kernel, cold).near_edge, 1e-5);
 }
 
+// Nothing presses: whether it is the tractions that lift or nothing at all is said.
+TEST(Contact, WithoutALoadItIsSaidWhatLifts) {
+  const Grid grid{16, 16, 1e-6, 1e-6};
+  const ContactKernel kernel(grid, {1e6, 0.4, 1e-6, 1e5, 0.4, 0, 0.4});
+  std::vector<double> height(grid.size());
+  for (std::size_t i = 0; i < height.size(); ++i) height[i] = 1e-9 * static_cast<double>(i % 7);
+  const auto reason = [&](double load, double traction) {
+    return solve_contact(kernel, height, load, std::vector<double>(grid.size(), traction), {})
+        .reason;
+  };
+  EXPECT_EQ(reason(0, 0), "no load: first touch");
+  EXPECT_EQ(reason(100, -200), "the tractions lift the surfaces apart");
+}
+
 }  // namespace
 }  // namespace papilla::tests

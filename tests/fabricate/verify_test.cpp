@@ -48,6 +48,14 @@ TEST(Verify, SaysWhatIsWrongAndByHowMuch) {
       faults_of(folder, "mask.tif").find("its critical dimension (width of the holes) is 3.3"),
       std::string::npos)
       << faults_of(folder, "mask.tif");
+  HoleArray narrow = holes;  // too narrow is wrong as well
+  narrow.diameter = 2.7e-6;
+  again(narrow, "mask");
+  EXPECT_NE(
+      faults_of(folder, "mask.tif").find("its critical dimension (width of the holes) is 2.7"),
+      std::string::npos)
+      << faults_of(folder, "mask.tif");
+  again(wide, "mask");
   again(wide, "gds");
   EXPECT_NE(
       faults_of(folder, "texture.gds")

@@ -1,4 +1,5 @@
 // What a plan decides and what it says its pieces cost.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -133,6 +134,18 @@ TEST(PlanPrices, ASkinWithoutItsWavesIsSaidInNanometres) {
   for (const std::string& warning : plan.warnings)
     found = found || warning.find(said) != std::string::npos;
   EXPECT_TRUE(found) << said << "\n" << (plan.warnings.empty() ? "" : plan.warnings[0]);
+  // Two pixels to the shortest wave that every level keeps on the window of 12 um: the key that
+  // does is the next whole number.
+  const Texture shorter{PillarArray{.period = 30.1e-6, .diameter = 15e-6, .height = 100e-9}};
+  f.most_pixels = 128;
+  const Plan small = make_plan(driven(), shorter, f);
+  const double usual = std::max(small.skin_cutoff, 2 * 12e-6 / 128);
+  const double side = std::max(small.grid.lx, small.grid.ly);
+  ASSERT_FALSE(small.warnings.empty());
+  const std::string key =
+      fmt::format("accuracy.grid = {:.0f}, or a period", std::ceil(2 * side / usual));
+  EXPECT_NE(std::ceil(2 * side / usual), std::floor(2 * side / usual));
+  EXPECT_NE(small.warnings[0].find(key), std::string::npos) << key << "\n" << small.warnings[0];
 }
 
 TEST(PlanPrices, ATimeIsSaidInItsUnit) {

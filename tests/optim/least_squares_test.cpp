@@ -135,6 +135,10 @@ TEST(LeastSquares, SenselessParametersAreRefused) {
   EXPECT_THROW(least_squares({{"p", 0, 1, 0}}, 1, f), InputError);
   EXPECT_THROW(least_squares({{"p", 5, 0, 1}}, 1, f), InputError);
   EXPECT_THROW(least_squares({{"p", 0.5, 0, 1, 0, 0, true}}, 1, f), InputError);
+  for (const double sd : {0.1, 2.0}) {  // no logarithm has a prior below zero
+    EXPECT_THROW(least_squares({{"p", 0.5, 0.1, 1, -0.5, sd, true}}, 1, f), InputError);
+    EXPECT_THROW(least_squares({{"p", 0.5, 0.1, 1, 0.5, -sd}}, 1, f), InputError);
+  }
 }
 
 // Where the differences of a step of a twentieth are taken: a logarithm's by factors e^0.05,

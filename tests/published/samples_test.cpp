@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "base/statistics.h"
 #include "design/design.h"
+#include "forward/scale_bridge.h"
 #include "published/targets.h"
 
 namespace papilla::tests {
@@ -173,6 +174,13 @@ TEST(PublishedTargets, AreTheNumbersThatTheyName) {
     EXPECT_LE(t.low, t.high) << t.what;
     EXPECT_GT(t.sd, 0) << t.what;
   }
+}
+
+// The gap by its capacitance is that under 1 N on 30 mm2 of glass with 1 um of SiO2.
+TEST(PublishedTargets, TheGapOfASlidingFingerIsUnderItsMeanPressure) {
+  const Finger finger;
+  EXPECT_DOUBLE_EQ(capacitance_gap(finger), capacitive_gap(finger, 1 / 30e-6, 0.256e-6, 0.45));
+  EXPECT_GT(capacitive_gap(finger, 1 / 60e-6, 0.256e-6, 0.45), capacitance_gap(finger));
 }
 
 }  // namespace
