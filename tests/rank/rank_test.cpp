@@ -208,6 +208,8 @@ TEST(Rank, RefusesWhatHasNoMeaning) {
   EXPECT_THROW(parse_criteria("friction:down"), InputError);
   EXPECT_THROW(parse_criteria("compliance"), InputError);  // no better direction of its own
   EXPECT_THROW(parse_criteria("friction:low,"), InputError);
+  EXPECT_THROW(parse_criteria("mean(felt(modulation, 0.2)):high"), InputError);
+  EXPECT_THROW(parse_criteria("felt(modulation, 0.2):high"), InputError);
   EXPECT_FALSE(parse_criteria("variation(modulation)").front().high);
   Design undriven = sample("flat");
   undriven.drive.amplitude = 0;
