@@ -30,8 +30,9 @@ SYMMETRIC = {"min", "max", "hypot", "swap", "fmin", "fmax"}
 NUMBER = re.compile(rb"^(0[xX][0-9a-fA-F']+|[0-9][0-9'.eE+-]*|\.[0-9]+[eE0-9+-]*)[uUlLfFzZ]*$")
 COMMENT = re.compile(rb"//[^\n]*|/\*.*?\*/", re.S)
 
-# A literal is as likely as an operator, though there are many more of them.
 TRUTH = "static_cast<bool>("
+
+# A literal is as likely as an operator, though there are many more of them.
 WEIGHTS = {"arithmetic": 28, "comparison": 12, "constant": 24, "order": 10, "dropped": 14,
            "function": 6, "logic": 6}
 

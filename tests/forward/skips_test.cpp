@@ -170,7 +170,7 @@ TEST(SkipBounds, HoldForKelvinCondensation) {
 }
 
 // Each is a force over the load, in a law of friction over the load: twice the exponent, twice the
-// bound. On a flat glass the attraction is that of its gaps.
+// bound. The attraction is that of the gaps, whatever the texture.
 TEST(SkipBounds, GoWithTheExponentOfTheLaw) {
   Fidelity once = small(), twice = small();
   once.load_exponent = 0.4, twice.load_exponent = 0.8;
