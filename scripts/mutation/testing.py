@@ -1,5 +1,6 @@
 """Runs test cases with a mutant switched on, and finds out which mutants a test case reaches."""
 import concurrent.futures
+import fnmatch
 import json
 import os
 import resource
@@ -20,6 +21,7 @@ class Test:
         self.seconds = 0.0
         program = os.stat(command[0])
         self.state = f"{program.st_size} {program.st_mtime_ns}"
+        self.filter = next((word.split("=", 1)[1] for word in command if word.startswith("--gtest_filter=")), None)
 
 
 def listed(build):
@@ -42,27 +44,55 @@ class Runner:
     def __init__(self, folder):
         self.folder = folder
 
-    def run(self, test, timeout, mutant=0, reached=None):
-        """(passed, seconds); a test that runs longer than `timeout` has not passed."""
+    def run(self, command, folder, timeout, mutant=0, reached=None):
+        """(passed, seconds); what runs longer than `timeout` has not passed. What it prints is left in `self.printed`."""
         self.folder.mkdir(parents=True, exist_ok=True)
         environment = dict(os.environ, TMPDIR=str(self.folder), TEST_TMPDIR=str(self.folder), OMP_NUM_THREADS="1",
                            PAPILLA_MUTANT=str(mutant))
         if reached:
             environment["PAPILLA_MUTANTS_REACHED"] = str(reached)
         start = time.monotonic()
-        process = subprocess.Popen(test.command, cwd=test.folder or self.folder, env=environment,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                                   preexec_fn=_limited)
-        try:
-            code = process.wait(timeout)
-        except subprocess.TimeoutExpired:
-            code = None
-        try:  # what the test started and left behind
-            os.killpg(process.pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
-        process.wait()
+        with open(self.printed, "wb") as stream:
+            process = subprocess.Popen(command, cwd=folder or self.folder, env=environment, stdin=subprocess.DEVNULL,
+                                       stdout=stream, stderr=subprocess.DEVNULL, preexec_fn=_limited)
+            try:
+                code = process.wait(timeout)
+            except subprocess.TimeoutExpired:
+                code = None
+            try:  # what the test started and left behind
+                os.killpg(process.pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+            process.wait()
         return code == 0, time.monotonic() - start
+
+    @property
+    def printed(self):
+        return self.folder.with_suffix(".printed")
+
+    def fails(self, tests, mutant, passed):
+        """The first of some tests of one program that fails by itself with the mutant, or None. They run in one process:
+        the start of each would cost more than the test. A test that fails there is asked again alone, as ctest runs it."""
+        left = list(tests)
+        while left:
+            if len(left) > 1:
+                command = [left[0].command[0], "--gtest_filter=" + ":".join(t.filter for t in left), "--gtest_fail_fast"]
+                if self.run(command, left[0].folder, _patience(left), mutant)[0]:
+                    passed.update((t.name, t.state) for t in left)
+                    return None
+                begun = [line.split()[-1].decode() for line in self.printed.read_bytes().splitlines() if line.startswith(b"[ RUN")]
+                suspect = next((t for t in left if begun and fnmatch.fnmatchcase(begun[-1], t.filter)), left[0])
+            else:
+                suspect = left[0]
+            if not self.run(suspect.command, suspect.folder, _patience([suspect]), mutant)[0]:
+                return suspect
+            passed[suspect.name] = suspect.state
+            left.remove(suspect)
+        return None
+
+
+def _patience(tests):
+    return 15 + 6 * sum(t.seconds for t in tests)
 
 
 def _limited():
@@ -81,7 +111,7 @@ def reach(tests, runners, folder, kept, report, stop):
         page = folder / f"reached_{runner.folder.name}"
         page.write_bytes(bytes(planting.REACHED_BYTES))
         try:
-            passed, seconds = runner.run(test, 1800, reached=page)
+            passed, seconds = runner.run(test.command, test.folder, 1800, reached=page)
             ids = [i for i, b in enumerate(page.read_bytes()) if b]
         finally:
             free.append(runner)
@@ -98,6 +128,21 @@ def reach(tests, runners, folder, kept, report, stop):
     return found
 
 
+def batches(tests):
+    """The tests from short to long, in lots of one second, two, four ...; of a lot those of one program together."""
+    left, limit = sorted(tests, key=lambda t: (not t.fast, t.seconds, t.name)), 1.0
+    while left:
+        lot, seconds = [], 0.0
+        while left and (not lot or seconds + left[0].seconds <= limit):
+            seconds += left[0].seconds
+            lot.append(left.pop(0))
+        together = {}
+        for test in lot:
+            together.setdefault(test.command[0] if test.filter else test.name, []).append(test)
+        yield from together.values()
+        limit *= 2
+
+
 def verdict(mutant, tests, runner, mirrors, options, passed, stop):
     """(verdict, test that noticed): `folder`, `all`, `none`, `unreached`, or `open` when stopped. `passed`: the tests
     that did not notice it, by name, with the state of their program; those known from earlier are not run again."""
@@ -108,14 +153,12 @@ def verdict(mutant, tests, runner, mirrors, options, passed, stop):
     own = [t for t in reaching if t.fast and t.room in mirrors]
     rest = [t for t in reaching if t not in own]
     for group, name in ((own, "folder"), (rest, "all")):
-        for test in sorted(group, key=lambda t: (not t.fast, t.seconds, t.name)):
-            if passed.get(test.name) == test.state:
-                continue
+        for batch in batches([t for t in group if passed.get(t.name) != t.state]):
             if stop():
                 return "open", ""
             if time.monotonic() > end:
                 return "none", "out of patience"
-            if not runner.run(test, 15 + 6 * test.seconds, mutant=mutant["id"])[0]:
-                return name, test.name
-            passed[test.name] = test.state
+            noticed = runner.fails(batch, mutant["id"], passed)
+            if noticed:
+                return name, noticed.name
     return "none", ""
