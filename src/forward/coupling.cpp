@@ -61,7 +61,9 @@ FieldSolution solve_field_timed(const PatchProblem& problem, const Gap& gap, con
   const Timed timed(out.costs.seconds.field);
   FieldSolution solution =
       solve_field(*problem.scene, gap, problem.surface, wetting, field, tolerance);
-  for (double& p : solution.traction.value) p *= problem.field_correction;
+  if (problem.field_correction != 1) {
+    for (double& p : solution.traction.value) p *= problem.field_correction;
+  }
   solution.mean_pressure *= problem.field_correction;
   return solution;
 }

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
+#include <tuple>
 
+#include "base/cache.h"
 #include "forward/scene_terms.h"
 #include "geometry/measured_map.h"
 #include "geometry/roughness.h"
@@ -15,6 +18,19 @@ namespace {
 double offset_share(int k, bool second) {
   const double step = second ? 0.56984029099805327 : 0.75487766624669276;
   return std::fmod(0.5 + step * (k + 1), 1.0);
+}
+
+// The skins of a finger are common to all designs of a search.
+Heightmap known_surface(const Spectrum& spectrum, const Grid& grid, std::uint64_t seed, int index) {
+  using Key = std::tuple<Spectrum, Grid, std::uint64_t, int>;
+  constexpr double kMostBytes = 64e6;
+  static Cache<Key, Heightmap> cache(256, kMostBytes);
+  return *cache.get(
+      {spectrum, grid, seed, index}, sizeof(double) * static_cast<double>(grid.size()), [&] {
+        return std::make_shared<const Heightmap>(random_surface(
+            spectrum, grid, seed, static_cast<std::uint64_t>(index),
+            offset_share(index, false) * grid.lx, offset_share(index, true) * grid.ly));
+      });
 }
 
 }  // namespace
@@ -44,8 +60,7 @@ Heightmap PatchSetup::skin(int k) const {
     return measured_skin(skin.map, skin.map_width, grid, fidelity_.seed,
                          static_cast<std::uint64_t>(index));
   const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, plan_.effective_cutoff};
-  return random_surface(spectrum, grid, fidelity_.seed, static_cast<std::uint64_t>(index),
-                        offset_share(index, false) * grid.lx, offset_share(index, true) * grid.ly);
+  return known_surface(spectrum, grid, fidelity_.seed, index);
 }
 
 std::vector<double> PatchSetup::height(const Heightmap& skin) const {

@@ -223,7 +223,7 @@ TEST(DropHashes, FindEveryOverlapThatAComparisonOfAllFinds) {
     return out;
   };
   const auto found = [&](const capillary::Drop& d, std::vector<int> members) {
-    hash.collect_overlaps(drops, d, members);
+    hash.collect_overlaps(d, members);
     std::sort(members.begin(), members.end());
     return members;
   };

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "physics/capillary/footprint.h"
 
 namespace papilla::capillary {
 namespace {
@@ -127,7 +126,7 @@ double DropEnergy::retention(const Drop& d) const {
   return kPi / 4 * water_.surface_tension * 2 * d.radius * water_.hysteresis;
 }
 
-void DropEnergy::bridge_over(Drop& d, double guess) {
+void DropEnergy::bridge_over(Drop& d, const BridgeGuess& guess) {
   ++evaluations_;
   const Footprint found = solve_footprint(table_, d.x, d.y, d.volume, guess);
   d.radius = found.radius;
@@ -158,7 +157,8 @@ bool DropEnergy::floats_around(const Drop& d) const {
   return table_.lowest_around(d.x, d.y) >= reach_ * size_of(d.volume);
 }
 
-Drop DropEnergy::placed(double x, double y, double volume, double guess, bool was_bridge) {
+Drop DropEnergy::placed(double x, double y, double volume, const BridgeGuess& guess,
+                        bool was_bridge) {
   return placed(x, y, volume, guess, was_bridge, false);
 }
 
@@ -166,8 +166,8 @@ Drop DropEnergy::kept(double x, double y, double volume, double radius) {
   return placed(x, y, volume, radius, true, true);
 }
 
-Drop DropEnergy::placed(double x, double y, double volume, double guess, bool was_bridge,
-                        bool stays) {
+Drop DropEnergy::placed(double x, double y, double volume, const BridgeGuess& guess,
+                        bool was_bridge, bool stays) {
   Drop d;
   d.x = into_period(x, grid_.lx);
   d.y = into_period(y, grid_.ly);

@@ -9,6 +9,7 @@
 #include "fields/wetting.h"
 #include "physics/capillary/bridge_table.h"
 #include "physics/capillary/drop.h"
+#include "physics/capillary/footprint.h"
 #include "physics/capillary/gap_table.h"
 #include "physics/capillary/water.h"
 
@@ -24,7 +25,7 @@ class DropEnergy {
   // The state of lowest energy of `volume` [m^3] at a place [m], which may lie outside the period;
   // a cap taller than the gap must bridge (snap-in). guess: radius of a nearby bridge [m], or 0.
   // was_bridge: tried as a bridge at any gap. Cost: about 1 us.
-  Drop placed(double x, double y, double volume, double guess, bool was_bridge);
+  Drop placed(double x, double y, double volume, const BridgeGuess& guess, bool was_bridge);
   // A bridge that exists: it stays one until it ruptures, even where a cap has the lower energy.
   Drop kept(double x, double y, double volume, double radius);
   // Energy of the same bridge at another place [J], to first order in the change of its radius.
@@ -44,8 +45,9 @@ class DropEnergy {
 
  private:
   void fit_meniscus();
-  Drop placed(double x, double y, double volume, double guess, bool was_bridge, bool stays);
-  void bridge_over(Drop& d, double guess);
+  Drop placed(double x, double y, double volume, const BridgeGuess& guess, bool was_bridge,
+              bool stays);
+  void bridge_over(Drop& d, const BridgeGuess& guess);
   double meniscus_at(double angle) const;  // factor, by the angle of the rim's slope [rad]
   double slab_energy(double radius, const GapTable::Rim& rim, double angle) const;
   BridgeTable::Value beyond_slab(double volume, double radius) const;

@@ -19,9 +19,8 @@ class DropHash {
   void link(int i, const Drop& drop);
   void unlink(int i, const Drop& drop);
 
-  // Adds to `members` every drop, not among them, that the disc of `d` overlaps.
-  void collect_overlaps(const std::vector<Drop>& drops, const Drop& d,
-                        std::vector<int>& members) const;
+  // Adds to `members` every drop from `from` on, not among them, that the disc of `d` overlaps.
+  void collect_overlaps(const Drop& d, std::vector<int>& members, int from = 0) const;
 
  private:
   int cell_of(const Drop& d) const;
@@ -30,7 +29,9 @@ class DropHash {
   // Drops up to small_radius_ lie in cells, lists linked by next_; the others are one list.
   int cells_x_ = 1, cells_y_ = 1;
   double cell_x_ = 0, cell_y_ = 0, small_radius_ = 0;
+  double largest_ = 0;  // radius that has been in a cell since they were built
   std::vector<int> head_, next_, large_;
+  std::vector<Disc> discs_;  // as linked
 };
 
 }  // namespace papilla::capillary

@@ -16,13 +16,15 @@ void DropPopulation::take(std::vector<Drop> drops) {
   drops_ = std::move(drops);
   hash_.build(drops_);
   for (int i = 0; i < size(); ++i) {
+    int from = i + 1;  // those before have looked, until this one grows
     while (drops_[i].alive && drops_[i].film < 1) {
       members_.assign(1, i);
-      hash_.collect_overlaps(drops_, drops_[i], members_);
+      hash_.collect_overlaps(drops_[i], members_, from);
       if (members_.size() == 1) break;
       double before = 0;
       const Drop mover = drops_[i];
       adopt(i, merged(mover, before, false));
+      from = 0;
     }
   }
 }
@@ -35,7 +37,7 @@ double DropPopulation::energy() const {
 
 bool DropPopulation::move(int i, const Drop& trial) {
   members_.assign(1, i);
-  hash_.collect_overlaps(drops_, trial, members_);
+  hash_.collect_overlaps(trial, members_);
   if (members_.size() == 1) {
     hash_.unlink(i, drops_[i]);
     drops_[i] = trial;
@@ -68,29 +70,31 @@ Drop DropPopulation::merged(const Drop& mover, double& before, bool best_place) 
   while (known != members_.size()) {
     known = members_.size();
     before = 0;
-    double volume = 0, cx = 0, cy = 0, guess = 0, largest = 0;
+    double volume = 0, cx = 0, cy = 0, largest = 0;
+    BridgeGuess guess;
     for (std::size_t m = 0; m < members_.size(); ++m) {
       const Drop& d = drops_[members_[m]];
       before += d.energy;
       volume += d.volume;
       if (d.bridge && d.volume > largest) {
         largest = d.volume;
-        guess = d.radius;
+        guess = {d.radius, d.edge_gap};
       }
       if (m == 0) continue;  // the mover itself is the origin
       cx += d.volume * nearest_image(d.x - mover.x, lx_);
       cy += d.volume * nearest_image(d.y - mover.y, ly_);
     }
     const bool bridged = largest > 0;
-    if (bridged) guess *= std::sqrt(volume / largest);
+    if (bridged) guess.radius *= std::sqrt(volume / largest);
     best = energy_.placed(mover.x + cx / volume, mover.y + cy / volume, volume, guess, bridged);
     if (best_place) best = best_of_places(mover, best, guess, bridged);
-    hash_.collect_overlaps(drops_, best, members_);
+    hash_.collect_overlaps(best, members_);
   }
   return best;
 }
 
-Drop DropPopulation::best_of_places(const Drop& mover, Drop best, double guess, bool bridged) {
+Drop DropPopulation::best_of_places(const Drop& mover, Drop best, const BridgeGuess& guess,
+                                    bool bridged) {
   const double volume = best.volume;
   const Drop there = energy_.placed(mover.x, mover.y, volume, guess, bridged);
   if (there.energy < best.energy) best = there;

@@ -33,7 +33,7 @@ class DropPopulation {
 
  private:
   Drop merged(const Drop& mover, double& before, bool best_place);
-  Drop best_of_places(const Drop& mover, Drop best, double guess, bool bridged);
+  Drop best_of_places(const Drop& mover, Drop best, const BridgeGuess& guess, bool bridged);
   void adopt(int i, const Drop& merged);
 
   DropEnergy& energy_;

@@ -10,13 +10,16 @@ namespace {
 
 // Changes of the sampling rule in one solve, after which only finer ones count.
 constexpr int kMostRules = 8;
+// Of the volume with the area of the disc, as powers: the rim's gap by the mean one.
+constexpr double kLeastGrowth = 0.7, kMostGrowth = 2.5;
 // Steps with a new rule each while the guess is far off.
 constexpr int kMostResamplings = 40;
 
 int points(const GapTable::Rule& rule) { return rule.chords + rule.rim_points; }
 
-// A miss, by the volume, from which one step leads to the radius.
-constexpr double kNearly = 1e-8;
+// A miss, by the volume, from which one step leads to the radius within 1e-10: secants know the
+// slope to a thousandth then, parabolas to a hundred-thousandth.
+constexpr double kNearly = 1e-8, kNearlyByParabola = 1e-6;
 
 // What one solve knows of the gap: the table at one place, and the volume wanted.
 class FootprintSolver {
@@ -25,15 +28,21 @@ class FootprintSolver {
       : table_(table), x_(x), y_(y), volume_(volume) {}
 
   // A step by the mean gap, then secants, inside a bracket.
-  Footprint solve(double guess) {
-    double r = guess > 0 ? guess : first_guess();
+  Footprint solve(const BridgeGuess& guess) {
+    double r = guess.radius, growth = 1;
+    if (guess.radius > 0) {
+      if (guess.edge_gap > 0) growth = kPi * square(r) * guess.edge_gap / volume_;
+    } else {
+      r = first_guess(growth);
+    }
+    growth = std::clamp(growth, kLeastGrowth, kMostGrowth);
     GapTable::Rule rule = table_.rule(r), earlier{};
     bool seen = false, last_pass = false;
     int rules = 0;
     for (int resampled = 0;; ++resampled) {
       double miss = missing(r, rule);
-      // As if the rim's gap were the mean: within a factor 2, which the secants soon know better.
-      const double linear = 2 * (miss + volume_) / r;
+      // The rim's gap as that of the guess, by the mean; the secants soon know better.
+      const double linear = growth * 2 * (miss + volume_) / r;
       double next = r - miss / linear;
       const bool far = !(next > 0.75 * r && next < 1.3 * r);
       if (far && resampled < kMostResamplings) {  // a new size, a new rule
@@ -48,7 +57,7 @@ class FootprintSolver {
         rule = ahead;
         miss = missing(r, rule);
       }
-      r = secants(rule, r, miss, next, linear);
+      r = closed_in(rule, r, miss, next, growth * (miss + volume_) / square(r));
       const GapTable::Rule proper = table_.rule(r);  // of the result, whatever the guess was
       if (proper == rule || last_pass) break;
       if (seen && proper == earlier) {  // each asks for the other: the finer one
@@ -65,37 +74,50 @@ class FootprintSolver {
   }
 
  private:
-  // From the centre's gap, then from what lies around it.
-  double first_guess() const {
-    double r = std::sqrt(volume_ / (kPi * table_.at(x_, y_)));
-    r = std::min(r, std::cbrt(volume_) * 4);
-    const double around = table_.rim(x_, y_, 0.7 * r, table_.rule(0.7 * r)).gap;
-    return std::sqrt(volume_ / (kPi * around));
+  // From the centre's gap, then as a bowl through what lies around it.
+  double first_guess(double& growth) const {
+    const double centre = table_.at(x_, y_);
+    double r = std::sqrt(volume_ / (kPi * centre));
+    r = 0.7 * std::min(r, std::cbrt(volume_) * 4);
+    const double around = table_.ring(x_, y_, r, table_.rule(r));
+    const double bend = (around - centre) / square(r);
+    if (bend <= 0) return std::sqrt(volume_ / (kPi * around));
+    const double root = std::sqrt(square(centre) + 2 * bend * volume_ / kPi);
+    growth = 2 * root / (centre + root);
+    return std::sqrt((root - centre) / bend);
   }
 
   double missing(double r, const GapTable::Rule& rule) const {
     return table_.disc_volume(x_, y_, r, rule) - volume_;
   }
 
-  // Secants inside a bracket, from one miss [m^3] and a step of known slope.
-  double secants(const GapTable::Rule& rule, double last, double last_miss, double r,
-                 double slope) const {
-    double low = 0, high = 0;  // bracket; high = 0: none yet
+  // Inside a bracket, from one miss [m^3] and a step of known slope: the parabola through the last
+  // three misses, over the area of the disc, by which the volume grows almost evenly.
+  double closed_in(const GapTable::Rule& rule, double first, double last_miss, double r,
+                   double slope) const {
+    double low = 0, high = 0;                       // bracket; high = 0: none yet
+    double last = square(first), area = square(r);  // over pi
+    double inverse = 1 / slope, bend = 0, before = last_miss;
     (last_miss < 0 ? low : high) = last;
     for (int k = 0; k < 60; ++k) {
       const double miss = missing(r, rule);
       if (std::abs(miss) <= 1e-13 * volume_) break;
-      (miss < 0 ? low : high) = r;
-      const double secant = (miss - last_miss) / (r - last);
-      if (secant > 0.2 * slope && secant < 5 * slope) slope = secant;
-      last = r;
+      (miss < 0 ? low : high) = area;
+      const double secant = (area - last) / (miss - last_miss);
+      const bool usual = secant > 0.2 * inverse && secant < 5 * inverse;
+      bend = usual && k > 0 ? last_miss * (secant - inverse) / (miss - before) : 0;
+      if (usual) inverse = secant;
+      if (!(std::abs(bend) < 0.5 * inverse)) bend = 0;
+      double next = area - miss * (inverse - bend);
+      before = last_miss;
+      last = area;
       last_miss = miss;
-      double next = r - miss / slope;
-      if (next <= low || (high > 0 && next >= high)) next = high > 0 ? 0.5 * (low + high) : 2 * r;
-      if (std::abs(next - r) <= 1e-15 * r) break;
-      r = next;
-      // The slope is known to a thousandth here: what the last step leaves is below 1e-10.
-      if (std::abs(miss) <= kNearly * volume_) break;
+      if (next <= low || (high > 0 && next >= high))
+        next = high > 0 ? square(0.5 * (std::sqrt(low) + std::sqrt(high))) : 4 * area;
+      if (std::abs(next - area) <= 2e-15 * area) break;
+      area = next;
+      r = std::sqrt(area);
+      if (std::abs(miss) <= (bend != 0 ? kNearlyByParabola : kNearly) * volume_) break;
     }
     return r;
   }
@@ -106,7 +128,8 @@ class FootprintSolver {
 
 }  // namespace
 
-Footprint solve_footprint(const GapTable& table, double x, double y, double volume, double guess) {
+Footprint solve_footprint(const GapTable& table, double x, double y, double volume,
+                          const BridgeGuess& guess) {
   return FootprintSolver(table, x, y, volume).solve(guess);
 }
 

@@ -18,14 +18,18 @@ constexpr std::array<int, 16> kCounts = {8,   12,  16,  24,  32,  48,  64,   96,
 // enough that what a wall adds depends on the wall and not on the pixel (docs/theory/capillary.md).
 constexpr double kRimHalfWidth = 0.07;
 
-struct Nodes {
+}  // namespace
+
+struct GapTable::Nodes {
   // Chords: t = cos(j pi / (N + 1)), half width sin(...), weight pi / (N + 1) (Gauss-Chebyshev of
   // the second kind: exact for the disc of a constant gap).
   std::vector<double> t, half_width, weight;
   std::vector<double> cosine, sine;  // rim
+
+  static const Nodes& of(int rule);
 };
 
-const std::array<Nodes, kCounts.size()>& nodes() {
+const GapTable::Nodes& GapTable::Nodes::of(int rule) {
   static const std::array<Nodes, kCounts.size()> table = [] {
     std::array<Nodes, kCounts.size()> all;
     for (std::size_t k = 0; k < kCounts.size(); ++k) {
@@ -44,8 +48,10 @@ const std::array<Nodes, kCounts.size()>& nodes() {
     }
     return all;
   }();
-  return table;
+  return table[static_cast<std::size_t>(rule)];
 }
+
+namespace {
 
 template <class Four>
 Four load(const double* values) {
@@ -85,18 +91,19 @@ GapTable::GapTable(const Gap& gap, double floor, double around)
       inverse_dx_(1 / gap.grid.dx()),
       inverse_dy_(1 / gap.grid.dy()),
       stride_(gap.grid.nx + 1),
-      node_(static_cast<std::size_t>(stride_) * gap.grid.ny) {
+      value_(static_cast<std::size_t>(stride_) * gap.grid.ny),
+      prefix_(value_.size()) {
   PAPILLA_CHECK(gap.value.size() == grid_.size() && grid_.size() > 0,
                 "gap and grid differ in size");
   for (int iy = 0; iy < grid_.ny; ++iy) {
-    Node* n = &node_[static_cast<std::size_t>(iy) * stride_];
+    double* value = &value_[static_cast<std::size_t>(iy) * stride_];
+    double* prefix = &prefix_[static_cast<std::size_t>(iy) * stride_];
+    const double* given = &gap.value[grid_.index(0, iy)];
+    for (int ix = 0; ix < grid_.nx; ++ix) value[ix] = std::max(given[ix], floor);
+    value[grid_.nx] = value[0];
+    prefix[0] = 0;
     for (int ix = 0; ix < grid_.nx; ++ix) {
-      n[ix].value = std::max(gap.value[grid_.index(ix, iy)], floor);
-    }
-    n[grid_.nx].value = n[0].value;
-    n[0].prefix = 0;
-    for (int ix = 0; ix < grid_.nx; ++ix) {
-      n[ix + 1].prefix = n[ix].prefix + 0.5 * (n[ix].value + n[ix + 1].value);
+      prefix[ix + 1] = prefix[ix] + 0.5 * (value[ix] + value[ix + 1]);
     }
   }
   if (around > 0) find_lowest(around);
@@ -110,12 +117,12 @@ void GapTable::find_lowest(double around) {
   blocks_y_ = grid_.ny / block_y_;
   std::vector<double> own(static_cast<std::size_t>(blocks_x_) * blocks_y_, kInfinity);
   for (int iy = 0; iy < grid_.ny; ++iy) {
-    const Node* n = &node_[static_cast<std::size_t>(iy) * stride_];
+    const double* value = &value_[static_cast<std::size_t>(iy) * stride_];
     double* row =
         &own[static_cast<std::size_t>(std::min(iy / block_y_, blocks_y_ - 1)) * blocks_x_];
     for (int b = 0; b < blocks_x_; ++b) {
       const int end = b + 1 == blocks_x_ ? grid_.nx : (b + 1) * block_x_;
-      for (int ix = b * block_x_; ix < end; ++ix) row[b] = std::min(row[b], n[ix].value);
+      for (int ix = b * block_x_; ix < end; ++ix) row[b] = std::min(row[b], value[ix]);
     }
   }
   lowest_.assign(own.size(), kInfinity);
@@ -138,28 +145,40 @@ double GapTable::lowest_around(double x, double y) const {
   return lowest_[static_cast<std::size_t>(by) * blocks_x_ + bx];
 }
 
-inline double GapTable::row_integral(int iy, double u) const {
-  const Cell c = locate(u, grid_.nx);
-  const std::size_t row = static_cast<std::size_t>(iy) * stride_;
-  const Node* n = &node_[row + c.index];
-  const double f = c.fraction;
-  return n[0].prefix + f * (n[0].value + 0.5 * f * (n[1].value - n[0].value)) +
-         c.turns * node_[row + grid_.nx].prefix;
+// Whole part below u.
+inline GapTable::Index GapTable::floor_of(const Four& u) {
+  const Index cut = __builtin_convertvector(u, Index);  // towards 0
+  return cut + __builtin_convertvector(u < __builtin_convertvector(cut, Four), Index);
 }
 
-// Four rows, from their beginning to u; without wrapping. row: index of their first node.
-[[gnu::always_inline]] inline GapTable::Four GapTable::row_integrals(const Index& row,
-                                                                     const Four& u) const {
-  const Index ix = __builtin_convertvector(u, Index), at = row + ix;
-  Four prefix, here, next;
-  for (int k = 0; k < 4; ++k) {
-    const Node* n = &node_[static_cast<std::size_t>(at[k])];
-    prefix[k] = n[0].prefix;
-    here[k] = n[0].value;
-    next[k] = n[1].value;
+// Brings four indices, at most `periods` away, into [0, n); the whole periods that they were away.
+inline GapTable::Index GapTable::wrapped(Index& i, int n, int periods) {
+  Index turns{};
+  for (int k = 0; k < periods; ++k) {
+    const Index low = i < 0, high = i >= n;  // -1 where it is so
+    i += (low & n) - (high & n);
+    turns += low - high;
   }
-  const Four f = u - __builtin_convertvector(ix, Four);
-  return prefix + f * (here + 0.5 * f * (next - here));
+  return turns;
+}
+
+// The values at four places and the ones after them.
+[[gnu::always_inline]] inline GapTable::Neighbours GapTable::neighbours(const double* values,
+                                                                        const Index& at) {
+  const auto pair = [&](int k) { return load<Two>(values + static_cast<unsigned>(at[k])); };
+  const Four even = __builtin_shufflevector(pair(0), pair(2), 0, 1, 2, 3),
+             odd = __builtin_shufflevector(pair(1), pair(3), 0, 1, 2, 3);
+  return {__builtin_shufflevector(even, odd, 0, 4, 2, 6),
+          __builtin_shufflevector(even, odd, 1, 5, 3, 7)};
+}
+
+// Integrals of four rows, from their beginning to a share f beyond the node `at`.
+[[gnu::always_inline]] inline GapTable::Four GapTable::row_integrals(const Index& at,
+                                                                     const Four& f) const {
+  Four prefix;
+  for (int k = 0; k < 4; ++k) prefix[k] = prefix_[static_cast<unsigned>(at[k])];
+  const Neighbours n = neighbours(value_.data(), at);
+  return prefix + f * (n.here + 0.5 * f * (n.next - n.here));
 }
 
 double GapTable::at(double x, double y) const {
@@ -169,10 +188,10 @@ double GapTable::at(double x, double y) const {
 [[gnu::always_inline]] inline double GapTable::bilinear(double u, double v) const {
   const Cell cx = locate(u, grid_.nx), cy = locate(v, grid_.ny);
   const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
-  const Node* a = &node_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
-  const Node* b = &node_[static_cast<std::size_t>(next) * stride_ + cx.index];
-  const double low = a[0].value + cx.fraction * (a[1].value - a[0].value);
-  const double high = b[0].value + cx.fraction * (b[1].value - b[0].value);
+  const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
+  const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
+  const double low = a[0] + cx.fraction * (a[1] - a[0]);
+  const double high = b[0] + cx.fraction * (b[1] - b[0]);
   return low + cy.fraction * (high - low);
 }
 
@@ -181,76 +200,90 @@ GapTable::Rule GapTable::rule(double radius) const {
           count_index(4.5 * radius * inverse_dx_ + 6)};
 }
 
-bool GapTable::inside(double u0, double v0, double ru, double rv) const {
-  return u0 - ru >= 0 && u0 + ru < grid_.nx - 1 && v0 - rv >= 0 && v0 + rv < grid_.ny - 1;
+GapTable::Disc GapTable::disc(double x, double y, double radius) const {
+  Disc d{x * inverse_dx_ - 0.5, y * inverse_dy_ - 0.5, radius * inverse_dx_, radius * inverse_dy_};
+  const auto beyond = [](double low, double high, int n) {  // periods, from 0 to n
+    if (low >= 0 && high < n) return 0;
+    return static_cast<int>(std::max(std::ceil(-low / n), std::floor(high / n)));
+  };
+  // A gap between nodes asks for the one above.
+  d.periods = std::max(beyond(d.u - d.ru, d.u + d.ru + 1, grid_.nx),
+                       beyond(d.v - d.rv, d.v + d.rv + 1, grid_.ny));
+  return d;
+}
+
+template <bool kWraps>
+[[gnu::always_inline]] inline GapTable::Rows GapTable::rows(const Four& v, int periods) const {
+  Index low = kWraps ? floor_of(v) : __builtin_convertvector(v, Index);
+  const Four share = v - __builtin_convertvector(low, Four);
+  if constexpr (!kWraps) return {low * stride_, (low + 1) * stride_, share};
+  Index high = low + 1;
+  wrapped(low, grid_.ny, periods);
+  wrapped(high, grid_.ny, periods);
+  return {low * stride_, high * stride_, share};
+}
+
+template <bool kWraps>
+double GapTable::chords(const Nodes& n, const Disc& d) const {
+  const int count = static_cast<int>(n.t.size());
+  const double *t = n.t.data(), *half = n.half_width.data(), *weight = n.weight.data();
+  Four sums{};
+  for (int j = 0; j < count; j += 4) {
+    const Rows row = rows<kWraps>(d.v + d.rv * load<Four>(t + j), d.periods);
+    // From the beginning of the rows to the places u, between the rows.
+    const auto integral = [&](const Four& u) {
+      Index ix = kWraps ? floor_of(u) : __builtin_convertvector(u, Index);
+      const Four f = u - __builtin_convertvector(ix, Four);
+      Four low{}, high{};
+      if constexpr (kWraps) {
+        const Four turns = __builtin_convertvector(wrapped(ix, grid_.nx, d.periods), Four);
+        for (int k = 0; k < 4; ++k) {
+          low[k] = prefix_[static_cast<unsigned>(row.low[k] + grid_.nx)];
+          high[k] = prefix_[static_cast<unsigned>(row.high[k] + grid_.nx)];
+        }
+        low *= turns;
+        high *= turns;
+      }
+      low += row_integrals(row.low + ix, f);
+      high += row_integrals(row.high + ix, f);
+      return low + row.share * (high - low);
+    };
+    const Four w = d.ru * load<Four>(half + j);
+    sums += load<Four>(weight + j) * (integral(d.u + w) - integral(d.u - w));
+  }
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 double GapTable::disc_volume(double x, double y, double radius, const Rule& rule) const {
-  const Nodes& n = nodes()[rule.chords];
-  const double u0 = x * inverse_dx_ - 0.5, v0 = y * inverse_dy_ - 0.5;
-  const double ru = radius * inverse_dx_, rv = radius * inverse_dy_;
-  const int count = static_cast<int>(n.t.size());
-  const double *t = n.t.data(), *half = n.half_width.data(), *weight = n.weight.data();
-  double sum = 0;
-  if (inside(u0, v0, ru, rv)) {  // no wrapping
-    Four sums{};
-    for (int j = 0; j < count; j += 4) {
-      const Four v = v0 + rv * load<Four>(t + j), w = ru * load<Four>(half + j);
-      const Index iy = __builtin_convertvector(v, Index);
-      const Index row = iy * stride_;
-      const Four to_left = row_integrals(row, u0 - w), to_right = row_integrals(row, u0 + w);
-      const Four next_left = row_integrals(row + stride_, u0 - w),
-                 next_right = row_integrals(row + stride_, u0 + w);
-      const Four low = to_right - to_left, high = next_right - next_left;
-      sums +=
-          load<Four>(weight + j) * (low + (v - __builtin_convertvector(iy, Four)) * (high - low));
-    }
-    sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-    return sum * grid_.dx() * radius;
+  const Nodes& n = Nodes::of(rule.chords);
+  const Disc d = disc(x, y, radius);
+  return (d.periods > 0 ? chords<true>(n, d) : chords<false>(n, d)) * grid_.dx() * radius;
+}
+
+template <bool kWraps>
+double GapTable::circle(const Nodes& n, const Disc& d) const {
+  const int count = static_cast<int>(n.cosine.size());
+  const double *cosine = n.cosine.data(), *sine = n.sine.data();
+  Four sums{};
+  for (int j = 0; j < count; j += 4) {
+    const Rows row = rows<kWraps>(d.v + d.rv * load<Four>(sine + j), d.periods);
+    const Four u = d.u + d.ru * load<Four>(cosine + j);
+    Index ix = kWraps ? floor_of(u) : __builtin_convertvector(u, Index);
+    const Four f = u - __builtin_convertvector(ix, Four);
+    if constexpr (kWraps) wrapped(ix, grid_.nx, d.periods);
+    const Neighbours below = neighbours(value_.data(), row.low + ix),
+                     above = neighbours(value_.data(), row.high + ix);
+    const Four low = below.here + f * (below.next - below.here);
+    const Four high = above.here + f * (above.next - above.here);
+    sums += low + row.share * (high - low);
   }
-  for (int j = 0; j < count; ++j) {
-    const Cell cy = locate(v0 + rv * t[j], grid_.ny);
-    const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
-    const double w = ru * half[j];
-    const double low = row_integral(cy.index, u0 + w) - row_integral(cy.index, u0 - w);
-    const double high = row_integral(next, u0 + w) - row_integral(next, u0 - w);
-    sum += weight[j] * (low + cy.fraction * (high - low));
-  }
-  return sum * grid_.dx() * radius;
+  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) / count;
 }
 
 double GapTable::ring(double x, double y, double radius, const Rule& rule) const {
-  const Nodes& n = nodes()[rule.rim_points];
-  const double u0 = x * inverse_dx_ - 0.5, v0 = y * inverse_dy_ - 0.5;
-  const double ru = radius * inverse_dx_, rv = radius * inverse_dy_;
-  const int count = static_cast<int>(n.cosine.size());
-  const double *cosine = n.cosine.data(), *sine = n.sine.data();
-  const Node* node = node_.data();
-  double sum = 0;
-  if (inside(u0, v0, ru, rv)) {  // no wrapping
-    Four sums{};
-    for (int j = 0; j < count; j += 4) {
-      const Four u = u0 + ru * load<Four>(cosine + j), v = v0 + rv * load<Four>(sine + j);
-      const Index ix = __builtin_convertvector(u, Index), iy = __builtin_convertvector(v, Index);
-      const Four fx = u - __builtin_convertvector(ix, Four);
-      const Four fy = v - __builtin_convertvector(iy, Four);
-      const Index at = iy * stride_ + ix;
-      Four a, b, c, d;
-      for (int k = 0; k < 4; ++k) {
-        const Node *low = node + at[k], *high = low + stride_;
-        a[k] = low[0].value;
-        b[k] = low[1].value;
-        c[k] = high[0].value;
-        d[k] = high[1].value;
-      }
-      const Four low = a + fx * (b - a);
-      sums += low + fy * (c + fx * (d - c) - low);
-    }
-    sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
-  } else {
-    for (int j = 0; j < count; ++j) sum += bilinear(u0 + ru * cosine[j], v0 + rv * sine[j]);
-  }
-  return sum / count;
+  const Nodes& n = Nodes::of(rule.rim_points);
+  const Disc d = disc(x, y, radius);
+  return d.periods > 0 ? circle<true>(n, d) : circle<false>(n, d);
 }
 
 // From two circles around the rim, exact for a bowl. Where the circle crosses a wall, slopes of

@@ -31,6 +31,7 @@ class GapTable {
   double lowest_around(double x, double y) const;
   Rule rule(double radius) const;
   double disc_volume(double x, double y, double radius, const Rule& rule) const;  // [m^3]
+  double ring(double x, double y, double radius, const Rule& rule) const;  // mean on a circle [m]
   Rim rim(double x, double y, double radius, const Rule& rule) const;
 
   const Grid& grid() const { return grid_; }
@@ -39,23 +40,43 @@ class GapTable {
  private:
   // Nodes of a circle or chords of a disc, four at a time; their counts are multiples of it.
   using Four = double __attribute__((vector_size(32)));
+  using Two = double __attribute__((vector_size(16)));
   using Index = int __attribute__((vector_size(16)));
 
-  double row_integral(int iy, double u) const;
-  Four row_integrals(const Index& row, const Four& u) const;
-  double bilinear(double u, double v) const;                               // [m]; places in pixels
-  double ring(double x, double y, double radius, const Rule& rule) const;  // mean on a circle [m]
-  bool inside(double u0, double v0, double ru, double rv) const;           // needs no wrapping
+  struct Nodes;
+  struct Disc {  // in pixels
+    double u, v, ru, rv;
+    int periods = 0;  // by how many at most it reaches beyond the patch
+  };
+
+  Disc disc(double x, double y, double radius) const;
+
+  static Index floor_of(const Four& u);
+  static Index wrapped(Index& i, int n, int periods);
+  struct Neighbours {
+    Four here, next;
+  };
+  struct Rows {
+    Index low, high;  // their first nodes
+    Four share;       // of the higher one
+  };
+  static Neighbours neighbours(const double* values, const Index& at);
+  Four row_integrals(const Index& at, const Four& f) const;
+  template <bool kWraps>
+  Rows rows(const Four& v, int periods) const;
+  template <bool kWraps>
+  double chords(const Nodes& n, const Disc& d) const;  // over radius and pixel
+  template <bool kWraps>
+  double circle(const Nodes& n, const Disc& d) const;  // mean [m]
+  double bilinear(double u, double v) const;           // [m]; places in pixels
 
   Grid grid_;
   double floor_;
   double inverse_dx_, inverse_dy_;
   int stride_;
-  struct Node {
-    double value;   // the gap [m]
-    double prefix;  // integral from pixel centre 0 to here, in pixels
-  };
-  std::vector<Node> node_;  // rows of nx + 1 (first column repeated)
+  // Rows of nx + 1, the first column repeated.
+  std::vector<double> value_;   // the gap [m]
+  std::vector<double> prefix_;  // its integral from pixel centre 0 to here, in pixels
 
   void find_lowest(double around);
   // Smallest gap of a block of pixels and the eight around it; blocks are wider than `around`.

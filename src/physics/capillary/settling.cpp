@@ -36,15 +36,16 @@ class Walker {
   // Drop i, with steps of first_step / 2^level, until nothing around it is lower.
   void walk(int i, int level, double step) {
     int moves = 0;
+    Known known;
     for (;;) {
       if (moves >= options_.max_moves) {
         report_.converged = false;
         return;
       }
-      const Downhill ways = downhill(i, step);
+      const Downhill ways = downhill(i, step, known);
       Onward onward = Onward::Stuck;
       for (int c = 0; c < ways.count && onward == Onward::Stuck; ++c) {
-        onward = go(i, kDirections[ways.direction[c]], step, moves);
+        onward = go(i, ways.direction[c], step, moves, known);
       }
       if (onward == Onward::Merged &&
           level > 0) {  // a larger drop starts from the first step again
@@ -62,14 +63,19 @@ class Walker {
     int count = 0;
   };
   enum class Onward { Stuck, Moved, Merged };
+  struct Known {  // directions that lead nowhere, as the last moves have shown; -1: none
+    int ahead = -1, back = -1;
+  };
+  static int opposite(int direction) { return (direction + 4) % 8; }
 
-  Downhill downhill(int i, double step) {
+  Downhill downhill(int i, double step, const Known& known) {
     Watch::look();
     Downhill out;
     const Drop& d = drops_[i];
     if (!d.bridge && energy_.floats_around(d)) return out;
     const double margin = kLeastGain * std::abs(d.energy);
     for (int k = 0; k < 8; ++k) {
+      if (k == known.ahead || k == known.back) continue;
       const double x = into_period(d.x + step * kDirections[k][0], gap_.grid.lx);
       const double y = into_period(d.y + step * kDirections[k][1], gap_.grid.ly);
       double e;
@@ -93,19 +99,27 @@ class Walker {
   }
 
   // Onward the same way while it helps, until the drop merges with another.
-  Onward go(int i, const std::array<double, 2>& way, double step, int& moves) {
+  Onward go(int i, int direction, double step, int& moves, Known& known) {
+    const std::array<double, 2>& way = kDirections[direction];
     Onward out = Onward::Stuck;
     while (moves < options_.max_moves) {
       const Drop& d = drops_[i];
-      const Drop trial = energy_.placed(d.x + step * way[0], d.y + step * way[1], d.volume,
-                                        d.bridge ? d.radius : 0, d.bridge);
+      const BridgeGuess guess = d.bridge ? BridgeGuess(d.radius, d.edge_gap) : BridgeGuess();
+      const Drop trial =
+          energy_.placed(d.x + step * way[0], d.y + step * way[1], d.volume, guess, d.bridge);
       if (trial.energy >= d.energy - kLeastGain * std::abs(d.energy)) break;
+      const bool was_bridge = d.bridge;
       const int merges = drops_.merges();
       if (held(d, trial) || !drops_.move(i, trial)) break;
       ++moves;
       ++report_.moves;
-      if (drops_.merges() != merges) return Onward::Merged;
+      if (drops_.merges() != merges) {
+        known = {};
+        return Onward::Merged;
+      }
       out = Onward::Moved;
+      // A bridge came from a place of higher energy.
+      known = {direction, was_bridge && trial.bridge ? opposite(direction) : -1};
     }
     return out;
   }

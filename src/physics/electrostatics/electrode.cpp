@@ -14,30 +14,46 @@ constexpr double kThinnestFilm = 1e-10;  // [m] of a planar film that its textur
 
 // Extremes of a periodic row over `reach` places either side: two passes of blocks as long as the
 // window, so that the cost does not depend on it.
-template <class Better>
-void extremes_along(const double* in, int n, int reach, Better&& better, std::vector<double>& ahead,
-                    std::vector<double>& behind, double* out) {
-  const int window = 2 * reach + 1;
-  const int padded = n + 2 * reach;
-  ahead.resize(padded);
-  behind.resize(padded);
-  const auto at = [&](int i) { return in[wrap(i - reach, n)]; };
-  for (int i = 0; i < padded; ++i) ahead[i] = i % window == 0 ? at(i) : better(ahead[i - 1], at(i));
-  for (int i = padded - 1; i >= 0; --i)
-    behind[i] = i % window == window - 1 || i == padded - 1 ? at(i) : better(behind[i + 1], at(i));
-  for (int i = 0; i < n; ++i) out[i] = better(behind[i], ahead[i + window - 1]);
-}
+class RowExtremes {
+ public:
+  RowExtremes(int n, int reach)
+      : n_(n), reach_(reach), window_(2 * reach + 1), wide_(n + 2 * reach), ahead_(wide_.size()) {}
+
+  template <class Better>
+  void operator()(const double* in, Better&& better, double* out) {
+    const int padded = n_ + 2 * reach_;
+    for (int i = 0, from = wrap(-reach_, n_); i < padded; ++i) {
+      wide_[i] = in[from];
+      if (++from == n_) from = 0;
+    }
+    for (int i = 0, in_block = 0; i < padded; ++i) {
+      ahead_[i] = in_block == 0 ? wide_[i] : better(ahead_[i - 1], wide_[i]);
+      if (++in_block == window_) in_block = 0;
+    }
+    double behind = 0;  // of the block, from its end
+    for (int i = padded - 1, in_block = i % window_; i >= 0; --i) {
+      const bool ends = in_block == window_ - 1 || i == padded - 1;
+      behind = ends ? wide_[i] : better(behind, wide_[i]);
+      if (in_block-- == 0) in_block = window_ - 1;
+      if (i < n_) out[i] = better(behind, ahead_[i + window_ - 1]);
+    }
+  }
+
+ private:
+  int n_, reach_, window_;
+  std::vector<double> wide_, ahead_;
+};
 
 // Extremes over the square of nx by ny places either side of each pixel.
 template <class Better>
 std::vector<double> extremes(const Grid& g, const std::vector<double>& z, int nx, int ny,
                              Better&& better) {
-  std::vector<double> rows(z.size()), ahead, behind, column(g.ny), most(g.ny), out(z.size());
-  for (int iy = 0; iy < g.ny; ++iy)
-    extremes_along(&z[g.index(0, iy)], g.nx, nx, better, ahead, behind, &rows[g.index(0, iy)]);
+  std::vector<double> rows(z.size()), column(g.ny), most(g.ny), out(z.size());
+  RowExtremes along_x(g.nx, nx), along_y(g.ny, ny);
+  for (int iy = 0; iy < g.ny; ++iy) along_x(&z[g.index(0, iy)], better, &rows[g.index(0, iy)]);
   for (int ix = 0; ix < g.nx; ++ix) {
     for (int iy = 0; iy < g.ny; ++iy) column[iy] = rows[g.index(ix, iy)];
-    extremes_along(column.data(), g.ny, ny, better, ahead, behind, most.data());
+    along_y(column.data(), better, most.data());
     for (int iy = 0; iy < g.ny; ++iy) out[g.index(ix, iy)] = most[iy];
   }
   return out;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #include "base/constants.h"
 
@@ -24,12 +25,30 @@ class TanhSquare {
     table_[kSteps + 1] = table_[kSteps];
   }
   double operator()(double x) const {  // 0 <= x <= kReach
-    const double s = x * (kSteps / kReach);
+    return at_step(x * (kSteps / kReach));
+  }
+  // At distances of `step` times the root of `squared`, over the widths in `out`: 1 from kReach on.
+  // No branch, so that several go at once.
+  void fade(std::span<const float> squared, double step, std::span<double> out) const {
+    const double scale = step * (kSteps / kReach);
+    const double* const table = table_.data();
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i] = scale * std::sqrt(static_cast<double>(squared[i])) / out[i];
+    }
+    for (double& value : out) {
+      const double s = std::min(value, static_cast<double>(kSteps));
+      const int k = static_cast<int>(s);
+      const double low = table[k], faded = low + (s - k) * (table[k + 1] - low);
+      value = s < kSteps ? faded : 1.0;
+    }
+  }
+
+ private:
+  double at_step(double s) const {
     const int i = static_cast<int>(s);
     return table_[i] + (s - i) * (table_[i + 1] - table_[i]);
   }
 
- private:
   static constexpr int kSteps = 1024;
   std::array<double, kSteps + 2> table_;
 };
@@ -109,12 +128,14 @@ class WaterDistance {
     // Rows of whole strips; what no pixel has asks for nothing.
     const auto stride = static_cast<std::size_t>(strips_) * kLanes;
     std::vector<float> along(stride * g.ny), reach(along.size());
+    const double rows_per_metre = 1 / g.dy();
     for (int iy = 0; iy < g.ny; ++iy) {
       const std::size_t row = g.index(0, iy);
       row_distance(wet.data() + row, g.nx, static_cast<float>(g.dx() / g.dy()),
                    along.data() + iy * stride);
       for (int ix = 0; ix < g.nx; ++ix) {
-        reach[iy * stride + ix] = static_cast<float>(std::min(most(row + ix) / g.dy(), 0.5 * g.ny));
+        reach[iy * stride + ix] =
+            static_cast<float>(std::min(most(row + ix) * rows_per_metre, 0.5 * g.ny));
       }
     }
     for (int iy = 0; iy < g.ny; ++iy) {
@@ -127,16 +148,20 @@ class WaterDistance {
     }
   }
   double operator()(std::size_t i) const { return step_ * std::sqrt(squared_[i]); }  // [m]
-  double squared(std::size_t i) const { return square(step_) * squared_[i]; }        // [m^2]
+  std::span<const float> squared() const { return squared_; }  // in steps of a row
 
  private:
   static constexpr int kLanes = 16;
   using Strip = float __attribute__((vector_size(kLanes * sizeof(float))));
 
-  static float largest(const Strip& v) {
-    float out = v[0];
-    for (int lane = 1; lane < kLanes; ++lane) out = std::max(out, v[lane]);
-    return out;
+  static float largest(Strip v) {
+    using Turn = int __attribute__((vector_size(sizeof(Strip))));
+    constexpr Turn kLane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    for (int turn = kLanes / 2; turn > 0; turn /= 2) {
+      const Strip other = __builtin_shuffle(v, kLane ^ turn);
+      v = v < other ? other : v;
+    }
+    return v[0];
   }
 
   // Of pixels side by side: rows farther and farther off, until none of the pixels asks for one as
@@ -153,9 +178,10 @@ class WaterDistance {
     Strip nearest = load(along, iy);
     const int rows = static_cast<int>(largest(load(reach, iy)));
     float farthest = largest(nearest);
-    for (int j = 1; j <= rows && static_cast<float>(j * j) < farthest; ++j) {
-      const Strip above = load(along, wrap(iy + j, rows_)),
-                  below = load(along, wrap(iy - j, rows_));
+    for (int j = 1, up = iy, down = iy; j <= rows && static_cast<float>(j * j) < farthest; ++j) {
+      if (++up == rows_) up = 0;
+      if (down-- == 0) down = rows_ - 1;
+      const Strip above = load(along, up), below = load(along, down);
       const Strip there = (above < below ? above : below) + static_cast<float>(j * j);
       nearest = there < nearest ? there : nearest;
       if (j % kLooks == 0) farthest = largest(nearest);
@@ -244,15 +270,13 @@ std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting,
   const auto wet = [](std::uint8_t pixel) { return pixel != 0; };
   if (std::none_of(wetting.bridged.begin(), wetting.bridged.end(), wet)) return {};
   if (!fade) return screening_factor(gap, wetting, 0, false);
-  const TanhSquare& profile = tanh_square();
-  const auto width = [&](std::size_t i) { return 2 / kPi * std::max(gap.value[i], kLeastGap); };
-  const WaterDistance distance(gap.grid, wetting.bridged,
-                               [&](std::size_t i) { return kReach * width(i); });
-  std::vector<double> factor(gap.grid.size(), 1.0);
+  std::vector<double> factor(gap.grid.size());
   for (std::size_t i = 0; i < factor.size(); ++i) {
-    if (distance.squared(i) >= square(kReach * width(i))) continue;
-    factor[i] = profile(distance(i) / width(i));
+    factor[i] = 2 / kPi * std::max(gap.value[i], kLeastGap);
   }
+  const WaterDistance distance(gap.grid, wetting.bridged,
+                               [&](std::size_t i) { return kReach * factor[i]; });
+  tanh_square().fade(distance.squared(), gap.grid.dy(), factor);
   return factor;
 }
 

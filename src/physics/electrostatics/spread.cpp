@@ -96,26 +96,26 @@ class SurfacePotential {
       : filter_(grid),
         film_(known_film_response(grid, thickness, permittivity)),
         c_(conductance),
-        dry_(conductance.size(), 1),
-        drive_(conductance.size()),
-        start_(conductance.size()) {
+        dry_(c_.size(), 1),
+        drive_(c_.size()),
+        start_(c_.size()),
+        weight_(c_.size()) {
     const double flat = permittivity / thickness;
+    for (std::size_t i = 0; i < wet.size(); ++i) dry_[i] = wet[i] ? 0 : 1;
     for (std::size_t i = 0; i < c_.size(); ++i) {
       drive_[i] = 1 / dielectric[i];
-      start_[i] = drive_[i] / (drive_[i] + c_[i]);
+      start_[i] = dry_[i] * drive_[i] / (drive_[i] + c_[i]);
       // At least what keeps the sum with K positive.
       c_[i] += drive_[i] - flat;
     }
-    for (std::size_t i = 0; i < wet.size(); ++i) dry_[i] = wet[i] ? 0 : 1;
     // Contact spots of a bare skin raise c by orders of magnitude over a few pixels: the weight
     // follows c where it exceeds what K couples a pixel with, k; the rest is left to K + mean c,
     // the mean taken as 1/(k + c).
     const double k = film_->mean;
-    RealArray shared(c_.size());
-    for (std::size_t i = 0; i < c_.size(); ++i) shared[i] = 1 / (k + c_[i]);
-    const double level = static_cast<double>(c_.size()) / sum(shared);  // k + mean c
-    weight_ = dry_;
-    for (std::size_t i = 0; i < c_.size(); ++i) weight_[i] *= std::sqrt(level * shared[i]);
+    for (std::size_t i = 0; i < c_.size(); ++i) weight_[i] = 1 / (k + c_[i]);
+    const double level = static_cast<double>(c_.size()) / sum(weight_);  // k + mean c
+    for (std::size_t i = 0; i < c_.size(); ++i)
+      weight_[i] = dry_[i] * std::sqrt(level * weight_[i]);
     RealArray inverse(film_->half.size());
     const double scale = 1 / static_cast<double>(grid.size());
     for (std::size_t o = 0; o < inverse.size(); ++o) {
@@ -124,11 +124,10 @@ class SurfacePotential {
     inverse_ = filter_.symbol(inverse);
   }
 
-  // Leaves residual (relative, energy norm), iterations and status in `out`.
+  // Once. Leaves residual (relative, energy norm), iterations and status in `out`.
   RealArray solve(double tolerance, FieldSolution& out) {
     const std::size_t n = c_.size();
-    RealArray phi(n), r(n), z(n), s(n, 0.0), q(n);
-    for (std::size_t i = 0; i < n; ++i) phi[i] = dry_[i] * start_[i];
+    RealArray phi = std::move(start_), r(n), z(n), s(n, 0.0), q(n);
     apply(phi, q);
     for (std::size_t i = 0; i < n; ++i) r[i] = dry_[i] * drive_[i] - q[i];
     // The first guess, good to a fraction, gives the scale of the residual.
@@ -172,7 +171,7 @@ class SurfacePotential {
   std::vector<double> c_;  // beside K [1/m]
   RealArray dry_;          // 0 under bridges, 1 elsewhere
   RealArray drive_;        // 1/D [1/m]
-  RealArray start_;        // the columns by themselves
+  RealArray start_;        // the columns by themselves, 0 under bridges
   RealArray weight_;       // of the preconditioner, either side of 1/(K + mean c)
   RealArray inverse_;      // 1/(K + mean c) as the filter takes it
 };
