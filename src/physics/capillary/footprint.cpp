@@ -79,7 +79,7 @@ class FootprintSolver {
     const double centre = table_.at(x_, y_);
     double r = std::sqrt(volume_ / (kPi * centre));
     r = 0.7 * std::min(r, std::cbrt(volume_) * 4);
-    const double around = table_.ring(x_, y_, r, table_.rule(r));
+    const double around = table_.rim(x_, y_, r, table_.rule(r)).gap;
     const double bend = (around - centre) / square(r);
     if (bend <= 0) return std::sqrt(volume_ / (kPi * around));
     const double root = std::sqrt(square(centre) + 2 * bend * volume_ / kPi);

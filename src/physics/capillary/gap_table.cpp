@@ -260,37 +260,44 @@ double GapTable::disc_volume(double x, double y, double radius, const Rule& rule
   return (d.periods > 0 ? chords<true>(n, d) : chords<false>(n, d)) * grid_.dx() * radius;
 }
 
+// The gap at four places.
 template <bool kWraps>
-double GapTable::circle(const Nodes& n, const Disc& d) const {
-  const int count = static_cast<int>(n.cosine.size());
-  const double *cosine = n.cosine.data(), *sine = n.sine.data();
-  Four sums{};
-  for (int j = 0; j < count; j += 4) {
-    const Rows row = rows<kWraps>(d.v + d.rv * load<Four>(sine + j), d.periods);
-    const Four u = d.u + d.ru * load<Four>(cosine + j);
-    Index ix = kWraps ? floor_of(u) : __builtin_convertvector(u, Index);
-    const Four f = u - __builtin_convertvector(ix, Four);
-    if constexpr (kWraps) wrapped(ix, grid_.nx, d.periods);
-    const Neighbours below = neighbours(value_.data(), row.low + ix),
-                     above = neighbours(value_.data(), row.high + ix);
-    const Four low = below.here + f * (below.next - below.here);
-    const Four high = above.here + f * (above.next - above.here);
-    sums += low + row.share * (high - low);
-  }
-  return ((sums[0] + sums[1]) + (sums[2] + sums[3])) / count;
+[[gnu::always_inline]] inline GapTable::Four GapTable::gaps(const Four& u, const Four& v,
+                                                            int periods) const {
+  const Rows row = rows<kWraps>(v, periods);
+  Index ix = kWraps ? floor_of(u) : __builtin_convertvector(u, Index);
+  const Four f = u - __builtin_convertvector(ix, Four);
+  if constexpr (kWraps) wrapped(ix, grid_.nx, periods);
+  const Neighbours below = neighbours(value_.data(), row.low + ix),
+                   above = neighbours(value_.data(), row.high + ix);
+  const Four low = below.here + f * (below.next - below.here);
+  const Four high = above.here + f * (above.next - above.here);
+  return low + row.share * (high - low);
 }
 
-double GapTable::ring(double x, double y, double radius, const Rule& rule) const {
-  const Nodes& n = Nodes::of(rule.rim_points);
-  const Disc d = disc(x, y, radius);
-  return d.periods > 0 ? circle<true>(n, d) : circle<false>(n, d);
+// Means on two circles about one place: one look at each direction.
+template <bool kWraps>
+GapTable::Pair GapTable::circles(const Nodes& n, const Disc& in, const Disc& out) const {
+  const int count = static_cast<int>(n.cosine.size());
+  const double *cosine = n.cosine.data(), *sine = n.sine.data();
+  Four inner{}, outer{};
+  for (int j = 0; j < count; j += 4) {
+    const Four c = load<Four>(cosine + j), s = load<Four>(sine + j);
+    inner += gaps<kWraps>(in.u + in.ru * c, in.v + in.rv * s, in.periods);
+    outer += gaps<kWraps>(out.u + out.ru * c, out.v + out.rv * s, out.periods);
+  }
+  const auto mean = [&](const Four& f) { return ((f[0] + f[1]) + (f[2] + f[3])) / count; };
+  return {mean(inner), mean(outer)};
 }
 
 // From two circles around the rim, exact for a bowl. Where the circle crosses a wall, slopes of
 // single pixels would be what the grid makes of a jump; the difference of two means has a limit.
 GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule) const {
+  const Nodes& n = Nodes::of(rule.rim_points);
   const double half = kRimHalfWidth * radius;
-  const double in = ring(x, y, radius - half, rule), out = ring(x, y, radius + half, rule);
+  const Disc smaller = disc(x, y, radius - half), larger = disc(x, y, radius + half);
+  const auto [in, out] =
+      larger.periods > 0 ? circles<true>(n, smaller, larger) : circles<false>(n, smaller, larger);
   const double slope = (out - in) / (2 * half);
   return {0.5 * (in + out) - 0.5 * kRimHalfWidth * half * slope, slope};
 }

@@ -31,7 +31,6 @@ class GapTable {
   double lowest_around(double x, double y) const;
   Rule rule(double radius) const;
   double disc_volume(double x, double y, double radius, const Rule& rule) const;  // [m^3]
-  double ring(double x, double y, double radius, const Rule& rule) const;  // mean on a circle [m]
   Rim rim(double x, double y, double radius, const Rule& rule) const;
 
   const Grid& grid() const { return grid_; }
@@ -56,6 +55,9 @@ class GapTable {
   struct Neighbours {
     Four here, next;
   };
+  struct Pair {
+    double in, out;
+  };
   struct Rows {
     Index low, high;  // their first nodes
     Four share;       // of the higher one
@@ -67,8 +69,10 @@ class GapTable {
   template <bool kWraps>
   double chords(const Nodes& n, const Disc& d) const;  // over radius and pixel
   template <bool kWraps>
-  double circle(const Nodes& n, const Disc& d) const;  // mean [m]
-  double bilinear(double u, double v) const;           // [m]; places in pixels
+  Four gaps(const Four& u, const Four& v, int periods) const;  // [m]; places in pixels
+  template <bool kWraps>
+  Pair circles(const Nodes& n, const Disc& in, const Disc& out) const;  // [m]
+  double bilinear(double u, double v) const;                            // [m]; places in pixels
 
   Grid grid_;
   double floor_;
