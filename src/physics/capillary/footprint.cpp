@@ -17,9 +17,8 @@ constexpr int kMostResamplings = 40;
 
 int points(const GapTable::Rule& rule) { return rule.chords + rule.rim_points; }
 
-// A miss, by the volume, from which one step leads to the radius within 1e-10: secants know the
-// slope to a thousandth then, parabolas to a hundred-thousandth.
-constexpr double kNearly = 1e-8, kNearlyByParabola = 1e-6;
+// A miss, by the volume, from which one step leads to the radius.
+constexpr double kNearly = 1e-8;
 
 // What one solve knows of the gap: the table at one place, and the volume wanted.
 class FootprintSolver {
@@ -117,7 +116,8 @@ class FootprintSolver {
       if (std::abs(next - area) <= 2e-15 * area) break;
       area = next;
       r = std::sqrt(area);
-      if (std::abs(miss) <= (bend != 0 ? kNearlyByParabola : kNearly) * volume_) break;
+      // The slope is known to a thousandth at least: what the last step leaves is below 1e-11.
+      if (std::abs(miss) <= kNearly * volume_) break;
     }
     return r;
   }
