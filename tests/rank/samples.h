@@ -29,4 +29,12 @@ inline Design quick_sample(const std::string& name) {
   return d;
 }
 
+// On few pixels besides, at one humidity: where numbers are compared with their own.
+inline Design small_sample(const std::string& name) {
+  Design d = sample(name);
+  d.environment.relative_humidity = {0.35};
+  d.accuracy.grid = 32;
+  return d;
+}
+
 }  // namespace papilla::tests

@@ -26,7 +26,7 @@ class FootprintSolver {
   FootprintSolver(const GapTable& table, double x, double y, double volume)
       : table_(table), x_(x), y_(y), volume_(volume) {}
 
-  // A step by the mean gap, then secants, inside a bracket.
+  // A step by the rim's gap, then parabolas, inside a bracket.
   Footprint solve(const BridgeGuess& guess) {
     double r = guess.radius, growth = 1;
     if (guess.radius > 0) {
@@ -40,7 +40,7 @@ class FootprintSolver {
     int rules = 0;
     for (int resampled = 0;; ++resampled) {
       double miss = missing(r, rule);
-      // The rim's gap as that of the guess, by the mean; the secants soon know better.
+      // The rim's gap as that of the guess, by the mean; the misses soon know better.
       const double linear = growth * 2 * (miss + volume_) / r;
       double next = r - miss / linear;
       const bool far = !(next > 0.75 * r && next < 1.3 * r);
@@ -79,11 +79,12 @@ class FootprintSolver {
     double r = std::sqrt(volume_ / (kPi * centre));
     r = 0.7 * std::min(r, std::cbrt(volume_) * 4);
     const double around = table_.rim(x_, y_, r, table_.rule(r)).gap;
-    const double bend = (around - centre) / square(r);
-    if (bend <= 0) return std::sqrt(volume_ / (kPi * around));
-    const double root = std::sqrt(square(centre) + 2 * bend * volume_ / kPi);
-    growth = 2 * root / (centre + root);
-    return std::sqrt((root - centre) / bend);
+    if (around <= centre) return std::sqrt(volume_ / (kPi * around));
+    // The gap on the rim of the bowl's disc that holds the volume.
+    const double rim =
+        std::sqrt(square(centre) + 2 * (around - centre) / square(r) * volume_ / kPi);
+    growth = 2 * rim / (centre + rim);
+    return std::sqrt(2 * volume_ / (kPi * (centre + rim)));
   }
 
   double missing(double r, const GapTable::Rule& rule) const {
