@@ -129,8 +129,7 @@ RoughnessParameters roughness_parameters(const Heightmap& h) {
       const double slope = zx * zx + zy * zy;
       slope2 += slope / n;
       sdr += (std::sqrt(1 + slope) - 1) / n;
-      const double step = std::abs(h(wrap(ix + 1, g.nx), iy) - h(ix, iy));
-      steepest = std::max(steepest, step);
+      steepest = std::max({steepest, std::abs(zx) * g.dx(), std::abs(zy) * g.dy()});
     }
   }
   r.sq = std::sqrt(s2);

@@ -110,7 +110,7 @@ Grid simulated_patch(const Texture& texture, int pixels, int most) {
     double least = kInfinity;
     lx = cell.x;
     ly = cell.y;
-    const int periods = std::max(1, static_cast<int>(std::ceil(2 * kWindow / cell.x)));
+    const int periods = static_cast<int>(std::ceil(2 * kWindow / cell.x));
     for (int i = 1; i <= periods; ++i) {
       for (int j = 1; j <= periods; ++j) {
         const double x = i * cell.x, y = j * cell.y;

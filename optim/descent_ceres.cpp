@@ -49,7 +49,7 @@ Descent descend(const DescentModel& model, std::vector<double>& x, const std::ve
   ceres::Solver::Summary summary;
   ceres::Solve(o, &problem, &summary);
   return {summary.termination_type == ceres::CONVERGENCE, summary.message,
-          summary.num_residual_evaluations};
+          summary.num_residual_evaluations + summary.num_jacobian_evaluations};
 }
 
 }  // namespace papilla::optim

@@ -81,8 +81,10 @@ bool parse_journal_line(const std::string& line, JournalRecord& record) {
   const auto key = unescaped(body.substr(0, between)),
              payload = unescaped(body.substr(between + 1));
   if (!key || !payload) return false;
-  record = {*key, *payload};
-  return journal_line(record) == line + "\n";
+  JournalRecord found{*key, *payload};
+  if (journal_line(found) != line + "\n") return false;
+  record = std::move(found);
+  return true;
 }
 
 Journal::Journal(const std::string& path, const std::string& key, bool resume) : path_(path) {

@@ -51,6 +51,10 @@ class Tree:
             chosen = [f for f in chosen if any(f.startswith(x.rstrip("/") + "/") or f == x for x in folders)]
         return chosen
 
+    def rooms(self):
+        """The folders of tests/."""
+        return {f.split("/")[1] for f in self.files if f.startswith("tests/") and f.count("/") > 1}
+
     def state(self, *prefixes):
         return digest(*(x for f in self.files if f.startswith(prefixes) for x in (f, (self.top / f).read_bytes())))
 

@@ -37,9 +37,18 @@ std::string replaceable(const std::string& path) {
                      (fs::is_directory(there) ? "it is a folder" : "it is no regular file") +
                      "; give the path of a file");
   }
-  if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
-  const fs::path target = fs::weakly_canonical(path, error);
-  return error || target.empty() ? path : target.string();
+  // The end of a chain of links, which need not be there yet.
+  constexpr int kMostLinks = 40;
+  fs::path target = path;
+  for (int k = 0; fs::is_symlink(fs::symlink_status(target, error)); ++k) {
+    const fs::path next = fs::read_symlink(target, error);
+    if (error || k == kMostLinks) {
+      throw InputError("cannot write " + path +
+                       ": its links lead nowhere; give the path of a file");
+    }
+    target = target.parent_path() / next;
+  }
+  return target.string();
 }
 
 FileWriter::FileWriter(std::string path) : path_(replaceable(path)), part_(path_ + ".part") {

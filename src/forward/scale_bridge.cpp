@@ -100,7 +100,7 @@ ScaleBridge::ScaleBridge(const Scene& scene, const Fidelity& fidelity, const Gri
   nominal_ = ridge_load(macro, finger.load, relative_humidity).mean_pressure;
   const double q_patch = 2 * kPi / std::sqrt(grid.area());
   const MeanField field = ridge_field(finger, q_patch, relative_humidity);
-  if (nominal_ == 0 || field.stress_measure(q_patch) == 0) {  // no load, or a flat ridge
+  if (nominal_ == 0) {
     pressures_ = {nominal_};
     shares_ = {{1}, {1}};
     mean_pressure_ = nominal_;

@@ -185,7 +185,7 @@ std::string spectrum_panel(const std::vector<SpectrumLine>& lines) {
   }
   if (last == 0) return out;
   const double from = std::floor(std::log10(first)), to = std::ceil(std::log10(last) + 1e-9);
-  const double width = std::max(1.0, to - from);
+  const double width = to - from;
   for (double decade = from; decade <= from + width; ++decade) {
     const double x = kTraceLeft + kTraceWidth * (decade - from) / width;
     out += label(x, top + kTraceHeight + 16, fmt::format("{:g} Hz", std::pow(10, decade)));

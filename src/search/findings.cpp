@@ -20,7 +20,8 @@ double room_beyond(const Design& design, const Variable& variable, bool upper) {
   if (path.empty()) return kInfinity;
   const NumberField field = find_number_field(known, path);
   const double unit = find_unit(field.unit)->to_si;
-  return upper ? field.high * unit - variable.high : variable.low - field.low * unit;
+  const double room = upper ? field.high * unit - variable.high : variable.low - field.low * unit;
+  return room > kAtBound * (variable.high - variable.low) ? room : 0;  // units round
 }
 
 }  // namespace

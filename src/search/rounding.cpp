@@ -26,7 +26,7 @@ double multiple(double value, double step, const std::string& unit) {
 double step_of(const Variable& v, double value, double grid) {
   if (is_length(v.unit)) {
     double step = grid;
-    while (step > kMostChange * std::abs(value) && step > kFinest) step /= 10;
+    while (step > kMostChange * std::abs(value) && step > 1.5 * kFinest) step /= 10;
     return step;
   }
   const double unit = find_unit(v.unit)->to_si;

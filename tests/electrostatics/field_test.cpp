@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/fft.h"
 #include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/electrode.h"
 #include "physics/electrostatics/electrowetting.h"
@@ -398,7 +399,8 @@ TEST(Droplets, CapsAreSpheres) {
   }
 }
 
-TEST(LocalField, TakesWellBelowAMillisecondAtAHundredAndTwentyEightSquared) {
+// About seventeen pairs of transforms of the same grid: a ratio, as processors differ and share.
+TEST(LocalField, TakesTheTimeOfAFewDozenTransformsAtAHundredAndTwentyEightSquared) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "sanitizers take several times as long";
 #endif
@@ -412,15 +414,25 @@ TEST(LocalField, TakesWellBelowAMillisecondAtAHundredAndTwentyEightSquared) {
   }
   w.bridges = 20;
   const FieldProblem p = oxide(200);
-  double best = 1;
-  for (int repeat = 0; repeat < 20; ++repeat) {
+  const auto fft = Fft2d::shared(128, 128);
+  RealArray real(fft->real_size(), 1.0);
+  SpectrumArray spectrum(fft->spectrum_size());
+  const auto seconds = [](const auto& work) {
     const auto start = std::chrono::steady_clock::now();
-    ASSERT_TRUE(solve_local_field(gap, nullptr, w, p).ok);
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    best = std::min(best, time.count());
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  double best = 1, pair = 1;
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    best = std::min(best, seconds([&] { ASSERT_TRUE(solve_local_field(gap, nullptr, w, p).ok); }));
+    pair = std::min(pair, seconds([&] {
+                      fft->forward(real.data(), spectrum.data());
+                      fft->inverse(spectrum.data(), real.data());
+                    }));
   }
   RecordProperty("microseconds", static_cast<int>(1e6 * best));
-  EXPECT_LT(best, 1e-3);
+  RecordProperty("pairs", static_cast<int>(best / pair));
+  EXPECT_LT(best, 40 * pair);
 }
 
 TEST(Breakdown, AirHoldsThreeHundredAndFiftyVoltsAMicrometreUpToThePaschenMinimum) {

@@ -58,7 +58,7 @@ class SphereBridge {
   const Unknowns& at() const { return x_; }
   const Profile& end() const { return end_; }
   double energy() const {
-    const double wet_sphere = 2 * kPi * radius_ * radius_ * (1 - std::cos(beta_));
+    const double wet_sphere = 4 * kPi * square(radius_ * std::sin(0.5 * beta_));
     return end_.free_area - kPi * x_.r1 * x_.r1 * std::cos(plate_) - wet_sphere * std::cos(sphere_);
   }
 
@@ -68,8 +68,9 @@ class SphereBridge {
     const Profile q = profile(x_, plate_);
     const double psi = sphere_ + beta_, c = std::cos(psi), s = std::sin(psi);
     const double cb = std::cos(beta_), sb = std::sin(beta_), radius = radius_;
-    const double dipped = kPi * radius * radius * radius * (2 - 3 * cb + cb * cb * cb) / 3;
-    std::array<double, 4> step = {q.w * s - q.u * c, q.height - distance_ - radius * (1 - cb),
+    const double rise = 2 * square(std::sin(0.5 * beta_));  // 1 - cb, of large spheres too
+    const double dipped = kPi * radius * radius * radius * square(rise) * (2 + cb) / 3;
+    std::array<double, 4> step = {q.w * s - q.u * c, q.height - distance_ - radius * rise,
                                   q.volume - dipped - 1, q.r2 - radius * sb};
     std::array<std::array<double, 4>, 4> j;
     for (int i = 0; i < 3; ++i) {

@@ -55,12 +55,12 @@ void for_pixels(const Grid& g, const Disc& d, Visit&& visit) {
   const double dx = g.dx(), dy = g.dy();
   const double ry = std::min(d.radius, 0.5 * g.ly);
   const int first = static_cast<int>(std::ceil((d.y - ry) / dy - 0.5));
-  const int last = static_cast<int>(std::floor((d.y + ry) / dy - 0.5));
+  const int last = std::min(static_cast<int>(std::floor((d.y + ry) / dy - 0.5)), first + g.ny - 1);
   for (int iy = first; iy <= last; ++iy) {
     const double y = (iy + 0.5) * dy - d.y;
     const double w = std::min(std::sqrt(std::max(0.0, square(d.radius) - square(y))), 0.5 * g.lx);
     const int from = static_cast<int>(std::ceil((d.x - w) / dx - 0.5));
-    const int to = static_cast<int>(std::floor((d.x + w) / dx - 0.5));
+    const int to = std::min(static_cast<int>(std::floor((d.x + w) / dx - 0.5)), from + g.nx - 1);
     const int row = wrap(iy, g.ny);
     for (int ix = from; ix <= to; ++ix) visit(g.index(wrap(ix, g.nx), row));
   }

@@ -218,14 +218,14 @@ class Growth {
     const double dx = gap_.grid.dx(), dy = gap_.grid.dy();
     for_cells(gap_.grid, [&](const std::array<std::size_t, 4>& corner) {
       std::array<int, 4> body;
-      int known = -1;
       for (int c = 0; c < 4; ++c) {
         const int s = out_.source[corner[c]];
         body[c] = s > 0 ? out_.of_source[s - 1] : -1;
       }
       for (int c = 0; c < 4; ++c) {
-        if (body[c] < 0 || body[c] == known) continue;
-        known = body[c];
+        const int known = body[c];
+        const auto here = body.begin() + c;
+        if (known < 0 || std::find(body.begin(), here, known) != here) continue;
         const int source = out_.source[corner[c]] - 1;
         const double level = bodies_[known].region.height;
         std::array<double, 4> above;

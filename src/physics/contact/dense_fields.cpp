@@ -39,7 +39,7 @@ void DenseFields::scale_to_load() {
       total += v;
       if (v < cap) open += v;
     }
-    if (std::abs(total - load) <= 1e-14 * load) return;
+    if (std::abs(total - load) <= 1e-13 * load) return;
     if (open > 0 && open + load - total > 0) {
       factor = 1 + (load - total) / open;
     } else {  // everything is at the cap but load is left: open the whole patch

@@ -21,8 +21,9 @@ std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting) {
     const double a = drop.radius, b = drop.height;
     const double sphere = (a * a + b * b) / (2 * b);
     const double reach = b > a ? sphere : a;
-    const int x0 = static_cast<int>(std::floor((drop.x - reach) / dx));
-    const int y0 = static_cast<int>(std::floor((drop.y - reach) / dy));
+    // The window holds every pixel once, the nearest image of the drop in it.
+    const int x0 = static_cast<int>(std::floor((drop.x - std::min(reach, 0.5 * grid.lx)) / dx));
+    const int y0 = static_cast<int>(std::floor((drop.y - std::min(reach, 0.5 * grid.ly)) / dy));
     const int nx = std::min(static_cast<int>(2 * reach / dx) + 2, grid.nx);
     const int ny = std::min(static_cast<int>(2 * reach / dy) + 2, grid.ny);
     for (int j = 0; j < ny; ++j) {

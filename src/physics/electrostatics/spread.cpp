@@ -190,7 +190,9 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
     conductance[i] = above + p.skin_layer.real();
   }
   if (!columns.water.empty()) {
-    for (std::size_t i = 0; i < n; ++i) conductance[i] += columns.water[i] / kWaterPermittivity;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (columns.air[i] >= 0) conductance[i] += columns.water[i] / kWaterPermittivity;
+    }
   }
   for (double& c : conductance) c = 1 / (c > kLeastDistance ? c : kLeastDistance);
   FieldSolution status;

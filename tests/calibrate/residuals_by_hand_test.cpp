@@ -1,0 +1,250 @@
+// Residuals of a table against runs of its own, and a fit whose answer is a weighted mean.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "calibrate/calibrate.h"
+#include "calibrate/residuals.h"
+#include "forward/forward.h"
+#include "published/targets.h"
+#include "tests/calibrate/files.h"
+
+namespace papilla::tests {
+namespace {
+
+void near(double value, double expected) {
+  EXPECT_NEAR(value, expected, 1e-9 * std::abs(expected) + 1e-15) << expected;
+}
+
+// Four frictions of one design, at two humidities under one drive, the wetter first, one of another
+// load, one without voltage; all on two skins of few pixels, checked on more pixels.
+Calibration few_pixels() {
+  Calibration c;
+  c.sampling = {.level = "search", .skins = 2, .first_skin = 4, .grid = 32};
+  c.check = {.level = "draft", .skins = 9, .first_skin = 70, .grid = 48};
+  const std::string file = find_design("m3_samples/flat.toml");
+  c.data = {{file, 0.55, 150, 2e3, 0.3, 0.1, 0.01, 0.15, 0.02, 2},
+            {file, 0.35, 150, 2e3, 0.3, 0.1, 0.03, 0.15, 0.04, 3},
+            {file, 0.35, 150, 2e3, 0.5, 0.2, 0.01, 0.25, 0.02, 4},
+            {file, 0.35, 0, 0, 0.3, 0.1, 0.05, 0, 0, 5}};
+  return c;
+}
+
+// One datum again: the design under its drive and load with the finger that is asked, at all
+// humidities that the table has of these.
+ResponsePoint run(const FrictionDatum& d, const Finger& finger, const Fidelity& fidelity) {
+  const Design design = read_design(d.design);
+  Scene scene = scene_of(design);
+  scene.finger = finger;
+  scene.finger.load = d.load;
+  scene.finger.state = design.finger.state;
+  scene.model = finger.calibrated_for;
+  scene.drive.amplitude = d.amplitude;
+  if (d.frequency > 0) scene.drive.frequency = d.frequency;
+  const bool two = d.load == 0.3 && d.amplitude > 0;
+  scene.environment.relative_humidity = {0.35};
+  if (two) scene.environment.relative_humidity.push_back(0.55);
+  scene.environment.weights.clear();
+  return evaluate(scene, design.texture, fidelity).points[d.relative_humidity > 0.5 ? 1 : 0];
+}
+
+Finger asked() {
+  Finger finger;
+  finger.load = 19;  // the table says how hard it presses
+  finger.state = FingerState::Wet;
+  finger.macro.shear_strength *= 1.2;
+  return finger;
+}
+
+TEST(ResidualsByHand, OfATableAreFrictionsInMillinewtons) {
+  const Calibration c = few_pixels();
+  Residuals residuals(c, 1);
+  EXPECT_EQ(residuals.size(), 7);
+  Fidelity fidelity = c.sampling.fidelity(1);
+  const std::vector<Estimate> model = residuals.model(asked());
+  ASSERT_EQ(model.size(), 7u);
+  std::size_t at = 0;
+  for (const FrictionDatum& d : c.data) {
+    const ResponsePoint p = run(d, asked(), fidelity);
+    near(model[at].value, 1e3 * p.friction_off.value);
+    near(model[at++].se, 1e3 * p.friction_off.parts.sampling);
+    if (d.amplitude == 0) continue;
+    near(model[at].value, 1e3 * p.friction_on.value);
+    near(model[at++].se, 1e3 * p.friction_on.parts.sampling);
+  }
+  EXPECT_GT(model[1].value, 1.01 * model[0].value);
+  std::vector<double> r(7);
+  for (FitRow& row : residuals.rows()) row.sampling_sd = 2 * row.sd;
+  EXPECT_TRUE(residuals.residuals(asked(), r));
+  near(r[0], (model[0].value - 100) / (10 * std::sqrt(5.0)));
+  near(r[6], (model[6].value - 100) / (50 * std::sqrt(5.0)));
+}
+
+// The finer level of the check, on the skins of the fit: frictions follow it from then on.
+TEST(ResidualsByHand, AreCorrectedToTheLevelOfTheCheck) {
+  const Calibration c = few_pixels();
+  Residuals residuals(c, 1);
+  const std::vector<Estimate> before = residuals.model(asked());
+  Fidelity fine = fidelity_level("draft");
+  fine.grid = 48;
+  fine.skins = 2;
+  fine.first_skin = 4;
+  fine.contact_tolerance = 1e-5;
+  fine.field_skins = 0;
+  fine.threads = 1;
+  const double moved = residuals.correct(asked());
+  const std::vector<Estimate> after = residuals.model(asked());
+  double largest = 0;
+  std::size_t at = 0;
+  for (const FrictionDatum& d : c.data) {
+    const ResponsePoint p = run(d, asked(), fine);
+    const auto expect = [&](const Measured& force, double sd) {
+      near(after[at].value, 1e3 * force.value);
+      near(after[at].se / after[at].value, before[at].se / before[at].value);
+      largest = std::max(largest, std::abs(after[at].value - before[at].value) / (1e3 * sd));
+      ++at;
+    };
+    expect(p.friction_off, d.off_sd);
+    if (d.amplitude > 0) expect(p.friction_on, d.on_sd);
+  }
+  EXPECT_EQ(at, 7u);
+  EXPECT_GT(largest, 0.01);
+  near(moved, largest);
+  EXPECT_NEAR(residuals.correct(asked()), 0, 1e-9);  // the same again
+  Calibration claims;
+  claims.fit = {"M3"};
+  EXPECT_EQ(Residuals(claims, 1).correct(asked()), 0);
+}
+
+// A claim's row is its target; inside the band nothing is left, outside the way to its nearer end.
+TEST(ResidualsByHand, OfAClaimAreTheWayToItsBand) {
+  Calibration c;
+  c.fit = {"M3"};
+  Residuals residuals(c, 1);
+  ASSERT_EQ(residuals.size(), 1);
+  FitRow& row = residuals.rows()[0];
+  EXPECT_EQ(row.source, "M3");
+  EXPECT_EQ(row.what, "growth of the gross area, %");
+  EXPECT_EQ(row.low, 58.5);
+  EXPECT_EQ(row.high, 58.5);
+  EXPECT_EQ(row.sd, 3);
+  EXPECT_EQ(row.sampling_sd, 0);
+  EXPECT_EQ(row.before, 0);
+  EXPECT_EQ(row.after, 0);
+  Finger finger;
+  finger.macro.area_growth = 0.5;
+  std::vector<double> r(1);
+  const auto left = [&](double low, double high, double sampling) {
+    row.low = low, row.high = high, row.sampling_sd = sampling;
+    EXPECT_TRUE(residuals.residuals(finger, r));
+    return r[0];
+  };
+  near(left(56, 70, 0), -2);
+  near(left(30, 44, 4), 1.2);
+  EXPECT_NEAR(left(49, 51, 0), 0, 1e-12);
+  finger.macro.area_15 = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(residuals.residuals(finger, r));
+}
+
+using FitByHand = Calibrate;
+
+// A growth of 58.5 ± 3 by the paper and one of 56 ± 4 by a prior: weights of 16 and 9.
+TEST_F(FitByHand, OfOneNumberIsTheMeanByItsWeights) {
+  Finger start;
+  start.macro.area_growth = 0.7;
+  Calibration c;
+  c.finger = start;
+  c.fit = {"M3"};
+  CalibrationParameter p{"macro.area_growth", "%", {}};
+  p.fit.name = p.path;
+  p.fit.start = 0.7;
+  p.fit.step = 0.04;
+  p.fit.low = 0.2;
+  p.fit.high = 1.2;
+  p.fit.prior = 0.56;
+  p.fit.prior_sd = 0.04;
+  c.parameters = {p};
+  c.check = {.level = "search", .skins = 2, .first_skin = 3, .grid = 32};
+  CalibrationOptions options;
+  options.threads = 1;
+  std::vector<std::string> notes;
+  options.note = [&](const std::string& text) { notes.push_back(text); };
+  const CalibrationResult r = fit_finger(c, options);
+  const double mean = (16 * 0.585 + 9 * 0.56) / 25, deviation = 0.03 * 4 / 5;
+  EXPECT_NEAR(r.finger.macro.area_growth, mean, 1e-4);
+  EXPECT_EQ(r.start, start);
+  near(r.chi2_before, square(11.5 / 3));
+  ASSERT_EQ(r.rows.size(), 1u);
+  near(r.rows[0].before, 70);
+  EXPECT_NEAR(r.rows[0].after, 100 * r.finger.macro.area_growth, 1e-9);
+  ASSERT_EQ(r.finger.uncertainty.size(), 1u);
+  EXPECT_EQ(r.finger.uncertainty[0].parameter, "macro.area_growth");
+  EXPECT_NEAR(r.finger.uncertainty[0].deviation, deviation / mean, 1e-3 * deviation / mean);
+  EXPECT_EQ(r.finger.fitted_to, "M3");
+  EXPECT_EQ(r.gap_before, capacitance_gap(start));
+  EXPECT_EQ(r.gap_after, capacitance_gap(r.finger));
+  ASSERT_FALSE(notes.empty());
+  EXPECT_EQ(notes[0], "1 residuals, 1 parameters, chi2 14.69 at the start");
+  EXPECT_GT(r.evaluations, 4);
+  // The friction coefficient on flat glass at four humidities, at the level of the check.
+  Design flat = read_design(find_design("m3_samples/flat.toml"));
+  const double load = flat.finger.load;
+  flat.finger = r.finger;
+  flat.finger.load = load;
+  const Response own = evaluate(scene_of(flat), flat.texture, c.check.fidelity(1));
+  ASSERT_EQ(r.friction_coefficient.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k)
+    near(r.friction_coefficient[k], own.points[k].friction_off.value / load);
+}
+
+// At its bound a number has no deviation, and those after it no correlation with it.
+TEST_F(FitByHand, ANumberAtItsBoundIsNotUncertain) {
+  Calibration c;
+  c.fit = {"M3", "C_gap"};
+  const auto parameter = [&](const char* path, double start, double low, double high) {
+    CalibrationParameter p{path, "", {}};
+    p.fit.name = path;
+    p.fit.start = start;
+    p.fit.step = 0.04;
+    p.fit.low = low;
+    p.fit.high = high;
+    c.parameters.push_back(p);
+  };
+  parameter("macro.area_growth", 0.4, 0.3, 0.5);
+  parameter("macro.ridge_rms", 2.2e-6, 1e-7, 1e-4);
+  CalibrationOptions options;
+  options.threads = 1;
+  options.check = false;
+  const CalibrationResult r = fit_finger(c, options);
+  EXPECT_NEAR(r.finger.macro.area_growth, 0.5, 1e-9);
+  EXPECT_NEAR(r.gap_after, 1.06e-6, 0.005e-6);
+  EXPECT_NEAR(r.fit.chi2, square(8.5 / 3), 1e-2);
+  ASSERT_EQ(r.finger.uncertainty.size(), 1u);
+  EXPECT_EQ(r.finger.uncertainty[0].parameter, "macro.ridge_rms");
+  EXPECT_TRUE(r.finger.uncertainty[0].correlation.empty());
+  EXPECT_TRUE(r.friction_coefficient.empty());
+  EXPECT_EQ(r.finger.fitted_to, "M3 C_gap");
+}
+
+TEST(Misfit, IsThePartOfEachDegreeOfFreedom) {
+  CalibrationResult r;
+  r.fit.chi2 = 32;
+  r.fit.degrees_of_freedom = 2;
+  EXPECT_EQ(misfit(r), 16);
+  EXPECT_TRUE(explains_data(r));
+  r.fit.chi2 = 32.1;
+  EXPECT_FALSE(explains_data(r));
+  r.fit.degrees_of_freedom = 0;
+  EXPECT_EQ(misfit(r), 32.1);
+  r.fit.chi2 = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(explains_data(r));
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,303 @@
+// Tables of friction and files of fits as wholes: what is read, what lies at a border, and every
+// refusal in its words.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "base/error.h"
+#include "design/design.h"
+#include "tests/calibrate/files.h"
+
+namespace papilla::tests {
+namespace {
+
+using TablesAndFiles = Calibrate;
+
+// "line:column: key: message" of every problem.
+std::string refusal(const std::function<void()>& work) {
+  std::string out;
+  try {
+    work();
+  } catch (const InputError& error) {
+    for (const Problem& p : error.problems())
+      out += fmt::format("{}:{}: {}: {}\n", p.line, p.column, p.key, p.message);
+  }
+  return out;
+}
+
+constexpr const char* kColumns =
+    "design, relative_humidity, amplitude_V, frequency_Hz, load_N, F_off_N, F_off_sd_N, F_on_N, "
+    "F_on_sd_N";
+
+TEST_F(TablesAndFiles, ARowIsReadByItsColumnsInAnyOrder) {
+  const std::vector<FrictionDatum> rows = read_friction(
+      write("a.csv",
+            "\xEF\xBB\xBF# by hand\n\n"
+            "load_N,F_on_sd_N,design,F_on_N,F_off_sd_N,relative_humidity,F_off_N,amplitude_V,"
+            "frequency_Hz\r\n"
+            "0.3,0.02,m3_samples/flat.toml,0.25,0.01,45 %,0.125,150,2000\r\n"
+            ",,,,,,,,\n"
+            "0.4,,m3_samples/flat.toml,,0.03,0.5,0.2,0,\n"));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].design, find_design("m3_samples/flat.toml"));
+  EXPECT_EQ(rows[0].relative_humidity, 0.45);
+  EXPECT_EQ(rows[0].amplitude, 150);
+  EXPECT_EQ(rows[0].frequency, 2000);
+  EXPECT_EQ(rows[0].load, 0.3);
+  EXPECT_EQ(rows[0].off, 0.125);
+  EXPECT_EQ(rows[0].off_sd, 0.01);
+  EXPECT_EQ(rows[0].on, 0.25);
+  EXPECT_EQ(rows[0].on_sd, 0.02);
+  EXPECT_EQ(rows[0].line, 4);
+  EXPECT_EQ(rows[1].relative_humidity, 0.5);
+  EXPECT_EQ(rows[1].amplitude, 0);
+  EXPECT_EQ(rows[1].frequency, 0);
+  EXPECT_EQ(rows[1].on, 0);
+  EXPECT_EQ(rows[1].on_sd, 0);
+  EXPECT_EQ(rows[1].line, 6);
+}
+
+// humidity, amplitude, frequency, load, off, its deviation, on, its deviation.
+TEST_F(TablesAndFiles, NumbersLieInTheirRanges) {
+  const auto told = [&](const std::string& cells) {
+    return refusal([&] {
+      read_friction(write("r.csv", std::string(kHeader) + "m3_samples/flat.toml," + cells + "\n"));
+    });
+  };
+  EXPECT_EQ(told("0,0,0,0.2,0.1,1e-9,,"), "");
+  EXPECT_EQ(told("100 %,1e5,1e9,100,1000,1000,1000,1000"), "");
+  EXPECT_EQ(told("0.5,1,1,1e-6,0,1,0,1"), "");
+  EXPECT_EQ(told("1.01,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: 1.01 lies outside 0 to 1\n");
+  EXPECT_EQ(told("-0.1,0,0,0.2,0.1,1,,"), "2:2: relative_humidity: -0.1 lies outside 0 to 1\n");
+  EXPECT_EQ(told("0.5,-1,5,0.2,0.1,1,,"), "2:3: amplitude_V: -1 lies outside 0 to 100000\n");
+  EXPECT_EQ(told("0.5,1e6,5,0.2,0.1,1,,"), "2:3: amplitude_V: 1e6 lies outside 0 to 100000\n");
+  EXPECT_EQ(told("0.5,1,2e9,0.2,0.1,1,,"), "2:4: frequency_Hz: 2e9 lies outside 0 to 1000000000\n");
+  EXPECT_EQ(told("0.5,1,,0.2,0.1,1,,"), "2:4: frequency_Hz: expected a number, got \"\"\n");
+  EXPECT_EQ(told("0.5,1,5,1e-7,0,1,,"), "2:5: load_N: 1e-7 lies outside 1e-06 to 100\n");
+  EXPECT_EQ(told("0.5,1,5,101,0.1,1,,"), "2:5: load_N: 101 lies outside 1e-06 to 100\n");
+  EXPECT_EQ(told("0.5,1,5,,0.1,1,,"), "2:5: load_N: expected a number, got \"\"\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,-1,1,,"), "2:6: F_off_N: -1 lies outside 0 to 1000\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,1,0,,"), "2:7: F_off_sd_N: 0 lies outside 1e-09 to 1000\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,1,1,1001,1"), "2:8: F_on_N: 1001 lies outside 0 to 1000\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,"), "2:9: F_on_sd_N: expected a number, got \"\"\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,1,1,1,0"), "2:9: F_on_sd_N: 0 lies outside 1e-09 to 1000\n");
+  EXPECT_EQ(told("0.5,0,0,0.2,1,1,1,1"),
+            "2:8: F_on_N: a friction under voltage, but amplitude_V is 0\n");
+  EXPECT_EQ(told("half,1,5,0.2,1 N,1,1,1"),
+            "2:2: relative_humidity: expected a number, got \"half\"\n"
+            "2:6: F_off_N: expected a number, got \"1 N\"\n");
+  // Ten times the load is the most; of more than fifty times it is another unit.
+  EXPECT_EQ(told("0.5,1,5,0.2,2,1,2,1"), "");
+  EXPECT_EQ(told("0.5,1,5,0.2,2.1,1,10.2,1"),
+            "2:6: F_off_N: 2.1 N is 10.5 times the load of 0.2 N; no finger rubs so\n"
+            "2:8: F_on_N: 10.2 N is 51 times the load of 0.2 N; are these mN? Then 0.0102 N is "
+            "meant\n");
+  EXPECT_EQ(told("0.5,1,5,0.2,1"), "2:0: : expected 9 cells, got 6\n");
+}
+
+TEST_F(TablesAndFiles, AFileWithoutAHeadOrRowsIsRefused) {
+  const auto told = [&](const std::string& text) {
+    return refusal([&] { read_friction(write("t.csv", text)); });
+  };
+  EXPECT_EQ(told(""), "0:0: : no header line\n");
+  EXPECT_EQ(told("# nothing\n\n"), "2:0: : no header line\n");
+  EXPECT_EQ(told(kHeader), "1:0: : no rows below the header\n");
+  EXPECT_EQ(told("design;load_N\n"), "1:0: : the separator is a comma, decimals a point\n");
+  EXPECT_EQ(told("design\tload_N\n"), "1:0: : the separator is a comma, decimals a point\n");
+  EXPECT_EQ(told(std::string("extra,") + kHeader),
+            fmt::format("1:0: extra: unknown column; expected {}\n", kColumns));
+}
+
+// A design beside the table comes before one of the same name among the designs.
+TEST_F(TablesAndFiles, ADesignBesideItsTableComesFirst) {
+  std::filesystem::create_directories(folder_ + "/m3_samples");
+  const std::string own = write("m3_samples/flat.toml", "schema_version = 1\n");
+  const auto rows = read_friction(
+      write("d.csv", std::string(kHeader) + "m3_samples/flat.toml,0.5,0,0,0.2,0.1,1,,\n"
+                                            "m3_samples/a3h350.toml,0.5,0,0,0.2,0.1,1,,\n"));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].design, own);
+  EXPECT_EQ(rows[1].design, find_design("m3_samples/a3h350.toml"));
+  EXPECT_EQ(refusal([&] {
+              read_friction(write("e.csv", std::string(kHeader) + ",0.5,0,0,0.2,0.1,1,,\n"));
+            }),
+            "2:1: design: no file \"\" beside the table\n");
+}
+
+constexpr const char* kHead = "schema_version = 1\nfinger = \"fingers/reference.toml\"\n";
+constexpr const char* kSoftening = "[parameters]\n\"skin.softening\" = { low = 1.2, high = 4.0 }\n";
+
+TEST_F(TablesAndFiles, AFileThatSaysLittleHasTheseDefaults) {
+  const Calibration c = read(write("a.toml", std::string(kHead) + "fit = [\"M1\"]\n" + kSoftening));
+  EXPECT_EQ(c.title, "");
+  EXPECT_EQ(c.sampling.level, "draft");
+  EXPECT_EQ(c.sampling.skins, 12);
+  EXPECT_EQ(c.sampling.first_skin, 0);
+  EXPECT_EQ(c.sampling.grid, 0);
+  EXPECT_EQ(c.check.level, "design");
+  EXPECT_EQ(c.check.skins, 40);
+  EXPECT_EQ(c.check.first_skin, 5000);
+  EXPECT_EQ(c.iterations, 15);
+  EXPECT_FALSE(c.profiles);
+  EXPECT_EQ(c.fit, std::vector<std::string>{"M1"});
+  ASSERT_EQ(c.parameters.size(), 1u);
+  const FitParameter& fit = c.parameters[0].fit;
+  EXPECT_EQ(fit.name, "skin.softening");
+  EXPECT_EQ(fit.start, read_finger(find_design("fingers/reference.toml")).skin.softening);
+  EXPECT_EQ(fit.step, 0.04);
+  EXPECT_EQ(fit.low, 1.2);
+  EXPECT_EQ(fit.high, 4);
+  EXPECT_FALSE(fit.logarithmic);
+}
+
+TEST_F(TablesAndFiles, AFileSaysEveryNumberOfAFit) {
+  const Calibration c = read(write("a.toml", std::string(kHead) + R"(title = "mine"
+iterations = 7
+profiles = true
+fit = ["M1", "M2"]
+hold_out = ["M8"]
+[sampling]
+level = "reference"
+skins = 4
+first_skin = 0
+grid = 32
+[check]
+level = "draft"
+skins = 10000
+first_skin = 9
+grid = 2048
+[parameters]
+"water.scale" = { low = 0.5, high = 4.0, start = 2.0, prior = 1.5, factor = 2.0 }
+[parameters.skin]
+rms = { low = "100 nm", high = "400 nm", start = "300 nm", prior = "250 nm", sd = "20 nm" }
+)"));
+  EXPECT_EQ(c.title, "mine");
+  EXPECT_EQ(c.iterations, 7);
+  EXPECT_TRUE(c.profiles);
+  EXPECT_EQ(c.hold_out, std::vector<std::string>{"M8"});
+  EXPECT_EQ(c.sampling.level, "reference");
+  EXPECT_EQ(c.sampling.skins, 4);
+  EXPECT_EQ(c.sampling.grid, 32);
+  EXPECT_EQ(c.check.level, "draft");
+  EXPECT_EQ(c.check.skins, 10000);
+  EXPECT_EQ(c.check.first_skin, 9);
+  EXPECT_EQ(c.check.grid, 2048);
+  ASSERT_EQ(c.parameters.size(), 2u);
+  const FitParameter &water = c.parameters[0].fit, &rms = c.parameters[1].fit;
+  EXPECT_EQ(c.parameters[0].path, "water.scale");
+  EXPECT_EQ(water.low, 0.5);
+  EXPECT_EQ(water.high, 4);
+  EXPECT_EQ(water.start, 2);
+  EXPECT_EQ(water.prior, 1.5);
+  EXPECT_DOUBLE_EQ(water.prior_sd, std::log(2));
+  EXPECT_TRUE(water.logarithmic);
+  EXPECT_EQ(c.parameters[1].path, "skin.rms");
+  EXPECT_EQ(c.parameters[1].unit, "nm");
+  EXPECT_NEAR(rms.low, 100e-9, 1e-20);
+  EXPECT_NEAR(rms.high, 400e-9, 1e-20);
+  EXPECT_NEAR(rms.start, 300e-9, 1e-20);
+  EXPECT_NEAR(rms.prior, 250e-9, 1e-20);
+  EXPECT_NEAR(rms.prior_sd, 20e-9, 1e-20);
+  EXPECT_FALSE(rms.logarithmic);
+  // Parameters set: all volumes by their factor, the others as they are.
+  const std::vector<double> values{3, 123e-9};
+  const Finger set = with_parameters(c, values);
+  EXPECT_EQ(set.skin.rms, 123e-9);
+  Finger expected = c.finger;
+  expected.skin.rms = 123e-9;
+  for (double& v : expected.water.volume) v *= 3;
+  EXPECT_EQ(set, expected);
+}
+
+TEST_F(TablesAndFiles, MistakesOfAFitAreToldInTheirWords) {
+  const auto told = [&](const std::string& rest) {
+    return refusal([&] { read(write("w.toml", std::string(kHead) + rest)); });
+  };
+  const auto parameter = [&](const std::string& text) {
+    return told("fit = [\"M1\"]\n[parameters]\n" + text + "\n");
+  };
+  const std::string where = "5:18: parameters.skin.softening: ";
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2 }"),
+            where + "a parameter needs `low` and `high`\n");
+  EXPECT_EQ(parameter("skin.softening = { high = 3.0 }"),
+            where + "a parameter needs `low` and `high`\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 2.0, high = 2.0 }"),
+            where + "expected low < high\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 2.0 }"),
+            where + "a prior needs its width: `factor` or `sd`\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, sd = 2.0 }"),
+            where + "a prior needs its width: `factor` or `sd`\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 3.1 }"),
+            where + "the finger's 3.1 lies outside the bounds\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 1.1 }"),
+            where + "the finger's 1.1 lies outside the bounds\n");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 3.0 }"), "");
+  EXPECT_EQ(parameter("skin.softening = { low = 1.2, high = 3.0, start = 1.2 }"), "");
+  EXPECT_EQ(
+      parameter("skin.rms = { low = \"0 nm\", high = \"900 nm\", prior = \"250 nm\", factor = "
+                "2.0 }"),
+      "5:12: parameters.skin.rms: a prior by a factor needs low above 0\n");
+  EXPECT_EQ(parameter("\"skin.softening\" = 2.0"),
+            "5:20: parameters.skin.softening: expected { low = ..., high = ..., prior = ..., "
+            "factor = ... or sd = ... }\n");
+  EXPECT_EQ(
+      parameter("skin.softening = { low = 1.2, high = 3.0, least = 1.0 }"),
+      "5:43: parameters.skin.softening: unknown key `least`; use low, high, start, prior, and "
+      "factor or sd\n");
+  EXPECT_NE(parameter("skin.softening = { low = 1.2, high = 3.0, prior = 2.0, factor = 1.0 }"), "");
+  EXPECT_NE(parameter("skin.softening = { low = 0.9, high = 3.0 }"), "");  // below the key's own
+  const std::string none = "expected a section [parameters] with what is fitted\n";
+  EXPECT_NE(told("fit = [\"M1\"]\n").find(none), std::string::npos);
+  EXPECT_NE(told("fit = [\"M1\"]\n[parameters]\n").find(none), std::string::npos);
+  EXPECT_NE(told("fit = [\"M1\"]\nparameters = 3\n").find(none), std::string::npos);
+  EXPECT_NE(
+      told(kSoftening).find("fit: nothing to fit to: name claims in `fit` or a table in `data`\n"),
+      std::string::npos);
+  EXPECT_EQ(told(std::string("fit = \"M1\"\n") + kSoftening).substr(0, 41),
+            "3:7: fit: expected a list of claims, got ");
+  for (const auto& [key, low, high] :
+       {std::tuple{"skins", 4, 10000}, std::tuple{"first_skin", 0, 1 << 30},
+        std::tuple{"grid", 32, 2048}}) {
+    const auto section = [&](const std::string& value) {
+      return told(std::string("fit = [\"M1\"]\n") + kSoftening +
+                  fmt::format("[sampling]\n{} = {}\n", key, value));
+    };
+    EXPECT_EQ(section(std::to_string(low)), "") << key;
+    EXPECT_EQ(section(std::to_string(high)), "") << key;
+    const std::string message =
+        fmt::format("sampling.{}: expected a whole number from {} to {}\n", key, low, high);
+    for (const std::string& wrong :
+         {std::to_string(low - 1), std::to_string(high + 1), std::string("5.5")})
+      EXPECT_NE(section(wrong).find(message), std::string::npos) << key << " = " << wrong;
+  }
+  const auto also = [&](const std::string& line) {
+    return told(line + "\nfit = [\"M1\"]\n" + kSoftening);
+  };
+  EXPECT_EQ(also("iterations = 0"), "3:14: iterations: expected a whole number from 1 to 1000\n");
+  EXPECT_EQ(also("iterations = 1001"),
+            "3:14: iterations: expected a whole number from 1 to 1000\n");
+  EXPECT_EQ(also("iterations = 1"), "");
+  EXPECT_EQ(also("iterations = 1000"), "");
+  EXPECT_EQ(also("profiles = 1"), "3:12: profiles: expected true or false\n");
+  EXPECT_EQ(also("data = \"none.csv\""), "3:8: data: no file \"none.csv\"\n");
+  EXPECT_EQ(also("title = 3").substr(0, 29), "3:9: title: expected a text, ");
+  EXPECT_NE(also("sampling = 3").find("sampling: expected a section, got"), std::string::npos);
+  const auto of_sampling = [&](const std::string& line) {
+    return told(std::string("fit = [\"M1\"]\n") + kSoftening + "[check]\n" + line + "\n");
+  };
+  EXPECT_NE(
+      of_sampling("pixels = 3").find("unknown key `pixels`; use level, skins, first_skin, grid"),
+      std::string::npos);
+  EXPECT_NE(of_sampling("level = \"finest\"").find("check.level: expected one of "),
+            std::string::npos);
+  EXPECT_EQ(of_sampling("level = \"reference\""), "");
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,275 @@
+// Mean-field cases against the theory that they hand their numbers to: every point of every table,
+// the curves, and what is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "cases/persson.h"
+
+namespace papilla::tests {
+namespace {
+
+const std::string kWrist = PAPILLA_SOURCE_DIR "/designs/physics/wrist_on_glass.toml";
+
+std::string refused(const std::vector<std::string>& overrides) {
+  try {
+    read_mean_field(kWrist, overrides);
+  } catch (const InputError& error) {
+    std::string out;
+    for (const Problem& p : error.problems()) out += p.key + ": " + p.message + "\n";
+    return out;
+  }
+  return "";
+}
+
+void near(double value, double expected) {
+  EXPECT_NEAR(value, expected, 1e-9 * std::abs(expected)) << expected;
+}
+
+// A case whose numbers are all its own: 0.4 N on 50 mm2 are 8 kPa, below the 9 kPa at which the
+// body is finite.
+MeanFieldCase own_case() {
+  MeanFieldCase c;
+  SpectrumSettings& s = c.roughness;
+  s.rms = 10e-6, s.lowest = 1e3, s.roll_off = 5e3, s.cutoff = 1e7, s.hurst = 0.8, s.scale = 1.5;
+  c.skin.solid = {20e6, 0.45, 150e-6, 20e3, 0.48};
+  c.interface.dielectric = {{"a", 1e-6, 4, 1e14, 1e9}, {"b", 2e-6, 8, 1e14, 1e9}};
+  c.touch = {.load = 0.4, .area = 50e-6, .shear_strength = 7e6, .finite_size_pressure = 9e3};
+  c.drive.amplitude = 80;
+  c.drive.frequency = 2e3;
+  c.sweep = {{20, 60}, {0, 0.3, 1}, {0, 0.5, 5e3}};
+  c.theory = {1.8, 0.5};
+  return c;
+}
+PowerSpectrum own_spectrum() { return self_affine_spectrum(10e-6, 1e3, 5e3, 1e7, 0.8).scaled(1.5); }
+MeanField own_field(const PowerSpectrum& spectrum) {
+  return {spectrum, {20e6, 0.45, 150e-6, 20e3, 0.48}, {.kappa = 1.8, .energy_factor = 0.5}};
+}
+// 1 um / 4 and 2 um / 8, and the skin's printed permittivities over 150 um.
+std::complex<double> own_thickness(double frequency) {
+  if (frequency == 0) return 0.5e-6;
+  return series_thickness(0.5e-6, 150e-6, SkinDielectric{}, frequency);
+}
+
+void expect_point(const MeanFieldPoint& p, const MeanField& field, double voltage, double load,
+                  double frequency, double rms) {
+  EXPECT_EQ(p.voltage, voltage);
+  EXPECT_EQ(p.load, load);
+  EXPECT_EQ(p.frequency, frequency);
+  const std::complex<double> h0 = own_thickness(frequency);
+  EXPECT_NEAR(std::abs(p.thickness - h0), 0, 1e-9 * std::abs(h0));
+  const FrictionPoint on = friction_at(field, load, 50e-6, 7e6, rms, h0, 9e3);
+  near(p.on.normal_force, load);
+  near(p.on.friction, on.friction);
+  near(p.on.coefficient, on.coefficient);
+  near(p.on.pull.pull, on.pull.pull);
+  near(p.on.pull.pressure, on.pull.pressure);
+  near(p.area_off, field.area(load / 50e-6));
+  near(p.capacitance, kVacuumPermittivity * 50e-6 *
+                          field.gaps(std::max(on.pull.pressure, 9e3)).inverse(std::abs(h0)));
+}
+
+TEST(MeanFieldByHand, EveryPointIsThatOfItsVoltageLoadAndFrequency) {
+  const MeanFieldCase c = own_case();
+  const MeanFieldResult r = solve_mean_field(c);
+  const PowerSpectrum spectrum = own_spectrum();
+  const MeanField field = own_field(spectrum);
+  near(r.rms, 10e-6 * std::sqrt(1.5));
+  near(r.slope, spectrum.slope());
+  near(r.contact_modulus, effective_modulus({20e6, 0.45, 150e-6, 20e3, 0.48}, 1e7));
+  const double half = std::sqrt(0.5);  // of a sine
+  expect_point(r.point, field, 80, 0.4, 2e3, 80 * half);
+  ASSERT_EQ(r.voltage.size(), 2u);
+  ASSERT_EQ(r.load.size(), 3u);
+  ASSERT_EQ(r.frequency.size(), 3u);
+  expect_point(r.voltage[0], field, 20, 0.4, 2e3, 20 * half);
+  expect_point(r.voltage[1], field, 60, 0.4, 2e3, 60 * half);
+  expect_point(r.load[0], field, 80, 0, 2e3, 80 * half);
+  expect_point(r.load[2], field, 80, 1, 2e3, 80 * half);
+  expect_point(r.frequency[0], field, 80, 0.4, 0, 80 * half);
+  expect_point(r.frequency[1], field, 80, 0.4, 0.5, 80 * half);
+  expect_point(r.frequency[2], field, 80, 0.4, 5e3, 80 * half);
+  MeanFieldCase dc = own_case();
+  dc.drive.waveform = Waveform::Dc;
+  expect_point(solve_mean_field(dc).point, field, 80, 0.4, 0, 80);
+}
+
+TEST(MeanFieldByHand, AMeasuredSpectrumIsTakenByItsKnots) {
+  SpectrumSettings s;
+  s.scale = 2;
+  s.wave_number = {1e3, 1e4, 1e6};
+  s.density = {1e-18, 3e-19, 1e-24};
+  EXPECT_EQ(s.spectrum(), (PowerSpectrum{{1e3, 1e4, 1e6}, {2e-18, 6e-19, 2e-24}}));
+}
+
+// Yielding flattens the spectrum at the larger of the nominal pressure and the finite body's.
+TEST(MeanFieldByHand, ASkinThatYieldsIsSmoothedAtItsPressure) {
+  const PowerSpectrum given = own_spectrum();
+  for (const double load : {0.4, 1.0}) {
+    MeanFieldCase c = own_case();
+    c.touch.load = load;
+    c.skin.hardness = 1e6;
+    const double pressure = std::max(load / 50e-6, 9e3);
+    const PowerSpectrum smooth = plastic_smoothing(given, c.skin.solid, 1e6, pressure, 1.8);
+    const MeanFieldResult r = solve_mean_field(c);
+    near(r.rms, smooth.rms());
+    near(r.slope, smooth.slope());
+    near(r.point.area_off, own_field(smooth).area(load / 50e-6));
+    EXPECT_LT(r.slope, 0.99 * given.slope());
+    const auto curves = mean_field_curves(c).roughness;
+    for (const std::size_t k : {10u, 60u, 120u}) {
+      const double q = curves[k].wave_number;
+      near(q, 1e3 * std::pow(1e4, static_cast<double>(k) / 120));
+      near(curves[k].given, given.at(q));
+      near(curves[k].smoothed, smooth.at(q));
+      near(curves[k].area, own_field(smooth).area(load / 50e-6, q));
+      const ContactShares shares =
+          plastic_shares(load / 50e-6, own_field(given).stress_measure(q), 1e6);
+      near(curves[k].elastic, shares.elastic);
+      EXPECT_NEAR(curves[k].yielded, shares.plastic, 1e-9 * shares.plastic + 1e-300);
+    }
+  }
+}
+
+TEST(MeanFieldByHand, CurvesAreThoseOfThePoint) {
+  const MeanFieldCase c = own_case();
+  const MeanFieldCurves curves = mean_field_curves(c);
+  const MeanField field = own_field(own_spectrum());
+  ASSERT_EQ(curves.roughness.size(), 121u);
+  for (const std::size_t k : {0u, 60u, 120u}) {
+    const auto& at = curves.roughness[k];
+    near(at.area, field.area(8e3, at.wave_number));
+    EXPECT_EQ(at.elastic, at.area);
+    EXPECT_EQ(at.yielded, 0);
+    EXPECT_EQ(at.smoothed, at.given);
+  }
+  ASSERT_EQ(curves.grid.size(), 6u);
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_EQ(curves.grid[k].voltage, c.sweep.voltage[k / 3]);
+    EXPECT_EQ(curves.grid[k].load, c.sweep.load[k % 3]);
+    EXPECT_EQ(curves.grid[k].frequency, 2e3);
+  }
+  // A quarter of a decade apart is every fifth of 121 points over six decades.
+  ASSERT_EQ(curves.separation.size(), 121u);
+  for (const std::size_t k : {0u, 60u, 100u}) {
+    near(curves.separation[k].pressure, std::pow(10, static_cast<double>(k) / 20));
+    near(curves.separation[k].gap, field.mean_gap(curves.separation[k].pressure));
+    near(curves.separation[k].held_gap,
+         field.mean_gap(std::max(9e3, curves.separation[k].pressure)));
+  }
+  const FrictionPoint on =
+      friction_at(field, 0.4, 50e-6, 7e6, 80 * std::sqrt(0.5), own_thickness(2e3), 9e3);
+  const GapDistribution gaps = field.gaps(std::max(on.pull.pressure, 9e3));
+  ASSERT_EQ(curves.stress.size(), 121u);
+  for (const std::size_t k : {0u, 50u, 120u}) {
+    const double gap = 1e-11 * std::pow(1e8, static_cast<double>(k) / 120);
+    near(curves.stress[k].gap, gap);
+    // eps0 V^2 / 2 over the square of gap and layers, V the root mean square.
+    near(curves.stress[k].stress,
+         0.5 * kVacuumPermittivity * 3200 / square(gap + std::abs(own_thickness(2e3))));
+  }
+  // From a thousandth of the slowest time, that of contact, to a hundred of it.
+  const StepResponse step{0.5e-6, 150e-6, SkinDielectric{}.permittivity_at(2e3),
+                          SkinDielectric{}.resistivity_at(2e3)};
+  ASSERT_EQ(curves.step.size(), 121u);
+  for (const std::size_t k : {0u, 40u, 120u}) {
+    const double t = 1e-3 * step.relaxation_time(0) * std::pow(1e5, static_cast<double>(k) / 120);
+    near(curves.step[k].time, t);
+    near(curves.step[k].field, step.field(80, gaps.mean_gap, t));
+    near(curves.step[k].pull, step.pull(gaps, 80, t));
+  }
+}
+
+// No voltage, no stress and no step; a constant voltage is taken at 1 Hz for the skin's layer.
+TEST(MeanFieldByHand, CurvesOfAConstantVoltageAndOfNone) {
+  MeanFieldCase c = own_case();
+  c.sweep = {};
+  c.drive.waveform = Waveform::Dc;
+  const MeanFieldCurves dc = mean_field_curves(c);
+  const StepResponse step{0.5e-6, 150e-6, SkinDielectric{}.permittivity_at(1),
+                          SkinDielectric{}.resistivity_at(1)};
+  ASSERT_EQ(dc.step.size(), 121u);
+  near(dc.step.front().time, 1e-3 * step.relaxation_time(0));
+  near(dc.stress.front().stress, 0.5 * kVacuumPermittivity * 6400 / square(0.5e-6 + 1e-11));
+  EXPECT_TRUE(dc.grid.empty());
+  c.interface.gap_resistivity = 1e6;  // it takes no voltage
+  EXPECT_TRUE(mean_field_curves(c).stress.empty());
+  EXPECT_FALSE(mean_field_curves(c).separation.empty());
+  EXPECT_EQ(solve_mean_field(c).point.capacitance, 0);
+  EXPECT_EQ(solve_mean_field(c).point.on.pull.pull, 0);
+  EXPECT_EQ(solve_mean_field(c).point.thickness.real(), kInfinity);
+  c = own_case();
+  c.drive.amplitude = 0;
+  EXPECT_TRUE(mean_field_curves(c).stress.empty());
+  EXPECT_TRUE(mean_field_curves(c).step.empty());
+}
+
+TEST(MeanFieldByHand, MistakesOfAFileAreToldUnderTheirKeys) {
+  EXPECT_EQ(refused({}), "");
+  const std::string order = "roughness.roll_off: expected lowest <= roll_off < cutoff\n";
+  EXPECT_EQ(refused({"roughness.roll_off=799 1/m"}), order);
+  EXPECT_EQ(refused({"roughness.roll_off=800 1/m"}), "");
+  EXPECT_EQ(refused({"roughness.roll_off=1e8 1/m"}), order);
+  EXPECT_EQ(refused({"roughness.roll_off=9e7 1/m"}), "");
+  const std::string one =
+      "roughness.density: expected one density for each of at least two wave "
+      "numbers\n";
+  EXPECT_EQ(refused({"roughness.wave_number=[\"1e3 1/m\"]", "roughness.density=[\"1e-18 m4\"]"}),
+            one);
+  EXPECT_EQ(refused({"roughness.density=[\"1e-18 m4\"]"}), one);
+  const auto knots = [](const char* second) {
+    return refused({std::string("roughness.wave_number=[\"1e3 1/m\",\"") + second + " 1/m\"]",
+                    "roughness.density=[\"1e-18 m4\",\"1e-20 m4\"]"});
+  };
+  EXPECT_EQ(knots("2e3"), "");
+  EXPECT_EQ(knots("1e3"), "roughness.wave_number: expected rising wave numbers\n");
+  EXPECT_EQ(knots("0.9e3"), "roughness.wave_number: expected rising wave numbers\n");
+  EXPECT_EQ(refused({"drive.control=current", "drive.current=1 mA"}),
+            "drive.control: the mean field takes a voltage; see papilla solve drive\n");
+  const std::string infinite =
+      "touch.load: without load the gaps of an infinite body are infinite: "
+      "give a load or a finite_size_pressure\n";
+  const std::vector<std::string> loads{"sweep.load=[\"1 N\",\"0 N\"]", "sweep.load=[\"1 N\"]"};
+  EXPECT_EQ(refused({"touch.finite_size_pressure=0 Pa", loads[0]}), infinite);
+  EXPECT_EQ(refused({"touch.finite_size_pressure=0 Pa", loads[1]}), "");
+  EXPECT_EQ(refused({"touch.finite_size_pressure=0 Pa", loads[1], "touch.load=0 N"}), infinite);
+  EXPECT_EQ(refused({"touch.load=0 N", loads[0]}), "");
+  // 0.5 N on 100 mm2 are 5 kPa.
+  EXPECT_EQ(refused({"skin.hardness=4.9 kPa"}),
+            "skin.hardness: the nominal pressure reaches the hardness\n");
+  EXPECT_EQ(refused({"skin.hardness=5.1 kPa"}), "");
+}
+
+TEST(MeanFieldByHand, ACaseThatSaysNothingIsTheWristOfThePaper) {
+  const MeanFieldCase c;
+  EXPECT_EQ(c.schema_version, 1);
+  EXPECT_EQ(c.roughness.spectrum(), wrist_spectrum());
+  EXPECT_EQ(c.roughness.scale, 1);
+  EXPECT_EQ(c.skin.solid, (MeanFieldSolid{40e6, 0.5, 200e-6, 10e3, 0.5}));
+  EXPECT_EQ(c.skin.hardness, 0);
+  ASSERT_EQ(c.interface.dielectric.size(), 1u);
+  EXPECT_EQ(c.interface.dielectric[0], (Dielectric{"oxide", 1e-6, 3.9, 1e14, 1e9}));
+  EXPECT_EQ(c.interface.skin_equivalent, 0);
+  EXPECT_EQ(c.interface.gap_resistivity, 0);
+  EXPECT_TRUE(c.interface.lossy_skin);
+  EXPECT_EQ(c.touch.load, 0.5);
+  EXPECT_EQ(c.touch.area, 1e-4);
+  EXPECT_EQ(c.touch.shear_strength, 8e6);
+  EXPECT_EQ(c.touch.finite_size_pressure, 10e3);
+  EXPECT_EQ(c.theory.kappa, 2);
+  EXPECT_EQ(c.theory.energy_factor, 0.45);
+  // A file that names no drive: 100 V at 1 kHz.
+  const MeanFieldCase read = read_mean_field(parse_document("schema_version = 1\n", "a.toml"));
+  EXPECT_EQ(read.drive.amplitude, 100);
+  EXPECT_EQ(read.drive.frequency, 1e3);
+  EXPECT_EQ(read.touch.load, 0.5);
+}
+
+}  // namespace
+}  // namespace papilla::tests

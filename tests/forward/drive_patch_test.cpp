@@ -1,0 +1,359 @@
+// One patch before and under the drive, piece by piece: each number is that of the piece of physics
+// asked by itself.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/random.h"
+#include "forward/coupling.h"
+#include "forward/patch_setup.h"
+#include "forward/scene_terms.h"
+#include "physics/capillary/droplets.h"
+#include "physics/electrostatics/breakdown.h"
+
+namespace papilla::tests {
+namespace {
+
+constexpr double kHumidity = 0.6, kPressure = 4e5;
+
+Scene driven(double amplitude) {
+  Scene scene;
+  scene.drive.amplitude = amplitude;
+  scene.environment.relative_humidity = {kHumidity};
+  return scene;
+}
+
+// A small patch of the finger's skin on glass.
+struct Patch {
+  Fidelity fidelity = fidelity_level("search");
+  PatchSetup setup;
+  std::vector<double> height;
+  std::shared_ptr<const ContactKernel> kernel;
+  PatchProblem problem;
+  Plan plan;
+
+  explicit Patch(const Scene& scene, Estimator estimator = Estimator::Load,
+                 const Texture& texture = {}, int passes = 12)
+      : fidelity([&] {
+          Fidelity f = fidelity_level("search");
+          f.grid = 32, f.estimator = estimator, f.coupling_passes = passes;
+          return f;
+        }()),
+        setup(scene, texture, fidelity),
+        height(setup.height(setup.skin(0))),
+        kernel(contact_kernel(setup.scene(), setup.body(), setup.plan().grid, kHumidity)),
+        problem(setup.problem(height, *kernel, kHumidity, kPressure, {1.5, 3})),
+        plan(setup.plan()) {
+    problem.field_correction = 0.8;
+  }
+  double area() const { return plan.grid.area(); }
+  double softness() const { return 1 / setup.scene().finger.skin.modulus_factor(kHumidity); }
+
+  // Under an attraction [Pa], as the skin is at this humidity.
+  ContactSolution contact(std::vector<double> traction, const ContactSolution* start) const {
+    for (double& t : traction) t *= softness();
+    ContactOptions options;
+    options.tolerance = fidelity.contact_tolerance;
+    return solve_contact(*kernel, height, kPressure * softness(), traction, options, start);
+  }
+  WaterProperties water(double angle) const { return water_properties(setup.scene(), angle); }
+  FieldProblem field() const { return field_problem(setup.scene(), kHumidity); }
+  FieldSolution pull(const Gap& gap, const Wetting& wetting) const {
+    return solve_field(setup.scene(), gap, &setup.surface(), wetting, field(),
+                       fidelity.field_tolerance);
+  }
+};
+
+double mean(const std::vector<double>& v) {
+  double sum = 0;
+  for (const double x : v) sum += x;
+  return sum / static_cast<double>(v.size());
+}
+
+// The skin that is softer by a factor touches as the dry one under a load as much larger.
+TEST(DrivePatch, BeforeTheDriveItIsContactAndThenWaterOnIt) {
+  const Patch patch(driven(0));
+  const UndrivenPatch u = undriven_patch(patch.problem, patch.plan, patch.fidelity, {});
+  ASSERT_TRUE(u.result.status.sound()) << text(u.result.status);
+  const ContactSolution dry = patch.contact({}, nullptr);
+  EXPECT_EQ(u.dry.gap, dry.gap);
+  EXPECT_EQ(u.dry.pressure, dry.pressure);
+  EXPECT_GT(patch.softness(), 1.1);
+  const PatchResult& r = u.result;
+  EXPECT_NEAR(r.load, kPressure * patch.area(), 1e-12 * r.load);
+  EXPECT_EQ(r.area_dry, measure_area(*patch.kernel, dry).near_edge);
+  EXPECT_EQ(r.area_off, r.area_dry);
+  EXPECT_EQ(r.area_on, r.area_dry);
+  EXPECT_EQ(r.certificate, dry.certificate);
+  EXPECT_EQ(r.costs.contact_solves, 1);
+  EXPECT_EQ(r.costs.fft_pairs, dry.fft_pairs);
+  EXPECT_NEAR(r.mean_gap, mean(dry.gap), 1e-12 * r.mean_gap);
+  // The approach since first touch: highest point over the mean, less the mean gap.
+  const double top = *std::max_element(patch.height.begin(), patch.height.end());
+  EXPECT_NEAR(r.indentation, top - mean(patch.height) - mean(dry.gap), 1e-9 * r.indentation);
+  // Its water: one and a half times the finger's, droplets of stream 3.
+  const Scene& scene = patch.setup.scene();
+  const double volume = 1.5 * patch.area() * scene.finger.water.volume_per_area(kHumidity);
+  EXPECT_NEAR(r.volume, volume, 1e-12 * volume);
+  DropletOptions options;
+  options.drops_per_volume = scene.finger.water.drops_per_um3 * 1e18;
+  options.first_step = scene.model.droplet_step;
+  const Gap gap{patch.plan.grid, dry.gap};
+  const Wetting w =
+      settle_droplets(gap, r.volume, patch.water(scene.surface.contact_angle), options, 1, 3);
+  EXPECT_EQ(u.water.bridged, w.bridged);
+  ASSERT_GT(w.bridges, 0);
+  EXPECT_EQ(r.bridges, w.bridges);
+  EXPECT_EQ(r.wetted, w.wetted_fraction);
+  EXPECT_EQ(r.bridge_volume, w.bridge_volume);
+  EXPECT_EQ(r.retention, w.retention);
+  EXPECT_EQ(r.retention_on, w.retention);
+  EXPECT_EQ(r.capillary_off, w.capillary_force);
+  EXPECT_EQ(r.capillary_on, w.capillary_force);
+  double between = 0;
+  for (const Droplet& d : w.droplets) between += d.film > 0 && d.film < 1 ? d.volume : 0;
+  EXPECT_EQ(r.on_its_way, between);
+  EXPECT_EQ(r.pull, 0);
+  // On a contact that is solved already the same, without a solve.
+  const UndrivenPatch again = wet_patch(patch.problem, patch.plan, patch.fidelity, dry);
+  EXPECT_EQ(again.result.costs.contact_solves, 0);
+  EXPECT_EQ(again.result.area_dry, r.area_dry);
+  EXPECT_EQ(again.result.capillary_off, r.capillary_off);
+  EXPECT_EQ(again.result.mean_gap, r.mean_gap);
+  EXPECT_EQ(again.result.certificate, r.certificate);
+}
+
+TEST(DrivePatch, ByTheLoadLawTheFieldPullsOverTheGapAtRest) {
+  const Patch patch(driven(150));
+  const UndrivenPatch u = undriven_patch(patch.problem, patch.plan, patch.fidelity, {});
+  PatchFields fields;
+  const PatchResult r = drive_patch(patch.problem, patch.plan, patch.fidelity, u, &fields);
+  ASSERT_TRUE(r.status.sound()) << text(r.status);
+  const Gap gap{patch.plan.grid, u.dry.gap};
+  const Scene& scene = patch.setup.scene();
+  const Wetting on = rewet(u.water, gap, patch.water(driven_contact_angle(scene, kHumidity)));
+  EXPECT_EQ(r.capillary_on, on.capillary_force);
+  EXPECT_NE(r.capillary_on, r.capillary_off);
+  EXPECT_EQ(r.retention_on, on.retention);
+  EXPECT_EQ(r.capillary_off, u.result.capillary_off);
+  const FieldSolution field = patch.pull(gap, on);
+  EXPECT_NEAR(r.pull, 0.8 * field.mean_pressure * patch.area(), 1e-12 * r.pull);
+  for (std::size_t i = 0; i < field.traction.value.size(); ++i)
+    ASSERT_NEAR(fields.pull.value[i], 0.8 * field.traction.value[i], 1e-9 * field.mean_pressure);
+  EXPECT_EQ(r.over_limit_area, field.over_limit_area);
+  EXPECT_EQ(r.over_limit_share, field.over_limit_share);
+  EXPECT_EQ(r.peak_air_field, field.peak_air_field);
+  EXPECT_EQ(r.peak_oxide_field, field.peak_oxide_field);
+  // 1 GV/m of the one layer over its peak.
+  EXPECT_NEAR(r.oxide_margin, 1e9 / field.peak_oxide_field, 1e-9 * r.oxide_margin);
+  EXPECT_EQ(r.area_on, r.area_dry);
+  EXPECT_EQ(r.costs.contact_solves, 1);
+  EXPECT_EQ(fields.off.gap, u.dry.gap);
+  EXPECT_EQ(fields.on.gap, u.dry.gap);
+  EXPECT_EQ(fields.wetting_off.bridged, u.water.bridged);
+  EXPECT_EQ(fields.wetting_on.bridged, on.bridged);
+}
+
+// Eq. coupling.1: capillary tractions before the drive, the water of the drive and the field under
+// it, each one solve more.
+TEST(DrivePatch, BySolvedAreasEveryTractionPressesTheSkin) {
+  const Patch patch(driven(150), Estimator::Area);
+  ASSERT_TRUE(patch.plan.traction_solves);
+  PatchStates states;
+  const UndrivenPatch u = undriven_patch(patch.problem, patch.plan, patch.fidelity, {});
+  PatchFields fields;
+  const PatchResult r = solve_patch(patch.problem, patch.plan, patch.fidelity, states, &fields);
+  const Gap gap{patch.plan.grid, u.dry.gap};
+  const Scene& scene = patch.setup.scene();
+  const WaterProperties rest = patch.water(scene.surface.contact_angle),
+                        driven_water = patch.water(driven_contact_angle(scene, kHumidity));
+  const ContactSolution off = patch.contact(capillary_traction(u.water, gap, rest).value, &u.dry);
+  const double area_off = measure_area(*patch.kernel, off).near_edge;
+  EXPECT_NEAR(r.area_off, area_off, 1e-9 * area_off);
+  const Wetting on = rewet(u.water, gap, driven_water);
+  std::vector<double> total = capillary_traction(on, gap, driven_water).value;
+  const FieldSolution field = patch.pull(gap, on);
+  for (std::size_t i = 0; i < total.size(); ++i) total[i] += 0.8 * field.traction.value[i];
+  const ContactSolution pressed = patch.contact(total, &off);
+  const double area_on = measure_area(*patch.kernel, pressed).near_edge;
+  EXPECT_NEAR(r.area_on, area_on, 1e-9 * area_on);
+  EXPECT_GT(area_on, 1.02 * area_off);
+  EXPECT_GT(area_off, 1.001 * r.area_dry);
+  EXPECT_EQ(r.costs.contact_solves, 3);
+  EXPECT_NEAR(r.costs.fft_pairs, u.dry.fft_pairs + off.fft_pairs + pressed.fft_pairs, 1e-9);
+  EXPECT_EQ(r.certificate, std::max({u.dry.certificate, off.certificate, pressed.certificate}));
+  // The pull is added in another order here: gaps of the same contact to rounding.
+  const auto expect_same_gap = [](const ContactSolution& got, const ContactSolution& want) {
+    ASSERT_EQ(got.gap.size(), want.gap.size());
+    for (std::size_t i = 0; i < got.gap.size(); ++i) EXPECT_NEAR(got.gap[i], want.gap[i], 1e-15);
+  };
+  EXPECT_EQ(fields.off.gap, off.gap);
+  expect_same_gap(fields.on, pressed);
+  // From here the next humidity starts.
+  EXPECT_EQ(states.dry.gap, u.dry.gap);
+  EXPECT_EQ(states.off.gap, off.gap);
+  expect_same_gap(states.on, pressed);
+  // The same problem again starts where it ends.
+  const PatchResult again = solve_patch(patch.problem, patch.plan, patch.fidelity, states);
+  EXPECT_LT(again.costs.fft_pairs, 0.7 * r.costs.fft_pairs);
+  EXPECT_NEAR(again.area_on, area_on, 5e-3 * area_on);
+}
+
+// Eq. coupling.5: what a next pass would pull, over what this one has, less one.
+TEST(DrivePatch, OnePassStatesTheRiseOfANextThatWouldDoubleThePull) {
+  int told = 0, quiet = 0;
+  for (const double amplitude : {200.0, 350.0, 450.0, 550.0, 700.0}) {
+    const Patch patch(driven(amplitude), Estimator::Area);
+    PatchStates states;
+    PatchFields fields;
+    const PatchResult r = solve_patch(patch.problem, patch.plan, patch.fidelity, states, &fields);
+    ASSERT_FALSE(fields.on.gap.empty());
+    const double next =
+        0.8 * patch.pull({patch.plan.grid, fields.on.gap}, fields.wetting_on).mean_pressure *
+        patch.area();
+    if (next >= 2 * r.pull) {
+      EXPECT_EQ(r.status.trouble, Trouble::SecondPassPullIn) << amplitude;
+      EXPECT_NEAR(r.status.number, next / r.pull - 1, 1e-9) << amplitude;
+      ++told;
+    } else {
+      EXPECT_TRUE(r.status.sound()) << amplitude << text(r.status);
+      ++quiet;
+    }
+  }
+  EXPECT_GT(told, 0);
+  EXPECT_GT(quiet, 0);
+}
+
+// Eq. coupling.2: what settles is contact under its own field and water.
+TEST(DrivePatch, SelfConsistentItEndsAtItsFixedPoint) {
+  Scene scene = driven(120);
+  scene.model.coupling = Coupling::SelfConsistent;
+  const Patch patch(scene, Estimator::Area, {}, 60);
+  PatchStates states;
+  PatchFields fields;
+  const PatchResult r = solve_patch(patch.problem, patch.plan, patch.fidelity, states, &fields);
+  ASSERT_TRUE(r.status.sound()) << text(r.status);
+  const Gap gap{patch.plan.grid, fields.on.gap};
+  const FieldSolution field = patch.pull(gap, fields.wetting_on);
+  EXPECT_NEAR(r.pull, 0.8 * field.mean_pressure * patch.area(), 1e-9 * r.pull);
+  EXPECT_EQ(r.area_on, measure_area(*patch.kernel, fields.on).near_edge);
+  const WaterProperties water = patch.water(driven_contact_angle(patch.setup.scene(), kHumidity));
+  std::vector<double> total = capillary_traction(fields.wetting_on, gap, water).value;
+  for (std::size_t i = 0; i < total.size(); ++i) total[i] += 0.8 * field.traction.value[i];
+  const ContactSolution next = patch.contact(total, &fields.on);
+  const double settled =
+      0.8 * patch.pull({patch.plan.grid, next.gap}, fields.wetting_on).mean_pressure * patch.area();
+  EXPECT_NEAR(settled, r.pull, 0.03 * r.pull);
+  EXPECT_EQ(r.capillary_on, fields.wetting_on.capillary_force);
+  EXPECT_EQ(r.retention_on, fields.wetting_on.retention);
+  // Passes that end before it settles are told, each one solve after dry and off.
+  for (const int passes : {1, 2}) {
+    const Patch few(scene, Estimator::Area, {}, passes);
+    PatchStates none;
+    const PatchResult cut = solve_patch(few.problem, few.plan, few.fidelity, none);
+    EXPECT_EQ(cut.status.trouble, Trouble::PassesUsedUp) << passes;
+    EXPECT_EQ(cut.status.number, passes);
+    EXPECT_EQ(cut.costs.contact_solves, 2 + passes);
+  }
+}
+
+// Passes by hand: the first takes its traction whole, the next half of what changes; what has not
+// settled then is a pull-in where the pull still grows and has doubled.
+TEST(DrivePatch, SelfConsistentPassesGoHalfWay) {
+  int growing = 0, used_up = 0, grown = 0;
+  for (const double amplitude : {120.0, 200.0, 260.0, 330.0, 500.0}) {
+    Scene scene = driven(amplitude);
+    scene.model.coupling = Coupling::SelfConsistent;
+    scene.finger.water.volume = {0, 0, 0, 0};
+    const Patch patch(scene, Estimator::Load, {}, 3);
+    PatchStates states;
+    PatchFields fields;
+    const PatchResult r = solve_patch(patch.problem, patch.plan, patch.fidelity, states, &fields);
+    const ContactSolution dry = patch.contact({}, nullptr);
+    const auto corrected = [&](const std::vector<double>& gap) {
+      std::vector<double> t = patch.pull({patch.plan.grid, gap}, {}).traction.value;
+      for (double& p : t) p *= 0.8;
+      return t;
+    };
+    std::vector<double> traction = corrected(dry.gap);
+    std::vector<double> pulls{mean(traction)};
+    ContactSolution state = dry;
+    for (int pass = 0; pass < 3; ++pass) {
+      state = patch.contact(traction, &state);
+      const std::vector<double> target = corrected(state.gap);
+      pulls.push_back(mean(target));
+      for (std::size_t i = 0; i < traction.size(); ++i)
+        traction[i] = pass == 0 ? target[i] : 0.5 * (traction[i] + target[i]);
+    }
+    ASSERT_EQ(fields.on.gap.size(), state.gap.size());
+    for (std::size_t i = 0; i < state.gap.size(); ++i)
+      ASSERT_NEAR(fields.on.gap[i], state.gap[i], 1e-6 * mean(state.gap));
+    EXPECT_NEAR(r.pull, pulls[3] * patch.area(), 1e-6 * r.pull);
+    ASSERT_GT(std::abs(pulls[3] / pulls[2] - 1), patch.fidelity.coupling_tolerance) << amplitude;
+    const bool rises = pulls[3] > pulls[2], doubled = pulls[3] > 2 * pulls[0];
+    EXPECT_EQ(r.status, rises && doubled ? (ModelStatus{Trouble::GrowingPullIn, 0, ""})
+                                         : (ModelStatus{Trouble::PassesUsedUp, 3, ""}))
+        << amplitude;
+    growing += rises && doubled;
+    used_up += !(rises && doubled);
+    grown += rises && !doubled;
+  }
+  EXPECT_GT(growing, 0);
+  EXPECT_GT(used_up, 0);
+  EXPECT_GT(grown, 0);
+}
+
+// More than nine tenths of the patch touch after the first pass: nothing more is asked.
+TEST(DrivePatch, AClosedGapEndsThePasses) {
+  Scene scene = driven(20000);
+  scene.model.coupling = Coupling::SelfConsistent;
+  const Patch closed(scene);
+  PatchStates states;
+  const PatchResult shut = solve_patch(closed.problem, closed.plan, closed.fidelity, states);
+  EXPECT_EQ(shut.status, (ModelStatus{Trouble::ClosedPullIn, 0, ""})) << text(shut.status);
+  EXPECT_TRUE(shut.status.pull_in());
+  EXPECT_EQ(shut.costs.contact_solves, 2);
+}
+
+TEST(DrivePatch, WhatAPieceCannotSolveIsItsStatus) {
+  // A bare electrode below a skin without its layer.
+  Scene bare = driven(100);
+  bare.surface.dielectric.clear();
+  bare.finger.electrical.thickness_15 = bare.finger.electrical.thickness_75 = 0;
+  bare.finger.water.volume = {0, 0, 0, 0};
+  const Patch shorted(bare);
+  PatchStates states;
+  const PatchResult r = solve_patch(shorted.problem, shorted.plan, shorted.fidelity, states);
+  EXPECT_EQ(r.status, (ModelStatus{Trouble::FieldUnsolved, 0,
+                                   "no dielectric anywhere: contact would short the drive"}));
+  // More load than the skin's hardness holds: no contact, and nothing after it.
+  Scene soft = driven(100);
+  soft.finger.skin.hardness = 1e5;
+  const Patch crushed(soft);
+  const UndrivenPatch u = undriven_patch(crushed.problem, crushed.plan, crushed.fidelity, {});
+  EXPECT_EQ(u.result.status.trouble, Trouble::ContactUnsolved);
+  EXPECT_EQ(u.result.status.number, 0);
+  EXPECT_FALSE(u.result.status.reason.empty());
+  EXPECT_TRUE(u.dry.gap.empty());
+  EXPECT_EQ(u.result.volume, 0);
+  states.dry.gap = {1}, states.off.gap = {1};
+  const PatchResult none = solve_patch(crushed.problem, crushed.plan, crushed.fidelity, states);
+  EXPECT_EQ(none.pull, 0);
+  EXPECT_TRUE(states.dry.gap.empty() && states.off.gap.empty() && states.on.gap.empty());
+}
+
+// Far more water than gap.
+TEST(DrivePatch, AFloodHasNoMeniscus) {
+  Scene scene = driven(0);
+  scene.finger.water.volume = {1e-15, 1e-15, 1e-15, 1e-15};
+  const Patch patch(scene);
+  const UndrivenPatch u = undriven_patch(patch.problem, patch.plan, patch.fidelity, {});
+  EXPECT_EQ(u.result.status, (ModelStatus{Trouble::Flooded, 0, ""}));
+  EXPECT_EQ(u.result.capillary_off, 0);
+}
+
+}  // namespace
+}  // namespace papilla::tests

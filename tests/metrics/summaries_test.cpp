@@ -1,0 +1,252 @@
+// Summaries over humidity with every part of their error, by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/constants.h"
+#include "base/statistics.h"
+#include "forward/errors.h"
+#include "metrics/metrics.h"
+#include "metrics/series.h"
+
+namespace papilla::tests {
+namespace {
+
+using Values = std::vector<double>;
+
+std::vector<ResponsePoint> points_of(const Values& modulation, const Values& weights = {},
+                                     const Values& humidity = {}) {
+  std::vector<ResponsePoint> out(modulation.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].modulation.value = modulation[i];
+    if (!weights.empty()) out[i].weight = weights[i];
+    if (!humidity.empty()) out[i].relative_humidity = humidity[i];
+  }
+  return out;
+}
+
+Response response_of(const Values& modulation, const Values& weights = {},
+                     const Values& humidity = {}) {
+  Response r;
+  r.driven = true;
+  r.points = points_of(modulation, weights, humidity);
+  return r;
+}
+
+SummaryValue of(Summary summary, const Response& r, const char* metric = "modulation") {
+  return *summarise(summary, metric, r);
+}
+
+// Weights 1, 2 and 1: mean 3, variance (4 + 0 + 4)/4.
+TEST(Summaries, OfThreeHumiditiesAreTheirClosedForms) {
+  const Response r = response_of({1, 3, 5}, {2, 4, 2});
+  for (const auto& [summary, value] : {std::pair{Summary::Mean, 3.0},
+                                       {Summary::Std, std::sqrt(2.0)},
+                                       {Summary::Variation, std::sqrt(2.0) / 3},
+                                       {Summary::Range, 4.0 / 3},
+                                       {Summary::Worst, 1.0},
+                                       {Summary::Best, 5.0},
+                                       {Summary::First, 1.0},
+                                       {Summary::Last, 5.0}})
+    EXPECT_DOUBLE_EQ(of(summary, r).value, value);
+  // A mean below zero has a spread of its size.
+  const Response below = response_of({-1, -3, -5}, {2, 4, 2});
+  EXPECT_DOUBLE_EQ(of(Summary::Variation, below).value, std::sqrt(2.0) / 3);
+  EXPECT_DOUBLE_EQ(of(Summary::Range, below).value, 4.0 / 3);
+  // Where less is better the largest is the worst.
+  Response friction = r;
+  for (ResponsePoint& p : friction.points) p.friction_off.value = p.modulation.value;
+  EXPECT_DOUBLE_EQ(of(Summary::Worst, friction, "friction").value, 5);
+  EXPECT_DOUBLE_EQ(of(Summary::Best, friction, "friction").value, 1);
+  for (ResponsePoint& p : friction.points) p.bridges.value = p.modulation.value;
+  EXPECT_DOUBLE_EQ(of(Summary::Worst, friction, "bridges").value, 1);  // of no better direction
+}
+
+TEST(Summaries, OfWhatIsNotKnownAreNone) {
+  Response r = response_of({1, 3});
+  EXPECT_TRUE(summarise(Summary::Mean, "modulation", r));
+  EXPECT_FALSE(summarise(Summary::Mean, "nothing", r));
+  EXPECT_FALSE(summarise(Summary::Mean, "modulation", response_of({})));
+  EXPECT_FALSE(summarise(Summary::Mean, "modulation", response_of({1, 3}, {0, 0})));
+  EXPECT_TRUE(summarise(Summary::Mean, "modulation", response_of({1, 3}, {0, 1})));
+  EXPECT_FALSE(summarise(Summary::Mean, "voltage_for(modulation = 0.2)", r));
+  r.points[1].modulation.value = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(summarise(Summary::First, "modulation", r));
+  EXPECT_FALSE(summarise(Summary::Mean, "haze", r));
+  // One look at all humidities has no spread and no error; one that is refused has no value.
+  r.appearance.emplace();
+  r.appearance->haze = 0.25;
+  for (const Summary summary : {Summary::Mean, Summary::Worst, Summary::First})
+    EXPECT_EQ(of(summary, r, "haze").value, 0.25);
+  for (const Summary summary : {Summary::Variation, Summary::Range, Summary::Std})
+    EXPECT_EQ(of(summary, r, "haze").value, 0);
+  EXPECT_EQ(of(Summary::Mean, r, "haze").se, 0);
+}
+
+// In the mean a part adds up over humidities, each by its weight; one that a humidity lacks is not
+// known. The total is all but the band of the water, in squares.
+TEST(Summaries, EachPartOfTheErrorOfAMeanIsItsOwn) {
+  Response r = response_of({1, 3}, {1, 3});
+  r.points[0].modulation.parts = {.sampling = 0.4, .grid = 0.8, .solver = 0.2, .method = 1.2};
+  r.points[1].modulation.parts = {.sampling = 0.8, .grid = 0.4, .solver = 0.6};
+  for (ResponsePoint& p : r.points) {
+    p.modulation.parts.field = 2;
+    p.modulation.parts.parameters = 3;
+    p.modulation.parts.water = 50;
+  }
+  const SummaryValue mean = of(Summary::Mean, r);
+  EXPECT_DOUBLE_EQ(mean.parts.sampling, 0.7);
+  EXPECT_DOUBLE_EQ(mean.parts.grid.value(), 0.5);
+  EXPECT_DOUBLE_EQ(mean.parts.solver.value(), 0.5);
+  EXPECT_FALSE(mean.parts.method);
+  EXPECT_FALSE(mean.parts.humidity);
+  EXPECT_DOUBLE_EQ(mean.parts.field.value(), 2);
+  EXPECT_DOUBLE_EQ(mean.parts.parameters.value(), 3);
+  EXPECT_DOUBLE_EQ(mean.parts.water.value(), 50);
+  EXPECT_NEAR(mean.se, std::sqrt(0.49 + 0.25 + 0.25 + 4 + 9), 1e-12);
+}
+
+// The field is off the same way at all humidities: what the spread changes by, and three tenths of
+// what it would if they were independent. Spread 1 of 1 and 3; 1.2 of 1.1 and 3.5.
+TEST(Summaries, TheFieldMovesASpreadAsAWholeAndThreeTenthsApart) {
+  Response r = response_of({1, 3});
+  r.points[0].modulation.parts.field = 0.1;
+  r.points[1].modulation.parts.field = 0.5;
+  const double apart = std::hypot(0.5 * 0.1, 0.5 * 0.5);
+  EXPECT_NEAR(of(Summary::Std, r).parts.field.value(), std::hypot(0.2, 0.3 * apart), 1e-12);
+  // Of the range over the mean: 2/2 and 2.4/2.3.
+  EXPECT_NEAR(of(Summary::Range, r).parts.field.value(),
+              std::hypot(2.4 / 2.3 - 1, 0.3 * std::hypot(0.1, 0.5) / 2), 1e-12);
+  EXPECT_NEAR(of(Summary::Mean, r).parts.field.value(), 0.3, 1e-12);
+  EXPECT_NEAR(of(Summary::Worst, r).parts.field.value(), 0.1, 1e-12);
+}
+
+// Eq. accuracy.4 at uneven humidities: the second and fourth from their neighbours, then the third;
+// the larger change of the summary over three.
+TEST(Summaries, TheHumidityPartIsWhatLeavingEverySecondOutDoes) {
+  const Values humidity{0.15, 0.25, 0.45, 0.55, 0.95}, weights{1, 2, 3, 2, 1};
+  const Values values{1, 4, 2, 3, 11};
+  // 1 + (2 - 1)/3, 2 + (11 - 2)/5; then 4 - 2/3.
+  const Values odd{1, 4.0 / 3, 2, 3.8, 11}, even{1, 4, 4 - 2.0 / 3, 3, 11};
+  const Response r = response_of(values, weights, humidity);
+  for (const Summary summary : {Summary::Mean, Summary::Std, Summary::Variation}) {
+    const double full = Series(values, weights, Better::Higher).value(summary),
+                 a = Series(odd, weights, Better::Higher).value(summary),
+                 b = Series(even, weights, Better::Higher).value(summary);
+    EXPECT_NEAR(of(summary, r).parts.humidity.value(),
+                std::max(std::abs(a - full), std::abs(b - full)) / 3, 1e-12);
+  }
+  // The mean by hand: of 32/9 the first takes 3.73/9, the second adds 4/9.
+  EXPECT_NEAR(of(Summary::Mean, r).parts.humidity.value(),
+              std::max(2 * (4 - 4.0 / 3) - 2 * 0.8, 3 * (4.0 / 3)) / 9 / 3, 1e-12);
+  for (const Summary summary : {Summary::Range, Summary::Worst, Summary::First})
+    EXPECT_FALSE(of(summary, r).parts.humidity);
+  EXPECT_FALSE(of(Summary::Mean, response_of({1, 2}, {}, {0.1, 0.2})).parts.humidity);
+  EXPECT_TRUE(of(Summary::Mean, response_of({1, 2, 4}, {}, {0.1, 0.2, 0.3})).parts.humidity);
+  EXPECT_FALSE(of(Summary::Mean, response_of({1, 2, 4}, {}, {0.1, 0.2, 0.1})).parts.humidity);
+  // Three: the one in the middle, once.
+  EXPECT_NEAR(of(Summary::Mean, response_of({1, 2, 4}, {}, {0.1, 0.2, 0.3})).parts.humidity.value(),
+              0.5 / 3 / 3, 1e-12);
+}
+
+// Skins left out one by one: samples 2 a - (without), two skins, of the mean and of the spread.
+TEST(Summaries, SamplingFollowsTheSummaryThroughTheSkins) {
+  Response r = response_of({1, 3});
+  for (ResponsePoint& p : r.points) p.modulation.parts.sampling = 9;  // of the points alone
+  r.without = {points_of({1.2, 2.8}), points_of({0.8, 3.4})};
+  // Means 2, 2 and 2.1: samples 2.05 and 1.95; spreads 1, 0.8 and 1.3: samples 1.25 and 0.75.
+  EXPECT_NEAR(of(Summary::Mean, r).parts.sampling, 0.05, 1e-12);
+  EXPECT_NEAR(of(Summary::Std, r).parts.sampling, 0.25, 1e-12);
+  const ErrorSamples mean = error_samples(Summary::Mean, "modulation", r),
+                     spread = error_samples(Summary::Std, "modulation", r),
+                     second = error_samples_at(1, "modulation", r);
+  ASSERT_EQ(mean.sampling.size(), 2u);
+  EXPECT_NEAR(mean.sampling[0], 2.05, 1e-12);
+  EXPECT_NEAR(mean.sampling[1], 1.95, 1e-12);
+  EXPECT_NEAR(spread.sampling[0], 1.25, 1e-12);
+  EXPECT_NEAR(second.sampling[0], 3.3, 1e-12);
+  EXPECT_NEAR(second.sampling[1], 2.7, 1e-12);
+  EXPECT_TRUE(error_samples(Summary::Mean, "drive.amplitude", r).sampling.empty());
+  // A skin without which the number is not known leaves the points' own.
+  r.without[0][1].modulation.value = INFINITY;
+  EXPECT_NEAR(of(Summary::Mean, r).parts.sampling, 9, 1e-12);
+}
+
+// The control runs through the summary: of a spread by itself, of others as a share of the value.
+TEST(Summaries, GridAndMethodFollowASpreadThroughTheControls) {
+  Response r = response_of({1, 3});
+  for (ResponsePoint& p : r.points) p.modulation.parts.grid = p.modulation.parts.method = 9;
+  r.controls.own = {points_of({1, 3}), {points_of({1.1, 3}), points_of({0.9, 3.1})}};
+  r.controls.coarse = {points_of({1.2, 3.5}), {points_of({1.2, 3.6}), points_of({1.1, 3.3})}};
+  r.controls.areas = {points_of({0.9, 2.7}), {points_of({0.9, 2.6}), points_of({1.0, 2.7})}};
+  const GridLaw law = grid_law(&PointQuantities::modulation);
+  const auto reading = [](Summary summary) {
+    return [=](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+      return Series({points[0].modulation.value, points[1].modulation.value}, {1, 1},
+                    Better::Higher)
+          .value(summary);
+    };
+  };
+  const ControlledChange spread =
+      controlled_change(r.controls, law, reading(Summary::Std), Change::Absolute);
+  ASSERT_EQ(spread.grid.size(), 2u);
+  ASSERT_EQ(spread.method.size(), 2u);
+  EXPECT_NEAR(*of(Summary::Std, r).parts.grid, grid_error(spread.grid), 1e-12);
+  EXPECT_NEAR(*of(Summary::Std, r).parts.method, method_error(spread.method), 1e-12);
+  EXPECT_NEAR(*of(Summary::Mean, r).parts.grid, 9, 1e-12);  // its points have it
+  const ControlledChange mean = controlled_change(r.controls, law, reading(Summary::Mean));
+  const ErrorSamples samples = error_samples(Summary::Mean, "modulation", r),
+                     of_spread = error_samples(Summary::Std, "modulation", r);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_NEAR(samples.grid[k], 2 * mean.grid[k], 1e-12);
+    EXPECT_NEAR(samples.method[k], 2 * mean.method[k], 1e-12);
+    EXPECT_NEAR(of_spread.grid[k], spread.grid[k], 1e-12);
+    EXPECT_NEAR(of_spread.method[k], spread.method[k], 1e-12);
+  }
+  const ControlledChange last = controlled_change(r.controls, law, reading(Summary::Last));
+  EXPECT_NEAR(error_samples_at(1, "modulation", r).grid[0], 3 * last.grid[0], 1e-12);
+}
+
+// Eq. accuracy.11 by hand: half of up less down, of all and without each of two skins.
+TEST(Summaries, StepsAreHalvedAndJackknifed) {
+  ParameterStep one{{points_of({5}), {points_of({6}), points_of({5})}},
+                    {points_of({1}), {points_of({1}), points_of({2})}}};
+  const auto value = [](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    const double v = points[0].modulation.value;
+    return v < 0 ? std::nullopt : std::optional(v);
+  };
+  // 2, without each 2.5 and 1.5: samples 2 - 0.5 and 2 + 0.5.
+  const StepSamples samples = step_samples({one, one}, value).value();
+  EXPECT_EQ(samples, (StepSamples{{1.5, 2.5}, {1.5, 2.5}}));
+  EXPECT_NEAR(step_error(samples), std::sqrt(2 * (4 - 0.25)), 1e-12);
+  EXPECT_EQ(step_error({{1, -1}}), 0);  // scatters by more than it is
+  EXPECT_EQ(step_error({{-3}}), 3);
+  EXPECT_EQ(step_error({}), 0);
+  EXPECT_TRUE(step_samples({}, value)->empty());
+  for (const auto place : {0, 1, 2}) {
+    ParameterStep unknown = one;
+    (place == 0   ? unknown.up.points
+     : place == 1 ? unknown.down.points
+                  : unknown.down.without[1])[0]
+        .modulation.value = -1;
+    EXPECT_FALSE(step_samples({one, unknown}, value)) << place;
+  }
+}
+
+// Three parts in squares, each from its pairs; of other skins none.
+TEST(Summaries, ADifferenceHasItsThreePartsInSquares) {
+  const ErrorSamples a{{1, 2, 6}, {0.5, 0.7}, {0.2, 0.4}}, b{{1, 1, 1}, {0.1, 0.1}, {0.1, 0.1}};
+  const Values sampling{0, 1, 5}, grid{0.4, 0.6}, method{0.1, 0.3};
+  EXPECT_NEAR(difference_error(a, b).value(),
+              std::sqrt(square(mean_estimate(sampling).se) + square(grid_error(grid)) +
+                        square(method_error(method))),
+              1e-12);
+  EXPECT_NEAR(difference_error(b, a).value(), difference_error(a, b).value(), 1e-12);
+  EXPECT_FALSE(difference_error(a, {{1, 1, 1}, {0.1, 0.1}, {0.1}}));
+  EXPECT_FALSE(difference_error({{1}, {}, {}}, {{1}, {}, {}}));  // one skin has no scatter
+  EXPECT_TRUE(difference_error({{1, 2}, {}, {}}, {{1, 4}, {}, {}}));
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,214 @@
+// Metrics as they are listed, written, read and shown.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "metrics/metrics.h"
+#include "metrics/shown.h"
+
+namespace papilla::tests {
+namespace {
+
+TEST(MetricWords, TheListIsWhole) {
+  std::string list;
+  for (const MetricInfo& m : metric_list())
+    list += fmt::format("{}|{}|{}{}{}\n", m.name, m.unit,
+                        m.better == Better::Higher  ? "high"
+                        : m.better == Better::Lower ? "low"
+                                                    : "-",
+                        m.needs_drive ? " driven" : "", m.appearance ? " look" : "");
+  EXPECT_EQ(list,
+            "modulation||high driven\n"
+            "friction|N|low\n"
+            "friction_on|N|high driven\n"
+            "capillary_force|N|low\n"
+            "electrostatic_force|N|high driven\n"
+            "retention_force|N|low\n"
+            "contact_area||-\n"
+            "bridges||-\n"
+            "wetted_fraction||-\n"
+            "mean_gap|m|-\n"
+            "adhesion|N|low\n"
+            "compliance|m/Pa|-\n"
+            "haze||low look\n"
+            "transmittance||high look\n"
+            "gloss||high look\n"
+            "colour_shift||low look\n"
+            "drive.amplitude|V|low driven\n"
+            "voltage_for|V|low\n"
+            "felt||high driven\n");
+}
+
+TEST(MetricWords, ANameIsAMetricAsItIsWritten) {
+  for (const char* name : {"modulation", "adhesion", "haze", "drive.amplitude",
+                           "voltage_for(modulation = 0.5)", "felt(modulation=0.2)"})
+    EXPECT_NE(find_metric(name), nullptr) << name;
+  for (const char* name : {"voltage_for", "felt", "friction(modulation = 0.5)", "haze(", "", "mod"})
+    EXPECT_EQ(find_metric(name), nullptr) << name;
+  EXPECT_EQ(find_metric("felt(modulation=0.2)")->name, "felt");
+  EXPECT_EQ(find_metric("voltage_for(modulation = 2)")->unit, "V");
+}
+
+TEST(MetricWords, AModulationOfItsOwnIsANumberAboveZero) {
+  for (const auto& [text, value] : {std::pair{"voltage_for(modulation = 0.5)", 0.5},
+                                    {"voltage_for(modulation=0.125)", 0.125},
+                                    {" voltage_for ( modulation = 1e-3 ) ", 1e-3},
+                                    {"voltage_for(modulation = 999999)", 999999.0}})
+    EXPECT_EQ(voltage_target(text), value) << text;
+  EXPECT_EQ(felt_threshold("felt(modulation = 0.2)"), 0.2);
+  for (const char* other : {"friction", "felt(modulation = 0.2)", "voltage_format", "felter"})
+    EXPECT_EQ(voltage_target(other), std::nullopt) << other;
+  for (const char* other : {"friction", "voltage_for(modulation = 0.2)", "felter"})
+    EXPECT_EQ(felt_threshold(other), std::nullopt) << other;
+  for (const char* wrong :
+       {"voltage_for", "voltage_for(modulation = 0)", "voltage_for(modulation = -1)",
+        "voltage_for(modulation = 1e6)", "voltage_for(modulation = 0.5", "voltage_for(0.5)",
+        "voltage_for(modulation = 0.5x)", "voltage_for(modulation = )"}) {
+    try {
+      voltage_target(wrong);
+      FAIL() << wrong;
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()), fmt::format("\"{}\": expected voltage_for(modulation = X), "
+                                                   "X above 0",
+                                                   wrong));
+    }
+  }
+}
+
+TEST(MetricWords, ExpressionsAreReadAndWritten) {
+  for (const auto& [text, written] :
+       {std::pair{"friction", "mean(friction)"},
+        {"mean(friction)", "mean(friction)"},
+        {"variation(modulation)", "variation(modulation)"},
+        {"range(modulation)", "range(modulation)"},
+        {"std(modulation)", "std(modulation)"},
+        {"worst(adhesion)", "worst(adhesion)"},
+        {"best(adhesion)", "best(adhesion)"},
+        {"first(haze)", "first(haze)"},
+        {"last(compliance)", "last(compliance)"},
+        {"felt(modulation=0.20)", "mean(felt(modulation = 0.2))"},
+        {"last(felt( modulation=0.2))", "last(felt(modulation = 0.2))"},
+        {"worst(voltage_for(modulation=0.5))", "worst(voltage_for(modulation = 0.5))"}})
+    EXPECT_EQ(metric_text(parse_metric(text)), written);
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      parse_metric(text);
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal("mean(friction"), "\"mean(friction\": missing )");
+  EXPECT_EQ(refusal("median(friction)"),
+            "\"median\" is no summary over humidity; use one of mean, variation, range, std, "
+            "worst, best, first, last");
+  EXPECT_EQ(refusal("mean(modulatoin)"),
+            "\"modulatoin\" is no metric, did you mean \"modulation\"?; see `papilla describe "
+            "metrics`");
+  EXPECT_EQ(refusal("wxyzwxyzwxyz"),
+            "\"wxyzwxyzwxyz\" is no metric; see `papilla describe metrics`");
+}
+
+TEST(MetricWords, ASpreadIsBetterLow) {
+  for (const auto& [text, better] : {std::pair{"modulation", Better::Higher},
+                                     {"worst(modulation)", Better::Higher},
+                                     {"variation(modulation)", Better::Lower},
+                                     {"range(modulation)", Better::Lower},
+                                     {"std(modulation)", Better::Lower},
+                                     {"compliance", Better::Neither},
+                                     {"std(compliance)", Better::Lower},
+                                     {"last(friction)", Better::Lower}})
+    EXPECT_EQ(better_direction(parse_metric(text)), better) << text;
+}
+
+// mN, nm and um/MPa; shares to three decimals, quantities to four digits, errors to two.
+TEST(MetricWords, ValuesAreShownInTheUnitsOfPeople) {
+  struct Row {
+    const char* metric;
+    double scale;
+    const char *unit, *value, *change, *error;
+  };
+  for (const Row& row : {Row{"friction", 1e3, "mN", "123.5", "+1.2e+02", "1.2e+02"},
+                         {"worst(friction)", 1e3, "mN", "123.5", "+1.2e+02", "1.2e+02"},
+                         {"std(friction)", 1e3, "mN", "123.5", "+1.2e+02", "1.2e+02"},
+                         {"variation(friction)", 1, "", "0.123", "+0.12", "0.123"},
+                         {"range(friction)", 1, "", "0.123", "+0.12", "0.123"},
+                         {"modulation", 1, "", "0.123", "+0.12", "0.123"},
+                         {"mean_gap", 1e9, "nm", "1.235e+08", "+1.2e+08", "1.2e+08"},
+                         {"variation(mean_gap)", 1, "", "0.123", "+0.12", "0.123"},
+                         {"compliance", 1e12, "um/MPa", "1.235e+11", "+1.2e+11", "1.2e+11"},
+                         {"drive.amplitude", 1, "V", "0.1235", "+0.12", "0.12"}}) {
+    const MetricExpression e = parse_metric(row.metric);
+    EXPECT_EQ(shown_unit(e).scale, row.scale) << row.metric;
+    EXPECT_EQ(shown_unit(e).unit, row.unit) << row.metric;
+    EXPECT_EQ(shown_value(e, 0.12346), row.value) << row.metric;
+    EXPECT_EQ(shown_value(e, 0.12346, true), std::string("+") + row.value) << row.metric;
+    EXPECT_EQ(shown_value(e, -0.12346, true), std::string("-") + row.value) << row.metric;
+    EXPECT_EQ(shown_change(e, 0.12346), row.change) << row.metric;
+    EXPECT_EQ(shown_error(e, 0.12346), row.error) << row.metric;
+  }
+  EXPECT_EQ(shown_value(parse_metric("modulation"), -1e-9), "0.000");
+  EXPECT_EQ(shown_value(parse_metric("friction"), -0.0), "0");
+  EXPECT_EQ(shown_change(parse_metric("friction"), -0.0), "+0");
+}
+
+// A voltage is that of its target, where it is reached; else people are told what came first.
+TEST(MetricWords, AVoltageThatIsNotReachedSaysWhatCameFirst) {
+  Response r;
+  r.driven = true;
+  r.points.resize(2);
+  r.points[0].relative_humidity = 0.35;
+  r.points[1].relative_humidity = 0.75;
+  for (ResponsePoint& p : r.points) {
+    VoltageAnswer low, high;
+    low.target = 0.2;
+    low.amplitude.value = 80;
+    high.target = 0.5;
+    high.amplitude.value = 120;
+    p.voltages = {low, high};
+  }
+  EXPECT_EQ(metric_at("voltage_for(modulation = 0.2)", r.points[0])->value, 80);
+  EXPECT_EQ(metric_at("voltage_for(modulation = 0.5)", r.points[0])->value, 120);
+  EXPECT_FALSE(metric_at("voltage_for(modulation = 0.3)", r.points[0]));
+  EXPECT_EQ(why_undefined("voltage_for(modulation = 0.5)", r), "");
+  VoltageAnswer& missed = r.points[1].voltages[1];
+  missed.end = VoltageEnd::Breakdown;
+  missed.limit = 500;
+  missed.modulation = 0.12345;
+  EXPECT_FALSE(metric_at("voltage_for(modulation = 0.5)", r.points[1]));
+  EXPECT_EQ(why_undefined("voltage_for(modulation = 0.5)", r),
+            "75 % RH: the dielectric breaks down at 500 V (modulation 0.123)");
+  EXPECT_EQ(why_undefined("voltage_for(modulation = 0.2)", r), "");
+  r.driven = false;
+  EXPECT_EQ(why_undefined("friction_on", r), "not driven (0 V)");
+  EXPECT_EQ(why_undefined("friction", r), "");
+}
+
+TEST(MetricWords, EachMetricHasTheQuantityThatCarriesItsErrors) {
+  EXPECT_EQ(metric_quantity("adhesion"), &PointQuantities::capillary_force);
+  EXPECT_EQ(metric_quantity("compliance"), &PointQuantities::indentation);
+  EXPECT_EQ(metric_quantity("friction"), &PointQuantities::friction_off);
+  EXPECT_EQ(metric_quantity("mean_gap"), &PointQuantities::mean_gap);
+  EXPECT_FALSE(metric_quantity("voltage_for(modulation = 0.5)"));
+  EXPECT_FALSE(metric_quantity("felt(modulation = 0.5)"));
+}
+
+// Half where the modulation is the threshold; without an error a step, at the threshold not yet.
+TEST(MetricWords, WhatIsFeltIsAStepThatErrorsSoften) {
+  ResponsePoint p;
+  p.modulation.value = 0.25;
+  const auto felt = [&] { return metric_at("felt(modulation = 0.25)", p)->value; };
+  EXPECT_EQ(felt(), 0);
+  p.modulation.value = 0.2500001;
+  EXPECT_EQ(felt(), 1);
+  p.modulation.parts.solver = 0.1;
+  p.modulation.value = 0.35;  // one standard error above
+  EXPECT_NEAR(felt(), 0.8413447, 1e-6);
+  EXPECT_NEAR(metric_at("felt(modulation = 0.25)", p)->parts.solver.value(),
+              std::sqrt(0.8413447 * 0.1586553), 1e-6);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,114 @@
+// What goes over the pipes of workers and what comes of it: messages of any size, failures by
+// their letters, teams of any size.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "optim/worker.h"
+
+namespace papilla::tests {
+namespace {
+
+using Reason = WorkFailure::Reason;
+
+TEST(Messages, AnAnswerIsALetterAndItsBytes) {
+  const auto packed = [](Reason reason) { return pack_answer({{}, WorkFailure{reason, "why"}}); };
+  EXPECT_EQ(pack_answer({"bytes", std::nullopt}), "+bytes");
+  EXPECT_EQ(pack_answer({"", std::nullopt}), "+");
+  EXPECT_EQ(packed(Reason::Crashed), "cwhy");
+  EXPECT_EQ(packed(Reason::TimedOut), "twhy");
+  EXPECT_EQ(packed(Reason::OutOfMemory), "mwhy");
+  EXPECT_EQ(packed(Reason::Threw), "xwhy");
+  for (const char* message : {"+bytes", "+", "cwhy", "twhy", "mwhy", "xwhy"})
+    EXPECT_EQ(pack_answer(unpack_answer(message)), message);
+  EXPECT_EQ(unpack_answer("").failure, (WorkFailure{Reason::Crashed, "an empty answer"}));
+  EXPECT_EQ(unpack_answer("?why").failure, (WorkFailure{Reason::Crashed, "a garbled answer"}));
+  EXPECT_EQ(unpack_answer("xone\ntwo\rthree").failure,
+            (WorkFailure{Reason::Threw, "one two three"}));
+}
+
+// Far more than a pipe holds at a time, there and back, and nothing at all.
+TEST(Messages, OfAnySizeArriveAsTheyWere) {
+  Worker worker(
+      [](const Bytes& request) {
+        Bytes out = request;
+        for (char& c : out) c = static_cast<char>(c + 1);
+        return out + "!";
+      },
+      {.seconds = 30});
+  for (const std::size_t size : {0u, 1u, 65536u, 3000001u}) {
+    Bytes request(size, 'a'), expected(size, 'b');
+    for (std::size_t k = 0; k < size; k += 1000) request[k] = 'x', expected[k] = 'y';
+    worker.send(request);
+    const WorkAnswer answer = worker.receive();
+    EXPECT_FALSE(answer.failure);
+    EXPECT_TRUE(answer.bytes == expected + "!") << size;
+  }
+}
+
+// A child keeps what it knows from one request to the next; after a crash the next is another.
+TEST(Messages, OneChildAnswersUntilItDies) {
+  Worker worker(
+      [](const Bytes& request) -> Bytes {
+        if (request == "crash") std::abort();
+        if (request == "odd") throw 7;
+        return std::to_string(::getpid());
+      },
+      {.seconds = 8});
+  const auto ask = [&](const Bytes& request) {
+    worker.send(request);
+    return worker.receive();
+  };
+  EXPECT_EQ(worker.descriptor(), -1);  // nothing is waited for
+  worker.send("who");
+  EXPECT_GE(worker.descriptor(), 0);
+  EXPECT_GT(worker.seconds_left(), 1);
+  EXPECT_LE(worker.seconds_left(), 8);
+  const Bytes first = worker.receive().bytes;
+  EXPECT_EQ(worker.descriptor(), -1);
+  EXPECT_NE(first, std::to_string(::getpid()));
+  EXPECT_EQ(ask("who").bytes, first);
+  EXPECT_EQ(ask("odd").failure, (WorkFailure{Reason::Threw, "an exception of an unknown kind"}));
+  EXPECT_EQ(ask("who").bytes, first);
+  EXPECT_EQ(ask("crash").failure, (WorkFailure{Reason::Crashed, "the evaluation crashed"}));
+  const Bytes second = ask("who").bytes;
+  EXPECT_NE(second, first);
+  EXPECT_EQ(worker.receive().failure,
+            (WorkFailure{Reason::Crashed, "the evaluation crashed"}));  // nothing was asked
+}
+
+TEST(Messages, WorkThatTakesTooLongIsEndedAndTold) {
+  Worker worker(
+      [](const Bytes&) -> Bytes {
+        for (;;) ::pause();
+      },
+      {.seconds = 0.2});
+  worker.send("");
+  EXPECT_EQ(worker.receive().failure,
+            (WorkFailure{Reason::TimedOut, "took longer than 0 s and was ended"}));
+}
+
+// More workers than requests, one for all of them, none asked for: each answer at its place.
+TEST(Team, OfAnySizeAnswersInTheOrderOfTheRequests) {
+  const Work work = [](const Bytes& request) { return request + request; };
+  std::vector<Bytes> requests;
+  for (int i = 0; i < 5; ++i) requests.push_back(std::to_string(i));
+  for (const auto& [asked, size] : {std::pair{0u, 1u}, {1u, 1u}, {2u, 2u}, {7u, 7u}}) {
+    const auto team = make_local_team(asked, work, {.seconds = 30});
+    EXPECT_EQ(team->size(), size);
+    EXPECT_TRUE(team->answer({}).empty());
+    for (int round = 0; round < 2; ++round) {
+      const std::vector<WorkAnswer> answers = team->answer(requests);
+      ASSERT_EQ(answers.size(), 5u);
+      for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(answers[i].bytes, requests[i] + requests[i]);
+    }
+  }
+  const WorkerLimits usual;
+  EXPECT_EQ(usual.seconds, 600);
+  EXPECT_EQ(usual.bytes, 8.0 * 1024 * 1024 * 1024);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,367 @@
+// What pages are made of: designs, maps and files as JSON, and the pages around them.
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "config/describe.h"
+#include "design/design.h"
+#include "forward/forward.h"
+#include "geometry/io/files.h"
+#include "report/fields.h"
+#include "report/legend.h"
+#include "report/page.h"
+#include "report/page_data.h"
+#include "tests/report/same_json.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+const std::string kHoles = PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml";
+
+Json plain(const nlohmann::ordered_json& json) { return Json::parse(json.dump()); }
+
+std::string fresh(const std::string& name) {
+  const fs::path folder = temporary(name);
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  return folder.string();
+}
+
+TEST(PageFiles, AreAllButThePageItsLockAndItsTimes) {
+  const std::string folder = fresh("listed");
+  fs::create_directories(folder + "/sub/report");
+  for (const char* name : {"b.txt", "a.txt", "sub/report/c.txt", "report.html", "timing.json",
+                           ".lock", "sub/timing.json"})
+    write_bytes(folder + "/" + name, "abc");
+  // The digest of "abc" is the first example of the standard.
+  const auto file = [](const char* name) {
+    return Json{{"name", name},
+                {"bytes", 3},
+                {"sha256", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"}};
+  };
+  EXPECT_EQ(plain(file_list(folder)),
+            Json::array(
+                {file("a.txt"), file("b.txt"), file("sub/report/c.txt"), file("sub/timing.json")}));
+}
+
+// Holes of 3 um at 6 um: half of the row through their middles is deep.
+TEST(PageShapes, ASectionGoesThroughTheWidestPlaceOfItsFeatures) {
+  const Design design = read_design(kHoles);
+  const auto json = plain(shape_json(design.texture));
+  const Grid patch = patch_grid(design.texture, 1024);
+  const Json& section = json["section"];
+  EXPECT_EQ(section["nx"], 1024);
+  EXPECT_EQ(section["ny"], 1);
+  EXPECT_DOUBLE_EQ(section["lx"].get<double>(), patch.lx);
+  EXPECT_DOUBLE_EQ(section["ly"].get<double>(), patch.ly / 256);
+  const Heightmap map = generate(design.texture, {1024, 256, patch.lx, patch.ly});
+  std::vector<double> means;
+  for (int y = 0; y < 256; ++y) {
+    const auto row = map.z.begin() + static_cast<std::ptrdiff_t>(map.grid.index(0, y));
+    means.push_back(std::accumulate(row, row + 1024, 0.0) / 1024);
+  }
+  const double place = 256 * section["at"].get<double>() - 0.5;
+  EXPECT_EQ(place, std::floor(place));
+  const auto least = std::min_element(means.begin(), means.end());
+  EXPECT_EQ(place, static_cast<double>(least - means.begin()));
+  EXPECT_NEAR(*least, -300e-9, 3e-9);
+  EXPECT_EQ(json["heights"]["nx"], patch_grid(design.texture, 128).nx);
+  expect_same(json["measures"],
+              {{"raised", false},
+               {"period", {{"name", "period"}, {"value", 6e-6}}},
+               {"width", {{"name", "diameter"}, {"value", 3e-6}}},
+               {"depth", {{"name", "depth"}, {"value", 600e-9}}}},
+              "measures");
+}
+
+TEST(PageShapes, PillarsAreRaisedAndWhatIsFlatHasNoMeasures) {
+  Design design = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml");
+  EXPECT_FALSE(plain(shape_json(design.texture)).contains("measures"));
+  const auto& kinds = texture_kinds();
+  const auto at = std::find(kinds.begin(), kinds.end(), "pillar_array") - kinds.begin();
+  design.texture = default_texture(static_cast<std::size_t>(at));
+  const auto json = plain(shape_json(design.texture));
+  EXPECT_EQ(json["measures"]["raised"], true);
+  EXPECT_EQ(json["measures"]["depth"]["name"], "height");
+  EXPECT_EQ(json["measures"]["depth"]["value"], get_number(design, "texture.height"));
+  EXPECT_EQ(json["measures"]["width"]["value"], get_number(design, "texture.diameter"));
+  // Through the pillars: the row is the highest.
+  const Grid patch = patch_grid(design.texture, 1024);
+  const Heightmap map = generate(design.texture, {1024, 256, patch.lx, patch.ly});
+  double most = -1;
+  int best = 0;
+  for (int y = 0; y < 256; ++y) {
+    const auto row = map.z.begin() + static_cast<std::ptrdiff_t>(map.grid.index(0, y));
+    const double sum = std::accumulate(row, row + 1024, 0.0);
+    if (y == 0 || sum > most) most = sum, best = y;
+  }
+  EXPECT_EQ(256 * json["section"]["at"].get<double>() - 0.5, best);
+}
+
+Fidelity one_patch() {
+  Fidelity f = fidelity_level("search");
+  f.grid = 32, f.skins = 1;
+  return f;
+}
+
+TEST(PageMaps, AreThePatchInTheirUnits) {
+  Design design = read_design(kHoles);
+  const PatchPicture patch = picture_patch(scene_of(design), design.texture, one_patch(), 0.75);
+  const auto expect_map = [&](const Json& map, const char* name, const char* unit, double scale,
+                              const std::vector<double>& values) {
+    EXPECT_EQ(map["name"], name);
+    EXPECT_EQ(map["unit"], unit);
+    EXPECT_EQ(map["nx"], patch.texture.grid.nx);
+    EXPECT_DOUBLE_EQ(map["lx"].get<double>(), patch.texture.grid.lx);
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    EXPECT_NEAR(map["low"].get<double>(), *low * scale, 1e-9 * std::abs(*high * scale)) << name;
+    EXPECT_NEAR(map["high"].get<double>(), *high * scale, 1e-9 * std::abs(*high * scale)) << name;
+  };
+  Json json = plain(maps_json(design, one_patch(), 0.75));
+  EXPECT_EQ(json["relative_humidity"], 0.75);
+  ASSERT_EQ(json["maps"].size(), 5u);
+  const PatchFields& f = patch.fields;
+  expect_map(json["maps"][0], "gap, drive off", "nm", 1e9, f.off.gap);
+  expect_map(json["maps"][1], "contact pressure, drive off", "MPa", 1e-6, f.off.pressure);
+  expect_map(json["maps"][2], "contact pressure, drive on", "MPa", 1e-6, f.on.pressure);
+  expect_map(json["maps"][3], "pull of the field", "MPa", 1e-6, f.pull.value);
+  const std::vector<double> water(f.wetting_off.bridged.begin(), f.wetting_off.bridged.end());
+  expect_map(json["maps"][4], "water that bridges the gap", "", 1, water);
+  EXPECT_EQ(json["maps"][4]["high"], 1);
+  set_number(design, "drive.amplitude", 0);
+  json = plain(maps_json(design, one_patch(), 0.75));
+  ASSERT_EQ(json["maps"].size(), 3u);
+  EXPECT_EQ(json["maps"][2]["name"], "water that bridges the gap");
+}
+
+// A picture and its numbers for each field at each humidity, named by both.
+TEST(FieldPictures, AreTheFieldsOfOnePatchAtEachHumidity) {
+  Design design = read_design(kHoles);
+  design.environment.relative_humidity = {0.75};
+  const std::string folder = fresh("drawn");
+  write_field_pictures(folder, design, one_patch());
+  const PatchPicture patch = picture_patch(scene_of(design), design.texture, one_patch(), 0.75);
+  const PatchFields& f = patch.fields;
+  const std::vector<double> water(f.wetting_off.bridged.begin(), f.wetting_off.bridged.end());
+  const FieldScale pressure{1e-6, "MPa", true};
+  const auto expect_pair = [&](const std::string& name, const std::vector<double>& values,
+                               const FieldScale& scale) {
+    const std::string path = folder + "/" + name + "_75";
+    const Heightmap back = read_heightmap(path + ".npy", patch.texture.grid.lx);
+    EXPECT_EQ(back.z, values) << name;
+    const FieldPicture drawn = picture_with_legend(patch.texture.grid, values, scale);
+    const auto image = OIIO::ImageInput::open(path + ".png");
+    ASSERT_TRUE(image && image->spec().width == drawn.width &&
+                image->spec().height == drawn.height);
+    std::vector<std::uint8_t> rgb(drawn.rgb.size());
+    ASSERT_TRUE(image->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, rgb.data()));
+    EXPECT_TRUE(rgb == drawn.rgb) << name;
+  };
+  expect_pair("gap", f.off.gap, {1e9, "nm"});
+  expect_pair("pressure_off", f.off.pressure, pressure);
+  expect_pair("pressure_on", f.on.pressure, pressure);
+  expect_pair("pull", f.pull.value, {1e-3, "kPa"});
+  expect_pair("water", water, {});
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 10);
+}
+
+// The data of a page, and what stands in it without scripts.
+struct ReadPage {
+  std::string text, plain_part;
+  Json data;
+
+  explicit ReadPage(const std::string& page) : text(page) {
+    const std::string mark = "id=\"data\">";
+    const std::size_t at = page.find(mark) + mark.size();
+    data = Json::parse(page.substr(at, page.find("</script>", at) - at));
+    const std::size_t begin = page.find("<noscript>"), end = page.find("</noscript>");
+    plain_part = page.substr(begin, end - begin);
+  }
+};
+
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Pages, OfAFitHoldItAndItsFiles) {
+  const std::string folder = fresh("a_fit");
+  write_bytes(folder + "/fit.json",
+              R"({"title": "a <b> & c", "check_skins": 3, "parameters": [], "x": "</script>"})");
+  write_bytes(folder + "/fit.md", "# Fit\n\n| a |\n|---|\n| <1> |\n");
+  const ReadPage page(report_page(folder));
+  EXPECT_EQ(page.data["fit"]["x"], "</script>");
+  EXPECT_EQ(page.data["schema"], 1);
+  EXPECT_EQ(page.data["version"], PAPILLA_VERSION);
+  EXPECT_EQ(page.data["files"], plain(file_list(folder)));
+  EXPECT_EQ(page.data.size(), 4u);
+  EXPECT_NE(page.text.find("<title>a &lt;b> &amp; c</title>"), std::string::npos);
+  EXPECT_NE(page.text.find("<h1>a &lt;b> &amp; c</h1>"), std::string::npos);
+  EXPECT_TRUE(page.plain_part.ends_with(
+      "</style>\n<div class=\"scroll\"><table>\n<tr><th>a</th></tr>\n<tr><td>&lt;1></td></tr>\n"
+      "</table></div>\n"))
+      << page.plain_part;
+  // Every mark of the frame was filled, and the modules are one script.
+  EXPECT_EQ(page.text.find("{{"), page.text.find("{{", page.text.find("</html>")));
+  EXPECT_EQ(page.text.find("\nexport "), std::string::npos);
+  EXPECT_EQ(page.text.find("\nimport "), std::string::npos);
+  for (const char* script : {"look.js", "numbers.js", "curves.js", "found.js"})
+    EXPECT_EQ(page.text.find(std::string("from './") + script), std::string::npos);
+  EXPECT_NE(page.text.find("\nfunction "), std::string::npos);
+  EXPECT_TRUE(page.text.ends_with("</html>\n"));
+  write_bytes(folder + "/fit.json", R"({"check_skins": 3, "parameters": []})");
+  EXPECT_NE(report_page(folder).find("<title>a_fit</title>"), std::string::npos);
+  EXPECT_EQ(refusal([&] { report_page(folder, "knee"); }),
+            "--pick is for a folder of `papilla optimize`");
+  for (const char* old : {R"({"check_skins": 3})", R"({"parameters": []})"}) {
+    write_bytes(folder + "/fit.json", old);
+    EXPECT_EQ(refusal([&] { report_page(folder); }),
+              folder + ": fit.json is of another version; run `papilla calibrate` again");
+  }
+  write_bytes(folder + "/fit.json", "{");
+  EXPECT_TRUE(refusal([&] { report_page(folder); }).starts_with(folder + "/fit.json is damaged"));
+}
+
+TEST(Pages, OfARankingHaveEachDesignUnderItsName) {
+  const std::string folder = fresh("a_ranking");
+  fs::create_directories(folder + "/designs");
+  fs::copy_file(kHoles, folder + "/designs/01.toml");
+  fs::copy_file(PAPILLA_DESIGNS_DIR "/m3_samples/common.toml", folder + "/designs/common.toml");
+  fs::copy_file(PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml", folder + "/designs/02.toml");
+  write_bytes(folder + "/ranking.json",
+              R"json({"seconds": 3, "candidates": [{"index": 1, "name": "two"},
+                      {"index": 0, "name": "one"}], "criteria": [{"metric": "mean(a)"},
+                      {"metric": "b"}], "states": [1]})json");
+  write_bytes(folder + "/ranking.txt", "one < two\n");
+  const ReadPage page(report_page(folder));
+  EXPECT_EQ(
+      page.data["ranking"],
+      Json::parse(
+          R"json({"criteria": [{"metric": "mean(a)"}, {"metric": "b"}], "states": [1]})json"));
+  ASSERT_EQ(page.data["candidates"].size(), 2u);
+  EXPECT_EQ(page.data["candidates"][0]["name"], "one");
+  EXPECT_EQ(page.data["candidates"][0]["toml"], read_bytes(kHoles));
+  EXPECT_NEAR(page.data["candidates"][0]["heights"]["low"].get<double>(), -600e-9, 1e-12);
+  EXPECT_EQ(page.data["candidates"][1]["name"], "two");
+  EXPECT_EQ(page.data["candidates"][1]["heights"]["low"], 0);
+  EXPECT_NE(page.text.find("<title>2 designs by mean(a), b</title>"), std::string::npos);
+  EXPECT_TRUE(page.plain_part.ends_with("<pre>one &lt; two\n</pre>\n")) << page.plain_part;
+  write_bytes(folder + "/ranking.json", R"({"candidates": [{"index": 1, "name": "two"}]})");
+  EXPECT_TRUE(
+      refusal([&] { report_page(folder); }).starts_with(folder + ": ranking.json is damaged: "));
+}
+
+Json list_of(const Json& one) {
+  Json out = Json::array();
+  out.push_back(one);
+  return out;
+}
+
+// The folder of a run, made up: a best design, and a front of two.
+TEST(Pages, OfARunHoldItsDesignsAndTables) {
+  const std::string folder = fresh("a_run");
+  const std::string design =
+      "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n[accuracy]\nlevel = \"draft\"\n"
+      "grid = 32\n[environment]\nrelative_humidity = [\"35 %\"]\n";
+  const Json point{{"relative_humidity", 0.35},
+                   {"weight", 1},
+                   {"F_off", 2},
+                   {"F_on", 3},
+                   {"modulation", 4},
+                   {"capillary_force", 5},
+                   {"electrostatic_force", 6},
+                   {"status", "ok"},
+                   {"left_out", 7}};
+  Json shown = point;
+  shown.erase("left_out");
+  const Json response{{"points", list_of(point)}, {"plan", {{"seconds", 8}}}};
+  Json other_point = point, other_shown = shown;
+  other_point["F_off"] = other_shown["F_off"] = 20;
+  const Json task{
+      {"name", "a finger"}, {"response", response}, {"flat", {{"points", list_of(other_point)}}}};
+  const Json objectives{{"o", {{"value", 2}, {"maximise", true}}}};
+  Json metrics{{"title", "a run"},         {"variables", {{"v", 1}}},
+               {"objectives", objectives}, {"feasible", true},
+               {"worst_modulation", 0.25}, {"tasks", list_of(task)},
+               {"flat", {{"a", 3}}},       {"left_out", 4}};
+  Heightmap map{{4, 2, 4e-6, 2e-6}, {0, -1e-7, -2e-7, 0, 0, 0, 0, 0}};
+  for (const char* name : {"best", "front/02", "front/01"}) {
+    const std::string place = folder + "/" + name;
+    fs::create_directories(place);
+    write_bytes(place + "/design.toml", design);
+    write_bytes(place + "/metrics.json", metrics.dump());
+    write_gsf(place + "/heightmap.gsf", map, {});
+  }
+  for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md"})
+    write_bytes(folder + "/" + name, std::string("text of ") + name);
+  write_bytes(folder + "/run.json", R"({"recommendation": "Build it."})");
+  const ReadPage page(report_page(folder));
+  EXPECT_NE(page.text.find("<title>a run</title>"), std::string::npos);
+  for (const char* name : {"pareto", "history"})
+    EXPECT_EQ(page.data[name], std::string("text of ") + name + ".csv");
+  EXPECT_EQ(page.data["plan"], "text of plan.txt");
+  EXPECT_EQ(page.data["summary"], "text of summary.md");
+  EXPECT_EQ(page.data["run"]["recommendation"], "Build it.");
+  EXPECT_TRUE(page.plain_part.ends_with("<p>text of summary.md</p>\n"));
+  EXPECT_EQ(page.data["fields"].size(), 1u);
+  EXPECT_EQ(page.data["fields"][0]["relative_humidity"], 0.35);
+  EXPECT_EQ(page.data["designs"].size(), 3u);
+  Json best = page.data["designs"]["best"], front = page.data["designs"]["front/02"];
+  const Json section = best["section"];
+  EXPECT_EQ(section["nx"], 4096);
+  EXPECT_EQ(best["heights"]["nx"], 4);
+  EXPECT_NEAR(best["heights"]["low"].get<double>(), -2e-7, 1e-13);
+  EXPECT_EQ(best["toml"], design);
+  EXPECT_EQ(best["plan"], (Json{{"seconds", 8}}));
+  for (const char* key : {"section", "measures", "heights", "toml"})
+    EXPECT_EQ(best.erase(key) + front.erase(key), 2u) << key;
+  Json expected{{"variables", {{"v", 1}}},
+                {"objectives", objectives},
+                {"worst_modulation", 0.25},
+                {"feasible", true},
+                {"flat", {{"a", 3}}},
+                {"tasks", list_of({{"name", "a finger"}, {"points", list_of(shown)}})}};
+  EXPECT_EQ(front, expected);
+  expected["tasks"][0]["flat"] = list_of(other_shown);
+  expected["plan"] = {{"seconds", 8}};
+  EXPECT_EQ(best, expected);
+  // Of another design of the front.
+  metrics["title"] = "the second";
+  write_bytes(folder + "/front/02/metrics.json", metrics.dump());
+  EXPECT_NE(report_page(folder, "2").find("<title>the second</title>"), std::string::npos);
+  fs::remove(folder + "/plan.txt");
+  EXPECT_EQ(refusal([&] { report_page(folder); }),
+            folder + " has no plan.txt: not the folder of a finished `papilla optimize`");
+}
+
+TEST(Pages, OfAnUnfinishedSearchHoldItsStudy) {
+  const std::string folder = fresh("unfinished");
+  write_bytes(folder + "/study.toml",
+              "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\ntitle = \"mine\"\n");
+  const ReadPage page(unfinished_page(folder, {{"state", "running"}}));
+  EXPECT_NE(page.text.find("<title>mine</title>"), std::string::npos);
+  EXPECT_EQ(page.data["search"], (Json{{"state", "running"}}));
+  EXPECT_EQ(page.data["study"], read_bytes(folder + "/study.toml"));
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,262 @@
+// A run without a drive, with what the fit of its finger leaves open and with lengths on the grid
+// of a fab: summary, sheet and tables as wholes, of made-up numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/constants.h"
+#include "base/files.h"
+#include "report/results.h"
+#include "report/sheet.h"
+#include "report/summary.h"
+#include "tests/report/same_json.h"
+#include "tests/temporary.h"
+
+namespace papilla::tests {
+namespace {
+
+// Less friction and less variation of it, by the diameter, the depth and the contact angle.
+Study undriven() {
+  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  study.population.clear();
+  study.constraints.clear();
+  study.objective = {};
+  study.objective.minimise = {"mean(friction)", "variation(friction)"};
+  study.design.drive.amplitude = 0;
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  study.design.accuracy.parameters = true;
+  study.design.finger.uncertainty = {{"macro.shear_strength", 0.1, {}}};
+  study.design.title = "";
+  study.name = "a study";
+  study.variables.erase(study.variables.begin());
+  study.search.rounding = 20e-9;
+  return study;
+}
+
+// first, second: what the finger's parameters do to each objective, alike on all skins.
+Score score(double friction, double variation, double first, double second) {
+  Score s;
+  s.ok = true;
+  s.values = {friction, variation};
+  s.errors = {0.002, 0.012};
+  s.parameter_steps = {{{first, first}}, {{second, second}}};
+  return s;
+}
+
+struct Searched {
+  Study study = undriven();
+  StudyProblem problem{study};
+  JudgedDesigns history;
+  OptimiseResult result;
+  std::string folder, pick;
+
+  Searched() {
+    result.method = "nsga2", result.why = "why";
+    result.evaluations = result.asked = 7;
+    FinalDesign best;
+    best.unit = problem.space().unit({3e-6, 304e-9, 70 * kPi / 180});
+    best.design = problem.space().design(best.unit);
+    best.confirmed = score(0.08, 0.25, 0.03, 0.02);
+    best.searched = score(0.085, 0.26, 0, 0);
+    best.on_front = best.feasible = true;
+    best.folder = "front/01";
+    result.finalists = {best};
+    result.any_feasible = true;
+    result.flat = score(0.1, 0.2, 0.025, -0.02);
+    FinalDesign rounded = best;
+    rounded.unit = problem.space().unit({3e-6, 300e-9, 70 * kPi / 180});
+    rounded.design = problem.space().design(rounded.unit);
+    rounded.confirmed = score(0.081, 0.255, 0, 0);
+    result.rounded = rounded;
+    result.sensitivity = {{.variable = 1,
+                           .change = {0.004, -0.03},
+                           .share = {0.9, 0.1},
+                           .step = 50e-9,
+                           .down = 12e-9,
+                           .up = 50e-9,
+                           .down_beyond = false,
+                           .up_beyond = true}};
+    result.stability.variants = {{"only", {{0.08, 0.25}}, {true}}};
+    result.stability.times_on_front = {1};
+  }
+
+  ResultFiles files() const { return {folder, study, problem, history, result, pick}; }
+};
+
+TEST(UndrivenRun, ItsSummaryIsWithoutModulation) {
+  Searched run;
+  ASSERT_EQ(run.problem.parameters_unknown(), "");
+  ASSERT_FALSE(run.problem.driven());
+  const std::string page = run_summary(run.files());
+  const std::string advice =
+      "Build front/01: beside the same surface without it, its texture gains mean(friction) -20 ± "
+      "2 mN and costs variation(friction) +0.050 ± 0.012; the finish changes too "
+      "(surface.contact_angle 50 deg to 70 deg).";
+  const std::string begin =
+      "# a study\n\nSearch: nsga2 (why). 7 evaluations.\n\n\n## What to build\n\n**" + advice +
+      "**\n\n| dimension | build | tolerance down | up |\n|---|---|---|---|\n";
+  EXPECT_TRUE(page.starts_with(begin)) << page;
+  for (const std::string& part :
+       {std::string("| texture.period | 6 um | fixed | fixed |\n"),
+        std::string("| texture.depth | 300 nm | 12 nm | at least 50 nm |\n"),
+        std::string("one dimension at a time. Lengths are on a grid of 20 nm (`search.rounding`), "
+                    "and the design was judged again so: mean(friction) 81 where it had 80, "
+                    "variation(friction) 0.255 where it had 0.250 (`best/build.toml`).\n"),
+        std::string("\n\n| design | texture.diameter | texture.depth | surface.contact_angle | min "
+                    "mean(friction) [mN] | min variation(friction) |\n|---|---|---|---|---|---|\n"
+                    "| front/01 | 3 um | 304 nm | 70 deg | 80 ± 2 (30) | 0.250 ± 0.012 (0.020) |\n"
+                    "\n± is one standard error of skins, droplets, grid and method. In brackets "
+                    "what the fit of the finger leaves open, one standard deviation, common to all "
+                    "designs; it leaves the difference from flat better known than the values in "
+                    "mean(friction); in variation(friction) it leaves the difference from flat no "
+                    "better known than the values.\n"),
+        std::string("\n`best/` is front/01: the knee of the front: the least sum of its scaled "
+                    "objectives.\n"),
+        std::string("\n| surface | mean(friction) [mN] | variation(friction) |\n|---|---|---|\n"
+                    "| flat | 100 ± 2 (25) | 0.200 ± 0.012 (0.020) |\n"
+                    "| best design | 80 ± 2 (30) | 0.250 ± 0.012 (0.020) |\n"
+                    "| difference made by the texture | -20 ± 2 (5) | +0.050 ± 0.012 (0.040) |\n"
+                    "\n± of the difference"),
+        std::string("\n\n| variable | step | mean(friction) [mN], share | variation(friction), "
+                    "share | tolerance down | up |\n|---|---|---|---|---|---|\n"
+                    "| texture.depth | 50 nm | +4, 90 % | -0.03, 10 % | 12 nm | at least 50 nm |\n"
+                    "\nFiles: report.html")})
+    EXPECT_NE(page.find(part), std::string::npos) << part << "\n---\n" << page;
+  // One design has no order, and a flat surface that is not compared has no row of its own.
+  EXPECT_EQ(page.find("Does the order hold?"), std::string::npos);
+  EXPECT_EQ(page.find("From the first row to the second"), std::string::npos);
+  EXPECT_EQ(page.find("worst modulation"), std::string::npos);
+  run.study.design.accuracy.parameters = false;
+  EXPECT_NE(run_summary(run.files())
+                .find("In brackets, of the best design (all: `[accuracy] parameters = true`), what "
+                      "the fit"),
+            std::string::npos);
+  run.result.flat.reset();
+  EXPECT_NE(result_table(run.study, run.result).find("common to all designs.\n"),
+            std::string::npos);
+}
+
+TEST(UndrivenRun, WhatIsBuiltIsOnTheGridOfTheFab) {
+  Searched run;
+  const Design built = built_design(run.files());
+  const auto& holes = std::get<HoleArray>(built.texture.kind);
+  EXPECT_DOUBLE_EQ(holes.depth, 300e-9);
+  EXPECT_DOUBLE_EQ(holes.diameter, 3e-6);
+  const auto json = nlohmann::json::parse(run_json(run.files()));
+  EXPECT_EQ(json["grid"], 20e-9);
+  EXPECT_EQ(json["driven"], false);
+  expect_same(json["shown"],
+              {{"mean(friction)", {{"scale", 1e3}, {"unit", "mN"}}},
+               {"variation(friction)", {{"scale", 1}, {"unit", ""}}}},
+              "shown");
+  const auto row = std::find_if(json["sheet"].begin(), json["sheet"].end(),
+                                [](const auto& r) { return r["name"] == "texture.depth"; });
+  expect_same(*row,
+              {{"name", "texture.depth"},
+               {"unit", "nm"},
+               {"value", 304},
+               {"build", 300},
+               {"free", true},
+               {"down", 12},
+               {"down_at_least", false},
+               {"up", 50},
+               {"up_at_least", true},
+               {"bound", nullptr},
+               {"text", {{"build", "300 nm"}, {"down", "12 nm"}, {"up", "at least 50 nm"}}}},
+              "sheet");
+  const auto step = [](const char* surface, double friction, double variation) {
+    return nlohmann::json{{"surface", surface},
+                          {"objectives",
+                           {{"mean(friction)", {{"value", friction}, {"se", 0.002}}},
+                            {"variation(friction)", {{"value", variation}, {"se", 0.012}}}}}};
+  };
+  expect_same(json["steps"],
+              {step("flat", 0.1, 0.2), step("best, with its texture", 0.08, 0.25),
+               step("best, on the grid of the fab", 0.081, 0.255)},
+              "steps");
+  run.result.rounded->feasible = false;
+  EXPECT_NE(sheet_text(run.files())
+                .find("had 0.250; **so it does not keep every constraint** (`best/build.toml`)"),
+            std::string::npos);
+  run.result.rounded->confirmed.ok = false;
+  EXPECT_EQ(nlohmann::json::parse(run_json(run.files()))["steps"].size(), 2u);
+  EXPECT_NE(sheet_text(run.files()).find("judged again so: ; **so it"), std::string::npos);
+  run.result.rounded.reset();
+  EXPECT_DOUBLE_EQ(std::get<HoleArray>(built_design(run.files()).texture.kind).depth, 304e-9);
+  EXPECT_EQ(sheet_text(run.files()).find("Lengths are on a grid"), std::string::npos);
+}
+
+// What decides whether to build: the errors of the differences, and what is known at all.
+TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
+  Searched run;
+  const auto advice = [&](double friction, double variation) {
+    run.result.flat = score(friction, variation, 0, 0);
+    return advice_of(run.files());
+  };
+  EXPECT_EQ(advice(0.0825, 0.25), Advice::Texture);
+  EXPECT_EQ(advice(0.0815, 0.25), Advice::Finish);  // within 2 mN
+  EXPECT_EQ(advice(0.0815, 0.263), Advice::Texture);
+  EXPECT_EQ(advice(0.07, 0.261), Advice::Finish);  // within 0.012
+  run.result.flat_before = score(0.0805, 0.255, 0, 0);
+  EXPECT_EQ(advice(0.08, 0.25), Advice::LeaveFlat);
+  run.result.flat_before = score(0.0825, 0.255, 0, 0);
+  EXPECT_EQ(advice(0.08, 0.25), Advice::Finish);
+  EXPECT_EQ(recommendation(run.files()),
+            "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): "
+            "mean(friction) -2.5 ± 2 mN; no texture of this search adds more than the error of the "
+            "difference.");
+  run.result.flat_before.reset();
+  run.result.finalists[0].unit[2] = run.problem.space().unit_of_study()[2];
+  EXPECT_EQ(advice(0.08, 0.25), Advice::LeaveFlat);  // there is no other finish
+  run.result.flat.reset();
+  EXPECT_EQ(advice_of(run.files()), Advice::Unknown);
+  run.result.finalists[0].feasible = false;
+  EXPECT_EQ(recommendation(run.files()),
+            "Build none of these: no design that was tried keeps every constraint.");
+}
+
+TEST(UndrivenRun, ItsTablesHaveTheParametersAndNoModulation) {
+  Searched run;
+  run.folder = temporary("undriven");
+  std::filesystem::create_directories(run.folder);
+  FinalDesign& best = run.result.finalists[0];
+  best.on_front = false;  // else its folder would be written twice
+  best.confirmed.oxide_margin = kInfinity;
+  run.history.evaluations = {{best.unit, {true, "", {0.085, 0.26}, {}, {}}}};
+  run.history.worst = {0.3};
+  run.result.hypervolumes = {0.5};
+  write_results(run.files());
+  const std::string variables =
+      ",texture.diameter [um],texture.depth [nm],"
+      "surface.contact_angle [deg]";
+  EXPECT_EQ(read_bytes(run.folder + "/history.csv"),
+            "evaluation" + variables +
+                ",mean(friction),variation(friction),worst modulation,feasible,hypervolume,status\n"
+                "1,3,304,70,0.085,0.26,,yes,0.5,ok\n");
+  EXPECT_EQ(read_bytes(run.folder + "/pareto.csv"),
+            "design" + variables +
+                ",mean(friction),mean(friction) se,mean(friction) parameters,mean(friction) at "
+                "search level,variation(friction),variation(friction) se,variation(friction) "
+                "parameters,variation(friction) at search level,worst modulation,breakdown "
+                "margin,feasible,on front,status\n"
+                "front/01,3,304,70,0.08,0.002,0.03,0.085,0.25,0.012,0.02,0.26,,,yes,no,ok\n");
+  const auto metrics = nlohmann::json::parse(read_bytes(run.folder + "/best/metrics.json"));
+  expect_same(
+      metrics["parameters"],
+      {{"status", "ok"},
+       {"of_the_difference_to_flat", {{"mean(friction)", 0.005}, {"variation(friction)", 0.04}}}},
+      "parameters");
+  EXPECT_TRUE(metrics["worst_modulation"].is_null());
+  EXPECT_TRUE(metrics["flat"]["worst_modulation"].is_null());
+  EXPECT_NEAR(metrics["objectives"]["mean(friction)"]["parameters"].get<double>(), 0.03, 1e-12);
+  EXPECT_NEAR(metrics["flat"]["difference"]["mean(friction)"]["value"].get<double>(), -0.02, 1e-12);
+  EXPECT_EQ(metrics["stability"]["stable"], true);
+  EXPECT_DOUBLE_EQ(
+      std::get<HoleArray>(read_design(run.folder + "/best/build.toml").texture.kind).depth, 300e-9);
+}
+
+}  // namespace
+}  // namespace papilla::tests

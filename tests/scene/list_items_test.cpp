@@ -1,0 +1,44 @@
+// Keys that stand in lists, which the reference shows by the name of their list alone.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "config/describe.h"
+#include "scene/scene.h"
+
+namespace papilla::tests {
+namespace {
+
+// Key, kind, range, default and source, a line each.
+template <class S>
+std::string keys_of(const S& of) {
+  std::string out;
+  for (const FieldRow& row : field_rows(of))
+    out += row.path + ": " + row.kind + ", " + row.range + ", " + row.default_value + ", " +
+           row.source + " " + row.reference + "\n";
+  return out;
+}
+
+TEST(ListItems, OfAFilmAreItsLayers) {
+  EXPECT_EQ(keys_of(FilmDielectric{}),
+            "material: a text, , SiO2, choice \n"
+            "thickness: a length in nm, 0 to 1e7 nm, 500 nm, paper M3: 500 nm wet oxide\n"
+            "permittivity: a number, 1 to 100000, 3.9, paper SiO2 3.9\n"
+            "resistivity: a resistivity in ohm m, 0 to 1e30 ohm m, 1e14 ohm m, estimate thermal "
+            "oxide\n"
+            "strength: an electric field in V/um, 0 to 1000000 V/um, 1000 V/um, measured SiO2 1 "
+            "GV/m at 50 "
+            "nm (McPherson 2016)\n"
+            "process: one of surface, conformal, directional, planar, , surface, choice \n");
+}
+
+// A correlation lies between -1 and 1.
+TEST(ListItems, OfAnUncertaintyAreItsNumbers) {
+  EXPECT_EQ(keys_of(ParameterDeviation{"skin.rms", 0.1, {0.5}}),
+            "parameter: a text, , skin.rms, choice \n"
+            "deviation: a share in %, 0 to 300 %, 10 %, fit papilla calibrate\n"
+            "correlation: a list, each a number, -1 to 1, [0.5], fit papilla calibrate\n");
+}
+
+}  // namespace
+}  // namespace papilla::tests

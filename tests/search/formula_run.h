@@ -1,0 +1,62 @@
+// A run whose tasks are answered by a formula: which designs it asks of at each stage, and what it
+// says meanwhile. No contact is solved.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "search/stages.h"
+#include "tests/search/small_study.h"
+
+namespace papilla::tests {
+
+using TaskFormula = std::function<TaskAnswer(const TaskRequest&)>;
+
+class FormulaWorker : public Team {
+ public:
+  FormulaWorker(TaskFormula formula, std::vector<TaskRequest>& asked)
+      : formula_(std::move(formula)), asked_(asked) {}
+  std::size_t size() const override { return 1; }
+  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
+    std::vector<WorkAnswer> out;
+    for (const Bytes& bytes : requests) {
+      asked_.push_back(*decode_request(bytes));
+      out.push_back({encode(formula_(asked_.back())), {}});
+    }
+    return out;
+  }
+
+ private:
+  TaskFormula formula_;
+  std::vector<TaskRequest>& asked_;
+};
+
+struct FormulaRun {
+  FormulaRun(const Study& of, const std::string& folder, const TaskFormula& formula,
+             std::function<void(const Progress&)> progress = {})
+      : study(of),
+        options{folder, false, std::move(progress), nullptr},
+        run(study, options, mpi, std::make_unique<FormulaWorker>(formula, asked)) {}
+  FormulaRun(const FormulaRun&) = delete;
+  FormulaRun& operator=(const FormulaRun&) = delete;
+
+  // Of a stage, in the order in which they were asked of.
+  std::vector<Point> units(Stage stage) const {
+    std::vector<Point> out;
+    for (const TaskRequest& r : asked) {
+      if (r.stage == stage && !r.flat) out.push_back(r.unit);
+    }
+    return out;
+  }
+
+  const Study study;
+  const OptimiseOptions options;
+  const MpiSession mpi;
+  std::vector<TaskRequest> asked;
+  search::Run run;
+};
+
+}  // namespace papilla::tests

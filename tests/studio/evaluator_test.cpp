@@ -1,0 +1,169 @@
+// The evaluator by itself: what it tells of a wish, step by step, and what of pinned designs.
+#include "studio/evaluator.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "config/describe.h"
+#include "forward/forward.h"
+#include "metrics/metrics.h"
+
+namespace papilla::tests {
+namespace {
+
+// What was told, in its order.
+class Told {
+ public:
+  Listener listener() {
+    Listener out;
+    out.answer = [this](const Answer& a) { add([&] { answers.push_back(a); }); };
+    out.shape = [this](std::uint64_t revision, const Design&) {
+      add([&] { shapes.push_back(revision); });
+    };
+    out.look = [this](std::uint64_t revision, const Design&) {
+      add([&] { looks.push_back(revision); });
+    };
+    out.refining = [this](std::uint64_t, const std::string& what, double share) {
+      add([&] { refined.push_back(what + (share == 1 ? "done" : "")); });
+    };
+    out.failed = [this](std::uint64_t, const std::string& why) {
+      add([&] { failures.push_back(why); });
+    };
+    return out;
+  }
+  void wait(const std::function<bool()>& until) {
+    std::unique_lock lock(mutex_);
+    ASSERT_TRUE(news_.wait_for(lock, std::chrono::seconds(60),
+                               [&] { return until() || !failures.empty(); }));
+  }
+
+  std::vector<Answer> answers;
+  std::vector<std::uint64_t> shapes, looks;
+  std::vector<std::string> refined, failures;
+
+ private:
+  void add(const std::function<void()>& change) {
+    const std::lock_guard lock(mutex_);
+    change();
+    news_.notify_all();
+  }
+  std::mutex mutex_;
+  std::condition_variable news_;
+};
+
+Design quick_design() {
+  Design out = read_design(PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml");
+  out.environment.relative_humidity = {0.35};
+  out.accuracy.grid = 32;                                     // of the finest step
+  for (double& volume : out.finger.water.volume) volume = 0;  // dry: quicker
+  out.accuracy.seed = 3;
+  return out;
+}
+
+// First at once, then draft and design; pinned designs after the one at hand at each step.
+TEST(Evaluator, RefinesWhatIsAtHandAndThenWhatIsPinned) {
+  Told told;
+  const Design design = quick_design();
+  Design pinned = design;
+  set_number(pinned, "texture.depth", 500e-9);
+  const auto from = std::chrono::steady_clock::now();
+  {
+    Evaluator evaluator(told.listener());
+    Wish wish{11, design, {{4, pinned}}, 0};
+    wish.design.title = "a title says nothing";
+    evaluator.wish(wish);
+    told.wait([&] { return !told.refined.empty() && told.refined.back() == "done"; });
+  }
+  const double elapsed =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  EXPECT_TRUE(told.failures.empty());
+  EXPECT_EQ(told.shapes, std::vector<std::uint64_t>{11});
+  EXPECT_EQ(told.looks, std::vector<std::uint64_t>{11});
+  EXPECT_EQ(told.refined, (std::vector<std::string>{"draft", "pinned design, draft", "design",
+                                                    "pinned design, design", "done"}));
+  // The answer of each step, and again once the pinned one is known at it.
+  ASSERT_EQ(told.answers.size(), 5u);
+  const Step steps[] = {Step::First, Step::Draft, Step::Draft, Step::Design, Step::Design};
+  const Scene scene = scene_of(design);
+  Fidelity draft = fidelity_level("draft"), finest = fidelity_level("design");
+  draft.seed = finest.seed = 3;
+  finest.grid = 32;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const Answer& a = told.answers[i];
+    EXPECT_EQ(a.revision, 11u);
+    EXPECT_EQ(a.step, steps[i]) << i;
+    EXPECT_GT(a.seconds, i == 0 ? 0 : told.answers[i - 1].seconds) << i;  // from the wish on
+    EXPECT_LE(a.seconds, elapsed) << i;
+    EXPECT_EQ(a.pinned.size(), i < 2 ? 0u : 1u) << i;
+    EXPECT_EQ(a.comparisons.empty(), i % 2 == 1 || i == 0) << i;
+    const Fidelity& f = a.response.fidelity;
+    const Fidelity& as = i == 0 ? quick_fidelity(design) : i < 3 ? draft : finest;
+    EXPECT_EQ(f.grid, as.grid) << i;
+    EXPECT_EQ(f.skins, as.skins) << i;
+    EXPECT_EQ(f.seed, 3u) << i;
+  }
+  // Nothing is refined before the hand has been still for 350 ms.
+  EXPECT_GE(told.answers[1].seconds, told.answers[0].seconds + 0.35);
+  // Compared at one step: the one at hand less the pinned one, their errors paired.
+  const Answer& last = told.answers[4];
+  const Response &ours = last.response, &theirs = last.pinned.at(4);
+  ASSERT_EQ(last.comparisons.size(), 4u);
+  const char* metrics[] = {"mean(modulation)", "worst(modulation)", "variation(modulation)",
+                           "mean(friction)"};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Comparison& c = last.comparisons[k];
+    EXPECT_EQ(c.pin, 4);
+    EXPECT_EQ(c.metric, metrics[k]);
+    const MetricExpression e = parse_metric(c.metric);
+    const double a = summarise(e.summary, e.metric, ours)->value,
+                 b = summarise(e.summary, e.metric, theirs)->value;
+    EXPECT_NEAR(c.difference, a - b, 1e-12) << c.metric;
+    const auto error = difference_error(error_samples(e.summary, e.metric, ours),
+                                        error_samples(e.summary, e.metric, theirs));
+    ASSERT_EQ(c.error.has_value(), error.has_value());
+    EXPECT_NEAR(c.error.value_or(0), error.value_or(0), 1e-12) << c.metric;
+  }
+}
+
+// The first answer is that of the quick level, carried by nothing yet; the shape is told where it
+// is another.
+TEST(Evaluator, AnswersEachWishAtOnce) {
+  const Design design = quick_design();
+  Design other = design, deeper = design;
+  set_number(other, "drive.amplitude", 50);
+  set_number(deeper, "texture.depth", 300e-9);
+  const Response expected = first_answer(
+      evaluate(scene_of(design), design.texture, quick_fidelity(design)), design, std::nullopt);
+  Told told;
+  {
+    Evaluator evaluator(told.listener());
+    std::uint64_t revision = 0;
+    for (const Design& wanted : {design, other, deeper}) {
+      evaluator.wish({++revision, wanted, {}, 0});
+      told.wait([&] {
+        return !told.answers.empty() && told.answers.back().revision == revision &&
+               told.shapes.size() == (revision < 3 ? 1u : 2u);
+      });
+    }
+  }
+  EXPECT_EQ(told.shapes, (std::vector<std::uint64_t>{1, 3}));
+  ASSERT_GE(told.answers.size(), 3u);
+  const Answer& first = told.answers[0];
+  EXPECT_EQ(first.revision, 1u);
+  EXPECT_EQ(first.step, Step::First);
+  for (const auto member : {&PointQuantities::friction_off, &PointQuantities::friction_on,
+                            &PointQuantities::modulation}) {
+    const double value = (expected.points.at(0).*member).value;
+    EXPECT_NEAR((first.response.points.at(0).*member).value, value, 1e-9 * std::abs(value));
+  }
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,160 @@
+// First answers of friction and modulation, each part of their errors; and the level that they are
+// computed at.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "config/describe.h"
+#include "studio/first_answer.h"
+
+namespace papilla::tests {
+namespace {
+
+const std::string kHoles = PAPILLA_DESIGNS_DIR "/m3_samples/a3h600.toml";
+
+using Member = Measured PointQuantities::*;
+constexpr std::array<Member, 3> kNumbers{
+    &PointQuantities::friction_off, &PointQuantities::friction_on, &PointQuantities::modulation};
+
+Response response_of(const std::array<double, 3>& values) {
+  Response out;
+  out.driven = true;
+  ResponsePoint point;
+  for (std::size_t k = 0; k < 3; ++k) {
+    Measured& m = point.*kNumbers[k];
+    m.value = values[k];
+    m.parts = {.sampling = 0.01,
+               .grid = 0.02,
+               .solver = 0.03,
+               .humidity = 0.04,
+               .method = 0.05,
+               .field = std::nullopt,
+               .parameters = 0.06,
+               .water = 0.07};
+  }
+  out.points = {point};
+  return out;
+}
+
+// Eq. studio.3: what a refined answer usually is of the quick one, and how far that is off.
+TEST(FirstAnswers, WithoutAnAnchorAreUsualShares) {
+  const Design coarse = read_design(kHoles);
+  Design fine = coarse;
+  set_number(fine, "texture.diameter", 0.5e-6);
+  constexpr std::array<double, 3> kCoarse{0.69, 0.66, 0.88}, kFine{0.84, 0.82, 0.94},
+      kSpread{0.06, 0.07, 0.125};
+  for (const bool narrow : {false, true}) {
+    for (const bool known : {false, true}) {
+      Response quick = response_of({0.2, 0.5, -1.5});
+      quick.plan.steps = {{Piece::Contact, "m", "r", 1, 0.9}, {Piece::Field, "m", "r", 1, 0.3}};
+      if (known) quick.points[0].field_error = 0.1;
+      const Response out = first_answer(quick, narrow ? fine : coarse, std::nullopt);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Measured &m = out.points[0].*kNumbers[k], &before = quick.points[0].*kNumbers[k];
+        const double usual = narrow ? kFine[k] : kCoarse[k], value = usual * before.value;
+        EXPECT_NEAR(m.value, value, 1e-12) << k;
+        EXPECT_NEAR(m.parts.sampling, usual * 0.01, 1e-12);
+        EXPECT_EQ(m.parts.grid, 0.02);
+        EXPECT_EQ(m.parts.parameters, 0.06);
+        EXPECT_NEAR(*m.parts.method, std::hypot(0.05, kSpread[k] * std::abs(value)), 1e-12) << k;
+        ASSERT_EQ(m.parts.field.has_value(), !known);
+        EXPECT_NEAR(m.parts.field.value_or(0), known ? 0 : 0.3 * std::abs(value), 1e-12);
+      }
+    }
+  }
+}
+
+// Eq. studio.1 and studio.2: each number by its own ratio, its errors by its own share.
+TEST(FirstAnswers, ByAnAnchorAreItsRatios) {
+  const Design at = read_design(kHoles);
+  Anchor anchor{at, response_of({0.4, 0.8, 0.5}), response_of({0.2, 0.72, -0.4})};
+  Design away = at;
+  set_number(away, "texture.depth", 1200e-9);  // ln 2 away
+  const Response out = first_answer(response_of({0.1, 0.2, 0.3}), away, anchor);
+  const std::array<double, 3> ratio{0.5, 0.9, -0.8}, usual{0.69, 0.66, 0.88};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Measured& m = out.points[0].*kNumbers[k];
+    const double value = ratio[k] * 0.1 * static_cast<double>(k + 1),
+                 share = std::abs(value / (anchor.refined.points[0].*kNumbers[k]).value);
+    EXPECT_NEAR(m.value, value, 1e-12) << k;
+    EXPECT_NEAR(m.parts.sampling, 0.01 * share, 1e-12);
+    EXPECT_NEAR(*m.parts.grid, 0.02 * share, 1e-12);
+    EXPECT_NEAR(*m.parts.solver, 0.03 * share, 1e-12);
+    EXPECT_NEAR(*m.parts.humidity, 0.04 * share, 1e-12);
+    EXPECT_NEAR(*m.parts.parameters, 0.06 * share, 1e-12);
+    EXPECT_NEAR(*m.parts.water, 0.07 * share, 1e-12);
+    EXPECT_FALSE(m.parts.field);
+    // What changes its sign is as unusual as can be: 1.
+    const double unusual = k == 2 ? 1 : std::abs(std::log(ratio[k] / usual[k]));
+    const double drift = std::hypot(0.012, (0.06 + 0.5 * unusual) * std::log(2.0));
+    EXPECT_NEAR(*m.parts.method, std::hypot(0.05 * share, drift * std::abs(value)), 1e-12) << k;
+  }
+  // What one of the two levels does not have, no ratio carries.
+  for (const bool coarse : {true, false}) {
+    Anchor none = anchor;
+    ((coarse ? none.quick : none.refined).points[0].friction_on).value = 0;
+    const Response other = first_answer(response_of({0.1, 0.2, 0.3}), away, none);
+    EXPECT_NEAR(other.points[0].friction_off.value, 0.05, 1e-12);
+    EXPECT_NEAR(other.points[0].friction_on.value, 0.66 * 0.2, 1e-12);
+  }
+}
+
+// Eq. studio.4: of the modulation, or of friction where nothing is driven; the largest over
+// humidity.
+TEST(FirstAnswers, ADifferenceDriftsWithItsLargestRatio) {
+  const Design at = read_design(kHoles);
+  Design away = at;
+  set_number(away, "texture.depth", 900e-9);
+  Anchor anchor{at, response_of({0.4, 0.8, 0.5}), response_of({0.2, 0.72, 0.44})};
+  const auto add = [&](double coarse, double fine) {
+    anchor.quick.points.push_back(anchor.quick.points[0]);
+    anchor.refined.points.push_back(anchor.refined.points[0]);
+    anchor.quick.points.back().modulation.value = coarse;
+    anchor.refined.points.back().modulation.value = fine;
+  };
+  add(0.5, 0.6), add(0, 0.3), add(0.5, 0.42);
+  const auto drift = [](double ratio, double usual) {
+    return std::hypot(0.012, (0.06 + 0.5 * std::abs(std::log(ratio / usual))) * std::log(1.5));
+  };
+  EXPECT_NEAR(difference_drift(anchor, at, away), drift(1.2, 0.88), 1e-12);
+  anchor.refined.driven = false;
+  EXPECT_NEAR(difference_drift(anchor, at, away), drift(0.5, 0.69), 1e-12);
+}
+
+TEST(FirstAnswers, AreComputedOnMorePixelsWhereFeaturesAreNarrow) {
+  Design design = read_design(kHoles);
+  design.accuracy.seed = 41;
+  // Four pixels of 12 um / 64 are 0.75 um.
+  for (const auto& [diameter, grid] :
+       {std::pair{0.76e-6, 64}, {0.74e-6, 128}, {5.24e-6, 64}, {5.26e-6, 128}}) {
+    set_number(design, "texture.diameter", diameter);
+    Fidelity expected = fidelity_level("search");
+    expected.seed = 41, expected.grid = grid, expected.skins = 8;
+    EXPECT_EQ(quick_fidelity(design), expected) << diameter;
+  }
+}
+
+// A number that is or was 0 counts 1, a text nothing, another humidity is another design.
+TEST(FirstAnswers, ADistanceAddsTheLogarithmsOfItsNumbers) {
+  const Design at = read_design(kHoles);
+  const auto moved = [&](const std::function<void(Design&)>& change) {
+    Design out = at;
+    change(out);
+    EXPECT_EQ(distance(at, out).has_value(), distance(out, at).has_value());
+    return distance(at, out);
+  };
+  EXPECT_NEAR(*moved([](Design& d) {
+    set_number(d, "texture.depth", 300e-9);
+    set_number(d, "finger.load", 3 * d.finger.load);
+  }),
+              std::log(2.0) + std::log(3.0), 1e-12);
+  EXPECT_NEAR(*moved([](Design& d) { set_number(d, "texture.depth", 0); }), 1, 1e-12);
+  EXPECT_NEAR(*moved([](Design& d) { d.title = "another"; }), 0, 1e-15);
+  EXPECT_FALSE(moved([](Design& d) { d.environment.relative_humidity.push_back(0.9); }));
+  EXPECT_FALSE(moved([](Design& d) { d.surface.dielectric.push_back(d.surface.dielectric[0]); }));
+}
+
+}  // namespace
+}  // namespace papilla::tests
