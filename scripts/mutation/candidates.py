@@ -231,8 +231,8 @@ class Finder:
                 continue
             if re.search(r"\*|iterator|\(lambda|\[", kinds[0]) or b"{" in first[:1] + second[:1]:
                 continue
-            if not first or not second or b"\"" in first + second:
-                continue
+            if not first or not second or b"\"" in first + second or first.startswith(b"."):
+                continue  # members by their names keep their order
             edits = [dict(file=self.file, start=a, end=b, pieces=[[c, d]]),
                      dict(file=self.file, start=c, end=d, pieces=[[a, b]])]
             self.found.append(dict(file=self.file, line=self.line(a), function=self.function,

@@ -23,7 +23,7 @@ class BridgeTable {
   };
   bool valid() const { return !value_.empty(); }
   const BridgeLimits& limits() const { return limits_; }
-  // h > 0 per volume^(1/3); at or beyond the rupture the values of the rupture are kept.
+  // h > 0 per volume^(1/3); beyond the rupture, where there is no bridge, G stays as it is there.
   Value operator()(double h) const;
   // SI: gap [m], volume [m^3], tension [N/m] -> [J], [N].
   Value evaluate(double gap, double volume, double surface_tension) const;

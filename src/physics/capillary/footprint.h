@@ -19,8 +19,9 @@ struct BridgeGuess {
   BridgeGuess(double r = 0, double gap = 0) : radius(r), edge_gap(gap) {}
 };
 
-// The disc about (x, y) [m] whose gap holds `volume` [m^3], Eq. capillary.5, to 1e-13 of it. The
-// result is that of the sampling rule of its own radius, whatever the guess was. Cost: 3-6
+// The disc about (x, y) [m] whose gap holds `volume` [m^3], Eq. capillary.5, to 1e-12 of it. The
+// result is that of the sampling rule of its own radius, whatever the guess was; among pockets of
+// a nearly closed gap, where two rules ask for each other, that of a neighbouring radius. Cost: 3-6
 // integrals over discs.
 Footprint solve_footprint(const GapTable& table, double x, double y, double volume,
                           const BridgeGuess& guess);

@@ -36,7 +36,7 @@ class TanhSquare {
       out[i] = scale * std::sqrt(static_cast<double>(squared[i])) / out[i];
     }
     for (double& value : out) {
-      const double s = std::min(value, static_cast<double>(kSteps));
+      const double s = value < kSteps ? value : kSteps;  // what is no number too
       const int k = static_cast<int>(s);
       const double low = table[k], faded = low + (s - k) * (table[k + 1] - low);
       value = s < kSteps ? faded : 1.0;
