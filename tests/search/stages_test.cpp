@@ -11,31 +11,14 @@
 #include <tuple>
 
 #include "search/levels.h"
+#include "tests/search/formula_run.h"
 #include "tests/search/small_study.h"
 
 namespace papilla::tests {
 namespace {
 
-using Formula = std::function<TaskAnswer(const TaskRequest&)>;
+using Formula = TaskFormula;
 using Requests = std::vector<TaskRequest>;
-
-class FormulaTeam : public Team {
- public:
-  FormulaTeam(Formula formula, Requests& asked) : formula_(std::move(formula)), asked_(asked) {}
-  std::size_t size() const override { return 1; }
-  std::vector<WorkAnswer> answer(const std::vector<Bytes>& requests) override {
-    std::vector<WorkAnswer> out;
-    for (const Bytes& bytes : requests) {
-      asked_.push_back(*decode_request(bytes));
-      out.push_back({encode(formula_(asked_.back())), {}});
-    }
-    return out;
-  }
-
- private:
-  Formula formula_;
-  Requests& asked_;
-};
 
 // Two variables: depth from flat on, and contact angle, of which 50 deg is the study's own.
 Study two_variables() {
@@ -75,7 +58,7 @@ struct AnsweredRun {
               std::function<void(const Progress&)> progress = {})
       : study(of),
         options{folder, resume, std::move(progress), stop},
-        run(study, options, mpi, std::make_unique<FormulaTeam>(formula, asked)) {}
+        run(study, options, mpi, std::make_unique<FormulaWorker>(formula, asked)) {}
   AnsweredRun(const AnsweredRun&) = delete;
   AnsweredRun& operator=(const AnsweredRun&) = delete;
 
