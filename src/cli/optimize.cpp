@@ -27,7 +27,7 @@ namespace {
 struct OptimizeOptions {
   std::string study, out, time, method, pick;
   std::vector<std::string> overrides;
-  bool resume = false, json = false;
+  bool resume = false, finish = false, json = false;
   int jobs = 0, evaluations = 0, seed = -1;
 };
 
@@ -154,6 +154,7 @@ std::string resume_command(const OptimizeOptions& options, const std::string& fo
   const auto add = [&out](const char* name, const std::string& value) {
     if (!value.empty()) out += std::string(" ") + name + " " + shell_word(value);
   };
+  if (options.finish) out += " --finish";
   if (options.jobs > 0) add("--jobs", std::to_string(options.jobs));
   if (options.evaluations > 0) add("--evaluations", std::to_string(options.evaluations));
   add("--time", options.time);
@@ -169,6 +170,8 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
     [[maybe_unused]] const auto* err = std::freopen("/dev/null", "w", stderr);
   }
+  if (options.finish && !options.resume)
+    throw InputError("--finish goes on with a run that was interrupted: add --resume");
   Study study = read_study(options.study, options.overrides);
   say_scans({study.design});
   for (const std::string& path : study.fallen_away)
@@ -191,6 +194,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   OptimiseOptions run;
   run.folder = options.out.empty() ? "results/" + study.name : options.out;
   run.resume = options.resume;
+  run.finish = options.finish;
   run.stop = &interrupted;
   run.pick = options.pick;
   ProgressPrinter printer(context);
@@ -264,6 +268,8 @@ void add_optimize(Command app, Context& context) {
   command.add_option("--out", options->out, "Folder of results; default results/<study>")
       .type_name("DIR");
   command.add_flag("--resume", options->resume, "Continue an interrupted run of the same study");
+  command.add_flag("--finish", options->finish,
+                   "With --resume: no more designs, those that there are are judged and confirmed");
   command.add_option("--jobs", options->jobs, "Evaluations at a time; default: one per processor")
       .range(1, 4096);
   command.add_option("--evaluations", options->evaluations, "Largest number of evaluated designs")

@@ -79,6 +79,8 @@ std::string few_remark(const OptimiseResult& r) {
              ": the limits of the shape refused ten times as many designs; loosen them or narrow "
              "the "
              "design space.";
+    case SearchEnd::Asked:
+      return made + ": the search was ended by request.";
     case SearchEnd::Budget:
     case SearchEnd::Clock:  // said by the remark on the clock
       break;

@@ -32,6 +32,7 @@ enum class SearchEnd {
   Exhausted,  // the method had nothing more to try
   Refusals,   // the limits of the shape refused ten times the budget
   Clock,
+  Asked,  // OptimiseOptions::finish
 };
 
 // A part of the run that the clock cut: evaluations, designs, or 0 of 1 where it was left out.
@@ -102,7 +103,8 @@ struct OptimiseOptions {
   const std::atomic<bool>* stop = nullptr;  // set by Ctrl-C: ends after the running evaluation
   std::string pick{};  // which design of the front is the best: a rule of pick_design
   const ResultWriter* writer =
-      nullptr;  // none: the folder has the journal, the plan and no results
+      nullptr;          // none: the folder has the journal, the plan and no results
+  bool finish = false;  // no new design but a first: those of the journal are judged and confirmed
 };
 
 // Throws InputError for a folder that belongs to another study or is in use, for one without a run

@@ -29,8 +29,8 @@ class Searching {
         break;
       }
       const End told = searcher_->asks_drafts() ? draft(asked) : evaluate(asked);
-      if (told == End::OutOfTime) {
-        end = SearchEnd::Clock;
+      if (told == End::Over) {
+        end = run_.options.finish ? SearchEnd::Asked : SearchEnd::Clock;
         break;
       }
       if (told == End::Interrupted) return false;
@@ -39,7 +39,7 @@ class Searching {
   }
 
  private:
-  enum class End { Told, Interrupted, OutOfTime };
+  enum class End { Told, Interrupted, Over };
 
   // Cheap outcomes that steer. Few at a time, so that a kill loses little and Ctrl-C is heard.
   End draft(const std::vector<Point>& units) {
@@ -65,7 +65,7 @@ class Searching {
     while (batch.size() < asked.size() && evaluated_ < budget_ && run_.replay.searching()) {
       if (run_.stopped_before_next()) return End::Interrupted;
       const std::vector<Point> units = next_of(asked, batch.size());
-      if (units.empty()) return End::OutOfTime;
+      if (units.empty()) return End::Over;
       const std::vector<Judgement> judgements = run_.replay.searched(units);
       for (std::size_t i = 0; i < units.size(); ++i) {
         evaluated_ += run_.add_to_history(units[i], judgements[i]);
@@ -81,10 +81,11 @@ class Searching {
   // A draft of the journal, or one that the clock allows: half of the search's time is for others.
   bool next_is_draft() const {
     if (run_.replay.replaying()) return run_.replay.next_unit(Stage::Draft).has_value();
+    if (run_.options.finish) return false;
     return run_.fits(2 * run_.seconds_of_designs(run_.search.evaluations, Stage::Search));
   }
 
-  // Those to evaluate together; none: the time is over. One at a time from the journal, which may
+  // Those to evaluate together; none: the search is over. One at a time from the journal, which may
   // end or change stage within the batch.
   std::vector<Point> next_of(const std::vector<Point>& asked, std::size_t from) const {
     std::vector<Point> out;
@@ -101,6 +102,7 @@ class Searching {
   // evaluated alone where there is a limit: what it takes is not known.
   std::size_t affordable() const {
     const std::size_t busy = run_.replay.designs();
+    if (run_.options.finish) return evaluated_ == 0;
     if (!run_.clock.limited()) return busy;
     if (evaluated_ == 0) return 1;
     std::size_t count = busy;
@@ -136,6 +138,7 @@ void take_from_journal(Run& run) {
   const bool refused = run.history.size() >= 10 * static_cast<std::size_t>(run.search.evaluations);
   run.result.end = all                   ? SearchEnd::Budget
                    : refused             ? SearchEnd::Refusals
+                   : run.options.finish  ? SearchEnd::Asked
                    : run.clock.limited() ? SearchEnd::Clock
                                          : SearchEnd::Exhausted;
 }

@@ -1,8 +1,6 @@
 #include "studio/http.h"
 
 #include <fmt/format.h>
-// More than 5 that knock at once: a browser would try again a second later.
-#define CPPHTTPLIB_LISTEN_BACKLOG 256
 #include <httplib.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -30,6 +28,7 @@ class TimedStream final : public httplib::Stream {
 
   // The request was let in; what came of it until now was its head.
   void admit() { admitted_ = true; }
+  bool admitted() const { return admitted_; }
   // Too slow or too long: what comes now is the middle of something, no request.
   bool broken() const { return broken_; }
 
@@ -110,9 +109,10 @@ class Strangers {
     const std::lock_guard lock(mutex_);
     since_.push_back(socket);
   }
-  void leave(int socket) {
+  // Whether it was still there: not let in since, nor ended.
+  bool leave(int socket) {
     const std::lock_guard lock(mutex_);
-    std::erase(since_, socket);
+    return std::erase(since_, socket) > 0;
   }
   // Its thread is free in a moment; false: there is none.
   bool end_oldest() {
@@ -167,6 +167,9 @@ class BoundedServer final : public httplib::Server {
     set_payload_max_length(limits.body);
     set_tcp_nodelay(true);
   }
+  // The library's own queue holds 5 who knock at once: a browser would try again a second later.
+  // Its macro for another length works in the library's build alone.
+  void lengthen_queue() { ::listen(svr_sock_, 256); }
   // The request that this thread reads was let in.
   void admit() {
     at_the_door->admit();
@@ -183,8 +186,10 @@ class BoundedServer final : public httplib::Server {
       strangers_.enter(socket);
       const bool asks = stream.next(limits_.idle, [this] { return svr_sock_ != INVALID_SOCKET; });
       const bool on = asks && process_request(stream, left == 1, closed, nullptr);
-      strangers_.leave(socket);
-      if (!on || stream.broken()) break;
+      // Who was ended does not come back: ended twice, it would make room for two and free one
+      // thread.
+      const bool ended = !strangers_.leave(socket) && !stream.admitted();
+      if (!on || ended || stream.broken()) break;
     }
     ::shutdown(socket, SHUT_RDWR);
     ::close(socket);
@@ -232,6 +237,7 @@ class HttpServer::Impl {
       throw InputError(fmt::format(
           "--port {}: another program listens there; choose another, or 0 for any", port));
     }
+    server_.lengthen_queue();
     door_ = std::make_unique<Door>(make_token(), got);
     set_up();
     thread_ = std::thread([this] { server_.listen_after_bind(); });

@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
 constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
-constexpr const char* kLastWord = "1 min";            // of a search that is stopped
+constexpr const char* kLastWord = "30 s";             // of a search that is stopped
 constexpr int kGivesWay = 19;                         // niceness of a search: the hand comes first
 
 const char* name_of(SearchState state) {
@@ -261,8 +261,7 @@ void SearchDesk::watch() {
       std::vector<std::string> words{program_, "optimize", folder + "/study.toml", "--out", folder};
       std::error_code none;
       if (again_ && fs::exists(folder + "/journal", none)) words.push_back("--resume");
-      // Another number of evaluations would be another path than the journal's; a clock is none.
-      if (to_its_end_) words.insert(words.end(), {"--time", kLastWord});
+      if (to_its_end_) words.insert(words.end(), {"--finish", "--time", kLastWord});
       child_ = started(words, folder + "/log.txt");
       wants_child_ = false;
     }

@@ -477,6 +477,7 @@ TEST(Program, MistakesOnTheCommandLineNameThemselves) {
                 "/../../designs/measured_surface/scan.gsf --set model.closure=persson",
             "finger.skin.map"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --time '-1 min'", "--time"},
+           {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --finish", "add --resume"},
            {"optimize " PAPILLA_TEST_DATA "/study/tiny.toml --set objective.risk='mean - -2 std'",
             "seeks risk"},
            {"evaluate " + kSample + " --set texture.type=stack", "at least one part"},

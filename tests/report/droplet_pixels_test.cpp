@@ -1,6 +1,5 @@
 // Pictures of droplets pixel by pixel: which pixels a disc, its rim and a film take, worked out by
 // whole numbers.
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,12 +12,12 @@
 
 #include "geometry/io/files.h"
 #include "report/droplets.h"
+#include "tests/report/pixels.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
 
-using Colour = std::array<int, 3>;
 constexpr Colour kBridge{30, 110, 255}, kFilm{0, 190, 200}, kSubstrate{255, 150, 0},
     kOnSkin{220, 40, 160};
 constexpr int kGrey = (2 * 253 + 5 * 231 + 37) / 8;  // of a gap that is the same everywhere
@@ -30,24 +29,10 @@ Colour mixed(const Colour& c, double share) {
   return out;
 }
 
-struct Image {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;
-
-  Colour at(int x, int y) const {  // y up
-    const std::size_t k = 3 * (static_cast<std::size_t>(height - 1 - y) * width + x);
-    return {rgb.at(k), rgb.at(k + 1), rgb.at(k + 2)};
-  }
-};
-
-Image drawn(const Gap& gap, const Wetting& before, const Wetting& after) {
+Pixels drawn(const Gap& gap, const Wetting& before, const Wetting& after) {
   const std::string path = temporary("pixels.png");
   write_droplet_picture(path, gap, before, after);
-  const auto file = OIIO::ImageInput::open(path);
-  Image out{file->spec().width, file->spec().height, {}};
-  out.rgb.resize(static_cast<std::size_t>(out.width) * out.height * 3);
-  EXPECT_TRUE(file->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, out.rgb.data()));
-  return out;
+  return pixels_of(path);
 }
 
 Gap even_gap(const Grid& grid) {
@@ -62,22 +47,23 @@ using Rule = std::function<Colour(int x, int y)>;
 constexpr Colour kGround{kGrey, kGrey, kGrey};
 
 // Both panels, eight white columns between them; the scale bar over all.
-void expect_panels(const Image& image, const Gap& gap, const Rule& left, const Rule& right) {
+void expect_panels(const Pixels& image, const Gap& gap, const Rule& left, const Rule& right) {
   int width = 0, height = 0;
   const std::vector<std::uint8_t> field = render_field(gap.grid, gap.value, width, height);
   ASSERT_EQ(image.width, 2 * width + 8);
   ASSERT_EQ(image.height, height);
   int bar = 0, wrong = 0;
   for (int y = 0; y < height; ++y) {
+    const int row = height - 1 - y;
     for (int x = 0; x < width; ++x) {
-      const std::size_t k = 3 * (static_cast<std::size_t>(height - 1 - y) * width + x);
+      const std::size_t k = 3 * (static_cast<std::size_t>(row) * width + x);
       const bool of_bar = field[k] == field[k + 1] && field[k] == field[k + 2];
       bar += of_bar;
       const Colour grey{field[k], field[k], field[k]};
-      wrong += image.at(x, y) != (of_bar ? grey : left(x, y));
-      wrong += image.at(width + 8 + x, y) != (of_bar ? grey : right(x, y));
+      wrong += image.at(x, row) != (of_bar ? grey : left(x, y));
+      wrong += image.at(width + 8 + x, row) != (of_bar ? grey : right(x, y));
     }
-    for (int x = width; x < width + 8; ++x) wrong += image.at(x, y) != Colour{255, 255, 255};
+    for (int x = width; x < width + 8; ++x) wrong += image.at(x, row) != Colour{255, 255, 255};
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(bar, 0);

@@ -1,5 +1,4 @@
 // What pages are made of: designs, maps and files as JSON, and the pages around them.
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,6 +21,7 @@
 #include "report/legend.h"
 #include "report/page.h"
 #include "report/page_data.h"
+#include "tests/report/pixels.h"
 #include "tests/report/same_json.h"
 #include "tests/temporary.h"
 
@@ -165,12 +165,10 @@ TEST(FieldPictures, AreTheFieldsOfOnePatchAtEachHumidity) {
     const Heightmap back = read_heightmap(path + ".npy", patch.texture.grid.lx);
     EXPECT_EQ(back.z, values) << name;
     const FieldPicture drawn = picture_with_legend(patch.texture.grid, values, scale);
-    const auto image = OIIO::ImageInput::open(path + ".png");
-    ASSERT_TRUE(image && image->spec().width == drawn.width &&
-                image->spec().height == drawn.height);
-    std::vector<std::uint8_t> rgb(drawn.rgb.size());
-    ASSERT_TRUE(image->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, rgb.data()));
-    EXPECT_TRUE(rgb == drawn.rgb) << name;
+    const Pixels image = pixels_of(path + ".png");
+    EXPECT_EQ(image.width, drawn.width);
+    EXPECT_EQ(image.height, drawn.height);
+    EXPECT_TRUE(image.rgb == drawn.rgb) << name;
   };
   expect_pair("gap", f.off.gap, {1e9, "nm"});
   expect_pair("pressure_off", f.off.pressure, pressure);

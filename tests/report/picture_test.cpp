@@ -1,5 +1,4 @@
 // Pictures inside pages and of droplets, read back pixel by pixel.
-#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -11,6 +10,7 @@
 
 #include "report/droplets.h"
 #include "report/page_data.h"
+#include "tests/report/pixels.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -85,21 +85,14 @@ TEST(DropletPictures, ShowEachDropletWhereItIsInTheColourOfItsState) {
                     droplet(3e-6, 1e-6, DropletState::OnSubstrate)};
   const std::string path = temporary("droplets.png");
   write_droplet_picture(path, gap, before, after);
-  const auto image = OIIO::ImageInput::open(path);
-  ASSERT_TRUE(image);
-  const int width = image->spec().width, height = image->spec().height, panel = 512;
-  ASSERT_EQ(width, 2 * panel + 8);
-  ASSERT_EQ(height, 256);
-  std::vector<std::uint8_t> rgb(static_cast<std::size_t>(width) * 256 * 3);
-  ASSERT_TRUE(image->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, rgb.data()));
-  using Colour = std::array<int, 3>;
+  const Pixels image = pixels_of(path);
+  constexpr int height = 256, panel = 512;
+  ASSERT_EQ(image.width, 2 * panel + 8);
+  ASSERT_EQ(image.height, height);
   // A place [um] of the left (0) or right (1) panel; rows run down, y up.
   const auto at = [&](int side, double x, double y) {
-    const int px = side * (panel + 8) + static_cast<int>(x / 8 * panel),
-              py = static_cast<int>((1 - y / 4) * height);
-    const std::size_t k = 3 * (static_cast<std::size_t>(py) * static_cast<std::size_t>(width) +
-                               static_cast<std::size_t>(px));
-    return Colour{rgb.at(k), rgb.at(k + 1), rgb.at(k + 2)};
+    return image.at(side * (panel + 8) + static_cast<int>(x / 8 * panel),
+                    static_cast<int>((1 - y / 4) * height));
   };
   const Colour ground = at(0, 6, 3);
   EXPECT_EQ(ground[0], ground[1]);  // grey
@@ -133,15 +126,12 @@ TEST(DropletPictures, AFilmCoversItsPixels) {
   film.film[gap.grid.index(40, 20)] = FilmPixel::Film;
   const std::string path = temporary("film.png");
   write_droplet_picture(path, gap, none, film);
-  const auto image = OIIO::ImageInput::open(path);
-  ASSERT_TRUE(image);
-  const int width = image->spec().width;
-  std::vector<std::uint8_t> rgb(static_cast<std::size_t>(width) * 256 * 3);
-  ASSERT_TRUE(image->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, rgb.data()));
+  const Pixels image = pixels_of(path);
+  ASSERT_EQ(image.height, 256);
   int coloured = 0;
   for (int y = 0; y < 256; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const std::uint8_t* p = &rgb[3 * (static_cast<std::size_t>(y) * width + x)];
+    for (int x = 0; x < image.width; ++x) {
+      const Colour p = image.at(x, y);
       if (p[0] == p[1] && p[1] == p[2]) continue;
       ++coloured;
       EXPECT_EQ((x - 520) / 8, 40);

@@ -194,6 +194,15 @@ TEST(RunRemarks, EveryCutSaysWhatItLeavesUnsure) {
                    "computed. Unsure: what the finish does is not known."}));
 }
 
+TEST(RunRemarks, ASearchThatWasEndedIsNoneThatHadNothingToTry) {
+  Searched run;
+  run.result.evaluations = 12;
+  run.result.end = SearchEnd::Asked;
+  EXPECT_EQ(run_remarks(run.study, run.problem, run.result),
+            (std::vector<std::string>{"12 evaluations where 40 were asked for: the search was "
+                                      "ended by request."}));
+}
+
 TEST(RunRemarks, SayWhatNeverMovedAndWhatLiesOnItsBound) {
   Searched run;
   OptimiseResult& r = run.result;

@@ -55,9 +55,13 @@ TaskAnswer lines(const TaskRequest& r) {
 struct AnsweredRun {
   AnsweredRun(const Study& of, const std::string& folder, const Formula& formula,
               bool resume = false, const std::atomic<bool>* stop = nullptr,
-              std::function<void(const Progress&)> progress = {})
+              std::function<void(const Progress&)> progress = {}, bool finish = false)
       : study(of),
-        options{folder, resume, std::move(progress), stop},
+        options{.folder = folder,
+                .resume = resume,
+                .progress = std::move(progress),
+                .stop = stop,
+                .finish = finish},
         run(study, options, mpi, std::make_unique<FormulaWorker>(formula, asked)) {}
   AnsweredRun(const AnsweredRun&) = delete;
   AnsweredRun& operator=(const AnsweredRun&) = delete;
@@ -265,6 +269,36 @@ void expect_to_go_on(std::size_t after) {
 TEST(Stages, ASearchThatIsContinuedAsksOnlyWhatIsLeft) { expect_to_go_on(4); }
 TEST(Stages, ALevelBetweenThatIsContinuedAsksOnlyWhatIsLeft) { expect_to_go_on(14); }
 TEST(Stages, AConfirmationThatIsContinuedAsksOnlyWhatIsLeft) { expect_to_go_on(17); }
+
+// Interrupted after four of twelve designs: those four are judged again and confirmed.
+TEST(Stages, ASearchThatIsToFinishAsksForNoMoreDesigns) {
+  const std::string folder = fresh_folder("stages_finished");
+  std::atomic<bool> stop{false};
+  {
+    AnsweredRun first(
+        evolved(), folder,
+        [&, answered = 0](const TaskRequest& r) mutable {
+          stop = ++answered >= 4;
+          return lines(r);
+        },
+        false, &stop);
+    EXPECT_FALSE(first.whole());
+  }
+  for (bool again : {false, true}) {  // and so it stays
+    AnsweredRun last(evolved(), folder, lines, true, nullptr, {}, true);
+    ASSERT_TRUE(last.whole());
+    EXPECT_EQ(last.run.result.evaluations, 4);
+    EXPECT_EQ(last.run.result.end, SearchEnd::Asked);
+    EXPECT_TRUE(last.run.result.cuts.empty());
+    EXPECT_TRUE(last.run.result.has_best());
+    EXPECT_EQ(last.count(Stage::Search), 0);
+    EXPECT_EQ(last.asked.empty(), again);
+  }
+  AnsweredRun none(evolved(), fresh_folder("stages_finished_at_once"), lines, false, nullptr, {},
+                   true);
+  ASSERT_TRUE(none.whole());
+  EXPECT_EQ(none.run.result.evaluations, 1);  // one there must be
+}
 
 TEST(Stages, ARunThatIsDoneAsksNothingMore) {
   const std::string folder = fresh_folder("stages_done");

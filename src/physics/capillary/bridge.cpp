@@ -175,6 +175,13 @@ Bridge solve_sphere_bridge(double volume, double distance, double sphere_radius,
 }
 
 BridgeLimits bridge_limits(double theta1, double theta2) {
+  Limit end;
+  return limits_and_end(theta1, theta2, end);
+}
+
+namespace bridge_branch {
+
+BridgeLimits limits_and_end(double theta1, double theta2, Limit& end) {
   BridgeLimits out;
   if (!angle(theta1) || !angle(theta2)) return out;
   out.status = BridgeStatus::NotConverged;
@@ -184,35 +191,48 @@ BridgeLimits bridge_limits(double theta1, double theta2) {
     out.status = BridgeStatus::Converged;
     return out;
   }
-  const Limit limit = Branch(theta1, theta2).limit();
-  if (!limit.found) return out;
   const Branch branch(theta1, theta2);
+  end = Branch(branch).limit();
+  if (!end.found) return out;
   out.status = BridgeStatus::Converged;
-  out.rupture = limit.height;
-  out.pitchfork = limit.pitchfork;
-  // Height at which a function of the branch changes sign, between two heights of opposite sign.
-  const auto root = [&](auto&& f, double lo, double hi) {
-    Branch walk(theta1, theta2);
-    for (int k = 0; k < 60 && hi - lo > 1e-12 * hi; ++k) {
-      const double middle = 0.5 * (lo + hi);
-      if (!walk.go_to(middle)) return 0.0;
-      (f(walk.at()) < 0 ? lo : hi) = middle;
-    }
-    return 0.5 * (lo + hi);
-  };
+  out.rupture = end.height;
+  out.pitchfork = end.pitchfork;
   const auto surplus = [&](const Unknowns& x) { return energy(x, theta1, theta2) - cap.energy; };
   const auto pull = [&](const Unknowns& x) { return force(x, theta1); };
-  const double first = branch.height();  // the start of the branch: a thin slab
-  double floor = first;
+  // Height at which a function of the branch changes from negative at a place of it to positive at
+  // its end: secants of the last two signs, an end that stays counting half (Illinois).
+  const auto root = [&](auto&& f, const Branch& from) {
+    Branch walk = from;
+    double lo = from.height(), below = f(from.at()), hi = end.height, above = f(end.at);
+    double last = lo;
+    for (int k = 0, side = 0; k < 60; ++k) {
+      const double middle = (lo * above - hi * below) / (above - below);
+      if (!walk.go_to(middle)) return 0.0;
+      if (std::abs(middle - last) < 1e-12 * middle) return middle;
+      last = middle;
+      const double value = f(walk.at());
+      if (value < 0) {
+        lo = middle, below = value;
+        if (side < 0) above *= 0.5;
+        side = -1;
+      } else {
+        hi = middle, above = value;
+        if (side > 0) below *= 0.5;
+        side = 1;
+      }
+    }
+    return last;
+  };
+  Branch low = branch;  // the start of the branch: a thin slab
   if (pull(branch.at()) < 0) {
-    floor = force(limit.at, theta1) > 0 ? root(pull, first, limit.height) : limit.height;
-    out.zero_force = floor < limit.height ? floor : 0;
+    if (!(pull(end.at) > 0)) return out;  // repels at all gaps
+    out.zero_force = root(pull, branch);
+    if (!low.go_to(out.zero_force)) return out;
   }
-  Branch low(theta1, theta2);
-  if (floor < limit.height && low.go_to(floor) && surplus(low.at()) < 0 && surplus(limit.at) > 0) {
-    out.switching = root(surplus, floor, limit.height);
-  }
+  if (surplus(low.at()) < 0 && surplus(end.at) > 0) out.switching = root(surplus, low);
   return out;
 }
+
+}  // namespace bridge_branch
 
 }  // namespace papilla::capillary

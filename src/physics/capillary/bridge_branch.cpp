@@ -11,18 +11,28 @@
 namespace papilla::capillary::bridge_branch {
 namespace {
 
-double sinc(double x) {
-  return std::abs(x) < 1e-3 ? 1 - x * x / 6 + x * x * x * x / 120 : std::sin(x) / x;
-}
-double sinc_slope(double x) {
-  return std::abs(x) < 1e-2 ? x * (-1.0 / 3 + x * x / 30 - x * x * x * x / 840)
-                            : (std::cos(x) - std::sin(x) / x) / x;
-}
-// (1 - cos x) / x and its slope
-double cosc(double x) { return std::sin(0.5 * x) * sinc(0.5 * x); }
-double cosc_slope(double x) {
-  return std::abs(x) < 1e-2 ? 0.5 - x * x / 8 + x * x * x * x / 144 : (std::sin(x) - cosc(x)) / x;
-}
+// sin a / a, (1 - cos a) / a and their slopes, of one sine and one cosine of a / 2.
+struct Turn {
+  explicit Turn(double a) {
+    const double half = 0.5 * a, sine = std::sin(half);
+    const double versine = 2 * sine * sine;  // 1 - cos a
+    cos = 1 - versine;
+    sin = 2 * sine * std::cos(half);
+    const double near = a * a;
+    if (near > 1e-4) {
+      sinc = sin / a;
+      cosc = versine / a;
+      sinc_slope = (cos - sinc) / a;
+      cosc_slope = (sin - cosc) / a;
+    } else {
+      sinc = 1 - near / 6 * (1 - near / 20);
+      cosc = a * (0.5 - near / 24 * (1 - near / 30));
+      sinc_slope = a * (-1.0 / 3 + near / 30 * (1 - near / 28));
+      cosc_slope = 0.5 - near / 8 * (1 - near / 18);
+    }
+  }
+  double sin, cos, sinc, cosc, sinc_slope, cosc_slope;
+};
 
 // A point of the meridian (r cos phi, r sin phi) = (w, u) and its derivatives by (r1, p, s).
 struct Point {
@@ -31,13 +41,14 @@ struct Point {
 };
 
 Point point(const Unknowns& x, double cos1, double sin1, double s) {
-  const double a = x.p * s, c = std::cos(a), n = std::sin(a);
+  const Turn turn(x.p * s);
+  const double c = turn.cos, n = turn.sin;
   const double w1 = -x.r1 * cos1, u1 = x.r1 * sin1;
   Point q;
-  q.w = w1 * c - u1 * n + s * sinc(a);
-  q.u = u1 * c + w1 * n + s * cosc(a);
-  q.dw = {-cos1 * c - sin1 * n, -s * (w1 * n + u1 * c) + s * s * sinc_slope(a), 1 - x.p * q.u};
-  q.du = {sin1 * c - cos1 * n, s * (w1 * c - u1 * n) + s * s * cosc_slope(a), x.p * q.w};
+  q.w = w1 * c - u1 * n + s * turn.sinc;
+  q.u = u1 * c + w1 * n + s * turn.cosc;
+  q.dw = {-cos1 * c - sin1 * n, -s * (w1 * n + u1 * c) + s * s * turn.sinc_slope, 1 - x.p * q.u};
+  q.du = {sin1 * c - cos1 * n, s * (w1 * c - u1 * n) + s * s * turn.cosc_slope, x.p * q.w};
   return q;
 }
 
@@ -50,7 +61,7 @@ Profile profile(const Unknowns& x, double theta1) {
   for (std::size_t k = 0; k < gauss.nodes.size(); ++k) {
     const double t = gauss.nodes[k], weight = gauss.weights[k] * x.arc;
     const Point q = point(x, cos1, sin1, t * x.arc);
-    const double r = std::hypot(q.w, q.u);
+    const double r = std::sqrt(q.w * q.w + q.u * q.u);
     out.height += weight * q.u / r;
     out.volume += weight * kPi * r * q.u;
     out.free_area += weight * 2 * kPi * r;
@@ -109,11 +120,12 @@ std::optional<Unknowns> newton(Unknowns x, double theta1, double theta2, double 
     x.arc -= shrink * step[2];
     const double size = std::max({std::abs(step[0]) / x.r1, std::abs(step[1]) / (1 + std::abs(x.p)),
                                   std::abs(step[2]) / x.arc});
-    if (size < 1e-15 || (size < 1e-11 && size >= 0.5 * last)) {
+    // Converging quadratically, the next step would be below rounding; or rounding is reached.
+    if ((size < 1e-8 && size < 1e-4 * last) || (size < 1e-11 && size >= 0.5 * last)) {
       // The angle's equation also holds for the opposite direction: that is another surface.
-      const Profile end = profile(x, theta1);
-      if (!usable(x) || end.w * std::cos(theta2) + end.u * std::sin(theta2) <= 0)
-        return std::nullopt;
+      if (!usable(x)) return std::nullopt;
+      const Point end = point(x, std::cos(theta1), std::sin(theta1), x.arc);
+      if (end.w * std::cos(theta2) + end.u * std::sin(theta2) <= 0) return std::nullopt;
       if (determinant) *determinant = det;
       return x;
     }
@@ -144,7 +156,7 @@ Unknowns slab_guess(double height, double theta1, double theta2) {
   for (std::size_t k = 0; k < gauss.nodes.size(); ++k) {
     const double s = gauss.nodes[k], phi = kPi - theta1 + bend * s;
     const double along = kPi - theta1 + 0.5 * bend * s;  // chord direction of a circular arc
-    const double chord = s * sinc(0.5 * bend * s);
+    const double chord = s * Turn(0.5 * bend * s).sinc;
     offset += gauss.weights[k] * chord * std::cos(along) * std::sin(phi) / height;
   }
   Unknowns x;

@@ -98,7 +98,7 @@ class LimitSearch {
         size = std::max(size, std::abs(step[j]));
       }
       if (size > 2) return s;
-      if (size < 1e-14 || (size < 1e-10 && size >= 0.5 * last)) {
+      if ((size < 1e-8 && size < 1e-4 * last) || (size < 1e-10 && size >= 0.5 * last)) {
         std::array<double, 3> unused = system.residual;
         s.det = solve<3>(system.jacobian, unused);
         Vector next{0, 0, 0, 1};

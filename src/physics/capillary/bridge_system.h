@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/rooms.h"
+#include "physics/capillary/bridge.h"
 #include "physics/capillary/bridge_branch.h"
 
 namespace papilla::capillary::bridge_branch {
@@ -47,6 +48,9 @@ struct System {
 };
 
 System plate_system(const Profile& q, double theta2, double height);
+
+// bridge_limits, and the end of the stable branch that they rest on (found: where there is one).
+BridgeLimits limits_and_end(double theta1, double theta2, Limit& end);
 
 // Whether unknowns can be those of a surface: finite, lengths positive.
 bool usable(const Unknowns& x);

@@ -8,13 +8,15 @@
 
 #include "base/constants.h"
 #include "physics/capillary/bridge_branch.h"
+#include "physics/capillary/bridge_system.h"
 #include "physics/capillary/water.h"
 
 namespace papilla::capillary {
 
-BridgeTable::BridgeTable(double theta1, double theta2, int nodes)
-    : limits_(bridge_limits(theta1, theta2)) {
+BridgeTable::BridgeTable(double theta1, double theta2, int nodes) {
   using namespace bridge_branch;
+  Limit end;
+  limits_ = limits_and_end(theta1, theta2, end);
   if (limits_.status != BridgeStatus::Converged || limits_.rupture == 0) return;
   const double top = std::pow(limits_.rupture, 1.5);
   scale_ = 1 / top;
@@ -39,8 +41,7 @@ BridgeTable::BridgeTable(double theta1, double theta2, int nodes)
       // dh/du from h^1.5 = top (1 - (1 - u)^2)
       slope[k] = (e + height * f) * 2 * top * v / (1.5 * std::sqrt(height)) * step_;
     } else {
-      const Limit limit = Branch(theta1, theta2).limit();
-      value[k] = h * energy(limit.at, theta1, theta2);
+      value[k] = h * energy(end.at, theta1, theta2);
       slope[k] = 0;
     }
   }
