@@ -50,5 +50,8 @@ if(PAPILLA_TESTS)
     add_test(NAME python_${kind} COMMAND ${Python_EXECUTABLE} -m pytest -q -m "${chosen}" --durations=5 ${CMAKE_SOURCE_DIR}/python/tests)
     set_tests_properties(python_${kind} PROPERTIES LABELS python_${kind} TIMEOUT 1800
       ENVIRONMENT "${environment}")
+    if(kind STREQUAL slow)
+      set_tests_properties(python_slow PROPERTIES COST 100)
+    endif()
   endforeach()
 endif()

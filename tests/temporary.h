@@ -1,4 +1,4 @@
-// Files that tests write. Tests run side by side, each in a process of its own: a name below the
+// Files that tests write. Folders run side by side, each in a process of its own: a name below the
 // common temporary folder would be shared by all that write it.
 #pragma once
 

@@ -1,4 +1,4 @@
-"""Runs test cases with a mutant switched on, and finds out which mutants a test case reaches."""
+"""Runs suites of tests with a mutant switched on, and finds out which mutants a suite reaches."""
 import concurrent.futures
 import fnmatch
 import json
@@ -25,17 +25,26 @@ class Test:
 
 
 def listed(build):
-    """What ctest would run, one entry a test case."""
+    """What ctest would run: the suites of its programs, and commands of other kinds."""
     out = subprocess.run(["ctest", "--test-dir", str(build), "--show-only=json-v1"], check=True,
                          capture_output=True).stdout
     tests = []
     for entry in json.loads(out)["tests"]:
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         built = "command" in entry and os.path.exists(entry["command"][0])
-        if built and not entry["name"].endswith("_NOT_BUILT") and not properties.get("DISABLED"):
-            tests.append(Test(entry["name"], entry["command"], properties.get("LABELS", []),
-                              properties.get("WORKING_DIRECTORY")))
+        if built and not properties.get("DISABLED"):
+            rest = properties.get("LABELS", []), properties.get("WORKING_DIRECTORY")
+            if not entry["command"][0].endswith("_tests"):
+                tests.append(Test(entry["name"], entry["command"], *rest))
+                continue
+            for suite in _suites(entry["command"][0]):
+                tests.append(Test(f"{entry['name']}.{suite}", [*entry["command"], f"--gtest_filter={suite}.*"], *rest))
     return sorted(tests, key=lambda t: t.name)
+
+
+def _suites(program):
+    lines = subprocess.run([program, "--gtest_list_tests"], check=True, capture_output=True, text=True).stdout.splitlines()
+    return [line.split("#")[0].strip().rstrip(".") for line in lines if line and not line.startswith((" ", "Running main"))]
 
 
 class Runner:
@@ -71,8 +80,8 @@ class Runner:
         return self.folder.with_suffix(".printed")
 
     def fails(self, tests, mutant, passed):
-        """The first of some tests of one program that fails by itself with the mutant, or None. They run in one process:
-        the start of each would cost more than the test. A test that fails there is asked again alone, as ctest runs it."""
+        """The name of what notices the mutant, of some suites of one program, or None. They run in one process: the start
+        of each would cost more than its tests. A suite that fails there is asked again alone."""
         left = list(tests)
         while left:
             if len(left) > 1:
@@ -85,7 +94,9 @@ class Runner:
             else:
                 suspect = left[0]
             if not self.run(suspect.command, suspect.folder, _patience([suspect]), mutant)[0]:
-                return suspect
+                failed = [line.split()[3].decode() for line in self.printed.read_bytes().splitlines()
+                          if line.startswith(b"[  FAILED  ]") and len(line.split()) > 3]
+                return failed[0] if failed else suspect.name
             passed[suspect.name] = suspect.state
             left.remove(suspect)
         return None
@@ -160,5 +171,5 @@ def verdict(mutant, tests, runner, mirrors, options, passed, stop):
                 return "none", "out of patience"
             noticed = runner.fails(batch, mutant["id"], passed)
             if noticed:
-                return name, noticed.name
+                return name, noticed
     return "none", ""

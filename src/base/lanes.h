@@ -15,6 +15,20 @@ constexpr std::size_t kLanes = 8;
 
 inline Lanes all_lanes(double value) { return Lanes{} + value; }
 
+// What a comparison gives: all bits where it holds, none elsewhere.
+using LaneMask = decltype(Lanes{} < Lanes{});
+
+// By bits: of `?` with a mask put together from others the compiler makes eight branches.
+inline Lanes chosen(const LaneMask& where, const Lanes& then, const Lanes& otherwise) {
+  LaneMask a, b;
+  std::memcpy(&a, &then, sizeof a);
+  std::memcpy(&b, &otherwise, sizeof b);
+  const LaneMask bits = (a & where) | (b & ~where);
+  Lanes out;
+  std::memcpy(&out, &bits, sizeof out);
+  return out;
+}
+
 // values[i] to values[i + 7]; `otherwise` beyond the end.
 inline Lanes lanes_at(std::span<const double> values, std::size_t i, double otherwise = 0) {
   Lanes out = all_lanes(otherwise);
@@ -27,7 +41,11 @@ inline Lanes lanes_at(std::span<const double> values, std::size_t i, double othe
 }
 
 inline void store_lanes(const Lanes& lanes, std::span<double> values, std::size_t i) {
-  std::memcpy(values.data() + i, &lanes, std::min(kLanes, values.size() - i) * sizeof(double));
+  if (i + kLanes <= values.size()) {  // of a known length, the copy is one instruction
+    std::memcpy(values.data() + i, &lanes, sizeof lanes);
+  } else {
+    std::memcpy(values.data() + i, &lanes, (values.size() - i) * sizeof(double));
+  }
 }
 
 inline double total(const Lanes& lanes) {

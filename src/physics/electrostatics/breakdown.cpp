@@ -7,8 +7,7 @@
 namespace papilla::electrostatics {
 
 double air_breakdown_voltage(double gap) {
-  constexpr double kMinimumGap = 7.5e-6;  // [m] of the Paschen minimum
-  if (gap <= kMinimumGap) return std::min(kAirStrength * gap, kPaschenMinimum);
+  if (gap <= kPaschenGap) return std::min(kAirStrength * gap, kPaschenMinimum);
   // Paschen: A = 112.501 /(kPa cm), B = 2737.5 V/(kPa cm), secondary emission 0.01, 101.325 kPa.
   const double pd = 101.325 * 100 * gap;  // kPa cm
   return std::max(kPaschenMinimum,

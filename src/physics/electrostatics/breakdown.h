@@ -10,6 +10,7 @@ namespace papilla::electrostatics {
 
 inline constexpr double kAirStrength = 350e6;   // V/m, average field in gaps below 1 um
 inline constexpr double kPaschenMinimum = 327;  // V, air at atmospheric pressure
+inline constexpr double kPaschenGap = 7.5e-6;   // m, of that minimum
 
 // Largest voltage that air of a width [m] withstands [V]: 350 V/um up to the Paschen minimum of
 // 327 V, the Paschen curve beyond its minimum at 7.5 um. Eq. electrostatics.7

@@ -102,9 +102,6 @@ struct Columns {
         known_voltage(!factors.voltage.empty()) {}
 };
 
-// Lanes of a condition that hold, and what they are worth elsewhere.
-using Mask = decltype(Lanes{} < Lanes{});
-
 // The air of a column breaks down: the voltage across it is beyond Paschen's.
 bool breaks_down(double v_peak, double air, double distance2) {
   return air > 0 && square(v_peak * air) > square(air_breakdown_voltage(air)) * distance2;
@@ -117,19 +114,20 @@ class PullSum {
   // The pressure of eight columns [Pa].
   Lanes add(const Columns& c) {
     // A gap that is no number pulls: the sum must show it.
-    const Mask bridge = c.open <= 0, pulls = ~bridge & ~(c.air < 0), film = c.film > 0;
+    const LaneMask bridge = c.open <= 0, pulls = ~bridge & ~(c.air < 0), film = c.film > 0;
     const Lanes in_series = c.film + p_.skin_layer.real() + c.water / kWaterPermittivity;
     const Lanes reach = c.air + in_series;
     const Lanes distance2 = (reach * reach + square(p_.skin_layer.imag())) / c.gain;
     const Lanes free = scale_ / distance2;
-    const Lanes pressure = pulls ? (cap_ < free ? all_lanes(cap_) : free) * c.open : Lanes{};
+    const Lanes pressure =
+        chosen(pulls, chosen(cap_ < free, all_lanes(cap_), free) * c.open, Lanes{});
     sum_ += pressure;
     // Water leads around the skin's layer: under a bridge the dielectric carries everything.
     const Lanes share = p_.film_phase * (c.known_voltage ? c.voltage : c.film / root(distance2));
-    const Lanes of_film = (bridge | (share > 1) ? all_lanes(1) : share) / c.film;
-    raise(strongest_film_, (pulls | bridge) & film ? of_film : Lanes{});
-    const Lanes of_air = pulls & (c.air > 0) ? distance2 : all_lanes(HUGE_VAL);
-    least_air2_ = of_air < least_air2_ ? of_air : least_air2_;
+    const Lanes of_film = chosen(bridge | (share > 1), all_lanes(1), share) / c.film;
+    raise(strongest_film_, chosen((pulls | bridge) & film, of_film, Lanes{}));
+    const Lanes of_air = chosen(pulls & (c.air > 0), distance2, all_lanes(HUGE_VAL));
+    least_air2_ = chosen(of_air < least_air2_, of_air, least_air2_);
     add_breakdown(c, pulls, distance2, pressure);
     return pressure;
   }
@@ -144,7 +142,9 @@ class PullSum {
     }
     set_peaks(p_, walls_, {least(least_air2_), largest(strongest_film_)}, out);
     out.mean_pressure = sum / n;
-    out.over_limit_area = static_cast<double>(over_) / n;
+    double over = 0;
+    for (std::size_t k = 0; k < kLanes; ++k) over += static_cast<double>(over_[k]);
+    out.over_limit_area = over / n;
     out.over_limit_share = sum > 0 ? total(over_sum_) / sum : 0;
   }
 
@@ -154,23 +154,23 @@ class PullSum {
     for (std::size_t k = 0; k < kLanes; ++k) out[k] = std::sqrt(v[k]);
     return out;
   }
-  static void raise(Lanes& most, const Lanes& value) { most = most < value ? value : most; }
+  static void raise(Lanes& most, const Lanes& value) { most = chosen(most < value, value, most); }
 
-  void add_breakdown(const Columns& c, const Mask& pulls, const Lanes& distance2,
+  void add_breakdown(const Columns& c, const LaneMask& pulls, const Lanes& distance2,
                      const Lanes& pressure) {
-    // No gap breaks down below either: most columns ask for nothing more.
+    // No gap breaks down below either; up to that of the minimum they are the whole law.
     const Lanes field = kAirStrength * c.air;
-    const Lanes limit = field < kPaschenMinimum ? field : all_lanes(kPaschenMinimum);
+    const Lanes limit = chosen(field < kPaschenMinimum, field, all_lanes(kPaschenMinimum));
     const Lanes across = p_.v_peak * c.air;
-    const Mask near = pulls & (across * across > limit * limit * distance2), none{};
-    if (std::memcmp(&near, &none, sizeof near) == 0) return;
-    Lanes beyond{};
-    for (std::size_t k = 0; k < kLanes; ++k) {
-      if (!near[k] || !breaks_down(p_.v_peak, c.air[k], distance2[k])) continue;
-      ++over_;
-      beyond[k] = pressure[k];
+    LaneMask beyond = pulls & (c.air > 0) & (across * across > limit * limit * distance2);
+    const LaneMask wide = beyond & (c.air > kPaschenGap), none{};
+    if (std::memcmp(&wide, &none, sizeof wide) != 0) {
+      for (std::size_t k = 0; k < kLanes; ++k) {
+        if (wide[k] && !breaks_down(p_.v_peak, c.air[k], distance2[k])) beyond[k] = 0;
+      }
     }
-    over_sum_ += beyond;
+    over_ -= beyond;  // where it holds, -1
+    over_sum_ += chosen(beyond, pressure, Lanes{});
   }
 
   const FieldProblem& p_;
@@ -178,7 +178,7 @@ class PullSum {
   double scale_ = 0.5 * kVacuumPermittivity * square(p_.v_rms);
   double cap_ = p_.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
   Lanes sum_{}, over_sum_{}, strongest_film_{}, least_air2_ = all_lanes(HUGE_VAL);
-  std::size_t over_ = 0;
+  LaneMask over_{};  // columns beyond
 };
 
 }  // namespace

@@ -129,15 +129,17 @@ class SurfacePotential {
     const std::size_t n = c_.size();
     RealArray phi = std::move(start_), r(n), z(n), s(n, 0.0), q(n);
     apply(phi, q);
-    for (std::size_t i = 0; i < n; ++i) r[i] = dry_[i] * drive_[i] - q[i];
+    for (std::size_t i = 0; i < n; ++i) {
+      r[i] = dry_[i] * drive_[i] - q[i];
+      q[i] = weight_[i] * r[i];
+    }
     // The first guess, good to a fraction, gives the scale of the residual.
     const double energy = dot(phi, drive_);
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
-      for (std::size_t i = 0; i < n; ++i) q[i] = weight_[i] * r[i];
+      // q: the weighted residual.
       filter_.apply(q, inverse_, z);
-      for (std::size_t i = 0; i < n; ++i) z[i] *= weight_[i];
-      const double rz = dot(r, z);
+      const double rz = weigh(r, z);
       out.residual = energy > 0 ? std::sqrt(std::max(rz, 0.0) / energy) : 0;
       if (!std::isfinite(rz) || !std::isfinite(energy) || out.iterations == kMaxIterations) {
         out.ok = false;
@@ -153,6 +155,7 @@ class SurfacePotential {
       for (std::size_t i = 0; i < n; ++i) {
         phi[i] += alpha * s[i];
         r[i] -= alpha * q[i];
+        q[i] = weight_[i] * r[i];
       }
       old = rz;
     }
@@ -162,8 +165,24 @@ class SurfacePotential {
   // out = (K + c) in on dry pixels; in . out.
   double apply(const RealArray& in, RealArray& out) {
     filter_.apply(in, film_->symbol, out);
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] = dry_[i] * (out[i] + c_[i] * in[i]);
-    return dot(in, out);
+    Lanes sums{};
+    for (std::size_t i = 0; i < out.size(); i += kLanes) {
+      const Lanes here = lanes_at(in, i);
+      const Lanes there = lanes_at(dry_, i) * (lanes_at(out, i) + lanes_at(c_, i) * here);
+      store_lanes(there, out, i);
+      sums += here * there;
+    }
+    return total(sums);
+  }
+  // z times the weight; r . z.
+  double weigh(const RealArray& r, RealArray& z) const {
+    Lanes sums{};
+    for (std::size_t i = 0; i < z.size(); i += kLanes) {
+      const Lanes weighted = lanes_at(z, i) * lanes_at(weight_, i);
+      store_lanes(weighted, z, i);
+      sums += lanes_at(r, i) * weighted;
+    }
+    return total(sums);
   }
 
   Filter filter_;

@@ -1,0 +1,16 @@
+// The studio's page in a real browser; with searches: tests/alone.
+#include <gtest/gtest.h>
+
+#include "tests/studio/in_browser.h"
+
+namespace papilla::tests {
+namespace {
+
+TEST(StudioInChromium, AnswersSlidersAndKeysInLightAndDarkWideAndNarrow) {
+  expect_in_browser("smoke");
+}
+TEST(StudioInChromium, ShowsOneStateToTwoPagesAndToOneThatComesBack) { expect_in_browser("pages"); }
+TEST(StudioInChromium, AnswersTheLastOfAThousandEvents) { expect_in_browser("thousand"); }
+
+}  // namespace
+}  // namespace papilla::tests
