@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -26,6 +27,15 @@ inline Lanes chosen(const LaneMask& where, const Lanes& then, const Lanes& other
   const LaneMask bits = (a & where) | (b & ~where);
   Lanes out;
   std::memcpy(&out, &bits, sizeof out);
+  return out;
+}
+
+// The same of one number: for what is written for both.
+inline double chosen(bool where, double then, double otherwise) { return where ? then : otherwise; }
+
+inline Lanes root(const Lanes& v) {
+  Lanes out;
+  for (std::size_t k = 0; k < kLanes; ++k) out[k] = std::sqrt(v[k]);
   return out;
 }
 

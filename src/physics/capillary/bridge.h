@@ -30,7 +30,7 @@ struct Bridge {
 // [rad], surface 1 below, 2 above. Continued from the thin-slab limit, so the branch is the stable
 // one. Valid for every gap below rupture; relative accuracy 1e-12 of the force and energy scales,
 // 2e-11 within a thousandth of the rupture of angles below 5 deg.
-// Cost: about 0.1 ms.
+// Cost: about 0.03 ms.
 Bridge solve_bridge(double volume, double gap, double theta1, double theta2,
                     double surface_tension);
 
@@ -48,7 +48,7 @@ struct BridgeLimits {
   double snap_in = 0;      // height of the lower cap: it touches the other plate below this gap
   double zero_force = 0;   // the gap that attracts above and repels below; 0: attracts at all gaps
 };
-// Cost: about 0.5 ms.
+// Cost: about 0.3 ms.
 BridgeLimits bridge_limits(double theta1, double theta2);
 
 }  // namespace papilla::capillary

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "base/lanes.h"
 #include "base/quadrature.h"
 #include "physics/capillary/bridge_system.h"
 #include "physics/capillary/water.h"
@@ -11,40 +12,39 @@
 namespace papilla::capillary::bridge_branch {
 namespace {
 
-// sin a / a, (1 - cos a) / a and their slopes, of one sine and one cosine of a / 2.
+// sin a / a, (1 - cos a) / a and their slopes, of one sine and one cosine of a / 2. Of one number
+// or of eight.
+template <class T>
 struct Turn {
-  explicit Turn(double a) {
-    const double half = 0.5 * a, sine = std::sin(half);
-    const double versine = 2 * sine * sine;  // 1 - cos a
+  Turn(const T& a, const T& sine_of_half, const T& cosine_of_half) {
+    const T versine = 2 * sine_of_half * sine_of_half;  // 1 - cos a
     cos = 1 - versine;
-    sin = 2 * sine * std::cos(half);
-    const double near = a * a;
-    if (near > 1e-4) {
-      sinc = sin / a;
-      cosc = versine / a;
-      sinc_slope = (cos - sinc) / a;
-      cosc_slope = (sin - cosc) / a;
-    } else {
-      sinc = 1 - near / 6 * (1 - near / 20);
-      cosc = a * (0.5 - near / 24 * (1 - near / 30));
-      sinc_slope = a * (-1.0 / 3 + near / 30 * (1 - near / 28));
-      cosc_slope = 0.5 - near / 8 * (1 - near / 18);
-    }
+    sin = 2 * sine_of_half * cosine_of_half;
+    const T near = a * a;
+    const auto far = near > 1e-4;  // elsewhere series: differences of near numbers
+    sinc = chosen(far, sin / a, 1 - near / 6 * (1 - near / 20));
+    cosc = chosen(far, versine / a, a * (0.5 - near / 24 * (1 - near / 30)));
+    sinc_slope = chosen(far, (cos - sinc) / a, a * (-1.0 / 3 + near / 30 * (1 - near / 28)));
+    cosc_slope = chosen(far, (sin - cosc) / a, 0.5 - near / 8 * (1 - near / 18));
   }
-  double sin, cos, sinc, cosc, sinc_slope, cosc_slope;
+  T sin, cos, sinc, cosc, sinc_slope, cosc_slope;
 };
 
-// A point of the meridian (r cos phi, r sin phi) = (w, u) and its derivatives by (r1, p, s).
+Turn<double> turn_by(double a) { return {a, std::sin(0.5 * a), std::cos(0.5 * a)}; }
+
+// Points of the meridian (r cos phi, r sin phi) = (w, u) and their derivatives by (r1, p, s).
+template <class T>
 struct Point {
-  double w, u;
-  std::array<double, 3> dw, du;
+  T w, u;
+  std::array<T, 3> dw, du;
 };
 
-Point point(const Unknowns& x, double cos1, double sin1, double s) {
-  const Turn turn(x.p * s);
-  const double c = turn.cos, n = turn.sin;
+// At a distance s along the meridian from plate 1, of contact angle theta1.
+template <class T>
+Point<T> point(const Unknowns& x, double cos1, double sin1, const T& s, const Turn<T>& turn) {
+  const T &c = turn.cos, &n = turn.sin;
   const double w1 = -x.r1 * cos1, u1 = x.r1 * sin1;
-  Point q;
+  Point<T> q;
   q.w = w1 * c - u1 * n + s * turn.sinc;
   q.u = u1 * c + w1 * n + s * turn.cosc;
   q.dw = {-cos1 * c - sin1 * n, -s * (w1 * n + u1 * c) + s * s * turn.sinc_slope, 1 - x.p * q.u};
@@ -52,35 +52,57 @@ Point point(const Unknowns& x, double cos1, double sin1, double s) {
   return q;
 }
 
+Point<double> end_of(const Unknowns& x, double cos1, double sin1) {
+  return point(x, cos1, sin1, x.arc, turn_by(x.p * x.arc));
+}
+
 }  // namespace
 
 Profile profile(const Unknowns& x, double theta1) {
-  static const Quadrature gauss = gauss_legendre(48, 0, 1);
+  constexpr std::size_t kNodes = 48;
+  static_assert(kNodes % kLanes == 0);
+  static const Quadrature gauss = gauss_legendre(kNodes, 0, 1);
   const double cos1 = std::cos(theta1), sin1 = std::sin(theta1);
-  Profile out;
-  for (std::size_t k = 0; k < gauss.nodes.size(); ++k) {
-    const double t = gauss.nodes[k], weight = gauss.weights[k] * x.arc;
-    const Point q = point(x, cos1, sin1, t * x.arc);
-    const double r = std::sqrt(q.w * q.w + q.u * q.u);
-    out.height += weight * q.u / r;
-    out.volume += weight * kPi * r * q.u;
-    out.free_area += weight * 2 * kPi * r;
-    for (int i = 0; i < 3; ++i) {
-      const double chain = i == 2 ? t : 1.0;
-      const double dw = q.dw[i] * chain, du = q.du[i] * chain;
-      const double dr = (q.w * dw + q.u * du) / r;
-      out.height_slope[i] += weight * (du - q.u * dr / r) / r;
-      out.volume_slope[i] += weight * kPi * (dr * q.u + r * du);
-    }
-    out.height_slope[2] += weight / x.arc * q.u / r;
-    out.volume_slope[2] += weight / x.arc * kPi * r * q.u;
+  std::array<double, kNodes> sine, cosine;  // of half the turn
+  for (std::size_t k = 0; k < kNodes; ++k) {
+    const double half = 0.5 * x.p * x.arc * gauss.nodes[k];
+    sine[k] = std::sin(half);
+    cosine[k] = std::cos(half);
   }
-  const Point end = point(x, cos1, sin1, x.arc);
+  Lanes height{}, volume{}, area{};
+  std::array<Lanes, 3> height_slope{}, volume_slope{};
+  for (std::size_t k = 0; k < kNodes; k += kLanes) {
+    const Lanes t = lanes_at(gauss.nodes, k), weight = lanes_at(gauss.weights, k) * x.arc;
+    const Lanes s = t * x.arc;
+    const Point q =
+        point(x, cos1, sin1, s, Turn<Lanes>(x.p * s, lanes_at(sine, k), lanes_at(cosine, k)));
+    const Lanes r = root(q.w * q.w + q.u * q.u), per = 1 / r, climb = q.u * per;
+    height += weight * climb;
+    volume += weight * r * q.u;
+    area += weight * r;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Lanes dw = i == 2 ? q.dw[i] * t : q.dw[i], du = i == 2 ? q.du[i] * t : q.du[i];
+      const Lanes dr = (q.w * dw + q.u * du) * per;
+      height_slope[i] += weight * (du - climb * dr) * per;
+      volume_slope[i] += weight * (dr * q.u + r * du);
+    }
+  }
+  Profile out;
+  out.height = total(height);
+  out.volume = kPi * total(volume);
+  out.free_area = 2 * kPi * total(area);
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.height_slope[i] = total(height_slope[i]);
+    out.volume_slope[i] = kPi * total(volume_slope[i]);
+  }
+  out.height_slope[2] += out.height / x.arc;  // the weights grow with the arc
+  out.volume_slope[2] += out.volume / x.arc;
+  const Point<double> end = end_of(x, cos1, sin1);
   out.w = end.w;
   out.u = end.u;
   out.w_slope = end.dw;
   out.u_slope = end.du;
-  out.r2 = std::hypot(end.w, end.u);
+  out.r2 = std::sqrt(end.w * end.w + end.u * end.u);
   return out;
 }
 
@@ -124,7 +146,7 @@ std::optional<Unknowns> newton(Unknowns x, double theta1, double theta2, double 
     if ((size < 1e-8 && size < 1e-4 * last) || (size < 1e-11 && size >= 0.5 * last)) {
       // The angle's equation also holds for the opposite direction: that is another surface.
       if (!usable(x)) return std::nullopt;
-      const Point end = point(x, std::cos(theta1), std::sin(theta1), x.arc);
+      const Point<double> end = end_of(x, std::cos(theta1), std::sin(theta1));
       if (end.w * std::cos(theta2) + end.u * std::sin(theta2) <= 0) return std::nullopt;
       if (determinant) *determinant = det;
       return x;
@@ -156,7 +178,7 @@ Unknowns slab_guess(double height, double theta1, double theta2) {
   for (std::size_t k = 0; k < gauss.nodes.size(); ++k) {
     const double s = gauss.nodes[k], phi = kPi - theta1 + bend * s;
     const double along = kPi - theta1 + 0.5 * bend * s;  // chord direction of a circular arc
-    const double chord = s * Turn(0.5 * bend * s).sinc;
+    const double chord = s * turn_by(0.5 * bend * s).sinc;
     offset += gauss.weights[k] * chord * std::cos(along) * std::sin(phi) / height;
   }
   Unknowns x;

@@ -149,11 +149,6 @@ class PullSum {
   }
 
  private:
-  static Lanes root(const Lanes& v) {
-    Lanes out;
-    for (std::size_t k = 0; k < kLanes; ++k) out[k] = std::sqrt(v[k]);
-    return out;
-  }
   static void raise(Lanes& most, const Lanes& value) { most = chosen(most < value, value, most); }
 
   void add_breakdown(const Columns& c, const LaneMask& pulls, const Lanes& distance2,
