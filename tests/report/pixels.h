@@ -1,6 +1,7 @@
-// The pixels of a picture that was written.
+// The pixels of a picture that was written, as OpenImageIO reads it.
 #pragma once
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/io/codec.h"
+#include "base/rooms.h"
 
 namespace papilla::tests {
 
@@ -26,15 +27,14 @@ struct Pixels {
 };
 
 inline Pixels pixels_of(const std::string& path) {
-  std::string error;
-  const auto file = geometry::image_codec().open(path, "", error);
-  if (!file || file->spec().channels.size() != 3) {
-    ADD_FAILURE() << path << " is no picture in colours " << error;
+  const auto file = OIIO::ImageInput::open(path);
+  if (!file || file->spec().nchannels != 3) {
+    ADD_FAILURE() << path << " is no picture in colours " << OIIO::geterror();
     return {};
   }
   Pixels out{file->spec().width, file->spec().height, {}};
   out.rgb.resize(3 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
-  EXPECT_EQ(file->read_rows(0, out.height, geometry::Sample::U8, out.rgb.data()), "");
+  EXPECT_TRUE(file->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, out.rgb.data()));
   return out;
 }
 
