@@ -26,8 +26,10 @@ struct AlignedAllocator {
     return true;
   }
 };
-using RealArray = std::vector<double, AlignedAllocator<double>>;
-using SpectrumArray = std::vector<std::complex<double>, AlignedAllocator<std::complex<double>>>;
+template <class T>
+using AlignedArray = std::vector<T, AlignedAllocator<T>>;
+using RealArray = AlignedArray<double>;
+using SpectrumArray = AlignedArray<std::complex<double>>;
 
 // Plans for one size: made once (the same bytes every run), executable from many threads at a time.
 // Unnormalised both ways: inverse(forward(x)) = nx ny x. By FFTW (fft_fftw.cpp), in permissive

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/constants.h"
+#include "base/lanes.h"
 #include "forward/scene_terms.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
@@ -285,15 +286,13 @@ class PatchSolver {
   }
 
   void describe_gap(const ContactSolution& dry, PatchResult& out) const {
-    double sum = 0, mean_height = 0, highest = -1e300;
-    for (double g : dry.gap) sum += g;
-    for (double h : problem_.height) {
-      mean_height += h;
-      highest = std::max(highest, h);
-    }
     const auto n = static_cast<double>(dry.gap.size());
-    out.mean_gap = sum / n;
-    out.indentation = highest - mean_height / n - out.mean_gap;
+    double highest = -kInfinity;
+#pragma omp simd reduction(max : highest)
+    for (std::size_t i = 0; i < problem_.height.size(); ++i)
+      highest = problem_.height[i] > highest ? problem_.height[i] : highest;
+    out.mean_gap = sum(dry.gap) / n;
+    out.indentation = highest - sum(problem_.height) / n - out.mean_gap;
   }
 
   static void note_water(const Wetting& off, PatchResult& out) {

@@ -98,6 +98,21 @@ TEST(GapTableSecondMethod, APlaceLiesBetweenFourPixels) {
     EXPECT_NEAR(table.at(x, y), bilinear(gap, x, y, 0.2e-6), 1e-19) << x << " " << y;
 }
 
+TEST(GapTableSecondMethod, AroundAPlaceLieEightOthers) {
+  const Gap gap = random_gap();
+  const GapTable table(gap, 0.2e-6);
+  for (const auto& [x, y, step] : kPlaces) {
+    const std::array<double, 8> around = table.around(x, y, step);
+    for (int k = 0; k < 8; ++k) {
+      EXPECT_NEAR(
+          around[k],
+          bilinear(gap, x + step * std::cos(k * kPi / 4), y + step * std::sin(k * kPi / 4), 0.2e-6),
+          1e-18)
+          << x << " " << y << " " << k;
+    }
+  }
+}
+
 TEST(GapTableSecondMethod, ARuleHasThreeChordsInFourPixelsAndFourAndAHalfPointsAPixel) {
   const GapTable table(random_gap(), 0);
   for (double radius = 0.01e-6; radius < 3e-3; radius *= 1.13) {

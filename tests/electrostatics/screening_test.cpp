@@ -50,7 +50,7 @@ TEST(AirScreening, IsThatOfTheNearestWetPixelHoweverFar) {
         const std::size_t i = grid.index(ix, iy);
         const double width = 2 / kPi * std::max(gap.value[i], 1e-9);
         const double x = nearest_water(grid, wetting.bridged, ix, iy) / width;
-        EXPECT_NEAR(factor[i], x < 4 ? square(std::tanh(x)) : 1, 2e-5) << ix << ' ' << iy;
+        EXPECT_NEAR(factor[i], x < 4 ? square(std::tanh(x)) : 1, 4e-6) << ix << ' ' << iy;
       }
     }
   }

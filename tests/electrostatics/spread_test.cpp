@@ -127,6 +127,26 @@ TEST(SpreadField, ALooseResidualMovesThePullByLessThanAQuarterOfIt) {
   }
 }
 
+// From a residual of 1e-3 on in single precision: on grids that suit its registers and on others,
+// between contacts of a bare skin and of one with its layer.
+TEST(SpreadField, SinglePrecisionIsAThousandthOfWhatIsAskedFor) {
+  FieldProblem p = glass();
+  for (const double layer : {24e-9, 0.0}) {
+    p.skin_layer = layer;
+    for (const int pixels : {128, 64, 48, 37}) {
+      const Gap gap = rough_gap({pixels, pixels, 12e-6, 12e-6}, 250e-9, 500e-9);
+      const FieldSolution single = solve_spread_field(gap, nullptr, {}, p, 1e-3);
+      const FieldSolution both = solve_spread_field(gap, nullptr, {}, p, 0.9999e-3);
+      ASSERT_TRUE(single.ok && both.ok);
+      EXPECT_EQ(single.iterations, both.iterations) << layer << " " << pixels;
+      EXPECT_NEAR(single.residual, both.residual, 2e-5 * both.residual + 1e-7);
+      EXPECT_NE(single.mean_pressure, both.mean_pressure);
+      EXPECT_NEAR(single.mean_pressure, both.mean_pressure, 1e-6 * both.mean_pressure)
+          << layer << " " << pixels;
+    }
+  }
+}
+
 // The lost pull beside a straight wall of water against the fit to finite volumes of Eq.
 // electrostatics.3.
 TEST(SpreadField, AWaterWallScreensOverTheLengthOfTheThreeDimensionalField) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/constants.h"
@@ -21,6 +22,15 @@ struct Drop {
   bool alive = true;
 };
 
+// Where a drop looks around: eight directions, half a right angle apart.
+struct Directions {
+  std::array<double, 8> x, y;
+};
+constexpr double kHalfRight = 0.7071067811865476;  // cos 45 deg
+inline constexpr Directions kDirections = {
+    {1, kHalfRight, 0, -kHalfRight, -1, -kHalfRight, 0, kHalfRight},
+    {0, kHalfRight, 1, kHalfRight, 0, -kHalfRight, -1, -kHalfRight}};
+
 // A place brought into [0, period).
 inline double into_period(double x, double period) {
   x -= period * std::floor(x / period);
@@ -31,6 +41,12 @@ inline double into_period(double x, double period) {
 inline double nearest_image(double d, double period) {
   if (d > 0.5 * period) return d - period;
   return d < -0.5 * period ? d + period : d;
+}
+
+// Its size, without a branch.
+inline double image_distance(double d, double period) {
+  d = std::abs(d);
+  return std::min(d, period - d);
 }
 
 struct Disc {

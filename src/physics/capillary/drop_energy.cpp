@@ -74,14 +74,22 @@ double DropEnergy::slab_energy(double radius, const GapTable::Rim& rim, double a
 
 // What the exact flat bridge of this volume and mean gap has beyond the slab, per tension.
 BridgeTable::Value DropEnergy::beyond_slab(double volume, double radius) const {
-  if (!exact_->valid()) return {0, 0};
+  if (volume == bridge_.volume && radius == bridge_.radius) return bridge_.beyond;
+  bridge_ = {volume, radius, {0, 0}};
+  if (!exact_->valid()) return bridge_.beyond;
   const double size = size_of(volume);
   const double h = volume / (kPi * square(radius)) / size;
-  if (h >= rupture_) return {0, 0};
+  if (h >= rupture_) return bridge_.beyond;
   const BridgeTable::Value exact = (*exact_)(h);
   const double root = std::sqrt(kPi * h);
-  return {square(size) * (exact.energy + gain_ / h - 2 * meniscus_ * root),
-          size * (exact.force - gain_ / square(h) - meniscus_ * root / h)};
+  bridge_.beyond = {square(size) * (exact.energy + gain_ / h - 2 * meniscus_ * root),
+                    size * (exact.force - gain_ / square(h) - meniscus_ * root / h)};
+  return bridge_.beyond;
+}
+
+GapTable::Rule DropEnergy::rule(double radius) const {
+  if (radius != sampled_.radius) sampled_ = {radius, table_.rule(radius)};
+  return sampled_.rule;
 }
 
 double DropEnergy::bridge_energy(double volume, double radius, const GapTable::Rim& rim) const {
@@ -139,9 +147,10 @@ void DropEnergy::bridge_over(Drop& d, const BridgeGuess& guess) {
 double DropEnergy::estimated(const Drop& d, double x, double y) {
   ++evaluations_;
   const double r = d.radius;
-  const GapTable::Rule rule = table_.rule(r);
-  const GapTable::Rim rim = table_.rim(x, y, r, rule);
-  const double change = (d.volume - table_.disc_volume(x, y, r, rule)) / (2 * kPi * r * rim.gap);
+  const GapTable::Rule sampling = rule(r);
+  const GapTable::Rim rim = table_.rim(x, y, r, sampling);
+  const double change =
+      (d.volume - table_.disc_volume(x, y, r, sampling)) / (2 * kPi * r * rim.gap);
   if (std::abs(change) > 0.25 * r) {
     Drop trial = d;
     trial.x = x;
@@ -154,7 +163,7 @@ double DropEnergy::estimated(const Drop& d, double x, double y) {
 }
 
 bool DropEnergy::floats_around(const Drop& d) const {
-  return table_.lowest_around(d.x, d.y) >= reach_ * size_of(d.volume);
+  return !reaches(d.volume, table_.lowest_around(d.x, d.y));
 }
 
 Drop DropEnergy::placed(double x, double y, double volume, const BridgeGuess& guess,
@@ -174,7 +183,7 @@ Drop DropEnergy::placed(double x, double y, double volume, const BridgeGuess& gu
   d.volume = volume;
   const double size = size_of(volume), centre = table_.at(d.x, d.y);
   const double cap = cap_energy(volume);
-  if (was_bridge || centre < reach_ * size) {
+  if (was_bridge || reaches(volume, centre)) {
     bridge_over(d, guess);
     const bool whole = volume < rupture_ * size * kPi * square(d.radius);
     if ((whole && (d.energy < cap || stays)) || cap_.height * size >= centre) return d;

@@ -39,6 +39,11 @@ class DropEnergy {
   double retention(const Drop& bridge) const;  // lateral [N], Eq. capillary.14
 
   double gap_at(double x, double y) const { return table_.at(x, y); }  // [m]
+  // Whether a drop whose centre sees this gap [m] is tried as a bridge there.
+  bool reaches(double volume, double gap) const { return cube(gap) < cube(reach_) * volume; }
+  std::array<double, 8> gaps_around(const Drop& drop, double step) const {  // [m], kDirections
+    return table_.around(drop.x, drop.y, step);
+  }
   const CapShape& cap() const { return cap_; }           // of volume 1, where drops do not bridge
   DropletState cap_state() const { return cap_state_; }  // on which side they sit
   long evaluations() const { return evaluations_; }      // of a bridge's energy
@@ -51,6 +56,7 @@ class DropEnergy {
   double meniscus_at(double angle) const;  // factor, by the angle of the rim's slope [rad]
   double slab_energy(double radius, const GapTable::Rim& rim, double angle) const;
   BridgeTable::Value beyond_slab(double volume, double radius) const;
+  GapTable::Rule rule(double radius) const;
   double bridge_energy(double volume, double radius, const GapTable::Rim& rim) const;
   double cap_energy(double volume) const;
   double size_of(double volume) const;  // cube root [m]
@@ -67,8 +73,16 @@ class DropEnergy {
   double rupture_ = 0;  // gap per volume^(1/3) beyond which no flat bridge is stable
   double reach_ = 0;    // and beyond which none is worth trying
   long evaluations_ = 0;
-  // Of the last volume: the same drop is asked for many times.
+  // Of the last volume, bridge and radius: the same drop is asked for at many places.
   mutable struct { double volume = 0, size = 0; } sized_;
+  mutable struct {
+    double volume = 0, radius = 0;
+    BridgeTable::Value beyond{};
+  } bridge_;
+  mutable struct {
+    double radius = 0;
+    GapTable::Rule rule{};
+  } sampled_;
 };
 
 }  // namespace papilla::capillary

@@ -26,12 +26,18 @@ class DropHash {
   int cell_of(const Drop& d) const;
 
   double lx_, ly_;
-  // Drops up to small_radius_ lie in cells, lists linked by next_; the others are one list.
+  struct Linked {
+    Disc disc;
+    int next;  // of the same cell; -1: none
+  };
+
+  // Drops up to small_radius_ lie in cells, linked one to the next; the others are one list.
   int cells_x_ = 1, cells_y_ = 1;
-  double cell_x_ = 0, cell_y_ = 0, small_radius_ = 0;
+  double per_cell_x_ = 0, per_cell_y_ = 0;  // cells by length [1/m]
+  double small_radius_ = 0;
   double largest_ = 0;  // radius that has been in a cell since they were built
-  std::vector<int> head_, next_, large_;
-  std::vector<Disc> discs_;  // as linked
+  std::vector<int> head_, large_;
+  std::vector<Linked> linked_;
 };
 
 }  // namespace papilla::capillary

@@ -77,7 +77,9 @@ class FootprintSolver {
   double first_guess(double& growth) const {
     const double centre = table_.at(x_, y_);
     double r = std::sqrt(volume_ / (kPi * centre));
-    r = 0.7 * std::min(r, std::cbrt(volume_) * 4);
+    constexpr double kWidest = 4;  // by the cube root of the volume
+    if (cube(r) > cube(kWidest) * volume_) r = kWidest * std::cbrt(volume_);
+    r *= 0.7;
     const double around = table_.rim(x_, y_, r, table_.rule(r)).gap;
     if (around <= centre) return std::sqrt(volume_ / (kPi * around));
     // The gap on the rim of the bowl's disc that holds the volume.

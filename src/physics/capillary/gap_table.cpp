@@ -7,6 +7,7 @@
 
 #include "base/check.h"
 #include "base/constants.h"
+#include "physics/capillary/drop.h"
 
 namespace papilla::capillary {
 namespace {
@@ -273,6 +274,18 @@ template <bool kWraps>
   const Four low = below.here + f * (below.next - below.here);
   const Four high = above.here + f * (above.next - above.here);
   return low + row.share * (high - low);
+}
+
+std::array<double, 8> GapTable::around(double x, double y, double step) const {
+  const Disc d = disc(x, y, step);
+  std::array<double, 8> out;
+  for (std::size_t k = 0; k < out.size(); k += 4) {
+    const Four u = d.u + d.ru * load<Four>(&kDirections.x[k]),
+               v = d.v + d.rv * load<Four>(&kDirections.y[k]);
+    const Four four = d.periods > 0 ? gaps<true>(u, v, d.periods) : gaps<false>(u, v, 0);
+    std::memcpy(&out[k], &four, sizeof four);
+  }
+  return out;
 }
 
 // Means on two circles about one place: one look at each direction.

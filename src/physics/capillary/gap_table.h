@@ -2,6 +2,7 @@
 // length. The gap is bilinear between pixel centres and periodic.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/rooms.h"
@@ -27,6 +28,8 @@ class GapTable {
   };
 
   double at(double x, double y) const;  // [m]
+  // At eight places `step` from one, in kDirections [m].
+  std::array<double, 8> around(double x, double y, double step) const;
   // No gap within `around` of a place inside the period is smaller [m]; a bound, not the smallest.
   double lowest_around(double x, double y) const;
   Rule rule(double radius) const;

@@ -9,16 +9,6 @@
 namespace papilla::capillary {
 namespace {
 
-constexpr double kDiagonal = 0.7071067811865476;  // cos 45 deg
-constexpr std::array<std::array<double, 2>, 8> kDirections = {{{1, 0},
-                                                               {kDiagonal, kDiagonal},
-                                                               {0, 1},
-                                                               {-kDiagonal, kDiagonal},
-                                                               {-1, 0},
-                                                               {-kDiagonal, -kDiagonal},
-                                                               {0, -1},
-                                                               {kDiagonal, -kDiagonal}}};
-
 // A move must gain this share of the drop's energy: beyond the rounding of a footprint.
 constexpr double kLeastGain = 1e-9;
 
@@ -74,10 +64,13 @@ class Walker {
     const Drop& d = drops_[i];
     if (!d.bridge && energy_.floats_around(d)) return out;
     const double margin = kLeastGain * std::abs(d.energy);
+    std::array<double, 8> gaps{};
+    if (!d.bridge) gaps = energy_.gaps_around(d, step);
     for (int k = 0; k < 8; ++k) {
       if (k == known.ahead || k == known.back) continue;
-      const double x = into_period(d.x + step * kDirections[k][0], gap_.grid.lx);
-      const double y = into_period(d.y + step * kDirections[k][1], gap_.grid.ly);
+      if (!d.bridge && !energy_.reaches(d.volume, gaps[k])) continue;
+      const double x = into_period(d.x + step * kDirections.x[k], gap_.grid.lx);
+      const double y = into_period(d.y + step * kDirections.y[k], gap_.grid.ly);
       double e;
       if (d.bridge) {
         e = energy_.estimated(d, x, y);
@@ -100,13 +93,13 @@ class Walker {
 
   // Onward the same way while it helps, until the drop merges with another.
   Onward go(int i, int direction, double step, int& moves, Known& known) {
-    const std::array<double, 2>& way = kDirections[direction];
+    const double way_x = kDirections.x[direction], way_y = kDirections.y[direction];
     Onward out = Onward::Stuck;
     while (moves < options_.max_moves) {
       const Drop& d = drops_[i];
       const BridgeGuess guess = d.bridge ? BridgeGuess(d.radius, d.edge_gap) : BridgeGuess();
       const Drop trial =
-          energy_.placed(d.x + step * way[0], d.y + step * way[1], d.volume, guess, d.bridge);
+          energy_.placed(d.x + step * way_x, d.y + step * way_y, d.volume, guess, d.bridge);
       if (trial.energy >= d.energy - kLeastGain * std::abs(d.energy)) break;
       const bool was_bridge = d.bridge;
       const int merges = drops_.merges();

@@ -63,6 +63,31 @@ int reach_of(double distance, double step, int n) {
   return std::min(static_cast<int>(distance / step), (n - 1) / 2);
 }
 
+// Rows of a periodic field with `margin` places more on either side: a window of a row is one
+// piece.
+class WideRows {
+ public:
+  WideRows(const Grid& g, const std::vector<double>& z, int margin)
+      : ny_(g.ny), width_(static_cast<std::size_t>(g.nx) + 2 * margin) {
+    wide_.reserve(width_ * g.ny);
+    for (int iy = 0; iy < g.ny; ++iy) {
+      const auto row = z.begin() + static_cast<std::ptrdiff_t>(g.index(0, iy));
+      wide_.insert(wide_.end(), row + (g.nx - margin), row + g.nx);
+      wide_.insert(wide_.end(), row, row + g.nx);
+      wide_.insert(wide_.end(), row, row + margin);
+    }
+  }
+  // From `margin` places before a pixel on; iy up to a period away.
+  const double* around(int ix, int iy) const {
+    return &wide_[static_cast<std::size_t>(wrap(iy, ny_)) * width_ + ix];
+  }
+
+ private:
+  int ny_;
+  std::size_t width_;
+  std::vector<double> wide_;
+};
+
 // Calls row(j) for j = 0, 1, -1, 2, -2 ... up to `reach`, until both rows of a distance say that
 // nothing beyond can matter.
 template <class Row>
@@ -84,6 +109,10 @@ std::vector<double> nearest_electrode(const Heightmap& surface,
   const int nx = reach_of(thickest, g.dx(), g.nx), ny = reach_of(thickest, g.dy(), g.ny);
   const std::vector<double> highest =
       extremes(g, electrode, nx, ny, [](double a, double b) { return std::max(a, b); });
+  const WideRows wide(g, electrode, nx);
+  const int window = 2 * nx + 1;
+  std::vector<double> along(window);  // squared distance of its places
+  for (int k = 0; k < window; ++k) along[k] = square((k - nx) * g.dx());
   std::vector<double> out = film;
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) {
@@ -94,11 +123,14 @@ std::vector<double> nearest_electrode(const Heightmap& surface,
       for_each_row(ny, [&](int j) {
         const double across = square(j * g.dy());
         if (across >= best) return false;
-        const double* row = &electrode[g.index(0, wrap(iy + j, g.ny))];
-        for (int k = -nx; k <= nx; ++k) {
-          const double beside = across + square(k * g.dx());
-          if (beside < best) best = std::min(best, beside + square(z - row[wrap(ix + k, g.nx)]));
+        const double *row = wide.around(ix, iy + j), *beside = along.data();
+        double nearest = best;
+#pragma omp simd reduction(min : nearest)
+        for (int k = 0; k < window; ++k) {
+          const double distance2 = across + beside[k] + (z - row[k]) * (z - row[k]);
+          nearest = distance2 < nearest ? distance2 : nearest;
         }
+        best = nearest;
         return true;
       });
       out[i] = std::sqrt(best);
@@ -133,25 +165,29 @@ Heightmap below_layer(const Heightmap& surface, double thickness, double side_th
   const std::vector<double> lowest =
       extremes(g, surface.z, nx, ny, [](double a, double b) { return std::min(a, b); });
   // Height of the ellipsoid over its lowest point, by row.
-  std::vector<double> cap(static_cast<std::size_t>(2 * nx + 1) * (ny + 1));
+  const int window = 2 * nx + 1;
+  std::vector<double> cap(static_cast<std::size_t>(window) * (ny + 1));
   for (int j = 0; j <= ny; ++j) {
-    for (int k = -nx; k <= nx; ++k) {
-      const double r2 = (square(k * g.dx()) + square(j * g.dy())) / square(side_thickness);
-      cap[static_cast<std::size_t>(j) * (2 * nx + 1) + k + nx] =
+    for (int k = 0; k < window; ++k) {
+      const double r2 = (square((k - nx) * g.dx()) + square(j * g.dy())) / square(side_thickness);
+      cap[static_cast<std::size_t>(j) * window + k] =
           r2 < 1 ? thickness * (1 - std::sqrt(1 - r2)) : kInfinity;
     }
   }
+  const WideRows wide(g, surface.z, nx);
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) {
       const std::size_t i = g.index(ix, iy);
       if (lowest[i] >= surface.z[i] - kSame) continue;  // nothing beside is lower
       double least = surface.z[i];
       for_each_row(ny, [&](int j) {
-        const double* c = &cap[static_cast<std::size_t>(std::abs(j)) * (2 * nx + 1)];
+        const double* c = &cap[static_cast<std::size_t>(std::abs(j)) * window];
         if (lowest[i] + c[nx] >= least) return false;
-        const double* row = &surface.z[g.index(0, wrap(iy + j, g.ny))];
-        for (int k = -nx; k <= nx; ++k)
-          least = std::min(least, row[wrap(ix + k, g.nx)] + c[k + nx]);
+        const double* row = wide.around(ix, iy + j);
+        double low = least;
+#pragma omp simd reduction(min : low)
+        for (int k = 0; k < window; ++k) low = row[k] + c[k] < low ? row[k] + c[k] : low;
+        least = low;
         return true;
       });
       below.z[i] = least - thickness;

@@ -61,15 +61,14 @@ AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProb
 
 namespace {
 
-// What the strongest fields stand in.
+// The strongest fields per volt of the drive; 0: none.
 struct Strongest {
-  double air2 = HUGE_VAL;  // least squared distance in d/eps of a column with air [m^2]
-  // Largest voltage over d/eps of a column's dielectric, per volt of the drive [1/m]; 0: none.
-  double dielectric = 0;
+  double air2 = 0;        // squared, of a column with air [1/m^2]
+  double dielectric = 0;  // voltage over d/eps of a column's dielectric [1/m]
 };
 
 void set_peaks(const FieldProblem& p, bool walls, const Strongest& strongest, FieldSolution& out) {
-  if (strongest.air2 < HUGE_VAL) out.peak_air_field = p.v_peak / std::sqrt(strongest.air2);
+  out.peak_air_field = p.v_peak * std::sqrt(strongest.air2);
   if (p.dielectric_thickness <= 0) return;
   // Mean over the layers: that of a flat film with the same voltage over its d/eps.
   out.peak_oxide_field = p.v_peak * strongest.dielectric * p.dielectric / p.dielectric_thickness;
@@ -88,23 +87,22 @@ namespace {
 
 // Eight pixels of what `pull` goes through.
 struct Columns {
-  Lanes open, film, air, gain, water, voltage;
-  bool known_voltage;
+  Lanes open, film, air, water, potential;
+  bool spread;  // the potential is known, not that of the column
 
   Columns(std::size_t i, const CoveredSurface* surface, const FieldProblem& p,
           const AirColumns& columns, const FluxFactors& factors)
       : open(lanes_at(factors.open, i, 1)),
         film(surface ? lanes_at(surface->effective, i) : all_lanes(p.dielectric)),
         air(lanes_at(columns.air, i, kNoPull)),
-        gain(lanes_at(factors.gain, i, 1)),
         water(lanes_at(columns.water, i)),
-        voltage(lanes_at(factors.voltage, i)),
-        known_voltage(!factors.voltage.empty()) {}
+        potential(lanes_at(factors.potential, i)),
+        spread(!factors.potential.empty()) {}
 };
 
 // The air of a column breaks down: the voltage across it is beyond Paschen's.
-bool breaks_down(double v_peak, double air, double distance2) {
-  return air > 0 && square(v_peak * air) > square(air_breakdown_voltage(air)) * distance2;
+bool breaks_down(double v_peak, double air, double field2) {
+  return air > 0 && square(v_peak * air) * field2 > square(air_breakdown_voltage(air));
 }
 
 class PullSum {
@@ -115,20 +113,30 @@ class PullSum {
   Lanes add(const Columns& c) {
     // A gap that is no number pulls: the sum must show it.
     const LaneMask bridge = c.open <= 0, pulls = ~bridge & ~(c.air < 0), film = c.film > 0;
-    const Lanes in_series = c.film + p_.skin_layer.real() + c.water / kWaterPermittivity;
-    const Lanes reach = c.air + in_series;
-    const Lanes distance2 = (reach * reach + square(p_.skin_layer.imag())) / c.gain;
-    const Lanes free = scale_ / distance2;
+    const Lanes reach = c.air + c.film + p_.skin_layer.real() + kPerWater * c.water;
+    const Lanes series2 = reach * reach + square(p_.skin_layer.imag());
+    const Lanes per_film = 1 / c.film;
+    Lanes field2, of_film;  // per volt: squared in the air [1/m^2], over the film's d/eps [1/m]
+    if (c.spread) {
+      // The flux over that of the column alone.
+      const Lanes gain = c.potential * (1 + c.film / to_skin(c.air, c.water, p_.skin_layer.real()));
+      const Lanes flux = (1 - c.potential) * per_film;
+      field2 = gain * gain / series2;
+      of_film = flux / root(1 + square(p_.skin_layer.imag()) * flux * flux);
+    } else {
+      field2 = 1 / series2;
+      of_film = root(field2);
+    }
+    const Lanes free = scale_ * field2;
     const Lanes pressure =
         chosen(pulls, chosen(cap_ < free, all_lanes(cap_), free) * c.open, Lanes{});
     sum_ += pressure;
     // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-    const Lanes share = p_.film_phase * (c.known_voltage ? c.voltage : c.film / root(distance2));
-    const Lanes of_film = chosen(bridge | (share > 1), all_lanes(1), share) / c.film;
+    of_film *= p_.film_phase;
+    of_film = chosen(bridge | (of_film > per_film), per_film, of_film);
     raise(strongest_film_, chosen((pulls | bridge) & film, of_film, Lanes{}));
-    const Lanes of_air = chosen(pulls & (c.air > 0), distance2, all_lanes(HUGE_VAL));
-    least_air2_ = chosen(of_air < least_air2_, of_air, least_air2_);
-    add_breakdown(c, pulls, distance2, pressure);
+    raise(strongest_air2_, chosen(pulls & (c.air > 0), field2, Lanes{}));
+    add_breakdown(c, pulls, field2, pressure);
     return pressure;
   }
 
@@ -140,7 +148,7 @@ class PullSum {
       out.reason = "the pull is not finite";
       return;
     }
-    set_peaks(p_, walls_, {least(least_air2_), largest(strongest_film_)}, out);
+    set_peaks(p_, walls_, {largest(strongest_air2_), largest(strongest_film_)}, out);
     out.mean_pressure = sum / n;
     double over = 0;
     for (std::size_t k = 0; k < kLanes; ++k) over += static_cast<double>(over_[k]);
@@ -151,17 +159,17 @@ class PullSum {
  private:
   static void raise(Lanes& most, const Lanes& value) { most = chosen(most < value, value, most); }
 
-  void add_breakdown(const Columns& c, const LaneMask& pulls, const Lanes& distance2,
+  void add_breakdown(const Columns& c, const LaneMask& pulls, const Lanes& field2,
                      const Lanes& pressure) {
     // No gap breaks down below either; up to that of the minimum they are the whole law.
     const Lanes field = kAirStrength * c.air;
     const Lanes limit = chosen(field < kPaschenMinimum, field, all_lanes(kPaschenMinimum));
     const Lanes across = p_.v_peak * c.air;
-    LaneMask beyond = pulls & (c.air > 0) & (across * across > limit * limit * distance2);
+    LaneMask beyond = pulls & (c.air > 0) & (across * across * field2 > limit * limit);
     const LaneMask wide = beyond & (c.air > kPaschenGap), none{};
     if (std::memcmp(&wide, &none, sizeof wide) != 0) {
       for (std::size_t k = 0; k < kLanes; ++k) {
-        if (wide[k] && !breaks_down(p_.v_peak, c.air[k], distance2[k])) beyond[k] = 0;
+        if (wide[k] && !breaks_down(p_.v_peak, c.air[k], field2[k])) beyond[k] = 0;
       }
     }
     over_ -= beyond;  // where it holds, -1
@@ -172,7 +180,7 @@ class PullSum {
   bool walls_;
   double scale_ = 0.5 * kVacuumPermittivity * square(p_.v_rms);
   double cap_ = p_.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
-  Lanes sum_{}, over_sum_{}, strongest_film_{}, least_air2_ = all_lanes(HUGE_VAL);
+  Lanes sum_{}, over_sum_{}, strongest_film_{}, strongest_air2_{};
   LaneMask over_{};  // columns beyond
 };
 
@@ -216,7 +224,7 @@ FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
                                 const Wetting& wetting, const FieldProblem& p) {
   const AirColumns columns = columns_above(gap, wetting, p);
   const auto under = [&](const std::vector<double>& open) {
-    return pull(gap, surface, p, columns, {.open = open, .gain = {}, .voltage = {}});
+    return pull(gap, surface, p, columns, {.open = open, .potential = {}});
   };
   const auto screened = [&](bool fade) {
     return screening_factor(gap, wetting, p.dielectric_thickness, fade);

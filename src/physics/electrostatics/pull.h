@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "base/constants.h"
+#include "base/lanes.h"
 #include "base/rooms.h"
 #include "physics/electrostatics/field.h"
 
@@ -18,11 +20,20 @@ struct AirColumns {
 };
 AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProblem& p);
 
-// Of each pixel's series column; empty: 1.
+inline constexpr double kPerWater = 1 / kWaterPermittivity;
+
+// d/eps from the film to the skin [m] of a column or of several; of a bare skin in contact not 0.
+template <class Real>
+Real to_skin(const Real& air, const Real& water, double skin_layer) {
+  constexpr double kLeast = 1e-10;
+  const Real sum = air + skin_layer + kPerWater * water;
+  return chosen(sum > kLeast, sum, Real{} + kLeast);
+}
+
+// Of each pixel.
 struct FluxFactors {
-  const std::vector<double>& open;     // 0 in bridges, 1 far from them
-  const std::vector<double>& gain;     // of the squared flux
-  const std::vector<double>& voltage;  // share across the dielectric; empty: by the columns
+  const std::vector<double>& open;       // 0 in bridges, 1 far from them; empty: 1
+  const std::vector<double>& potential;  // on the film, per volt; empty: as the column has it
 };
 // Eq. electrostatics.1 summed over the pixels, with the peak fields of Eqs. electrostatics.7, 8.
 // Not ok: a bare electrode, or a gap that is not finite. Cost: O(pixels).

@@ -17,45 +17,22 @@ namespace {
 constexpr double kReach = 4;        // tanh^2(4) = 0.9987
 constexpr double kLeastGap = 1e-9;  // [m]
 
-// tanh^2 on [0, kReach] by linear interpolation, within 1e-5.
-class TanhSquare {
- public:
-  TanhSquare() {
-    for (int i = 0; i <= kSteps; ++i) table_[i] = square(std::tanh(kReach * i / kSteps));
-    table_[kSteps + 1] = table_[kSteps];
-  }
-  double operator()(double x) const {  // 0 <= x <= kReach
-    return at_step(x * (kSteps / kReach));
-  }
-  // At distances of `step` times the root of `squared`, over the widths in `out`: 1 from kReach on.
-  // No branch, so that several go at once.
-  void fade(std::span<const float> squared, double step, std::span<double> out) const {
-    const double scale = step * (kSteps / kReach);
-    const double* const table = table_.data();
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      out[i] = scale * std::sqrt(static_cast<double>(squared[i])) / out[i];
-    }
-    for (double& value : out) {
-      const double s = value < kSteps ? value : kSteps;  // what is no number too
-      const int k = static_cast<int>(s);
-      const double low = table[k], faded = low + (s - k) * (table[k + 1] - low);
-      value = s < kSteps ? faded : 1.0;
-    }
-  }
+// tanh^2 of the root of u, u at most kReach^2, within 2e-6: the ninth step of its continued
+// fraction.
+double tanh_square(double u) {
+  const double above = 34459425 + u * (4729725 + u * (135135 + u * (990 + u)));
+  const double below = 34459425 + u * (16216200 + u * (945945 + u * (13860 + u * 45)));
+  return u * square(above / below);
+}
 
- private:
-  double at_step(double s) const {
-    const int i = static_cast<int>(s);
-    return table_[i] + (s - i) * (table_[i + 1] - table_[i]);
+// The factor at distances of `step` times the root of `squared`, over the widths in `out`; 1 from
+// kReach on, and where a width is no number. No branch, so that several go at once.
+void fade_out(std::span<const float> squared, double step, std::span<double> out) {
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const double u = square(step / out[i]) * static_cast<double>(squared[i]);
+    const double faded = tanh_square(u);
+    out[i] = u < square(kReach) ? faded : 1.0;
   }
-
-  static constexpr int kSteps = 1024;
-  std::array<double, kSteps + 2> table_;
-};
-
-const TanhSquare& tanh_square() {
-  static const TanhSquare table;
-  return table;
 }
 
 // Width of the tanh^2 profile around a disc a that loses the pull of the disc a + L:
@@ -68,7 +45,6 @@ double profile_width(double radius, double reach) {
 
 void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
                  std::vector<double>& factor) {
-  const TanhSquare& profile = tanh_square();
   const double edge_gap = std::max(bridge.edge_gap, kLeastGap);
   const double width =
       profile_width(bridge.radius, screening_reach(edge_gap, thickness, bridge.radius));
@@ -90,7 +66,7 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
       const double r2 = x * x + y * y;
       if (r2 >= reach * reach) continue;
       const double distance = (std::sqrt(r2) - bridge.radius) / width;
-      const double fade = distance <= 0 ? 0 : profile(std::min(distance, 0.999 * kReach));
+      const double fade = distance <= 0 ? 0 : tanh_square(square(std::min(distance, kReach)));
       row[column] *= bridge.film > 0 ? std::pow(fade, 1 - bridge.film) : fade;
     }
   }
@@ -197,7 +173,6 @@ class WaterDistance {
 // share: how much of a film it is; the factor to that power.
 void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double share,
                  double thickness, std::vector<double>& factor) {
-  const TanhSquare& profile = tanh_square();
   // The fit never exceeds 0.64 gaps + 0.42 thicknesses.
   const auto farthest = [&](double g) { return kReach * (0.64 * g + 0.42 * thickness); };
   const auto gap_at = [&](std::size_t i) { return std::max(gap.value[i], kLeastGap); };
@@ -206,7 +181,9 @@ void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double sh
     const double g = gap_at(i);
     if (distance(i) >= farthest(g)) continue;  // spares the power
     const double x = distance(i) / screening_length(g, thickness);
-    if (x < kReach) factor[i] *= share < 1 ? std::pow(profile(x), share) : profile(x);
+    if (x >= kReach) continue;
+    const double fade = tanh_square(square(x));
+    factor[i] *= share < 1 ? std::pow(fade, share) : fade;
   }
 }
 
@@ -276,7 +253,7 @@ std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting,
   }
   const WaterDistance distance(gap.grid, wetting.bridged,
                                [&](std::size_t i) { return kReach * factor[i]; });
-  tanh_square().fade(distance.squared(), gap.grid.dy(), factor);
+  fade_out(distance.squared(), gap.grid.dy(), factor);
   return factor;
 }
 

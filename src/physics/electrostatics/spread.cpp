@@ -17,42 +17,85 @@ namespace papilla::electrostatics {
 namespace {
 
 constexpr int kMaxIterations = 60;
-constexpr double kLeastDistance = 1e-10;  // [m] of a bare electrode in contact
+// Residuals down to this are found in single precision, half the time: what it rounds, a part in
+// 10^7 of each number, is a thousandth of them and less.
+constexpr double kSinglePrecision = 1e-3;
+
+// As many numbers as a register of 64 bytes holds.
+template <class Real>
+struct Pack {
+  static constexpr std::size_t kCount = 64 / sizeof(Real);
+  using Type __attribute__((vector_size(64))) = Real;
+};
+// An array whose length is a multiple of such a register.
+template <class Real>
+AlignedArray<Real> pixels(std::size_t n) {
+  constexpr std::size_t count = Pack<Real>::kCount;
+  return AlignedArray<Real>((n + count - 1) / count * count);
+}
+template <class Real>
+typename Pack<Real>::Type& pack(AlignedArray<Real>& values, std::size_t i) {
+  return *reinterpret_cast<typename Pack<Real>::Type*>(values.data() + i);
+}
+template <class Real>
+const typename Pack<Real>::Type& pack(const AlignedArray<Real>& values, std::size_t i) {
+  return *reinterpret_cast<const typename Pack<Real>::Type*>(values.data() + i);
+}
+template <class Real>
+double total(const typename Pack<Real>::Type& sums) {
+  double out = 0;
+  for (std::size_t k = 0; k < Pack<Real>::kCount; ++k) out += sums[k];
+  return out;
+}
 
 // Multiplication by a symbol in Fourier space: vector registers where the grid suits them.
+template <class Real>
 class Filter {
  public:
-  explicit Filter(const Grid& grid)
-      : fft_(Fft2d::shared(grid.nx, grid.ny)),
-        fast_(Convolution::suits(grid.nx, grid.ny) ? Convolution::shared(grid.nx, grid.ny)
-                                                   : nullptr),
-        scratch_(fast_ ? fast_->scratch_size() : fft_->spectrum_size()) {}
+  explicit Filter(const Grid& grid) {
+    if (BasicConvolution<Real>::suits(grid.nx, grid.ny)) {
+      fast_ = BasicConvolution<Real>::shared(grid.nx, grid.ny);
+      scratch_.resize(fast_->scratch_size());
+    } else {
+      fft_ = Fft2d::shared(grid.nx, grid.ny);
+      values_.resize(fft_->real_size());
+      spectrum_.resize(fft_->spectrum_size());
+    }
+  }
 
   // From the values on the half spectrum of Fft2d, the transforms' scale included.
-  RealArray symbol(const RealArray& half) const { return fast_ ? fast_->arrange(half) : half; }
+  AlignedArray<Real> symbol(const RealArray& half) const {
+    return fast_ ? fast_->arrange(half) : AlignedArray<Real>(half.begin(), half.end());
+  }
 
-  void apply(const RealArray& in, const RealArray& symbol, RealArray& out) {
+  void apply(const AlignedArray<Real>& in, const AlignedArray<Real>& symbol,
+             AlignedArray<Real>& out) {
     if (fast_) return fast_->apply(in.data(), symbol, scratch_.data(), out.data());
-    fft_->forward(in.data(), scratch_.data());
-    for (std::size_t o = 0; o < symbol.size(); ++o) scratch_[o] *= symbol[o];
-    fft_->inverse(scratch_.data(), out.data());
+    for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = in[i];
+    fft_->forward(values_.data(), spectrum_.data());
+    for (std::size_t o = 0; o < symbol.size(); ++o) spectrum_[o] *= static_cast<double>(symbol[o]);
+    fft_->inverse(spectrum_.data(), values_.data());
+    for (std::size_t i = 0; i < values_.size(); ++i) out[i] = static_cast<Real>(values_[i]);
   }
 
  private:
+  std::shared_ptr<const BasicConvolution<Real>> fast_;  // or, where it is null:
   std::shared_ptr<const Fft2d> fft_;
-  std::shared_ptr<const Convolution> fast_;
-  SpectrumArray scratch_;
+  AlignedArray<std::complex<Real>> scratch_;
+  RealArray values_;
+  SpectrumArray spectrum_;
 };
 
 // What the film answers to potentials on it, K: of a flat layer of one thickness.
+template <class Real>
 struct FilmResponse {
-  RealArray half;    // on the half spectrum of Fft2d [1/m]
-  double mean;       // what K couples a pixel with [1/m]
-  RealArray symbol;  // as Filter takes it, with the transforms' scale
+  RealArray half;             // on the half spectrum of Fft2d [1/m]
+  double mean;                // what K couples a pixel with [1/m]
+  AlignedArray<Real> symbol;  // as Filter takes it, with the transforms' scale
 };
 
-FilmResponse film_response(const Grid& grid, double thickness, double permittivity) {
-  const Filter filter(grid);
+template <class Real>
+FilmResponse<Real> film_response(const Grid& grid, double thickness, double permittivity) {
   const double scale = 1 / static_cast<double>(grid.size());  // of the unnormalised transforms
   const int half = grid.nx / 2 + 1;
   RealArray k(static_cast<std::size_t>(half) * grid.ny), scaled(k.size());
@@ -69,72 +112,109 @@ FilmResponse film_response(const Grid& grid, double thickness, double permittivi
   }
   for (std::size_t o = 0; o < k.size(); ++o) scaled[o] = scale * k[o];
   const double mean = sum(k) / static_cast<double>(k.size());
-  return {std::move(k), mean, filter.symbol(scaled)};
+  return {std::move(k), mean, Filter<Real>(grid).symbol(scaled)};
 }
 
 // The same for every skin and humidity of a design.
-std::shared_ptr<const FilmResponse> known_film_response(const Grid& grid, double thickness,
-                                                        double permittivity) {
+template <class Real>
+std::shared_ptr<const FilmResponse<Real>> known_film_response(const Grid& grid, double thickness,
+                                                              double permittivity) {
   using Key = std::tuple<Grid, double, double>;
   constexpr double kMostBytes = 64e6;
-  static Cache<Key, FilmResponse> cache(16, kMostBytes);
-  return cache.get(
-      {grid, thickness, permittivity}, 2 * sizeof(double) * static_cast<double>(grid.size()), [&] {
-        return std::make_shared<const FilmResponse>(film_response(grid, thickness, permittivity));
-      });
+  static Cache<Key, FilmResponse<Real>> cache(16, kMostBytes);
+  return cache.get({grid, thickness, permittivity},
+                   2 * sizeof(double) * static_cast<double>(grid.size()), [&] {
+                     return std::make_shared<const FilmResponse<Real>>(
+                         film_response<Real>(grid, thickness, permittivity));
+                   });
 }
 
+// What the potential on the film depends on beside K, per pixel.
+struct Columns {
+  const Gap& gap;
+  const AirColumns& above;
+  double skin_layer;                      // d/eps [m]
+  const std::vector<double>& dielectric;  // d/eps [m]
+  const std::vector<std::uint8_t>& wet;   // empty: nowhere
+
+  // From the film to the skin.
+  Lanes distance(std::size_t i) const {
+    const Lanes air = lanes_at(above.air, i);
+    const LaneMask known = ~(air < 0);
+    return to_skin(chosen(known, air, lanes_at(gap.value, i)),
+                   chosen(known, lanes_at(above.water, i), Lanes{}), skin_layer);
+  }
+};
+
 // phi for one volt on the electrode: K phi + (1/D - eps/d + c) phi = 1/D, zero on wet pixels; K of
-// a flat layer of the mean thickness d, D the d/eps of each column. Conjugate gradients
-// preconditioned by 1/(K + mean of the rest) between weights that follow it. Eq. electrostatics.16
+// a flat layer of the mean thickness d, D the d/eps of each column, c one over its distance to the
+// skin. Conjugate gradients preconditioned by 1/(K + mean of the rest) between weights that follow
+// it. Eq. electrostatics.16
+template <class Real>
 class SurfacePotential {
  public:
-  // conductance: to the skin [1/m]; dielectric: d/eps of the columns [m].
-  SurfacePotential(const Grid& grid, const std::vector<double>& conductance,
-                   const std::vector<double>& dielectric, const std::vector<std::uint8_t>& wet,
-                   double thickness, double permittivity)
-      : filter_(grid),
-        film_(known_film_response(grid, thickness, permittivity)),
-        c_(conductance),
-        dry_(c_.size(), 1),
-        drive_(c_.size()),
-        start_(c_.size()),
-        weight_(c_.size()) {
-    const double flat = permittivity / thickness;
-    for (std::size_t i = 0; i < wet.size(); ++i) dry_[i] = wet[i] ? 0 : 1;
-    for (std::size_t i = 0; i < c_.size(); ++i) {
-      drive_[i] = 1 / dielectric[i];
-      start_[i] = dry_[i] * drive_[i] / (drive_[i] + c_[i]);
-      // At least what keeps the sum with K positive.
-      c_[i] += drive_[i] - flat;
+  SurfacePotential(const Columns& columns, double thickness, double permittivity)
+      : filter_(columns.gap.grid),
+        film_(known_film_response<Real>(columns.gap.grid, thickness, permittivity)),
+        n_(columns.gap.grid.size()),
+        c_(pixels<Real>(n_)),
+        dry_(c_),
+        drive_(c_),
+        start_(c_),
+        weight_(c_) {
+    const auto flat = static_cast<Real>(permittivity / thickness);
+    if (columns.wet.empty()) std::fill_n(dry_.begin(), n_, Real{1});
+    for (std::size_t i = 0; i < columns.wet.size(); ++i) dry_[i] = columns.wet[i] ? 0 : 1;
+    for (std::size_t i = 0; i < n_; ++i) drive_[i] = 1 / static_cast<Real>(columns.dielectric[i]);
+    AlignedArray<Real>& distance = start_;
+    // Beyond the pixels: wet, and no numbers that spoil others.
+    std::fill(drive_.begin() + static_cast<std::ptrdiff_t>(n_), drive_.end(), flat);
+    std::fill(distance.begin() + static_cast<std::ptrdiff_t>(n_), distance.end(), Real{1});
+    for (std::size_t i = 0; i < n_; i += kLanes) {
+      const Lanes eight = columns.distance(i);
+      for (std::size_t k = 0; k < kLanes && i + k < n_; ++k)
+        distance[i + k] = static_cast<Real>(eight[k]);
     }
     // Contact spots of a bare skin raise c by orders of magnitude over a few pixels: the weight
     // follows c where it exceeds what K couples a pixel with, k; the rest is left to K + mean c,
     // the mean taken as 1/(k + c).
-    const double k = film_->mean;
-    for (std::size_t i = 0; i < c_.size(); ++i) weight_[i] = 1 / (k + c_[i]);
-    const double level = static_cast<double>(c_.size()) / sum(weight_);  // k + mean c
-    for (std::size_t i = 0; i < c_.size(); ++i)
-      weight_[i] = dry_[i] * std::sqrt(level * weight_[i]);
+    const auto k = static_cast<Real>(film_->mean);
+    Sums sums{};
+    for (std::size_t i = 0; i < c_.size(); i += kPack) {
+      const Sums conductance = 1 / pack(distance, i), drive = pack(drive_, i);
+      // The columns by themselves.
+      pack(start_, i) = pack(dry_, i) * drive / (drive + conductance);
+      // At least what keeps the sum with K positive.
+      pack(c_, i) = conductance + (drive - flat);
+      pack(weight_, i) = 1 / (k + pack(c_, i));
+      sums += pack(weight_, i);
+    }
+    double all = total<Real>(sums);
+    for (std::size_t i = n_; i < c_.size(); ++i) all -= weight_[i];
+    const double level = static_cast<double>(n_) / all;  // k + mean c
+    for (std::size_t i = 0; i < n_; ++i)
+      weight_[i] = dry_[i] * std::sqrt(static_cast<Real>(level) * weight_[i]);
     RealArray inverse(film_->half.size());
-    const double scale = 1 / static_cast<double>(grid.size());
+    const double scale = 1 / static_cast<double>(n_);
     for (std::size_t o = 0; o < inverse.size(); ++o) {
-      inverse[o] = scale / (film_->half[o] + level - k);
+      inverse[o] = scale / (film_->half[o] + level - film_->mean);
     }
     inverse_ = filter_.symbol(inverse);
   }
 
   // Once. Leaves residual (relative, energy norm), iterations and status in `out`.
-  RealArray solve(double tolerance, FieldSolution& out) {
+  std::vector<double> solve(double tolerance, FieldSolution& out) {
     const std::size_t n = c_.size();
-    RealArray phi = std::move(start_), r(n), z(n), s(n, 0.0), q(n);
+    AlignedArray<Real> phi = std::move(start_), r(n), z(n), s(n), q(n);
     apply(phi, q);
     for (std::size_t i = 0; i < n; ++i) {
       r[i] = dry_[i] * drive_[i] - q[i];
       q[i] = weight_[i] * r[i];
     }
     // The first guess, good to a fraction, gives the scale of the residual.
-    const double energy = dot(phi, drive_);
+    Sums sums{};
+    for (std::size_t i = 0; i < n; i += kPack) sums += pack(phi, i) * pack(drive_, i);
+    const double energy = total<Real>(sums);
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
       // q: the weighted residual.
@@ -148,10 +228,11 @@ class SurfacePotential {
             "for {:.1e}",
             out.residual, out.iterations, tolerance);
       }
-      if (!out.ok || out.residual <= tolerance) return phi;
-      const double beta = out.iterations > 0 ? rz / old : 0;
+      if (!out.ok || out.residual <= tolerance)
+        return {phi.begin(), phi.begin() + static_cast<std::ptrdiff_t>(n_)};
+      const auto beta = static_cast<Real>(out.iterations > 0 ? rz / old : 0);
       for (std::size_t i = 0; i < n; ++i) s[i] = z[i] + beta * s[i];
-      const double alpha = rz / apply(s, q);
+      const auto alpha = static_cast<Real>(rz / apply(s, q));
       for (std::size_t i = 0; i < n; ++i) {
         phi[i] += alpha * s[i];
         r[i] -= alpha * q[i];
@@ -162,38 +243,49 @@ class SurfacePotential {
   }
 
  private:
+  static constexpr std::size_t kPack = Pack<Real>::kCount;
+  using Sums = typename Pack<Real>::Type;
+
   // out = (K + c) in on dry pixels; in . out.
-  double apply(const RealArray& in, RealArray& out) {
+  double apply(const AlignedArray<Real>& in, AlignedArray<Real>& out) {
     filter_.apply(in, film_->symbol, out);
-    Lanes sums{};
-    for (std::size_t i = 0; i < out.size(); i += kLanes) {
-      const Lanes here = lanes_at(in, i);
-      const Lanes there = lanes_at(dry_, i) * (lanes_at(out, i) + lanes_at(c_, i) * here);
-      store_lanes(there, out, i);
+    Sums sums{};
+    for (std::size_t i = 0; i < out.size(); i += kPack) {
+      const Sums here = pack(in, i);
+      const Sums there = pack(dry_, i) * (pack(out, i) + pack(c_, i) * here);
+      pack(out, i) = there;
       sums += here * there;
     }
-    return total(sums);
+    return total<Real>(sums);
   }
   // z times the weight; r . z.
-  double weigh(const RealArray& r, RealArray& z) const {
-    Lanes sums{};
-    for (std::size_t i = 0; i < z.size(); i += kLanes) {
-      const Lanes weighted = lanes_at(z, i) * lanes_at(weight_, i);
-      store_lanes(weighted, z, i);
-      sums += lanes_at(r, i) * weighted;
+  double weigh(const AlignedArray<Real>& r, AlignedArray<Real>& z) const {
+    Sums sums{};
+    for (std::size_t i = 0; i < z.size(); i += kPack) {
+      const Sums weighted = pack(z, i) * pack(weight_, i);
+      pack(z, i) = weighted;
+      sums += pack(r, i) * weighted;
     }
-    return total(sums);
+    return total<Real>(sums);
   }
 
-  Filter filter_;
-  std::shared_ptr<const FilmResponse> film_;
-  std::vector<double> c_;  // beside K [1/m]
-  RealArray dry_;          // 0 under bridges, 1 elsewhere
-  RealArray drive_;        // 1/D [1/m]
-  RealArray start_;        // the columns by themselves, 0 under bridges
-  RealArray weight_;       // of the preconditioner, either side of 1/(K + mean c)
-  RealArray inverse_;      // 1/(K + mean c) as the filter takes it
+  Filter<Real> filter_;
+  std::shared_ptr<const FilmResponse<Real>> film_;
+  std::size_t n_;               // pixels; arrays may be longer
+  AlignedArray<Real> c_;        // beside K [1/m]
+  AlignedArray<Real> dry_;      // 0 under bridges, 1 elsewhere
+  AlignedArray<Real> drive_;    // 1/D [1/m]
+  AlignedArray<Real> start_;    // the columns by themselves, 0 under bridges
+  AlignedArray<Real> weight_;   // of the preconditioner, either side of 1/(K + mean c)
+  AlignedArray<Real> inverse_;  // 1/(K + mean c) as the filter takes it
 };
+
+template <class Real>
+std::vector<double> surface_potential(const Columns& columns, double permittivity, double tolerance,
+                                      FieldSolution& out) {
+  const double mean = sum(columns.dielectric) / static_cast<double>(columns.dielectric.size());
+  return SurfacePotential<Real>(columns, permittivity * mean, permittivity).solve(tolerance, out);
+}
 
 }  // namespace
 
@@ -201,37 +293,18 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
                                  const Wetting& wetting, const FieldProblem& p, double tolerance) {
   if (p.dielectric_thickness <= 0 || holds_all_voltage(p) || (p.v_rms == 0 && p.v_peak == 0))
     return solve_local_field(gap, surface, wetting, p);
-  const AirColumns columns = columns_above(gap, wetting, p);
-  const std::size_t n = gap.grid.size();
-  std::vector<double> conductance(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    const double above = columns.air[i] < 0 ? gap.value[i] : columns.air[i];
-    conductance[i] = above + p.skin_layer.real();
-  }
-  if (!columns.water.empty()) {
-    for (std::size_t i = 0; i < n; ++i) {
-      if (columns.air[i] >= 0) conductance[i] += columns.water[i] / kWaterPermittivity;
-    }
-  }
-  for (double& c : conductance) c = 1 / (c > kLeastDistance ? c : kLeastDistance);
-  FieldSolution status;
+  const AirColumns above = columns_above(gap, wetting, p);
+  const std::vector<double> flat(surface ? 0 : gap.grid.size(), p.dielectric);
+  const Columns columns{gap, above, p.skin_layer.real(), surface ? surface->effective : flat,
+                        wetting.bridged};
   const double permittivity = p.dielectric_thickness / p.dielectric;
-  const std::vector<double> flat(surface ? 0 : n, p.dielectric);
-  const std::vector<double>& dielectric = surface ? surface->effective : flat;
-  const double mean = sum(dielectric) / static_cast<double>(n);
-  SurfacePotential potential(gap.grid, conductance, dielectric, wetting.bridged,
-                             permittivity * mean, permittivity);
-  const RealArray phi = potential.solve(tolerance, status);
-  std::vector<double> gain(n), voltage(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    // The flux over that of the column alone.
-    gain[i] = square(phi[i] * (1 + dielectric[i] * conductance[i]));
-    const double flux = (1 - phi[i]) / dielectric[i];
-    voltage[i] = (1 - phi[i]) / std::sqrt(1 + square(flux * p.skin_layer.imag()));
-  }
+  FieldSolution status;
+  const std::vector<double> potential =
+      tolerance < kSinglePrecision
+          ? surface_potential<double>(columns, permittivity, tolerance, status)
+          : surface_potential<float>(columns, permittivity, tolerance, status);
   const std::vector<double> open = air_screening_factor(gap, wetting, p.screening);
-  FieldSolution out =
-      pull(gap, surface, p, columns, {.open = open, .gain = gain, .voltage = voltage});
+  FieldSolution out = pull(gap, surface, p, above, {.open = open, .potential = potential});
   out.residual = status.residual;
   out.iterations = status.iterations;
   if (out.ok && !status.ok) {
