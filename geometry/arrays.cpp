@@ -16,13 +16,16 @@ constexpr std::size_t kPixelsOfPatches = std::size_t{1} << 20;
 
 // Distance to the nearest lattice point [m].
 double lattice_distance(Lattice lattice, double period, double x, double y) {
-  const auto nearest = [](double u, double p) { return u - p * std::round(u / p); };
+  // Squared, from the point of a lattice of px by py at (u, v).
+  const auto squared = [&](double u, double v, double px, double py) {
+    const double dx = x - u, dy = y - v;
+    return square(dx - px * std::rint(dx / px)) + square(dy - py * std::rint(dy / py));
+  };
   if (lattice == Lattice::Square)
-    return std::hypot(nearest(x - 0.5 * period, period), nearest(y - 0.5 * period, period));
+    return std::sqrt(squared(0.5 * period, 0.5 * period, period, period));
   const double row = std::sqrt(3.0) * period;
-  const double a = std::hypot(nearest(x - 0.25 * period, period), nearest(y - 0.25 * row, row));
-  const double b = std::hypot(nearest(x - 0.75 * period, period), nearest(y - 0.75 * row, row));
-  return std::min(a, b);
+  return std::sqrt(std::min(squared(0.25 * period, 0.25 * row, period, row),
+                            squared(0.75 * period, 0.75 * row, period, row)));
 }
 
 FabricationMargins array_margins(const FeatureArray& a, const WallSection& wall) {

@@ -4,6 +4,7 @@
 #include <complex>
 #include <memory>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "base/rooms.h"
@@ -29,6 +30,26 @@ struct AlignedAllocator {
 template <class T>
 using AlignedArray = std::vector<T, AlignedAllocator<T>>;
 using RealArray = AlignedArray<double>;
+
+// The same without zeros at the start: for what is written as a whole before it is read.
+template <class T>
+struct UnsetAllocator : AlignedAllocator<T> {
+  template <class U>
+  struct rebind {
+    using other = UnsetAllocator<U>;
+  };
+  using AlignedAllocator<T>::AlignedAllocator;
+  template <class U>
+  void construct(U* at) {
+    ::new (static_cast<void*>(at)) U;
+  }
+  template <class U, class... Values>
+  void construct(U* at, Values&&... values) {
+    ::new (static_cast<void*>(at)) U(std::forward<Values>(values)...);
+  }
+};
+template <class T>
+using UnsetArray = std::vector<T, UnsetAllocator<T>>;
 using SpectrumArray = AlignedArray<std::complex<double>>;
 
 // Plans for one size: made once (the same bytes every run), executable from many threads at a time.

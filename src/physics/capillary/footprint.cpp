@@ -15,8 +15,6 @@ constexpr double kLeastGrowth = 0.7, kMostGrowth = 2.5;
 // Steps with a new rule each while the guess is far off.
 constexpr int kMostResamplings = 40;
 
-int points(const GapTable::Rule& rule) { return rule.chords + rule.rim_points; }
-
 // A miss, by the volume, from which one step leads to the radius.
 constexpr double kNearly = 1e-8;
 
@@ -35,41 +33,41 @@ class FootprintSolver {
       r = first_guess(growth);
     }
     growth = std::clamp(growth, kLeastGrowth, kMostGrowth);
-    GapTable::Rule rule = table_.rule(r), earlier{};
+    int chords = table_.rule(r).chords, earlier = 0;
     bool seen = false, last_pass = false;
     int rules = 0;
     for (int resampled = 0;; ++resampled) {
-      double miss = missing(r, rule);
+      double miss = missing(r, chords);
       // The rim's gap as that of the guess, by the mean; the misses soon know better.
       const double linear = growth * 2 * (miss + volume_) / r;
       double next = r - miss / linear;
       const bool far = !(next > 0.75 * r && next < 1.3 * r);
       if (far && resampled < kMostResamplings) {  // a new size, a new rule
         r = std::clamp(next, 0.5 * r, 2 * r);
-        rule = table_.rule(r);
+        chords = table_.rule(r).chords;
         continue;
       }
       // Pockets in a nearly closed gap: the volume jumps with the radius, Newton goes astray.
       next = std::clamp(next, 0.5 * r, 2 * r);
-      const GapTable::Rule ahead = table_.rule(next);
-      if (ahead != rule && !seen) {
-        rule = ahead;
-        miss = missing(r, rule);
+      const int ahead = table_.rule(next).chords;
+      if (ahead != chords && !seen) {
+        chords = ahead;
+        miss = missing(r, chords);
       }
-      r = closed_in(rule, r, miss, next, growth * (miss + volume_) / square(r));
-      const GapTable::Rule proper = table_.rule(r);  // of the result, whatever the guess was
-      if (proper == rule || last_pass) break;
+      r = closed_in(chords, r, miss, next, growth * (miss + volume_) / square(r));
+      const int proper = table_.rule(r).chords;  // of the result, whatever the guess was
+      if (proper == chords || last_pass) break;
       if (seen && proper == earlier) {  // each asks for the other: the finer one
-        if (points(proper) < points(rule)) break;
+        if (proper < chords) break;
         last_pass = true;
       }
       // Longer circles of rules end at their finest too.
-      if (++rules > kMostRules && points(proper) <= points(rule)) break;
+      if (++rules > kMostRules && proper <= chords) break;
       seen = true;
-      earlier = rule;
-      rule = proper;
+      earlier = chords;
+      chords = proper;
     }
-    return {r, table_.rim(x_, y_, r, rule)};
+    return {r, table_.rim(x_, y_, r, table_.rule(r))};
   }
 
  private:
@@ -89,20 +87,19 @@ class FootprintSolver {
     return std::sqrt(2 * volume_ / (kPi * (centre + rim)));
   }
 
-  double missing(double r, const GapTable::Rule& rule) const {
-    return table_.disc_volume(x_, y_, r, rule) - volume_;
+  double missing(double r, int chords) const {
+    return table_.disc_volume(x_, y_, r, {.chords = chords, .rim_points = 0}) - volume_;
   }
 
   // Inside a bracket, from one miss [m^3] and a step of known slope: the parabola through the last
   // three misses, over the area of the disc, by which the volume grows almost evenly.
-  double closed_in(const GapTable::Rule& rule, double first, double last_miss, double r,
-                   double slope) const {
+  double closed_in(int chords, double first, double last_miss, double r, double slope) const {
     double low = 0, high = 0;                       // bracket; high = 0: none yet
     double last = square(first), area = square(r);  // over pi
     double inverse = 1 / slope, bend = 0, before = last_miss;
     (last_miss < 0 ? low : high) = last;
     for (int k = 0; k < 60; ++k) {
-      const double miss = missing(r, rule);
+      const double miss = missing(r, chords);
       if (std::abs(miss) <= 1e-13 * volume_) break;
       (miss < 0 ? low : high) = area;
       const double secant = (area - last) / (miss - last_miss);

@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "base/fft.h"
 #include "base/rooms.h"
 #include "fields/gap.h"
 
@@ -82,8 +83,8 @@ class GapTable {
   double inverse_dx_, inverse_dy_;
   int stride_;
   // Rows of nx + 1, the first column repeated.
-  std::vector<double> value_;   // the gap [m]
-  std::vector<double> prefix_;  // its integral from pixel centre 0 to here, in pixels
+  UnsetArray<double> value_;   // the gap [m]
+  UnsetArray<double> prefix_;  // its integral from pixel centre 0 to here, in pixels
 
   void find_lowest(double around);
   // Smallest gap of a block of pixels and the eight around it; blocks are wider than `around`.

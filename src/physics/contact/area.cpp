@@ -111,11 +111,11 @@ class AreaOfPixels {
     const int ix = static_cast<int>(pixel) % grid_.nx, iy = static_cast<int>(pixel) / grid_.nx;
     const bool elastic = pressure_[pixel] < cap_;
     ++sums.pixels;
+    const int column[3] = {ix > 0 ? ix - 1 : grid_.nx - 1, ix, ix + 1 < grid_.nx ? ix + 1 : 0};
+    const int row[3] = {iy > 0 ? iy - 1 : grid_.ny - 1, iy, iy + 1 < grid_.ny ? iy + 1 : 0};
     std::size_t near[3][3];
     for (int dy = 0; dy < 3; ++dy) {
-      for (int dx = 0; dx < 3; ++dx) {
-        near[dy][dx] = grid_.index(wrap(ix + dx - 1, grid_.nx), wrap(iy + dy - 1, grid_.ny));
-      }
+      for (int dx = 0; dx < 3; ++dx) near[dy][dx] = grid_.index(column[dx], row[dy]);
     }
     for (std::size_t j : {near[0][1], near[1][0], near[1][2], near[2][1]}) {
       if (pressure_[j] > 0) continue;

@@ -63,15 +63,16 @@ namespace {
 
 // The strongest fields per volt of the drive; 0: none.
 struct Strongest {
-  double air2 = 0;        // squared, of a column with air [1/m^2]
-  double dielectric = 0;  // voltage over d/eps of a column's dielectric [1/m]
+  double air2 = 0;         // squared, of a column with air [1/m^2]
+  double dielectric2 = 0;  // squared, voltage over d/eps of a column's dielectric [1/m^2]
 };
 
 void set_peaks(const FieldProblem& p, bool walls, const Strongest& strongest, FieldSolution& out) {
   out.peak_air_field = p.v_peak * std::sqrt(strongest.air2);
   if (p.dielectric_thickness <= 0) return;
   // Mean over the layers: that of a flat film with the same voltage over its d/eps.
-  out.peak_oxide_field = p.v_peak * strongest.dielectric * p.dielectric / p.dielectric_thickness;
+  out.peak_oxide_field =
+      p.v_peak * std::sqrt(strongest.dielectric2) * p.dielectric / p.dielectric_thickness;
   if (walls && p.edge_radius > 0)
     out.peak_oxide_field *= corner_factor(p.dielectric_thickness, p.edge_radius);
 }
@@ -115,26 +116,27 @@ class PullSum {
     const LaneMask bridge = c.open <= 0, pulls = ~bridge & ~(c.air < 0), film = c.film > 0;
     const Lanes reach = c.air + c.film + p_.skin_layer.real() + kPerWater * c.water;
     const Lanes series2 = reach * reach + square(p_.skin_layer.imag());
-    const Lanes per_film = 1 / c.film;
-    Lanes field2, of_film;  // per volt: squared in the air [1/m^2], over the film's d/eps [1/m]
+    const Lanes per_film = 1 / c.film, per_film2 = per_film * per_film;
+    // Squared, per volt: the field in the air, what is over the film's d/eps [1/m^2].
+    Lanes field2, of_film2;
     if (c.spread) {
       // The flux over that of the column alone.
-      const Lanes gain = c.potential * (1 + c.film / to_skin(c.air, c.water, p_.skin_layer.real()));
-      const Lanes flux = (1 - c.potential) * per_film;
-      field2 = gain * gain / series2;
-      of_film = flux / root(1 + square(p_.skin_layer.imag()) * flux * flux);
+      const Lanes skin = to_skin(c.air, c.water, p_.skin_layer.real());
+      const Lanes gain = c.potential * (skin + c.film), left = 1 - c.potential;
+      const Lanes flux2 = left * left * per_film2;
+      field2 = gain * gain / (skin * skin * series2);
+      of_film2 = flux2 / (1 + square(p_.skin_layer.imag()) * flux2);
     } else {
-      field2 = 1 / series2;
-      of_film = root(field2);
+      of_film2 = field2 = 1 / series2;
     }
     const Lanes free = scale_ * field2;
     const Lanes pressure =
         chosen(pulls, chosen(cap_ < free, all_lanes(cap_), free) * c.open, Lanes{});
     sum_ += pressure;
     // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-    of_film *= p_.film_phase;
-    of_film = chosen(bridge | (of_film > per_film), per_film, of_film);
-    raise(strongest_film_, chosen((pulls | bridge) & film, of_film, Lanes{}));
+    of_film2 *= square(p_.film_phase);
+    of_film2 = chosen(bridge | (of_film2 > per_film2), per_film2, of_film2);
+    raise(strongest_film2_, chosen((pulls | bridge) & film, of_film2, Lanes{}));
     raise(strongest_air2_, chosen(pulls & (c.air > 0), field2, Lanes{}));
     add_breakdown(c, pulls, field2, pressure);
     return pressure;
@@ -148,7 +150,7 @@ class PullSum {
       out.reason = "the pull is not finite";
       return;
     }
-    set_peaks(p_, walls_, {largest(strongest_air2_), largest(strongest_film_)}, out);
+    set_peaks(p_, walls_, {largest(strongest_air2_), largest(strongest_film2_)}, out);
     out.mean_pressure = sum / n;
     double over = 0;
     for (std::size_t k = 0; k < kLanes; ++k) over += static_cast<double>(over_[k]);
@@ -180,7 +182,7 @@ class PullSum {
   bool walls_;
   double scale_ = 0.5 * kVacuumPermittivity * square(p_.v_rms);
   double cap_ = p_.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
-  Lanes sum_{}, over_sum_{}, strongest_film_{}, strongest_air2_{};
+  Lanes sum_{}, over_sum_{}, strongest_film2_{}, strongest_air2_{};
   LaneMask over_{};  // columns beyond
 };
 

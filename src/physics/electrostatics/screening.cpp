@@ -10,6 +10,7 @@
 #include <span>
 
 #include "base/constants.h"
+#include "base/fft.h"
 
 namespace papilla::electrostatics {
 namespace {
@@ -167,7 +168,7 @@ class WaterDistance {
 
   double step_;
   int rows_, strips_;
-  std::vector<float> squared_;
+  UnsetArray<float> squared_;
 };
 
 // share: how much of a film it is; the factor to that power.

@@ -27,18 +27,20 @@ struct Pack {
   static constexpr std::size_t kCount = 64 / sizeof(Real);
   using Type __attribute__((vector_size(64))) = Real;
 };
-// An array whose length is a multiple of such a register.
+// Of the pixels; the length is a multiple of such a register.
 template <class Real>
-AlignedArray<Real> pixels(std::size_t n) {
+using Pixels = UnsetArray<Real>;
+template <class Real>
+std::size_t padded(std::size_t n) {
   constexpr std::size_t count = Pack<Real>::kCount;
-  return AlignedArray<Real>((n + count - 1) / count * count);
+  return (n + count - 1) / count * count;
 }
 template <class Real>
-typename Pack<Real>::Type& pack(AlignedArray<Real>& values, std::size_t i) {
+typename Pack<Real>::Type& pack(Pixels<Real>& values, std::size_t i) {
   return *reinterpret_cast<typename Pack<Real>::Type*>(values.data() + i);
 }
 template <class Real>
-const typename Pack<Real>::Type& pack(const AlignedArray<Real>& values, std::size_t i) {
+const typename Pack<Real>::Type& pack(const Pixels<Real>& values, std::size_t i) {
   return *reinterpret_cast<const typename Pack<Real>::Type*>(values.data() + i);
 }
 template <class Real>
@@ -68,14 +70,14 @@ class Filter {
     return fast_ ? fast_->arrange(half) : AlignedArray<Real>(half.begin(), half.end());
   }
 
-  void apply(const AlignedArray<Real>& in, const AlignedArray<Real>& symbol,
-             AlignedArray<Real>& out) {
+  void apply(const Pixels<Real>& in, const AlignedArray<Real>& symbol, Pixels<Real>& out) {
     if (fast_) return fast_->apply(in.data(), symbol, scratch_.data(), out.data());
     for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = in[i];
     fft_->forward(values_.data(), spectrum_.data());
     for (std::size_t o = 0; o < symbol.size(); ++o) spectrum_[o] *= static_cast<double>(symbol[o]);
     fft_->inverse(spectrum_.data(), values_.data());
     for (std::size_t i = 0; i < values_.size(); ++i) out[i] = static_cast<Real>(values_[i]);
+    std::fill(out.begin() + static_cast<std::ptrdiff_t>(values_.size()), out.end(), Real{0});
   }
 
  private:
@@ -157,24 +159,25 @@ class SurfacePotential {
       : filter_(columns.gap.grid),
         film_(known_film_response<Real>(columns.gap.grid, thickness, permittivity)),
         n_(columns.gap.grid.size()),
-        c_(pixels<Real>(n_)),
-        dry_(c_),
-        drive_(c_),
-        start_(c_),
-        weight_(c_) {
+        c_(padded<Real>(n_)),
+        dry_(c_.size()),
+        drive_(c_.size()),
+        start_(c_.size()),
+        weight_(c_.size()) {
     const auto flat = static_cast<Real>(permittivity / thickness);
     if (columns.wet.empty()) std::fill_n(dry_.begin(), n_, Real{1});
     for (std::size_t i = 0; i < columns.wet.size(); ++i) dry_[i] = columns.wet[i] ? 0 : 1;
     for (std::size_t i = 0; i < n_; ++i) drive_[i] = 1 / static_cast<Real>(columns.dielectric[i]);
-    AlignedArray<Real>& distance = start_;
-    // Beyond the pixels: wet, and no numbers that spoil others.
-    std::fill(drive_.begin() + static_cast<std::ptrdiff_t>(n_), drive_.end(), flat);
-    std::fill(distance.begin() + static_cast<std::ptrdiff_t>(n_), distance.end(), Real{1});
+    Pixels<Real>& distance = start_;
     for (std::size_t i = 0; i < n_; i += kLanes) {
       const Lanes eight = columns.distance(i);
-      for (std::size_t k = 0; k < kLanes && i + k < n_; ++k)
-        distance[i + k] = static_cast<Real>(eight[k]);
+      for (std::size_t k = 0; k < kLanes; ++k) distance[i + k] = static_cast<Real>(eight[k]);
     }
+    // Beyond the pixels: wet, and no numbers that spoil others.
+    const auto end = static_cast<std::ptrdiff_t>(n_);
+    std::fill(dry_.begin() + end, dry_.end(), Real{0});
+    std::fill(drive_.begin() + end, drive_.end(), flat);
+    std::fill(distance.begin() + end, distance.end(), Real{1});
     // Contact spots of a bare skin raise c by orders of magnitude over a few pixels: the weight
     // follows c where it exceeds what K couples a pixel with, k; the rest is left to K + mean c,
     // the mean taken as 1/(k + c).
@@ -192,7 +195,7 @@ class SurfacePotential {
     double all = total<Real>(sums);
     for (std::size_t i = n_; i < c_.size(); ++i) all -= weight_[i];
     const double level = static_cast<double>(n_) / all;  // k + mean c
-    for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t i = 0; i < weight_.size(); ++i)
       weight_[i] = dry_[i] * std::sqrt(static_cast<Real>(level) * weight_[i]);
     RealArray inverse(film_->half.size());
     const double scale = 1 / static_cast<double>(n_);
@@ -205,7 +208,7 @@ class SurfacePotential {
   // Once. Leaves residual (relative, energy norm), iterations and status in `out`.
   std::vector<double> solve(double tolerance, FieldSolution& out) {
     const std::size_t n = c_.size();
-    AlignedArray<Real> phi = std::move(start_), r(n), z(n), s(n), q(n);
+    Pixels<Real> phi = std::move(start_), r(n), z(n), s(n, 0), q(n);
     apply(phi, q);
     for (std::size_t i = 0; i < n; ++i) {
       r[i] = dry_[i] * drive_[i] - q[i];
@@ -247,7 +250,7 @@ class SurfacePotential {
   using Sums = typename Pack<Real>::Type;
 
   // out = (K + c) in on dry pixels; in . out.
-  double apply(const AlignedArray<Real>& in, AlignedArray<Real>& out) {
+  double apply(const Pixels<Real>& in, Pixels<Real>& out) {
     filter_.apply(in, film_->symbol, out);
     Sums sums{};
     for (std::size_t i = 0; i < out.size(); i += kPack) {
@@ -259,7 +262,7 @@ class SurfacePotential {
     return total<Real>(sums);
   }
   // z times the weight; r . z.
-  double weigh(const AlignedArray<Real>& r, AlignedArray<Real>& z) const {
+  double weigh(const Pixels<Real>& r, Pixels<Real>& z) const {
     Sums sums{};
     for (std::size_t i = 0; i < z.size(); i += kPack) {
       const Sums weighted = pack(z, i) * pack(weight_, i);
@@ -272,11 +275,11 @@ class SurfacePotential {
   Filter<Real> filter_;
   std::shared_ptr<const FilmResponse<Real>> film_;
   std::size_t n_;               // pixels; arrays may be longer
-  AlignedArray<Real> c_;        // beside K [1/m]
-  AlignedArray<Real> dry_;      // 0 under bridges, 1 elsewhere
-  AlignedArray<Real> drive_;    // 1/D [1/m]
-  AlignedArray<Real> start_;    // the columns by themselves, 0 under bridges
-  AlignedArray<Real> weight_;   // of the preconditioner, either side of 1/(K + mean c)
+  Pixels<Real> c_;              // beside K [1/m]
+  Pixels<Real> dry_;            // 0 under bridges, 1 elsewhere
+  Pixels<Real> drive_;          // 1/D [1/m]
+  Pixels<Real> start_;          // the columns by themselves, 0 under bridges
+  Pixels<Real> weight_;         // of the preconditioner, either side of 1/(K + mean c)
   AlignedArray<Real> inverse_;  // 1/(K + mean c) as the filter takes it
 };
 
