@@ -185,8 +185,8 @@ class Bench {
       walls.push_back(run(search, 2));
       spents.push_back(spent);
     }
-    timed("the next ones (median of nine), as in a search", "s", quantile(walls, 0.5), 0.15);
-    timed("the next ones, processor time of their two threads", "s", quantile(spents, 0.5), 0.3);
+    timed("the next ones (median of nine), as in a search", "s", quantile(walls, 0.5), 0.05);
+    timed("the next ones, processor time of their two threads", "s", quantile(spents, 0.5), 0.1);
     Fidelity level = fidelity_level("design");
     const PatchSet patches = solve(level, 2);
     timed("design-level evaluation, 4 humidities x 40 skins, 256²", "s", patches.seconds, 4);

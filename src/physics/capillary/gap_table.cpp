@@ -92,7 +92,7 @@ GapTable::GapTable(const Gap& gap, double floor, double around)
       inverse_dx_(1 / gap.grid.dx()),
       inverse_dy_(1 / gap.grid.dy()),
       stride_(gap.grid.nx + 1),
-      value_(static_cast<std::size_t>(stride_) * gap.grid.ny),
+      value_(static_cast<std::size_t>(stride_) * (gap.grid.ny + 1)),
       prefix_(value_.size()) {
   PAPILLA_CHECK(gap.value.size() == grid_.size() && grid_.size() > 0,
                 "gap and grid differ in size");
@@ -107,6 +107,8 @@ GapTable::GapTable(const Gap& gap, double floor, double around)
       prefix[ix + 1] = prefix[ix] + 0.5 * (value[ix] + value[ix + 1]);
     }
   }
+  std::copy_n(value_.begin(), stride_, value_.end() - stride_);
+  std::copy_n(prefix_.begin(), stride_, prefix_.end() - stride_);
   if (around > 0) find_lowest(around);
 }
 
@@ -173,12 +175,12 @@ inline GapTable::Index GapTable::wrapped(Index& i, int n, int periods) {
           __builtin_shufflevector(even, odd, 1, 5, 3, 7)};
 }
 
-// Integrals of four rows, from their beginning to a share f beyond the node `at`.
-[[gnu::always_inline]] inline GapTable::Four GapTable::row_integrals(const Index& at,
+// Integrals of four rows, from their beginning to a share f beyond the node `at`; `later` nodes on.
+[[gnu::always_inline]] inline GapTable::Four GapTable::row_integrals(const Index& at, int later,
                                                                      const Four& f) const {
   Four prefix;
-  for (int k = 0; k < 4; ++k) prefix[k] = prefix_[static_cast<unsigned>(at[k])];
-  const Neighbours n = neighbours(value_.data(), at);
+  for (int k = 0; k < 4; ++k) prefix[k] = (prefix_.data() + later)[static_cast<unsigned>(at[k])];
+  const Neighbours n = neighbours(value_.data() + later, at);
   return prefix + f * (n.here + 0.5 * f * (n.next - n.here));
 }
 
@@ -188,9 +190,8 @@ double GapTable::at(double x, double y) const {
 
 [[gnu::always_inline]] inline double GapTable::bilinear(double u, double v) const {
   const Cell cx = locate(u, grid_.nx), cy = locate(v, grid_.ny);
-  const int next = cy.index + 1 == grid_.ny ? 0 : cy.index + 1;
   const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
-  const double* b = &value_[static_cast<std::size_t>(next) * stride_ + cx.index];
+  const double* b = a + stride_;
   const double low = a[0] + cx.fraction * (a[1] - a[0]);
   const double high = b[0] + cx.fraction * (b[1] - b[0]);
   return low + cy.fraction * (high - low);
@@ -217,11 +218,8 @@ template <bool kWraps>
 [[gnu::always_inline]] inline GapTable::Rows GapTable::rows(const Four& v, int periods) const {
   Index low = kWraps ? floor_of(v) : __builtin_convertvector(v, Index);
   const Four share = v - __builtin_convertvector(low, Four);
-  if constexpr (!kWraps) return {low * stride_, (low + 1) * stride_, share};
-  Index high = low + 1;
-  wrapped(low, grid_.ny, periods);
-  wrapped(high, grid_.ny, periods);
-  return {low * stride_, high * stride_, share};
+  if constexpr (kWraps) wrapped(low, grid_.ny, periods);
+  return {low * stride_, share};
 }
 
 template <bool kWraps>
@@ -239,14 +237,15 @@ double GapTable::chords(const Nodes& n, const Disc& d) const {
       if constexpr (kWraps) {
         const Four turns = __builtin_convertvector(wrapped(ix, grid_.nx, d.periods), Four);
         for (int k = 0; k < 4; ++k) {
-          low[k] = prefix_[static_cast<unsigned>(row.low[k] + grid_.nx)];
-          high[k] = prefix_[static_cast<unsigned>(row.high[k] + grid_.nx)];
+          const double* end = prefix_.data() + static_cast<unsigned>(row.low[k] + grid_.nx);
+          low[k] = end[0];
+          high[k] = end[stride_];
         }
         low *= turns;
         high *= turns;
       }
-      low += row_integrals(row.low + ix, f);
-      high += row_integrals(row.high + ix, f);
+      low += row_integrals(row.low + ix, 0, f);
+      high += row_integrals(row.low + ix, stride_, f);
       return low + row.share * (high - low);
     };
     const Four w = d.ru * load<Four>(half + j);
@@ -270,7 +269,7 @@ template <bool kWraps>
   const Four f = u - __builtin_convertvector(ix, Four);
   if constexpr (kWraps) wrapped(ix, grid_.nx, periods);
   const Neighbours below = neighbours(value_.data(), row.low + ix),
-                   above = neighbours(value_.data(), row.high + ix);
+                   above = neighbours(value_.data() + stride_, row.low + ix);
   const Four low = below.here + f * (below.next - below.here);
   const Four high = above.here + f * (above.next - above.here);
   return low + row.share * (high - low);

@@ -63,11 +63,11 @@ class GapTable {
     double in, out;
   };
   struct Rows {
-    Index low, high;  // their first nodes
-    Four share;       // of the higher one
+    Index low;   // first nodes of the lower ones
+    Four share;  // of the rows after them
   };
   static Neighbours neighbours(const double* values, const Index& at);
-  Four row_integrals(const Index& at, const Four& f) const;
+  Four row_integrals(const Index& at, int later, const Four& f) const;
   template <bool kWraps>
   Rows rows(const Four& v, int periods) const;
   template <bool kWraps>
@@ -82,7 +82,7 @@ class GapTable {
   double floor_;
   double inverse_dx_, inverse_dy_;
   int stride_;
-  // Rows of nx + 1, the first column repeated.
+  // Rows of nx + 1, the first column repeated, as is the first row.
   UnsetArray<double> value_;   // the gap [m]
   UnsetArray<double> prefix_;  // its integral from pixel centre 0 to here, in pixels
 
