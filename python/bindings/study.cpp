@@ -40,7 +40,7 @@ RunOptions watched(RunOptions options, Job& job) {
   return options;
 }
 
-py::dict run_study(const Study& study, const std::string& folder, bool resume,
+py::dict run_study(const Study& study, const std::string& folder, bool resume, bool finish,
                    const std::string& pick, const py::object& progress) {
   if (!all_jobs_ended()) {
     throw InputError({{"", 0, 0, "optimize",
@@ -49,6 +49,7 @@ py::dict run_study(const Study& study, const std::string& folder, bool resume,
   }
   RunOptions options;
   options.resume = resume;
+  options.finish = finish;
   options.pick = pick;
   return run_row(run_job(
       [study, folder, options](Job& job) { return study.run(folder, watched(options, job)); },
@@ -85,8 +86,8 @@ void bind_study(py::module_& module) {
             }));
           },
           py::arg("values"), py::arg("threads"))
-      .def("run", &run_study, py::arg("folder"), py::arg("resume"), py::arg("pick"),
-           py::arg("progress"));
+      .def("run", &run_study, py::arg("folder"), py::arg("resume"), py::arg("finish"),
+           py::arg("pick"), py::arg("progress"));
 
   py::class_<Search>(module, "Search")
       .def(py::init<const Study&>(), py::arg("study"))

@@ -248,16 +248,19 @@ class Study:
         """How many constraints need an evaluation: numbers of ``Judgement.violations``."""
         return self._inside.violations()
 
-    def optimize(self, out: Path, *, resume: bool = False, pick: str = "", progress: Progress = None) -> Run:
+    def optimize(self, out: Path, *, resume: bool = False, finish: bool = False, pick: str = "",
+                 progress: Progress = None) -> Run:
         """Searches, confirms and checks, and writes the folder of results: ``papilla optimize``.
 
-        out: the folder. resume: go on with an interrupted run there. pick: which design of the front is the best.
+        out: the folder. resume: go on with an interrupted run there. finish: and ask for no more designs: those of
+        the run are judged and confirmed. pick: which design of the front is the best.
         progress: called with (stage, done, total, seconds left; below 0: not known). Ctrl-C ends it: what was
         evaluated is kept, and resume goes on. Works in processes of its own; no other evaluation may run meanwhile.
         Raises InputError, KeyboardInterrupt.
         """
         folder = v.path(out, "out")
-        row = self._inside.run(folder, v.flag(resume, "resume"), v.text(pick, "pick"), shown(progress, "optimize"))
+        row = self._inside.run(folder, v.flag(resume, "resume"), v.flag(finish, "finish"), v.text(pick, "pick"),
+                               shown(progress, "optimize"))
         return Run(self, folder, row)
 
     def _numbers(self, values: Values) -> list[float]:

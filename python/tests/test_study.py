@@ -68,6 +68,26 @@ def test_judge_is_the_model() -> None:
     assert not refused.ok and "wall" in refused.reason
 
 
+def test_only_a_run_that_is_resumed_can_be_finished(tmp_path: pathlib.Path) -> None:
+    with pytest.raises(pp.InputError, match="finish: goes on with a run that was interrupted"):
+        pp.Study(STUDY).optimize(tmp_path / "new", finish=True)
+    assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.slow
+def test_a_run_that_is_finished_asks_for_no_more_designs(tmp_path: pathlib.Path) -> None:
+    study = pp.Study({**STUDY, "search": {"evaluations": 2000, "seed": 3}})
+
+    def interrupt(stage: str, done: int, total: int, left: float) -> None:
+        if done == 5:
+            threading.Timer(0, os.kill, (os.getpid(), signal.SIGINT)).start()
+
+    with pytest.raises(KeyboardInterrupt):
+        study.optimize(tmp_path / "run", progress=interrupt)
+    run = study.optimize(tmp_path / "run", resume=True, finish=True)
+    assert not run.interrupted and 5 <= run.evaluations < 2000 and run.best.confirmed.ok
+
+
 @pytest.mark.slow
 def test_a_search_runs_to_its_end_and_goes_on_after_ctrl_c(tmp_path: pathlib.Path) -> None:
     study = pp.Study(STUDY)

@@ -126,9 +126,12 @@ Judgement Study::judge(const std::vector<double>& values, int threads,
 
 RunResult Study::run(const std::string& folder, const RunOptions& options) const {
   return across([&] {
+    if (options.finish && !options.resume)
+      throw wrong("finish", "goes on with a run that was interrupted: resume it");
     OptimiseOptions inside;
     inside.folder = folder;
     inside.resume = options.resume;
+    inside.finish = options.finish;
     inside.pick = options.pick;
     inside.stop = options.stop;
     if (options.progress) {
