@@ -118,14 +118,18 @@ void GapTable::find_lowest(double around) {
   block_y_ = std::min(static_cast<int>(std::ceil(around * inverse_dy_)) + 1, grid_.ny);
   blocks_x_ = grid_.nx / block_x_;  // the last one takes what is left
   blocks_y_ = grid_.ny / block_y_;
-  std::vector<double> own(static_cast<std::size_t>(blocks_x_) * blocks_y_, kInfinity);
-  for (int iy = 0; iy < grid_.ny; ++iy) {
-    const double* value = &value_[static_cast<std::size_t>(iy) * stride_];
-    double* row =
-        &own[static_cast<std::size_t>(std::min(iy / block_y_, blocks_y_ - 1)) * blocks_x_];
-    for (int b = 0; b < blocks_x_; ++b) {
-      const int end = b + 1 == blocks_x_ ? grid_.nx : (b + 1) * block_x_;
-      for (int ix = b * block_x_; ix < end; ++ix) row[b] = std::min(row[b], value[ix]);
+  std::vector<double> own(static_cast<std::size_t>(blocks_x_) * blocks_y_, kInfinity), band;
+  for (int by = 0; by < blocks_y_; ++by) {
+    const int end_y = by + 1 == blocks_y_ ? grid_.ny : (by + 1) * block_y_;
+    band.assign(grid_.nx, kInfinity);
+    for (int iy = by * block_y_; iy < end_y; ++iy) {
+      const double* value = &value_[static_cast<std::size_t>(iy) * stride_];
+      for (int ix = 0; ix < grid_.nx; ++ix) band[ix] = std::min(band[ix], value[ix]);
+    }
+    for (int bx = 0; bx < blocks_x_; ++bx) {
+      const auto begin = band.begin() + bx * block_x_;
+      own[static_cast<std::size_t>(by) * blocks_x_ + bx] =
+          *std::min_element(begin, bx + 1 == blocks_x_ ? band.end() : begin + block_x_);
     }
   }
   lowest_.assign(own.size(), kInfinity);

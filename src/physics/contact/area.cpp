@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/constants.h"
+#include "base/fft.h"
 #include "physics/contact/contact.h"
 
 namespace papilla::contact {
@@ -89,7 +90,11 @@ ContactArea area_from(const AreaSums& s, const Grid& grid) {
 class AreaOfPixels {
  public:
   AreaOfPixels(const ContactKernel& kernel, const ContactSolution& solution, double hardness)
-      : grid_(kernel.grid()), pressure_(solution.pressure), gap_(solution.gap) {
+      : grid_(kernel.grid()),
+        pressure_(solution.pressure),
+        gap_(solution.gap),
+        to_right_(grid_.size()),
+        upward_(grid_.size()) {
     // The modulus that a pixel's edge feels: of the layer, or of what a layer thinner than a pixel
     // lies on.
     const double q = 0.5 * kPi / std::max(grid_.dx(), grid_.dy());
@@ -98,35 +103,66 @@ class AreaOfPixels {
     cap_ = hardness > 0 ? (1 - 1e-6) * hardness : kInfinity;
   }
 
-  ContactArea measure() const {
-    AreaSums sums;
-    for (std::size_t i = 0; i < pressure_.size(); ++i) {
-      if (pressure_[i] > 0) add(i, sums);
+  ContactArea measure() {
+    std::vector<std::size_t> pressed;
+    constexpr std::size_t kBlock = 64;
+    for (std::size_t begin = 0; begin < pressure_.size(); begin += kBlock) {
+      const std::size_t end = std::min(begin + kBlock, pressure_.size());
+      double any = 0;
+#pragma omp simd reduction(+ : any)
+      for (std::size_t i = begin; i < end; ++i) any += pressure_[i] > 0 ? 1.0 : 0.0;
+      for (std::size_t i = begin; any > 0; ++i) {
+        if (!(pressure_[i] > 0)) continue;
+        pressed.push_back(i);
+        --any;
+      }
     }
+    AreaSums sums;
+    for (const std::size_t i : pressed) add_sides(i, sums);
+    for (const std::size_t i : pressed) add_squares(i, sums);
     return area_from(sums, grid_);
   }
 
  private:
-  void add(std::size_t pixel, AreaSums& sums) const {
+  struct Around {
+    std::size_t pixel[3][3];  // rows below, at and above a pixel
+  };
+  Around around(std::size_t pixel) const {
     const int ix = static_cast<int>(pixel) % grid_.nx, iy = static_cast<int>(pixel) / grid_.nx;
-    const bool elastic = pressure_[pixel] < cap_;
-    ++sums.pixels;
     const int column[3] = {ix > 0 ? ix - 1 : grid_.nx - 1, ix, ix + 1 < grid_.nx ? ix + 1 : 0};
     const int row[3] = {iy > 0 ? iy - 1 : grid_.ny - 1, iy, iy + 1 < grid_.ny ? iy + 1 : 0};
-    std::size_t near[3][3];
+    Around out;
     for (int dy = 0; dy < 3; ++dy) {
-      for (int dx = 0; dx < 3; ++dx) near[dy][dx] = grid_.index(column[dx], row[dy]);
+      for (int dx = 0; dx < 3; ++dx) out.pixel[dy][dx] = grid_.index(column[dx], row[dy]);
     }
-    for (std::size_t j : {near[0][1], near[1][0], near[1][2], near[2][1]}) {
-      if (pressure_[j] > 0) continue;
+    return out;
+  }
+
+  void add_sides(std::size_t pixel, AreaSums& sums) {
+    ++sums.pixels;
+    const Around near = around(pixel);
+    const std::size_t left = near.pixel[1][0], right = near.pixel[1][2];
+    const std::size_t below = near.pixel[0][1], above = near.pixel[2][1];
+    const auto add = [&](std::size_t other, double width, double& crossed) {
+      if (pressure_[other] > 0) return;
+      const double p = pressure_[pixel];
       ++sums.edges;
-      if (elastic) ++sums.elastic_edges;
-    }
-    // The four squares of pixel centres round this one, each at the last of its contact pixels.
+      if (p < cap_) ++sums.elastic_edges;
+      crossed = p >= cap_ ? 0.5 : edge_position(p, gap_[other], modulus_, width);
+    };
+    add(left, grid_.dx(), to_right_[left]);
+    add(right, grid_.dx(), to_right_[pixel]);
+    add(below, grid_.dy(), upward_[below]);
+    add(above, grid_.dy(), upward_[pixel]);
+  }
+
+  // The four squares of pixel centres round this one, each at the last of its contact pixels.
+  void add_squares(std::size_t pixel, AreaSums& sums) const {
+    const Around near = around(pixel);
     for (int dy = grid_.ny == 1 ? 1 : 0; dy < 2; ++dy) {
       for (int dx = grid_.nx == 1 ? 1 : 0; dx < 2; ++dx) {
-        const std::size_t corner[4] = {near[dy][dx], near[dy][dx + 1], near[dy + 1][dx + 1],
-                                       near[dy + 1][dx]};
+        const std::size_t corner[4] = {near.pixel[dy][dx], near.pixel[dy][dx + 1],
+                                       near.pixel[dy + 1][dx + 1], near.pixel[dy + 1][dx]};
         add_square(corner, pixel, sums);
       }
     }
@@ -140,12 +176,11 @@ class AreaOfPixels {
       if (in[k]) last = std::max(last, corner[k]);
     }
     if (last != pixel) return;
+    const double* const side[4] = {&to_right_[corner[0]], &upward_[corner[1]],
+                                   &to_right_[corner[3]], &upward_[corner[0]]};
     double cross[4] = {0, 0, 0, 0};
     for (int k = 0; k < 4; ++k) {
-      const int next = (k + 1) % 4;
-      if (in[k] != in[next]) {
-        cross[k] = crossing(corner[k], corner[next], k % 2 == 0 ? grid_.dx() : grid_.dy());
-      }
+      if (in[k] != in[(k + 1) % 4]) cross[k] = *side[k];
     }
     sums.polygon += cell_area(in, cross);
     const int count = in[0] + in[1] + in[2] + in[3];  // Gray 1971, pixels joined at corners
@@ -154,16 +189,12 @@ class AreaOfPixels {
     if (count == 2 && in[0] == in[2]) sums.euler -= 0.5;
   }
 
-  double crossing(std::size_t a, std::size_t b, double pixel) const {
-    if (!(pressure_[a] > 0)) std::swap(a, b);
-    const double p = pressure_[a];
-    return p >= cap_ ? 0.5 : edge_position(p, gap_[b], modulus_, pixel);
-  }
-
   const Grid& grid_;
   const std::vector<double>& pressure_;  // [Pa]
   const std::vector<double>& gap_;       // [m]
   double modulus_, cap_;
+  // Where the edge crosses the way from a pixel to the next, if it does, from its contact end.
+  UnsetArray<double> to_right_, upward_;
 };
 
 }  // namespace

@@ -28,14 +28,15 @@ std::vector<double> droplet_columns(const Grid& grid, const Wetting& wetting) {
     const int ny = std::min(static_cast<int>(2 * reach / dy) + 2, grid.ny);
     for (int j = 0; j < ny; ++j) {
       const double y = (y0 + j + 0.5) * dy - drop.y;
-      for (int i = 0; i < nx; ++i) {
+      double* row = column.data() + grid.index(0, wrap(y0 + j, grid.ny));
+      for (int i = 0, ix = wrap(x0, grid.nx); i < nx; ++i, ++ix) {
+        if (ix == grid.nx) ix = 0;
         const double x = (x0 + i + 0.5) * dx - drop.x;
         const double r2 = x * x + y * y;
         if (r2 >= reach * reach) continue;
         const double half = std::sqrt(sphere * sphere - r2);
         const double water = r2 < a * a ? b - sphere + half : 2 * half;
-        double& c = column[grid.index(wrap(x0 + i, grid.nx), wrap(y0 + j, grid.ny))];
-        c = std::max(c, water);
+        row[ix] = std::max(row[ix], water);
       }
     }
   }

@@ -78,21 +78,22 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
 void row_distance(const std::uint8_t* wet, int n, float step, float* out) {
   const int first =
       static_cast<int>(std::find_if(wet, wet + n, [](auto w) { return w != 0; }) - wet);
-  std::fill(out, out + n, std::numeric_limits<float>::infinity());
-  if (first == n) return;
-  // Once around from a wet pixel to itself, each way.
-  float since = 0;
+  if (first == n) return std::fill(out, out + n, std::numeric_limits<float>::infinity());
+  // Pixels since the last wet one, once around from one to itself, each way.
+  std::vector<int> since(n);
+  int count = 0;
   for (int k = 0, i = first; k < n; ++k) {
-    out[i] = since = wet[i] ? 0 : since + step;
+    since[i] = count = wet[i] ? 0 : count + 1;
     if (++i == n) i = 0;
   }
-  since = 0;
+  count = 0;
   for (int k = 0, i = first; k < n; ++k) {
-    since = wet[i] ? 0 : since + step;
-    out[i] = std::min(out[i], since);
+    count = wet[i] ? 0 : count + 1;
+    since[i] = std::min(since[i], count);
     if (i-- == 0) i = n - 1;
   }
-  for (int i = 0; i < n; ++i) out[i] *= out[i];
+  for (int i = 0; i < n; ++i)
+    out[i] = step * static_cast<float>(since[i]) * (step * static_cast<float>(since[i]));
 }
 
 // Distance of each pixel to the nearest wet one, where that is less than most(pixel) [m]; that or
