@@ -127,7 +127,7 @@ void GapTable::find_lowest(double around) {
       for (int ix = 0; ix < grid_.nx; ++ix) band[ix] = std::min(band[ix], value[ix]);
     }
     for (int bx = 0; bx < blocks_x_; ++bx) {
-      const auto begin = band.begin() + bx * block_x_;
+      const auto begin = band.begin() + static_cast<std::ptrdiff_t>(bx) * block_x_;
       own[static_cast<std::size_t>(by) * blocks_x_ + bx] =
           *std::min_element(begin, bx + 1 == blocks_x_ ? band.end() : begin + block_x_);
     }

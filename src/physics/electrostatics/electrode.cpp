@@ -20,7 +20,7 @@ int reach_of(double distance, double step, int n) {
 class WideRows {
  public:
   WideRows(const Grid& g, const std::vector<double>& z, int margin)
-      : ny_(g.ny), margin_(margin), width_(static_cast<std::size_t>(g.nx) + 2 * margin) {
+      : ny_(g.ny), margin_(margin), width_(static_cast<std::size_t>(g.nx + 2 * margin)) {
     wide_.reserve(width_ * g.ny);
     for (int iy = 0; iy < g.ny; ++iy) {
       const auto row = z.begin() + static_cast<std::ptrdiff_t>(g.index(0, iy));
