@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "base/fft.h"
+#include "base/arrays.h"
 #include "base/rooms.h"
 
 namespace papilla::base {

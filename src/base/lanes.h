@@ -1,4 +1,5 @@
-// Eight numbers side by side, the same sums on every machine, whatever its registers hold.
+// Numbers side by side, as many as 64 bytes hold: the same sums on every machine, whatever its
+// registers hold.
 #pragma once
 
 #include <algorithm>
@@ -11,8 +12,13 @@
 
 namespace papilla::base {
 
-using Lanes = double __attribute__((vector_size(64)));
-constexpr std::size_t kLanes = 8;
+template <class Real>
+struct Pack {
+  static constexpr std::size_t kCount = 64 / sizeof(Real);
+  using Type __attribute__((vector_size(64))) = Real;
+};
+using Lanes = Pack<double>::Type;
+constexpr std::size_t kLanes = Pack<double>::kCount;
 
 inline Lanes all_lanes(double value) { return Lanes{} + value; }
 
@@ -58,9 +64,10 @@ inline void store_lanes(const Lanes& lanes, std::span<double> values, std::size_
   }
 }
 
-inline double total(const Lanes& lanes) {
+template <class Lanes>
+double total(const Lanes& lanes) {
   double out = 0;
-  for (std::size_t k = 0; k < kLanes; ++k) out += lanes[k];
+  for (std::size_t k = 0; k < sizeof lanes / sizeof lanes[0]; ++k) out += lanes[k];
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "base/fft.h"
+#include "base/arrays.h"
 #include "base/rooms.h"
 #include "fields/gap.h"
 

@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/arrays.h"
 #include "base/constants.h"
-#include "base/fft.h"
 #include "physics/contact/contact.h"
 
 namespace papilla::contact {

@@ -99,22 +99,30 @@ Heightmap below_layer(const Heightmap& surface, double thickness, double side_th
   Heightmap below{g, surface.z};
   const int nx = reach_of(side_thickness, g.dx(), g.nx),
             ny = reach_of(side_thickness, g.dy(), g.ny);
+  if (thickness <= 0) return below;
+  // Places beside a pixel, and how high the ellipsoid is there over its lowest point.
+  struct Beside {
+    int j, k;
+    double cap;
+  };
+  std::vector<Beside> places;
+  for (int j = -ny; j <= ny; ++j) {
+    for (int k = -nx; k <= nx; ++k) {
+      const double r2 = (square(k * g.dx()) + square(j * g.dy())) / square(side_thickness);
+      if (r2 < 1) places.push_back({j, k, thickness * (1 - std::sqrt(1 - r2))});
+    }
+  }
   const WideRows above(g, surface.z, nx);
-  for (int iy = 0; iy < g.ny && thickness > 0; ++iy) {
+  for (int iy = 0; iy < g.ny; ++iy) {
     double* least = &below.z[g.index(0, iy)];
-    for (int j = -ny; j <= ny; ++j) {
-      const double room = above.high(iy) - above.low(iy + j);  // what that row can be lower by
-      for (int k = -nx; k <= nx; ++k) {
-        // Height of the ellipsoid over its lowest point.
-        const double r2 = (square(k * g.dx()) + square(j * g.dy())) / square(side_thickness);
-        const double cap = r2 < 1 ? thickness * (1 - std::sqrt(1 - r2)) : kInfinity;
-        if (!(cap < room)) continue;
-        const double* there = above.from(k, iy + j);
+    for (const auto& [j, k, cap] : places) {
+      // No place of that row is lower by as much.
+      if (cap >= above.high(iy) - above.low(iy + j)) continue;
+      const double *there = above.from(k, iy + j), up = cap;
 #pragma omp simd
-        for (int ix = 0; ix < g.nx; ++ix) {
-          const double z = there[ix] + cap;
-          least[ix] = z < least[ix] ? z : least[ix];
-        }
+      for (int ix = 0; ix < g.nx; ++ix) {
+        const double z = there[ix] + up;
+        least[ix] = z < least[ix] ? z : least[ix];
       }
     }
   }

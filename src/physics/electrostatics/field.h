@@ -57,7 +57,8 @@ FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
 // surface solves K phi + (1/D - eps/d) phi + phi/(g + h_SC) = V/D, K = eps q coth(q d), d the mean
 // thickness, phi = 0 under bridges (Eq. electrostatics.16); the pull is the local one with the flux
 // phi/(g + h_SC), faded beside water by tanh^2 over the pixel's own gap. Conjugate gradients in the
-// energy norm, two FFT pairs an iteration, about 6 iterations to 1e-4. Without a dielectric: the
+// energy norm, two FFT pairs an iteration, about 6 iterations to 1e-4; in single precision from a
+// tolerance of 1e-3 on. Without a dielectric: the
 // local rule. Not ok: as the local rule, or the iteration limit. Options, caps and droplets as
 // there.
 FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,

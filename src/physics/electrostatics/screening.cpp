@@ -9,8 +9,8 @@
 #include <limits>
 #include <span>
 
+#include "base/arrays.h"
 #include "base/constants.h"
-#include "base/fft.h"
 
 namespace papilla::electrostatics {
 namespace {
@@ -18,8 +18,8 @@ namespace {
 constexpr double kReach = 4;        // tanh^2(4) = 0.9987
 constexpr double kLeastGap = 1e-9;  // [m]
 
-// tanh^2 of the root of u, u at most kReach^2, within 2e-6: the ninth step of its continued
-// fraction.
+// Eqs. electrostatics.3 and 16: tanh^2 of the root of u, u at most kReach^2, within 2e-6: the ninth
+// step of its continued fraction.
 double tanh_square(double u) {
   const double above = 34459425 + u * (4729725 + u * (135135 + u * (990 + u)));
   const double below = 34459425 + u * (16216200 + u * (945945 + u * (13860 + u * 45)));

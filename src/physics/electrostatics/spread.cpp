@@ -21,13 +21,7 @@ constexpr int kMaxIterations = 60;
 // 10^7 of each number, is a thousandth of them and less.
 constexpr double kSinglePrecision = 1e-3;
 
-// As many numbers as a register of 64 bytes holds.
-template <class Real>
-struct Pack {
-  static constexpr std::size_t kCount = 64 / sizeof(Real);
-  using Type __attribute__((vector_size(64))) = Real;
-};
-// Of the pixels; the length is a multiple of such a register.
+// Of the pixels; the length is a multiple of a pack of numbers.
 template <class Real>
 using Pixels = UnsetArray<Real>;
 template <class Real>
@@ -43,13 +37,6 @@ template <class Real>
 const typename Pack<Real>::Type& pack(const Pixels<Real>& values, std::size_t i) {
   return *reinterpret_cast<const typename Pack<Real>::Type*>(values.data() + i);
 }
-template <class Real>
-double total(const typename Pack<Real>::Type& sums) {
-  double out = 0;
-  for (std::size_t k = 0; k < Pack<Real>::kCount; ++k) out += sums[k];
-  return out;
-}
-
 // Multiplication by a symbol in Fourier space: vector registers where the grid suits them.
 template <class Real>
 class Filter {
@@ -192,7 +179,7 @@ class SurfacePotential {
       pack(weight_, i) = 1 / (k + pack(c_, i));
       sums += pack(weight_, i);
     }
-    double all = total<Real>(sums);
+    double all = total(sums);
     for (std::size_t i = n_; i < c_.size(); ++i) all -= weight_[i];
     const double level = static_cast<double>(n_) / all;  // k + mean c
     for (std::size_t i = 0; i < weight_.size(); ++i)
@@ -217,7 +204,7 @@ class SurfacePotential {
     // The first guess, good to a fraction, gives the scale of the residual.
     Sums sums{};
     for (std::size_t i = 0; i < n; i += kPack) sums += pack(phi, i) * pack(drive_, i);
-    const double energy = total<Real>(sums);
+    const double energy = total(sums);
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
       // q: the weighted residual.
@@ -259,7 +246,7 @@ class SurfacePotential {
       pack(out, i) = there;
       sums += here * there;
     }
-    return total<Real>(sums);
+    return total(sums);
   }
   // z times the weight; r . z.
   double weigh(const Pixels<Real>& r, Pixels<Real>& z) const {
@@ -269,7 +256,7 @@ class SurfacePotential {
       pack(z, i) = weighted;
       sums += pack(r, i) * weighted;
     }
-    return total<Real>(sums);
+    return total(sums);
   }
 
   Filter<Real> filter_;
