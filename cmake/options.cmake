@@ -1,7 +1,8 @@
 add_library(papilla_options INTERFACE)
 target_include_directories(papilla_options INTERFACE ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/src)
+# psabi: packs of 64 bytes are passed in other registers on processors without AVX-512; one build compiles both sides.
 target_compile_options(papilla_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
-                                                 -Wno-sign-conversion)
+                                                 -Wno-sign-conversion -Wno-psabi)
 target_compile_definitions(papilla_options INTERFACE PAPILLA_VERSION="${PROJECT_VERSION}"
                            # Eigen's memory as in Debian's Ceres and pagmo: with wider instructions it
                            # would align, and free, differently from them.
