@@ -1,0 +1,1 @@
+"""What scripts/torture does to the program, a module a kind of harm."""
