@@ -1,0 +1,1 @@
+// Stands for the headers in common.h, which the tests share compiled.
