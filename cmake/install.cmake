@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME papilla)
 file(RELATIVE_PATH from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
-set_target_properties(papilla PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin}")
+set_target_properties(papilla PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin};$ORIGIN")
 
 install(TARGETS papilla RUNTIME)
 install(TARGETS libpapilla EXPORT papilla LIBRARY ARCHIVE)

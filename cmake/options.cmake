@@ -13,6 +13,14 @@ target_link_options(papilla_options INTERFACE LINKER:--as-needed)
 if(PAPILLA_WARNINGS_AS_ERRORS)
   target_compile_options(papilla_options INTERFACE -Werror)
 endif()
+# What a file of a stranger could make of a mistake of ours ends the program instead. -O3 is the least that _FORTIFY_SOURCE
+# takes; under the sanitizers it would hide what they look for.
+target_compile_options(papilla_options INTERFACE -fstack-protector-strong)
+target_compile_definitions(papilla_options INTERFACE _GLIBCXX_ASSERTIONS)
+target_link_options(papilla_options INTERFACE LINKER:-z,relro,-z,now)
+if(NOT PAPILLA_SANITIZE AND NOT PAPILLA_FUZZERS)
+  target_compile_options(papilla_options INTERFACE $<$<NOT:$<CONFIG:Debug>>:-D_FORTIFY_SOURCE=2>)
+endif()
 if(PAPILLA_FUZZERS)
   target_compile_options(papilla_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
                          -fno-sanitize-recover=undefined)

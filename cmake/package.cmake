@@ -21,6 +21,13 @@ install(CODE "
   file(GLOB pages \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_MANDIR}/man1/*.1\")
   execute_process(COMMAND ${PAPILLA_GZIP} -9nf \${pages} COMMAND_ERROR_IS_FATAL ANY)" COMPONENT papilla)
 
+# In the system's own folders nobody is told where to look.
+foreach(component papilla python)
+  set(file_papilla ${CMAKE_INSTALL_BINDIR}/papilla)
+  set(file_python ${PAPILLA_PYTHON_DIR}/papilla/$<TARGET_FILE_NAME:papilla_python>)
+  install(CODE "file(RPATH_REMOVE FILE \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${file_${component}}\")" COMPONENT ${component})
+endforeach()
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME papilla)
 set(CPACK_PACKAGE_VENDOR Papilla)

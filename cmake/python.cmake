@@ -23,7 +23,7 @@ endforeach()
 
 set(PAPILLA_PYTHON_DIR lib/python3/dist-packages CACHE STRING "Where the package is installed, below the prefix")
 file(RELATIVE_PATH from_package ${CMAKE_INSTALL_PREFIX}/${PAPILLA_PYTHON_DIR}/papilla ${CMAKE_INSTALL_FULL_LIBDIR})
-set_target_properties(papilla_python PROPERTIES INSTALL_RPATH "$ORIGIN/${from_package}")
+set_target_properties(papilla_python PROPERTIES INSTALL_RPATH "$ORIGIN/${from_package};$ORIGIN/../..")
 install(TARGETS papilla_python LIBRARY DESTINATION ${PAPILLA_PYTHON_DIR}/papilla COMPONENT python)
 install(DIRECTORY python/papilla DESTINATION ${PAPILLA_PYTHON_DIR} COMPONENT python PATTERN __pycache__ EXCLUDE)
 

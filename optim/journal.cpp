@@ -1,6 +1,5 @@
 #include "optim/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,12 +8,11 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
+#include "base/files.h"
 
 namespace papilla::optim {
 namespace {
@@ -87,68 +85,102 @@ bool parse_journal_line(const std::string& line, JournalRecord& record) {
   return true;
 }
 
-Journal::Journal(const std::string& path, const std::string& key, bool resume) : path_(path) {
-  std::size_t sound = 0;  // bytes that are whole records
-  {
-    std::ifstream in(path, std::ios::binary);
-    if (in) {
-      std::stringstream buffer;
-      buffer << in.rdbuf();
-      const std::string text = buffer.str();
-      if (text.size() >= header(key).size() || !header(key).starts_with(text)) {
-        if (!text.starts_with(header(key))) {
-          throw InputError(
-              path + ": written for another study, seed or version; use another --out folder");
-        }
-        sound = header(key).size();
-        while (sound < text.size()) {
-          const std::size_t end = text.find('\n', sound);
-          JournalRecord record;
-          if (end == std::string::npos ||
-              !parse_journal_line(text.substr(sound, end - sound), record))
-            break;
-          records_.push_back(std::move(record));
-          sound = end + 1;
-        }
-      }
-      lost_ = static_cast<int>(
-          std::count(text.begin() + static_cast<std::ptrdiff_t>(sound), text.end(), '\n'));
-      if (!records_.empty() && !resume) {
-        throw InputError(path +
-                         ": this folder holds an earlier run; continue it with --resume, or choose "
-                         "another --out folder");
-      }
-    }
+namespace {
+
+// Takes the sound records of a text; where the first other line begins.
+std::size_t take_records(std::string_view text, std::size_t from,
+                         std::vector<JournalRecord>& records) {
+  while (from < text.size()) {
+    const std::size_t end = text.find('\n', from);
+    JournalRecord record;
+    if (end == std::string_view::npos ||
+        !parse_journal_line(std::string(text.substr(from, end - from)), record))
+      break;
+    records.push_back(std::move(record));
+    from = end + 1;
   }
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-  const auto fail = [&] {
-    throw InputError(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
-  };
-  if (file_ < 0) fail();
-  if (::ftruncate(file_, static_cast<off_t>(sound)) != 0 || ::lseek(file_, 0, SEEK_END) < 0) fail();
-  if (sound == 0) {
-    const std::string first = header(key);
-    if (::write(file_, first.data(), first.size()) != static_cast<ssize_t>(first.size())) fail();
-  }
+  return from;
 }
 
-Journal::~Journal() {
-  if (file_ >= 0) ::close(file_);
+[[noreturn]] void refuse_other(const std::string& path) {
+  throw InputError(path + ": written for another study, seed or version; use another --out folder");
+}
+
+// The journal as it is, beside it; its path.
+std::string keep_copy(const Folder& folder, const std::string& name, const std::string& text) {
+  std::string copy = name + ".damaged";
+  for (int k = 2; folder.has(copy); ++k) {
+    if (folder.read(copy) == text) return folder.path(copy);
+    copy = fmt::format("{}.damaged.{}", name, k);
+  }
+  folder.write(copy, text);
+  return folder.path(copy);
+}
+
+}  // namespace
+
+Journal::Journal(const Folder& folder, const std::string& name, const std::string& key, bool resume)
+    : path_(folder.path(name)), file_(folder.open_to_write(name)) {
+  const std::string text = read_bytes(file_, path_, std::size_t{1} << 31);
+  const std::string first = header(key);
+  std::size_t sound = 0;  // bytes that are whole records
+  if (text.size() >= first.size() || !first.starts_with(text)) {
+    if (!text.starts_with(first)) refuse_other(path_);
+    sound = take_records(text, first.size(), records_);
+  }
+  if (!records_.empty() && !resume) {
+    throw InputError(path_ +
+                     ": this folder holds an earlier run; continue it with --resume, or choose "
+                     "another --out folder");
+  }
+  lost_ = static_cast<int>(
+      std::count(text.begin() + static_cast<std::ptrdiff_t>(sound), text.end(), '\n'));
+  // A torn line is the trace of a kill, but for one that lacks its end alone: that is damage.
+  const std::string tail = text.substr(sound);
+  JournalRecord whole;
+  if (lost_ > 0 || (!tail.empty() && parse_journal_line(tail.substr(0, tail.size() - 1), whole)))
+    copy_ = keep_copy(folder, name, text);
+  if (::ftruncate(file_.get(), static_cast<off_t>(sound)) != 0 ||
+      ::lseek(file_.get(), 0, SEEK_END) < 0)
+    throw InputError(fmt::format("cannot write {}: {}", path_, std::strerror(errno)));
+  if (sound == 0) write(first);
+}
+
+// Onto the disk.
+void Journal::write(std::string_view text) const {
+  const auto fail = [this] {
+    throw InputError(fmt::format("cannot write {}: {}; free some space and use --resume", path_,
+                                 std::strerror(errno)));
+  };
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t n = ::write(file_.get(), text.data() + done, text.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail();
+    done += static_cast<std::size_t>(n);
+  }
+  if (::fdatasync(file_.get()) != 0) fail();
 }
 
 void Journal::append(const JournalRecord& record) {
-  const std::string line = journal_line(record);
-  std::size_t done = 0;
-  while (done < line.size()) {
-    const ssize_t n = ::write(file_, line.data() + done, line.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0)
-      throw InputError(fmt::format("cannot write {}: {}; free some space and use --resume", path_,
-                                   std::strerror(errno)));
-    done += static_cast<std::size_t>(n);
-  }
-  ::fdatasync(file_);
+  write(journal_line(record));
   records_.push_back(record);
+}
+
+JournalReader::JournalReader(const std::string& key) : header_(header(key)) {}
+
+std::vector<JournalRecord> JournalReader::more(const Folder& folder, const std::string& name) {
+  std::vector<JournalRecord> out;
+  if (!folder.has(name)) return out;
+  const std::string text = folder.read_from(name, read_);
+  std::size_t from = 0;
+  if (read_ == 0) {
+    if (text.size() < header_.size() && header_.starts_with(text)) return out;  // just begun
+    if (!text.starts_with(header_)) refuse_other(folder.path(name));
+    from = header_.size();
+  }
+  read_ += take_records(text, from, out);
+  return out;
 }
 
 }  // namespace papilla::optim

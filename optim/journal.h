@@ -4,8 +4,10 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/folder.h"
 #include "base/rooms.h"
 
 namespace papilla::optim {
@@ -19,24 +21,39 @@ struct JournalRecord {
 
 class Journal {
  public:
-  // Opens or starts the file. `key` names the problem (a hash of the resolved study); a file of
-  // another problem is refused with InputError. A torn last record is cut off. Records are kept
-  // only with resume = true; otherwise an existing file is refused.
-  Journal(const std::string& path, const std::string& key, bool resume);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
+  // Opens or starts the file; a link is refused. `key` names the problem (a hash of the resolved
+  // study); a file of another problem is refused with InputError. A torn last record is cut off.
+  // Records are kept only with resume = true; otherwise an existing file is refused.
+  Journal(const Folder& folder, const std::string& name, const std::string& key, bool resume);
 
   const std::vector<JournalRecord>& records() const { return records_; }
-  // Whole lines behind the first damaged record, that one included: they are cut off. A torn last
-  // line is the trace of a kill and does not count.
+  // Whole lines behind the first damaged record, that one included: they are cut off, and the
+  // journal as it was is kept beside it. A torn last line is the trace of a kill and does not
+  // count.
   int lost() const { return lost_; }
-  void append(const JournalRecord& record);  // written and flushed to disk on return
+  const std::string& kept_copy() const { return copy_; }  // its path; empty: nothing was lost
+  void append(const JournalRecord& record);               // written and flushed to disk on return
 
  private:
-  std::string path_;
-  int file_ = -1, lost_ = 0;
+  void write(std::string_view text) const;
+
+  std::string path_, copy_;
+  Handle file_;
+  int lost_ = 0;
   std::vector<JournalRecord> records_;
+};
+
+// Reads along while another process appends.
+class JournalReader {
+ public:
+  explicit JournalReader(const std::string& key);
+  // What was appended since, up to the first damaged record: where a run that is resumed goes on.
+  // Throws InputError for the journal of another problem.
+  std::vector<JournalRecord> more(const Folder& folder, const std::string& name);
+
+ private:
+  std::string header_;
+  std::size_t read_ = 0;
 };
 
 // 16 hexadecimal digits, FNV-1a: to name a problem.

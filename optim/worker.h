@@ -52,7 +52,9 @@ class Worker {
   Worker& operator=(const Worker&) = delete;
 
   void send(const Bytes& request);  // starts the work
-  WorkAnswer receive();             // waits for it
+  // Waits for it. A child that was ended is asked once more: the system may have been short of
+  // memory for another's sake, or somebody killed it; what ends it twice is the work itself.
+  WorkAnswer receive();
   // For poll(2) while the work runs: readable when receive() will not wait long; -1 when it will
   // fail at once. Seconds left until the work is ended.
   int descriptor() const { return sent_ ? from_child_ : -1; }
@@ -66,6 +68,7 @@ class Worker {
   Work work_;
   WorkerLimits limits_;
   int child_ = -1, to_child_ = -1, from_child_ = -1;
+  Bytes request_;
   bool sent_ = false;
   double deadline_ = 0;  // on the steady clock [s]
 };

@@ -1,14 +1,11 @@
 // EXR, TIFF and PNG written.
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <future>
@@ -16,6 +13,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/file_writer.h"
 #include "base/parallel.h"
 #include "geometry/io/codec.h"
 #include "geometry/io/files.h"
@@ -26,24 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kFixedDate = "2000:01:01 00:00:00";  // the same bytes on every run
-
-// name.exr -> name.part.exr: the library chooses the format by the ending.
-std::string part_name(const std::string& path) {
-  const fs::path p(path);
-  return (p.parent_path() / (p.stem().string() + ".part" + p.extension().string())).string();
-}
-
-// Onto the disk, then to its name.
-template <typename Fail>
-void settle(const std::string& part, const std::string& path, const Fail& fail) {
-  const int fd = ::open(part.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0 || ::fsync(fd) != 0) {
-    if (fd >= 0) ::close(fd);
-    fail("cannot flush to disk");
-  }
-  ::close(fd);
-  if (std::rename(part.c_str(), path.c_str()) != 0) fail("cannot rename");
-}
 
 // Large images are written and checked by strips of rows.
 constexpr int kStripRows = 128;
@@ -77,17 +57,15 @@ ImageSpec plain_spec(const Grid& grid) {
 // Writes an image of T that is never held whole: fill_row(y, out) gives row y, from the top. Read
 // back and compared before the old file goes.
 template <typename T, typename FillRow>
-void write_rows(const std::string& asked, ImageSpec spec, const FillRow& fill_row) {
-  const std::string path = replaceable(asked);
-  const std::string part = part_name(path);
+void write_rows(const std::string& path, ImageSpec spec, const FillRow& fill_row) {
+  PartFile part(path);
   spec.sample = kSampleOf<T>;
   spec.attributes.emplace_back("DateTime", kFixedDate);
   spec.attributes.emplace_back("Software", "papilla " PAPILLA_VERSION);
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
     const bool full = fs::space(fs::path(path).parent_path(), ignored).available < 1 << 16;
-    fs::remove(part, ignored);
-    throw InputError("cannot write " + path + ": " + why + (full ? " (the disk is full)" : ""));
+    part.fail(why + (full ? " (the disk is full)" : ""));
   };
   const std::size_t width = static_cast<std::size_t>(spec.width) * spec.channels.size();
   // Whole blocks of 16 rows of the compressor, enough for its threads, 64 MB at most.
@@ -104,14 +82,14 @@ void write_rows(const std::string& asked, ImageSpec spec, const FillRow& fill_ro
   const auto checked = [&](const std::string& why) {
     if (!why.empty()) fail(why);
   };
-  const auto out = image_codec().create(part, spec, error);
+  const auto out = image_codec().create(part.path(), spec, error);
   if (!out) fail(error);
   stream<T>(strips, fill, [&](int y, const std::vector<T>& strip) {
     checked(out->write(y, strip_end(y), strip.data()));
   });
   checked(out->close());
 
-  auto in = image_codec().open(part, "", error);
+  auto in = image_codec().open(part.path(), "", error);
   if (!in) fail("does not open again: " + error);
   if (static_cast<double>(spec.width) * spec.height > kReadBackWhole && spec.compressed) {
     std::vector<int> some;
@@ -130,7 +108,7 @@ void write_rows(const std::string& asked, ImageSpec spec, const FillRow& fill_ro
     }
   });
   in.reset();
-  settle(part, path, fail);
+  part.put();
 }
 
 void write_bytes_image(const std::string& path, const ImageSpec& spec,

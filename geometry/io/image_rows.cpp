@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/units.h"
 #include "geometry/io/codec.h"
 #include "geometry/io/height_rows.h"
@@ -29,13 +30,13 @@ constexpr int kStripRows = 64;
 // OpenEXR makes room for what a header claims before it reads it: no attribute may be longer than
 // the file. Throws InputError; what else is wrong with the file is for the library to say.
 void check_exr_header(const std::string& path, bool any_size) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code error;
-  const auto bytes = static_cast<std::int64_t>(fs::file_size(path, error));
+  std::ifstream file = open_regular(path);
+  file.seekg(0, std::ios::end);
+  const std::int64_t bytes = file.tellg();
+  file.seekg(0);
   std::array<unsigned char, 8> start{};
   file.read(reinterpret_cast<char*>(start.data()), start.size());
-  if (!file || error || start[0] != 0x76 || start[1] != 0x2f || start[2] != 0x31 ||
-      start[3] != 0x01)
+  if (!file || start[0] != 0x76 || start[1] != 0x2f || start[2] != 0x31 || start[3] != 0x01)
     broken(path, "no OpenEXR file");
   if (start[5] & 0x18) broken(path, "an OpenEXR file of several or deep parts");
   const auto word = [&] {
@@ -68,6 +69,7 @@ void check_exr_header(const std::string& path, bool any_size) {
 // file.
 std::unique_ptr<ImageIn> open_image(const std::string& path, bool any_size) {
   const std::string ending = lower_ending(path);
+  require_regular(path);
   if (ending == ".exr") check_exr_header(path, any_size);
   std::string why;
   auto in = image_codec().open(path,

@@ -8,13 +8,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <vector>
 
 #include "base/error.h"
 #include "base/file_writer.h"
+#include "base/files.h"
 #include "base/memory.h"
 #include "base/units.h"
 #include "geometry/io/files.h"
@@ -56,10 +56,10 @@ class PlainRows : public HeightRows {
   }
 
  protected:
-  explicit PlainRows(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-    std::error_code error;
-    size_ = std::filesystem::file_size(path, error);
-    if (error || !file_) broken(path, "it does not open");
+  explicit PlainRows(const std::string& path) : path_(path), file_(open_regular(path)) {
+    file_.seekg(0, std::ios::end);
+    size_ = static_cast<std::uint64_t>(file_.tellg());
+    file_.seekg(0);
   }
   // The first bytes of the file, as many as there are.
   std::string head(std::size_t most) {

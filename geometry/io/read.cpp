@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "geometry/io/files.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/raw.h"
@@ -21,19 +22,8 @@ std::string lower_ending(const std::string& path) {
   return ending;
 }
 
-namespace {
-
-void require_file(const std::string& path) {
-  std::error_code error;
-  if (fs::is_regular_file(path, error)) return;
-  throw InputError("cannot read " + path +
-                   (fs::exists(path, error) ? ": not a file" : ": no such file"));
-}
-
-}  // namespace
-
 std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size) {
-  require_file(path);
+  require_regular(path);
   const std::string ending = lower_ending(path);
   if (ending == ".npy") return open_npy_rows(path);
   if (ending == ".gsf") return open_gsf_rows(path);
@@ -55,7 +45,7 @@ Heightmap whole_map(HeightRows& rows, double width) {
 }
 
 Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_numbers) {
-  require_file(path);
+  require_regular(path);
   const std::string ending = lower_ending(path);
   if (ending == ".png" || ending == ".x3p")
     throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");

@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/file_writer.h"
+#include "base/files.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/io/raw.h"
@@ -80,7 +81,7 @@ double tagged(const std::string& path, const std::string& xml, const std::string
 
 class X3pRows : public HeightRows {
  public:
-  explicit X3pRows(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  explicit X3pRows(const std::string& path) : path_(path), file_(open_regular(path)) {
     const std::uint64_t length = enter("main.xml");
     if (length > (1 << 20)) fail("a main.xml of more than 1 MB");
     xml_.resize(length);

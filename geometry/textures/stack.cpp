@@ -20,22 +20,21 @@ std::vector<TextureFacts> part_facts(const Stack& t) {
 // Planes add up, or the higher ones stay; a part without planes leaves none.
 Relief relief_of(Combine combine, const std::vector<TextureFacts>& parts) {
   if (parts.empty()) return Relief::between(0, 0);
-  bool present = false;
-  std::optional<Planes> planes = parts.front().relief.planes;
+  bool present = false, known = true;
+  Planes planes = parts.front().relief.planes.value_or(Planes{0, 0});
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Relief& relief = parts[i].relief;
     present = present || relief.present;
-    if (i == 0 || !planes) continue;
-    if (!relief.planes) {
-      planes.reset();
-    } else if (combine == Combine::Sum) {
-      planes = {planes->low + relief.planes->low, planes->high + relief.planes->high};
+    known = known && relief.planes;
+    if (i == 0 || !known) continue;
+    if (combine == Combine::Sum) {
+      planes = {planes.low + relief.planes->low, planes.high + relief.planes->high};
     } else {
-      planes = {std::max(planes->low, relief.planes->low),
-                std::max(planes->high, relief.planes->high)};
+      planes = {std::max(planes.low, relief.planes->low),
+                std::max(planes.high, relief.planes->high)};
     }
   }
-  return planes ? Relief::between(planes->low, planes->high) : Relief{present, std::nullopt};
+  return known ? Relief::between(planes.low, planes.high) : Relief{present, std::nullopt};
 }
 
 // The longest period: all others divide it (problems() says so otherwise).

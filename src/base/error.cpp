@@ -1,5 +1,7 @@
 #include "base/error.h"
 
+#include "base/text.h"
+
 namespace papilla::base {
 
 std::string Problem::text() const {
@@ -10,7 +12,7 @@ std::string Problem::text() const {
     out += " ";
   }
   if (!key.empty()) out += key + ": ";
-  return out + message;
+  return visible(out + message);
 }
 
 namespace {

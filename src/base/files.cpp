@@ -2,15 +2,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <utility>
-#include <vector>
 
 #include "base/error.h"
 #include "base/file_writer.h"
@@ -19,26 +16,24 @@ namespace papilla::base {
 
 namespace {
 
-// FNV-1a: it does not matter where the pieces are cut.
-std::uint64_t check_sum(std::uint64_t sum, const char* bytes, std::size_t size) {
-  for (std::size_t i = 0; i < size; ++i)
-    sum = (sum ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3u;
-  return sum;
+[[noreturn]] void unreadable(const std::string& path, const std::string& why) {
+  throw InputError("cannot read " + path + ": " + why);
+}
+
+// At once, whatever is there: without O_NONBLOCK a pipe would wait for somebody to write.
+Handle opened(const std::string& path) {
+  Handle out(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (!out && errno == ENXIO) unreadable(path, "not a file");  // a socket
+  if (!out) unreadable(path, errno == ENOENT ? "no such file" : std::strerror(errno));
+  return out;
 }
 
 }  // namespace
 
-std::string replaceable(const std::string& path) {
+std::string end_of_links(const std::string& path) {
   namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::file_status there = fs::status(path, error);
-  if (fs::exists(there) && !fs::is_regular_file(there)) {
-    throw InputError("cannot write " + path + ": " +
-                     (fs::is_directory(there) ? "it is a folder" : "it is no regular file") +
-                     "; give the path of a file");
-  }
-  // The end of a chain of links, which need not be there yet.
   constexpr int kMostLinks = 40;
+  std::error_code error;
   fs::path target = path;
   for (int k = 0; fs::is_symlink(fs::symlink_status(target, error)); ++k) {
     const fs::path next = fs::read_symlink(target, error);
@@ -51,73 +46,50 @@ std::string replaceable(const std::string& path) {
   return target.string();
 }
 
-FileWriter::FileWriter(std::string path) : path_(replaceable(path)), part_(path_ + ".part") {
-  fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-  if (fd_ < 0) fail("open");
-}
-
-FileWriter::~FileWriter() {
-  if (fd_ < 0) return;
-  ::close(fd_);
-  ::unlink(part_.c_str());
-}
-
-void FileWriter::fail(const char* what) const {
-  throw InputError(fmt::format("cannot write {}: {} ({})", path_, std::strerror(errno), what));
-}
-
-void FileWriter::append(const void* bytes, std::size_t size) {
-  const char* at = static_cast<const char*>(bytes);
-  sum_ = check_sum(sum_, at, size);
-  size_ += size;
-  while (size > 0) {
-    const ssize_t n = ::write(fd_, at, size);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("write");
-    at += n;
-    size -= static_cast<std::size_t>(n);
-  }
-}
-
-void FileWriter::commit() {
-  std::vector<char> block(1 << 20);
-  std::uint64_t size = 0, sum = 0;
-  while (size < size_) {
-    const ssize_t n = ::pread(fd_, block.data(), block.size(), static_cast<off_t>(size));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail("read back");
-    if (n == 0) break;
-    sum = check_sum(sum, block.data(), static_cast<std::size_t>(n));
-    size += static_cast<std::size_t>(n);
-  }
-  if (size != size_ || sum != sum_)
-    throw InputError("cannot write " + path_ + ": reads back with other bytes");
-  if (::fsync(fd_) != 0) fail("flush");
-  if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("rename");
-  ::close(std::exchange(fd_, -1));
-}
-
-void write_bytes(const std::string& path, const std::string& bytes) {
+void write_bytes(const std::string& path, std::string_view bytes) {
   FileWriter out(path);
   out.append(bytes);
   out.commit();
 }
 
-std::string read_bytes(const std::string& path, std::size_t limit) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) {
-    throw InputError("cannot read " + path +
-                     (std::filesystem::exists(path, error) ? ": not a file" : ": no such file"));
-  }
-  const auto size = std::filesystem::file_size(path, error);
-  if (error || size > limit)
-    throw InputError(
-        fmt::format("cannot read {}: {} bytes are more than the limit of {}", path, size, limit));
-  std::ifstream in(path, std::ios::binary);
+void require_regular(const Handle& file, const std::string& path) {
+  struct stat there {};
+  if (::fstat(file.get(), &there) != 0) unreadable(path, std::strerror(errno));
+  if (!S_ISREG(there.st_mode)) unreadable(path, "not a file");
+}
+
+void require_regular(const std::string& path) { require_regular(opened(path), path); }
+
+std::ifstream open_regular(const std::string& path) {
+  const Handle file = opened(path);
+  require_regular(file, path);
+  // The same file, whatever the name means by now.
+  std::ifstream out(fmt::format("/proc/self/fd/{}", file.get()), std::ios::binary);
+  if (!out) unreadable(path, "it does not open");
+  return out;
+}
+
+std::string read_bytes(const Handle& file, const std::string& path, std::size_t limit) {
+  require_regular(file, path);
+  struct stat there {};
+  if (::fstat(file.get(), &there) != 0) unreadable(path, std::strerror(errno));
+  const auto size = static_cast<std::size_t>(there.st_size);
+  if (size > limit)
+    unreadable(path, fmt::format("{} bytes are more than the limit of {}", size, limit));
   std::string bytes(size, '\0');
-  if (!in.read(bytes.data(), static_cast<std::streamsize>(size)))
-    throw InputError("cannot read " + path);
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t n = ::read(file.get(), bytes.data() + done, size - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) unreadable(path, std::strerror(errno));
+    if (n == 0) unreadable(path, "it became shorter meanwhile");
+    done += static_cast<std::size_t>(n);
+  }
   return bytes;
+}
+
+std::string read_bytes(const std::string& path, std::size_t limit) {
+  return read_bytes(opened(path), path, limit);
 }
 
 }  // namespace papilla::base

@@ -21,6 +21,11 @@ std::string fixed(double value, int digits);
 std::string significant(double value, int digits);
 // "640 ± 130": both as far as the second digit of the error.
 std::string with_error(double value, double error);
+// No byte of it is anything else; names of files may be.
+bool is_utf8(std::string_view text);
+// As a terminal may be shown it: control characters but line ends and tabs, and bytes that are no
+// UTF-8, stand as "\\x1b". What a stranger wrote would else move the cursor, or colour a lie.
+std::string visible(std::string_view text);
 std::string join_names(const std::vector<std::string>& names, std::string_view separator = ", ");
 
 // Columns on a terminal, of UTF-8 text.

@@ -19,7 +19,7 @@ int run(const Context& context, const BenchCommand& c) {
   const std::vector<BenchRow> rows =
       bench({c.large, [&](const std::string& text) { context.note(text); }});
   const std::string provenance = "papilla " PAPILLA_VERSION " bench, reference finger, a3h350";
-  if (!c.out.empty()) write_bytes(c.out, bench_csv(rows, provenance));
+  if (!c.out.empty()) write_bytes(end_of_links(c.out), bench_csv(rows, provenance));
   if (c.json || c.page) {
     std::cout << (c.json ? bench_json(rows) + "\n" : bench_page(rows, provenance));
     return kSuccess;

@@ -5,6 +5,7 @@
 #include <iostream>
 #include <memory>
 
+#include "base/text.h"
 #include "cli/commands.h"
 #include "report/fit_folder.h"
 
@@ -24,7 +25,7 @@ int run(const Context& context, const CalibrateCommand& command) {
   const FitReport fit = fit_to_folder(
       command.file, {command.jobs, out, [&](const std::string& text) { context.note(text); }});
   const std::string warning = calibration_warning(fit.result);
-  if (!warning.empty()) std::cerr << "warning: " << warning << '\n';
+  if (!warning.empty()) std::cerr << "warning: " << visible(warning) << '\n';
   context.note("wrote " + out);
   if (command.json)
     std::cout << fit.json << '\n';

@@ -44,12 +44,12 @@ std::string painted(const std::string& text) {
 }  // namespace
 
 void Context::print(const std::string& text) const {
-  const std::string aligned = aligned_markdown(text);
+  const std::string aligned = aligned_markdown(visible(text));
   std::cout << (color_results ? painted(aligned) : aligned) << std::flush;
 }
 
 void Context::note(const std::string& text) const {
-  if (!quiet) std::cerr << text << std::endl;
+  if (!quiet) std::cerr << visible(text) << std::endl;
 }
 
 void make_folder(const std::string& path) {

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/folder.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
@@ -110,13 +111,19 @@ int export_files(const Context& context, const ExportCommand& command) {
   const std::string folder = !command.out.empty()     ? command.out
                              : !source.beside.empty() ? source.beside
                                                       : "results/" + study.name + "/export";
+  // The results may be a stranger's: no link in them is followed.
+  if (command.out.empty() && !source.beside.empty()) {
+    const std::filesystem::path results(command.design.file);
+    Folder(results).made_below(std::filesystem::path(folder).lexically_relative(results).string());
+  }
   Export result;
   ExportVerdict verdict;
   {
     FileWork work(context, "writing");
     result = export_with_record(study, options, folder, work.progress());
   }
-  for (const std::string& warning : result.warnings) std::cerr << "warning: " << warning << '\n';
+  for (const std::string& warning : result.warnings)
+    std::cerr << "warning: " << visible(warning) << '\n';
   {
     FileWork work(context, "checking");
     const ExportRecord record = record_of(study, options, result);
@@ -127,7 +134,7 @@ int export_files(const Context& context, const ExportCommand& command) {
     }
   }
   std::cout << (command.design.json ? export_json(study, options, result, folder, verdict) + '\n'
-                                    : export_text(result, folder, verdict));
+                                    : visible(export_text(result, folder, verdict)));
   return verdict_status(verdict);
 }
 

@@ -7,6 +7,8 @@
 #include <iostream>
 #include <utility>
 
+#include "base/text.h"
+
 namespace papilla::cli {
 
 FileWork::FileWork(const Context& context, std::string doing)
@@ -37,7 +39,7 @@ void FileWork::tick(const Context& context, const std::string& doing) {
     if (changed_.wait_for(lock, std::chrono::seconds(1), [this] { return ended_; })) break;
     // On a terminal each second, in a file or a pipe each ten.
     if (context.quiet || file_.empty() || (!terminal && second % 10 != 0)) continue;
-    std::string line = fmt::format("{} {}", doing, file_);
+    std::string line = fmt::format("{} {}", doing, visible(file_));
     if (share_ > 0) line += fmt::format(": {:.0f} %", 100 * share_);
     if (terminal) {
       std::cerr << "\r\033[K" << line << std::flush;
@@ -50,7 +52,8 @@ void FileWork::tick(const Context& context, const std::string& doing) {
 }
 
 int verdict_status(const ExportVerdict& verdict) {
-  for (const std::string& fault : fault_lines(verdict)) std::cerr << "not sound: " << fault << '\n';
+  for (const std::string& fault : fault_lines(verdict))
+    std::cerr << "not sound: " << visible(fault) << '\n';
   if (!verdict.readable()) return kWrongInput;
   return verdict.sound() ? kSuccess : kWorkFailed;
 }

@@ -2,6 +2,7 @@
 // 0 success, 1 the work failed, 2 wrong input. Results go to standard output, the rest to standard
 // error.
 #include <fmt/format.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,7 +21,8 @@ namespace {
 
 void print_error(const Context& context, const std::string& text) {
   std::cout.flush();
-  std::cerr << (context.color ? "\033[1;31merror:\033[0m " : "error: ") << text << std::endl;
+  std::cerr << (context.color ? "\033[1;31merror:\033[0m " : "error: ") << visible(text)
+            << std::endl;
 }
 
 std::vector<std::string> names_of(const std::vector<Command>& commands) {
@@ -65,6 +67,14 @@ int run(int argc, char** argv) {
   program.add_flag("-q,--quiet", context.quiet, "No progress messages");
   for (const auto& add : kCommands) add(program, context);
 
+  for (int i = 1; i < argc; ++i) {
+    // Else it would be found by what writes it down, after the work.
+    if (is_utf8(argv[i])) continue;
+    print_error(context, std::string("\"") + argv[i] +
+                             "\" is no UTF-8, which every name in a result is; rename the file or "
+                             "the folder");
+    return kWrongInput;
+  }
   if (!knows_command(program, argc, argv, context)) return kWrongInput;
   try {
     if (!line.parse(argc, argv)) return kSuccess;
@@ -100,6 +110,14 @@ int run(int argc, char** argv) {
 }  // namespace papilla::cli
 
 int main(int argc, char** argv) {
+  // A file that may not grow is told as any other that cannot be written.
+  ::signal(SIGXFSZ, SIG_IGN);
   papilla::base::keep_freed_memory();
-  return papilla::cli::run(argc, argv);
+  try {
+    return papilla::cli::run(argc, argv);
+  } catch (const std::exception&) {  // before there is a command: the memory for its options
+    constexpr char kWords[] = "error: not enough memory\n";
+    if (::write(STDERR_FILENO, kWords, sizeof kWords - 1) < 0) return papilla::cli::kWorkFailed;
+  }
+  return papilla::cli::kWorkFailed;
 }

@@ -228,8 +228,10 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     context.print(text);
   }
   if (result.lost > 0) {
-    context.note(fmt::format("{} of {}/journal could not be read any more and was done again",
-                             counted(result.lost, "record"), run.folder));
+    context.note(
+        fmt::format("{} of {}/journal could not be read any more and was done again; {} is the "
+                    "journal as it was",
+                    counted(result.lost, "record"), run.folder, result.kept_copy));
   }
   if (!result.interrupted) {
     for (const std::string& remark : run_remarks(study, StudyProblem(study), result))

@@ -4,9 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/files.h"
+#include "base/text.h"
 #include "cli/commands.h"
 #include "report/front.h"
 #include "report/page.h"
+#include "report/sums.h"
 
 namespace papilla::cli {
 namespace {
@@ -16,20 +18,22 @@ struct ReportOptions {
   bool json = false;
 };
 
-int report(const ReportOptions& options) {
+int report(const Context& context, const ReportOptions& options) {
   const bool picture = !options.svg.empty();
   const std::string path = picture               ? options.svg
                            : options.out.empty() ? options.folder + "/report.html"
                                                  : options.out;
   const std::string text =
       picture ? front_svg(options.folder) : report_page(options.folder, options.pick);
-  write_bytes(path, text);
+  if (const auto changed = changed_files(Folder(options.folder)); !changed.empty())
+    context.note("warning: not as the run wrote them: " + join_names(changed));
+  write_bytes(options.out.empty() && !picture ? path : end_of_links(path), text);
   if (options.json) {
     std::cout << nlohmann::ordered_json{{"schema", 1}, {"file", path}, {"bytes", text.size()}}.dump(
                      2)
               << '\n';
   } else {
-    std::cout << path << '\n';
+    std::cout << visible(path) << '\n';
   }
   return kSuccess;
 }
@@ -50,8 +54,9 @@ void add_report(Command app, Context& context) {
       .type_name("FILE");
   command.add_flag("--json", options->json, "One JSON object on standard output");
   add_pick_option(command, options->pick);
-  command.on_chosen(
-      [&context, options] { context.action = [options] { return report(*options); }; });
+  command.on_chosen([&context, options] {
+    context.action = [&context, options] { return report(context, *options); };
+  });
 }
 
 }  // namespace papilla::cli

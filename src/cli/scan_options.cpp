@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "design/scans.h"
 
@@ -29,7 +30,7 @@ void add_scan_options(Command command, ScanOptions& options) {
 }
 
 void say_scan(const std::string& file, const ScanChanges& changes) {
-  std::cerr << text(file, changes) << std::endl;
+  std::cerr << visible(text(file, changes)) << std::endl;
 }
 
 void say_scans(const std::vector<Design>& designs) {
@@ -37,7 +38,7 @@ void say_scans(const std::vector<Design>& designs) {
   for (const Design& design : designs) {
     for (const DesignScan& scan : scans_of(design)) {
       if (const auto [line, is_new] = said.insert(text(scan)); is_new)
-        std::cerr << *line << std::endl;
+        std::cerr << visible(*line) << std::endl;
     }
   }
 }

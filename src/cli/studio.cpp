@@ -26,11 +26,11 @@ struct StudioCommand {
 };
 
 // In the browser that the desktop names; where there is none, the address is printed all the same.
-void open_page(const std::string& address) {
+void open_page(const Studio& studio) {
   if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
   char name[] = "xdg-open";
-  std::string copy = address;
-  char* words[] = {name, copy.data(), nullptr};
+  std::string file = studio.opening_file();
+  char* words[] = {name, file.data(), nullptr};
   pid_t child = 0;
   ::posix_spawnp(&child, name, nullptr, nullptr, words, environ);
 }
@@ -52,7 +52,7 @@ int serve(const Context& context, const StudioCommand& command) {
   const Studio studio(options);
   std::cout << studio.address() << std::endl;
   context.note("the studio serves this computer alone; Ctrl-C ends it, what was changed is kept");
-  if (!command.no_open) open_page(studio.address());
+  if (!command.no_open) open_page(studio);
   int signal = 0;
   ::sigwait(&ends, &signal);
   return signal == SIGINT ? kSuccess : kSignalled + signal;

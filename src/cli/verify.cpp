@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/file_work.h"
@@ -26,7 +27,7 @@ int verify_path(const Context& context, const VerifyCommand& command) {
   for (const ExportPlace& place : export_places(command.path)) {
     FileWork work(context, "checking");
     verdicts.emplace_back(place.folder, judge_export(place, how, work.progress()));
-    if (!command.json) std::cout << verdict_text(verdicts.back().second) << std::flush;
+    if (!command.json) std::cout << visible(verdict_text(verdicts.back().second)) << std::flush;
     status = std::max(status, verdict_status(verdicts.back().second));
   }
   if (command.json) std::cout << verdict_json(verdicts) << '\n';

@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <string_view>
 #include <tuple>
 
 #include "base/check.h"
+#include "base/files.h"
 #include "base/text.h"
 #include "base/units.h"
 
@@ -70,14 +70,13 @@ std::string read_text(const std::string& path) {
                      "` shows it, and a design has it as `texture.file` of "
                      "`texture.type = \"measured\"`"}});
   }
-  if (fs::is_regular_file(status) && fs::file_size(path, error) > kLargest) {
+  if (!fs::is_regular_file(status)) {
+    throw InputError({Problem{path, 0, 0, "", "is no regular file, expected a TOML file"}});
+  }
+  if (fs::file_size(path, error) > kLargest) {
     throw InputError({Problem{path, 0, 0, "", "larger than 16 MiB, expected a TOML file"}});
   }
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError({Problem{path, 0, 0, "", "cannot be read"}});
-  std::stringstream buffer;
-  buffer << stream.rdbuf();
-  return buffer.str();
+  return read_bytes(path, kLargest);
 }
 
 Node parse_file_text(const std::string& text, const std::string& file) {
@@ -600,22 +599,33 @@ struct Document::State final : public FieldVisitor {
   }
 
   void report_unread() {
+    // More tell no more: a file of a million is no design.
+    constexpr int kMostTold = 50;
+    constexpr std::size_t kLongest = 100;  // of a name that is likened to others
     for (const auto& [path, table] : visited) {
-      const std::vector<std::string>& names = known[path];
+      const std::set<std::string> names(known[path].begin(), known[path].end());
+      int unknown = 0;
+      const Node* last = nullptr;
       for (const Node& child : table->children) {
-        if (std::find(names.begin(), names.end(), child.key) != names.end()) continue;
+        if (names.contains(child.key)) continue;
+        last = &child;
+        if (++unknown > kMostTold) continue;
         const std::string meant = hint ? hint(child.key, path) : std::string();
-        const std::string near = meant.empty() ? nearest_name(child.key, names) : meant;
-        std::string message = fmt::format("unknown key `{}`", child.key);
+        const bool short_key = child.key.size() <= kLongest;
+        const std::string near =
+            meant.empty() && short_key ? nearest_name(child.key, known[path]) : meant;
+        std::string message = fmt::format(
+            "unknown key `{}`", short_key ? child.key : child.key.substr(0, kLongest) + "...");
         if (!near.empty()) {
           message += fmt::format(", did you mean `{}`?", near);
         } else {
-          std::vector<std::string> sorted = names;
-          std::sort(sorted.begin(), sorted.end());
-          sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-          message += "; known here: " + join_names(sorted);
+          message += "; known here: " + join_names({names.begin(), names.end()});
         }
         problem(child.key_place, path, message);
+      }
+      if (unknown > kMostTold) {
+        problem(last->key_place, path,
+                fmt::format("the last of {} more unknown keys", unknown - kMostTold));
       }
     }
   }

@@ -190,6 +190,9 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   for (const auto& [key, message] : problems(design.texture)) {
     out.push_back({"texture." + key, message});
   }
+  constexpr std::size_t kLongestTitle = 1000;  // it stands in every file and on every page
+  if (design.title.size() > kLongestTitle)
+    out.push_back({"title", "longer than 1000 letters; it is a line for reports"});
   environment_problems(design.environment, out);
   finger_problems(design.finger, design.model, out);
   if (design.accuracy.grid > 0 && design.accuracy.grid < 16)

@@ -12,6 +12,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "fabricate/checks.h"
 #include "geometry/io/drawing.h"
 
@@ -212,7 +213,7 @@ struct Corner {
 // A binary STL, one triangle at a time.
 class Triangles {
  public:
-  explicit Triangles(const std::string& path) : path_(path), file_(path, std::ios::binary) {
+  explicit Triangles(const std::string& path) : path_(path), file_(open_regular(path)) {
     std::array<char, 84> head{};
     get(head.data(), head.size());
     std::memcpy(&count, &head[80], 4);

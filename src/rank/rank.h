@@ -2,6 +2,7 @@
 // with more skins only where the order is open. Equations ranking.N: docs/theory/ranking.md.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,7 +56,7 @@ struct Ranking {
   std::vector<std::string> titles;              // of the designs as given
   std::vector<ConditionDifference> conditions;  // empty unless any_conditions
   int skins = 0;                                // solved in all
-  double seconds = 0;
+  std::optional<double> seconds;                // of the clock
   // Steps of the finger's parameters: independent directions, and what their steps were run with.
   int directions = 0, step_skins = 0, step_grid = 0;  // 0: not asked for
 };

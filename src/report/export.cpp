@@ -7,7 +7,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/files.h"
+#include "base/folder.h"
+#include "base/sole_writer.h"
 #include "base/text.h"
 #include "fabricate/record.h"
 #include "report/json.h"
@@ -134,9 +135,11 @@ std::string size_line(const Export& result) {
 Export export_with_record(const Study& study, const ExportOptions& options,
                           const std::string& folder, const FileProgress& progress,
                           const std::vector<ExportedFile>& beside) {
+  const Folder place = Folder::made(folder);
+  const SoleWriter alone(place, "another export is writing");
   Export result = export_design(study.design, options, folder, progress);
   result.files.insert(result.files.end(), beside.begin(), beside.end());
-  write_bytes(folder + "/" + kRecordName, record(study, options, result).dump(2) + "\n");
+  place.write(kRecordName, record(study, options, result).dump(2) + "\n");
   return result;
 }
 

@@ -1,14 +1,14 @@
 #include "report/fit_folder.h"
 
 #include <filesystem>
-#include <system_error>
+#include <optional>
 
-#include "base/error.h"
-#include "base/files.h"
+#include "base/folder.h"
 #include "claims/reproduce.h"
 #include "design/design.h"
 #include "published/targets.h"
 #include "report/page.h"
+#include "report/sums.h"
 
 namespace papilla::report {
 namespace {
@@ -36,41 +36,34 @@ JudgedFit judged(const Calibration& calibration, const CalibrationResult& result
   return out;
 }
 
-void make_fit_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError({Problem{folder, 0, 0, "", "no such folder can be made: " + error.message()}});
-  }
-}
-
-void write_fitted(const std::string& folder, const FitReport& fit) {
-  write_finger(folder + "/finger.toml", fit.result.finger,
+void write_fitted(const Folder& folder, const FitReport& fit) {
+  write_finger(folder.path("finger.toml"), fit.result.finger,
                "Fitted by papilla calibrate " +
                    std::filesystem::path(fit.calibration.file).filename().string() +
                    "; see fit.md.");
 }
 
-void write_report(const std::string& folder, const FitReport& fit) {
-  write_bytes(folder + "/fit.md", fit.markdown);
-  write_bytes(folder + "/fit.json", fit.json + "\n");
-  write_bytes(folder + "/report.html", report_page(folder));
+void write_report(const Folder& folder, const FitReport& fit) {
+  folder.write("fit.md", fit.markdown);
+  folder.write("fit.json", fit.json + "\n");
+  write_sums(folder);
+  folder.write(kPageName, report_page(folder.path()));
 }
 
 }  // namespace
 
 FitReport fit_to_folder(const std::string& file, const FitOptions& options) {
-  const bool kept = !options.folder.empty();
+  std::optional<Folder> folder;
   FitReport fit;
   fit.calibration = read_calibration(file, m3_claim_ids());
-  if (kept) make_fit_folder(options.folder);
+  if (!options.folder.empty()) folder = Folder::made(options.folder);
   fit.result = fit_finger(fit.calibration, {options.threads, true, options.note});
   // At once: what the fit has cost is not lost to a claim that cannot be judged.
-  if (kept) write_fitted(options.folder, fit);
+  if (folder) write_fitted(*folder, fit);
   const JudgedFit claims = judged(fit.calibration, fit.result, options);
   fit.markdown = calibration_markdown(fit.calibration, fit.result, claims);
   fit.json = calibration_json(fit.calibration, fit.result, claims);
-  if (kept) write_report(options.folder, fit);
+  if (folder) write_report(*folder, fit);
   return fit;
 }
 

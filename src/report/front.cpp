@@ -1,11 +1,11 @@
 #include "report/front.h"
 
-#include <filesystem>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/folder.h"
 #include "report/svg.h"
 #include "report/tables.h"
 
@@ -40,8 +40,8 @@ SvgSeries confirmed(const CsvTable& front, const std::string& x, const std::stri
 }  // namespace
 
 std::string front_svg(const std::string& folder) {
-  const std::filesystem::path root(folder);
-  const CsvTable front = read_csv((root / "pareto.csv").string());
+  const Folder root(folder);
+  const CsvTable front = read_csv(root.file("pareto.csv"));
   std::vector<std::string> objectives;
   for (const std::string& name : front.header) {
     if (front.has(name + " se")) objectives.push_back(name);
@@ -49,8 +49,7 @@ std::string front_svg(const std::string& folder) {
   if (objectives.size() < 2)
     throw InputError(folder + "/pareto.csv: a picture of a front needs two objectives");
   std::optional<CsvTable> history;
-  if (std::filesystem::exists(root / "history.csv"))
-    history = read_csv((root / "history.csv").string());
+  if (root.has("history.csv")) history = read_csv(root.file("history.csv"));
   std::vector<SvgPlot> plots;
   for (std::size_t k = 1; k < objectives.size(); ++k) {
     const std::string &x = objectives[k], &y = objectives[0];

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "design/study.h"
 #include "geometry/texture.h"
@@ -17,6 +16,7 @@
 #include "report/page_data.h"
 #include "report/page_parts.h"
 #include "report/ranking.h"
+#include "report/sums.h"
 #include "search/pick.h"
 
 namespace papilla::report {
@@ -29,17 +29,16 @@ extern const std::string_view kUnfinishedHtml, kUnfinishedScript;
 
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // What a browser without scripts shows in place of the sections that they fill.
-std::string without_scripts(const fs::path& folder) {
+std::string without_scripts(const Folder& folder) {
   std::string text;
   for (const char* name : {"summary.md", "fit.md"}) {
-    if (fs::exists(folder / name)) text = markdown_html(read_bytes(folder / name));
+    if (folder.has(name)) text = markdown_html(folder.read(name));
   }
-  if (fs::exists(folder / "ranking.txt"))
-    text = "<pre>" + markup_text(read_bytes(folder / "ranking.txt")) + "</pre>\n";
+  if (folder.has("ranking.txt"))
+    text = "<pre>" + markup_text(folder.read("ranking.txt")) + "</pre>\n";
   return "<noscript><style>main > section, nav, .choice, #lead, #facts { display: none; "
          "}</style>\n" +
          text + "</noscript>\n";
@@ -71,14 +70,25 @@ std::string plots(bool solid) {
   return joined(modules);
 }
 
+// What the page is made of may have been changed since the run wrote it.
+std::string notice(const Folder& folder) {
+  const std::vector<std::string> changed = changed_files(folder);
+  if (changed.empty()) return "";
+  return "<p class=\"notice\" role=\"alert\">Not as the run wrote them: " +
+         markup_text(visible(join_names(changed))) +
+         ". This page shows them as they are; it is no report of that run.</p>\n";
+}
+
 // One kind of page: what it holds beside the common frame.
 struct PageKind {
   std::string_view body, script, solid;
 };
 
 // `data` gets the version and the list of the folder's files, as every page has them.
-std::string page_text(const fs::path& folder, std::string title, const PageKind& kind, Json data) {
-  if (title.empty()) title = fs::absolute(folder).lexically_normal().filename().string();
+std::string page_text(const Folder& folder, std::string title, const PageKind& kind, Json data) {
+  if (title.empty())
+    title =
+        visible(std::filesystem::absolute(folder.path()).lexically_normal().filename().string());
   data["schema"] = 1;
   data["version"] = PAPILLA_VERSION;
   data["files"] = file_list(folder);
@@ -96,6 +106,7 @@ std::string page_text(const fs::path& folder, std::string title, const PageKind&
   put("{{three}}", kind.solid);
   put("{{chart}}", kChartScript);
   put("{{body}}", kind.body);
+  put("{{notice}}", notice(folder));
   put("{{plain}}", without_scripts(folder));
   put("{{heading}}", markup_text(title));
   put("{{style}}", kPageStyle);
@@ -103,50 +114,48 @@ std::string page_text(const fs::path& folder, std::string title, const PageKind&
   return page;
 }
 
-Json parsed(const fs::path& file) {
+Json parsed(const Folder& folder, const std::string& name) {
   try {
-    return Json::parse(read_bytes(file));
+    return Json::parse(folder.read(name));
   } catch (const Json::exception& e) {
-    throw InputError(fmt::format("{} is damaged: {}", file.string(), e.what()));
+    throw InputError(fmt::format("{} is damaged: {}", folder.path(name), e.what()));
   }
 }
 
 // A finished `papilla optimize`; `design` is the folder of the one the page is about.
-std::string optimize_page(const fs::path& root, const fs::path& design) {
+std::string optimize_page(const Folder& root, const std::string& design) {
   for (const char* name : {"pareto.csv", "history.csv", "plan.txt", "summary.md", "run.json",
                            "best/metrics.json", "best/design.toml", "best/heightmap.gsf"}) {
-    if (!fs::exists(root / name)) {
+    if (!root.has(name)) {
       throw InputError(fmt::format("{} has no {}: not the folder of a finished `papilla optimize`",
-                                   root.string(), name));
+                                   root.path(), name));
     }
   }
   Json data = Json::object(), designs = Json::object();
   std::vector<std::string> front;
-  if (fs::exists(root / "front")) {
-    for (const auto& entry : fs::directory_iterator(root / "front"))
-      front.push_back("front/" + entry.path().filename().string());
+  if (root.has_folder("front")) {
+    for (const std::string& name : root.below("front").folders()) front.push_back("front/" + name);
   }
-  std::sort(front.begin(), front.end());
   std::string title;
   try {
-    title = parsed(design / "metrics.json").at("title").get<std::string>();
-    designs["best"] = design_json(design, true);
-    for (const std::string& name : front) designs[name] = design_json(root / name, false);
+    title = parsed(root, design + "/metrics.json").at("title").get<std::string>();
+    designs["best"] = design_json(root.below(design), true);
+    for (const std::string& name : front) designs[name] = design_json(root.below(name), false);
   } catch (const Json::exception& e) {
-    throw InputError(fmt::format("{}: metrics.json is damaged: {}", root.string(), e.what()));
+    throw InputError(fmt::format("{}: metrics.json is damaged: {}", root.path(), e.what()));
   }
   data["designs"] = std::move(designs);
-  data["fields"] = field_json(read_study((design / "design.toml").string()).design);
-  data["pareto"] = read_bytes(root / "pareto.csv");
-  data["history"] = read_bytes(root / "history.csv");
-  data["plan"] = read_bytes(root / "plan.txt");
-  data["summary"] = read_bytes(root / "summary.md");
-  data["run"] = parsed(root / "run.json");
+  data["fields"] = field_json(read_study(root.file(design + "/design.toml")).design);
+  data["pareto"] = root.read("pareto.csv");
+  data["history"] = root.read("history.csv");
+  data["plan"] = root.read("plan.txt");
+  data["summary"] = root.read("summary.md");
+  data["run"] = parsed(root, "run.json");
   return page_text(root, title, {kOptimizeHtml, kOptimizeScript, kThreeScript}, std::move(data));
 }
 
-std::string rank_page(const fs::path& root) {
-  Json ranking = parsed(root / "ranking.json"), candidates = Json::array();
+std::string rank_page(const Folder& root) {
+  Json ranking = parsed(root, "ranking.json"), candidates = Json::array();
   std::vector<std::string> names, by;
   try {
     names.resize(ranking.at("candidates").size());
@@ -154,26 +163,26 @@ std::string rank_page(const fs::path& root) {
       names.at(c.at("index").get<std::size_t>()) = c.at("name").get<std::string>();
     for (const Json& c : ranking.at("criteria")) by.push_back(c.at("metric").get<std::string>());
   } catch (const std::exception& e) {
-    throw InputError(fmt::format("{}: ranking.json is damaged: {}", root.string(), e.what()));
+    throw InputError(fmt::format("{}: ranking.json is damaged: {}", root.path(), e.what()));
   }
   ranking.erase("seconds");
   ranking.erase("candidates");  // the first of the states again
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const fs::path file = root / ranked_design_file(i, 0);
-    const Texture texture = read_design(file.string()).texture;
+    const std::string file = ranked_design_file(i, 0);
+    const Texture texture = read_design(root.file(file)).texture;
     const Heightmap h = generate(texture, patch_grid(texture, kPicturePixels));
     candidates.push_back(
-        {{"name", names[i]}, {"toml", read_bytes(file)}, {"heights", picture_json(h.grid, h.z)}});
+        {{"name", names[i]}, {"toml", root.read(file)}, {"heights", picture_json(h.grid, h.z)}});
   }
   const std::string title = fmt::format("{} designs by {}", names.size(), join_names(by, ", "));
   return page_text(root, title, {kRankHtml, kRankScript, ""},
                    {{"ranking", std::move(ranking)}, {"candidates", std::move(candidates)}});
 }
 
-std::string calibrate_page(const fs::path& root) {
-  Json fit = parsed(root / "fit.json");
+std::string calibrate_page(const Folder& root) {
+  Json fit = parsed(root, "fit.json");
   if (!fit.contains("check_skins") || !fit.contains("parameters")) {
-    throw InputError(root.string() +
+    throw InputError(root.path() +
                      ": fit.json is of another version; run `papilla calibrate` again");
   }
   std::string title = fit.value("title", "");
@@ -183,18 +192,17 @@ std::string calibrate_page(const fs::path& root) {
 }  // namespace
 
 std::string report_page(const std::string& folder, const std::string& pick) {
-  const fs::path root(folder);
-  const bool ranked = fs::exists(root / "ranking.json"), fitted = fs::exists(root / "fit.json");
-  if (!ranked && !fitted)
-    return optimize_page(root, fs::path(picked_design_file(folder, pick)).parent_path());
+  const Folder root(folder);
+  const bool ranked = root.has("ranking.json"), fitted = root.has("fit.json");
+  if (!ranked && !fitted) return optimize_page(root, picked_design(root, pick));
   if (!pick.empty()) throw InputError("--pick is for a folder of `papilla optimize`");
   return ranked ? rank_page(root) : calibrate_page(root);
 }
 
 std::string unfinished_page(const std::string& folder, const Json& search) {
-  const fs::path root(folder);
-  const std::string study = read_bytes(root / "study.toml");
-  return page_text(root, read_study((root / "study.toml").string()).design.title,
+  const Folder root(folder);
+  const std::string study = root.read("study.toml");
+  return page_text(root, read_study(root.file("study.toml")).design.title,
                    {kUnfinishedHtml, kUnfinishedScript, ""},
                    {{"search", search}, {"study", study}});
 }

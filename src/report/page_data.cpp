@@ -10,17 +10,17 @@
 #include <utility>
 #include <variant>
 
-#include "base/files.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "config/describe.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "geometry/texture.h"
+#include "report/sums.h"
 
 namespace papilla::report {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 std::string base64(const std::vector<std::uint8_t>& bytes) {
@@ -132,8 +132,8 @@ Json picture_json(const Grid& grid, const std::vector<double>& values) {
   return bytes_json({nx, ny, nx * step * grid.dx(), ny * step * grid.dy()}, mean);
 }
 
-Json design_json(const fs::path& folder, bool with_flat) {
-  const Json metrics = Json::parse(read_bytes(folder / "metrics.json"));
+Json design_json(const Folder& folder, bool with_flat) {
+  const Json metrics = Json::parse(folder.read("metrics.json"));
   Json out;
   for (const char* key : {"variables", "objectives", "worst_modulation", "oxide_breakdown_margin",
                           "feasible", "stability", "flat", "parameters"}) {
@@ -149,11 +149,11 @@ Json design_json(const fs::path& folder, bool with_flat) {
     const Json& response = metrics["tasks"][0]["response"];
     out["plan"] = response.at("plan");
   }
-  out["toml"] = read_bytes(folder / "design.toml");
-  const Heightmap h = read_heightmap(folder / "heightmap.gsf");
+  out["toml"] = folder.read("design.toml");
+  const Heightmap h = read_heightmap(folder.file("heightmap.gsf"));
   out["heights"] = picture_json(h.grid, h.z);
   constexpr int kSectionPixels = 4096;
-  add_section(read_design((folder / "design.toml").string()).texture, kSectionPixels, out);
+  add_section(read_design(folder.file("design.toml")).texture, kSectionPixels, out);
   return out;
 }
 
@@ -197,22 +197,11 @@ Json field_json(const Design& design) {
   return out;
 }
 
-Json file_list(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).generic_string();
-    // The page itself, the lock, and what holds clock times.
-    if (!entry.is_regular_file() || name == "report.html" || name == "timing.json" ||
-        name.front() == '.') {
-      continue;
-    }
-    names.push_back(name);
-  }
-  std::sort(names.begin(), names.end());
+Json file_list(const Folder& folder) {
   Json out = Json::array();
-  for (const std::string& name : names) {
-    const std::string bytes = read_bytes(folder / name);
-    out.push_back({{"name", name}, {"bytes", bytes.size()}, {"sha256", sha256(bytes)}});
+  for (const std::string& name : lasting_files(folder)) {
+    const std::string bytes = folder.read(name);
+    out.push_back({{"name", visible(name)}, {"bytes", bytes.size()}, {"sha256", sha256(bytes)}});
   }
   return out;
 }

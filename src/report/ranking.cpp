@@ -4,19 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "base/files.h"
+#include "base/folder.h"
 #include "base/statistics.h"
 #include "base/text.h"
+#include "config/writer.h"
 #include "metrics/shown.h"
 #include "report/json.h"
 #include "report/page.h"
+#include "report/sums.h"
 #include "report/svg.h"
 #include "report/tables.h"
 
@@ -251,8 +252,9 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
              "skins. The values share the luck of these few ({} at least) and may all be high or "
              "low together, beyond their ±; errors that all designs share (grid, water) are not in "
              "± either: papilla evaluate gives values. ± and [ ] are 95 % intervals over skins; = "
-             "marks a tie with the next. {} patches of skin in all, {:.1f} s\n",
-             fewest, ranking.skins, ranking.seconds);
+             "marks a tie with the next. {} patches of skin in all{}\n",
+             fewest, ranking.skins,
+             ranking.seconds ? fmt::format(", {:.1f} s", *ranking.seconds) : std::string());
 }
 
 std::string ranking_json(const std::vector<std::string>& names, const RankOptions& options,
@@ -277,18 +279,18 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
                   {"skins", ranking.step_skins},
                   {"grid", ranking.step_grid}};
   }
-  return Json{{"schema", 1},
-              {"by", by},
-              {"weights", options.weights},
-              {"scored", options.scored()},
-              {"conditions_differ", conditions},
-              {"criteria", criteria},
-              {"candidates", states.front()["candidates"]},
-              {"states", states},
-              {"parameters", parameters},
-              {"skins", ranking.skins},
-              {"seconds", ranking.seconds}}
-      .dump(2);
+  Json out{{"schema", 1},
+           {"by", by},
+           {"weights", options.weights},
+           {"scored", options.scored()},
+           {"conditions_differ", conditions},
+           {"criteria", criteria},
+           {"candidates", states.front()["candidates"]},
+           {"states", states},
+           {"parameters", parameters},
+           {"skins", ranking.skins}};
+  if (ranking.seconds) out["seconds"] = *ranking.seconds;
+  return out.dump(2);
 }
 
 std::string ranking_csv(const std::vector<std::string>& names, const RankOptions& options,
@@ -368,24 +370,24 @@ std::string radar_svg(const std::vector<std::string>& names, const RankOptions& 
 void write_ranking(const std::string& folder, const std::vector<Regions>& candidates,
                    const std::vector<std::string>& names, const RankOptions& options,
                    const Ranking& ranking) {
-  std::error_code error;
-  std::filesystem::create_directories(folder + "/designs", error);
-  if (error) {
-    throw InputError({Problem{folder, 0, 0, "", "no such folder can be made: " + error.message()}});
-  }
-  write_bytes(folder + "/ranking.txt", ranking_table(names, options, ranking));
-  write_bytes(folder + "/ranking.csv", ranking_csv(names, options, ranking));
-  write_bytes(folder + "/ranking.json", ranking_json(names, options, ranking) + "\n");
+  const Folder results = Folder::made(folder);
+  results.made_below("designs");
+  Ranking lasting = ranking;
+  lasting.seconds.reset();  // the same files of every run
+  results.write("ranking.txt", ranking_table(names, options, lasting));
+  results.write("ranking.csv", ranking_csv(names, options, lasting));
+  results.write("ranking.json", ranking_json(names, options, lasting) + "\n");
   if (options.criteria.size() > 2) {
     for (const StateRanking& state : ranking.states)
-      write_bytes(folder + "/radar_" + state_name(state.state) + ".svg",
-                  radar_svg(names, options, state));
+      results.write(std::string("radar_") + state_name(state.state) + ".svg",
+                    radar_svg(names, options, state));
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     for (std::size_t k = 0; k < candidates[i].size(); ++k)
-      write_design(folder + "/" + ranked_design_file(i, k), candidates[i][k]);
+      results.write(ranked_design_file(i, k), to_toml(candidates[i][k]));
   }
-  write_bytes(folder + "/report.html", report_page(folder));
+  write_sums(results);
+  results.write(kPageName, report_page(folder));
 }
 
 std::string ranked_design_file(std::size_t candidate, std::size_t region) {

@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/files.h"
 #include "config/writer.h"
 #include "report/export.h"
 #include "report/json.h"
@@ -14,11 +12,11 @@
 #include "report/response.h"
 #include "report/sheet.h"
 #include "report/summary.h"
+#include "report/sums.h"
 
 namespace papilla::report {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int kExportPixels = 512;  // across one patch
@@ -36,23 +34,22 @@ std::string csv_text(std::string text) {
 
 class Writer {
  public:
-  explicit Writer(const ResultFiles& files) : f_(files) {}
+  explicit Writer(const ResultFiles& files) : f_(files), folder_(Folder::made(files.folder)) {}
 
   void write() {
-    write_bytes(f_.folder + "/history.csv", history());
-    write_bytes(f_.folder + "/pareto.csv", pareto());
-    std::error_code ignored;
-    fs::remove_all(f_.folder + "/front", ignored);
-    fs::remove_all(f_.folder + "/best", ignored);
+    folder_.write("history.csv", history());
+    folder_.write("pareto.csv", pareto());
+    folder_.remove("front");
+    folder_.remove("best");
     for (const FinalDesign& d : f_.result.finalists) {
-      if (d.on_front) write_design_folder(d, f_.folder + "/" + d.folder);
+      if (d.on_front) write_design_folder(d, d.folder);
     }
-    if (f_.result.has_best())
-      write_design_folder(f_.result.finalists[f_.result.best], f_.folder + "/best");
-    write_bytes(f_.folder + "/sensitivity.json", sensitivity());
-    if (f_.result.rounded) write_design(f_.folder + "/best/build.toml", built_design(f_));
-    write_bytes(f_.folder + "/run.json", run_json(f_));
-    write_bytes(f_.folder + "/summary.md", run_summary(f_));
+    if (f_.result.has_best()) write_design_folder(f_.result.finalists[f_.result.best], "best");
+    folder_.write("sensitivity.json", sensitivity());
+    if (f_.result.rounded) folder_.write("best/build.toml", to_toml(built_design(f_)));
+    folder_.write("run.json", run_json(f_));
+    folder_.write("summary.md", run_summary(f_));
+    write_sums(folder_);
   }
 
  private:
@@ -202,10 +199,10 @@ class Writer {
   }
 
   // Maps as `papilla export` writes them, with what `papilla verify` needs.
-  void write_design_folder(const FinalDesign& d, const std::string& folder) const {
-    fs::create_directories(folder);
-    write_design(folder + "/design.toml", d.design);
-    write_bytes(folder + "/metrics.json", metrics(d));
+  void write_design_folder(const FinalDesign& d, const std::string& name) const {
+    const Folder folder = folder_.made_below(name);
+    folder.write("design.toml", to_toml(d.design));
+    folder.write("metrics.json", metrics(d));
     Study study;
     study.design = d.design;
     study.constraints = f_.study.constraints;
@@ -216,7 +213,8 @@ class Writer {
       options.formats.push_back("mask");
       options.polarity = Polarity::WhiteDeep;
     }
-    export_with_record(study, options, folder, {}, {{kDesignFormat, folder + "/design.toml"}});
+    export_with_record(study, options, folder.path(), {},
+                       {{kDesignFormat, folder.path("design.toml")}});
   }
 
   std::string sensitivity() const {
@@ -238,6 +236,7 @@ class Writer {
   }
 
   const ResultFiles& f_;
+  const Folder folder_;
 };
 
 }  // namespace
@@ -249,7 +248,7 @@ std::string FolderWriter::text(const Response& response) const {
 void FolderWriter::write(const ResultFiles& files) const {
   write_results(files);
   if (!files.result.interrupted && files.result.has_best())
-    write_bytes(files.folder + "/report.html", report_page(files.folder));
+    Folder(files.folder).write(kPageName, report_page(files.folder));
 }
 
 OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options) {
@@ -259,9 +258,9 @@ OptimiseResult optimise_to_folder(const Study& study, OptimiseOptions options) {
 }
 
 std::string recommendation_of(const std::string& folder) {
-  const std::string path = folder + "/run.json";
-  if (!std::filesystem::exists(path)) return {};
-  return Json::parse(read_bytes(path)).value("recommendation", std::string());
+  const Folder results(folder);
+  if (!results.has("run.json")) return {};
+  return Json::parse(results.read("run.json")).value("recommendation", std::string());
 }
 
 void write_results(const ResultFiles& files) { Writer(files).write(); }

@@ -57,7 +57,7 @@ void pick(Run& run) {
     run.result.best = pick_design(run.options.pick, front);
   } catch (const InputError& e) {
     // The results of a first run are worth more than the rule that fits none of them.
-    if (std::filesystem::exists(run.folder + "/best/design.toml")) throw;
+    if (run.folder.has("best/design.toml")) throw;
     run.result.best = pick_design("", front);
     run.unmet_pick = e.what();
   }

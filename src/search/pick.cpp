@@ -4,16 +4,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
 
 namespace papilla::search {
 namespace {
-
-namespace fs = std::filesystem;
 
 // Index of the largest value; the first among equals.
 template <class F>
@@ -68,23 +64,21 @@ std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate
                   rule, names));
 }
 
-std::string picked_design_file(const std::string& results, const std::string& rule) {
-  const fs::path root(results);
+std::string picked_design(const Folder& results, const std::string& rule) {
   if (rule.empty()) {
-    const fs::path best = root / "best/design.toml";
-    if (!fs::exists(best)) {
-      throw InputError(results +
+    if (!results.has("best/design.toml")) {
+      throw InputError(results.path() +
                        " has no best/design.toml: not the folder of a finished `papilla optimize`");
     }
-    return best.string();
+    return "best";
   }
   std::vector<PickCandidate> front;
-  std::vector<std::string> files;
+  std::vector<std::string> folders;
   try {
     for (int i = 1;; ++i) {
-      const fs::path folder = root / fmt::format("front/{:02d}", i);
-      if (!fs::exists(folder / "metrics.json")) break;
-      const auto metrics = nlohmann::ordered_json::parse(read_bytes(folder / "metrics.json"));
+      const std::string folder = fmt::format("front/{:02d}", i);
+      if (!results.has(folder + "/metrics.json")) break;
+      const auto metrics = nlohmann::ordered_json::parse(results.read(folder + "/metrics.json"));
       PickCandidate c;
       for (const auto& [name, value] : metrics.at("objectives").items()) {
         c.names.push_back(name);
@@ -94,14 +88,21 @@ std::string picked_design_file(const std::string& results, const std::string& ru
       if (const auto& worst = metrics.at("worst_modulation"); !worst.is_null())
         c.worst = worst.get<double>();
       front.push_back(std::move(c));
-      files.push_back((folder / "design.toml").string());
+      folders.push_back(folder);
     }
   } catch (const nlohmann::json::exception& e) {
-    throw InputError(fmt::format("{}: metrics.json is damaged: {}", results, e.what()));
+    throw InputError(fmt::format("{}: metrics.json is damaged: {}", results.path(), e.what()));
   }
-  if (front.empty())
-    throw InputError(results + " has no front/: not the folder of a finished `papilla optimize`");
-  return files[pick_design(rule, front)];
+  if (front.empty()) {
+    throw InputError(results.path() +
+                     " has no front/: not the folder of a finished `papilla optimize`");
+  }
+  return folders[pick_design(rule, front)];
+}
+
+std::string picked_design_file(const std::string& results, const std::string& rule) {
+  const Folder root(results);
+  return root.file(picked_design(root, rule) + "/design.toml");
 }
 
 }  // namespace papilla::search

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/folder.h"
 #include "base/rooms.h"
 
 namespace papilla::search {
@@ -22,8 +23,10 @@ struct PickCandidate {
 // best of that objective; "3" is front/03. Throws InputError for anything else.
 std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate>& front);
 
-// The design.toml of the design picked from a folder that `papilla optimize` wrote: its best/ for
-// an empty rule, else one of its front/. Throws InputError.
+// The folder of the design picked from a folder that `papilla optimize` wrote: "best" for an empty
+// rule, else "front/03". Throws InputError.
+std::string picked_design(const Folder& results, const std::string& rule);
+// Its design.toml.
 std::string picked_design_file(const std::string& results, const std::string& rule);
 
 }  // namespace papilla::search

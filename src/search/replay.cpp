@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iterator>
 
 #include "base/error.h"
-#include "base/files.h"
-#include "search/folder.h"
+#include "search/differing.h"
+#include "search/records.h"
 
 namespace papilla::search {
 namespace {
@@ -39,13 +38,13 @@ int place(Stage stage, bool flat) {
   return 8;
 }
 
-Journal open_journal(const StudyProblem& problem, const std::string& folder, bool resume) {
+Journal open_journal(const StudyProblem& problem, const Folder& folder, bool resume) {
   try {
-    return Journal(folder + "/journal", text_hash(problem.identity()), resume);
+    return Journal(folder, kJournalName, journal_key(problem), resume);
   } catch (const InputError& e) {
-    const std::string file = folder + "/resolved.toml";
-    if (!resume || !std::filesystem::exists(file)) throw;
-    const std::string differ = differing_keys(read_bytes(file), resolved_toml(problem.study()));
+    const char* file = "resolved.toml";
+    if (!resume || !folder.has(file)) throw;
+    const std::string differ = differing_keys(folder.read(file), resolved_toml(problem.study()));
     if (differ.empty()) throw;
     throw InputError(std::string(e.what()) + "; there and here: " + differ);
   }
@@ -53,22 +52,20 @@ Journal open_journal(const StudyProblem& problem, const std::string& folder, boo
 
 }  // namespace
 
-Replay::Replay(const StudyProblem& problem, const SearchProblem& search, const std::string& folder,
+Replay::Replay(const StudyProblem& problem, const SearchProblem& search, const Folder& folder,
                bool resume, std::unique_ptr<Team> team)
     : problem_(problem),
       search_(search),
-      folder_(folder),
+      path_(folder.path(kJournalName)),
       journal_(open_journal(problem, folder, resume)),
       team_(std::move(team)) {
-  for (const JournalRecord& record : journal_.records()) {
-    requests_.push_back(sound(decode_request(record.key)));
-    if (requests_.back().unit.size() != search.space.size()) refuse();
-  }
+  for (const JournalRecord& record : journal_.records())
+    requests_.push_back(sound(checked_request(problem, search, record)));
 }
 
 void Replay::refuse() const {
-  throw InputError(folder_ +
-                   "/journal: the earlier run took another path (other budget or another "
+  throw InputError(path_ +
+                   ": the earlier run took another path (other budget or another "
                    "version of Papilla); start again with another --out folder");
 }
 
@@ -195,9 +192,7 @@ JudgedDesigns Replay::searched_before() {
   JudgedDesigns out;
   for (; replaying() && searching(); ++next_) {
     if (requests_[next_].stage == Stage::Draft) continue;
-    const Judgement j = sound(decode_judgement(journal_.records()[next_].payload));
-    if (j.outcome.ok && j.outcome.objectives.size() != search_.objectives) refuse();
-    out.add(requests_[next_].unit, j);
+    out.add(requests_[next_].unit, sound(decode_judgement(journal_.records()[next_].payload)));
   }
   return out;
 }

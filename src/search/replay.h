@@ -20,12 +20,14 @@ namespace papilla::search {
 // other stage has one per task: its answer.
 class Replay {
  public:
-  // Opens or starts folder/journal. Throws InputError for one of another study, by the keys in
-  // which the studies differ. Refers to both problems.
-  Replay(const StudyProblem& problem, const SearchProblem& search, const std::string& folder,
+  // Opens or starts the folder's journal. Throws InputError for one of another study, by the keys
+  // in which the studies differ, and for records that cannot be of this one. Refers to both
+  // problems.
+  Replay(const StudyProblem& problem, const SearchProblem& search, const Folder& folder,
          bool resume, std::unique_ptr<Team> team);
 
   int lost() const { return journal_.lost(); }
+  const std::string& kept_copy() const { return journal_.kept_copy(); }
   // The earlier run's searched designs, without those that the shape's limits refused.
   int evaluated() const;
   bool replaying() const { return next_ < requests_.size(); }
@@ -88,7 +90,7 @@ class Replay {
 
   const StudyProblem& problem_;
   const SearchProblem& search_;
-  std::string folder_;
+  std::string path_;
   Journal journal_;
   std::unique_ptr<Team> team_;
   std::vector<TaskRequest> requests_;  // of the journal's records

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "geometry/io/files.h"
 #include "metrics/shown.h"
 #include "optim/pareto.h"
@@ -87,7 +86,7 @@ void check_budget(const Run& run) {
   throw InputError(fmt::format(
       "{}: the earlier run has {} evaluations already, more than the {} asked for; continue it "
       "with as many as it was started with",
-      run.folder, evaluated, run.search.evaluations));
+      run.folder.path(), evaluated, run.search.evaluations));
 }
 
 // Clock at the end of each stage.
@@ -114,9 +113,9 @@ void write_files(Run& run, const StageSeconds& at) {
   run.result.hypervolumes = hypervolume_shares(run.history.evaluations);
   const std::string rule = run.unmet_pick.empty() ? run.options.pick : "";
   if (run.options.writer)
-    run.options.writer->write({run.folder, run.study, run.problem, run.history, run.result, rule});
-  write_bytes(
-      run.folder + "/timing.json",
+    run.options.writer->write({run.folder.path(), run.study, run.problem, run.history, run.result, rule});
+  run.folder.write(
+      "timing.json",
       fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
                   "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "
                   "\"check_seconds\": {:.3f}, \"files_seconds\": {:.3f}, "
@@ -135,8 +134,8 @@ Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi,
       problem(of),
       search(search_problem(problem)),
       method(choose_method(of.search.method, search)),
-      folder(checked_folder(how, problem)),
-      lock(folder),
+      folder(Folder::made(checked_folder(how, problem))),
+      lock(folder, ".lock", "another run is working"),
       replay(problem, search, folder, how.resume,
              team ? std::move(team) : make_team(problem, how, mpi)) {}
 
@@ -242,18 +241,18 @@ OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
   Run run(study, options, mpi);
   check_budget(run);
   run.result.lost = run.replay.lost();
+  run.result.kept_copy = run.replay.kept_copy();
   run.result.method = run.method.name;
   run.result.why = run.method.why;
   run.result.asked = run.search.evaluations;
-  write_bytes(run.folder + "/resolved.toml", resolved_toml(study));
-  write_bytes(run.folder + "/plan.txt", search_plan(study));
+  run.folder.write("resolved.toml", resolved_toml(study));
+  run.folder.write("plan.txt", search_plan(study));
   const StageSeconds at = run_stages(run);
   // What a finished run wrote stays when it was to be written anew.
-  const bool stays =
-      run.result.interrupted && std::filesystem::exists(run.folder + "/best/design.toml");
+  const bool stays = run.result.interrupted && run.folder.has("best/design.toml");
   if (!stays) write_files(run, at);
   if (!stays && !run.unmet_pick.empty()) {
-    throw InputError(run.unmet_pick + "; " + run.folder +
+    throw InputError(run.unmet_pick + "; " + run.folder.path() +
                      " is written with the usual choice: another with --resume --pick");
   }
   return std::move(run.result);

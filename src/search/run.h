@@ -54,8 +54,9 @@ struct FinalDesign {
 struct OptimiseResult {
   std::string method, why;
   int evaluations = 0, failures = 0, refused = 0;  // refused: by geometry, without an evaluation
-  int lost = 0;   // damaged records of the resumed run, computed anew
-  int asked = 0;  // evaluations
+  int lost = 0;           // damaged records of the resumed run, computed anew
+  std::string kept_copy;  // of its journal as it was, where there are some
+  int asked = 0;          // evaluations
   SearchEnd end = SearchEnd::Budget;
   std::vector<ClockCut> cuts;  // by the time limit, in the order of the run
   std::vector<OneValue> one_value;

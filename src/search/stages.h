@@ -8,7 +8,6 @@
 #include "base/rooms.h"
 #include "optim/mpi.h"
 #include "search/clock.h"
-#include "search/folder.h"
 #include "search/replay.h"
 #include "search/run.h"
 
@@ -47,7 +46,7 @@ struct Run {
   const StudyProblem problem;
   const SearchProblem search;
   const SearchMethod method;
-  const std::string folder;
+  const Folder folder;
   FolderLock lock;
   Replay replay;
 

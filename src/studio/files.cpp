@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "fabricate/formats.h"
 #include "fabricate/verify.h"
@@ -50,7 +50,7 @@ std::string without(std::string text, const std::string& part) {
 
 }  // namespace
 
-Files::Files(fs::path folder) : folder_(fs::weakly_canonical(folder)) {}
+Files::Files(fs::path folder) : folder_(fs::weakly_canonical(folder)), handle_(folder_) {}
 
 Json Files::list() const {
   Json designs = Json::array(), results = Json::array();
@@ -65,6 +65,8 @@ Json Files::list() const {
       if (entry.is_directory()) it.disable_recursion_pending();
       continue;
     }
+    // What a page cannot name, or the studio would not open.
+    if (!is_utf8(name.string()) || entry.is_symlink() || !entry.is_regular_file()) continue;
     names.push_back(name);
   }
   std::sort(names.begin(), names.end());
@@ -74,7 +76,7 @@ Json Files::list() const {
     if (name.extension() == ".toml" && name.filename() != "resolved.toml")
       designs.push_back(name.generic_string());
   }
-  return {{"folder", folder_.filename().string()}, {"designs", designs}, {"results", results}};
+  return {{"folder", visible(folder_.filename().string())}, {"designs", designs}, {"results", results}};
 }
 
 std::string Files::open(const std::string& name) const {
@@ -96,26 +98,26 @@ std::string Files::target(const std::string& name, bool overwrite) const {
 }
 
 void Files::save(const Draft& draft, const Study& study, const std::string& file) const {
-  const fs::path target(file);
-  fs::create_directories(target.parent_path());
+  const fs::path target(file), name = target.lexically_relative(folder_);
+  const Folder folder =
+      name.has_parent_path() ? handle_.made_below(name.parent_path().string()) : handle_;
   const std::string text = saved_text(draft, target);
   // Beside its place, as its bases are looked for from there.
-  const fs::path trial =
-      target.parent_path() / fmt::format(".{}.{}.trial", target.stem().string(), ::getpid());
+  const std::string trial = fmt::format(".{}.{}.trial", target.stem().string(), ::getpid());
   Design back;
   try {
-    write_bytes(trial, text);
-    back = read_study(trial).design;
+    folder.write(trial, text);
+    back = read_study(folder.file(trial)).design;
   } catch (...) {
-    fs::remove(trial);
+    folder.remove(trial);
     throw;
   }
-  fs::remove(trial);
+  folder.remove(trial);
   if (!changes_between(back, study.design).empty())
     throw InputError({Problem{file, 0, 0, changes_between(back, study.design).front().path,
                               "the file would not read back to this design; save it under a new "
                               "name"}});
-  write_bytes(target, text);
+  folder.write(name.filename().string(), text);
 }
 
 Json Files::export_preview(const Study& study) const {
@@ -141,7 +143,8 @@ Json Files::export_preview(const Study& study) const {
 }
 
 Json Files::export_files(const Study& study, const std::string& name) const {
-  const fs::path folder = inside(folder_, name);
+  const fs::path folder =
+      handle_.made_below(inside(folder_, name).lexically_relative(folder_).string()).path();
   ExportOptions options;
   options.pixels = kExportPixels;
   options.polarity = Polarity::WhiteDeep;
@@ -163,8 +166,8 @@ Json Files::keep_scan(const std::string& name, const std::string& bytes) const {
   const std::string kind = file.extension().string();
   if (kind != ".npy" && kind != ".gsf" && kind != ".exr" && kind != ".tif")
     throw InputError({Problem{name, 0, 0, "", "expected a map of heights: .npy .gsf .exr .tif"}});
-  fs::create_directories(file.parent_path());
-  write_bytes(file, bytes);
+  handle_.made_below(file.parent_path().lexically_relative(folder_).string())
+      .write(file.filename().string(), bytes);
   return {{"name", file.lexically_relative(folder_).generic_string()}, {"bytes", bytes.size()}};
 }
 

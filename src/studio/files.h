@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "base/folder.h"
 #include "base/rooms.h"
 #include "studio/session.h"
 
@@ -50,9 +51,11 @@ class Files {
                   bool as_is) const;
 
   const std::filesystem::path& folder() const { return folder_; }
+  const Folder& handle() const { return handle_; }
 
  private:
   std::filesystem::path folder_;
+  Folder handle_;
 };
 
 }  // namespace papilla::studio

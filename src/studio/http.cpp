@@ -29,8 +29,10 @@ class TimedStream final : public httplib::Stream {
   // The request was let in; what came of it until now was its head.
   void admit() { admitted_ = true; }
   bool admitted() const { return admitted_; }
-  // Too slow or too long: what comes now is the middle of something, no request.
+  // Too slow, too long or refused: what comes now is the middle of something, no request.
   bool broken() const { return broken_; }
+  // What is left of this request is not read.
+  void leave_rest() { broken_ = true; }
 
   bool is_readable() const override { return wait(POLLIN); }
   bool is_writable() const override { return wait(POLLOUT); }
@@ -166,6 +168,12 @@ class BoundedServer final : public httplib::Server {
     new_task_queue = [this] { return new BoundedQueue(limits_.connections, strangers_); };
     set_payload_max_length(limits.body);
     set_tcp_nodelay(true);
+    // The library's own option would let two programs have one port, and each get some of the
+    // calls.
+    set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
   }
   // The library's own queue holds 5 who knock at once: a browser would try again a second later.
   // Its macro for another length works in the library's build alone.
@@ -175,6 +183,8 @@ class BoundedServer final : public httplib::Server {
     at_the_door->admit();
     strangers_.leave(at_the_door->socket());
   }
+  // The request that this thread reads is refused with what it carries; so is what follows it.
+  static void refuse_rest() { at_the_door->leave_rest(); }
 
  private:
   bool process_and_close_socket(socket_t socket) override {
@@ -200,14 +210,16 @@ class BoundedServer final : public httplib::Server {
   Strangers strangers_;
 };
 
-// Nothing from another place, no frame around the page.
+// Nothing from another place, no frame around the page. A report is a file that anybody may have
+// written: its scripts run in an origin of its own, from which the studio is another site.
 constexpr const char* kPolicy = "Content-Security-Policy";
 constexpr const char* kOwnFilesAlone =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 constexpr const char* kWholePage =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+    "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
+    "style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
 
 int status_of(Entry entry) { return entry == Entry::WrongToken ? 404 : 403; }
 
@@ -265,14 +277,26 @@ class HttpServer::Impl {
     });
     server_.set_pre_routing_handler([this](const httplib::Request& request, auto& response) {
       const Entry entry = door_->judge(sender_of(request));
-      if (entry == Entry::Admitted) {
-        server_.admit();
-        return httplib::Server::HandlerResponse::Unhandled;
+      // The library would take a body of any length for a method that nobody asked for.
+      const bool known = request.method == "GET" || request.method == "POST";
+      const bool body =
+          request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+      if (entry != Entry::Admitted || !known || (request.method == "GET" && body)) {
+        BoundedServer::refuse_rest();
+        response.set_header("Connection", "close");
+        response.status = entry != Entry::Admitted ? status_of(entry) : known ? 400 : 405;
+        response.set_content(entry != Entry::Admitted ? word_of(entry) : "", "text/plain");
+        return httplib::Server::HandlerResponse::Handled;
       }
-      response.status = status_of(entry);
-      response.set_content(word_of(entry), "text/plain");
-      return httplib::Server::HandlerResponse::Handled;
+      server_.admit();
+      return httplib::Server::HandlerResponse::Unhandled;
     });
+    // The library's own would tell what went wrong, with names of files, in a header.
+    server_.set_exception_handler(
+        [](const httplib::Request&, httplib::Response& out, const std::exception_ptr&) {
+          out.status = 500;
+          out.set_content(R"({"error":"the studio could not do that"})", "application/json");
+        });
     server_.Get("/[0-9a-f]+/events",
                 [this](const httplib::Request&, httplib::Response& out) { stream(out); });
     server_.Get(
@@ -289,7 +313,7 @@ class HttpServer::Impl {
     out.status = 0;
     if (in.is_multipart_form_data()) out.status = 415;
     if (upload && !one.try_lock()) out.status = 503;
-    if (out.status != 0) return;
+    if (out.status != 0) return BoundedServer::refuse_rest();
     std::string body;
     const std::size_t limit = upload ? limits_.body : limits_.text;
     const bool whole = reader([&](const char* bytes, std::size_t count) {
@@ -297,10 +321,9 @@ class HttpServer::Impl {
       body.append(bytes, count);
       return true;
     });
-    if (whole)
-      answer(in, std::move(body), out);
-    else
-      out.status = 413;
+    if (whole) return answer(in, std::move(body), out);
+    BoundedServer::refuse_rest();
+    out.status = 413;
   }
 
   void answer(const httplib::Request& in, std::string body, httplib::Response& out) {
@@ -312,8 +335,13 @@ class HttpServer::Impl {
   }
 
   static Sender sender_of(const httplib::Request& request) {
-    return {request.path, request.get_header_value("Host"), request.get_header_value("Origin"),
-            request.get_header_value("Sec-Fetch-Site"), request.method != "GET"};
+    return {request.path,
+            request.get_header_value("Host"),
+            request.get_header_value("Origin"),
+            request.get_header_value("Sec-Fetch-Site"),
+            request.method != "GET",
+            request.get_header_value("Sec-Fetch-Mode") == "navigate" &&
+                request.get_header_value("Sec-Fetch-Dest") == "document"};
   }
 
   void stream(httplib::Response& out) {

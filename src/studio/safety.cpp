@@ -54,10 +54,11 @@ Entry Door::judge(const Sender& sender) const {
   if (!known) return Entry::WrongHost;
   // A browser always names the origin of a request that changes something.
   if (!sender.origin.empty() && sender.origin != "http://" + sender.host) return Entry::WrongOrigin;
-  if (!sender.fetch_site.empty() && sender.fetch_site != "same-origin" &&
+  const std::size_t end = sender.path.find('/', 1);
+  const bool comes = sender.visits && !sender.changes && end == sender.path.size() - 1;
+  if (!comes && !sender.fetch_site.empty() && sender.fetch_site != "same-origin" &&
       (sender.changes || sender.fetch_site != "none"))
     return Entry::WrongOrigin;
-  const std::size_t end = sender.path.find('/', 1);
   if (end == std::string::npos || !same(std::string_view(sender.path).substr(1, end - 1), token_))
     return Entry::WrongToken;
   return Entry::Admitted;
@@ -82,11 +83,13 @@ fs::path inside(const fs::path& folder, const std::string& name) {
     if (!plain(part.string()))
       return refuse("expected a name of plain letters inside the folder of the studio");
   }
-  const fs::path root = fs::weakly_canonical(folder), place = fs::weakly_canonical(root / given);
-  // A link may lead out.
-  const auto [end, at] = std::mismatch(root.begin(), root.end(), place.begin(), place.end());
-  if (end != root.end() || at == place.end())
-    return refuse("lies outside the folder of the studio");
+  fs::path place = fs::weakly_canonical(folder);
+  for (const fs::path& part : given) {
+    place /= part;
+    std::error_code none;
+    if (fs::is_symlink(fs::symlink_status(place, none)))
+      return refuse("is behind a link, and those of its folder the studio does not follow");
+  }
   return place;
 }
 

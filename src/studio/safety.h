@@ -26,11 +26,13 @@ std::string make_token();
 struct Sender {
   std::string path, host, origin, fetch_site;
   bool changes = false;  // not a GET
+  bool visits = false;   // a person's tab goes there: no part of another page
 };
 
 enum class Entry { Admitted, WrongHost, WrongOrigin, WrongToken };
 
-// The door. The token is the first part of every path; the page of another site can neither know it
+// The door. A tab may come to the page from anywhere, as from the file that opens it.
+// The token is the first part of every path; the page of another site can neither know it
 // nor send a request with our origin, and a name that was bent to this address (DNS rebinding) is
 // not our host.
 class Door {
@@ -50,7 +52,7 @@ class Door {
 };
 
 // A file that a page names, inside the folder it may reach: a relative name without "..", hidden
-// parts or control characters, whose real place lies in the folder. Throws InputError for another.
+// parts or control characters, and no link on its way. Throws InputError for another.
 std::filesystem::path inside(const std::filesystem::path& folder, const std::string& name);
 
 }  // namespace papilla::studio

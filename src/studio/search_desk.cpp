@@ -9,17 +9,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
-#include <fstream>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "base/text.h"
 #include "base/units.h"
-#include "optim/journal.h"
 #include "optim/pareto.h"
 #include "report/json.h"
+#include "search/records.h"
 
 namespace papilla::studio {
 namespace {
@@ -27,6 +27,8 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kSearches = "searches";
+constexpr const char* kLog = "log.txt";
 constexpr std::chrono::milliseconds kLook{300};       // between two looks at the journal
 constexpr std::chrono::milliseconds kPatience{1500};  // with a search that is to end
 constexpr const char* kLastWord = "30 s";             // of a search that is stopped
@@ -64,7 +66,7 @@ const char* stage_name(Stage stage) {
 
 // Starts a program that ends with this thread, however that ends. Between fork and exec only what
 // POSIX allows in a process of several threads.
-int started(const std::vector<std::string>& words, const std::string& log) {
+int started(const std::vector<std::string>& words, const Handle& log) {
   std::vector<char*> argv;
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
@@ -75,23 +77,27 @@ int started(const std::vector<std::string>& words, const std::string& log) {
   if (::getppid() != parent) ::_exit(1);
   ::setpgid(0, 0);
   ::setpriority(PRIO_PROCESS, 0, kGivesWay);
-  const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   const int nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, 0);
-  ::dup2(out, 1);
-  ::dup2(out, 2);
+  ::dup2(log.get(), 1);
+  ::dup2(log.get(), 2);
   constexpr int kFirst = 3, kLast = 1024;
   for (int fd = kFirst; fd < kLast; ++fd) ::close(fd);  // sockets of the pages
   ::execv(argv[0], argv.data());
   ::_exit(127);
 }
 
-std::string last_lines(const std::string& path) {
+std::string last_lines(const std::string& text) {
   constexpr std::size_t kMost = 600;
-  std::error_code none;
-  if (!fs::exists(path, none)) return "";
-  const std::string text = read_bytes(path);
   return text.size() > kMost ? text.substr(text.size() - kMost) : text;
+}
+
+// Of the folder of a search, "001"; 0: of something else.
+int number_of(const std::string& name) {
+  int out = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), out);
+  const bool whole = error == std::errc{} && end == name.data() + name.size();
+  return whole && name == fmt::format("{:03}", out) ? out : 0;
 }
 
 Json csv_rows(const std::string& text) {
@@ -113,8 +119,14 @@ Json csv_rows(const std::string& text) {
 
 }  // namespace
 
+SearchDesk::Present::Present(const std::string& file)
+    : study(read_study(file)),
+      problem(study),
+      search(search_problem(problem)),
+      journal(journal_key(problem)) {}
+
 SearchDesk::SearchDesk(fs::path folder, std::string program, std::function<void()> told)
-    : folder_(folder / "searches"), program_(std::move(program)), told_(std::move(told)) {
+    : folder_(folder), program_(std::move(program)), told_(std::move(told)) {
   find_last();
   thread_ = std::thread([this] { watch(); });
 }
@@ -128,22 +140,23 @@ SearchDesk::~SearchDesk() {
   thread_.join();
 }
 
-fs::path SearchDesk::place() const { return folder_ / fmt::format("{:03}", number_); }
+std::string SearchDesk::place() const { return fmt::format("{}/{:03}", kSearches, number_); }
+std::string SearchDesk::in_place(const char* name) const { return place() + "/" + name; }
 
 // The newest of the folder, as it was left.
 void SearchDesk::find_last() {
-  std::error_code none;
-  if (!fs::exists(folder_, none)) return;
-  for (const auto& entry : fs::directory_iterator(folder_, none)) {
-    if (fs::exists(entry.path() / "study.toml", none))
-      number_ = std::max(number_, std::atoi(entry.path().filename().c_str()));
+  if (!folder_.has_folder(kSearches)) return;
+  const Folder searches = folder_.below(kSearches);
+  for (const std::string& name : searches.folders()) {
+    if (const int number = number_of(name); number > number_ && searches.has(name + "/study.toml"))
+      number_ = number;
   }
   if (number_ == 0) return;
   try {
     begin_reading();
     // One that was interrupted has files too, but no end in its journal.
-    const bool finished = ended_ && fs::exists(place() / "run.json", none);
-    state_ = finished ? SearchState::Finished : SearchState::Paused;
+    const bool finished = ended_ && folder_.has(in_place("run.json"));
+    if (trouble_.empty()) state_ = finished ? SearchState::Finished : SearchState::Paused;
   } catch (const InputError& error) {
     state_ = SearchState::Failed;
     trouble_ = error.what();
@@ -151,10 +164,9 @@ void SearchDesk::find_last() {
 }
 
 void SearchDesk::begin_reading() {
-  present_ = std::make_unique<const Present>((place() / "study.toml").string());
-  total_ = search_problem(present_->problem).evaluations;
+  present_ = std::make_unique<Present>(folder_.file(in_place("study.toml")));
+  total_ = present_->search.evaluations;
   found_.clear();
-  read_ = 0;
   ended_ = false;
   stage_ = "search";
   trouble_.clear();
@@ -162,26 +174,24 @@ void SearchDesk::begin_reading() {
 }
 
 // What was appended since; whether there was something.
-bool SearchDesk::read_journal() {
-  std::ifstream in(place() / "journal", std::ios::binary);
-  if (!in) return false;
-  in.seekg(static_cast<std::streamoff>(read_));
-  bool news = false;
-  for (std::string line; std::getline(in, line);) {
-    if (in.eof()) break;  // still being written
-    read_ += line.size() + 1;
-    JournalRecord record;
-    if (!parse_journal_line(line, record)) continue;
-    const auto request = decode_request(record.key);
-    if (!request) continue;
-    news = true;
+bool SearchDesk::read_journal() try {
+  if (!present_ || !trouble_.empty()) return false;
+  const std::vector<JournalRecord> news =
+      present_->journal.more(folder_.below(place()), kJournalName);
+  for (const JournalRecord& record : news) {
+    const auto request = checked_request(present_->problem, present_->search, record);
+    if (!request)
+      throw InputError(in_place(kJournalName) + ": holds what no run of its study wrote");
     stage_ = stage_name(request->stage);
     ended_ = ended_ || request->stage == Stage::Done;
-    if (request->stage != Stage::Search) continue;
-    if (const auto judgement = decode_judgement(record.payload))
-      found_.push_back({request->unit, *judgement});
+    if (request->stage == Stage::Search)
+      found_.push_back({request->unit, *decode_judgement(record.payload)});
   }
-  return news;
+  return !news.empty();
+} catch (const InputError& error) {
+  state_ = SearchState::Failed;
+  trouble_ = error.what();
+  return true;
 }
 
 void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish& wish,
@@ -192,18 +202,16 @@ void SearchDesk::start(const Draft& origin, const Study& study, const SearchWish
     stop_child(lock);
   }
   const int next = number_ + 1;
-  const fs::path folder = folder_ / fmt::format("{:03}", next);
-  fs::create_directories(folder);
-  const std::string file = (folder / "study.toml").string();
+  const std::string name = fmt::format("{}/{:03}", kSearches, next);
+  const Folder folder = folder_.made_below(name);
   try {
-    write_bytes(file, study_text(study, wish));
-    const Present judged(file);  // refuses what cannot be judged
+    folder.write("study.toml", study_text(study, wish));
+    const Present judged(folder.file("study.toml"));  // refuses what cannot be judged
     Json changes = Json::array();
     for (const Change& c : origin.changes) changes.push_back({c.path, c.text});
-    write_bytes((folder / "origin.json").string(),
-                Json{{"file", origin.file}, {"changes", changes}}.dump(1));
+    folder.write("origin.json", Json{{"file", origin.file}, {"changes", changes}}.dump(1));
   } catch (...) {
-    fs::remove_all(folder);
+    folder_.remove(name);
     throw;
   }
   number_ = next;
@@ -256,15 +264,7 @@ void SearchDesk::stop() {
 void SearchDesk::watch() {
   std::unique_lock lock(mutex_);
   while (!closing_) {
-    if (wants_child_ && child_ < 0) {
-      const std::string folder = place().string();
-      std::vector<std::string> words{program_, "optimize", folder + "/study.toml", "--out", folder};
-      std::error_code none;
-      if (again_ && fs::exists(folder + "/journal", none)) words.push_back("--resume");
-      if (to_its_end_) words.insert(words.end(), {"--finish", "--time", kLastWord});
-      child_ = started(words, folder + "/log.txt");
-      wants_child_ = false;
-    }
+    if (wants_child_ && child_ < 0) start_child();
     changed_.wait_for(lock, kLook, [&] { return closing_ || (wants_child_ && child_ < 0); });
     if (child_ < 0) continue;
     const bool news = read_journal();
@@ -282,49 +282,62 @@ void SearchDesk::watch() {
   }
 }
 
+void SearchDesk::start_child() try {
+  wants_child_ = false;
+  const Folder folder = folder_.below(place());
+  std::vector<std::string> words{program_, "optimize", folder.file("study.toml"), "--out",
+                                 folder.path()};
+  if (again_ && folder.has(kJournalName)) words.push_back("--resume");
+  if (to_its_end_) words.insert(words.end(), {"--finish", "--time", kLastWord});
+  const Handle log = folder.open_to_write(kLog);
+  if (::ftruncate(log.get(), 0) != 0)
+    throw InputError(folder.path(kLog) + ": " + std::strerror(errno));
+  child_ = started(words, log);
+} catch (const InputError& error) {
+  state_ = SearchState::Failed;
+  trouble_ = error.what();
+}
+
 void SearchDesk::wait_for_child() {
   int status = 0;
   if (::waitpid(child_, &status, WNOHANG) != child_) return;
   child_ = -1;
   read_journal();
-  std::error_code none;
   const bool finished =
-      WIFEXITED(status) && fs::exists(place() / "run.json", none) && WEXITSTATUS(status) <= 1;
+      WIFEXITED(status) && folder_.has(in_place("run.json")) && WEXITSTATUS(status) <= 1;
   const bool paused = stopping_ || (WIFEXITED(status) && WEXITSTATUS(status) >= 128);
   stopping_ = false;
   state_ = finished ? SearchState::Finished : paused ? SearchState::Paused : SearchState::Failed;
-  if (state_ == SearchState::Failed) trouble_ = last_lines((place() / "log.txt").string());
+  if (state_ == SearchState::Failed && trouble_.empty() && folder_.has(in_place(kLog)))
+    trouble_ = visible(last_lines(folder_.read(in_place(kLog))));
   changed_.notify_all();
 }
 
 Draft SearchDesk::design_of(std::size_t evaluation) const {
   const std::lock_guard lock(mutex_);
   if (!present_ || evaluation >= found_.size()) throw InputError("the search has no such design");
-  const Json origin = Json::parse(read_bytes((place() / "origin.json").string()));
-  Draft out{origin.at("file").get<std::string>(), {}};
-  out.changes = changes_between(study_of(out).design,
-                                present_->problem.space().design(found_[evaluation].unit));
-  return out;
+  return draft_of(present_->problem.space().design(found_[evaluation].unit));
 }
 
 Draft SearchDesk::design_of(const std::string& front) const {
   const std::lock_guard lock(mutex_);
-  if (!present_ || front.find("..") != std::string::npos)
-    throw InputError("the search has no such design");
-  const fs::path file = place() / front / "design.toml";
-  std::error_code none;
-  if (!fs::exists(file, none)) throw InputError("the search has no such design");
-  const Json origin = Json::parse(read_bytes((place() / "origin.json").string()));
+  const std::string file = place() + "/" + front + "/design.toml";
+  if (!present_ || !folder_.has(file)) throw InputError("the search has no such design");
+  return draft_of(read_design(folder_.file(file)));
+}
+
+// The design as changes of what the search began with.
+Draft SearchDesk::draft_of(const Design& design) const {
+  const Json origin = Json::parse(folder_.read(in_place("origin.json")));
   Draft out{origin.at("file").get<std::string>(), {}};
-  out.changes = changes_between(study_of(out).design, read_design(file.string()));
+  out.changes = changes_between(study_of(out).design, design);
   return out;
 }
 
 Json SearchDesk::front_json() const {
-  std::error_code none;
-  const fs::path table = place() / "pareto.csv";
-  if (state_ != SearchState::Finished || !fs::exists(table, none)) return Json::array();
-  return csv_rows(read_bytes(table.string()));
+  const std::string table = in_place("pareto.csv");
+  if (state_ != SearchState::Finished || !folder_.has(table)) return Json::array();
+  return csv_rows(folder_.read(table));
 }
 
 Json SearchDesk::json() const {
@@ -352,7 +365,7 @@ Json SearchDesk::json() const {
                       {"ok", f.judgement.outcome.ok},
                       {"feasible", f.judgement.outcome.feasible()}});
   }
-  out["folder"] = fmt::format("searches/{:03}", number_);
+  out["folder"] = place();
   out["stage"] = stage_;
   out["done"] = found_.size();
   out["total"] = total_;

@@ -13,7 +13,9 @@
 #include <thread>
 #include <vector>
 
+#include "base/folder.h"
 #include "base/rooms.h"
+#include "optim/journal.h"
 #include "search/problem.h"
 #include "search/protocol.h"
 #include "studio/session.h"
@@ -71,31 +73,35 @@ class SearchDesk {
     search::Judgement judgement;
   };
   struct Present {
-    explicit Present(const std::string& file) : study(read_study(file)), problem(study) {}
+    explicit Present(const std::string& file);
     const Study study;
     const StudyProblem problem;  // refers to the study
+    const SearchProblem search;
+    JournalReader journal;
   };
 
   void watch();  // the desk's thread
   void launch(bool again, bool to_its_end = false);
   bool read_journal();
+  void start_child();
   void wait_for_child();
   void find_last();
-  std::filesystem::path place() const;  // of the present search
+  std::string place() const;  // of the present search, below the folder
+  std::string in_place(const char* name) const;
+  Draft draft_of(const Design& design) const;
   void begin_reading();
   nlohmann::ordered_json front_json() const;
   void stop_child(std::unique_lock<std::mutex>& lock);
 
-  std::filesystem::path folder_;
+  Folder folder_;
   std::string program_;
   std::function<void()> told_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   int number_ = 0;  // of the present search; 0: there was none
   SearchState state_ = SearchState::None;
-  std::unique_ptr<const Present> present_;
+  std::unique_ptr<Present> present_;
   std::vector<Found> found_;
-  std::size_t read_ = 0;  // bytes of the journal
   int total_ = 0;
   std::string stage_, trouble_;
   bool to_its_end_ = false;  // the child looks for no more than kLastWord lets it

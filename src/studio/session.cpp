@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/files.h"
 #include "design/families.h"
 #include "geometry/texture.h"
 
@@ -16,6 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kSessionFile = "session.json";
 constexpr std::size_t kMostSteps = 200, kMostPins = 8;
 
 Json draft_json(const Draft& draft) {
@@ -57,8 +57,7 @@ Study study_of(const Draft& draft) {
 }
 
 Session::Session(const fs::path& folder, const std::string& file)
-    : path_(folder / ".studio" / "session.json") {
-  fs::create_directories(path_.parent_path());
+    : kept_(Folder(folder).made_below(kStudioFolder)) {
   restore(file);
   keep();
 }
@@ -66,10 +65,10 @@ Session::Session(const fs::path& folder, const std::string& file)
 // A state that cannot be read any more, or of another file, is left behind.
 void Session::restore(const std::string& file) {
   adopt({file, {}});
-  std::error_code none;
-  if (!fs::exists(path_, none)) return;
+  if (!kept_.has(kSessionFile)) return;
   try {
-    const Json kept = Json::parse(read_bytes(path_));
+    constexpr std::size_t kMost = std::size_t{1} << 24;
+    const Json kept = Json::parse(kept_.read(kSessionFile, kMost));
     const Draft draft = draft_from(kept.at("draft"));
     for (const Json& p : kept.at("pins")) {
       Pin pin{p.at("number").get<int>(), p.at("name").get<std::string>(),
@@ -92,12 +91,12 @@ void Session::keep() const {
   Json pins = Json::array();
   for (const Pin& p : pins_)
     pins.push_back({{"number", p.number}, {"name", p.name}, {"draft", draft_json(p.draft)}});
-  write_bytes(path_, Json{{"schema", 1},
-                          {"draft", draft_json(draft_)},
-                          {"past", drafts_json(past_)},
-                          {"future", drafts_json(future_)},
-                          {"pins", pins}}
-                         .dump(1));
+  kept_.write(kSessionFile, Json{{"schema", 1},
+                                 {"draft", draft_json(draft_)},
+                                 {"past", drafts_json(past_)},
+                                 {"future", drafts_json(future_)},
+                                 {"pins", pins}}
+                                .dump(1));
 }
 
 void Session::adopt(Draft draft) {

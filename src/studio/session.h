@@ -10,10 +10,14 @@
 #include <string>
 #include <vector>
 
+#include "base/folder.h"
 #include "base/rooms.h"
 #include "studio/form.h"
 
 namespace papilla::studio {
+
+// Where the studio keeps what is its own, below the folder that it works in.
+inline constexpr const char* kStudioFolder = ".studio";
 
 // A design as a file and what was changed of it.
 struct Draft {
@@ -71,7 +75,7 @@ class Session {
   void restore(const std::string& file);
   void keep() const;
 
-  std::filesystem::path path_;
+  Folder kept_;
   mutable std::mutex mutex_;
   Draft draft_;
   Study study_;

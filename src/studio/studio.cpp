@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "base/files.h"
+#include "base/text.h"
 #include "design/scans.h"
 #include "forward/appearance.h"
 #include "geometry/texture.h"
@@ -22,6 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+const std::string kOpeningFile = std::string(kStudioFolder) + "/open.html";
 
 // The file that the studio opens with: of a folder of results its best design.
 std::string opened_file(const std::string& given) {
@@ -115,7 +117,9 @@ struct Studio::Asked {
 };
 
 Studio::Studio(const StudioOptions& options)
-    : files_(own_folder(options)), session_(files_.folder(), opened_file(options.file)) {
+    : files_(own_folder(options)),
+      lock_(files_.handle().made_below(kStudioFolder), "lock", "another studio is working"),
+      session_(files_.folder(), opened_file(options.file)) {
   add_routes();
   desk_ = std::make_unique<SearchDesk>(files_.folder(), options.program, [this] {
     events_.tell(Topic::Search, desk_->json().dump());
@@ -132,9 +136,23 @@ Studio::~Studio() {
   server_->stop();
   evaluator_.reset();
   desk_.reset();
+  try {
+    files_.handle().remove(kOpeningFile);
+  } catch (const InputError&) {  // its token opens nothing any more
+  }
 }
 
 std::string Studio::address() const { return server_->door().address(); }
+
+std::string Studio::opening_file() const {
+  files_.handle().write_secret(
+      kOpeningFile, fmt::format("<!doctype html><meta charset=\"utf-8\"><title>Papilla</title>\n"
+                                "<meta name=\"referrer\" content=\"no-referrer\">\n"
+                                "<meta http-equiv=\"refresh\" content=\"0;url={0}\">\n"
+                                "<a href=\"{0}\">The studio</a>\n",
+                                address()));
+  return files_.handle().path(kOpeningFile);
+}
 
 Listener Studio::listener() {
   Listener out;
@@ -182,7 +200,7 @@ std::string Studio::session_json() const {
   const std::string below = file.lexically_relative(files_.folder()).generic_string();
   return Json{{"revision", view.revision},
               {"title", view.study.design.title},
-              {"file", below.starts_with("..") ? file.filename().string() : below},
+              {"file", visible(below.starts_with("..") ? file.filename().string() : below)},
               {"in_folder", !below.starts_with("..")},
               {"kind", texture_name(view.study.design.texture)},
               {"driven", view.study.design.drive.driven()},
@@ -317,12 +335,13 @@ void Studio::add_search_routes() {
 // Of a finished search its page; of the present one what it has so far.
 HttpAnswer Studio::report(const std::string& folder) const {
   try {
-    const fs::path page = inside(files_.folder(), folder + "/report.html");
+    const fs::path page = inside(files_.folder(), folder + "/" + kPageName);
     const Json search = desk_->json();
     const bool present = search.value("folder", "") == folder;
     const bool unfinished = present && search["state"] != "finished";
     return {200, "text/html; charset=utf-8",
-            unfinished ? unfinished_page(page.parent_path().string(), search) : read_bytes(page),
+            unfinished ? unfinished_page(page.parent_path().string(), search)
+                       : files_.handle().read(folder + "/" + kPageName),
             true};
   } catch (const InputError& error) {
     return refusal(404, error);
@@ -348,6 +367,8 @@ HttpAnswer Studio::answer(const HttpRequest& request) {
     return refusal(200, error);  // an answer like others: browsers log failures as errors of a page
   } catch (const Json::exception&) {
     return {400, "application/json", R"({"error":"not what this address takes"})"};
+  } catch (const std::exception&) {  // whose words may hold names of files
+    return {500, "application/json", R"({"error":"the studio could not do that"})"};
   }
 }
 

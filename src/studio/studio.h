@@ -34,6 +34,10 @@ class Studio {
   Studio& operator=(const Studio&) = delete;
 
   std::string address() const;
+  // A page that leads there, for its owner's eyes alone, while the studio lives. Everybody on the
+  // machine sees the words that a program is started with: a browser is given this file's name, not
+  // the address with its token.
+  std::string opening_file() const;
   // What a page asks. Thread safe; exposed for tests.
   HttpAnswer answer(const HttpRequest& request);
 
@@ -54,6 +58,7 @@ class Studio {
 
   Events events_;
   Files files_;
+  FolderLock lock_;  // of its folder: two would overwrite each other's sessions and searches
   Session session_;
   std::map<std::string, Route> routes_;
   std::mutex computing_;  // what takes seconds, one at a time

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/fft.h"
 #include "base/random.h"
 
 namespace papilla::tests {

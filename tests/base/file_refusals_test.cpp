@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <filesystem>
+#include <iterator>
 #include <string>
 
 #include "base/check.h"
@@ -28,22 +29,24 @@ std::string refusal(const Work& work) {
   return "";
 }
 
-TEST(Files, AreWrittenWhereTheirNameOrItsLinkPoints) {
+TEST(Files, AreWrittenUnderTheirNameAndBehindNoLink) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "file.txt", link = folder.path() / "link";
-  EXPECT_EQ(base::replaceable(file), file);  // none there yet
+  EXPECT_EQ(base::end_of_links(file), file);  // none there yet
   write_bytes(file, "one");
-  EXPECT_EQ(base::replaceable(file), file);
+  EXPECT_EQ(base::end_of_links(file), file);
   fs::create_symlink("file.txt", link);
-  EXPECT_EQ(base::replaceable(link), fs::canonical(file));
-  write_bytes(link, "two");
+  EXPECT_EQ(base::end_of_links(link), fs::canonical(file));
+  write_bytes(base::end_of_links(link), "two");  // a link that the user named
   EXPECT_EQ(read_bytes(file), "two");
   EXPECT_TRUE(fs::is_symlink(link));
-  const std::string fresh = folder.path() / "fresh.txt";
-  const mode_t mask = umask(0022);
-  write_bytes(fresh, "three");
-  umask(mask);
-  EXPECT_EQ(fs::status(fresh).permissions(), static_cast<fs::perms>(0644));
+  write_bytes(link, "three");  // any other
+  EXPECT_FALSE(fs::is_symlink(link));
+  EXPECT_EQ(read_bytes(link), "three");
+  EXPECT_EQ(read_bytes(file), "two");
+  fs::create_symlink("nowhere", folder.path() / "dangling");
+  write_bytes(folder.path() / "dangling", "four");
+  EXPECT_FALSE(fs::exists(folder.path() / "nowhere"));
   write_bytes(file, "");
   EXPECT_EQ(read_bytes(file), "");
   EXPECT_EQ(fs::file_size(file), 0u);
@@ -59,8 +62,8 @@ TEST(Files, WhatARenameWouldDestroyIsRefused) {
   EXPECT_EQ(refusal([&] { write_bytes(pipe, "x"); }),
             "cannot write " + pipe + ": it is no regular file; give the path of a file");
   fs::create_directory_symlink("sub", here + "/link");
-  EXPECT_EQ(refusal([&] { write_bytes(here + "/link", "x"); }),
-            "cannot write " + here + "/link: it is a folder; give the path of a file");
+  EXPECT_EQ(refusal([&] { write_bytes(base::end_of_links(here + "/link"), "x"); }),
+            "cannot write " + inside + ": it is a folder; give the path of a file");
   const std::string nowhere = here + "/none/file";
   EXPECT_EQ(refusal([&] { write_bytes(nowhere, "x"); }),
             "cannot write " + nowhere + ": No such file or directory (open)");
@@ -75,7 +78,7 @@ TEST(Files, ThatAreTakenAwayMeanwhileAreNotTakenForWritten) {
     out.append("abc");
     out.append("");
     out.append(std::string("def"));
-    fs::remove(file + ".part");
+    for (const auto& entry : fs::directory_iterator(folder.path())) fs::remove(entry.path());
     EXPECT_EQ(refusal([&] { out.commit(); }),
               "cannot write " + file + ": No such file or directory (rename)");
   }
@@ -86,8 +89,8 @@ TEST(Files, ThatAreTakenAwayMeanwhileAreNotTakenForWritten) {
     fs::create_directory(file);
     EXPECT_EQ(refusal([&] { out.commit(); }), "cannot write " + file + ": Is a directory (rename)");
   }
-  EXPECT_FALSE(fs::exists(file + ".part"));
   EXPECT_TRUE(fs::is_directory(file));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
 // The bytes in the right order, however they are handed over.
@@ -135,12 +138,12 @@ TEST(Files, AreWrittenWhereAChainOfLinksEndsThereOrNot) {
   fs::create_directory(within);
   fs::create_symlink("within/second", folder.path() / "first");
   fs::create_symlink("file.txt", within / "second");  // from its own folder
-  write_bytes(folder.path() / "first", "one");
+  write_bytes(base::end_of_links(folder.path() / "first"), "one");
   EXPECT_EQ(read_bytes(within / "file.txt"), "one");
   EXPECT_TRUE(fs::is_symlink(folder.path() / "first"));
   EXPECT_TRUE(fs::is_symlink(within / "second"));
   fs::create_symlink("round", folder.path() / "round");
-  EXPECT_NE(refusal([&] { write_bytes(folder.path() / "round", "two"); }).find("lead nowhere"),
+  EXPECT_NE(refusal([&] { base::end_of_links(folder.path() / "round"); }).find("lead nowhere"),
             std::string::npos);
 }
 

@@ -35,6 +35,27 @@ TEST(Texts, ANameMayBeWrongInTwoLettersOrAThird) {
   EXPECT_EQ(nearest_name("gaps", Names{"gab", "gap", "gals"}), "gap");
 }
 
+TEST(Texts, Utf8IsWhatTheStandardSays) {
+  for (const char* text : {"", "a", "\u00e9", "\u20ac", "\U0001f600", "a\u00e9\u20ac\U0010ffff"})
+    EXPECT_TRUE(is_utf8(text)) << text;
+  for (const char* text :
+       {"\xe9", "a\xc3", "\x80", "\xc0\xaf", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80",
+        "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "ok\xe2\x82"})
+    EXPECT_FALSE(is_utf8(text)) << text;
+}
+
+TEST(Texts, ControlCharactersAreShownNotSent) {
+  EXPECT_EQ(visible("two\nlines\tand \u00e9 \u20ac \U0001f600"),
+            "two\nlines\tand \u00e9 \u20ac \U0001f600");
+  EXPECT_EQ(visible("\x1b[31mred\x1b[0m"), "\\x1b[31mred\\x1b[0m");
+  EXPECT_EQ(visible("a\rb\x7f\x07"), "a\\x0db\\x7f\\x07");
+  EXPECT_EQ(visible("\xc2\x9b"
+                    "31m\xc2\xa0."),
+            "\\xc2\\x9b31m\xc2\xa0.");  // C1 in UTF-8
+  EXPECT_EQ(visible("r\xe9sum\xe9"), "r\\xe9sum\\xe9");
+  EXPECT_EQ(visible(std::string("\0", 1)), "\\x00");
+}
+
 TEST(Texts, PartsAreCutAtEverySeparator) {
   EXPECT_EQ(split("  a  b ;c;; d", ';'), (Names{"a  b", "c", "", "d"}));
   EXPECT_EQ(split(";", ';'), (Names{"", ""}));

@@ -1,5 +1,10 @@
 // Files that are written and read whole: what lies on the disk is what was asked for, or an error.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -21,6 +26,16 @@ std::string long_text() {
   return out;
 }
 
+// The one part in the folder of a file; empty: there is none.
+std::string part_beside(const std::string& path) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::filesystem::path(path).parent_path())) {
+    const std::string name = entry.path().filename();
+    if (name.starts_with(".") && name.find(".part") != name.npos) return entry.path();
+  }
+  return "";
+}
+
 std::string commit_after(const std::function<void(const std::string& part)>& damage) {
   const std::string path = temporary("written.txt");
   write_bytes(path, "before");
@@ -29,11 +44,11 @@ std::string commit_after(const std::function<void(const std::string& part)>& dam
     const std::string text = long_text();
     out.append(text.substr(0, 1000));
     out.append(text.substr(1000));
-    damage(path + ".part");
+    damage(part_beside(path));
     out.commit();
   } catch (const InputError& error) {
     EXPECT_EQ(read_bytes(path), "before");  // the old file stays, nothing else is left
-    EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+    EXPECT_EQ(part_beside(path), "");
     return error.what();
   }
   EXPECT_EQ(read_bytes(path), long_text());
@@ -63,10 +78,94 @@ TEST(FileWriters, LeaveNothingBehindWithoutACommit) {
   {
     base::FileWriter out(path);
     out.append("half");
-    EXPECT_TRUE(std::filesystem::exists(path + ".part"));
+    EXPECT_NE(part_beside(path), "");
   }
   EXPECT_FALSE(std::filesystem::exists(path));
-  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  EXPECT_EQ(part_beside(path), "");
+}
+
+mode_t mode_of(const std::string& path) {
+  struct stat there {};
+  EXPECT_EQ(::lstat(path.c_str(), &there), 0) << path;
+  return there.st_mode & 07777;
+}
+
+TEST(FileWriters, KeepTheModeOfWhatTheyReplace) {
+  const std::string path = temporary("private.txt");
+  const mode_t mask = ::umask(0022);
+  write_bytes(path, "first");
+  EXPECT_EQ(mode_of(path), 0644u);
+  for (const mode_t mode : {0600u, 0640u, 0666u, 0755u, 0400u}) {
+    ASSERT_EQ(::chmod(path.c_str(), mode), 0);
+    {
+      base::FileWriter out(path);
+      EXPECT_EQ(mode_of(part_beside(path)), mode);  // nobody reads it meanwhile either
+      out.append("second");
+      out.commit();
+    }
+    EXPECT_EQ(mode_of(path), mode);
+  }
+  ::umask(mask);
+}
+
+// Names that nobody guesses: two who write the same file at once do not meet.
+TEST(FileWriters, OfOneFileDoNotDisturbEachOther) {
+  const std::string path = temporary("both.txt");
+  base::FileWriter one(path), two(path);
+  one.append("one");
+  two.append("two");
+  two.commit();
+  EXPECT_EQ(read_bytes(path), "two");
+  one.commit();
+  EXPECT_EQ(read_bytes(path), "one");
+}
+
+// A process that was killed leaves its part; the next one that writes the file takes it away, and
+// no part that somebody still writes into, nor one of another file.
+TEST(FileWriters, ClearWhatAKilledProcessLeft) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "killed.txt";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    base::FileWriter out(path);
+    out.append("half");
+    ::kill(::getpid(), SIGKILL);
+  }
+  ASSERT_EQ(::waitpid(child, nullptr, 0), child);
+  const std::string left = part_beside(path);
+  ASSERT_NE(left, "");
+  const std::string mine = folder.path() / ".killed.0123456789abcdeX.part.txt";
+  std::ofstream(mine) << "not a part of ours";
+  write_bytes(folder.path() / "other.txt", "other");
+  EXPECT_TRUE(std::filesystem::exists(left));
+  base::FileWriter living(path);
+  EXPECT_FALSE(std::filesystem::exists(left));
+  write_bytes(path, "whole");
+  living.commit();
+  EXPECT_EQ(read_bytes(path), "");
+  EXPECT_TRUE(std::filesystem::exists(mine));
+}
+
+// A file that may not grow ends the program by a signal; where that is not taken it is told, and
+// nothing is left.
+TEST(FileWriters, LeaveNothingWhereAFileMayNotGrow) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "large.txt";
+  const auto before = ::signal(SIGXFSZ, SIG_IGN);
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const rlimit small{1000, limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  std::string message;
+  try {
+    write_bytes(path, long_text());
+  } catch (const InputError& error) {
+    message = error.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &limit);
+  ::signal(SIGXFSZ, before);
+  EXPECT_EQ(message, "cannot write " + path + ": File too large (write)");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(ReadBytes, TakesAsManyAsItsLimitAndNoMore) {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/elf.h"
 #include "tests/temporary.h"
 
 namespace papilla {
@@ -50,6 +51,16 @@ class Consumer : public ::testing::Test {
       " tree/share/papilla/designs/m3_samples/a3h350.toml accuracy.level=draft";
   static constexpr const char* kSource = PAPILLA_SOURCE_DIR "/tests/consumer";
 };
+
+TEST_F(Consumer, InstalledBinariesLookForLibrariesBesideThemselves) {
+  int seen = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(place_ + "/tree")) {
+    if (entry.is_symlink() || !entry.is_regular_file() || !tests::is_elf(entry.path())) continue;
+    EXPECT_EQ(tests::missing_protection(entry.path()), "") << entry.path();
+    ++seen;
+  }
+  EXPECT_GE(seen, 3);
+}
 
 TEST_F(Consumer, FindsThePackageAndHasTheBytesOfTheCommand) {
   ASSERT_EQ(

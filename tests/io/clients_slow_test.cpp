@@ -203,10 +203,13 @@ TEST(Export, AKillInTheMiddleLeavesTheOldFile) {
   // Stopped as soon as the new file has begun.
   place.shell("'" PAPILLA_PROGRAM "' " + design +
               "--format exr --pixels 512 --repeat 16 --out f & p=$!; "
-              "for i in $(seq 600); do [ -e f/heightmap.part.exr ] && break; sleep 0.02; done; "
-              "[ -e f/heightmap.part.exr ] && touch begun; kill -9 $p");
+              "for i in $(seq 600); do ls f/.heightmap.*.part.exr && break; sleep 0.02; done; "
+              "ls f/.heightmap.*.part.exr && touch begun; kill -9 $p");
   EXPECT_TRUE(std::filesystem::exists(place.path() / "begun"));
   EXPECT_EQ(file_text(place.path() / "f/heightmap.exr"), exr);
+  // What it left goes with the next one.
+  ASSERT_EQ(place.run(design + "--format exr --pixels 64 --out f").status, 0);
+  EXPECT_EQ(place.shell("ls f/.heightmap.*").status, 2);
 }
 
 TEST(Verify, JudgesTheFileAndFailsAboveTheTolerance) {

@@ -184,16 +184,20 @@ TEST_F(Files, MaskPolarityIsWhatWasAskedFor) {
 TEST_F(Files, AFailedWriteLeavesTheOldFile) {
   write_bytes(path("x.txt"), "old");
   EXPECT_THROW(write_bytes(path("missing/x.txt"), "new"), InputError);
-  // What a rename would destroy is refused, a link is followed.
+  // What a rename would destroy is refused, a link is replaced.
   ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
   EXPECT_THROW(write_bytes(path("pipe"), "new"), InputError);
   EXPECT_THROW(write_exr(path("pipe"), holes(), {}), InputError);
   EXPECT_TRUE(std::filesystem::is_fifo(path("pipe")));
   EXPECT_THROW(write_bytes(folder_.path().string(), "new"), InputError);
   std::filesystem::create_symlink(path("x.txt"), path("link.txt"));
-  write_bytes(path("link.txt"), "through");
-  EXPECT_TRUE(std::filesystem::is_symlink(path("link.txt")));
-  EXPECT_EQ(read_bytes(path("x.txt")), "through");
+  write_bytes(path("link.txt"), "beside");
+  EXPECT_FALSE(std::filesystem::is_symlink(path("link.txt")));
+  EXPECT_EQ(read_bytes(path("x.txt")), "old");
+  std::filesystem::create_symlink(path("x.txt"), path("link.exr"));
+  write_exr(path("link.exr"), holes(), {});
+  EXPECT_FALSE(std::filesystem::is_symlink(path("link.exr")));
+  EXPECT_EQ(read_bytes(path("x.txt")), "old");
   Heightmap broken = holes();
   write_exr(path("x.exr"), holes(), {});
   const std::string before = read_bytes(path("x.exr"));
@@ -201,7 +205,8 @@ TEST_F(Files, AFailedWriteLeavesTheOldFile) {
   EXPECT_THROW(write_exr(path("x.exr"), broken, {}), InputError);
   EXPECT_EQ(read_bytes(path("x.exr")), before);
   EXPECT_THROW(write_exr(path("missing/x.exr"), holes(), {}), InputError);
-  EXPECT_FALSE(std::filesystem::exists(path("x.part.exr")));
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << entry.path();
 }
 
 TEST_F(Files, HostileFilesAreRefused) {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "tests/optim/journal_at.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -59,7 +60,7 @@ TEST_F(JournalFile, ARecordIsSoundOnlyAsItIsWritten) {
 
 TEST_F(JournalFile, ACutAtAnyByteLosesAtMostTheTornRecord) {
   {
-    Journal journal(path_, "key", false);
+    Journal journal = journal_at(path_, "key", false);
     for (int i = 0; i < 5; ++i) journal.append(record(i));
   }
   const std::string whole = bytes();
@@ -67,7 +68,7 @@ TEST_F(JournalFile, ACutAtAnyByteLosesAtMostTheTornRecord) {
     std::ofstream(path_, std::ios::binary | std::ios::trunc) << whole.substr(0, cut);
     std::size_t kept = 0;
     {
-      Journal journal(path_, "key", true);
+      Journal journal = journal_at(path_, "key", true);
       kept = journal.records().size();
       for (std::size_t i = kept; i < 5; ++i) journal.append(record(static_cast<int>(i)));
     }
@@ -77,30 +78,30 @@ TEST_F(JournalFile, ACutAtAnyByteLosesAtMostTheTornRecord) {
 
 TEST_F(JournalFile, DamagedRecordsAreCountedATornOneIsNot) {
   {
-    Journal journal(path_, "key", false);
+    Journal journal = journal_at(path_, "key", false);
     for (int i = 0; i < 5; ++i) journal.append(record(i));
   }
   std::string text = bytes();
   text.pop_back();  // the trace of a kill
   std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
-  EXPECT_EQ(Journal(path_, "key", true).lost(), 0);
+  EXPECT_EQ(journal_at(path_, "key", true).lost(), 0);
   text = bytes();  // four records
   std::size_t begin = 0;
   for (int line = 0; line < 2; ++line) begin = text.find('\n', begin) + 1;
   text[begin + 5] = text[begin + 5] == 'x' ? 'y' : 'x';  // in the second
   std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
-  Journal journal(path_, "key", true);
+  Journal journal = journal_at(path_, "key", true);
   EXPECT_EQ(journal.records().size(), 1u);
   EXPECT_EQ(journal.lost(), 3);
 }
 
 TEST_F(JournalFile, AnotherStudyOrAnUnaskedResumeIsRefused) {
   {
-    Journal journal(path_, "key", false);
+    Journal journal = journal_at(path_, "key", false);
     journal.append(record(0));
   }
-  EXPECT_THROW(Journal(path_, "other", true), InputError);
-  EXPECT_THROW(Journal(path_, "key", false), InputError);
+  EXPECT_THROW(journal_at(path_, "other", true), InputError);
+  EXPECT_THROW(journal_at(path_, "key", false), InputError);
 }
 
 }  // namespace

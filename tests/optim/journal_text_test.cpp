@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 
 #include "base/error.h"
 #include "optim/journal.h"
+#include "tests/optim/journal_at.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -28,7 +30,7 @@ void write(const std::string& path, const std::string& bytes) {
 
 std::string refusal(const std::string& path, bool resume) {
   try {
-    Journal(path, "key", resume);
+    journal_at(path, "key", resume);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -68,7 +70,7 @@ TEST(JournalText, AFileIsItsHeadAndItsLines) {
   std::filesystem::remove(path);
   const JournalRecord one{"a", "1"}, two{"b", "2\n3"};
   {
-    Journal journal(path, "key", false);
+    Journal journal = journal_at(path, "key", false);
     EXPECT_EQ(bytes_of(path), head);
     EXPECT_TRUE(journal.records().empty());
     EXPECT_EQ(journal.lost(), 0);
@@ -78,7 +80,7 @@ TEST(JournalText, AFileIsItsHeadAndItsLines) {
   }
   EXPECT_EQ(bytes_of(path), head + journal_line(one) + journal_line(two));
   {
-    Journal journal(path, "key", true);
+    Journal journal = journal_at(path, "key", true);
     EXPECT_EQ(journal.records(), (std::vector<JournalRecord>{one, two}));
     EXPECT_EQ(journal.lost(), 0);
     EXPECT_EQ(bytes_of(path), head + journal_line(one) + journal_line(two));
@@ -127,20 +129,96 @@ TEST(JournalText, LinesBehindADamagedOneAreLost) {
                                      {line.substr(0, 9), 0},
                                      {"damaged\n" + line.substr(0, 9), 1}}) {
     write(path, head + line + behind);
-    const Journal journal(path, "key", true);
+    const Journal journal = journal_at(path, "key", true);
     EXPECT_EQ(journal.records().size(), 1u) << behind;
     EXPECT_EQ(journal.lost(), lost) << behind;
     EXPECT_EQ(bytes_of(path), head + line);
   }
 }
 
+// Every byte of a journal flipped in turn: what is cut off stands in a copy, whatever it is.
+TEST(JournalText, KeepsACopyBeforeItCutsAnythingOff) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "journal", head = "papilla-journal 2 key\n";
+  std::string text = head;
+  for (const char* payload : {"1", "2 two", "3\n", "4"}) text += journal_line({"key", payload});
+  int copies = 0;
+  for (std::size_t at = head.size(); at < text.size(); ++at) {
+    for (const char mask : {1, 4, 64}) {
+      std::string damaged = text;
+      damaged[at] = static_cast<char>(damaged[at] ^ mask);
+      write(path, damaged);
+      const Journal journal = journal_at(path, "key", true);
+      const std::string kept = bytes_of(path);
+      ASSERT_TRUE(text.starts_with(kept)) << at;  // sound records alone
+      ASSERT_LT(kept.size(), text.size()) << at;
+      ASSERT_FALSE(journal.kept_copy().empty()) << at << " of " << damaged;
+      ASSERT_EQ(bytes_of(journal.kept_copy()), damaged) << at;
+      std::filesystem::remove(journal.kept_copy());
+      ++copies;
+    }
+  }
+  EXPECT_EQ(copies, 3 * static_cast<int>(text.size() - head.size()));
+}
+
+TEST(JournalText, KeepsOneCopyOfOneDamageAndAnotherOfTheNext) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "journal", head = "papilla-journal 2 key\n";
+  for (const auto& [behind, name] :
+       {std::pair{"one\n", ".damaged"}, {"two\n", ".damaged.2"}, {"one\n", ".damaged"}}) {
+    write(path, head + behind);
+    EXPECT_EQ(journal_at(path, "key", true).kept_copy(), path + name);
+  }
+  write(path, head + "0123456789abcdef torn");
+  EXPECT_EQ(journal_at(path, "key", true).kept_copy(), "");
+}
+
+// A link, a pipe or a folder in its place is not written to, nor waited for.
+TEST(JournalText, OpensRegularFilesAlone) {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "journal", other = folder.path() / "other";
+  write(other, "mine");
+  std::filesystem::create_symlink("other", path);
+  EXPECT_EQ(refusal(path, false),
+            "cannot write " + path +
+                ": is a link, which is not followed here; put what it leads to in its place");
+  EXPECT_EQ(bytes_of(other), "mine");
+  std::filesystem::remove(path);
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  EXPECT_EQ(refusal(path, true), "cannot write " + path + ": it is no regular file");
+  std::filesystem::remove(path);
+  std::filesystem::create_directory(path);
+  EXPECT_EQ(refusal(path, true), "cannot write " + path + ": Is a directory");
+}
+
+// What another process appends, up to where it stands; a damaged record ends it.
+TEST(JournalReader, ReadsOnWhereItWas) {
+  const TemporaryFolder folder;
+  const Folder place(folder.path());
+  const std::string path = folder.path() / "journal", head = "papilla-journal 2 key\n";
+  JournalReader reader("key");
+  EXPECT_TRUE(reader.more(place, "journal").empty());  // no file yet
+  const JournalRecord a{"a", "1"}, b{"b", "2"};
+  const std::string torn = journal_line(b).substr(0, 20);
+  write(path, head.substr(0, 5));
+  EXPECT_TRUE(reader.more(place, "journal").empty());
+  write(path, head + journal_line(a) + torn);
+  EXPECT_EQ(reader.more(place, "journal"), std::vector{a});
+  EXPECT_TRUE(reader.more(place, "journal").empty());
+  write(path, head + journal_line(a) + journal_line(b) + "damaged\n" + journal_line(a));
+  EXPECT_EQ(reader.more(place, "journal"), std::vector{b});
+  EXPECT_TRUE(reader.more(place, "journal").empty());
+  // As a run that is resumed leaves it.
+  write(path, head + journal_line(a) + journal_line(b) + journal_line(a));
+  EXPECT_EQ(reader.more(place, "journal"), std::vector{a});
+  EXPECT_THROW(JournalReader("other").more(place, "journal"), InputError);
+}
+
 TEST(JournalText, WhereNothingCanBeWrittenItSaysSo) {
-  const std::string nowhere = temporary("no such folder") + "/journal";
-  EXPECT_EQ(refusal(nowhere, false), "cannot write " + nowhere + ": No such file or directory");
   // A file that may not grow beyond the head and eight letters: the line is torn and told.
   const std::string path = temporary("full.journal"), head = "papilla-journal 2 key\n";
   std::filesystem::remove(path);
-  Journal journal(path, "key", false);
+  Journal journal = journal_at(path, "key", false);
   const auto before = ::signal(SIGXFSZ, SIG_IGN);
   rlimit limit{};
   ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);

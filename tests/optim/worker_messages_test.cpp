@@ -1,12 +1,15 @@
 // What goes over the pipes of workers and what comes of it: messages of any size, failures by
 // their letters, teams of any size.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <stdexcept>
 
 #include "optim/worker.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -77,6 +80,33 @@ TEST(Messages, OneChildAnswersUntilItDies) {
   EXPECT_NE(second, first);
   EXPECT_EQ(worker.receive().failure,
             (WorkFailure{Reason::Crashed, "the evaluation crashed"}));  // nothing was asked
+}
+
+// Somebody else's kill is no answer of the work: it is asked once more, of a team too, and what
+// crashes again is the work's own.
+TEST(Messages, AKilledChildIsAskedOnceMore) {
+  const TemporaryFolder folder;
+  const auto killed_first = [&](int times) -> Work {
+    return [&folder, times](const Bytes& request) -> Bytes {
+      for (int k = 0; k < times; ++k) {
+        const std::string mark = folder.path() / (request + std::to_string(k));
+        const int file = ::open(mark.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+        if (file >= 0) ::kill(::getpid(), SIGKILL);
+      }
+      return request + "!";
+    };
+  };
+  Worker once(killed_first(1), {.seconds = 30});
+  once.send("a");
+  EXPECT_EQ(once.receive(), (WorkAnswer{"a!", std::nullopt}));
+  Worker twice(killed_first(2), {.seconds = 30});
+  twice.send("b");
+  EXPECT_EQ(twice.receive().failure, (WorkFailure{Reason::Crashed, "the evaluation crashed"}));
+  twice.send("b");
+  EXPECT_EQ(twice.receive().bytes, "b!");
+  const auto team = make_local_team(2, killed_first(1), {.seconds = 30});
+  const std::vector<WorkAnswer> answers = team->answer({"c", "d", "e"});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(answers[i].bytes, std::string(1, "cde"[i]) + "!");
 }
 
 TEST(Messages, WorkThatTakesTooLongIsEndedAndTold) {

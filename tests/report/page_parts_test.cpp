@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/sha256.h"
 #include "config/describe.h"
 #include "design/design.h"
 #include "forward/forward.h"
@@ -21,6 +22,7 @@
 #include "report/legend.h"
 #include "report/page.h"
 #include "report/page_data.h"
+#include "report/sums.h"
 #include "tests/report/pixels.h"
 #include "tests/report/same_json.h"
 #include "tests/temporary.h"
@@ -54,7 +56,7 @@ TEST(PageFiles, AreAllButThePageItsLockAndItsTimes) {
                 {"bytes", 3},
                 {"sha256", "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"}};
   };
-  EXPECT_EQ(plain(file_list(folder)),
+  EXPECT_EQ(plain(file_list(Folder(folder))),
             Json::array(
                 {file("a.txt"), file("b.txt"), file("sub/report/c.txt"), file("sub/timing.json")}));
 }
@@ -210,7 +212,7 @@ TEST(Pages, OfAFitHoldItAndItsFiles) {
   EXPECT_EQ(page.data["fit"]["x"], "</script>");
   EXPECT_EQ(page.data["schema"], 1);
   EXPECT_EQ(page.data["version"], PAPILLA_VERSION);
-  EXPECT_EQ(page.data["files"], plain(file_list(folder)));
+  EXPECT_EQ(page.data["files"], plain(file_list(Folder(folder))));
   EXPECT_EQ(page.data.size(), 4u);
   EXPECT_NE(page.text.find("<title>a &lt;b> &amp; c</title>"), std::string::npos);
   EXPECT_NE(page.text.find("<h1>a &lt;b> &amp; c</h1>"), std::string::npos);
@@ -237,6 +239,65 @@ TEST(Pages, OfAFitHoldItAndItsFiles) {
   }
   write_bytes(folder + "/fit.json", "{");
   EXPECT_TRUE(refusal([&] { report_page(folder); }).starts_with(folder + "/fit.json is damaged"));
+}
+
+// By the sums beside them; of a folder without sums nothing is said.
+TEST(Pages, SayWhatIsNotAsTheRunWroteIt) {
+  const std::string folder = fresh("summed");
+  const Folder place(folder);
+  const std::string fit = R"({"check_skins": 3, "parameters": []})";
+  place.write("fit.json", fit);
+  place.write("fit.md", "# Fit\n");
+  place.made_below("deep").write("table.csv", "a\n1\n");
+  place.write("journal", "grows");
+  place.write("timing.json", "1");
+  place.write("log.txt", "2");
+  const auto said = [&] {
+    const std::string text = report_page(folder), mark = "Not as the run wrote them: ";
+    const std::size_t at = text.find(mark);
+    if (at == text.npos) return std::string();
+    const std::size_t from = at + mark.size();
+    return text.substr(from, text.find(". This page", from) - from);
+  };
+  EXPECT_EQ(said(), "");
+  write_sums(place);
+  EXPECT_EQ(place.read(kSumsName), sha256("a\n1\n") + "  deep/table.csv\n" + sha256(fit) +
+                                       "  fit.json\n" + sha256("# Fit\n") + "  fit.md\n");
+  place.write("report.html", "the page");
+  place.write("journal", "grew");
+  place.write("timing.json", "3");
+  place.write("log.txt", "4");
+  place.write("more.txt", "of the user");
+  EXPECT_EQ(said(), "");
+  place.write("deep/table.csv", "a\n2\n");
+  EXPECT_EQ(said(), "deep/table.csv");
+  place.remove("fit.md");
+  EXPECT_EQ(said(), "deep/table.csv, fit.md");
+  place.write("deep/table.csv", "a\n1\n");
+  place.write("fit.md", "# Fit\n");
+  EXPECT_EQ(said(), "");
+  // A name of the sums that leads out is none of theirs.
+  place.write(kSumsName, sha256("x") + "  ../../etc/passwd\n");
+  EXPECT_THROW(report_page(folder), InputError);
+}
+
+// What a link leads to is no part of a folder.
+TEST(Pages, FollowNoLinkOfTheirFolder) {
+  const std::string folder = fresh("linked"), outside = fresh("outside");
+  write_bytes(outside + "/fit.json", R"({"check_skins": 3, "parameters": [], "x": "secret"})");
+  write_bytes(outside + "/mine.html", "mine");
+  fs::create_symlink(outside + "/fit.json", folder + "/fit.json");
+  EXPECT_THROW(report_page(folder), InputError);
+  fs::create_symlink(outside + "/mine.html", folder + "/report.html");
+  write_bytes(folder + "/report.html", "the page");
+  EXPECT_EQ(read_bytes(outside + "/mine.html"), "mine");
+  fs::remove(folder + "/fit.json");
+  write_bytes(folder + "/fit.json", R"({"check_skins": 3, "parameters": []})");
+  fs::create_symlink(outside + "/fit.json", folder + "/fit.md");
+  fs::create_directory_symlink(outside, folder + "/deep");
+  const std::string page = report_page(folder);
+  EXPECT_EQ(page.find("secret"), std::string::npos);
+  EXPECT_EQ(page.find("mine.html"), std::string::npos);
 }
 
 TEST(Pages, OfARankingHaveEachDesignUnderItsName) {

@@ -12,7 +12,7 @@
 #include "report/response.h"
 #include "report/results.h"
 #include "report/summary.h"
-#include "search/folder.h"
+#include "search/differing.h"
 #include "search/run.h"
 #include "search/task.h"
 #include "tests/search/small_study.h"

@@ -14,7 +14,7 @@
 #include "base/files.h"
 #include "search/codec.h"
 #include "search/findings.h"
-#include "search/folder.h"
+#include "search/differing.h"
 #include "search/pick.h"
 #include "search/problem.h"
 #include "search/protocol.h"

@@ -1,8 +1,15 @@
 // The real server over the loopback: who is answered, what two pages see.
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <string>
 
+#include "base/error.h"
+#include "base/files.h"
 #include "tests/studio/loopback.h"
 #include "tests/temporary.h"
 
@@ -44,6 +51,157 @@ TEST_F(Server, RefusesOtherOriginsHostsAndTokens) {
   EXPECT_TRUE(parts.at("search").contains("state"));
   EXPECT_FALSE(parts.at("files").contains("undo"));
   EXPECT_FALSE(parts.at("wish").contains("state"));
+}
+
+// A tab may come from anywhere, as from the file that opens the studio; nothing else may.
+TEST_F(Server, LetsATabComeFromAnotherSiteToThePageAlone) {
+  const auto asked = [&](const char* method, const char* path, const char* mode, const char* dest) {
+    std::string text = place_.own(method, path);
+    const std::string origin = "Origin: http://" + place_.host() + "\r\n";
+    text.replace(text.find(origin), origin.size(),
+                 std::string("Sec-Fetch-Site: cross-site\r\nSec-Fetch-Mode: ") + mode +
+                     "\r\nSec-Fetch-Dest: " + dest + "\r\n");
+    return replied(place_, text).status;
+  };
+  EXPECT_EQ(asked("GET", "", "navigate", "document"), 200);
+  EXPECT_EQ(asked("GET", "", "no-cors", "script"), 403);
+  EXPECT_EQ(asked("GET", "", "navigate", "iframe"), 403);
+  EXPECT_EQ(asked("GET", "state", "navigate", "document"), 403);
+  EXPECT_EQ(asked("GET", "report/searches/001", "navigate", "document"), 403);
+  EXPECT_EQ(asked("POST", "set", "navigate", "document"), 403);
+}
+
+// Everybody sees the words that a browser is started with: the token is in a file of its owner's.
+TEST_F(Server, IsOpenedByAFileThatItsOwnerAloneReads) {
+  const std::string file = studio_.opening_file();
+  EXPECT_EQ(file.find(place_.root), std::string::npos);
+  EXPECT_EQ(std::filesystem::status(file).permissions(), static_cast<std::filesystem::perms>(0600));
+  EXPECT_NE(read_bytes(file).find("url=" + studio_.address()), std::string::npos);
+}
+
+// Somebody's report may hold anything: it runs in an origin of its own.
+TEST_F(Server, ShowsReportsInASandbox) {
+  std::filesystem::create_directories(folder_.path() / "searches/001");
+  write_bytes(folder_.path() / "searches/001/report.html", "<script>fetch('/')</script>");
+  const Reply report = replied(place_, place_.own("GET", "report/searches/001"));
+  EXPECT_EQ(report.status, 200);
+  EXPECT_NE(report.text.find("Content-Security-Policy: sandbox allow-scripts; default-src 'none'"),
+            std::string::npos)
+      << report.text.substr(0, 600);
+  EXPECT_EQ(report.text.find("allow-same-origin"), std::string::npos);
+  const Reply page = replied(place_, place_.own("GET", ""));
+  EXPECT_NE(page.text.find("Content-Security-Policy: default-src 'none'; script-src 'self'"),
+            std::string::npos);
+  std::filesystem::rename(folder_.path() / "searches/001", folder_.path() / "elsewhere");
+  std::filesystem::create_directory_symlink("../elsewhere", folder_.path() / "searches/001");
+  EXPECT_EQ(replied(place_, place_.own("GET", "report/searches/001")).status, 404);
+}
+
+// What is refused with a body ends its connection: the body is no request.
+TEST_F(Server, ReadsNoBodyOfARefusedRequestAsTheNextOne) {
+  const std::string hidden = place_.own("GET", "state");
+  const auto answers = [&](const std::string& head) {
+    const std::string text = replied(place_, head + hidden).text;
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = text.find("HTTP/1.1 ", at)) != text.npos; ++at) ++count;
+    EXPECT_EQ(text.find("\"session\""), std::string::npos) << head;
+    return count;
+  };
+  const std::string length = "Content-Length: " + std::to_string(hidden.size()) + "\r\n\r\n";
+  const std::string host = "Host: " + place_.host() + "\r\n";
+  for (const char* method : {"POST", "PUT", "PATCH", "DELETE", "GET", "OPTIONS"})
+    EXPECT_EQ(answers(std::string(method) + " /0123/set HTTP/1.1\r\n" + host + length), 1u)
+        << method;
+  for (const char* method : {"PUT", "PATCH", "DELETE", "GET", "OPTIONS"})
+    EXPECT_EQ(answers(std::string(method) + " " + place_.root + "set HTTP/1.1\r\n" + host + length),
+              1u)
+        << method;
+  EXPECT_EQ(answers("POST " + place_.root + "set HTTP/1.1\r\n" + host +
+                    "Content-Type: multipart/form-data; boundary=x\r\n" + length),
+            1u);
+}
+
+// A body that does not end, of a method that nobody asked for, is not kept.
+TEST_F(Server, TakesNoBodyOfAnotherMethod) {
+  Connection connection(place_.port);
+  connection.send("PUT " + place_.root + "scan?name=a.npy HTTP/1.1\r\nHost: " + place_.host() +
+                  "\r\nTransfer-Encoding: chunked\r\n\r\n");
+  const std::string chunk = "100000\r\n" + std::string(1 << 20, 'x') + "\r\n";
+  int sent = 0;
+  while (sent < 200 && connection.send(chunk)) ++sent;
+  EXPECT_LT(sent, 20);
+  EXPECT_EQ(replied(place_, place_.own("GET", "page/studio.css")).status, 200);
+}
+
+// Names of files are nobody's business who asks for what there is not.
+TEST_F(Server, TellsNoPathsOfWhatItCannotDo) {
+  std::filesystem::create_directories(folder_.path() / "locked");
+  write_bytes(folder_.path() / "locked/a.npy", "x");
+  for (const auto& [path, body] : {std::pair{"scan/view", R"({"name":"locked/a.npy"})"},
+                                   {"export", R"({"name":"locked/a.npy"})"},
+                                   {"save", R"({"name":"locked/a.npy/b.toml"})"},
+                                   {"open", R"({"name":"none.toml"})"}}) {
+    const Reply reply = replied(place_, place_.own("POST", path, body));
+    EXPECT_NE(reply.status, 500) << path << reply.text;
+    EXPECT_EQ(reply.text.find("EXCEPTION_WHAT"), std::string::npos);
+  }
+}
+
+// One owner of a folder, one of a port.
+TEST_F(Server, SharesNeitherItsFolderNorItsPort) {
+  const auto second = [&](const std::string& arguments) {
+    const std::string log = temporary("second");
+    const int code = std::system(("timeout 20 '" PAPILLA_PROGRAM "' studio --no-open " + arguments +
+                                  " > /dev/null 2> '" + log + "'")
+                                     .c_str());
+    EXPECT_EQ(WEXITSTATUS(code), 2) << arguments;
+    return read_bytes(log);
+  };
+  EXPECT_NE(second("--folder '" + folder_.path().string() + "'")
+                .find("another studio is working in this folder"),
+            std::string::npos);
+  const TemporaryFolder other;
+  EXPECT_NE(second("--folder '" + other.path().string() + "' --port " + std::to_string(place_.port))
+                .find("another program listens there"),
+            std::string::npos);
+}
+
+// A link in the folder leads nowhere, and a name that is no UTF-8 does not end the page.
+TEST_F(Server, ListsWhatItWouldOpen) {
+  write_bytes(folder_.path() / "mine.toml", "schema_version = 1\n");
+  write_bytes(folder_.path() / "r\xe9sum\xe9.toml", "schema_version = 1\n");
+  std::filesystem::create_symlink("mine.toml", folder_.path() / "link.toml");
+  const Reply state = replied(place_, place_.own("GET", "state"));
+  EXPECT_EQ(state.status, 200);
+  EXPECT_NE(state.text.find(R"("designs":["mine.toml"])"), std::string::npos);
+}
+
+TEST(StudioFolder, OfAStrangerOverwritesNothingThroughLinks) {
+  const TemporaryFolder outside, folder;
+  write_bytes(outside.path() / "mine.json", "mine");
+  // `.studio` itself is refused before anything is written.
+  std::filesystem::create_directory_symlink(outside.path(), folder.path() / ".studio");
+  EXPECT_THROW(Studio(studio_options(folder.path().string())), InputError);
+  std::filesystem::remove(folder.path() / ".studio");
+  std::filesystem::create_directory(folder.path() / ".studio");
+  for (const char* name : {"session.json", "session.json.part", "open.html"})
+    std::filesystem::create_symlink(outside.path() / "mine.json", folder.path() / ".studio" / name);
+  std::filesystem::create_directory_symlink(outside.path(), folder.path() / "searches");
+  {
+    const Studio studio(studio_options(folder.path().string()));
+    const Place place(studio.address());
+    studio.opening_file();
+    const Reply started = replied(
+        place, place.own("POST", "search/start",
+                         R"({"variables":[{"path":"texture.depth","low":"100 nm","high":"800 nm"}],)"
+                         R"("maximise":["mean(modulation)"],"evaluations":4
+  })"));
+    EXPECT_NE(started.text.find("is a link"), std::string::npos) << started.text;
+  replied(place, place.own("POST", "set", R"({"path":"texture.depth","value":"300 nm"})"));
+}
+EXPECT_EQ(read_bytes(outside.path() / "mine.json"), "mine");
+EXPECT_EQ(std::distance(std::filesystem::directory_iterator(outside.path()), {}), 1);
+EXPECT_FALSE(std::filesystem::is_symlink(folder.path() / ".studio/session.json"));
 }
 
 TEST_F(Server, SaysWhatIsWrongWithARequest) {

@@ -12,6 +12,7 @@
 #include "config/describe.h"
 #include "optim/journal.h"
 #include "search/protocol.h"
+#include "search/records.h"
 #include "studio/first_answer.h"
 #include "studio/search_desk.h"
 #include "tests/temporary.h"
@@ -248,12 +249,14 @@ class LeftSearch : public ::testing::Test {
  protected:
   LeftSearch() {
     std::filesystem::create_directories(folder_);
-    write_bytes(folder_ / "study.toml", study_text(read_study(kHoles), depth_wish()));
+    SearchWish wish = depth_wish();
+    wish.limits.push_back({"oxide_breakdown_margin", "1"});  // asks for an evaluation
+    write_bytes(folder_ / "study.toml", study_text(read_study(kHoles), wish));
     write_bytes(folder_ / "origin.json",
                 R"({"file":")" + kHoles + R"(","changes":[["texture.depth","500 nm"]]})");
-    add(Stage::Draft, 0.1, judged(-0.9));
+    journal_ = head();
+    add(Stage::Draft, 0.1);
     add(Stage::Search, 0.5, judged(-0.3));
-    journal_ += "damaged\n";
     add(Stage::Search, 0, judged(-0.6, 0.5));
     Outcome failed;
     failed.reason = "crashed";
@@ -265,13 +268,31 @@ class LeftSearch : public ::testing::Test {
     out.ok = true, out.objectives = {objective}, out.constraints = {constraint};
     return out;
   }
-  static std::string line(Stage stage, double unit, const Outcome& outcome) {
+  // Of its study, or of one with other lines.
+  std::string head(const std::string& without = "") const {
+    std::string text = read_bytes(folder_ / "study.toml");
+    if (!without.empty()) text.erase(text.find(without), text.find('\n', text.find(without)));
+    const Study study = reread(text);
+    return "papilla-journal 2 " + search::journal_key(StudyProblem(study)) + "\n";
+  }
+  static std::string record(Stage stage, const Point& unit, const std::string& payload) {
     TaskRequest request;
-    request.stage = stage, request.unit = {unit};
-    return journal_line({encode(request), encode(search::Judgement{outcome, 0})}) + "\n";
+    request.stage = stage, request.unit = unit;
+    return journal_line({encode(request), payload});
+  }
+  static std::string line(Stage stage, double unit, const Outcome& outcome) {
+    return record(stage, {unit}, encode(search::Judgement{outcome, 0}));
   }
   void add(Stage stage, double unit, const Outcome& outcome) {
     journal_ += line(stage, unit, outcome);
+  }
+  // The answer of a task: its one objective at each humidity.
+  void add(Stage stage, double unit) {
+    TaskAnswer answer;
+    const std::size_t humidities =
+        read_study(folder_ / "study.toml").design.environment.relative_humidity.size();
+    answer.objectives = {{0.3, 0.01, std::vector<double>(humidities, 0.3)}};
+    journal_ += record(stage, {unit}, encode(answer));
   }
   Json json() const {
     write_bytes(folder_ / "journal", journal_);
@@ -285,7 +306,7 @@ class LeftSearch : public ::testing::Test {
 
 TEST_F(LeftSearch, ShowsWhatWasFound) {
   const std::string next = line(Stage::Search, 0.3, judged(-0.5));
-  journal_ += next.substr(0, next.size() - 3);  // still being written
+  journal_ += next.substr(0, next.size() - 2);  // still being written
   Json left = json();
   EXPECT_EQ(left["points"],
             Json::parse(R"([{"values":["450 nm"],"objectives":[0.3],"ok":true,"feasible":true},
@@ -305,12 +326,12 @@ TEST_F(LeftSearch, SaysHowFarItCame) {
                                     {Stage::Stability, "check"},
                                     {Stage::Sensitivity, "check"},
                                     {Stage::Draft, "search"}}) {
-    add(stage, 0.2, judged(0));
-    EXPECT_EQ(json()["stage"], name);
+    add(stage, 0.2);
+    EXPECT_EQ(json()["stage"], name) << json()["trouble"];
     EXPECT_EQ(json()["done"], 4);
     EXPECT_EQ(json()["state"], "paused");
   }
-  add(Stage::Done, 0, {});
+  journal_ += record(Stage::Done, {0}, "");
   EXPECT_EQ(json()["state"], "paused");  // its results are not there
   write_bytes(folder_ / "pareto.csv", "folder,mean\nfront/01,0.4\n");
   EXPECT_EQ(json()["confirmed"], Json::array());
@@ -323,6 +344,75 @@ TEST_F(LeftSearch, SaysHowFarItCame) {
   write_bytes(place_.path() / "searches/007/study.toml", "nothing");
   EXPECT_EQ(json()["number"], 7);
   EXPECT_EQ(json()["state"], "failed");
+}
+
+// As far as a run that is resumed would go.
+TEST_F(LeftSearch, EndsAtTheFirstDamagedRecord) {
+  journal_ += "damaged\n" + line(Stage::Search, 0.3, judged(-0.5));
+  EXPECT_EQ(json()["done"], 4);
+  EXPECT_EQ(json()["state"], "paused");
+}
+
+// What no run of the study wrote is said, not drawn: points without objectives, or with a hundred
+// thousand, would be read beyond their ends.
+TEST_F(LeftSearch, RefusesRecordsThatNoRunOfItsStudyWrote) {
+  const std::string sound = journal_;
+  const auto many = [](std::size_t objectives, std::size_t constraints) {
+    Outcome out;
+    out.ok = true;
+    out.objectives.assign(objectives, -0.3);
+    out.constraints.assign(constraints, -1);
+    return encode(search::Judgement{out, 0});
+  };
+  Outcome nan = judged(std::nan(""));
+  TaskAnswer short_answer;
+  short_answer.objectives = {{0.3, 0.01, {0.3}}};
+  for (const std::string& hostile :
+       {record(Stage::Search, {0.5}, many(0, 1)), record(Stage::Search, {0.5}, many(9, 1)),
+        record(Stage::Search, {0.5}, many(100000, 1)), record(Stage::Search, {0.5}, many(1, 0)),
+        record(Stage::Search, {0.5}, many(1, 3)), record(Stage::Search, {}, many(1, 1)),
+        record(Stage::Search, {0.5, 0.5}, many(1, 1)),
+        record(Stage::Search, {std::nan("")}, many(1, 1)),
+        record(Stage::Search, {0.5}, encode(search::Judgement{nan, 0})),
+        record(Stage::Search, {0.5}, ""), record(Stage::Search, {0.5}, encode(short_answer)),
+        record(Stage::Confirm, {0.5}, encode(short_answer)),
+        record(Stage::Confirm, {0.5}, encode(TaskAnswer{})),
+        record(Stage::Confirm, {0.5}, many(1, 1)), record(Stage::Done, {0}, "more"),
+        journal_line({"no request", many(1, 1)})}) {
+    journal_ = sound + hostile;
+    const Json left = json();
+    EXPECT_EQ(left["state"], "failed") << hostile.substr(0, 200);
+    EXPECT_NE(left["trouble"].get<std::string>().find("holds what no run of its study wrote"),
+              std::string::npos);
+    EXPECT_EQ(left["done"], 4);
+  }
+}
+
+// Of another study, though its records look alike: what it says of one objective is none of
+// another.
+TEST_F(LeftSearch, RefusesTheJournalOfAnotherStudy) {
+  const std::string records = journal_.substr(head().size());
+  journal_ = head("oxide_breakdown_margin") + records;
+  EXPECT_EQ(json()["state"], "failed");
+  EXPECT_NE(json()["trouble"].get<std::string>().find("written for another study"),
+            std::string::npos);
+  EXPECT_EQ(json()["done"], 0);
+  journal_ = head() + records;
+  EXPECT_EQ(json()["state"], "paused");
+}
+
+// A stranger's folder: neither its searches nor a file of one is behind a link.
+TEST_F(LeftSearch, FollowsNoLink) {
+  const TemporaryFolder outside;
+  std::filesystem::rename(folder_, outside.path() / "search");
+  std::filesystem::create_directory_symlink(outside.path() / "search", folder_);
+  write_bytes(outside.path() / "search/journal", journal_);
+  EXPECT_EQ(SearchDesk(place_.path(), "none", [] {}).json()["state"], "none");
+  std::filesystem::remove(folder_);
+  std::filesystem::rename(outside.path() / "search", folder_);
+  std::filesystem::rename(folder_ / "journal", outside.path() / "journal");
+  std::filesystem::create_symlink(outside.path() / "journal", folder_ / "journal");
+  EXPECT_EQ(SearchDesk(place_.path(), "none", [] {}).json()["done"], 0);
 }
 
 TEST_F(LeftSearch, GivesItsDesigns) {

@@ -1,19 +1,12 @@
-#include "search/folder.h"
+#include "search/differing.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <map>
 #include <set>
 #include <sstream>
 #include <vector>
-
-#include "base/error.h"
 
 namespace papilla::search {
 namespace {
@@ -39,26 +32,6 @@ std::vector<std::pair<std::string, std::string>> resolved_values(const std::stri
 }
 
 }  // namespace
-
-FolderLock::FolderLock(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError("cannot make the folder " + folder + ": " + error.message());
-  const std::string path = folder + "/.lock";
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-  if (file_ < 0)
-    throw InputError(fmt::format("cannot write in {}: {}", folder, std::strerror(errno)));
-  // A record lock belongs to this process alone: workers that outlive it do not hold it.
-  struct flock lock {};
-  lock.l_type = F_WRLCK;
-  lock.l_whence = SEEK_SET;
-  if (::fcntl(file_, F_SETLK, &lock) != 0) {
-    ::close(file_);
-    throw InputError(folder + ": another run is working in this folder");
-  }
-}
-
-FolderLock::~FolderLock() { ::close(file_); }
 
 std::string differing_keys(const std::string& there, const std::string& here) {
   const std::set<std::string> free{"search.evaluations", "search.jobs", "search.time"};

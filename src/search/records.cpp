@@ -1,0 +1,85 @@
+#include "search/records.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "search/stability.h"
+
+namespace papilla::search {
+namespace {
+
+bool finite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+bool possible(const StudyProblem& problem, const SearchProblem& search, const TaskRequest& r) {
+  if (r.unit.size() != search.space.size() || !finite(r.unit)) return false;
+  if (!std::isfinite(r.most_seconds) || r.most_seconds < 0) return false;
+  const std::size_t tasks =
+      r.stage == Stage::Stability ? stability_variants(problem).size() : problem.tasks().size();
+  return r.task < tasks;
+}
+
+bool possible(const SearchProblem& search, const Judgement& judgement) {
+  const Outcome& o = judgement.outcome;
+  // Of a refused design only the constraints of its shape and look are known.
+  if (!o.ok) return o.objectives.empty() && finite(o.constraints);
+  return o.objectives.size() == search.objectives && finite(o.objectives) &&
+         o.constraints.size() == search.constraints && finite(o.constraints) &&
+         (search.residuals == 0 || o.residuals.size() == search.residuals) && finite(o.residuals);
+}
+
+// Each objective with its numbers, in the order of the humidities.
+bool possible(const StudyProblem& problem, Stage stage, const TaskAnswer& a) {
+  const StudyGoals& goals = problem.goals();
+  const std::size_t count = goals.objectives.size();
+  const std::size_t humidities = problem.study().design.environment.relative_humidity.size();
+  if (!a.status.ok()) return true;
+  if (!a.steps.empty() && a.steps.size() != count) return false;
+  if (stage == Stage::Steps) return true;
+  if (a.objectives.size() != count) return false;
+  if (stage == Stage::Stability) return true;  // the summaries alone
+  if (a.limited.size() != goals.limited.size() || (goals.looks && !a.look)) return false;
+  if (!a.samples.empty() && a.samples.size() != count) return false;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (a.objectives[k].points.size() != humidities) return false;
+    const std::size_t numbers = goals.by_points(k) ? humidities : 1;
+    if (!a.samples.empty() && a.samples[k].size() != numbers) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string journal_key(const StudyProblem& problem) { return text_hash(problem.identity()); }
+
+std::optional<TaskRequest> checked_request(const StudyProblem& problem, const SearchProblem& search,
+                                           const JournalRecord& record) {
+  const auto request = decode_request(record.key);
+  if (!request || !possible(problem, search, *request)) return std::nullopt;
+  bool sound = false;
+  switch (request->stage) {
+    case Stage::Done:
+      sound = record.payload.empty();
+      break;
+    case Stage::Search: {
+      const auto judgement = decode_judgement(record.payload);
+      sound = judgement && possible(search, *judgement);
+      break;
+    }
+    case Stage::Draft:
+    case Stage::Narrow:
+    case Stage::Confirm:
+    case Stage::Stability:
+    case Stage::Rounding:
+    case Stage::Sensitivity:
+    case Stage::Steps: {
+      const auto answer = decode_answer(record.payload);
+      sound = answer && possible(problem, request->stage, *answer);
+      break;
+    }
+  }
+  return sound ? request : std::nullopt;
+}
+
+}  // namespace papilla::search
