@@ -113,7 +113,8 @@ void write_files(Run& run, const StageSeconds& at) {
   run.result.hypervolumes = hypervolume_shares(run.history.evaluations);
   const std::string rule = run.unmet_pick.empty() ? run.options.pick : "";
   if (run.options.writer)
-    run.options.writer->write({run.folder.path(), run.study, run.problem, run.history, run.result, rule});
+    run.options.writer->write(
+        {run.folder.path(), run.study, run.problem, run.history, run.result, rule});
   run.folder.write(
       "timing.json",
       fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "

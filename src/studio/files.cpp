@@ -76,7 +76,8 @@ Json Files::list() const {
     if (name.extension() == ".toml" && name.filename() != "resolved.toml")
       designs.push_back(name.generic_string());
   }
-  return {{"folder", visible(folder_.filename().string())}, {"designs", designs}, {"results", results}};
+  return {
+      {"folder", visible(folder_.filename().string())}, {"designs", designs}, {"results", results}};
 }
 
 std::string Files::open(const std::string& name) const {

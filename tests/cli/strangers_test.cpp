@@ -159,10 +159,9 @@ TEST_F(Strangers, UnknownKeysWithoutEndAreToldOnce) {
 }
 
 TEST_F(Strangers, ATitleWithoutEndIsRefused) {
-  const Outcome done =
-      place_.run("evaluate " + place_.write("folder/long.toml", "schema_version = 1\ntitle = \"" +
-                                                                    std::string(10000000, 'x') +
-                                                                    "\"\n"));
+  const Outcome done = place_.run(
+      "evaluate " + place_.write("folder/long.toml", "schema_version = 1\ntitle = \"" +
+                                                         std::string(10000000, 'x') + "\"\n"));
   EXPECT_EQ(done.status, 2);
   EXPECT_NE(done.err.find("title: longer than 1000 letters"), std::string::npos);
   EXPECT_LT(done.err.size(), 1000u);
