@@ -143,8 +143,8 @@ void Journal::append(const JournalRecord& record) {
     const ssize_t n = ::write(file_, line.data() + done, line.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
-      throw InputError(fmt::format("cannot write {}: {}; free some space and use --resume", path_,
-                                   std::strerror(errno)));
+      throw FailedWrite(fmt::format("cannot write {}: {}; free some space and use --resume", path_,
+                                    std::strerror(errno)));
     done += static_cast<std::size_t>(n);
   }
   ::fdatasync(file_);

@@ -51,6 +51,12 @@ std::string replaceable(const std::string& path) {
   return target.string();
 }
 
+void cannot_write(const std::string& path, const std::string& why, int error) {
+  const std::string text = "cannot write " + path + ": " + why;
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO) throw FailedWrite(text);
+  throw InputError(text);
+}
+
 FileWriter::FileWriter(std::string path) : path_(replaceable(path)), part_(path_ + ".part") {
   fd_ = ::open(part_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (fd_ < 0) fail("open");
@@ -63,7 +69,8 @@ FileWriter::~FileWriter() {
 }
 
 void FileWriter::fail(const char* what) const {
-  throw InputError(fmt::format("cannot write {}: {} ({})", path_, std::strerror(errno), what));
+  const int error = errno;
+  cannot_write(path_, fmt::format("{} ({})", std::strerror(error), what), error);
 }
 
 void FileWriter::append(const void* bytes, std::size_t size) {
@@ -91,7 +98,7 @@ void FileWriter::commit() {
     size += static_cast<std::size_t>(n);
   }
   if (size != size_ || sum != sum_)
-    throw InputError("cannot write " + path_ + ": reads back with other bytes");
+    throw FailedWrite("cannot write " + path_ + ": reads back with other bytes");
   if (::fsync(fd_) != 0) fail("flush");
   if (std::rename(part_.c_str(), path_.c_str()) != 0) fail("rename");
   ::close(std::exchange(fd_, -1));

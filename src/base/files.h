@@ -12,6 +12,10 @@ namespace papilla::base {
 // for what a rename would destroy: a device, a pipe, a folder.
 std::string replaceable(const std::string& path);
 
+// "cannot write PATH: WHY": FailedWrite where errno says that the disk is full or fails, InputError
+// for a place that cannot be written to.
+[[noreturn]] void cannot_write(const std::string& path, const std::string& why, int error);
+
 // Writes bytes atomically: temporary file beside it, flushed to disk, renamed. Throws InputError.
 void write_bytes(const std::string& path, const std::string& bytes);
 // Throws InputError when there is no such file or it is larger than the limit.
