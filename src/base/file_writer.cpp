@@ -17,6 +17,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
+#include "base/files.h"
 
 namespace papilla::base {
 namespace {
@@ -94,8 +95,13 @@ void PartFile::fail(const std::string& why) const {
   throw InputError("cannot write " + final_path_ + ": " + why);
 }
 
+void PartFile::fail_writing(const std::string& why) const {
+  throw FailedWrite("cannot write " + final_path_ + ": " + why);
+}
+
 void PartFile::fail_by_errno(const char* at) const {
-  fail(fmt::format("{} ({})", std::strerror(errno), at));
+  const int error = errno;
+  cannot_write(final_path_, fmt::format("{} ({})", std::strerror(error), at), error);
 }
 
 void PartFile::create(unsigned mode) {
@@ -180,7 +186,7 @@ void FileWriter::commit() {
     sum = check_sum(sum, block.data(), static_cast<std::size_t>(n));
     size += static_cast<std::size_t>(n);
   }
-  if (size != size_ || sum != sum_) part_.fail("reads back with other bytes");
+  if (size != size_ || sum != sum_) part_.fail_writing("reads back with other bytes");
   part_.put();
 }
 

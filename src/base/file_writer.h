@@ -30,8 +30,11 @@ class PartFile {
   std::string path() const;
   // Flushed to disk, named, and its folder flushed.
   void put();
-  [[noreturn]] void fail(const std::string& why) const;   // "cannot write PATH: WHY"
-  [[noreturn]] void fail_by_errno(const char* at) const;  // "cannot write PATH: ... (AT)"
+  // "cannot write PATH: WHY": InputError for a place that cannot be written to, FailedWrite for a
+  // disk that fails, and what errno says: "cannot write PATH: ... (AT)".
+  [[noreturn]] void fail(const std::string& why) const;
+  [[noreturn]] void fail_writing(const std::string& why) const;
+  [[noreturn]] void fail_by_errno(const char* at) const;
 
  private:
   void create(unsigned mode);
