@@ -279,11 +279,14 @@ class HttpServer::Impl {
       const Entry entry = door_->judge(sender_of(request));
       // The library would take a body of any length for a method that nobody asked for.
       const bool known = request.method == "GET" || request.method == "POST";
-      const bool body =
-          request.has_header("Content-Length") || request.has_header("Transfer-Encoding");
+      const bool body = request.has_header("Transfer-Encoding") ||
+                        request.get_header_value_count("Content-Length") > 1 ||
+                        (request.has_header("Content-Length") &&
+                         request.get_header_value("Content-Length") != "0");
       if (entry != Entry::Admitted || !known || (request.method == "GET" && body)) {
         BoundedServer::refuse_rest();
-        response.set_header("Connection", "close");
+        if (request.get_header_value("Connection") != "close")
+          response.set_header("Connection", "close");
         response.status = entry != Entry::Admitted ? status_of(entry) : known ? 400 : 405;
         response.set_content(entry != Entry::Admitted ? word_of(entry) : "", "text/plain");
         return httplib::Server::HandlerResponse::Handled;

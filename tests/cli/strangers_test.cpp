@@ -69,6 +69,7 @@ TEST_F(Strangers, LinksInAnExportsFolderAreReplaced) {
 TEST_F(Strangers, LinksInARunsFolderAreReplacedOrRefused) {
   const std::string run = "optimize " PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml --out ";
   for (const char* name : {"journal", ".lock"}) {
+    fs::remove(place_.path() / "folder" / name);
     link(name);
     const Outcome refused = place_.run(run + "folder");
     EXPECT_EQ(refused.status, 2);
@@ -87,8 +88,8 @@ TEST_F(Strangers, LinksInARunsFolderAreReplacedOrRefused) {
 
 // A file that the user names himself is where its links lead.
 TEST_F(Strangers, LinksThatTheUserNamesAreFollowed) {
-  place_.write("table.csv", "old");
-  link("mine.toml", kHoles);
+  place_.write("design.toml", "schema_version = 1\nbase = \"m3_samples/a3h600.toml\"\n");
+  link("mine.toml", "../design.toml");
   const Outcome read = place_.run("explain folder/mine.toml");
   EXPECT_EQ(read.status, 0) << read.err;
 }
@@ -113,7 +114,7 @@ TEST_F(Strangers, PipesAndDevicesAreRefusedAtOnce) {
                     "/designs/m3_glass/conformal.toml --resume --out folder")}) {
     const Outcome done = place_.shell("timeout 20 '" PAPILLA_PROGRAM "' " + arguments);
     EXPECT_EQ(done.status, 2) << arguments << "\n" << done.err;
-    EXPECT_TRUE(done.err.starts_with("error: ")) << arguments << "\n" << done.err;
+    EXPECT_NE(done.err.find("error: "), std::string::npos) << arguments << "\n" << done.err;
   }
 }
 
@@ -132,7 +133,6 @@ TEST_F(Strangers, EscapesInTheirFilesAreShownNotSent) {
 }
 
 TEST_F(Strangers, NamesThatAreNoUtf8AreRefusedBeforeTheWork) {
-  const Outcome done = place_.run("export " + kHoles + " --pixels 64 --out $'r\\xe9sultats'");
   const Outcome bash = place_.shell("bash -c \"'" PAPILLA_PROGRAM "' export " + kHoles +
                                     " --pixels 64 --out \\$'r\\\\xe9s'\"");
   EXPECT_EQ(bash.status, 2);

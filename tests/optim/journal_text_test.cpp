@@ -144,7 +144,7 @@ TEST(JournalText, KeepsACopyBeforeItCutsAnythingOff) {
   for (const char* payload : {"1", "2 two", "3\n", "4"}) text += journal_line({"key", payload});
   int copies = 0;
   for (std::size_t at = head.size(); at < text.size(); ++at) {
-    for (const char mask : {1, 4, 64}) {
+    for (const int mask : {1, 4, 64}) {
       std::string damaged = text;
       damaged[at] = static_cast<char>(damaged[at] ^ mask);
       write(path, damaged);

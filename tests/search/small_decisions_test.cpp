@@ -301,6 +301,7 @@ std::string front_folder() {
     std::filesystem::create_directories(root / name);
     write_bytes(root / name / "metrics.json",
                 "{\"objectives\": {" + numbers + "}, \"worst_modulation\": " + worst + "}");
+    write_bytes(root / name / "design.toml", "");
   };
   const auto numbers = [](const char* up, const char* down) {
     return std::string("\"up\": {\"value\": ") + up +

@@ -191,17 +191,16 @@ TEST(StudioFolder, OfAStrangerOverwritesNothingThroughLinks) {
     const Studio studio(studio_options(folder.path().string()));
     const Place place(studio.address());
     studio.opening_file();
-    const Reply started = replied(
-        place, place.own("POST", "search/start",
-                         R"({"variables":[{"path":"texture.depth","low":"100 nm","high":"800 nm"}],)"
-                         R"("maximise":["mean(modulation)"],"evaluations":4
-  })"));
+    const std::string wish =
+        R"j({"variables":[{"path":"texture.depth","low":"100 nm","high":"800 nm"}],)j"
+        R"j("maximise":["mean(modulation)"],"evaluations":4})j";
+    const Reply started = replied(place, place.own("POST", "search/start", wish));
     EXPECT_NE(started.text.find("is a link"), std::string::npos) << started.text;
-  replied(place, place.own("POST", "set", R"({"path":"texture.depth","value":"300 nm"})"));
-}
-EXPECT_EQ(read_bytes(outside.path() / "mine.json"), "mine");
-EXPECT_EQ(std::distance(std::filesystem::directory_iterator(outside.path()), {}), 1);
-EXPECT_FALSE(std::filesystem::is_symlink(folder.path() / ".studio/session.json"));
+    replied(place, place.own("POST", "set", R"({"path":"texture.depth","value":"300 nm"})"));
+  }
+  EXPECT_EQ(read_bytes(outside.path() / "mine.json"), "mine");
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(outside.path()), {}), 1);
+  EXPECT_FALSE(std::filesystem::is_symlink(folder.path() / ".studio/session.json"));
 }
 
 TEST_F(Server, SaysWhatIsWrongWithARequest) {
