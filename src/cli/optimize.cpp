@@ -1,5 +1,6 @@
 // papilla optimize STUDY.toml: searches the design space, writes a folder of results.
 #include <fmt/format.h>
+#include <omp.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -19,7 +20,9 @@
 #include "optim/search.h"
 #include "report/remarks.h"
 #include "report/results.h"
+#include "report/sheet.h"
 #include "report/summary.h"
+#include "search/levels.h"
 
 namespace papilla::cli {
 namespace {
@@ -64,17 +67,18 @@ class ProgressPrinter {
 
   void show(const Progress& p) {
     if (context_.quiet) return;
-    const double share = p.total > 0 ? static_cast<double>(p.done) / p.total : 0;
+    const double part = p.total > 0 ? static_cast<double>(p.done) / p.total : 0;
     std::string text = fmt::format("{:<7} {:>3}/{}", p.stage, p.done, p.total);
     // Before what may be cut off.
-    if (p.seconds_left >= 0) text += fmt::format("  {:.0f} s left", p.seconds_left);
+    if (p.seconds_left >= 0) text += "  " + duration(p.seconds_left) + " left";
     if (!p.best.empty()) text += "  " + p.best;
     if (terminal_) {
-      std::cerr << "\r\033[K" << terminal_line(share, text) << std::flush;
+      std::cerr << "\r\033[K" << terminal_line(p.seconds_left >= 0 ? p.share : 0, text)
+                << std::flush;
       open_line_ = true;
       return;
     }
-    const int tenth = static_cast<int>(10 * share);
+    const int tenth = static_cast<int>(10 * part);
     if (p.stage == stage_ && tenth == tenth_) return;
     stage_ = p.stage;
     tenth_ = tenth;
@@ -123,17 +127,20 @@ nlohmann::ordered_json result_json(const OptimiseResult& r, const StudyProblem& 
     const std::vector<double> values = problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const Variable& v = study.variables[i];
+      if (!is_shown(d.design, v)) continue;
       variables[v.path] = v.is_kind() ? Json(variable_text(v, values[i])) : Json(values[i]);
     }
     out["designs"].push_back({{"folder", d.folder},
                               {"on_front", d.on_front},
                               {"feasible", d.feasible},
+                              {"limits", limits_json(limit_values(problem, d))},
                               {"variables", variables},
                               {"objectives", score(d.confirmed)}});
   }
   if (r.flat) out["flat"] = score(*r.flat);
   if (r.flat_before) out["flat_before"] = score(*r.flat_before);
   out["best"] = r.finalists.empty() ? Json(nullptr) : Json(r.best);
+  out["recommendation"] = recommendation_of(folder);
   return out;
 }
 
@@ -162,6 +169,20 @@ std::string resume_command(const OptimizeOptions& options, const std::string& fo
   add("--method", options.method);
   add("--pick", options.pick);
   for (const std::string& setting : options.overrides) add("--set", setting);
+  return out;
+}
+
+// What the search will take: its price over as many tasks as are evaluated at a time.
+std::string price_text(const Study& study) {
+  const StudyCost cost = study_cost(study);
+  const int wanted = study.search.jobs > 0 ? study.search.jobs : omp_get_num_procs();
+  const double seconds = cost.seconds / std::min(wanted, omp_get_num_procs());
+  std::string out = fmt::format("expected: {} to {} on {}, for {}",
+                                duration(kLeastOfPrice * seconds), duration(kMostOfPrice * seconds),
+                                counted(std::min(wanted, omp_get_num_procs()), "processor"),
+                                counted(cost.evaluations, "evaluation"));
+  if (study.search.time > 0)
+    out += fmt::format("; the clock ends it after {}", duration(study.search.time));
   return out;
 }
 
@@ -208,6 +229,12 @@ int optimize(const OptimizeOptions& options, const Context& context) {
       "search: many designs quickly; narrow: the best and their neighbours again, more precisely; "
       "confirm: the finalists at the study's accuracy; check: without texture, other models, "
       "tolerances");
+  if (!run.resume) {
+    const StudyProblem problem(study);
+    if (const auto wrong = problem.constraints().contradiction(); wrong && wrong->flat_keeps)
+      context.note("warning: " + wrong->text + "; only the flat surface is left");
+    context.note(price_text(study));
+  }
   const auto begin = std::chrono::steady_clock::now();
   const OptimiseResult result = optimise_to_folder(study, run);
   if (launched_rank() > 0) return kSuccess;
@@ -243,10 +270,9 @@ int optimize(const OptimizeOptions& options, const Context& context) {
     context.note("interrupted; continue with: " + resume_command(options, run.folder));
     return kSignalled + interrupted_by;
   }
-  const std::string best = result.has_best()
-                               ? fmt::format("report.html, summary.md, pareto.csv, best/ is {}",
-                                             result.finalists[result.best].folder)
-                               : "summary.md, pareto.csv, history.csv";
+  const std::string best =
+      result.has_best() ? std::string("report.html, summary.md, pareto.csv, best/ is what to build")
+                        : "summary.md, pareto.csv, history.csv";
   context.note(fmt::format("{} in {:.0f} s; results in {}/ ({})",
                            counted(result.evaluations, "evaluation"), seconds, run.folder, best));
   if (!result.any_feasible) {
@@ -271,7 +297,7 @@ void add_optimize(Command app, Context& context) {
       .type_name("DIR");
   command.add_flag("--resume", options->resume, "Continue an interrupted run of the same study");
   command.add_flag("--finish", options->finish,
-                   "With --resume: no more designs, those that there are are judged and confirmed");
+                   "With --resume: stop searching; confirm and report the designs found");
   command.add_option("--jobs", options->jobs, "Evaluations at a time; default: one per processor")
       .range(1, 4096);
   command.add_option("--evaluations", options->evaluations, "Largest number of evaluated designs")

@@ -46,10 +46,16 @@ struct Objective {
   bool operator==(const Objective&) const = default;
 };
 
+// What a limit is about, and with it when its value is known: of a shape and of the film under it
+// from the numbers of a design, of its look by an optical calculation, of a metric by an
+// evaluation.
+enum class LimitOn { Shape, Film, Look, Metric };
+
 struct ConstraintKind {
   std::string name, unit;
   bool at_least = true;  // else at most
   std::string doc;
+  LimitOn on = LimitOn::Shape;
 };
 const std::vector<ConstraintKind>& constraint_kinds();
 

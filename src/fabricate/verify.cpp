@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "config/writer.h"
+#include "design/limits.h"
 #include "fabricate/formats.h"
 #include "forward/forward.h"
 #include "geometry/io/files.h"
@@ -154,7 +155,7 @@ Verification verify_export(const Study& study, const std::string& file, double t
     const double narrowest = c.name == "min_hole"   ? out.pixels.min_hole
                              : c.name == "min_wall" ? out.pixels.min_wall
                                                     : kInfinity;
-    if (narrowest < c.limit - out.pixels.pixel) {
+    if (!keeps({c.name, c.limit - out.pixels.pixel, true}, narrowest)) {
       out.faults.push_back(
           fmt::format("{} of the file is {:.3g} um, below {:.3g} um (pixel {:.2g} um)", c.name,
                       1e6 * narrowest, 1e6 * c.limit, 1e6 * out.pixels.pixel));

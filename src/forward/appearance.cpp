@@ -82,9 +82,10 @@ Optics screen(const Texture& texture, const OpticalMedia& media, const Light& li
                           slope * 180 / kPi));
   }
   if (const double side = std::min(grid.lx, grid.ly); side < kLeastPatch) {
-    warn(out, fmt::format("a patch of {:.3g} um is short: what leaves within 2.5 deg counts as "
-                          "haze, a patch of {:.3g} um and more parts it",
-                          1e6 * side, 1e6 * kLeastPatch));
+    warn(out, fmt::format(
+                  "a patch of {:.3g} um is short: what leaves within 2.5 deg counts as "
+                  "haze; use a patch of {:.3g} um or more to exclude light scattered below 2.5 deg",
+                  1e6 * side, 1e6 * kLeastPatch));
   }
   return out;
 }

@@ -37,6 +37,8 @@ std::optional<double> voltage_target(const std::string& metric);
 // The share of people who would notice: the probability that the modulation of a humidity is above
 // a Weber fraction, its errors in it.
 inline constexpr const char* kFelt = "felt";
+// The least relative difference of friction that people notice: Fehlberg 2022.
+inline constexpr double kNoticed = 0.2;
 // The fraction of "felt(modulation = 0.2)"; else as above.
 std::optional<double> felt_threshold(const std::string& metric);
 

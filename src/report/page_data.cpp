@@ -136,7 +136,7 @@ Json design_json(const Folder& folder, bool with_flat) {
   const Json metrics = Json::parse(folder.read("metrics.json"));
   Json out;
   for (const char* key : {"variables", "objectives", "worst_modulation", "oxide_breakdown_margin",
-                          "feasible", "stability", "flat", "parameters"}) {
+                          "feasible", "limits", "stability", "flat", "parameters"}) {
     if (metrics.contains(key)) out[key] = metrics[key];
   }
   out["tasks"] = Json::array();
@@ -149,11 +149,13 @@ Json design_json(const Folder& folder, bool with_flat) {
     const Json& response = metrics["tasks"][0]["response"];
     out["plan"] = response.at("plan");
   }
-  out["toml"] = folder.read("design.toml");
+  // What the maps are of: in best/ the design on the grid of the fab.
+  const char* made = folder.has("build.toml") ? "build.toml" : "design.toml";
+  out["toml"] = folder.read(made);
   const Heightmap h = read_heightmap(folder.file("heightmap.gsf"));
   out["heights"] = picture_json(h.grid, h.z);
   constexpr int kSectionPixels = 4096;
-  add_section(read_design(folder.file("design.toml")).texture, kSectionPixels, out);
+  add_section(read_design(folder.file(made)).texture, kSectionPixels, out);
   return out;
 }
 

@@ -248,10 +248,10 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
   }
   return out +
          fmt::format(
-             "read order, leads and probabilities: they are paired, all designs meet the same "
-             "skins. The values share the luck of these few ({} at least) and may all be high or "
-             "low together, beyond their ±; errors that all designs share (grid, water) are not in "
-             "± either: papilla evaluate gives values. ± and [ ] are 95 % intervals over skins; = "
+             "all designs met the same skins ({} at least): trust the order, its leads and "
+             "probabilities, not the values, which may all be high or low together, beyond their "
+             "±; errors that all designs share (grid, water) are not in ± either: papilla evaluate "
+             "gives values. ± and [ ] are 95 % intervals over skins; = "
              "marks a tie with the next. {} patches of skin in all{}\n",
              fewest, ranking.skins,
              ranking.seconds ? fmt::format(", {:.1f} s", *ranking.seconds) : std::string());

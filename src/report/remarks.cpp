@@ -96,7 +96,7 @@ std::string one_value_remark(const Study& study, const OneValue& one, int evalua
 
 std::string bound_remark(const Study& study, const StudyProblem& problem, const AtBound& at) {
   const Variable& v = study.variables[at.variable];
-  std::string out = fmt::format("The best design has {} on its {} bound, {}", v.path,
+  std::string out = fmt::format("What is recommended has {} on its {} bound, {}", v.path,
                                 at.upper ? "upper" : "lower", variable_text(v, at.bound));
   if (at.last) return out + ", the last value that the model takes.";
   std::vector<std::string> gains;
@@ -108,8 +108,9 @@ std::string bound_remark(const Study& study, const StudyProblem& problem, const 
   }
   if (gains.empty()) return out + ": widen it to see whether more helps.";
   const double unit = find_unit(v.unit)->to_si;
-  return out + fmt::format("; {} {} beyond it, going on as inside, would change {}.",
-                           significant(at.step / unit, 2), v.unit, join_names(gains));
+  return out + fmt::format(". If the trend continues, {} {} {} would change {}.",
+                           significant(at.step / unit, 2), v.unit, at.upper ? "more" : "less",
+                           join_names(gains));
 }
 
 }  // namespace

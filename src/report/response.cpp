@@ -36,7 +36,7 @@ std::string budget_text(const SummaryValue& v) {
   }
   out += apart;
   if (!v.parts.parameters) out += "; parameters not asked for (--parameters)";
-  return out + (unknown.empty() ? "" : "; not measured: " + unknown);
+  return out + (unknown.empty() ? "" : "; error from " + unknown + ": unknown");
 }
 
 bool beyond_contact(const Response& response) {
@@ -95,6 +95,28 @@ std::string humidity_table(const Response& response) {
   return out;
 }
 
+// What no ± holds: choices of the model, each as far as the plan expects it to move the numbers.
+// water: whether what its free choices leave is said already.
+std::string choices_line(const Response& response, bool water) {
+  std::vector<std::string> choices;
+  for (const PlanStep& step : response.plan.steps) {
+    if (step.piece == Piece::Water && step.error > 0 && !water)
+      choices.push_back(fmt::format("{} {:.2g} %", step.name(), 100 * step.error));
+  }
+  for (const PlanSkip& skip : response.plan.skipped) {
+    if (skip.bound > 0)
+      choices.push_back(fmt::format("{} {:.2g} %", skip.name(), 100 * skip.bound));
+  }
+  double share = 0;
+  for (const ResponsePoint& p : response.points) share = std::max(share, p.over_limit_share);
+  if (share > 0)
+    choices.push_back(
+        fmt::format("a cap where air breaks down, up to {:.2g} % of the pull", 100 * share));
+  return choices.empty() ? ""
+                         : "not in ±: choices of the model (papilla explain), expected " +
+                               join_names(choices) + "\n";
+}
+
 // What the modulation is over humidity, and how sure that is.
 std::string modulation_lines(const Response& response) {
   std::string out;
@@ -115,7 +137,7 @@ std::string modulation_lines(const Response& response) {
   if (mean && mean->value != 0) out += "error of the mean modulation: " + budget_text(*mean) + "\n";
   if (variation && variation->value != 0)
     out += "error of the variation: " + budget_text(*variation) + "\n";
-  return out;
+  return out + choices_line(response, mean && mean->parts.water);
 }
 
 // How far the field is from what air and dielectric hold, and what that says of the numbers.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -42,11 +44,13 @@ class Writer {
     folder_.remove("front");
     folder_.remove("best");
     for (const FinalDesign& d : f_.result.finalists) {
-      if (d.on_front) write_design_folder(d, d.folder);
+      if (d.on_front) write_design_folder(d, d.folder, d.design, "design.toml");
     }
-    if (f_.result.has_best()) write_design_folder(f_.result.finalists[f_.result.best], "best");
+    if (f_.result.has_best()) {
+      write_design_folder(recommended_design(f_.problem, f_.result), "best", built_design(f_),
+                          "build.toml");
+    }
     folder_.write("sensitivity.json", sensitivity());
-    if (f_.result.rounded) folder_.write("best/build.toml", to_toml(built_design(f_)));
     folder_.write("run.json", run_json(f_));
     folder_.write("summary.md", run_summary(f_));
     write_sums(folder_);
@@ -60,11 +64,15 @@ class Writer {
     }
     return out;
   }
+  // Of a flat surface no measures of a texture.
   std::string variable_values(const Point& unit) const {
     std::string out;
     const std::vector<double> values = f_.problem.space().value(unit);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      out.append(",").append(variable_text(f_.study.variables[i], values[i], true));
+    const Design design = f_.problem.space().design(unit);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Variable& v = f_.study.variables[i];
+      out += "," + (is_shown(design, v) ? variable_text(v, values[i], true) : std::string());
+    }
     return out;
   }
 
@@ -103,10 +111,12 @@ class Writer {
     std::string out = "design" + variable_header();
     for (const StudyObjective& o : objectives)
       out += fmt::format(",{0},{0} se,{0} parameters,{0} at search level", o.name);
-    out += ",worst modulation,breakdown margin,feasible,on front,status\n";
-    const auto row = [&](const std::string& name, const Point& unit, const Score& c,
-                         const Score& searched, bool feasible, bool front) {
-      out += name + variable_values(unit);
+    out += ",worst modulation,breakdown margin";
+    for (const Constraint& c : f_.study.constraints) out += ",limit " + csv_text(c.name);
+    out += ",feasible,on front,status\n";
+    const auto row = [&](const std::string& name, const FinalDesign& d) {
+      const Score &c = d.confirmed, &searched = d.searched;
+      out += name + variable_values(d.unit);
       for (std::size_t k = 0; k < objectives.size(); ++k) {
         out += c.ok ? fmt::format(",{:.6g},{:.3g}", c.values[k], c.errors[k]) : std::string(",,");
         const auto parameters = parameter_error(c, k);
@@ -114,16 +124,18 @@ class Writer {
         out += k < searched.values.size() ? fmt::format(",{:.6g}", searched.values[k])
                                           : std::string(",");
       }
-      out += fmt::format(",{},{},{},{},{}\n", worst_text(true, c.worst),
-                         std::isfinite(c.oxide_margin) ? fmt::format("{:.4g}", c.oxide_margin) : "",
-                         feasible ? "yes" : "no", front ? "yes" : "no",
+      out +=
+          fmt::format(",{},{}", worst_text(true, c.worst),
+                      std::isfinite(c.oxide_margin) ? fmt::format("{:.4g}", c.oxide_margin) : "");
+      const std::vector<LimitValue> limits = limit_values(f_.problem, d);
+      for (std::size_t i = 0; i < f_.study.constraints.size(); ++i)
+        out += "," + (i < limits.size() ? limit_value_text(limits[i].limit, limits[i].value)
+                                        : std::string());
+      out += fmt::format(",{},{},{}\n", d.feasible ? "yes" : "no", d.on_front ? "yes" : "no",
                          c.ok ? "ok" : csv_text(c.reason));
     };
     for (const FinalDesign& d : f_.result.finalists) {
-      row(!d.folder.empty() ? d.folder
-          : d.feasible      ? "dominated"
-                            : "infeasible",
-          d.unit, d.confirmed, d.searched, d.feasible, d.on_front);
+      row(!d.folder.empty() ? d.folder : d.feasible ? "dominated" : "infeasible", d);
     }
     return out;
   }
@@ -158,28 +170,34 @@ class Writer {
     Json out{{"schema", 1}, {"title", d.design.title}};
     Json variables = Json::object();
     const std::vector<double> values = f_.problem.space().value(d.unit);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      variables[f_.study.variables[i].path] = variable_json(f_.study.variables[i], values[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const Variable& v = f_.study.variables[i];
+      if (!d.flat && is_shown(d.design, v)) variables[v.path] = variable_json(v, values[i]);
+      if (d.flat && !v.path.starts_with("texture."))
+        variables[v.path] = variable_json(v, values[i]);
+    }
     out["variables"] = variables;
     out["objectives"] = score_json(d.confirmed);
     out["objectives_at_search_level"] = score_json(d.searched);
     out["worst_modulation"] = worst_json(d.confirmed);
     out["oxide_breakdown_margin"] = json_number(d.confirmed.oxide_margin);
     out["feasible"] = d.feasible;
+    out["limits"] = limits_json(limit_values(f_.problem, d));
     const Stability& stability = f_.result.stability;
-    const auto index = static_cast<std::size_t>(&d - f_.result.finalists.data());
-    if (index < stability.times_on_front.size()) {
+    const std::size_t index = place_of(d);
+    if (stability.judged(index)) {
       out["stability"] = {{"on_front", stability.times_on_front[index]},
                           {"variants", stability.variants.size()},
                           {"stable", stability.stable(index)}};
     }
     if (f_.result.flat)
-      out["flat"] = {{"objectives", score_json(*f_.result.flat)},
-                     {"worst_modulation", worst_json(*f_.result.flat)},
-                     {"difference", differences(d.confirmed, *f_.result.flat)},
-                     {"no_better", no_better(f_.problem.objectives(), d.confirmed, *f_.result.flat)
-                                       ? Json(kNoBetter)
-                                       : Json(nullptr)}};
+      out["flat"] = {
+          {"objectives", score_json(*f_.result.flat)},
+          {"worst_modulation", worst_json(*f_.result.flat)},
+          {"difference", differences(d.confirmed, *f_.result.flat)},
+          {"no_better", !d.flat && no_better(f_.problem.objectives(), d.confirmed, *f_.result.flat)
+                            ? Json(kNoBetter)
+                            : Json(nullptr)}};
     const std::string unknown = f_.problem.parameters_unknown();
     out["parameters"] = {{"status", unknown.empty() ? "ok" : unknown},
                          {"of_the_difference_to_flat", Json::object()}};
@@ -198,23 +216,42 @@ class Writer {
     return out.dump(1) + "\n";
   }
 
-  // Maps as `papilla export` writes them, with what `papilla verify` needs.
-  void write_design_folder(const FinalDesign& d, const std::string& name) const {
+  // Among the finalists; beyond them: a surface that is none.
+  std::size_t place_of(const FinalDesign& d) const {
+    const auto& all = f_.result.finalists;
+    const auto same = [&](const FinalDesign& f) { return !d.flat && f.unit == d.unit; };
+    return static_cast<std::size_t>(std::find_if(all.begin(), all.end(), same) - all.begin());
+  }
+
+  // Maps as `papilla export` writes them, of the design as it is made (in the file of that name),
+  // with what `papilla verify` needs.
+  void write_design_folder(const FinalDesign& d, const std::string& name, const Design& made,
+                           const std::string& made_file) const {
     const Folder folder = folder_.made_below(name);
     folder.write("design.toml", to_toml(d.design));
+    folder.write(made_file, to_toml(made));
     folder.write("metrics.json", metrics(d));
     Study study;
-    study.design = d.design;
+    study.design = made;
     study.constraints = f_.study.constraints;
     ExportOptions options;
     options.formats = {"exr", "gsf", "png"};
     options.pixels = kExportPixels;
-    if (mask_shows(d.design.texture, options)) {
+    if (facts(made.texture).relief.present && mask_shows(made.texture, options)) {
       options.formats.push_back("mask");
       options.polarity = Polarity::WhiteDeep;
     }
     export_with_record(study, options, folder.path(), {},
-                       {{kDesignFormat, folder.path("design.toml")}});
+                       {{kDesignFormat, folder.path(made_file)}});
+  }
+
+  // How far a number may be off one way, and what ends it.
+  static Json tolerance(const Drift& drift) {
+    static constexpr std::array kEnds{"loss",       "limit",    "step tried",
+                                      "range ends", "no shape", "failed"};
+    return {{"most", drift.judged() ? Json(drift.most) : Json()},
+            {"end", kEnds[static_cast<std::size_t>(drift.end)]},
+            {"limit", drift.limit.empty() ? Json() : Json(drift.limit)}};
   }
 
   std::string sensitivity() const {
@@ -226,10 +263,7 @@ class Writer {
         entry["change"][objectives[k].name] = json_number(s.change[k]);
         entry["variance_share"][objectives[k].name] = json_number(s.share[k]);
       }
-      entry["tolerance"] = {{"down", s.down},
-                            {"down_at_least", s.down_beyond},
-                            {"up", s.up},
-                            {"up_at_least", s.up_beyond}};
+      entry["tolerance"] = {{"down", tolerance(s.down)}, {"up", tolerance(s.up)}};
       out["variables"][f_.study.variables[s.variable].path] = entry;
     }
     return out.dump(1) + "\n";

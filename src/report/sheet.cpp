@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/text.h"
@@ -20,6 +21,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 const FinalDesign& best_of(const ResultFiles& f) { return f.result.finalists[f.result.best]; }
+FinalDesign recommended_of(const ResultFiles& f) { return recommended_design(f.problem, f.result); }
+Advice advice_of(const ResultFiles& f) { return search::advice_of(f.problem, f.result); }
+
+std::string in_unit(double si, const std::string& unit, int digits) {
+  const double shown = si / find_unit(unit)->to_si;
+  return significant(shown, digits) + (unit.empty() ? "" : " " + unit);
+}
 
 // Objectives in which a design is better (else worse) by more than the error: "mean(modulation)
 // +0.031 ± 0.012".
@@ -39,48 +47,311 @@ std::string changes(const ResultFiles& f, const Score& design, const Score& othe
   return join_names(out);
 }
 
+// "gains mean(modulation) +0.031 ± 0.012 and costs ..."; "" where neither is beyond its error.
+std::string gains_and_costs(const ResultFiles& f, const Score& design, const Score& other) {
+  const std::string gain = changes(f, design, other, true), cost = changes(f, design, other, false);
+  if (gain.empty()) return cost.empty() ? "" : "costs " + cost;
+  return "gains " + gain + (cost.empty() ? "" : " and costs " + cost);
+}
+
 // "surface.contact_angle 60 deg to 90 deg": what of the best design is not the texture's.
 std::string finish_text(const ResultFiles& f) {
   const std::vector<double> own = f.problem.space().value(f.problem.space().unit_of_study());
   const std::vector<double> best = f.problem.space().value(best_of(f).unit);
   std::vector<std::string> out;
-  for (std::size_t k = 0; k < own.size(); ++k) {
+  for (std::size_t k : changed_finish(f.problem, f.result)) {
     const Variable& v = f.study.variables[k];
-    if (v.path.starts_with("texture.") || own[k] == best[k]) continue;
     out.push_back(
         fmt::format("{} {} to {}", v.path, variable_text(v, own[k]), variable_text(v, best[k])));
   }
   return join_names(out);
 }
 
-std::string in_unit(double si, const std::string& unit, int digits) {
-  const double shown = si / find_unit(unit)->to_si;
-  return significant(shown, digits) + (unit.empty() ? "" : " " + unit);
+// "surface.contact_angle 63 deg, drive.amplitude 180 V": what the variables say of a surface
+// besides its texture.
+std::string surface_text(const ResultFiles& f, const Point& unit) {
+  const std::vector<double> value = f.problem.space().value(unit);
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    const Variable& v = f.study.variables[k];
+    if (!v.path.starts_with("texture."))
+      out.push_back(fmt::format("{} {}", v.path, variable_text(v, value[k])));
+  }
+  return join_names(out);
 }
 
-std::string tolerance_text(const SheetRow& row, const std::optional<double>& drift, bool at_least) {
-  if (!row.free) return "fixed";
-  if (!drift) return "not known";
-  if (!(*drift > 0)) return "its bound is near";
-  return fmt::format("{}{}", at_least ? "at least " : "", in_unit(*drift, row.unit, 2));
+// "grooves 1.2 um wide, 5.41 um apart, 349 nm deep".
+std::string shape_text(const Design& design) {
+  Texture texture = design.texture;
+  const TextureFacts of = facts(texture);
+  const auto* array = std::get_if<FeatureArray>(&of.outline);
+  std::string kind =
+      array ? std::string(array->drawn) : std::string(texture_kinds()[texture.kind.index()]);
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  const Roles role = roles(texture);
+  std::vector<std::string> measures;
+  const std::vector<NumberField> known = number_fields(texture, "texture");
+  const auto add = [&](const double* value, const char* word) {
+    for (const NumberField& field : known) {
+      if (field.value == value)
+        measures.push_back(in_unit(*field.value, field.unit, 4) + " " + word);
+    }
+  };
+  add(role.width, "wide");
+  add(role.period, "apart");
+  add(role.depth, array && !array->deep ? "high" : "deep");
+  return measures.empty() ? kind : kind + " " + join_names(measures);
+}
+
+std::string limit_broken(const LimitValue& v) {
+  return fmt::format("{} is {}, {} your limit of {}", v.limit.name,
+                     limit_value_text(v.limit, v.value), v.limit.at_least ? "below" : "above",
+                     limit_value_text(v.limit, v.limit.limit));
+}
+
+std::vector<std::string> broken_texts(const std::vector<LimitValue>& limits) {
+  std::vector<std::string> out;
+  for (const LimitValue& v : limits) {
+    if (!v.kept()) out.push_back(limit_broken(v));
+  }
+  return out;
+}
+
+// Of what is built, where that was judged; else as far as they are known before.
+std::vector<LimitValue> built_limits(const ResultFiles& f) {
+  const StudyConstraints& constraints = f.problem.constraints();
+  if (!f.result.build) {
+    const FinalDesign design = recommended_of(f);
+    return constraints.values(design.design, design.confirmed);
+  }
+  const FinalDesign& made = f.result.build->made;
+  if (made.confirmed.ok) return constraints.values(made.design, made.confirmed);
+  std::vector<LimitValue> out = constraints.values(made.design, recommended_of(f).confirmed);
+  std::erase_if(out, [](const LimitValue& v) { return limit_on(v.limit) == LimitOn::Metric; });
+  return out;
+}
+
+// Where the design is among those whose order was checked.
+std::optional<std::size_t> checked_place(const ResultFiles& f) {
+  const FinalDesign design = recommended_of(f);
+  for (std::size_t i = 0; i < f.result.finalists.size(); ++i) {
+    if (f.result.finalists[i].unit == design.unit && !design.flat && f.result.stability.judged(i))
+      return i;
+  }
+  return std::nullopt;
+}
+
+// Why a design lost its place in one of the checks.
+std::string why_lost(const ResultFiles& f, const StabilityVariant& v, std::size_t place) {
+  if (v.values[place].empty()) return "it has no value";
+  if (place < v.broken.size() && !v.broken[place].empty())
+    return limit_broken(v.broken[place].front());
+  if (place < v.beaten_by.size() && v.beaten_by[place])
+    return design_name(f.result.finalists[v.beaten_by[place].value()].folder) + " is better";
+  return "another is better";
+}
+
+// Why the place of a design on the front does not hold, and which one's holds more often.
+std::string unstable_text(const ResultFiles& f) {
+  const Stability& s = f.result.stability;
+  const auto place = checked_place(f);
+  if (!place || s.stable(*place)) return {};
+  std::vector<std::string> lost;
+  for (const StabilityVariant& v : s.variants) {
+    if (!v.on_front[*place]) lost.push_back(v.name + ": " + why_lost(f, v, *place));
+  }
+  const auto most = std::max_element(s.times_on_front.begin(), s.times_on_front.end());
+  std::string out =
+      fmt::format(" Its place does not hold: {} of {} checks ({}).", s.times_on_front[*place],
+                  s.variants.size(), join_names(lost, "; "));
+  if (*most > s.times_on_front[*place]) {
+    const FinalDesign& steady =
+        f.result.finalists[static_cast<std::size_t>(most - s.times_on_front.begin())];
+    out += fmt::format(
+        " The alternative that holds in {} of {} is {} ({}).", *most, s.variants.size(),
+        design_name(steady.folder),
+        facts(steady.design.texture).relief.present ? shape_text(steady.design) : "flat");
+  } else {
+    out += " No design of the front holds more often.";
+  }
+  return out;
+}
+
+// What rounding breaks, where something.
+std::string rounding_text(const ResultFiles& f) {
+  if (!f.result.build || !f.result.build->made.confirmed.ok || f.result.build->made.feasible ||
+      !recommended_of(f).feasible)
+    return {};
+  const std::vector<std::string> broken = broken_texts(built_limits(f));
+  return broken.empty() ? ""
+                        : fmt::format(
+                              " On the grid of the fab {}; no design beside it on the grid "
+                              "keeps every limit: use a finer `search.rounding`.",
+                              join_names(broken));
+}
+
+std::string worth_building(const ResultFiles& f) {
+  const OptimiseResult& r = f.result;
+  const FinalDesign& best = best_of(f);
+  std::vector<std::string> clauses;
+  std::vector<std::string> broken;
+  for (const LimitValue& v : broken_without_texture(f.problem, r))
+    broken.push_back(limit_broken(v));
+  if (!broken.empty())
+    clauses.push_back(fmt::format("Without its texture the same surface breaks a limit: {}.",
+                                  join_names(broken)));
+  if (const std::string same = gains_and_costs(f, best.confirmed, *r.flat); !same.empty())
+    clauses.push_back("Against the same surface without texture it " + same + ".");
+  const auto flat = best_flat(f.problem, r);
+  if (flat && r.finalists[*flat].confirmed.values != r.flat->values) {
+    const FinalDesign& other = r.finalists[*flat];
+    const std::string both = gains_and_costs(f, best.confirmed, other.confirmed);
+    const std::string surface = surface_text(f, other.unit);
+    clauses.push_back(fmt::format(
+        "Against the best flat surface of this run, {}{}, it {}.", design_name(other.folder),
+        surface.empty() ? "" : " (" + surface + ")",
+        both.empty() ? "is no better and no worse than the error of the difference" : both));
+  }
+  if (const std::string finish = finish_text(f); !finish.empty())
+    clauses.push_back("The finish changes too (" + finish + ").");
+  return fmt::format("Build {} ({}). {}", design_name(best.folder), shape_text(built_design(f)),
+                     join_names(clauses, " "));
+}
+
+// "15 to 75 %"
+std::string humidity_text(const std::vector<double>& humidities) {
+  if (humidities.empty()) return "no humidity";
+  const auto [low, high] = std::minmax_element(humidities.begin(), humidities.end());
+  return *low == *high ? fmt::format("{:.0f} %", 100 * *low)
+                       : fmt::format("{:.0f} to {:.0f} %", 100 * *low, 100 * *high);
+}
+
+const char* state_text(FingerState state) {
+  switch (state) {
+    case FingerState::Clean:
+      return "degreased fingers (finger.state = \"clean\")";
+    case FingerState::Natural:
+      return "natural fingers, not degreased";
+    case FingerState::Wet:
+      break;
+  }
+  return "wet fingers";
+}
+
+// Which fingers and weathers the numbers are for.
+std::string conditions_text(const ResultFiles& f) {
+  std::vector<std::string> states;
+  double least = kInfinity, most = 0;
+  for (std::size_t t = 0; t < f.problem.nominal_tasks(); ++t) {
+    const Finger& finger = f.problem.tasks()[t].finger;
+    const std::string state = state_text(finger.state);
+    if (std::find(states.begin(), states.end(), state) == states.end()) states.push_back(state);
+    least = std::min(least, finger.load), most = std::max(most, finger.load);
+  }
+  const std::string load = least == most
+                               ? format_quantity(least, "N")
+                               : format_quantity(least, "N") + " to " + format_quantity(most, "N");
+  return fmt::format("Judged for {} at {} relative humidity under {}.", join_names(states, " and "),
+                     humidity_text(f.study.design.environment.relative_humidity), load);
+}
+
+// The numbers of a design in one of the checks: "mean(modulation) 0.296 (0.608)".
+std::string skin_text(const ResultFiles& f) {
+  const Stability& s = f.result.stability;
+  const auto place = checked_place(f);
+  if (!s.other_skin || *s.other_skin >= s.variants.size() || !place)
+    return "Another state of the skin (natural, not degreased) was not tried on it.";
+  const StabilityVariant &other = s.variants[*s.other_skin], &own = s.variants.front();
+  if (other.values[*place].empty() || own.values[*place].empty())
+    return fmt::format("On {} it has no value.", other.name);
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    values.push_back(fmt::format("{} {} where it has {}", o.name,
+                                 shown_value(o.expression, other.values[*place][k]),
+                                 shown_value(o.expression, own.values[*place][k])));
+  }
+  if (f.problem.driven() && *place < other.worst.size())
+    values.push_back(fmt::format("a worst modulation of {:.3f} where it has {:.3f}",
+                                 other.worst[*place], own.worst[*place]));
+  return fmt::format("On {} ({}) it has {}.", other.name, f.problem.tasks().front().name,
+                     join_names(values));
+}
+
+// Choices of the model that no ± holds, and how far they move the design.
+std::string model_text(const ResultFiles& f) {
+  const Stability& s = f.result.stability;
+  const auto place = checked_place(f);
+  const std::string out = "In no ±: choices of the model";
+  if (!s.other_skin || !place)
+    return out + " (`papilla explain` names them), which were not tried on it.";
+  std::vector<std::string> names, ranges;
+  std::vector<std::vector<double>> values;
+  for (std::size_t v = *s.other_skin + 1; v < s.variants.size(); ++v) {
+    names.push_back(s.variants[v].name);
+    if (!s.variants[v].values[*place].empty()) values.push_back(s.variants[v].values[*place]);
+  }
+  for (std::size_t k = 0; k < f.problem.objectives().size() && !values.empty(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    const auto [low, high] = std::minmax_element(
+        values.begin(), values.end(), [k](const auto& a, const auto& b) { return a[k] < b[k]; });
+    ranges.push_back(fmt::format("{} {} to {}", o.name, shown_value(o.expression, (*low)[k]),
+                                 shown_value(o.expression, (*high)[k])));
+  }
+  return fmt::format("{} ({}): over these {}.", out, join_names(names),
+                     ranges.empty() ? "it has no value" : "it has " + join_names(ranges));
+}
+
+// A modulation that nobody feels somewhere.
+std::string felt_text(const ResultFiles& f) {
+  const double worst = recommended_of(f).confirmed.worst;
+  if (!f.problem.driven() || worst >= kNoticed) return {};
+  return fmt::format(
+      "At its worst, over fingers and humidity, the modulation is {:.3f}: below {:.2g}, the least "
+      "relative difference of friction that people notice (Fehlberg 2022), it is not felt there.",
+      worst, kNoticed);
+}
+
+// How it looks, where the study says what the glass is.
+std::string look_text(const ResultFiles& f) {
+  const Design built = built_design(f);
+  const bool asked = f.problem.goals().looks || f.study.origins.count("surface.refractive_index");
+  if (!asked || !(facts(built.texture).quick_look || f.problem.goals().looks)) return {};
+  const Optics look = appearance_of(built);
+  if (look.refused()) return "Its haze is not known: " + look.warning + ".";
+  return fmt::format("It has {} % haze{}.", significant(100 * look.haze, 3),
+                     look.warning.empty() ? "" : " (" + look.warning + ")");
+}
+
+Json drift_json(const std::optional<Drift>& drift, double unit) {
+  return drift && drift->judged() ? Json(drift->most / unit) : Json();
 }
 
 Json row_json(const SheetRow& row) {
   const double unit = find_unit(row.unit)->to_si;
-  const auto drift = [&](const std::optional<double>& d) { return d ? Json(*d / unit) : Json(); };
+  const auto at_least = [](const std::optional<Drift>& d) {
+    return d && d->end == Drift::End::StepTried;
+  };
+  const auto limit = [](const std::optional<Drift>& d) {
+    return d && d->end == Drift::End::Limit ? Json(d->limit) : Json();
+  };
+  const auto text = [&](const std::optional<Drift>& d) {
+    return !row.free ? "fixed" : d ? drift_text(*d, row.unit) : "not known";
+  };
   Json out{{"name", row.path},
            {"unit", row.unit},
            {"value", row.value / unit},
            {"build", row.build / unit},
            {"free", row.free},
-           {"down", drift(row.down)},
-           {"down_at_least", row.down_at_least},
-           {"up", drift(row.up)},
-           {"up_at_least", row.up_at_least}};
+           {"down", drift_json(row.down, unit)},
+           {"down_at_least", at_least(row.down)},
+           {"down_limit", limit(row.down)},
+           {"up", drift_json(row.up, unit)},
+           {"up_at_least", at_least(row.up)},
+           {"up_limit", limit(row.up)}};
   out["bound"] = !row.at_bound ? Json() : Json(*row.at_bound ? "upper" : "lower");
-  out["text"] = {{"build", in_unit(row.build, row.unit, 6)},
-                 {"down", tolerance_text(row, row.down, row.down_at_least)},
-                 {"up", tolerance_text(row, row.up, row.up_at_least)}};
+  out["text"] = {
+      {"build", in_unit(row.build, row.unit, 6)}, {"down", text(row.down)}, {"up", text(row.up)}};
   return out;
 }
 
@@ -108,26 +379,80 @@ const char* advice_name(Advice advice) {
   return "texture";
 }
 
-// The constraints that a surface beside the best design breaks: "worst(modulation) (at least 0.3)".
-std::string broken_by(const ResultFiles& f, const Score& other) {
-  return join_names(f.problem.constraints().never_kept({{{}, f.problem.outcome(other)}}));
+// Which grid the numbers are on, and what that did.
+std::string grid_text(const ResultFiles& f) {
+  if (!f.result.build || !(f.study.search.rounding > 0)) return {};
+  const BuiltDesign& build = *f.result.build;
+  const FinalDesign searched = recommended_of(f);
+  const double grid = f.study.search.rounding;
+  std::string out = fmt::format(
+      " Lengths of {} and more are on a grid of {} (`search.rounding`), shorter ones on a finer "
+      "one (`best/build.toml`)",
+      format_quantity(finer_grid_below(grid), "nm"), format_quantity(grid, "nm"));
+  if (build.widened)
+    out += "; nearer values of the grid break a limit, these are the nearest that keep all";
+  if (!build.made.confirmed.ok) return out + "; it was not judged again so.";
+  if (build.made.unit == searched.unit) return out + ".";
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
+    const StudyObjective& o = f.problem.objectives()[k];
+    values.push_back(fmt::format("{} {} where it had {}", o.name,
+                                 shown_value(o.expression, build.made.confirmed.values[k]),
+                                 shown_value(o.expression, searched.confirmed.values[k])));
+  }
+  return out + fmt::format("; it was judged again so: {}.", join_names(values));
+}
+
+std::string limits_table(const std::vector<LimitValue>& limits) {
+  if (limits.empty()) return {};
+  std::string out = "\n" + markdown_head({"limit", "asked for", "as built"});
+  for (const LimitValue& v : limits) {
+    out += markdown_row({v.limit.name, limit_text(v.limit),
+                         limit_value_text(v.limit, v.value) + (v.kept() ? "" : ", **broken**")});
+  }
+  return out;
 }
 
 }  // namespace
 
-Advice advice_of(const ResultFiles& f) {
-  if (!f.result.has_best() || !best_of(f).feasible) return Advice::Nothing;
-  const OptimiseResult& r = f.result;
-  const Score& best = best_of(f).confirmed;
-  const auto& objectives = f.problem.objectives();
-  const bool textured = facts(best_of(f).design.texture).relief.present;
-  if (textured && !r.flat) return Advice::Unknown;
-  const auto beats = [&](const Score& design, const Score& other) {
-    return !no_better(objectives, design, other) || !broken_by(f, other).empty();
-  };
-  if (textured && beats(best, *r.flat)) return Advice::Texture;
-  if (!r.flat_before) return finish_text(f).empty() ? Advice::LeaveFlat : Advice::Finish;
-  return beats(r.flat ? *r.flat : best, *r.flat_before) ? Advice::Finish : Advice::LeaveFlat;
+std::string design_name(const std::string& folder) {
+  constexpr std::string_view kFront = "front/";
+  if (!folder.starts_with(kFront)) return folder.empty() ? "a dominated design" : folder;
+  return "design " + folder.substr(kFront.size());
+}
+
+std::string drift_text(const Drift& drift, const std::string& unit) {
+  switch (drift.end) {
+    case Drift::End::Loss:
+      return in_unit(drift.most, unit, 2);
+    case Drift::End::Limit:
+      return drift.most > 0
+                 ? fmt::format("{}, then {} is reached", in_unit(drift.most, unit, 2), drift.limit)
+                 : fmt::format("none: {} is reached", drift.limit);
+    case Drift::End::StepTried:
+      return fmt::format("> {} (largest step tried)", in_unit(drift.most, unit, 2));
+    case Drift::End::RangeEnds:
+      return "not judged: the search range ends here";
+    case Drift::End::NoShape:
+      return "not judged: no such shape can be made";
+    case Drift::End::Failed:
+      break;
+  }
+  return "not judged: the evaluation failed";
+}
+
+Json limits_json(const std::vector<LimitValue>& limits) {
+  Json out = Json::array();
+  for (const LimitValue& v : limits) {
+    out.push_back({{"name", v.limit.name},
+                   {"at_least", v.limit.at_least},
+                   {"limit", json_number(v.limit.limit)},
+                   {"value", json_number(v.value)},
+                   {"text", limit_value_text(v.limit, v.value)},
+                   {"asked", limit_text(v.limit)},
+                   {"kept", v.kept()}});
+  }
+  return out;
 }
 
 std::string recommendation(const ResultFiles& f) {
@@ -140,53 +465,43 @@ std::string recommendation(const ResultFiles& f) {
              "computed in the time.";
     case Advice::LeaveFlat:
       return "Leave it flat: no texture or finish of this search gains more than the error of the "
-             "difference.";
+             "difference." +
+             rounding_text(f);
     case Advice::Finish:
       if (!r.flat_before) {
         return fmt::format(
             "Leave it flat: no texture of this search adds more than the error of the difference. "
             "What the finish does ({}) is not known: the study's own surface was not computed in "
-            "the time.",
-            finish_text(f));
+            "the time.{}",
+            finish_text(f), rounding_text(f));
       }
       return fmt::format(
-          "Leave it flat and change the finish ({}): {}; no texture of this search adds more than "
-          "the error of the difference.",
-          finish_text(f),
-          changes(f, r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before, true));
+          "Leave it flat and change the finish ({}): that gains {}; no texture of this search adds "
+          "more than the error of the difference.{}",
+          finish_text(f), changes(f, r.flat ? *r.flat : best_of(f).confirmed, *r.flat_before, true),
+          rounding_text(f));
     case Advice::Texture:
       break;
   }
-  const std::string finish = finish_text(f), broken = broken_by(f, *r.flat);
-  const std::string gain = changes(f, best_of(f).confirmed, *r.flat, true);
-  const std::string cost = changes(f, best_of(f).confirmed, *r.flat, false);
-  std::vector<std::string> clauses;
-  if (!broken.empty())
-    clauses.push_back(fmt::format("the same surface without its texture breaks {}", broken));
-  if (!gain.empty())
-    clauses.push_back(fmt::format("{}its texture gains {}{}",
-                                  broken.empty() ? "beside the same surface without it, " : "",
-                                  gain, cost.empty() ? "" : fmt::format(" and costs {}", cost)));
-  if (!finish.empty()) clauses.push_back(fmt::format("the finish changes too ({})", finish));
-  return fmt::format("Build {}: {}.", best_of(f).folder, fmt::join(clauses, "; "));
+  return worth_building(f) + rounding_text(f) + unstable_text(f);
 }
 
-Design built_design(const ResultFiles& f) {
-  Design out = f.result.rounded ? f.result.rounded->design : best_of(f).design;
-  const std::vector<NumberField> known = number_fields(out);
-  for (const Variable& v : f.study.variables) {
-    const std::string path = path_in(known, v.path);
-    if (path.empty()) continue;
-    double& value = *find_number_field(known, path).value;
-    if (f.result.rounded) value = on_grid(v, value, f.study.search.rounding);
+std::vector<std::string> grounds(const ResultFiles& f) {
+  std::vector<std::string> out{conditions_text(f) + " " + skin_text(f), model_text(f)};
+  for (std::string said : {felt_text(f), look_text(f)}) {
+    if (!said.empty()) out.push_back(std::move(said));
   }
   return out;
 }
 
+Design built_design(const ResultFiles& f) {
+  return f.result.build ? f.result.build->made.design : recommended_of(f).design;
+}
+
 std::vector<SheetRow> sheet_rows(const ResultFiles& f) {
-  Design best = best_of(f).design, built = built_design(f);
-  const bool relief = facts(best.texture).relief.present;
-  const std::vector<NumberField> known = number_fields(best), final = number_fields(built);
+  Design searched = recommended_of(f).design, built = built_design(f);
+  const bool relief = facts(built.texture).relief.present;
+  const std::vector<NumberField> known = number_fields(searched), final = number_fields(built);
   std::vector<SheetRow> out;
   for (std::size_t i = 0; i < known.size(); ++i) {
     const std::string& path = known[i].path;
@@ -196,17 +511,14 @@ std::vector<SheetRow> sheet_rows(const ResultFiles& f) {
     const bool is_variable = variable != f.study.variables.end();
     const bool of_texture = path.starts_with("texture.");
     if (of_texture ? !relief : !is_variable) continue;
-    SheetRow row{
-        path, known[i].unit, *known[i].value, *final[i].value, is_variable, {}, {}, false, false,
-        {}};
+    SheetRow row;
+    row.path = path, row.unit = known[i].unit;
+    row.value = *known[i].value, row.build = *final[i].value;
+    row.free = is_variable;
     if (is_variable) {
       const auto k = static_cast<std::size_t>(variable - f.study.variables.begin());
       for (const VariableSensitivity& s : f.result.sensitivity) {
-        if (s.variable != k) continue;
-        row.down = s.down;
-        row.up = s.up;
-        row.down_at_least = s.down_beyond;
-        row.up_at_least = s.up_beyond;
+        if (s.variable == k) row.down = s.down, row.up = s.up;
       }
       for (const AtBound& at : f.result.at_bound) {
         if (at.variable == k) row.at_bound = at.upper;
@@ -218,32 +530,18 @@ std::vector<SheetRow> sheet_rows(const ResultFiles& f) {
 }
 
 std::string sheet_text(const ResultFiles& f) {
-  std::string out = fmt::format("\n## What to build\n\n**{}**\n\n", recommendation(f));
-  out += markdown_head({"dimension", "build", "tolerance down", "up"});
+  std::string out = fmt::format("\n## What to build\n\n**{}**\n", recommendation(f));
+  for (const std::string& said : grounds(f)) out += "\n- " + said;
+  out += "\n\n" + markdown_head({"dimension", "build", "tolerance down", "up"});
   for (const SheetRow& row : sheet_rows(f)) {
-    out += markdown_row({row.path, in_unit(row.build, row.unit, 6),
-                         tolerance_text(row, row.down, row.down_at_least),
-                         tolerance_text(row, row.up, row.up_at_least)});
+    const Json text = row_json(row)["text"];
+    out += markdown_row({row.path, text["build"], text["down"], text["up"]});
   }
   out +=
-      "\nTolerance: the drift that costs no objective more than 5 % of its value, one dimension "
-      "at a time.";
-  if (f.result.rounded) {
-    std::vector<std::string> values;
-    for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
-      const StudyObjective& o = f.problem.objectives()[k];
-      if (!f.result.rounded->confirmed.ok) continue;
-      values.push_back(fmt::format("{} {} where it had {}", o.name,
-                                   shown_value(o.expression, f.result.rounded->confirmed.values[k]),
-                                   shown_value(o.expression, best_of(f).confirmed.values[k])));
-    }
-    out += fmt::format(
-        " Lengths are on a grid of {} (`search.rounding`), and the design was judged "
-        "again so: {}{} (`best/build.toml`).",
-        format_quantity(f.study.search.rounding, "nm"), join_names(values),
-        f.result.rounded->feasible ? "" : "; **so it does not keep every constraint**");
-  }
-  return out + "\n";
+      "\nTolerance: how far it may be off before an objective worsens by 5 % or a limit is "
+      "reached, one dimension at a time." +
+      grid_text(f) + "\n" + limits_table(built_limits(f));
+  return out;
 }
 
 std::string run_json(const ResultFiles& f) {
@@ -263,21 +561,42 @@ std::string run_json(const ResultFiles& f) {
   out["advice"] = advice_name(advice_of(f));
   out["recommendation"] = recommendation(f);
   if (!r.has_best()) return out.dump(1) + "\n";
+  const FinalDesign recommended = recommended_of(f);
+  out["grounds"] = grounds(f);
+  out["design"] = recommended.flat ? Json() : Json(recommended.folder);
+  out["textured"] = facts(built_design(f).texture).relief.present;
+  out["stable"] = Json();
+  if (const auto place = checked_place(f)) out["stable"] = f.result.stability.stable(*place);
   out["finish"] = finish_text(f);
   out["sheet"] = Json::array();
   for (const SheetRow& row : sheet_rows(f)) out["sheet"].push_back(row_json(row));
   out["grid"] = f.study.search.rounding;
+  out["limits"] = limits_json(built_limits(f));
+  out["build"] = Json();
+  if (r.build) {
+    out["build"] = {{"judged", r.build->made.confirmed.ok},
+                    {"keeps_every_limit", r.build->made.feasible},
+                    {"widened", r.build->widened},
+                    {"said", grid_text(f)}};
+  }
   Json steps = Json::array();
-  const auto step = [&](const char* name, const std::optional<Score>& score) {
+  const auto step = [&](const std::string& name, const std::optional<Score>& score) {
     if (score) steps.push_back({{"surface", name}, {"objectives", values_json(f, *score)}});
   };
   step("flat, finish and drive of the study", r.flat_before);
   step(r.flat_before ? "flat, finish and drive of the best" : "flat", r.flat);
-  if (facts(best_of(f).design.texture).relief.present)
-    step("best, with its texture", best_of(f).confirmed);
-  if (r.rounded && r.rounded->confirmed.ok)
-    step("best, on the grid of the fab", r.rounded->confirmed);
+  const bool textured = facts(recommended.design.texture).relief.present;
+  if (textured) step("best, with its texture", recommended.confirmed);
+  if (r.build && r.build->made.confirmed.ok && r.build->made.unit != recommended.unit)
+    step(textured ? "best, on the grid of the fab" : "flat, on the grid of the fab",
+         r.build->made.confirmed);
   out["steps"] = std::move(steps);
+  out["best_flat"] = Json();
+  if (const auto flat = best_flat(f.problem, r)) {
+    const FinalDesign& design = r.finalists[*flat];
+    out["best_flat"] = {{"surface", "best flat surface of this run, " + design_name(design.folder)},
+                        {"objectives", values_json(f, design.confirmed)}};
+  }
   return out.dump(1) + "\n";
 }
 

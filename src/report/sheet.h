@@ -2,42 +2,43 @@
 // the finish and the texture do.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
+#include "search/advice.h"
 #include "search/run.h"
 
 namespace papilla::report {
 
-// What a run says should be built.
-enum class Advice {
-  Nothing,    // no design keeps every constraint
-  Unknown,    // the surface without texture was not computed
-  LeaveFlat,  // no texture gains more than the error of the difference; nor does the finish
-  Finish,     // the finish (or drive) gains, the texture does not
-  Texture,    // the texture gains
-};
-Advice advice_of(const ResultFiles& files);
-// In one sentence.
+// What should be built, what it gains and costs, and what speaks against it.
 std::string recommendation(const ResultFiles& files);
+// What the recommendation rests on, in sentences: fingers and humidities, what is in no ±, a worst
+// case that nobody feels, how it looks.
+std::vector<std::string> grounds(const ResultFiles& files);
 
-// A number of the best design, SI.
+// A number of the design that is built, SI.
 struct SheetRow {
   std::string path, unit;  // texture.period, um
   double value = 0;        // as searched
   double build = 0;        // on the grid of the fab
   bool free = false;       // a variable; else fixed by the study
-  // Drift that costs no objective more than 5 %: where it is known.
-  std::optional<double> down, up;
-  bool down_at_least = false, up_at_least = false;
+  std::optional<Drift> down, up;
   std::optional<bool> at_bound;  // true: the upper one
 };
 std::vector<SheetRow> sheet_rows(const ResultFiles& files);
+// How far a number may be off, for people: "12 nm", "9.6 nm, then min_wall is reached".
+std::string drift_text(const Drift& drift, const std::string& unit);
 
-// The best design on the grid of the fab: values as the sheet has them, in every digit.
+// The recommended design on the grid of the fab: values as the sheet has them, in every digit.
 Design built_design(const ResultFiles& files);
+
+// "design 06" of front/06.
+std::string design_name(const std::string& folder);
+// The limits of the study and what the design has of them.
+nlohmann::ordered_json limits_json(const std::vector<LimitValue>& limits);
 
 // "## What to build" of summary.md.
 std::string sheet_text(const ResultFiles& files);

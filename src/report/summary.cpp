@@ -36,12 +36,18 @@ std::string rule_text(const ResultFiles& f) {
                             : "the knee of the front: the least sum of its scaled objectives";
 }
 
-std::string best_text(const ResultFiles& f, const FinalDesign& best) {
-  const OptimiseResult& r = f.result;
-  return fmt::format("\n`best/` is {}: {}{}.\n", best.folder, rule_text(f),
-                     !r.stability.judged(r.best) || r.stability.stable(r.best)
-                         ? ""
-                         : "; under other choices of the model its neighbours beat it, see below");
+// Which design best/ has, and why.
+std::string best_text(const ResultFiles& f) {
+  const FinalDesign recommended = recommended_design(f.problem, f.result);
+  const FinalDesign& best = f.result.finalists[f.result.best];
+  if (recommended.flat) {
+    return fmt::format(
+        "\n`best/` is the flat surface that is recommended. Of the front, {} is {}; it gains no "
+        "more "
+        "than the error of the difference.\n",
+        best.folder, rule_text(f));
+  }
+  return fmt::format("\n`best/` is {}: {}.\n", best.folder, rule_text(f));
 }
 
 // The step from the study's own flat surface to the best design, split into the part of the
@@ -49,6 +55,7 @@ std::string best_text(const ResultFiles& f, const FinalDesign& best) {
 std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
   const OptimiseResult& r = f.result;
   const auto& objectives = f.problem.objectives();
+  const bool flat_best = recommended_design(f.problem, r).flat;
   std::string out = "\n## What the texture does, and what the finish does\n\n| surface |";
   std::string rule = "|---|";
   for (const auto& o : objectives) {
@@ -63,22 +70,29 @@ std::string gain_text(const ResultFiles& f, const FinalDesign& best) {
       out += fmt::format(" {} |", with_errors(objectives[k], s, k));
     out += driven ? fmt::format(" {:.3f} |\n", s.worst) : "\n";
   };
-  if (no_better(objectives, best.confirmed, *r.flat))
-    out = "\n**" + std::string(kNoBetter) + "**\n" + out;
+  if (flat_best) out = "\n**" + std::string(kNoBetter) + "**\n" + out;
   if (r.flat_before) row("flat, finish and drive of the study file", *r.flat_before);
   row(r.flat_before ? "flat, finish and drive of the best design" : "flat", *r.flat);
-  row("best design", best.confirmed);
-  out += "| difference made by the texture |";
-  for (std::size_t k = 0; k < objectives.size(); ++k) {
-    const MetricExpression& e = objectives[k].expression;
-    out +=
-        fmt::format(" {} ± {}", shown_value(e, best.confirmed.values[k] - r.flat->values[k], true),
-                    shown_error(e, difference_error(best.confirmed, *r.flat, k)));
-    if (const auto part = parameter_error(best.confirmed, *r.flat, k))
-      out += fmt::format(" ({})", shown_error(e, *part));
-    out += " |";
+  row(flat_best ? "best of the front" : "best design", best.confirmed);
+  const auto difference = [&](const std::string& name, const Score& other) {
+    out += "| " + name + " |";
+    for (std::size_t k = 0; k < objectives.size(); ++k) {
+      const MetricExpression& e = objectives[k].expression;
+      out +=
+          fmt::format(" {} ± {}", shown_value(e, best.confirmed.values[k] - other.values[k], true),
+                      shown_error(e, difference_error(best.confirmed, other, k)));
+      if (const auto part = parameter_error(best.confirmed, other, k))
+        out += fmt::format(" ({})", shown_error(e, *part));
+      out += " |";
+    }
+    out += driven ? " |\n" : "\n";
+  };
+  difference("difference made by the texture", *r.flat);
+  if (const auto flat = best_flat(f.problem, r); flat && *flat != r.best) {
+    const FinalDesign& other = r.finalists[*flat];
+    row(("best flat surface of this run, " + design_name(other.folder)).c_str(), other.confirmed);
+    difference("difference from the best flat surface", other.confirmed);
   }
-  out += driven ? " |\n" : "\n";
   out +=
       "\n± of the difference is from both on the same skins, droplets and grid, skin by "
       "skin: what moves both alike is not in it (the larger of both where their numbers of skins "
@@ -117,8 +131,8 @@ std::string sensitivity_text(const ResultFiles& f) {
       "its "
       "range (128 pixels, 12 skins, common random numbers). Share: of the objective's variance "
       "if every "
-      "variable scattered so. Tolerance: the drift that costs no objective more than 5 % of its "
-      "value.\n\n| variable | step";
+      "variable scattered so. Tolerance: how far it may be off before an objective worsens by 5 % "
+      "or a limit is reached.\n\n| variable | step";
   for (const StudyObjective& o : objectives) out += fmt::format(" | {}, share", heading(o));
   out += " | tolerance down | up |\n|---|---";
   for (std::size_t k = 0; k < objectives.size(); ++k) out += "|---";
@@ -133,12 +147,7 @@ std::string sensitivity_text(const ResultFiles& f) {
                                                100 * s.share[k])
                                  : std::string(" | -");
     }
-    const auto drift = [&](double value, bool beyond) {
-      return value > 0 ? fmt::format("{}{} {}", beyond ? "at least " : "",
-                                     significant(value / unit, 2), v.unit)
-                       : std::string("its bound is near");
-    };
-    out += " | " + drift(s.down, s.down_beyond) + " | " + drift(s.up, s.up_beyond) + " |\n";
+    out += " | " + drift_text(s.down, v.unit) + " | " + drift_text(s.up, v.unit) + " |\n";
   }
   return out;
 }
@@ -152,9 +161,11 @@ std::string stability_text(const ResultFiles& f) {
   std::string out =
       "\n## Does the order hold?\n\nEach design of the front on each finger alone, then on the "
       "first finger "
-      "with one choice of the model changed (128 pixels, 12 skins, common random numbers; " +
+      "with another state of its skin or one choice of the model changed (128 pixels, 12 skins, "
+      "common random numbers; " +
       objectives.front().name + (objectives.size() > 1 ? ", " + objectives[1].name : "") +
-      "; * on the front of these designs):\n\n|";
+      "; * on the front of these designs: it keeps every limit, and none is better in all "
+      "objectives by more than the error of their difference):\n\n|";
   for (std::size_t i = 0; i < judged; ++i)
     out += " | " +
            (f.result.finalists[i].folder.empty() ? "(dominated)" : f.result.finalists[i].folder);
@@ -168,6 +179,13 @@ std::string stability_text(const ResultFiles& f) {
       for (std::size_t k = 0; k < std::min<std::size_t>(2, v.values[i].size()); ++k) {
         out += k == 0 ? " " : ", ";
         out += shown_value(objectives[k].expression, v.values[i][k]);
+      }
+      if (v.values[i].empty()) out += " no value";
+      if (i < v.broken.size()) {
+        for (const LimitValue& limit : v.broken[i]) {
+          out += fmt::format(", breaks {} ({})", limit.limit.name,
+                             limit_value_text(limit.limit, limit.value));
+        }
       }
       out += v.on_front[i] ? " *" : "";
     }
@@ -210,16 +228,17 @@ std::string run_summary(const ResultFiles& f) {
   out += result_table(f.study, r);
   const FinalDesign& best = r.finalists[r.best];
   out += target_text(f, best);
-  if (best.on_front) out += best_text(f, best);
+  if (best.on_front) out += best_text(f);
   if (r.flat && best.confirmed.ok) out += gain_text(f, best);
   out += stability_text(f);
   out += sensitivity_text(f);
   out += r.has_best()
              ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
                "history.csv (every evaluation), run.json (how it ended, what to build), front/ and "
-               "best/ (design.toml, build.toml on the grid of the fab, metrics.json, "
-               "heightmap.exr, heightmap.gsf, preview.png, of textures with an outline mask.tif "
-               "(white is deep), export.json for `papilla verify`), "
+               "best/, what is recommended (design.toml, metrics.json, heightmap.exr, "
+               "heightmap.gsf, preview.png, of textures with an outline mask.tif "
+               "(white is deep), export.json for `papilla verify`; in best/ also build.toml, on "
+               "the grid of the fab, which its maps and its mask are of), "
                "sensitivity.json, "
                "resolved.toml (every value and where it came from), plan.txt, journal.\n"
              : "\nFiles: pareto.csv (finalists), history.csv (every evaluation), resolved.toml "
@@ -236,8 +255,12 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   for (const StudyObjective& o : objectives)
     out += fmt::format(" | {} {}", o.maximise ? "max" : "min", heading(o));
   const bool driven = problem.driven();
-  out += driven ? " | worst modulation |\n|" : " |\n|";
-  const std::size_t columns = study.variables.size() + objectives.size() + (driven ? 2 : 1);
+  if (driven) out += " | worst modulation";
+  for (const Constraint& c : study.constraints)
+    out += fmt::format(" | {} {}", c.name, limit_text(c));
+  out += " |\n|";
+  const std::size_t columns =
+      study.variables.size() + objectives.size() + (driven ? 2 : 1) + study.constraints.size();
   for (std::size_t i = 0; i < columns; ++i) out += "---|";
   out += "\n";
   for (const FinalDesign& d : result.finalists) {
@@ -245,13 +268,18 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
     if (!d.folder.empty() && !d.feasible) out += " (infeasible)";
     const std::vector<double> values = problem.space().value(d.unit);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      out.append(" | ").append(variable_text(study.variables[i], values[i]));
+      const Variable& v = study.variables[i];
+      out += " | " + (is_shown(d.design, v) ? variable_text(v, values[i]) : std::string());
     }
     for (std::size_t k = 0; k < objectives.size(); ++k) {
       out += fmt::format(" | {}",
                          d.confirmed.ok ? with_errors(objectives[k], d.confirmed, k) : "failed");
     }
-    out += driven ? fmt::format(" | {:.3f} |\n", d.confirmed.worst) : std::string(" |\n");
+    if (driven) out += d.confirmed.ok ? fmt::format(" | {:.3f}", d.confirmed.worst) : " |";
+    for (const LimitValue& v : limit_values(problem, d))
+      out += " | " + limit_value_text(v.limit, v.value) + (v.kept() ? "" : ", **broken**");
+    for (std::size_t i = 0; i < study.constraints.size() && !d.confirmed.ok; ++i) out += " |";
+    out += " |\n";
   }
   const std::string unknown = problem.parameters_unknown();
   if (!unknown.empty())
@@ -272,12 +300,20 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
     if (both) (*both < std::min(*own, *flat) ? better : worse).push_back(objectives[k].name);
   }
   if (!better.empty())
-    out += "; it leaves the difference from flat better known than the values in " +
-           join_names(better);
+    out += "; the gain over flat is less uncertain by it than the values in " + join_names(better);
   if (!worse.empty())
-    out += fmt::format("; {} it leaves the difference from flat no better known than the values",
-                       "in " + join_names(worse));
+    out += "; the gain over flat is as uncertain by it as the values in " + join_names(worse);
   return out + ".\n";
+}
+
+bool is_shown(const Design& design, const Variable& variable) {
+  return !variable.path.starts_with("texture.") || variable.is_kind() ||
+         facts(design.texture).relief.present;
+}
+
+std::vector<LimitValue> limit_values(const StudyProblem& problem, const FinalDesign& design) {
+  if (!design.confirmed.ok) return {};
+  return problem.constraints().values(design.design, design.confirmed);
 }
 
 std::string infeasible_text(const OptimiseResult& result) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/rooms.h"
 #include "search/run.h"
@@ -17,6 +18,11 @@ std::string run_summary(const ResultFiles& files);
 
 // The finalists as a table for people.
 std::string result_table(const Study& study, const OptimiseResult& result);
+
+// Whether a variable says something of a design: of a flat one no measure of a texture does.
+bool is_shown(const Design& design, const Variable& variable);
+// The limits of the study and what a confirmed design has of them; empty where that failed.
+std::vector<LimitValue> limit_values(const StudyProblem& problem, const FinalDesign& design);
 
 // Why nothing is feasible, as part of a sentence.
 std::string infeasible_text(const OptimiseResult& result);

@@ -1,9 +1,10 @@
 // The last stage of a run: what is said of the front and the best beside their numbers.
 #include <algorithm>
-#include <filesystem>
+#include <cmath>
 #include <functional>
 
 #include "base/error.h"
+#include "search/advice.h"
 #include "search/levels.h"
 #include "search/pick.h"
 #include "search/rounding.h"
@@ -20,11 +21,12 @@ std::size_t on_front(const OptimiseResult& result) {
                                                 [](const auto& f) { return !f.folder.empty(); }));
 }
 
-// step: after each design; false: interrupted.
-bool check_stability(Run& run, const std::function<void()>& step) {
+// step: after each design, with the expected seconds of the others; false: interrupted.
+bool check_stability(Run& run, const std::function<void(double)>& step) {
   const std::size_t variants = stability_variants(run.problem).size();
   const double seconds = run.seconds_of(on_front(run.result) * variants, Stage::Stability);
   if (!run.begin(RunPart::Stability, Stage::Stability, false, seconds)) return true;
+  std::vector<Point> designs;
   std::vector<std::vector<TaskAnswer>> answers;
   // The front comes first.
   for (const FinalDesign& f : run.result.finalists) {
@@ -33,10 +35,11 @@ bool check_stability(Run& run, const std::function<void()>& step) {
     std::vector<TaskRequest> requests;
     for (std::size_t v = 0; v < variants; ++v)
       requests.push_back({Stage::Stability, v, false, f.unit});
+    designs.push_back(f.unit);
     answers.push_back(run.replay.answers(requests));
-    step();
+    step(run.seconds_of((on_front(run.result) - answers.size()) * variants, Stage::Stability));
   }
-  run.result.stability = judge_stability(run.problem, answers);
+  run.result.stability = judge_stability(run.problem, designs, answers);
   return true;
 }
 
@@ -72,11 +75,7 @@ void compare_with_flat(Run& run) {
   };
   const Point own = run.problem.space().unit_of_study();
   const Point& best = run.result.finalists[run.result.best].unit;
-  bool finish_differs = false;
-  for (std::size_t k = 0; k < own.size(); ++k) {
-    finish_differs = finish_differs ||
-                     (!run.study.variables[k].path.starts_with("texture.") && own[k] != best[k]);
-  }
+  const bool finish_differs = !changed_finish(run.problem, run.result).empty();
   const double seconds = run.seconds_of_designs(1, Stage::Confirm);
   if (!run.begin(RunPart::Flat, Stage::Confirm, true, seconds)) return;
   keep(run.result.flat, best);
@@ -89,34 +88,116 @@ void compare_with_flat(Run& run) {
     run.cut(RunPart::Flat, 1, 2);
 }
 
-// The best design as the fab draws it, at the level of the confirmation.
-void round_best(Run& run) {
-  const FinalDesign& best = run.result.finalists[run.result.best];
-  if (!(run.study.search.rounding > 0) || !best.confirmed.ok) return;
-  FinalDesign r;
-  r.unit = rounded(run.problem, best.unit);
-  if (r.unit == best.unit || !run.begin(RunPart::Rounding, Stage::Rounding, false,
-                                        run.seconds_of_designs(1, Stage::Rounding)))
-    return;
-  r.design = run.problem.space().design(r.unit);
-  r.confirmed = run.replay.scores({r.unit}, Stage::Rounding, false, run.confirm_seconds).front();
-  r.feasible = r.confirmed.ok && run.problem.feasible(r.confirmed, r.unit);
-  run.result.rounded = std::move(r);
+// Looks for the nearest design on the grid of the fab that keeps every limit.
+class Rounding {
+ public:
+  Rounding(Run& run, const FinalDesign& recommended)
+      : run_(run),
+        recommended_(recommended),
+        designs_(run.problem, recommended.unit, recommended.flat) {
+    note_film(recommended);
+  }
+
+  BuiltDesign find() {
+    constexpr int kMostSought = 4000, kMostJudged = 6;
+    std::optional<BuiltDesign> nearest;  // that was judged and keeps not every limit
+    std::optional<BuiltDesign> first;    // of the grid
+    int judged = 0;
+    for (int k = 0; k < kMostSought && judged < kMostJudged; ++k) {
+      const auto on_grid = designs_.next();
+      if (!on_grid) break;
+      BuiltDesign build{made_of(*on_grid), first.has_value()};
+      if (!first) first = build;
+      // What breaks a limit as it was searched cannot be held to it.
+      if (recommended_.feasible && !keeps_before_evaluation(build.made.design)) continue;
+      if (!judge(build.made)) return build;
+      ++judged;
+      if (build.made.feasible || !recommended_.feasible) return build;
+      note_film(build.made);
+      if (!nearest) nearest = std::move(build);
+    }
+    if (nearest) return *std::move(nearest);
+    if (first) judge(first->made);
+    return first ? *std::move(first) : BuiltDesign{recommended_, false};
+  }
+
+ private:
+  FinalDesign made_of(const GridDesign& on_grid) const {
+    FinalDesign out;
+    out.unit = on_grid.unit;
+    out.flat = recommended_.flat;
+    out.design = run_.problem.space().design_of(on_grid.value);
+    if (out.flat) out.design.texture = Texture{};
+    return out;
+  }
+
+  // Shape, film and look. The film's margin as much below what is left of the film as it was found
+  // to be by the evaluations so far.
+  bool keeps_before_evaluation(const Design& design) const {
+    const StudyConstraints& constraints = run_.problem.constraints();
+    const auto kept = [](const std::vector<double>& v) {
+      return std::all_of(v.begin(), v.end(), [](double one) { return one <= 0; });
+    };
+    if (!kept(constraints.geometry(design)) || !kept(constraints.look(design))) return false;
+    for (const Constraint& c : constraints.judged_by_geometry()) {
+      if (limit_on(c) == LimitOn::Film && !keeps(c, film_share_ * constraints.film_margin(design)))
+        return false;
+    }
+    return true;
+  }
+
+  void note_film(const FinalDesign& judged) {
+    const double left = run_.problem.constraints().film_margin(judged.design);
+    if (judged.confirmed.ok && std::isfinite(left) && left > 0)
+      film_share_ = std::min(film_share_, judged.confirmed.oxide_margin / left);
+  }
+
+  // At the level of the confirmation; false: there is no time for it.
+  bool judge(FinalDesign& made) {
+    if (made.unit == recommended_.unit) {
+      made.confirmed = recommended_.confirmed;
+    } else {
+      const double seconds = run_.seconds_of_designs(1, Stage::Rounding);
+      const auto next = run_.replay.next();
+      const bool recorded = next && next->stage == Stage::Rounding && next->flat == made.flat;
+      const bool goes_on =
+          begun_ ? recorded ||
+                       (!run_.replay.finished(Stage::Rounding, made.flat) && run_.fits(seconds))
+                 : run_.begin(RunPart::Rounding, Stage::Rounding, made.flat, seconds);
+      if (!goes_on) return false;
+      begun_ = true;
+      made.confirmed =
+          run_.replay.scores({made.unit}, Stage::Rounding, made.flat, run_.confirm_seconds).front();
+    }
+    made.feasible = run_.problem.feasible(made.confirmed, made.design);
+    return true;
+  }
+
+  Run& run_;
+  const FinalDesign& recommended_;
+  GridDesigns designs_;
+  double film_share_ = 1;
+  bool begun_ = false;
+};
+
+// The recommended design as the fab draws it.
+BuiltDesign built_of(Run& run, const FinalDesign& recommended) {
+  return run.study.search.rounding > 0 ? Rounding(run, recommended).find()
+                                       : BuiltDesign{recommended, false};
 }
 
-// The best design moved by a step along each continuous variable.
-void find_sensitivity(Run& run) {
-  const FinalDesign& best = run.result.finalists[run.result.best];
-  if (!best.confirmed.ok) return;
-  const std::vector<SensitivityMove> moves = sensitivity_moves(run.problem, best.unit);
-  if (moves.empty() || !run.begin(RunPart::Sensitivity, Stage::Sensitivity, false,
+// What is built, moved by a step along each continuous variable.
+void find_sensitivity(Run& run, const FinalDesign& made) {
+  const MovedDesign centre{made.unit, made.flat};
+  const std::vector<SensitivityMove> moves = sensitivity_moves(run.problem, centre);
+  if (moves.empty() || !run.begin(RunPart::Sensitivity, Stage::Sensitivity, made.flat,
                                   run.seconds_of_designs(moves.size() + 1, Stage::Sensitivity)))
     return;
-  std::vector<Point> points{best.unit};
+  std::vector<Point> points{made.unit};
   for (const SensitivityMove& move : moves) points.push_back(move.unit);
-  const std::vector<Score> scores = run.replay.scores(points, Stage::Sensitivity);
-  run.result.sensitivity = sensitivity(run.problem, best.unit, moves, scores.front(),
-                                       {scores.begin() + 1, scores.end()});
+  const std::vector<Score> scores = run.replay.scores(points, Stage::Sensitivity, made.flat);
+  run.result.sensitivity =
+      sensitivity(run.problem, centre, moves, scores.front(), {scores.begin() + 1, scores.end()});
 }
 
 // What the fit of the fingers leaves open. Eq. accuracy.12
@@ -139,24 +220,31 @@ bool check(Run& run) {
   if (result.finalists.empty()) return true;
   int done = 0;
   const int total = kOtherChecks + static_cast<int>(on_front(result));
-  const double from = run.clock.seconds();
-  const auto step = [&](int by = 1) {
+  // left: of the part that is worked on; next: the parts that follow.
+  const auto step = [&](int by, double left, RunPart next) {
     done += by;
-    run.progress("check", done, total, (run.clock.seconds() - from) / done * (total - done));
+    run.progress("check", done, total, left + run.seconds_from(next));
   };
-  if (!check_stability(run, [&] { step(); }) || run.stopped()) return false;
+  if (!check_stability(run, [&](double left) { step(1, left, RunPart::Flat); }) || run.stopped())
+    return false;
   pick(run);
-  if (facts(run.study.design.texture).relief.present) compare_with_flat(run);
-  step();
-  round_best(run);
-  find_sensitivity(run);
-  step(2);
-  result.at_bound =
-      variables_at_bound(run.problem, result.finalists[result.best].unit, result.sensitivity);
   FinalDesign& best = result.finalists[result.best];
+  if (facts(run.study.design.texture).relief.present || facts(best.design.texture).relief.present)
+    compare_with_flat(run);
+  step(1, 0, RunPart::Rounding);
+  if (best.confirmed.ok) {
+    const FinalDesign recommended = recommended_design(run.problem, result);
+    result.build = built_of(run, recommended);
+    find_sensitivity(run, result.build->made);
+    result.at_bound = variables_at_bound(run.problem, recommended.unit, result.sensitivity);
+    std::erase_if(result.at_bound, [&](const AtBound& at) {
+      return recommended.flat && run.study.variables[at.variable].path.starts_with("texture.");
+    });
+  }
+  step(2, 0, RunPart::Parameters);
   find_parameters(run, best.confirmed, best.unit, false);
   if (result.flat) find_parameters(run, *result.flat, best.unit, true);
-  step();
+  step(1, 0, RunPart::Files);
   return true;
 }
 

@@ -3,31 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/constants.h"
+#include "base/random.h"
+#include "base/text.h"
 #include "design/families.h"
 #include "estimate/voltage.h"
 
 namespace papilla::search {
 namespace {
 
-constexpr const char* kFilmMargin = "oxide_breakdown_margin";
-
-// Bounded by -1 and 11, yet larger for more: the least of large violations stays the least.
-double bounded(double violation) {
-  constexpr double kLarge = 10;
-  if (violation > kLarge) return kLarge + 1 - kLarge / violation;
-  return std::max(violation, -1.0);
-}
-
-// <= 0 when kept, relative to the limit.
-double relative_violation(double value, double limit, bool at_least) {
-  if (limit <= 0) return at_least ? -1 : bounded(value);
-  if (!at_least) return bounded(value / limit - 1);
-  return bounded(value <= 0 ? kInfinity : limit / value - 1);
-}
-
-// What a constraint of look limits.
 template <class Look>
 double look_value(const std::string& name, const Look& look) {
   if (name == "haze") return look.haze;
@@ -36,27 +22,11 @@ double look_value(const std::string& name, const Look& look) {
   return look.colour_shift;
 }
 
-// What a constraint of shape limits.
 double shape_value(const std::string& name, const Design& d) {
   const FabricationMargins m = facts(d.texture).margins;
   if (name == "min_hole") return m.min_hole;
   if (name == "min_wall") return m.min_wall;
   return m.aspect_ratio;
-}
-
-// For people, and how many of it are one in SI.
-std::pair<std::string, double> unit_of(const Constraint& c) {
-  for (const ConstraintKind& k : constraint_kinds()) {
-    if (k.name == c.name) return {k.unit, k.unit == "um" ? 1e6 : k.unit == "%" ? 100 : 1};
-  }
-  return {"", 1};
-}
-
-// "min_wall (at least 5.5 um)"
-std::string constraint_text(const Constraint& c) {
-  const auto [unit, scale] = unit_of(c);
-  return fmt::format("{} (at {} {:.3g}{}{})", c.name, c.at_least ? "least" : "most",
-                     c.limit * scale, unit.empty() ? "" : " ", unit);
 }
 
 std::string look_refusal(const Design& d) {
@@ -75,11 +45,54 @@ bool slow_look(const Study& study) {
   return false;
 }
 
+// Of all but the shape itself, the most that one of these is beyond its limit.
+double most_beyond(const std::vector<double>& geometry, const std::vector<std::size_t>& limits) {
+  double most = -kInfinity;
+  for (std::size_t k : limits) most = std::max(most, geometry[1 + k]);
+  return most;
+}
+
 }  // namespace
 
 StudyConstraints::StudyConstraints(const Study& study, const DesignSpace& space,
                                    const std::vector<StudyTask>& tasks, const StudyGoals& goals)
-    : study_(study), space_(space), tasks_(tasks), goals_(goals), slow_look_(slow_look(study)) {}
+    : study_(study), space_(space), tasks_(tasks), goals_(goals) {
+  const bool slow = slow_look(study);
+  for (std::size_t place = 0; place < study.constraints.size(); ++place) {
+    switch (limit_on(at(place))) {
+      case LimitOn::Shape:
+        shape_.push_back(place);
+        break;
+      case LimitOn::Film:
+        film_.push_back(place);
+        evaluated_.push_back(place);
+        break;
+      case LimitOn::Look:
+        (slow ? evaluated_ : look_).push_back(place);
+        break;
+      case LimitOn::Metric:
+        evaluated_.push_back(place);
+        break;
+    }
+  }
+}
+
+std::vector<Constraint> StudyConstraints::listed(const Places& places) const {
+  std::vector<Constraint> out;
+  for (std::size_t place : places) out.push_back(at(place));
+  return out;
+}
+
+StudyConstraints::Places StudyConstraints::cheap() const {
+  Places out = shape_;
+  out.insert(out.end(), film_.begin(), film_.end());
+  return out;
+}
+
+std::vector<Constraint> StudyConstraints::judged_by_geometry() const { return listed(cheap()); }
+std::vector<Constraint> StudyConstraints::judged_by_evaluation() const {
+  return listed(evaluated_);
+}
 
 // Why a design cannot be judged at all; "" where it can.
 std::string StudyConstraints::refusal(const Design& design) const {
@@ -97,120 +110,200 @@ double StudyConstraints::film_margin(const Design& design) const {
   return out;
 }
 
-std::vector<double> StudyConstraints::geometry(const Point& unit) const {
-  const Design d = space_.design(unit);
+double StudyConstraints::cheap_value(std::size_t place, const Design& design) const {
+  return limit_on(at(place)) == LimitOn::Film ? film_margin(design)
+                                              : shape_value(at(place).name, design);
+}
+
+std::vector<double> StudyConstraints::geometry(const Design& d) const {
   std::vector<double> out{refusal(d).empty() ? -1.0 : 1.0};
-  for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c) || of_appearance(c)) continue;
-    out.push_back(relative_violation(shape_value(c.name, d), c.limit, c.at_least));
-  }
-  if (const Constraint* film = film_limit())  // the last one: it is judged with the evaluation too
-    out.push_back(relative_violation(film_margin(d), film->limit, film->at_least));
+  for (std::size_t place : cheap()) out.push_back(violation(at(place), cheap_value(place, d)));
   return out;
 }
 
-bool StudyConstraints::limits_look() const {
-  return std::any_of(study_.constraints.begin(), study_.constraints.end(),
-                     [&](const Constraint& c) { return !needs_evaluation(c) && of_appearance(c); });
-}
-
-std::vector<double> StudyConstraints::look(const Point& unit) const {
+std::vector<double> StudyConstraints::look(const Design& d) const {
   std::vector<double> out;
-  if (!limits_look()) return out;
-  const Design d = space_.design(unit);
+  if (look_.empty()) return out;
   // A shape that cannot be judged has no numbers to compare.
   const bool judged = refusal(d).empty();
   const Optics optics = judged ? appearance_of(d) : Optics{};
-  for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c) || !of_appearance(c)) continue;
-    out.push_back(judged ? relative_violation(look_value(c.name, optics), c.limit, c.at_least)
-                         : 1.0);
-  }
+  for (std::size_t place : look_)
+    out.push_back(judged ? violation(at(place), look_value(at(place).name, optics)) : 1.0);
   return out;
 }
 
 std::string StudyConstraints::geometry_reason(const Point& unit) const {
   const Design d = space_.design(unit);
   if (const std::string wrong = refusal(d); !wrong.empty()) return wrong;
-  for (const Constraint& c : study_.constraints) {
-    if (needs_evaluation(c) && &c != film_limit()) continue;
-    const double value = &c == film_limit() ? film_margin(d)
-                         : of_appearance(c) ? look_value(c.name, appearance_of(d))
-                                            : shape_value(c.name, d);
-    if (relative_violation(value, c.limit, c.at_least) <= 0) continue;
-    const auto [u, scale] = unit_of(c);
-    return fmt::format("{} {:.3g} {} is {} {:.3g} {}", c.name, value * scale, u,
-                       c.at_least ? "below" : "above", c.limit * scale, u);
+  Places known = cheap();
+  known.insert(known.end(), look_.begin(), look_.end());
+  for (std::size_t place : known) {
+    const Constraint& c = at(place);
+    const double value =
+        limit_on(c) == LimitOn::Look ? look_value(c.name, appearance_of(d)) : cheap_value(place, d);
+    if (!keeps(c, value))
+      return fmt::format("{} is {}, {} is asked for", c.name, limit_value_text(c, value),
+                         limit_text(c));
   }
   return {};
-}
-
-const Constraint* StudyConstraints::film_limit() const {
-  const auto found = std::find_if(study_.constraints.begin(), study_.constraints.end(),
-                                  [](const Constraint& c) { return c.name == kFilmMargin; });
-  return found == study_.constraints.end() ? nullptr : &*found;
-}
-
-// Looks of arrays cost about a millisecond and steer the search itself; of others they are known
-// with the evaluation.
-bool StudyConstraints::needs_evaluation(const Constraint& c) const {
-  return c.name == kFilmMargin || on_metric(c) || (of_appearance(c) && slow_look_);
-}
-
-// Of a refused design: the shape, its limits, the film, the look.
-std::optional<std::size_t> StudyConstraints::place_refused(const Constraint& of) const {
-  std::size_t place = 1;
-  const auto among = [&](const auto& counts) {
-    for (const Constraint& c : study_.constraints) {
-      if (!counts(c)) continue;
-      if (&c == &of) return true;
-      ++place;
-    }
-    return false;
-  };
-  const bool found =
-      among([&](const Constraint& c) { return !needs_evaluation(c) && !of_appearance(c); }) ||
-      among([&](const Constraint& c) { return &c == film_limit(); }) ||
-      among([&](const Constraint& c) { return !needs_evaluation(c) && of_appearance(c); });
-  return found ? std::optional(place) : std::nullopt;
-}
-
-std::vector<std::string> StudyConstraints::never_kept(const std::vector<Evaluation>& tried) const {
-  std::vector<std::string> out;
-  std::size_t evaluated = 0;  // place in the constraints of a judged design
-  for (const Constraint& c : study_.constraints) {
-    const bool judged = needs_evaluation(c);
-    const auto refused = place_refused(c);
-    int known = 0, kept = 0;
-    for (const Evaluation& e : tried) {
-      const std::vector<double>& values = e.outcome.constraints;
-      if (!e.outcome.ok && (!refused || *refused >= values.size())) continue;
-      ++known;  // what was evaluated keeps every limit of the shape
-      kept += e.outcome.ok ? !judged || values[evaluated] <= 0 : values[*refused] <= 0;
-    }
-    evaluated += judged;
-    if (known > 0 && kept == 0) out.push_back(constraint_text(c));
-  }
-  return out;
-}
-
-std::size_t StudyConstraints::evaluated() const {
-  return static_cast<std::size_t>(
-      std::count_if(study_.constraints.begin(), study_.constraints.end(),
-                    [&](const Constraint& c) { return needs_evaluation(c); }));
 }
 
 std::vector<double> StudyConstraints::violations(const Score& score) const {
   std::vector<double> out;
   std::size_t metric = 0;
-  for (const Constraint& c : study_.constraints) {
-    if (!needs_evaluation(c)) continue;
-    const double value = on_metric(c)       ? score.limited[metric++]
-                         : of_appearance(c) ? look_value(c.name, *score.look)
-                                            : score.oxide_margin;
-    out.push_back(relative_violation(value, c.limit, c.at_least));
+  for (std::size_t place : evaluated_) {
+    const Constraint& c = at(place);
+    const double value = limit_on(c) == LimitOn::Metric ? score.limited[metric++]
+                         : limit_on(c) == LimitOn::Look ? look_value(c.name, *score.look)
+                                                        : score.oxide_margin;
+    out.push_back(violation(c, value));
   }
   return out;
+}
+
+std::vector<LimitValue> StudyConstraints::values(const Design& design, const Score& score) const {
+  std::vector<LimitValue> out;
+  std::size_t metric = 0;
+  for (const Constraint& c : study_.constraints) {
+    switch (limit_on(c)) {
+      case LimitOn::Shape:
+        out.push_back({c, shape_value(c.name, design)});
+        break;
+      case LimitOn::Film:
+        out.push_back({c, std::min(film_margin(design), score.oxide_margin)});
+        break;
+      case LimitOn::Look:
+        out.push_back({c, score.look ? look_value(c.name, *score.look)
+                                     : look_value(c.name, appearance_of(design))});
+        break;
+      case LimitOn::Metric:
+        out.push_back({c, score.limited.at(metric++)});
+        break;
+    }
+  }
+  return out;
+}
+
+bool StudyConstraints::kept(const Design& design, const Score& score) const {
+  const std::vector<LimitValue> all = values(design, score);
+  return refusal(design).empty() &&
+         std::all_of(all.begin(), all.end(), [](const LimitValue& v) { return v.kept(); });
+}
+
+std::vector<std::string> StudyConstraints::never_kept(const std::vector<Evaluation>& tried) const {
+  // A refused design has the shape itself first, then these.
+  Places refused = cheap();
+  refused.insert(refused.end(), look_.begin(), look_.end());
+  const auto place_in = [](const Places& list, std::size_t place) {
+    const auto found = std::find(list.begin(), list.end(), place);
+    return found == list.end() ? std::nullopt
+                               : std::optional(static_cast<std::size_t>(found - list.begin()));
+  };
+  std::vector<std::string> out;
+  for (std::size_t place = 0; place < study_.constraints.size(); ++place) {
+    const auto before = place_in(refused, place), with = place_in(evaluated_, place);
+    int known = 0, kept = 0;
+    for (const Evaluation& e : tried) {
+      const std::vector<double>& values = e.outcome.constraints;
+      if (!e.outcome.ok && (!before || *before + 1 >= values.size())) continue;
+      ++known;  // what was evaluated keeps every limit of the shape
+      kept += e.outcome.ok ? !with || values[*with] <= 0 : values[*before + 1] <= 0;
+    }
+    if (known > 0 && kept == 0)
+      out.push_back(fmt::format("{} ({})", at(place).name, limit_text(at(place))));
+  }
+  return out;
+}
+
+std::optional<Contradiction> StudyConstraints::contradiction() const {
+  constexpr int kPlaces = 1000, kSteps = 600;
+  constexpr std::size_t kMostCorners = 8;  // variables of which all corners are asked
+  constexpr double kSure = 1e-3;           // the nearest design is farther beyond a limit than this
+  const Places limits = cheap();
+  const std::size_t n = space_.size();
+  if (limits.empty() || n == 0) return std::nullopt;
+  RandomStream random(1, "contradiction");
+  struct Tried {
+    Point unit;
+    std::vector<double> geometry;
+  };
+  // A flat surface keeps every limit of a shape: it is no answer to whether they go together.
+  bool flat_keeps = false;
+  const auto judged = [&](const Point& raw) -> std::optional<Tried> {
+    const Point unit = space_.snapped(raw);
+    const Design design = space_.design(unit);
+    std::vector<double> g = geometry(design);
+    if (facts(design.texture).relief.present)
+      return g.front() <= 0 ? std::optional(Tried{unit, std::move(g)}) : std::nullopt;
+    flat_keeps = flat_keeps || std::all_of(g.begin(), g.end(), [](double v) { return v <= 0; });
+    return std::nullopt;
+  };
+  std::vector<Tried> tried;
+  const auto consider = [&](const Point& raw) {
+    if (auto one = judged(raw)) tried.push_back(*std::move(one));
+  };
+  for (const Point& start : space_.starts()) consider(start);
+  const int corners = 1 << std::min(n, kMostCorners);
+  for (int k = 0; k < corners + kPlaces; ++k) {
+    Point unit(n);
+    for (std::size_t v = 0; v < n; ++v) {
+      const bool at_corner = k < corners && v < kMostCorners;
+      unit[v] = at_corner ? static_cast<double>((k >> v) & 1) : random.uniform();
+    }
+    consider(unit);
+  }
+  if (tried.empty()) return std::nullopt;  // no such shape: the evaluations say why
+  // The design that is least beyond these limits: the best of all, then smaller and smaller steps.
+  const auto nearest = [&](const Places& of) {
+    Tried best = *std::min_element(tried.begin(), tried.end(), [&](const Tried& a, const Tried& b) {
+      return most_beyond(a.geometry, of) < most_beyond(b.geometry, of);
+    });
+    for (int k = 0; k < kSteps && most_beyond(best.geometry, of) > 0; ++k) {
+      Point unit = best.unit;
+      const double reach = 0.3 * std::pow(1e-4, k / static_cast<double>(kSteps));
+      for (double& u : unit) u = std::clamp(u + reach * random.normal(), 0.0, 1.0);
+      auto next = judged(unit);
+      if (next && most_beyond(next->geometry, of) < most_beyond(best.geometry, of))
+        best = *std::move(next);
+    }
+    return best;
+  };
+  const auto impossible = [&](const Places& of) -> std::optional<Contradiction> {
+    const Tried best = nearest(of);
+    if (most_beyond(best.geometry, of) <= kSure) return std::nullopt;
+    const Design d = space_.design(best.unit);
+    std::vector<std::string> wanted, had;
+    for (std::size_t k : of) {
+      const Constraint& c = at(limits[k]);
+      wanted.push_back(fmt::format("{} ({})", c.name, limit_text(c)));
+      had.push_back(fmt::format("{} {}", c.name, limit_value_text(c, cheap_value(limits[k], d))));
+    }
+    const std::vector<double> values = space_.value(best.unit);
+    std::vector<std::string> where;
+    for (std::size_t v = 0; v < n; ++v)
+      where.push_back(fmt::format("{} {}", study_.variables[v].path,
+                                  variable_text(study_.variables[v], values[v])));
+    return Contradiction{
+        fmt::format("constraints: no texture of [design_space] keeps {}: the nearest has {} (at "
+                    "{}); loosen {} or widen the space",
+                    join_names(wanted, " and "), join_names(had), join_names(where),
+                    of.size() > 1 ? "one of them" : "it"),
+        flat_keeps};
+  };
+  Places all(limits.size());
+  for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
+  const auto together = impossible(all);
+  if (!together) return std::nullopt;
+  // The fewest that contradict each other: one by itself, two, else all of them.
+  for (std::size_t k : all) {
+    if (auto one = impossible({k})) return one;
+  }
+  for (std::size_t k : all) {
+    for (std::size_t j = k + 1; j < all.size(); ++j) {
+      if (auto two = impossible({k, j})) return two;
+    }
+  }
+  return together;
 }
 
 }  // namespace papilla::search

@@ -81,7 +81,7 @@ FinalDesign finalist(Run& run, const Point& unit) {
   f.design = run.problem.space().design(unit);
   f.searched = searched_score(run, unit);
   f.confirmed = run.replay.scores({unit}, Stage::Confirm, false, run.confirm_seconds).front();
-  f.feasible = f.confirmed.ok && run.problem.feasible(f.confirmed, unit);
+  f.feasible = run.problem.feasible(f.confirmed, f.design);
   return f;
 }
 

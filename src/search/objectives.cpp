@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "design/limits.h"
 
 namespace papilla::search {
 namespace {
@@ -72,13 +73,6 @@ void check_amplitude(const Study& study, const StudyGoals& goals) {
 
 }  // namespace
 
-bool on_metric(const Constraint& c) { return c.name.find('(') != std::string::npos; }
-
-bool of_appearance(const Constraint& c) {
-  const MetricInfo* info = find_metric(c.name);
-  return info && info->appearance;
-}
-
 bool StudyGoals::by_points(std::size_t objective) const {
   const StudyObjective& o = objectives[objective];
   return o.aimed || (risk.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean);
@@ -107,8 +101,8 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
     add(goals.objectives, wanted(text, false));
   for (const Target& target : study.objective.targets) add(goals.objectives, aimed_at(target));
   for (const Constraint& c : study.constraints) {
-    if (on_metric(c)) add(goals.limited, wanted(c.name, c.at_least));
-    goals.looks = goals.looks || of_appearance(c);
+    if (limit_on(c) == LimitOn::Metric) add(goals.limited, wanted(c.name, c.at_least));
+    goals.looks = goals.looks || limit_on(c) == LimitOn::Look;
   }
   if (goals.objectives.empty() || goals.objectives.size() > 3) {
     throw InputError(fmt::format("objective: one to three objectives are possible, got {}",

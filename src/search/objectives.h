@@ -37,8 +37,4 @@ struct StudyGoals {
 // Throws InputError for what cannot be judged.
 StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks);
 
-// A constraint such as "worst(modulation)", not on a quantity of its own name.
-bool on_metric(const Constraint& constraint);
-bool of_appearance(const Constraint& constraint);
-
 }  // namespace papilla::search

@@ -99,12 +99,8 @@ Outcome StudyProblem::outcome(const Score& score) const {
   return out;
 }
 
-bool StudyProblem::feasible(const Score& score, const Point& unit) const {
-  const auto kept = [](const std::vector<double>& c) {
-    return std::all_of(c.begin(), c.end(), [](double v) { return v <= 0; });
-  };
-  return outcome(score).feasible() && kept(constraints_.geometry(unit)) &&
-         kept(constraints_.look(unit));
+bool StudyProblem::feasible(const Score& score, const Design& design) const {
+  return score.ok && constraints_.kept(design, score);
 }
 
 std::string StudyProblem::identity() const {

@@ -44,7 +44,7 @@ class StudyProblem {
 
   std::size_t residuals() const;              // of an outcome; 0: the objective is no target
   Outcome outcome(const Score& score) const;  // for the searcher: minimised
-  bool feasible(const Score& score, const Point& unit) const;
+  bool feasible(const Score& score, const Design& design) const;
 
   // Everything that decides the result, for the journal's key.
   std::string identity() const;

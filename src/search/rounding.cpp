@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "base/constants.h"
 #include "base/units.h"
 
 namespace papilla::search {
@@ -13,6 +15,7 @@ namespace {
 constexpr double kMostChange = 0.02;  // a step of the grid over the length
 constexpr double kFinest = 1e-12;     // [m]
 constexpr int kDigits = 3;
+constexpr int kReach = 3;  // values of the grid on either side of a number
 
 bool is_length(const std::string& unit) { return find_unit(unit)->same_dimension(*find_unit("m")); }
 
@@ -35,27 +38,90 @@ double step_of(const Variable& v, double value, double grid) {
   return unit * std::pow(10, size - kDigits + 1);
 }
 
+bool rounds(const Variable& v, double value) {
+  return value != 0 && v.choices.empty() && !v.is_kind() && !v.is_levels();
+}
+
+// Values of the grid that the variable may take, nearest first; empty: there is none beside it.
+std::vector<double> grid_values(const Variable& v, double value, double grid) {
+  const double step = step_of(v, value, grid);
+  std::vector<double> out;
+  const auto add = [&](double k) {
+    const double at = multiple(k * step, step, v.unit);
+    const bool excluded = std::any_of(v.excluded.begin(), v.excluded.end(),
+                                      [&](const Excluded& e) { return e.holds(at); });
+    if (at >= v.low && at <= v.high && !excluded && std::count(out.begin(), out.end(), at) == 0)
+      out.push_back(at);
+  };
+  const double below = std::floor(value / step);
+  for (int k = 1 - kReach; k <= kReach; ++k) add(below + k);
+  for (const Excluded& e : v.excluded) {  // beyond both ends of what is left out
+    add(std::floor(e.from / step));
+    add(std::ceil(e.to / step));
+  }
+  std::stable_sort(out.begin(), out.end(),
+                   [&](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
+  return out;
+}
+
 }  // namespace
 
 double on_grid(const Variable& v, double value, double grid) {
-  if (value == 0 || !v.choices.empty() || v.is_kind() || v.is_levels()) return value;
-  const double step = step_of(v, value, grid);
-  double out = multiple(value, step, v.unit);
-  if (out > v.high) out = multiple(out - step, step, v.unit);
-  if (out < v.low) out = multiple(out + step, step, v.unit);
-  for (const Excluded& e : v.excluded) {
-    if (!e.holds(out)) continue;
-    const double below = std::floor(e.from / step) * step, above = std::ceil(e.to / step) * step;
-    out = multiple(value <= e.from ? below : above, step, v.unit);
-  }
-  return out < v.low || out > v.high ? value : out;
+  if (!rounds(v, value)) return value;
+  const std::vector<double> values = grid_values(v, value, grid);
+  return values.empty() ? value : values.front();
 }
 
-Point rounded(const StudyProblem& problem, const Point& unit) {
-  std::vector<double> value = problem.space().value(unit);
-  for (std::size_t k = 0; k < value.size(); ++k)
-    value[k] = on_grid(problem.study().variables[k], value[k], problem.study().search.rounding);
-  return problem.space().snapped(problem.space().unit(value));
+double finer_grid_below(double grid) { return grid / kMostChange; }
+
+GridDesigns::GridDesigns(const StudyProblem& problem, const Point& around, bool flat)
+    : space_(problem.space()), value_(space_.value(around)) {
+  const Study& study = problem.study();
+  const Point here = space_.snapped(around);
+  for (std::size_t k = 0; k < value_.size(); ++k) {
+    const Variable& v = study.variables[k];
+    std::vector<Step>& steps = steps_.emplace_back();
+    const bool still = !rounds(v, value_[k]) || (flat && v.path.starts_with("texture."));
+    const double step = still ? 0 : step_of(v, value_[k], study.search.rounding);
+    for (double value :
+         still ? std::vector<double>{} : grid_values(v, value_[k], study.search.rounding)) {
+      const double distance = std::abs(value - value_[k]) / step;
+      steps.push_back({value, square(distance)});
+    }
+    // A number that this design does not have keeps its value.
+    const bool felt = std::any_of(steps.begin(), steps.end(), [&](const Step& s) {
+      std::vector<double> moved = value_;
+      moved[k] = s.value;
+      return space_.snapped(space_.unit(moved)) != here;
+    });
+    if (!felt) steps.assign(1, {value_[k], 0});
+  }
+  add(std::vector<std::size_t>(value_.size(), 0));
+}
+
+void GridDesigns::add(std::vector<std::size_t> places) {
+  double squared = 0;
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (places[k] >= steps_[k].size()) return;
+    squared += steps_[k][places[k]].squared;
+  }
+  if (known_.insert(places).second) open_.push({squared, std::move(places)});
+}
+
+std::optional<GridDesign> GridDesigns::next() {
+  if (open_.empty()) return std::nullopt;
+  const std::vector<std::size_t> places = open_.top().of;
+  open_.pop();
+  GridDesign out{value_, {}};
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Step& step = steps_[k][places[k]];
+    out.value[k] = step.value;
+    std::vector<std::size_t> farther = places;
+    ++farther[k];
+    add(std::move(farther));
+  }
+  out.unit = space_.snapped(space_.unit(out.value));
+  return out;
 }
 
 }  // namespace papilla::search

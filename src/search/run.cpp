@@ -4,7 +4,9 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
 
@@ -38,6 +40,8 @@ void check_pick_rule(const std::string& rule, const StudyProblem& problem) {
 std::string checked_folder(const OptimiseOptions& options, const StudyProblem& problem) {
   require_images();
   check_pick_rule(options.pick, problem);
+  if (const auto wrong = problem.constraints().contradiction(); wrong && !wrong->flat_keeps)
+    throw InputError(wrong->text);
   if (options.resume && !std::filesystem::exists(options.folder + "/journal"))
     throw InputError(options.folder + ": no run to continue here (no journal)");
   return options.folder;
@@ -115,14 +119,31 @@ void write_files(Run& run, const StageSeconds& at) {
   if (run.options.writer)
     run.options.writer->write(
         {run.folder.path(), run.study, run.problem, run.history, run.result, rule});
+  // What each stage took of its price, so that prices and times left can be held against runs.
+  constexpr std::array kTimed{Stage::Search,   Stage::Narrow,      Stage::Confirm, Stage::Stability,
+                              Stage::Rounding, Stage::Sensitivity, Stage::Steps};
+  constexpr std::array kNames{"search",   "narrow",      "confirm", "stability",
+                              "rounding", "sensitivity", "steps"};
+  std::string stages;
+  for (std::size_t k = 0; k < kTimed.size(); ++k) {
+    const Replay::Spent& spent = run.replay.spent(kTimed[k]);
+    const bool confirmed = kTimed[k] == Stage::Confirm || kTimed[k] == Stage::Rounding;
+    if (spent.tasks == 0) continue;
+    stages += fmt::format(
+        "{}\n  {{\"stage\": \"{}\", \"tasks\": {}, \"seconds\": {:.3f}, \"priced_seconds\": "
+        "{:.3f}}}",
+        stages.empty() ? "" : ",", kNames[k], spent.tasks, spent.seconds,
+        spent.tasks * run.price(kTimed[k], confirmed ? run.confirm_seconds : 0));
+  }
   run.folder.write(
       "timing.json",
       fmt::format("{{\"schema\": 1, \"search_seconds\": {:.3f}, "
                   "\"narrow_seconds\": {:.3f}, \"confirm_seconds\": {:.3f}, "
                   "\"check_seconds\": {:.3f}, \"files_seconds\": {:.3f}, "
-                  "\"seconds_per_evaluation\": {:.4f}}}\n",
+                  "\"seconds_per_evaluation\": {:.4f}, \"workers\": {}, \"stages\": [{}]}}\n",
                   at.search, at.narrow - at.search, at.confirm - at.narrow, checked - at.confirm,
-                  run.clock.seconds() - checked, run.seconds_of_designs(1, Stage::Search)));
+                  run.clock.seconds() - checked, run.seconds_of_designs(1, Stage::Search),
+                  run.replay.workers(), stages));
 }
 
 }  // namespace
@@ -141,11 +162,25 @@ Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi,
              team ? std::move(team) : make_team(problem, how, mpi)) {}
 
 void Run::progress(const char* stage, int done, int total, double left) const {
-  if (!options.progress) return;
   if (clock.limited() && left >= 0)
     left = std::min(left, std::max(0.0, study.search.time - clock.seconds()));
+  const double now = clock.seconds();
+  const double share = left >= 0 ? now / std::max(1e-9, now + left) : 0;
+  // For who watches the folder: no more often than anybody looks.
+  constexpr double kBetween = 0.5;  // [s]
+  if (now - told_ >= kBetween) {
+    told_ = now;
+    folder.write(kProgressFile,
+                 nlohmann::json{{"stage", stage},
+                                {"done", done},
+                                {"total", total},
+                                {"seconds_left", left >= 0 ? nlohmann::json(left) : nullptr},
+                                {"share", share}}
+                     .dump());
+  }
+  if (!options.progress) return;
   options.progress(
-      {stage, done, total, best_text(problem.objectives(), history.evaluations), left});
+      {stage, done, total, best_text(problem.objectives(), history.evaluations), left, share});
 }
 
 double Run::seconds_of(std::size_t tasks, Stage stage) const {
@@ -249,6 +284,7 @@ OptimiseResult optimise(const Study& study, const OptimiseOptions& options) {
   run.folder.write("resolved.toml", resolved_toml(study));
   run.folder.write("plan.txt", search_plan(study));
   const StageSeconds at = run_stages(run);
+  run.folder.remove(kProgressFile);
   // What a finished run wrote stays when it was to be written anew.
   const bool stays = run.result.interrupted && run.folder.has("best/design.toml");
   if (!stays) write_files(run, at);

@@ -23,8 +23,12 @@ struct Progress {
   std::string stage;  // "draft", "search", "narrow", "confirm", "check"
   int done = 0, total = 0;
   std::string best;         // best values so far, for people
-  double seconds_left = 0;  // < 0: not known yet
+  double seconds_left = 0;  // to the end of the run; < 0: not known yet
+  double share = 0;         // of the whole run that is done, by the clock
 };
+
+// In the folder of a run that works: the last Progress, as JSON.
+inline constexpr const char* kProgressFile = ".progress.json";
 
 // Why the search ended.
 enum class SearchEnd {
@@ -43,12 +47,19 @@ struct ClockCut {
 
 struct FinalDesign {
   Point unit;
+  bool flat = false;  // the surface without its texture, which `unit` still has
   Design design;
   Score searched, confirmed;
   bool feasible = false, on_front = false;
   // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
   // rest.
   std::string folder;
+};
+
+// What is made: the recommended design with its numbers on the grid of the fab.
+struct BuiltDesign {
+  FinalDesign made;      // confirmed: ok where it was judged, at the level of the confirmation
+  bool widened = false;  // nearer designs of the grid break a limit
 };
 
 struct OptimiseResult {
@@ -69,9 +80,9 @@ struct OptimiseResult {
   std::size_t best = 0;                 // of the finalists: highest worst modulation, or as picked
   std::optional<Score> flat;            // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
-  std::optional<FinalDesign> rounded;  // the best on the grid of the fab, where that is another
-  Stability stability;                 // of the order of the finalists on the front, in their order
-  std::vector<VariableSensitivity> sensitivity;  // of the best design
+  std::optional<BuiltDesign> build;
+  Stability stability;  // of the order of the finalists on the front, in their order
+  std::vector<VariableSensitivity> sensitivity;  // of what is built
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
 
   bool has_best() const { return !finalists.empty() && finalists[best].confirmed.ok; }

@@ -13,7 +13,8 @@ class Searching {
   explicit Searching(Run& run)
       : run_(run),
         searcher_(make_searcher(run.method, run.search)),
-        budget_(static_cast<std::size_t>(run.search.evaluations)) {}
+        budget_(static_cast<std::size_t>(run.search.evaluations)),
+        begun_(run.clock.seconds()) {}
 
   bool run() {
     SearchEnd& end = run_.result.end;
@@ -54,7 +55,10 @@ class Searching {
       for (Evaluation& e : run_.replay.judged(some, Stage::Draft).evaluations)
         batch.push_back(std::move(e));
       drafts_ += static_cast<int>(count);
-      run_.progress("draft", drafts_, run_.search.drafts, -1);
+      const int left = std::max(0, run_.search.drafts - drafts_);
+      run_.progress(
+          "draft", drafts_, run_.search.drafts,
+          run_.seconds_of_designs(static_cast<std::size_t>(left), Stage::Draft) + seconds_left());
     }
     searcher_->tell(batch);
     return End::Told;
@@ -109,18 +113,25 @@ class Searching {
     while (count > 0 && !run_.fits(run_.seconds_of_designs(count, Stage::Search))) --count;
     return count;
   }
+
   double seconds_left() const {
-    const double timed = run_.replay.spent(Stage::Search).seconds;
-    if (!(timed > 0)) return -1;
-    // Clock over evaluation time: what the searcher itself takes.
-    const double overhead = std::max(1.0, run_.clock.seconds() / timed);
-    return overhead * run_.seconds_of_designs(budget_ - evaluated_, Stage::Search) +
+    const std::size_t left = budget_ - evaluated_;
+    const Replay::Spent &full = run_.replay.spent(Stage::Search),
+                        &drafts = run_.replay.spent(Stage::Draft);
+    // What the searcher itself takes for each design that is asked of.
+    const double own = run_.clock.seconds() - begun_ - full.seconds - drafts.seconds;
+    const auto asked = static_cast<double>(full.tasks + drafts.tasks) /
+                       static_cast<double>(run_.problem.tasks().size());
+    if (!(asked > 0)) return -1;  // nothing was timed yet
+    const double each = std::max(0.0, own) / asked;
+    return run_.seconds_of_designs(left, Stage::Search) + each * static_cast<double>(left) +
            run_.seconds_from(RunPart::Narrow);
   }
 
   Run& run_;
   std::unique_ptr<Searcher> searcher_;
   std::size_t budget_, evaluated_ = 0;
+  double begun_;  // [s] since the run began
   int drafts_ = 0;
 };
 

@@ -11,23 +11,84 @@ namespace {
 constexpr double kStep = 0.05;           // of a variable's range
 constexpr double kToleratedLoss = 0.05;  // of an objective's value
 
-// One move's part in its variable: the change, halved with that of the opposite move, and the drift
-// that may be tolerated this way.
-void add_move(VariableSensitivity& s, const std::vector<StudyObjective>& objectives, int sign,
-              bool second, const Score& centre, const Score& moved) {
-  double allowed = kInfinity;
-  if (s.change.empty()) s.change.assign(objectives.size(), 0);
-  for (std::size_t o = 0; o < objectives.size(); ++o) {
-    const double gain = moved.values[o] - centre.values[o];
-    const double up = sign * gain;
-    s.change[o] = second ? 0.5 * (s.change[o] + up) : up;
-    const double loss = (objectives[o].maximise ? -1 : 1) * gain;
-    const double most = kToleratedLoss * std::abs(centre.values[o]);
-    if (loss > most) allowed = std::min(allowed, s.step * most / loss);
+Point moved_point(const Point& centre, std::size_t variable, double by) {
+  Point out = centre;
+  out[variable] += by;
+  return out;
+}
+
+// Where it may be off at most, as a share of the step, and the limit that is reached there.
+struct Room {
+  double share = kInfinity;
+  std::string limit{};
+
+  void end(double at, const std::string& by) {
+    if (at < share) share = at, limit = by;
   }
-  const bool beyond = !std::isfinite(allowed);
-  (sign < 0 ? s.down : s.up) = beyond ? s.step : allowed;
-  (sign < 0 ? s.down_beyond : s.up_beyond) = beyond;
+};
+
+// To the first of the limits that are known without an evaluation.
+Room room_before_evaluation(const StudyProblem& problem, const MovedDesign& centre,
+                            const SensitivityMove& move) {
+  constexpr int kHalvings = 30;
+  const StudyConstraints& constraints = problem.constraints();
+  std::vector<Constraint> limits = constraints.judged_by_geometry();
+  const bool looks = constraints.limits_look();
+  for (const Constraint& c : problem.study().constraints) {
+    if (looks && limit_on(c) == LimitOn::Look) limits.push_back(c);
+  }
+  const auto at = [&](double share) {
+    Design d =
+        problem.space().design(moved_point(centre.unit, move.variable, share * move.sign * kStep));
+    if (centre.flat) d.texture = Texture{};
+    std::vector<double> out = constraints.geometry(d);
+    out.erase(out.begin());  // the shape itself
+    for (double v : constraints.look(d)) out.push_back(v);
+    return out;
+  };
+  const std::vector<double> here = at(0), there = at(1);
+  Room out;
+  for (std::size_t k = 0; k < there.size(); ++k) {
+    if (here[k] > 0 || there[k] <= 0) continue;
+    double kept = 0, broken = 1;
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = 0.5 * (kept + broken);
+      (at(middle)[k] <= 0 ? kept : broken) = middle;
+    }
+    out.end(kept > kLimitTolerance ? kept : 0, limits[k].name);
+  }
+  return out;
+}
+
+// To the first of those that an evaluation judges, linear between both.
+Room room_with_evaluation(const StudyProblem& problem, const Score& centre, const Score& moved) {
+  const std::vector<Constraint> limits = problem.constraints().judged_by_evaluation();
+  const std::vector<double> here = problem.constraints().violations(centre),
+                            there = problem.constraints().violations(moved);
+  Room out;
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    if (there[k] <= 0) continue;
+    out.end(here[k] < 0 ? -here[k] / (there[k] - here[k]) : 0, limits[k].name);
+  }
+  return out;
+}
+
+// To where an objective has lost what is tolerated, linear between both.
+Room room_to_loss(const std::vector<StudyObjective>& objectives, const Score& centre,
+                  const Score& moved) {
+  Room out;
+  for (std::size_t o = 0; o < objectives.size(); ++o) {
+    const double loss = (objectives[o].maximise ? -1 : 1) * (moved.values[o] - centre.values[o]);
+    const double most = kToleratedLoss * std::abs(centre.values[o]);
+    if (loss > most) out.end(most / loss, "");
+  }
+  return out;
+}
+
+Drift drift_of(double step, Room loss, const std::vector<Room>& limits) {
+  for (const Room& room : limits) loss.end(room.share, room.limit);
+  if (!std::isfinite(loss.share)) return {step, Drift::End::StepTried};
+  return {step * loss.share, loss.limit.empty() ? Drift::End::Loss : Drift::End::Limit, loss.limit};
 }
 
 void share_out(std::vector<VariableSensitivity>& all, std::size_t objective) {
@@ -38,42 +99,65 @@ void share_out(std::vector<VariableSensitivity>& all, std::size_t objective) {
     s.share[objective] = sum > 0 && !s.change.empty() ? square(s.change[objective]) / sum : 0;
 }
 
+// Why a number was not moved this way.
+Drift::End not_moved(const Point& centre, std::size_t variable, int sign) {
+  const double at = centre[variable] + sign * kStep;
+  return at < 0 || at > 1 ? Drift::End::RangeEnds : Drift::End::NoShape;
+}
+
 }  // namespace
 
-std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem, const Point& centre) {
+std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
+                                               const MovedDesign& centre) {
   const DesignSpace& space = problem.space();
   std::vector<SensitivityMove> out;
-  for (std::size_t k = 0; k < centre.size(); ++k) {
-    if (!space.cube().dimensions[k].choices.empty()) continue;
+  for (std::size_t k = 0; k < centre.unit.size(); ++k) {
+    if (!space.cube().dimensions[k].choices.empty() ||
+        (centre.flat && problem.study().variables[k].path.starts_with("texture.")))
+      continue;
     for (int sign : {-1, 1}) {
-      Point u = centre;
-      u[k] += sign * kStep;
+      const Point u = moved_point(centre.unit, k, sign * kStep);
       const bool possible =
           u[k] >= 0 && u[k] <= 1 && problem.constraints().geometry(u).front() <= 0;
-      if (possible && space.snapped(u) != centre) out.push_back({k, sign, u});
+      if (possible && space.snapped(u) != centre.unit) out.push_back({k, sign, u});
     }
   }
   return out;
 }
 
-std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const Point& centre,
+std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const MovedDesign& centre,
                                              const std::vector<SensitivityMove>& moves,
                                              const Score& at_centre,
                                              const std::vector<Score>& moved) {
   std::vector<VariableSensitivity> out;
   if (!at_centre.ok) return out;
   const auto& objectives = problem.objectives();
-  const std::vector<double> centre_values = problem.space().value(centre);
+  const std::vector<double> centre_values = problem.space().value(centre.unit);
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const auto& [k, sign, unit] = moves[i];
     if (out.empty() || out.back().variable != k) {
-      out.emplace_back().variable = k;
-      out.back().share.assign(objectives.size(), 0);
+      VariableSensitivity& added = out.emplace_back();
+      added.variable = k;
+      added.share.assign(objectives.size(), 0);
+      added.down.end = not_moved(centre.unit, k, -1);
+      added.up.end = not_moved(centre.unit, k, 1);
     }
-    if (!moved[i].ok) continue;
-    out.back().step = std::abs(problem.space().value(unit)[k] - centre_values[k]);
-    const bool second = sign > 0 && i > 0 && moves[i - 1].variable == k && moved[i - 1].ok;
-    add_move(out.back(), objectives, sign, second, at_centre, moved[i]);
+    VariableSensitivity& s = out.back();
+    Drift& drift = sign < 0 ? s.down : s.up;
+    if (!moved[i].ok) {
+      drift.end = Drift::End::Failed;
+      continue;
+    }
+    s.step = std::abs(problem.space().value(unit)[k] - centre_values[k]);
+    const bool second = !s.change.empty();
+    if (!second) s.change.assign(objectives.size(), 0);
+    for (std::size_t o = 0; o < objectives.size(); ++o) {
+      const double up = sign * (moved[i].values[o] - at_centre.values[o]);
+      s.change[o] = second ? 0.5 * (s.change[o] + up) : up;
+    }
+    drift = drift_of(s.step, room_to_loss(objectives, at_centre, moved[i]),
+                     {room_before_evaluation(problem, centre, moves[i]),
+                      room_with_evaluation(problem, at_centre, moved[i])});
   }
   for (std::size_t o = 0; o < objectives.size(); ++o) share_out(out, o);
   return out;

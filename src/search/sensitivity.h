@@ -1,6 +1,7 @@
-// What each continuous variable does at one design. Eq. search.9
+// What each continuous variable does at one design, and how far it may be off there. Eq. search.9
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/rooms.h"
@@ -8,15 +9,29 @@
 
 namespace papilla::search {
 
+// How far a number may be off one way, and what ends it there.
+struct Drift {
+  enum class End {
+    Loss,       // an objective is worse by 5 % of its value
+    Limit,      // a limit of the study is reached
+    StepTried,  // nothing within the step that was tried
+    RangeEnds,  // not judged: the space ends before that step
+    NoShape,    // not judged: no such shape can be made
+    Failed,     // not judged: the evaluation failed
+  };
+  double most = 0;  // SI; of the first three
+  End end = End::RangeEnds;
+  std::string limit{};  // that is reached: "min_wall"
+
+  bool judged() const { return end <= End::StepTried; }
+};
+
 struct VariableSensitivity {
   std::size_t variable = 0;
   std::vector<double> change;  // of each objective for +`step`, the user's sign
   std::vector<double> share;   // of each objective's variance when all variables scatter by a step
   double step = 0;             // SI
-  // Drift that costs no objective more than 5 % of its value, SI; beyond: even a whole step does
-  // not.
-  double down = 0, up = 0;
-  bool down_beyond = false, up_beyond = false;
+  Drift down, up;
 };
 
 // One variable of the design moved by a step.
@@ -26,11 +41,18 @@ struct SensitivityMove {
   Point unit;
 };
 
+// A design whose numbers are moved; flat: without its texture, whose numbers then move nothing.
+struct MovedDesign {
+  Point unit;
+  bool flat = false;
+};
+
 // Along each continuous variable, both ways where the space and the shape allow.
-std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem, const Point& centre);
+std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
+                                               const MovedDesign& centre);
 
 // From the scores of the design and of its moves; empty when the design itself has failed.
-std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const Point& centre,
+std::vector<VariableSensitivity> sensitivity(const StudyProblem& problem, const MovedDesign& centre,
                                              const std::vector<SensitivityMove>& moves,
                                              const Score& at_centre,
                                              const std::vector<Score>& moved);

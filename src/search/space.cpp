@@ -32,8 +32,7 @@ bool DesignSpace::acts(const std::vector<NumberField>& known, std::size_t variab
                                       [&](const Variable& v) { return v.path == path; }));
 }
 
-Design DesignSpace::design(const Point& unit) const {
-  const std::vector<double> v = cube_.value(unit);
+Design DesignSpace::design_of(const std::vector<double>& v) const {
   Design out = study_.design;
   for (std::size_t i = 0; i < v.size(); ++i) {
     if (study_.variables[i].is_kind())

@@ -23,8 +23,9 @@ class DesignSpace {
   Point unit(const std::vector<double>& value) const { return cube_.unit(value); }
   Point snapped(const Point& unit) const { return cube_.snapped(unit); }
 
-  Design design(const Point& unit) const;
-  Point unit_of_study() const;  // the study's own design
+  Design design(const Point& unit) const { return design_of(cube_.value(unit)); }
+  Design design_of(const std::vector<double>& values) const;  // SI, exactly these
+  Point unit_of_study() const;                                // the study's own design
   std::vector<Point> starts() const;
   // The same surface without its texture, where the space holds that and the point has a texture.
   std::optional<Point> flattened(const Point& unit) const;

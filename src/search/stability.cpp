@@ -1,9 +1,10 @@
 #include "search/stability.h"
 
-#include <cmath>
+#include <algorithm>
 #include <functional>
 
-#include "estimate/voltage.h"
+#include "metrics/metrics.h"
+#include "search/task.h"
 
 namespace papilla::search {
 namespace {
@@ -19,6 +20,12 @@ std::vector<Variant> variants(const StudyProblem& problem) {
   for (std::size_t t = 0; t < problem.nominal_tasks(); ++t) {
     out.push_back({"finger " + problem.tasks()[t].name, t, [](Scene&) {}});
   }
+  // The water of the skin and its friction: what a person's finger has that a degreased one has
+  // not.
+  const bool clean = problem.tasks().front().finger.state == FingerState::Clean;
+  out.push_back({clean ? "natural skin, not degreased" : "degreased skin", 0, [clean](Scene& s) {
+                   s.finger.state = clean ? FingerState::Natural : FingerState::Clean;
+                 }});
   const Scene first{{}, problem.tasks().front().finger, {}, {}, {}};
   if (!first.finger.water.volume.empty()) {
     out.push_back({"first droplet step 50 nm", 0, [](Scene& s) { s.model.droplet_step = 50e-9; }});
@@ -41,14 +48,29 @@ std::vector<Variant> variants(const StudyProblem& problem) {
   return out;
 }
 
-// Better by the tolerance in every objective.
-bool beats(const std::vector<StudyObjective>& objectives, const std::vector<double>& a,
-           const std::vector<double>& b, double tolerance) {
+// Better in every objective by more than the error of the difference, skin by skin where the
+// samples of both are known.
+bool beats(const std::vector<StudyObjective>& objectives, const TaskAnswer& a,
+           const TaskAnswer& b) {
   for (std::size_t k = 0; k < objectives.size(); ++k) {
-    const double gain = objectives[k].maximise ? a[k] - b[k] : b[k] - a[k];
-    if (gain <= tolerance * std::abs(b[k])) return false;
+    const TaskObjective &better = a.objectives[k], &worse = b.objectives[k];
+    const double gain = (objectives[k].maximise ? 1 : -1) * (better.value - worse.value);
+    std::optional<double> paired;
+    if (k < a.samples.size() && k < b.samples.size())
+      paired = difference_error(a.samples[k].front(), b.samples[k].front());
+    if (gain <= paired.value_or(std::max(better.error, worse.error))) return false;
   }
   return true;
+}
+
+// What the limits of a study are judged by.
+Score score_of_limits(const TaskAnswer& answer) {
+  Score out;
+  out.ok = true;
+  out.oxide_margin = answer.oxide_margin;
+  out.look = answer.look;
+  out.limited = answer.limited;
+  return out;
 }
 
 }  // namespace
@@ -59,6 +81,8 @@ std::vector<std::string> stability_variants(const StudyProblem& problem) {
   return out;
 }
 
+std::size_t skin_variant(const StudyProblem& problem) { return problem.nominal_tasks(); }
+
 TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t index,
                             const Fidelity& fidelity) {
   const Variant variant = variants(problem).at(index);
@@ -68,44 +92,54 @@ TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, s
   Scene scene{d.surface, task.finger, d.environment, d.drive, d.model};
   variant.change(scene);
   Response response = evaluate(scene, d.texture, fidelity);
-  if (!goals.voltage_targets.empty())
-    add_voltages(response, scene, d.texture, fidelity, goals.voltage_targets);
-  if (goals.looks) response.appearance = appearance_of(d);
-  TaskAnswer out;
+  if (auto refused = complete(response, goals, scene, d, variant.name, fidelity))
+    return *std::move(refused);
+  TaskAnswer out = answer_of(goals, d, variant.name, response);
+  if (!out.status.ok()) return out;
+  // Of the summaries themselves. A distance from a target has no samples of its own.
   for (const StudyObjective& o : goals.objectives) {
-    const auto v = summarise(o.expression.summary, o.expression.metric, response);
-    if (!v || !std::isfinite(v->value))
-      return TaskAnswer::refused(TaskStatus::Kind::NotDefined, o.name + " is not defined");
-    out.objectives.push_back({v->value, v->se, {}});
+    out.samples.push_back(
+        {o.aimed ? ErrorSamples{}
+                 : error_samples(o.expression.summary, o.expression.metric, response)});
   }
   return out;
 }
 
-Stability judge_stability(const StudyProblem& problem,
-                          const std::vector<std::vector<TaskAnswer>>& answers, double tolerance) {
-  const auto& objectives = problem.objectives();
-  const std::size_t designs = answers.size();
+Stability judge_stability(const StudyProblem& problem, const std::vector<Point>& designs,
+                          const std::vector<std::vector<TaskAnswer>>& answers) {
   Stability out;
-  out.times_on_front.assign(designs, 0);
+  out.times_on_front.assign(designs.size(), 0);
   const std::vector<std::string> names = stability_variants(problem);
   for (std::size_t v = 0; v < names.size(); ++v) {
     StabilityVariant result;
     result.name = names[v];
-    for (const auto& design : answers) {
+    for (std::size_t i = 0; i < designs.size(); ++i) {
+      const TaskAnswer& answer = answers[i][v];
       std::vector<double>& values = result.values.emplace_back();
-      for (const TaskObjective& o : design[v].objectives) values.push_back(o.value);
+      std::vector<LimitValue>& broken = result.broken.emplace_back();
+      result.worst.push_back(answer.worst);
+      if (!answer.status.ok()) continue;
+      for (const TaskObjective& o : answer.objectives) values.push_back(o.value);
+      broken =
+          problem.constraints().values(problem.space().design(designs[i]), score_of_limits(answer));
+      std::erase_if(broken, [](const LimitValue& limit) { return limit.kept(); });
     }
-    for (std::size_t i = 0; i < designs; ++i) {
-      bool front = !result.values[i].empty();
-      for (std::size_t j = 0; j < designs && front; ++j) {
-        if (j != i && !result.values[j].empty())
-          front = !beats(objectives, result.values[j], result.values[i], tolerance);
+    // What breaks a limit is no design, and beats none.
+    const auto counts = [&](std::size_t i) {
+      return !result.values[i].empty() && result.broken[i].empty();
+    };
+    for (std::size_t i = 0; i < designs.size(); ++i) {
+      std::optional<std::size_t>& by = result.beaten_by.emplace_back();
+      for (std::size_t j = 0; j < designs.size() && counts(i) && !by; ++j) {
+        if (j != i && counts(j) && beats(problem.objectives(), answers[j][v], answers[i][v]))
+          by = j;
       }
-      result.on_front.push_back(front);
-      out.times_on_front[i] += front;
+      result.on_front.push_back(counts(i) && !by);
+      out.times_on_front[i] += result.on_front.back();
     }
     out.variants.push_back(std::move(result));
   }
+  if (!names.empty()) out.other_skin = skin_variant(problem);
   return out;
 }
 

@@ -2,6 +2,7 @@
 // choices that move results at first order are not known well enough to trust one of them alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,15 +12,20 @@
 
 namespace papilla::search {
 
+// One variant, of each design.
 struct StabilityVariant {
   std::string name;                         // "finger rough", "first droplet step 50 nm"
   std::vector<std::vector<double>> values;  // [design][objective], the user's sign; empty: failed
-  std::vector<bool> on_front;               // of these designs, within the tolerance
+  std::vector<bool> on_front{};             // it keeps every limit, and none beats it
+  std::vector<std::optional<std::size_t>> beaten_by{};  // a design that is better in all objectives
+  std::vector<std::vector<LimitValue>> broken{};        // limits of the study that it does not keep
+  std::vector<double> worst{};                          // lowest modulation over humidity
 };
 
 struct Stability {
   std::vector<StabilityVariant> variants;
-  std::vector<int> times_on_front;  // of a design, over the variants
+  std::vector<int> times_on_front;        // of a design, over the variants
+  std::optional<std::size_t> other_skin;  // the variant of another state of the skin
 
   bool judged(std::size_t design) const { return design < times_on_front.size(); }
   // On the front in two thirds of the variants at least; of a judged design.
@@ -28,19 +34,22 @@ struct Stability {
   }
 };
 
-// Each design on each finger of the study alone, then on its first finger with one model choice
-// changed: droplet mobility, droplets per volume, the pull over droplets that do not bridge,
-// breakdown cap, self-consistent coupling.
+// Each design on each finger of the study alone, then on its first finger with one thing changed:
+// the state of the skin (natural where the study has degreased fingers, else degreased), then a
+// choice of the model: droplet mobility, droplets per volume, the pull over droplets that do not
+// bridge, breakdown cap, self-consistent coupling.
 std::vector<std::string> stability_variants(const StudyProblem& problem);
+// The one of another state of the skin.
+std::size_t skin_variant(const StudyProblem& problem);
 
-// One design in one variant: the values of the objectives. Cost: one finger at this fidelity.
+// One design in one variant, with the samples behind its errors. Cost: one finger at this fidelity.
 TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, std::size_t variant,
                             const Fidelity& fidelity);
 
-// From answers[design][variant]. Common random numbers throughout, so a design counts as beaten
-// only by one that is better by `tolerance` (relative) in every objective.
-Stability judge_stability(const StudyProblem& problem,
-                          const std::vector<std::vector<TaskAnswer>>& answers,
-                          double tolerance = 0.01);
+// From answers[design][variant]. All designs meet the same skins: one counts as beaten only where
+// another is better in every objective by more than the error of their difference, skin by skin
+// (Eq. accuracy.14).
+Stability judge_stability(const StudyProblem& problem, const std::vector<Point>& designs,
+                          const std::vector<std::vector<TaskAnswer>>& answers);
 
 }  // namespace papilla::search

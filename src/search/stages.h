@@ -57,6 +57,8 @@ struct Run {
 
  private:
   mutable std::map<std::pair<Stage, double>, double> prices_;
+  mutable double told_ =
+      0;  // when the folder was last told of the progress [s since the run began]
 };
 
 // Each returns false where the run was interrupted.

@@ -124,8 +124,29 @@ double oxide_margin(const StudyGoals& goals, const Design& d, const Response& re
   return out;
 }
 
-// The numbers of a response that a study is about.
-TaskAnswer answer_of(const StudyGoals& goals, const std::string& task, const Response& response) {
+}  // namespace
+
+std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, const Scene& scene,
+                                   const Design& d, const std::string& task,
+                                   const Fidelity& fidelity) {
+  using Kind = TaskStatus::Kind;
+  if (goals.looks) {
+    response.appearance = appearance_of(d);
+    if (response.appearance->refused())
+      return TaskAnswer::refused(Kind::LookRefused, response.appearance->warning);
+  }
+  // Of the study's own amplitude; voltage_for stops below pull-in by itself.
+  const std::vector<PointTrouble> troubles = response.troubles();
+  if (goals.own_amplitude && std::any_of(troubles.begin(), troubles.end(),
+                                         [](const PointTrouble& t) { return t.status.pull_in(); }))
+    return TaskAnswer::refused(Kind::NoEquilibrium, task + ", " + forward::text(troubles));
+  if (!goals.voltage_targets.empty())
+    add_voltages(response, scene, d.texture, fidelity, goals.voltage_targets);
+  return std::nullopt;
+}
+
+TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string& task,
+                     const Response& response) {
   TaskAnswer out;
   for (const StudyObjective& o : goals.objectives) {
     const auto value = defined(o, task, response, out);
@@ -141,10 +162,9 @@ TaskAnswer answer_of(const StudyGoals& goals, const std::string& task, const Res
   if (const auto& look = response.appearance)
     out.look = {look->haze, look->transmittance, look->gloss, look->colour_shift};
   if (!response.parameters.steps.empty()) out.steps = steps_of(goals, response);
+  out.oxide_margin = oxide_margin(goals, d, response);
   return out;
 }
-
-}  // namespace
 
 TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std::size_t index,
                          const TaskWork& work) {
@@ -157,23 +177,12 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
                                wrong.front().path + ": " + wrong.front().message);
   const Scene scene = scene_of(d);
   Response response = respond(scene, d, work);
-  if (goals.looks) {
-    response.appearance = appearance_of(d);
-    if (response.appearance->refused())
-      return TaskAnswer::refused(Kind::LookRefused, response.appearance->warning);
-  }
-  // Of the study's own amplitude; voltage_for stops below pull-in by itself.
-  const std::vector<PointTrouble> troubles = response.troubles();
-  if (goals.own_amplitude && std::any_of(troubles.begin(), troubles.end(),
-                                         [](const PointTrouble& t) { return t.status.pull_in(); }))
-    return TaskAnswer::refused(Kind::NoEquilibrium, task.name + ", " + forward::text(troubles));
-  if (!goals.voltage_targets.empty())
-    add_voltages(response, scene, d.texture, work.fidelity, goals.voltage_targets);
+  if (auto refused = complete(response, goals, scene, d, task.name, work.fidelity))
+    return *std::move(refused);
   if (work.confirmed && task.nominal() && d.accuracy.parameters &&
       !scene.finger.uncertainty.empty())
     add_parameter_errors(response, scene, d.texture, steps_fidelity(problem, work.fidelity));
-  TaskAnswer out = answer_of(goals, task.name, response);
-  out.oxide_margin = oxide_margin(goals, d, response);
+  TaskAnswer out = answer_of(goals, d, task.name, response);
   if (!out.status.ok() || !work.confirmed) return out;
   out.samples = samples_of(goals, response);
   if (work.text) out.report = work.text(response);

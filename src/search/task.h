@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "base/rooms.h"
@@ -22,6 +23,15 @@ struct TaskWork {
   ResponseText text{};      // of a confirmed task; may be empty
   double most_seconds = 0;  // on the way to the target, as plans price it; 0: any
 };
+
+// What a study wants to know of a response beside the patches: its look, the voltages of
+// voltage_for. An answer where the design has none: no theory of its look, no equilibrium.
+std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, const Scene& scene,
+                                   const Design& design, const std::string& task,
+                                   const Fidelity& fidelity);
+// The numbers of a complete response that a study is about.
+TaskAnswer answer_of(const StudyGoals& goals, const Design& design, const std::string& task,
+                     const Response& response);
 
 TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std::size_t task,
                          const TaskWork& work);

@@ -20,6 +20,7 @@
 #include "optim/pareto.h"
 #include "report/json.h"
 #include "search/records.h"
+#include "search/run.h"
 
 namespace papilla::studio {
 namespace {
@@ -61,6 +62,16 @@ const char* stage_name(Stage stage) {
       return "confirm";
     default:
       return "check";
+  }
+}
+
+// What a search that runs says of itself: the share of the whole run that is done, seconds left.
+Json progress_of(const Folder& folder, const std::string& file) {
+  if (!folder.has(file)) return nullptr;
+  try {
+    return Json::parse(folder.read(file));
+  } catch (const std::exception&) {  // it ended meanwhile
+    return nullptr;
   }
 }
 
@@ -370,6 +381,8 @@ Json SearchDesk::json() const {
   out["done"] = found_.size();
   out["total"] = total_;
   out["trouble"] = trouble_;
+  out["progress"] =
+      state_ == SearchState::Running ? progress_of(folder_, in_place(kProgressFile)) : Json();
   out["variables"] = variables;
   out["objectives"] = objectives;
   out["points"] = points;

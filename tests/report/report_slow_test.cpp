@@ -69,23 +69,23 @@ TEST(ReportOfOneRun, VerifyJudgesTheBestDesignAndTheFront) {
   const Workplace& place = finished_run();
   const Outcome sound = place.run("verify run --geometry");
   EXPECT_EQ(sound.status, 0) << sound.err;
-  for (const char* name : {"run/best/design.toml", "run/best/heightmap.exr", "run/best/preview.png",
+  for (const char* name : {"run/best/build.toml", "run/best/heightmap.exr", "run/best/preview.png",
                            "run/front/01/heightmap.gsf"})
     EXPECT_NE(sound.out.find(name), std::string::npos) << sound.out;
-  const auto file = place.path() / "run/best/design.toml";
+  const auto file = place.path() / "run/best/build.toml";
   const std::string design = file_text(file);
-  place.write("run/best/design.toml", design + "\n[view]\nfill_index = 1.1\n");
+  place.write("run/best/build.toml", design + "\n[view]\nfill_index = 1.1\n");
   const Outcome two = place.run("verify run --geometry");
   EXPECT_EQ(two.status, 2);  // [view] stands there twice
   std::string other = design;
   other.replace(other.find("\nperiod = "), 10, "\nperiod = \"9 um\" # ");
-  place.write("run/best/design.toml", other);
+  place.write("run/best/build.toml", other);
   const Outcome changed = place.run("verify run --geometry");
   EXPECT_EQ(changed.status, 1);
-  EXPECT_NE(changed.err.find("run/best/design.toml: is another design"), std::string::npos)
+  EXPECT_NE(changed.err.find("run/best/build.toml: is another design"), std::string::npos)
       << changed.err;
   EXPECT_EQ(changed.err.find("heightmap"), std::string::npos) << changed.err;
-  place.write("run/best/design.toml", design);
+  place.write("run/best/build.toml", design);
   EXPECT_EQ(place.run("verify run/best --geometry").status, 0);
 }
 

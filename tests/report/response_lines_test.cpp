@@ -47,7 +47,7 @@ TEST(ResponseLines, WithoutADriveThereIsFrictionAlone) {
       "12.3 ±2.0              -       2.2      1500\n"
       "undriven (0 V): no modulation\n"
       "mean friction 100.0 ±10.0 mN; error: sampling 10.0 %; parameters not asked for "
-      "(--parameters); not measured: grid, solver, humidity, method, field, water\n");
+      "(--parameters); error from grid, solver, humidity, method, field, water: unknown\n");
   EXPECT_EQ(modulation_sparkline(r), "");
   r.points[0].friction_off.value = 0;  // no size to compare an error to
   EXPECT_EQ(below(r), "undriven (0 V): no modulation\nmean friction 0.0 ±10.0 mN; error: \n");

@@ -60,8 +60,11 @@ TEST(ResponseReport, TheTableHasEachNumberUnderItsHead) {
       "   35%        45       100.0 ±3.0       101.0 ±4.0    0.102 ±0.005  10.300 ±0.600     "
       "105.0 ±8.0     106.0 ±9.0       7.2       110\n"
       "modulation █  mean 0.102 ±0.005  worst 0.102 ±0.005\n"
-      "error of the mean modulation: sampling 4.9 %; parameters not asked for (--parameters); not "
-      "measured: grid, solver, humidity, method, field, water\n"
+      "error of the mean modulation: sampling 4.9 %; parameters not asked for (--parameters); "
+      "error "
+      "from grid, solver, humidity, method, field, water: unknown\n"
+      "not in ±: choices of the model (papilla explain), expected Kelvin condensation 0.2 %, a cap "
+      "where air breaks down, up to 22 % of the pull\n"
       "air beyond its breakdown field on up to 2.1 % of the patch, 22 % of the pull; peak field in "
       "the dielectric 230 V/um\n"
       "pull: field rule times 0.94 to 0.94, by the 3-D field; good to 6 %\n"))
@@ -115,7 +118,7 @@ TEST(ResponseReport, ErrorsAreNamedWithTheirShares) {
                                   .water = 0.04};
   EXPECT_NE(response_table(r).find("sampling 5.0 %, grid 10 %, solver 0.5 %, method 2.5 %, "
                                    "parameters 15 %; not in ±: water 20 %, common to all designs; "
-                                   "not measured: humidity, field\n"),
+                                   "error from humidity, field: unknown\n"),
             std::string::npos)
       << response_table(r);
 }

@@ -56,21 +56,25 @@ struct Searched {
     best.folder = "front/01";
     other = best;
     other.unit = problem.space().unit({8e-6, 4e-6, 500e-9, 40 * kPi / 180});
+    other.design = problem.space().design(other.unit);
     other.on_front = false, other.folder = "";
     other.confirmed = score(0.45, 0.4, 0.2);
     result.finalists = {best, other};
     result.any_feasible = true;
     result.flat = score(0.4, 0.35, 0.2);
     result.flat_before = score(0.35, 0.45, 0.15);
-    result.sensitivity = {
-        {.variable = 0,
-         .change = {0.01, -0.02},
-         .share = {0.6, 0.25},
-         .step = 0.35e-6,
-         .down = 0.12e-6,
-         .up = 0.5e-6,
-         .up_beyond = true},
-        {.variable = 2, .change = {}, .share = {}, .step = 50e-9, .down = 0, .up = 20e-9}};
+    result.sensitivity = {{.variable = 0,
+                           .change = {0.01, -0.02},
+                           .share = {0.6, 0.25},
+                           .step = 0.35e-6,
+                           .down = {0.12e-6, Drift::End::Loss},
+                           .up = {0.5e-6, Drift::End::StepTried}},
+                          {.variable = 2,
+                           .change = {},
+                           .share = {},
+                           .step = 50e-9,
+                           .down = {},
+                           .up = {20e-9, Drift::End::Limit, "min_wall"}}};
     result.stability.variants = {{"rough", {{0.5, 0.3}, {0.4, 0.35}}, {true, false}},
                                  {"smooth", {{0.55, 0.25}, {}}, {true, false}}};
     result.stability.times_on_front = {2, 0};
@@ -85,10 +89,10 @@ TEST(RunSummary, TheTableOfTheFinalistsIsInTheUnitsOfTheStudy) {
   EXPECT_TRUE(table.starts_with(
       "Finalists, confirmed on fresh skins at level \"draft\":\n\n| design | texture.period | "
       "texture.diameter | texture.depth | surface.contact_angle | max mean(modulation) | min "
-      "variation(modulation) | worst modulation |\n|---|---|---|---|---|---|---|---|\n"
-      "| front/01 | 5 um | 3 um | 300 nm | 70 deg | 0.500 ± 0.013 | 0.300 ± 0.023 | 0.250 |\n"
-      "| (dominated) | 8 um | 4 um | 500 nm | 40 deg | 0.450 ± 0.013 | 0.400 ± 0.023 | 0.200 "
-      "|\n"))
+      "variation(modulation) | worst modulation | min_hole at least 1 um | min_wall at least 0.4 "
+      "um | aspect_ratio at most 1 | oxide_breakdown_margin at least 2 "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n"
+      "| front/01 | 5 um | 3 um | 300 nm | 70 deg | 0.500 ± 0.013 | 0.300 ± 0.023 | 0.250 | "))
       << table;
   OptimiseResult failed = run.result;
   failed.finalists[0].feasible = failed.finalists[1].feasible = false;
@@ -125,23 +129,23 @@ TEST(RunSummary, EachPartHasItsNumbers) {
             "|\n"
             "| best design | 0.500 ± 0.013 | 0.300 ± 0.023 | 0.250 |\n"
             "| difference made by the texture | +0.100 ± 0.013 | -0.050 ± 0.023 | |\n"),
-        std::string("; mean(modulation), variation(modulation); * on the front of these "
-                    "designs):\n\n| | front/01 | (dominated) |\n|---|---|---|\n"
+        std::string("; mean(modulation), variation(modulation); * on the front of these designs: "
+                    "it keeps every limit, and none is better in all objectives by more than the "
+                    "error of their difference):\n\n| | front/01 | (dominated) |\n|---|---|---|\n"
                     "| rough | 0.500, 0.300 * | 0.400, 0.350 |\n"
-                    "| smooth | 0.550, 0.250 * | |\n"
+                    "| smooth | 0.550, 0.250 * | no value |\n"
                     "| **on the front** | 2 of 2 | 0 of 2, **unstable** |\n"),
         std::string("\n\n| variable | step | mean(modulation), share | variation(modulation), "
                     "share | tolerance down | up |\n|---|---|---|---|---|---|\n"
-                    "| texture.period | 0.35 um | +0.01, 60 % | -0.02, 25 % | 0.12 um | at least "
-                    "0.5 um |\n"
-                    "| texture.depth | 50 nm | - | - | its bound is near | 20 nm |\n")})
+                    "| texture.period | 0.35 um | +0.01, 60 % | -0.02, 25 % | 0.12 um | > 0.5 um "
+                    "(largest step tried) |\n"
+                    "| texture.depth | 50 nm | - | - | not judged: the search range ends here | "
+                    "20 nm, then min_wall is reached |\n")})
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n---\n" << page;
   EXPECT_EQ(page.find(kNoBetter), std::string::npos);
   run.result.stability.times_on_front = {1, 2};
   run.pick = "knee";
-  EXPECT_NE(run_summary(run.files())
-                .find("\n`best/` is front/01: picked by \"knee\"; under other choices of the model "
-                      "its neighbours beat it, see below.\n"),
+  EXPECT_NE(run_summary(run.files()).find("\n`best/` is front/01: picked by \"knee\".\n"),
             std::string::npos);
   run.result.flat = score(0.5, 0.3, 0.2);
   EXPECT_NE(run_summary(run.files()).find(kNoBetter), std::string::npos);
@@ -218,13 +222,13 @@ TEST(RunRemarks, SayWhatNeverMovedAndWhatLiesOnItsBound) {
                 "as many designs; loosen them or narrow the design space.",
                 "surface.contact_angle took one value only, 50 deg, in 12 evaluations: what it "
                 "does is not known.",
-                "The best design has texture.depth on its lower bound, 0 nm, the last value that "
-                "the model takes.",
-                "The best design has surface.contact_angle on its upper bound, 80 deg; 2.5 deg "
-                "beyond it, going on as inside, would change mean(modulation) +0.031, "
+                "What is recommended has texture.depth on its lower bound, 0 nm, the last value "
+                "that the model takes.",
+                "What is recommended has surface.contact_angle on its upper bound, 80 deg. If the "
+                "trend continues, 2.5 deg more would change mean(modulation) +0.031, "
                 "variation(modulation) -0.0052.",
-                "The best design has texture.diameter on its lower bound, 1 um: widen it to see "
-                "whether more helps."}));
+                "What is recommended has texture.diameter on its lower bound, 1 um: widen it to "
+                "see whether more helps."}));
   r.evaluations = 40;
   r.one_value.clear(), r.at_bound.clear();
   EXPECT_TRUE(run_remarks(run.study, run.problem, r).empty());
@@ -233,38 +237,156 @@ TEST(RunRemarks, SayWhatNeverMovedAndWhatLiesOnItsBound) {
 TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   const Searched run;
   const std::string gains =
-      "Build front/01: beside the same surface without it, its texture gains mean(modulation) "
-      "+0.100 ± 0.013, variation(modulation) -0.050 ± 0.023; the finish changes too "
-      "(surface.contact_angle 50 deg to 70 deg).";
-  EXPECT_EQ(advice_of(run.files()), Advice::Texture);
+      "Build design 01 (holes 3 um wide, 5 um apart, 300 nm deep). Against the same surface "
+      "without "
+      "texture it gains mean(modulation) +0.100 ± 0.013, variation(modulation) -0.050 ± 0.023. The "
+      "finish changes too (surface.contact_angle 50 deg to 70 deg).";
+  EXPECT_EQ(advice_of(run.problem, run.result), Advice::Texture);
   EXPECT_EQ(recommendation(run.files()), gains);
   const std::string sheet = sheet_text(run.files());
-  EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + gains +
-                                "**\n\n"
-                                "| dimension | build | tolerance down | up |\n|---|---|---|---|\n"))
-      << sheet;
-  for (const char* line : {"| texture.period | 5 um | 0.12 um | at least 0.5 um |\n",
-                           "| texture.diameter | 3 um | not known | not known |\n",
-                           "| texture.depth | 300 nm | its bound is near | 20 nm |\n",
-                           "| texture.wall_angle | 88 deg | fixed | fixed |\n",
-                           "| surface.contact_angle | 70 deg | not known | not known |\n"})
+  EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + gains + "**\n")) << sheet;
+  for (const char* line :
+       {"\n\n| dimension | build | tolerance down | up |\n|---|---|---|---|\n",
+        "| texture.period | 5 um | 0.12 um | > 0.5 um (largest step tried) |\n",
+        "| texture.diameter | 3 um | not known | not known |\n",
+        "| texture.depth | 300 nm | not judged: the search range ends here | 20 nm, then min_wall "
+        "is reached |\n",
+        "| texture.wall_angle | 88 deg | fixed | fixed |\n",
+        "| surface.contact_angle | 70 deg | not known | not known |\n",
+        "\n| limit | asked for | as built |\n|---|---|---|\n",
+        "| min_wall | at least 0.4 um | 2 um |\n",
+        "| oxide_breakdown_margin | at least 2 | 2.5 |\n"})
     EXPECT_NE(sheet.find(line), std::string::npos) << line << sheet;
   Searched costly;
   costly.result.flat = score(0.4, 0.2, 0.2);  // 0.1 more variation with the texture
   EXPECT_NE(recommendation(costly.files())
-                .find("its texture gains mean(modulation) +0.100 ± 0.013 and costs "
-                      "variation(modulation) +0.100 ± 0.023; the finish"),
+                .find("it gains mean(modulation) +0.100 ± 0.013 and costs variation(modulation) "
+                      "+0.100 ± 0.023. The finish"),
             std::string::npos)
       << recommendation(costly.files());
   costly.result.flat = score(0.49, 0.29, 0.2);  // the texture gains 0.010, within its error
   EXPECT_EQ(recommendation(costly.files()),
-            "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): "
-            "mean(modulation) +0.140 ± 0.013, variation(modulation) -0.160 ± 0.023; no texture of "
-            "this search adds more than the error of the difference.");
+            "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): that "
+            "gains mean(modulation) +0.140 ± 0.013, variation(modulation) -0.160 ± 0.023; no "
+            "texture of this search adds more than the error of the difference.");
   costly.result.flat.reset();
-  EXPECT_EQ(advice_of(costly.files()), Advice::Unknown);
+  EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Unknown);
   costly.result.finalists[0].feasible = false;
-  EXPECT_EQ(advice_of(costly.files()), Advice::Nothing);
+  EXPECT_EQ(advice_of(costly.problem, costly.result), Advice::Nothing);
+}
+
+// Lead, dimensions and JSON are of one surface: that without a texture.
+TEST(BuildSheet, OfAFlatSurfaceIsFlatEverywhere) {
+  Searched run;
+  run.result.flat = score(0.49, 0.29, 0.2);
+  ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
+  EXPECT_FALSE(facts(built_design(run.files()).texture).relief.present);
+  EXPECT_FALSE(facts(recommended_design(run.problem, run.result).design.texture).relief.present);
+  const std::string sheet = sheet_text(run.files());
+  EXPECT_EQ(sheet.find("| texture."), std::string::npos) << sheet;
+  EXPECT_NE(sheet.find("| surface.contact_angle | 70 deg |"), std::string::npos) << sheet;
+  const auto json = nlohmann::json::parse(run_json(run.files()));
+  EXPECT_EQ(json["textured"], false);
+  EXPECT_TRUE(json["design"].is_null());
+  for (const auto& row : json["sheet"])
+    EXPECT_EQ(row["name"].get<std::string>().find("texture."), std::string::npos);
+  EXPECT_NE(run_summary(run.files()).find("`best/` is the flat surface that is recommended."),
+            std::string::npos);
+  run.folder = temporary("flat_run");
+  std::filesystem::create_directories(run.folder);
+  run.result.finalists[0].confirmed.reports = {R"({"a": 1})"};
+  run.result.flat->reports = run.result.flat_before->reports = {R"({"b": 2})"};
+  run.result.finalists[0].on_front = false;  // its folder is another test's
+  write_results(run.files());
+  for (const char* file : {"design.toml", "build.toml"}) {
+    EXPECT_FALSE(facts(read_design(run.folder + "/best/" + file).texture).relief.present) << file;
+  }
+  EXPECT_FALSE(std::filesystem::exists(run.folder + "/best/mask.tif"));
+  EXPECT_EQ(
+      nlohmann::json::parse(read_bytes(run.folder + "/best/metrics.json"))["variables"].size(), 1u);
+}
+
+// A recommendation whose place does not hold names where, and what holds instead.
+TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
+  Searched run;
+  FinalDesign& other = run.result.finalists[1];
+  other.feasible = other.on_front = true, other.folder = "front/02";
+  run.result.stability.variants[1].on_front = {false, true};
+  run.result.stability.variants[1].beaten_by = {1, std::nullopt};
+  run.result.stability.times_on_front = {1, 2};
+  EXPECT_NE(recommendation(run.files())
+                .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
+                      "alternative that holds in 2 of 2 is design 02 (holes 4 um wide, 8 um apart, "
+                      "500 nm deep)."),
+            std::string::npos)
+      << recommendation(run.files());
+}
+
+// Which finger, what its natural skin does, what no ± holds, and a worst case that nobody feels.
+TEST(BuildSheet, SaysWhatItRestsOn) {
+  Searched run;
+  Stability& s = run.result.stability;
+  s.variants = {{"finger one", {{0.5, 0.3}, {0.4, 0.35}}},
+                {"natural skin, not degreased", {{0.296, 0.627}, {0.2, 0.5}}},
+                {"breakdown cap", {{0.252, 0.2}, {0.2, 0.3}}},
+                {"self-consistent coupling", {{0.922, 0.4}, {0.8, 0.5}}}};
+  for (StabilityVariant& v : s.variants) v.on_front = {true, true}, v.worst = {0.25, 0.2};
+  s.variants[1].worst = {0.007, 0.1};
+  s.times_on_front = {4, 4};
+  s.other_skin = 1;
+  run.result.finalists[0].confirmed.worst = 0.053;
+  const std::vector<std::string> said = grounds(run.files());
+  ASSERT_GE(said.size(), 3u);
+  EXPECT_EQ(said[0],
+            "Judged for degreased fingers (finger.state = \"clean\") at 15 to 75 % relative "
+            "humidity under 0.2 N. On natural skin, not degreased (" +
+                run.problem.tasks().front().name +
+                ") it has mean(modulation) 0.296 where it has 0.500, variation(modulation) 0.627 "
+                "where it has 0.300, a worst modulation of 0.007 where it has 0.250.");
+  EXPECT_EQ(said[1],
+            "In no ±: choices of the model (breakdown cap, self-consistent coupling): over these "
+            "it has mean(modulation) 0.252 to 0.922, variation(modulation) 0.200 to 0.400.");
+  EXPECT_EQ(said[2],
+            "At its worst, over fingers and humidity, the modulation is 0.053: below 0.2, the "
+            "least relative difference of friction that people notice (Fehlberg 2022), it is not "
+            "felt there.");
+}
+
+// The best flat surface of a run stands beside the texture, not only that under the texture's film.
+TEST(BuildSheet, ComparesWithTheBestFlatSurfaceOfTheRunToo) {
+  Searched run;
+  FinalDesign& flat = run.result.finalists[1];
+  flat.unit = run.problem.space().unit({5e-6, 3e-6, 0, 40 * kPi / 180});
+  flat.design = run.problem.space().design(flat.unit);
+  flat.confirmed = score(0.724, 0.9, 0.1);
+  flat.feasible = flat.on_front = true, flat.folder = "front/02";
+  EXPECT_NE(recommendation(run.files())
+                .find("Against the best flat surface of this run, design 02 (surface.contact_angle "
+                      "40 deg), it gains variation(modulation) -0.600 ± 0.023 and costs "
+                      "mean(modulation) -0.224 ± 0.013."),
+            std::string::npos)
+      << recommendation(run.files());
+  // A flat surface has no dimensions.
+  EXPECT_NE(result_table(run.study, run.result).find("| front/02 |  |  |  | 40 deg |"),
+            std::string::npos)
+      << result_table(run.study, run.result);
+}
+
+// A rounded design that keeps not every limit says which, by how much.
+TEST(BuildSheet, SaysWhatRoundingBreaks) {
+  Searched run;
+  BuiltDesign build{run.result.finalists[0], false};
+  build.made.confirmed.oxide_margin = 1.995;
+  build.made.feasible = false;
+  run.result.build = build;
+  EXPECT_NE(recommendation(run.files())
+                .find("On the grid of the fab oxide_breakdown_margin is 1.995, below your limit of "
+                      "2; no design beside it on the grid keeps every limit"),
+            std::string::npos)
+      << recommendation(run.files());
+  EXPECT_NE(
+      sheet_text(run.files()).find("| oxide_breakdown_margin | at least 2 | 1.995, **broken** |\n"),
+      std::string::npos);
 }
 
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
@@ -279,19 +401,22 @@ TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   EXPECT_EQ(json["remarks"].size(), 1u);
   EXPECT_EQ(json["finish"], "surface.contact_angle 50 deg to 70 deg");
   expect_same(json["shown"]["mean(modulation)"], {{"scale", 1}, {"unit", ""}}, "shown");
-  expect_same(json["sheet"][0],
-              {{"name", "texture.period"},
-               {"unit", "um"},
-               {"value", 5},
-               {"build", 5},
-               {"free", true},
-               {"down", 0.12},
-               {"down_at_least", false},
-               {"up", 0.5},
-               {"up_at_least", true},
-               {"bound", "upper"},
-               {"text", {{"build", "5 um"}, {"down", "0.12 um"}, {"up", "at least 0.5 um"}}}},
-              "sheet");
+  expect_same(
+      json["sheet"][0],
+      {{"name", "texture.period"},
+       {"unit", "um"},
+       {"value", 5},
+       {"build", 5},
+       {"free", true},
+       {"down", 0.12},
+       {"down_at_least", false},
+       {"down_limit", nullptr},
+       {"up", 0.5},
+       {"up_at_least", true},
+       {"up_limit", nullptr},
+       {"bound", "upper"},
+       {"text", {{"build", "5 um"}, {"down", "0.12 um"}, {"up", "> 0.5 um (largest step tried)"}}}},
+      "sheet");
   const auto step = [](const char* surface, double mean, double variation) {
     return nlohmann::json{{"surface", surface},
                           {"objectives",
@@ -335,14 +460,17 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
                 ",mean(modulation),variation(modulation),worst modulation,feasible,hypervolume,"
                 "status\n1,5,3,300,70,0.51,0.31,0.26,yes,0.125,ok\n"
                 "2,8,4,500,40,0.41,0.21,0.16,no,0.25,ok\n3,8,4,500,40,,,,no,0.375,a; b\n");
-  EXPECT_EQ(read_bytes(run.folder + "/pareto.csv"),
-            "design" + variables +
-                ",mean(modulation),mean(modulation) se,mean(modulation) parameters,"
-                "mean(modulation) at search level,variation(modulation),variation(modulation) se,"
-                "variation(modulation) parameters,variation(modulation) at search level,worst "
-                "modulation,breakdown margin,feasible,on front,status\n"
-                "front/01,5,3,300,70,0.5,0.013,,0.52,0.3,0.023,,0.32,0.25,2.5,yes,no,ok\n"
-                "infeasible,8,4,500,40,,,,,,,,,0.2,,no,no,no; it ;failed;\n");
+  EXPECT_EQ(
+      read_bytes(run.folder + "/pareto.csv"),
+      "design" + variables +
+          ",mean(modulation),mean(modulation) se,mean(modulation) parameters,"
+          "mean(modulation) at search level,variation(modulation),variation(modulation) se,"
+          "variation(modulation) parameters,variation(modulation) at search level,worst "
+          "modulation,breakdown margin,limit min_hole,limit min_wall,limit aspect_ratio,limit "
+          "oxide_breakdown_margin,feasible,on front,status\n"
+          "front/01,5,3,300,70,0.5,0.013,,0.52,0.3,0.023,,0.32,0.25,2.5,2.979 um,2 "
+          "um,0.15,2.5,yes,no,ok\n"
+          "infeasible,8,4,500,40,,,,,,,,,0.2,,,,,,no,no,no; it ;failed;\n");
   expect_document(
       read_bytes(run.folder + "/sensitivity.json"),
       {{"schema", 1},
@@ -352,13 +480,15 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
            {"change", {{"mean(modulation)", 0.01}, {"variation(modulation)", -0.02}}},
            {"variance_share", {{"mean(modulation)", 0.6}, {"variation(modulation)", 0.25}}},
            {"tolerance",
-            {{"down", 0.12e-6}, {"down_at_least", false}, {"up", 0.5e-6}, {"up_at_least", true}}}}},
+            {{"down", {{"most", 0.12e-6}, {"end", "loss"}, {"limit", nullptr}}},
+             {"up", {{"most", 0.5e-6}, {"end", "step tried"}, {"limit", nullptr}}}}}}},
          {"texture.depth",
           {{"step", 50e-9},
            {"change", nlohmann::json::object()},
            {"variance_share", nlohmann::json::object()},
            {"tolerance",
-            {{"down", 0}, {"down_at_least", false}, {"up", 20e-9}, {"up_at_least", false}}}}}}}});
+            {{"down", {{"most", nullptr}, {"end", "range ends"}, {"limit", nullptr}}},
+             {"up", {{"most", 20e-9}, {"end", "limit"}, {"limit", "min_wall"}}}}}}}}}});
   auto metrics = nlohmann::json::parse(read_bytes(run.folder + "/best/metrics.json"));
   expect_same(metrics["variables"],
               {{"texture.period", 5e-6},
@@ -398,7 +528,7 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
                                       {"flat", {{"b", 2}}}}}),
               "tasks");
   EXPECT_FALSE(std::filesystem::exists(run.folder + "/front"));
-  EXPECT_NE(recommendation_of(run.folder).find("Build front/01"), std::string::npos);
+  EXPECT_NE(recommendation_of(run.folder).find("Build design 01"), std::string::npos);
   EXPECT_EQ(recommendation_of(run.folder + "/best"), "");
 }
 

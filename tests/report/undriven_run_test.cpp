@@ -66,19 +66,17 @@ struct Searched {
     result.finalists = {best};
     result.any_feasible = true;
     result.flat = score(0.1, 0.2, 0.025, -0.02);
-    FinalDesign rounded = best;
-    rounded.unit = problem.space().unit({3e-6, 300e-9, 70 * kPi / 180});
-    rounded.design = problem.space().design(rounded.unit);
-    rounded.confirmed = score(0.081, 0.255, 0, 0);
-    result.rounded = rounded;
+    BuiltDesign build{best, false};
+    build.made.unit = problem.space().unit({3e-6, 300e-9, 70 * kPi / 180});
+    build.made.design = problem.space().design_of({3e-6, 300e-9, 70 * kPi / 180});
+    build.made.confirmed = score(0.081, 0.255, 0, 0);
+    result.build = build;
     result.sensitivity = {{.variable = 1,
                            .change = {0.004, -0.03},
                            .share = {0.9, 0.1},
                            .step = 50e-9,
-                           .down = 12e-9,
-                           .up = 50e-9,
-                           .down_beyond = false,
-                           .up_beyond = true}};
+                           .down = {12e-9, Drift::End::Loss},
+                           .up = {50e-9, Drift::End::StepTried}}};
     result.stability.variants = {{"only", {{0.08, 0.25}}, {true}}};
     result.stability.times_on_front = {1};
   }
@@ -92,27 +90,30 @@ TEST(UndrivenRun, ItsSummaryIsWithoutModulation) {
   ASSERT_FALSE(run.problem.driven());
   const std::string page = run_summary(run.files());
   const std::string advice =
-      "Build front/01: beside the same surface without it, its texture gains mean(friction) -20 ± "
-      "2 mN and costs variation(friction) +0.050 ± 0.012; the finish changes too "
-      "(surface.contact_angle 50 deg to 70 deg).";
+      "Build design 01 (holes 3 um wide, 6 um apart, 300 nm deep). Against the same surface "
+      "without "
+      "texture it gains mean(friction) -20 ± 2 mN and costs variation(friction) +0.050 ± 0.012. "
+      "The "
+      "finish changes too (surface.contact_angle 50 deg to 70 deg).";
   const std::string begin =
       "# a study\n\nSearch: nsga2 (why). 7 evaluations.\n\n\n## What to build\n\n**" + advice +
-      "**\n\n| dimension | build | tolerance down | up |\n|---|---|---|---|\n";
+      "**\n";
   EXPECT_TRUE(page.starts_with(begin)) << page;
   for (const std::string& part :
        {std::string("| texture.period | 6 um | fixed | fixed |\n"),
-        std::string("| texture.depth | 300 nm | 12 nm | at least 50 nm |\n"),
-        std::string("one dimension at a time. Lengths are on a grid of 20 nm (`search.rounding`), "
-                    "and the design was judged again so: mean(friction) 81 where it had 80, "
-                    "variation(friction) 0.255 where it had 0.250 (`best/build.toml`).\n"),
+        std::string("| texture.depth | 300 nm | 12 nm | > 50 nm (largest step tried) |\n"),
+        std::string("one dimension at a time. Lengths of 1000 nm and more are on a grid of 20 nm "
+                    "(`search.rounding`), shorter ones on a finer one (`best/build.toml`); it was "
+                    "judged again so: mean(friction) 81 where it had 80, variation(friction) 0.255 "
+                    "where it had 0.250.\n"),
         std::string("\n\n| design | texture.diameter | texture.depth | surface.contact_angle | min "
                     "mean(friction) [mN] | min variation(friction) |\n|---|---|---|---|---|---|\n"
                     "| front/01 | 3 um | 304 nm | 70 deg | 80 ± 2 (30) | 0.250 ± 0.012 (0.020) |\n"
                     "\n± is one standard error of skins, droplets, grid and method. In brackets "
                     "what the fit of the finger leaves open, one standard deviation, common to all "
-                    "designs; it leaves the difference from flat better known than the values in "
-                    "mean(friction); in variation(friction) it leaves the difference from flat no "
-                    "better known than the values.\n"),
+                    "designs; the gain over flat is less uncertain by it than the values in "
+                    "mean(friction); the gain over flat is as uncertain by it as the values in "
+                    "variation(friction).\n"),
         std::string("\n`best/` is front/01: the knee of the front: the least sum of its scaled "
                     "objectives.\n"),
         std::string("\n| surface | mean(friction) [mN] | variation(friction) |\n|---|---|---|\n"
@@ -120,10 +121,12 @@ TEST(UndrivenRun, ItsSummaryIsWithoutModulation) {
                     "| best design | 80 ± 2 (30) | 0.250 ± 0.012 (0.020) |\n"
                     "| difference made by the texture | -20 ± 2 (5) | +0.050 ± 0.012 (0.040) |\n"
                     "\n± of the difference"),
-        std::string("\n\n| variable | step | mean(friction) [mN], share | variation(friction), "
-                    "share | tolerance down | up |\n|---|---|---|---|---|---|\n"
-                    "| texture.depth | 50 nm | +4, 90 % | -0.03, 10 % | 12 nm | at least 50 nm |\n"
-                    "\nFiles: report.html")})
+        std::string(
+            "\n\n| variable | step | mean(friction) [mN], share | variation(friction), "
+            "share | tolerance down | up |\n|---|---|---|---|---|---|\n"
+            "| texture.depth | 50 nm | +4, 90 % | -0.03, 10 % | 12 nm | > 50 nm (largest step "
+            "tried) |\n"
+            "\nFiles: report.html")})
     EXPECT_NE(page.find(part), std::string::npos) << part << "\n---\n" << page;
   // One design has no order, and a flat surface that is not compared has no row of its own.
   EXPECT_EQ(page.find("Does the order hold?"), std::string::npos);
@@ -154,19 +157,22 @@ TEST(UndrivenRun, WhatIsBuiltIsOnTheGridOfTheFab) {
               "shown");
   const auto row = std::find_if(json["sheet"].begin(), json["sheet"].end(),
                                 [](const auto& r) { return r["name"] == "texture.depth"; });
-  expect_same(*row,
-              {{"name", "texture.depth"},
-               {"unit", "nm"},
-               {"value", 304},
-               {"build", 300},
-               {"free", true},
-               {"down", 12},
-               {"down_at_least", false},
-               {"up", 50},
-               {"up_at_least", true},
-               {"bound", nullptr},
-               {"text", {{"build", "300 nm"}, {"down", "12 nm"}, {"up", "at least 50 nm"}}}},
-              "sheet");
+  expect_same(
+      *row,
+      {{"name", "texture.depth"},
+       {"unit", "nm"},
+       {"value", 304},
+       {"build", 300},
+       {"free", true},
+       {"down", 12},
+       {"down_at_least", false},
+       {"down_limit", nullptr},
+       {"up", 50},
+       {"up_at_least", true},
+       {"up_limit", nullptr},
+       {"bound", nullptr},
+       {"text", {{"build", "300 nm"}, {"down", "12 nm"}, {"up", "> 50 nm (largest step tried)"}}}},
+      "sheet");
   const auto step = [](const char* surface, double friction, double variation) {
     return nlohmann::json{{"surface", surface},
                           {"objectives",
@@ -177,16 +183,14 @@ TEST(UndrivenRun, WhatIsBuiltIsOnTheGridOfTheFab) {
               {step("flat", 0.1, 0.2), step("best, with its texture", 0.08, 0.25),
                step("best, on the grid of the fab", 0.081, 0.255)},
               "steps");
-  run.result.rounded->feasible = false;
-  EXPECT_NE(sheet_text(run.files())
-                .find("had 0.250; **so it does not keep every constraint** (`best/build.toml`)"),
-            std::string::npos);
-  run.result.rounded->confirmed.ok = false;
+  run.result.build->made.confirmed.ok = false;  // there was no time to judge it
   EXPECT_EQ(nlohmann::json::parse(run_json(run.files()))["steps"].size(), 2u);
-  EXPECT_NE(sheet_text(run.files()).find("judged again so: ; **so it"), std::string::npos);
-  run.result.rounded.reset();
-  EXPECT_DOUBLE_EQ(std::get<HoleArray>(built_design(run.files()).texture.kind).depth, 304e-9);
-  EXPECT_EQ(sheet_text(run.files()).find("Lengths are on a grid"), std::string::npos);
+  EXPECT_NE(sheet_text(run.files()).find("(`best/build.toml`); it was not judged again so.\n"),
+            std::string::npos);
+  EXPECT_NE(sheet_text(run.files()).find("| texture.depth | 300 nm |"), std::string::npos);
+  run.result.build.reset();
+  EXPECT_NEAR(std::get<HoleArray>(built_design(run.files()).texture.kind).depth, 304e-9, 1e-15);
+  EXPECT_EQ(sheet_text(run.files()).find("Lengths of"), std::string::npos);
 }
 
 // What decides whether to build: the errors of the differences, and what is known at all.
@@ -194,7 +198,7 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
   Searched run;
   const auto advice = [&](double friction, double variation) {
     run.result.flat = score(friction, variation, 0, 0);
-    return advice_of(run.files());
+    return advice_of(run.problem, run.result);
   };
   EXPECT_EQ(advice(0.0825, 0.25), Advice::Texture);
   EXPECT_EQ(advice(0.0815, 0.25), Advice::Finish);  // within 2 mN
@@ -204,15 +208,16 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
   EXPECT_EQ(advice(0.08, 0.25), Advice::LeaveFlat);
   run.result.flat_before = score(0.0825, 0.255, 0, 0);
   EXPECT_EQ(advice(0.08, 0.25), Advice::Finish);
-  EXPECT_EQ(recommendation(run.files()),
-            "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): "
-            "mean(friction) -2.5 ± 2 mN; no texture of this search adds more than the error of the "
-            "difference.");
+  EXPECT_EQ(
+      recommendation(run.files()),
+      "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): that "
+      "gains mean(friction) -2.5 ± 2 mN; no texture of this search adds more than the error of the "
+      "difference.");
   run.result.flat_before.reset();
   run.result.finalists[0].unit[2] = run.problem.space().unit_of_study()[2];
   EXPECT_EQ(advice(0.08, 0.25), Advice::LeaveFlat);  // there is no other finish
   run.result.flat.reset();
-  EXPECT_EQ(advice_of(run.files()), Advice::Unknown);
+  EXPECT_EQ(advice_of(run.problem, run.result), Advice::Unknown);
   run.result.finalists[0].feasible = false;
   EXPECT_EQ(recommendation(run.files()),
             "Build none of these: no design that was tried keeps every constraint.");

@@ -31,7 +31,8 @@ TEST(Constraints, OfAShapeAreRelativeToTheirLimit) {
   EXPECT_NEAR(g[1], 0.5 - 1, 1e-9);
   EXPECT_NEAR(g[2], 2 / (4 - 0.8 * std::tan(kPi / 90)) - 1, 1e-9);
   EXPECT_NEAR(g[3], 0.4 / 0.05 - 1, 1e-9);
-  EXPECT_EQ(problem.constraints().geometry_reason(unit), "aspect_ratio 0.4  is above 0.05 ");
+  EXPECT_EQ(problem.constraints().geometry_reason(unit),
+            "aspect_ratio is 0.4, at most 0.05 is asked for");
 }
 
 TEST(Constraints, OfAnEvaluationAreRelativeAndBounded) {
@@ -67,10 +68,87 @@ TEST(Constraints, ThoseThatNobodyKeepsAreNamed) {
   };
   using Names = std::vector<std::string>;
   EXPECT_EQ(never({refused}), (Names{"min_wall (at least 5.5 um)", "haze (at most 5 %)"}));
-  EXPECT_EQ(never({refused, judged}), (Names{"mean(friction) (at most 0.05)"}));
+  EXPECT_EQ(never({refused, judged}), (Names{"mean(friction) (at most 50 mN)"}));
   judged.outcome.constraints = {-0.1};
   EXPECT_EQ(never({refused, judged}), Names{});
   EXPECT_EQ(never({}), Names{});
+}
+
+// 5.41 um less 5.01 um is a wall of 0.4 um, though not to the last bit.
+TEST(Constraints, AreKeptWithinABillionth) {
+  const Study study = limited({{"min_wall", 0.4e-6, true}});
+  const StudyProblem problem(study);
+  ASSERT_LT(5.41e-6 - 5.01e-6, 0.4e-6);
+  const auto wall = [&](double period) {
+    return problem.constraints().geometry(problem.space().unit({period, 5.01e-6, 100e-9, 1}))[1];
+  };
+  EXPECT_LE(wall(5.41e-6), 0);
+  EXPECT_GT(wall(5.41e-6 - 1e-14), 0);
+  for (const bool at_least : {true, false}) {
+    const Constraint limit{"mean(friction)", 0.05, at_least};
+    const double worse = at_least ? -1 : 1;
+    EXPECT_TRUE(keeps(limit, 0.05 * (1 + worse * 0.9e-9)));
+    EXPECT_FALSE(keeps(limit, 0.05 * (1 + worse * 1.1e-9)));
+  }
+}
+
+// The design that a study starts from keeps its limits where they are its own numbers.
+TEST(Constraints, OfAStudyAreKeptByItsOwnDesign) {
+  Study study = limited({});
+  const FabricationMargins own = facts(study.design.texture).margins;
+  study.constraints = {{"min_wall", own.min_wall, true},
+                       {"min_hole", own.min_hole, true},
+                       {"aspect_ratio", own.aspect_ratio, false}};
+  const StudyProblem problem(study);
+  for (const double v : problem.constraints().geometry(problem.space().unit_of_study()))
+    EXPECT_LE(v, 0);
+}
+
+TEST(Constraints, HaveAValueOfEachDesign) {
+  const Study study = limited({{"min_wall", 0.5e-6, true},
+                               {"oxide_breakdown_margin", 2, true},
+                               {"mean(friction)", 0.05, false}});
+  const StudyProblem problem(study);
+  Score score;
+  score.ok = true;
+  score.oxide_margin = 1.995;
+  score.limited = {0.036};
+  const Design design = problem.space().design(problem.space().unit({5e-6, 4e-6, 400e-9, 0.87}));
+  const std::vector<LimitValue> values = problem.constraints().values(design, score);
+  ASSERT_EQ(values.size(), 3u);
+  EXPECT_NEAR(values[0].value, 1e-6, 1e-12);
+  EXPECT_TRUE(values[0].kept());
+  EXPECT_NEAR(values[1].value, 1.995, 1e-12);
+  EXPECT_FALSE(values[1].kept());
+  EXPECT_EQ(limit_value_text(values[1].limit, values[1].value), "1.995");
+  EXPECT_EQ(limit_text(values[0].limit), "at least 0.5 um");
+  EXPECT_EQ(limit_value_text(values[2].limit, values[2].value), "36 mN");
+  EXPECT_TRUE(values[2].kept());
+  EXPECT_FALSE(problem.constraints().kept(design, score));
+}
+
+// Holes of 5 um and walls of 8 um take a period of 13 um, where the space ends at 10.
+TEST(Constraints, ThatContradictEachOtherAreNamedWithWhatThereIs) {
+  Study study = limited({{"min_hole", 5e-6, true}, {"min_wall", 8e-6, true}, {"haze", 0.3, false}});
+  const auto both = StudyProblem(study).constraints().contradiction();
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->text.find("constraints: no texture of [design_space] keeps min_hole (at least 5 "
+                            "um) and min_wall (at least 8 um): the nearest has min_hole "),
+            0u)
+      << both->text;
+  EXPECT_NE(both->text.find("(at texture.period 10 um, "), std::string::npos) << both->text;
+  EXPECT_TRUE(both->flat_keeps);  // a depth of 0 is in the space
+  study.constraints = {{"min_wall", 20e-6, true}, {"min_hole", 1e-6, true}};
+  study.variables[2].low = 100e-9;
+  const auto one = StudyProblem(study).constraints().contradiction();
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->text.find("constraints: no texture of [design_space] keeps min_wall (at least 20 "
+                           "um): the nearest has min_wall "),
+            0u)
+      << one->text;
+  EXPECT_FALSE(one->flat_keeps);
+  study.constraints = {{"min_hole", 5e-6, true}, {"min_wall", 4.9e-6, true}};  // just so
+  EXPECT_FALSE(StudyProblem(study).constraints().contradiction());
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "base/files.h"
 #include "base/units.h"
 #include "report/results.h"
+#include "search/advice.h"
 #include "search/pick.h"
 #include "search/run.h"
 #include "search/task.h"
@@ -83,15 +84,17 @@ TEST(OptimiseOfOneRun, WritesItsResults) {
   for (const char* file :
        {"resolved.toml", "plan.txt", "journal", "timing.json", "pareto.csv", "history.csv",
         "summary.md", "sensitivity.json", "best/design.toml", "best/metrics.json",
-        "best/heightmap.exr", "best/mask.tif", "front/01/design.toml"}) {
+        "best/build.toml", "best/heightmap.exr", "front/01/design.toml"}) {
     EXPECT_TRUE(fs::exists(run.folder + "/" + file)) << file;
   }
   ASSERT_FALSE(run.result.sensitivity.empty());
   double shares = 0;
   for (const VariableSensitivity& s : run.result.sensitivity) shares += s.share[0];
   EXPECT_NEAR(shares, 1, 1e-12);
-  EXPECT_EQ(read_design(run.folder + "/best/design.toml"),
-            run.result.finalists[run.result.best].design);
+  const Design recommended = recommended_design(StudyProblem(run.study), run.result).design;
+  EXPECT_EQ(read_design(run.folder + "/best/design.toml"), recommended);
+  EXPECT_EQ(fs::exists(run.folder + "/best/mask.tif"), facts(recommended.texture).relief.present);
+  EXPECT_FALSE(fs::exists(run.folder + "/" + kProgressFile));
 }
 
 // Of the design that is built, in the units beside the numbers; the best one is told by its rule.

@@ -90,25 +90,24 @@ TEST(RunDecisions, FourDesignsMakeALevelBetween) {
   }
 }
 
-// What is left of a search takes as long as its designs, at the pace of the clock, and what
-// follows.
+// What is left of a search takes as long as its designs did, with what the searcher itself took for
+// each, and what follows: not the start of the program again for every design.
 TEST(RunDecisions, ASearchSaysWhatItsRestWillTake) {
   search::Run* run = nullptr;
-  double before = 0;
   std::vector<int> done;
   FormulaRun a(two_variables(12), fresh_folder("decided_left"), lines, [&](const Progress& p) {
     ASSERT_EQ(p.stage, "search");
     EXPECT_EQ(p.total, 12);
     done.push_back(p.done);
-    const double timed = run->replay.spent(Stage::Search).seconds, now = run->clock.seconds();
-    const double rest =
-                     run->seconds_of_designs(static_cast<std::size_t>(12 - p.done), Stage::Search),
+    const double now = run->clock.seconds();
+    const auto left = static_cast<std::size_t>(12 - p.done);
+    const double rest = run->seconds_of_designs(left, Stage::Search),
                  next = run->seconds_from(RunPart::Narrow);
-    EXPECT_GT(timed, 0);
-    EXPECT_GE(p.seconds_left, std::max(1.0, before / timed) * rest + next);
-    EXPECT_LE(p.seconds_left, std::max(1.0, now / timed) * rest + next);
-    EXPECT_GT(now / timed, 1);
-    before = now;
+    EXPECT_GT(run->replay.spent(Stage::Search).seconds, 0);
+    EXPECT_GE(p.seconds_left, (rest + next) * (1 - 1e-12));
+    EXPECT_LE(p.seconds_left, rest + now / p.done * static_cast<double>(left) + next);
+    EXPECT_LE(p.share, now / (now + p.seconds_left));
+    EXPECT_GT(p.share, 0);
   });
   run = &a.run;
   ASSERT_TRUE(search_designs(a.run));

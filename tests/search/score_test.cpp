@@ -129,16 +129,17 @@ TEST(Slopes, OfALinearModelAreItsOwn) {
     Score s;
     s.ok = true;
     s.values = {0.5, 0.25};
+    s.oxide_margin = 10;
     for (std::size_t o = 0; o < 2; ++o) {
       for (std::size_t k = 0; k < v.size(); ++k) s.values[o] += slope[o][k] * (v[k] - at[k]);
     }
     return s;
   };
-  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, centre);
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {centre});
   ASSERT_EQ(moves.size(), 8u);
   std::vector<Score> moved;
   for (const SensitivityMove& m : moves) moved.push_back(scored(m.unit));
-  const auto found = sensitivity(problem, centre, moves, scored(centre), moved);
+  const auto found = sensitivity(problem, {centre}, moves, scored(centre), moved);
   ASSERT_EQ(found.size(), 4u);
   double squares[2] = {0, 0};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -157,10 +158,11 @@ TEST(Slopes, OfALinearModelAreItsOwn) {
     (slope[0][k] > 0 ? down : up) = lost[0];
     double& other = slope[1][k] > 0 ? up : down;
     other = std::min(other, lost[1]);
-    EXPECT_NEAR(s.down, std::min(down, s.step), 1e-6 * s.step) << k;
-    EXPECT_NEAR(s.up, std::min(up, s.step), 1e-6 * s.step) << k;
-    EXPECT_EQ(s.down_beyond, down > s.step) << k;
-    EXPECT_EQ(s.up_beyond, up > s.step) << k;
+    EXPECT_NEAR(s.down.most, std::min(down, s.step), 1e-6 * s.step) << k;
+    EXPECT_NEAR(s.up.most, std::min(up, s.step), 1e-6 * s.step) << k;
+    using End = Drift::End;
+    EXPECT_EQ(s.down.end, down > s.step ? End::StepTried : End::Loss) << k;
+    EXPECT_EQ(s.up.end, up > s.step ? End::StepTried : End::Loss) << k;
   }
   for (const VariableSensitivity& s : found) {
     for (std::size_t o = 0; o < 2; ++o)
@@ -183,6 +185,7 @@ TEST(Slopes, AreTheMeanOfBothSidesOrThoseOfTheOneThatThereIs) {
     Score s;
     s.ok = ok;
     s.values = {first, second};
+    s.oxide_margin = 10;
     return s;
   };
   const std::vector<SensitivityMove> moves{moved_to(0, -1), moved_to(0, 1), moved_to(1, 1),
@@ -190,7 +193,7 @@ TEST(Slopes, AreTheMeanOfBothSidesOrThoseOfTheOneThatThereIs) {
   // From 0.5 and 0.25. Of the third variable the lower side failed.
   const std::vector<Score> moved{scored(0.47, 0.26),  scored(0.51, 0.25), scored(0.52, 0.24),
                                  scored(9, 9, false), scored(0.46, 0.29), scored(0.53, 0.25)};
-  const auto found = sensitivity(problem, centre, moves, scored(0.5, 0.25), moved);
+  const auto found = sensitivity(problem, {centre}, moves, scored(0.5, 0.25), moved);
   ASSERT_EQ(found.size(), 4u);
   const double change[4][2] = {
       {0.5 * (0.03 + 0.01), 0.5 * (-0.01 + 0)}, {0.02, -0.01}, {-0.04, 0.04}, {-0.03, 0}};
@@ -204,19 +207,61 @@ TEST(Slopes, AreTheMeanOfBothSidesOrThoseOfTheOneThatThereIs) {
     }
   }
   // A twentieth of the first is 0.025, of the second 0.0125.
-  EXPECT_NEAR(found[0].down, found[0].step * 0.025 / 0.03, 1e-9 * found[0].step);
-  EXPECT_FALSE(found[0].down_beyond);
-  EXPECT_TRUE(found[0].up_beyond && found[1].up_beyond && found[3].down_beyond);
-  EXPECT_EQ(found[0].up, found[0].step);
-  EXPECT_NEAR(found[2].up, found[2].step * 0.0125 / 0.04, 1e-9 * found[2].step);
-  EXPECT_TRUE(sensitivity(problem, centre, moves, scored(0.5, 0.25, false), moved).empty());
+  using End = Drift::End;
+  EXPECT_NEAR(found[0].down.most, found[0].step * 0.025 / 0.03, 1e-9 * found[0].step);
+  EXPECT_EQ(found[0].down.end, End::Loss);
+  EXPECT_EQ(found[0].up.end, End::StepTried);
+  EXPECT_EQ(found[1].up.end, End::StepTried);
+  EXPECT_EQ(found[3].down.end, End::StepTried);
+  EXPECT_EQ(found[0].up.most, found[0].step);
+  EXPECT_NEAR(found[2].up.most, found[2].step * 0.0125 / 0.04, 1e-9 * found[2].step);
+  EXPECT_EQ(found[2].down.end, End::Failed);
+  EXPECT_FALSE(found[2].down.judged());
+  EXPECT_TRUE(sensitivity(problem, {centre}, moves, scored(0.5, 0.25, false), moved).empty());
   // A variable of which nothing was judged has no share, and a sum of nothing none either.
-  const auto none = sensitivity(problem, centre, {moved_to(1, -1), moved_to(2, 1)},
+  const auto none = sensitivity(problem, {centre}, {moved_to(1, -1), moved_to(2, 1)},
                                 scored(0.5, 0.25), {scored(9, 9, false), scored(0.5, 0.3)});
   ASSERT_EQ(none.size(), 2u);
   EXPECT_TRUE(none[0].change.empty());
   EXPECT_EQ(none[0].share, (std::vector<double>{0, 0}));
   EXPECT_EQ(none[1].share, (std::vector<double>{0, 1}));
+}
+
+// A number may be off until a limit of the study is reached, and the sheet names that.
+TEST(Slopes, EndAtTheLimitsOfTheStudy) {
+  Study study = default_study();  // walls of 0.4 um at least, a margin of 2 at least
+  const StudyProblem problem(study);
+  const auto limit = [&](const std::string& name) {
+    for (const Constraint& c : study.constraints) {
+      if (c.name == name) return c.limit;
+    }
+    return 0.0;
+  };
+  const double wall = limit("min_wall");
+  ASSERT_GT(wall, 0);
+  // 20 nm of wall are left to lose; the margin goes from 2.01 to 1.75 with a step of the depth.
+  const Point centre = problem.space().unit({4e-6, 4e-6 - wall - 20e-9, 300e-9, 1.1});
+  const std::vector<SensitivityMove> moves = sensitivity_moves(problem, {centre});
+  Score here;
+  here.ok = true;
+  here.values = {0.5, 0.25};
+  here.oxide_margin = 2.01;
+  std::vector<Score> moved(moves.size(), here);
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    if (moves[i].variable == 2 && moves[i].sign > 0) moved[i].oxide_margin = 1.75;
+  }
+  const auto found = sensitivity(problem, {centre}, moves, here, moved);
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[0].down.end, Drift::End::Limit);
+  EXPECT_EQ(found[0].down.limit, "min_wall");
+  EXPECT_NEAR(found[0].down.most, 20e-9, 1e-12);
+  EXPECT_EQ(found[0].up.end, Drift::End::StepTried);
+  EXPECT_EQ(found[1].up.limit, "min_wall");
+  EXPECT_NEAR(found[1].up.most, 20e-9, 1e-12);
+  EXPECT_EQ(found[2].up.limit, "oxide_breakdown_margin");
+  const double at = 1 - 2 / 2.01, beyond = 2 / 1.75 - 1;  // linear in what is broken
+  EXPECT_NEAR(found[2].up.most, found[2].step * at / (at + beyond), 1e-9 * found[2].step);
+  EXPECT_EQ(found[2].down.end, Drift::End::StepTried);
 }
 
 TEST(Levels, OneDesignInThreeIsJudgedAgainAndNoMoreThan32) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -161,6 +162,39 @@ TEST(SmallDecisions, AGridStaysWithinItsIntervalAndOutOfItsHoles) {
   EXPECT_NEAR(nm(698, 500, 900, hole), 700, 1e-9);
 }
 
+// Round a design its grid is walked from the nearest place outwards: floor and ceil of all numbers
+// together before a second step of any.
+TEST(SmallDecisions, AGridIsWalkedFromTheNearestPlaceOutwards) {
+  Study study = holes();
+  study.search.rounding = 10e-9;
+  const StudyProblem problem(study);
+  const double degree = kPi / 180;
+  GridDesigns designs(problem, problem.space().unit({6.004e-6, 3.002e-6, 350.3e-9, 63.2 * degree}),
+                      false);
+  const auto first = designs.next();
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->value[0], 6e-6);
+  EXPECT_EQ(first->value[1], 3e-6);
+  EXPECT_EQ(first->value[2], 350e-9);  // on 1 nm
+  EXPECT_NEAR(first->value[3], 63 * degree, 1e-12);
+  const auto second = designs.next();
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->value[0], 6.01e-6);  // 0.6 steps instead of 0.4
+  std::set<std::vector<double>> seen{first->value, second->value};
+  for (int k = 2; k < 400; ++k) {
+    const auto next = designs.next();
+    ASSERT_TRUE(next);
+    EXPECT_TRUE(seen.insert(next->value).second);
+  }
+  // Of a flat surface the finish alone moves.
+  Point flat = problem.space().unit({6.004e-6, 3.002e-6, 350.3e-9, 63.2 * degree});
+  GridDesigns finishes(problem, flat, true);
+  const auto smooth = finishes.next();
+  ASSERT_TRUE(smooth);
+  EXPECT_NEAR(smooth->value[0], 6.004e-6, 1e-15);
+  EXPECT_NEAR(smooth->value[3], 63 * degree, 1e-12);
+}
+
 Evaluation tried(const StudyProblem& problem, double period_um, double depth_nm, bool ok = true) {
   Evaluation e;
   e.unit = problem.space().unit({period_um * 1e-6, 3e-6, depth_nm * 1e-9, 1});
@@ -263,16 +297,16 @@ TEST(SmallDecisions, ASlopeOfOneSideHasAStepAboveZero) {
   Score here, there;
   here.ok = there.ok = true;
   here.values = {0.5, 0.2}, there.values = {0.45, 0.21};
-  const auto found = sensitivity(problem, centre, {{2, -1, lower}}, here, {there});
+  here.oxide_margin = there.oxide_margin = 10;
+  const auto found = sensitivity(problem, {centre}, {{2, -1, lower}}, here, {there});
   ASSERT_EQ(found.size(), 1u);
   const double range = study.variables[2].high - study.variables[2].low;
   EXPECT_NEAR(found[0].step, 0.05 * range, 1e-9 * range);
   EXPECT_NEAR(found[0].change[0], 0.05, 1e-12);  // per step up
   EXPECT_NEAR(found[0].change[1], -0.01, 1e-12);
-  EXPECT_NEAR(found[0].down, 0.5 * found[0].step, 1e-9 * range);  // a twentieth of 0.5 is half
-  EXPECT_FALSE(found[0].down_beyond);
-  EXPECT_EQ(found[0].up, 0);
-  EXPECT_FALSE(found[0].up_beyond);
+  EXPECT_NEAR(found[0].down.most, 0.5 * found[0].step, 1e-9 * range);  // a twentieth of 0.5: half
+  EXPECT_EQ(found[0].down.end, Drift::End::Loss);
+  EXPECT_FALSE(found[0].up.judged());
 }
 
 TEST(SmallDecisions, MovesStayInTheSpaceAndKeepTheLimitsOfTheShape) {
@@ -280,7 +314,7 @@ TEST(SmallDecisions, MovesStayInTheSpaceAndKeepTheLimitsOfTheShape) {
   const StudyProblem problem(study);
   const auto moves = [&](const Point& centre) {
     std::string out;
-    for (const SensitivityMove& m : sensitivity_moves(problem, centre)) {
+    for (const SensitivityMove& m : sensitivity_moves(problem, {centre})) {
       out += std::to_string(m.variable) + (m.sign < 0 ? "- " : "+ ");
       EXPECT_NEAR(m.unit[m.variable], centre[m.variable] + 0.05 * m.sign, 1e-12);
     }
@@ -332,6 +366,9 @@ TEST(Pick, AFolderIsReadAsItsFront) {
   std::filesystem::create_directories(root + "/best");
   write_bytes(root + "/best/design.toml", "");
   EXPECT_EQ(picked(""), "/best/design.toml");
+  EXPECT_EQ(built_design_file(root), root + "/best/design.toml");  // of an older run
+  write_bytes(root + "/best/build.toml", "");
+  EXPECT_EQ(built_design_file(root), root + "/best/build.toml");
   write_bytes(root + "/front/02/metrics.json", "{\"objectives\": {}}");
   EXPECT_TRUE(refusal([&] { picked("1"); }).starts_with(root + ": metrics.json is damaged: "));
   std::filesystem::remove_all(root + "/front/01");

@@ -17,20 +17,21 @@ TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
   flat.texture = Texture{};
   Fidelity fidelity = fidelity_level("search");
   fidelity.grid = 64;
+  const std::vector<Point> units(2, problem.space().unit_of_study());
   std::vector<std::vector<TaskAnswer>> answers(2);
   for (std::size_t v = 0; v < stability_variants(problem).size(); ++v) {
     answers[0].push_back(evaluate_variant(problem, flat, v, fidelity));
     answers[1].push_back(evaluate_variant(problem, holes, v, fidelity));
   }
-  const Stability s = judge_stability(problem, answers);
-  EXPECT_EQ(s.variants.size(), 8u);
-  EXPECT_EQ(s.times_on_front[0], 8);
+  const Stability s = judge_stability(problem, units, answers);
+  EXPECT_EQ(s.variants.size(), 9u);
+  EXPECT_EQ(s.times_on_front[0], 9);
   EXPECT_EQ(s.times_on_front[1], 0);
   EXPECT_TRUE(s.stable(0));
   EXPECT_FALSE(s.stable(1));
   // The cap takes from the pull, self-consistency adds to it.
-  EXPECT_LT(s.variants[6].values[0][0], s.variants[0].values[0][0]);
-  EXPECT_GT(s.variants[7].values[0][0], s.variants[0].values[0][0]);
+  EXPECT_LT(s.variants[7].values[0][0], s.variants[0].values[0][0]);
+  EXPECT_GT(s.variants[8].values[0][0], s.variants[0].values[0][0]);
 }
 
 }  // namespace

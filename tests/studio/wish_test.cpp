@@ -553,6 +553,30 @@ TEST(SearchDesk, AFailedSearchSaysTheEndOfItsLog) {
   EXPECT_EQ(json["confirmed"], Json::array());
 }
 
+// While its search runs the page has the share of the whole run that is done, and the time left.
+TEST(SearchDesk, ShowsTheProgressOfItsSearch) {
+  const TemporaryFolder place;
+  const std::filesystem::path program = place.path() / "program.sh",
+                              folder = place.path() / "searches/001";
+  write_bytes(program,
+              "#!/bin/sh\necho '{\"seconds_left\": 480, \"share\": 0.25}' > $4/.progress.json\n"
+              "while [ ! -e $4/go ]; do sleep 0.02; done\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  SearchDesk desk(place.path(), program, [] {});
+  desk.start({kHoles, {}}, read_study(kHoles), depth_wish(), false);
+  const auto wait_while = [&](const auto& holds) {
+    for (int i = 0; i < 3000 && holds(desk.json()); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return desk.json();
+  };
+  const Json running = wait_while([](const Json& json) { return json["progress"].is_null(); });
+  EXPECT_EQ(running["progress"]["share"], 0.25);
+  EXPECT_EQ(running["progress"]["seconds_left"], 480);
+  write_bytes(folder / "go", "");
+  const Json ended = wait_while([](const Json& json) { return json["state"] == "running"; });
+  EXPECT_TRUE(ended["progress"].is_null());
+}
+
 // A search that waits until it is told to end; each start leaves its words.
 TEST(SearchDesk, APausedSearchWasAskedToEndAndGoesOnFromItsJournal) {
   const TemporaryFolder place;

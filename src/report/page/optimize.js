@@ -30,8 +30,8 @@ const second = objectives[1] || (data.run.driven ? 'worst modulation' : objectiv
 const label = (name) => name === 'best' ? 'best' : name.replace('front/', 'design ');
 const describe = (row) => variables.map((v) => {
   const unit = / \[(.*)\]$/.exec(v);
-  return `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${entry(row[v])}${unit ? ' ' + unit[1] : ''}`;
-});
+  return row[v] === '' ? '' : `${v.replace(/ \[.*/, '').replace(/^[a-z]+\./, '')} ${entry(row[v])}${unit ? ' ' + unit[1] : ''}`;
+}).filter(Boolean);
 const state = { design: 'best', finger: 'mean' };
 const run = data.run;
 // Objectives in the units that people read: forces in mN.
@@ -94,8 +94,9 @@ function showPareto() {
   });
 }
 function showFinalists() {
-  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' ? r[c] : entry(r[c]);
+  const limits = heads.filter((h) => h.startsWith('limit '));
+  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], limits, ['feasible']);
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' || limits.includes(c) || r[c] === '' ? r[c] : entry(r[c]);
   // Keys break where people read a break, not inside words.
   const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
@@ -165,7 +166,7 @@ function showProgress() {
 
 const showMaps = (index) => mapFigures($('maps'), data.fields[index].maps);
 
-// The build sheet of the best design; other designs have their dimensions alone.
+// The build sheet of what is recommended; other designs have their dimensions alone.
 function showDimensions(d) {
   const words = (path) => path.replace(/^texture\./, '').replace(/[._]/g, ' ');
   const sheet = state.design === 'best' || state.design === twin ? run.sheet : null;
@@ -179,11 +180,19 @@ function showDimensions(d) {
   table($('dimensions'), ['Dimension', 'Build', 'Tolerance down', 'up', 'As searched'],
     sheet.map((r) => [words(r.name) + (r.bound ? ` (on the ${r.bound} bound)` : ''), people(r.text.build), people(r.text.down), people(r.text.up), people(`${round(r.value, 6)} ${r.unit}`)]), [1, 2, 3, 4]);
 }
+// Each limit of the study and what the design shown has of it.
+function showLimits(d) {
+  const built = state.design === 'best' || state.design === twin;
+  const limits = (built ? run.limits : d.limits) || [];
+  $('limits').parentElement.hidden = !limits.length;
+  table($('limits'), ['Limit', 'Asked for', built ? 'As built' : 'This design'], limits.map((l) => [l.name.replace(/_/g, ' '), l.asked, l.text + (l.kept ? '' : ': broken')]), [2]);
+}
 // From the study's flat surface to the best one, step by step.
 function showSteps() {
   const steps = run.steps || [], names = steps.length ? Object.keys(steps[0].objectives) : [];
-  const before = { 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding' };
-  table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n)})` : '')), [i ? before[s.surface] || '' : ''])), names.map((n, i) => i + 1));
+  const before = { 'flat, finish and drive of the best': 'finish', 'best, with its texture': 'texture', 'best, on the grid of the fab': 'rounding', 'flat, on the grid of the fab': 'rounding' };
+  table($('steps'), ['Surface'].concat(names.map(called), ['what changed']), steps.map((s, i) => [s.surface].concat(names.map((n) => quantity(s.objectives[n], n) + (i ? ` (${change(s.objectives[n].value - steps[i - 1].objectives[n].value, n)})` : '')), [i ? before[s.surface] || '' : '']))
+    .concat(run.best_flat ? [[run.best_flat.surface].concat(names.map((n) => quantity(run.best_flat.objectives[n], n)), ['beside it'])] : []), names.map((n, i) => i + 1));
 }
 
 function showDesign() {
@@ -192,6 +201,7 @@ function showDesign() {
   drawMap($('top'), map, 'nm', 1e9, row);
   draw('section', alongLine(heightLine(map, d.section, row), map.lx * 1e6, d.measures));
   showDimensions(d);
+  showLimits(d);
   const flat = data.designs.best.flat;
   // The difference has an error of its own: both met the same skins, droplets and grids.
   const lead = (d.flat || {}).difference || {};
@@ -217,11 +227,14 @@ function select(name) {
 // ---- the page ----
 const best = data.designs.best, flat = best.flat;
 $('lead').textContent = run.recommendation;
-run.remarks.forEach((text) => { const item = document.createElement('li'); item.textContent = text; $('remarks').appendChild(item); });
-$('facts').textContent = 'The best design has ' + Object.keys(best.objectives).map((n) => `${called(n)} ${quantity(best.objectives[n], n)}` + (flat ? ` (flat ${quantity(flat.objectives[n], n)})` : '')).join(', ')
+const said = (list, texts) => (texts || []).forEach((text) => { const item = document.createElement('li'); item.textContent = text; list.appendChild(item); });
+said($('grounds'), run.grounds);
+said($('remarks'), run.remarks);
+$('grid').textContent = run.build ? run.build.said.replace(/`/g, '') : '';
+$('facts').textContent = (run.design === null ? 'The flat surface has ' : 'The best design has ') + Object.keys(best.objectives).map((n) => `${called(n)} ${quantity(best.objectives[n], n)}` + (flat ? ` (flat ${quantity(flat.objectives[n], n)})` : '')).join(', ')
   + (run.driven ? `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity' : '') + '.'
   + (best.feasible ? '' : ' It does not keep every constraint.');
-options($('design'), Object.keys(data.designs).map((n) => [n, n === 'best' && twin !== n ? `best (${label(twin)})` : label(n)]), select);
+options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `best (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
 options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
 options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);
 startSolid();

@@ -104,6 +104,7 @@ const open = (point) => ask('search/pick', point.front ? { front: point.front } 
 // ---- what it found ----
 const words = { none: '', running: 'running', paused: 'paused', finished: 'finished', failed: 'failed' };
 const stages = { search: 'looks for designs', narrow: 'judges the best again', confirm: 'confirms the finalists', check: 'checks what is said of them' };
+const time = (seconds) => seconds < 100 ? `${Math.ceil(seconds)} s` : `${Math.ceil(seconds / 60)} min`;
 export function showSearch(search) {
   state.search = search;
   const running = search.state === 'running';
@@ -117,10 +118,11 @@ export function showSearch(search) {
   if (search.folder) { $('report').href = `report/${search.folder}`; $('report').textContent = search.state === 'finished' ? 'Report' : 'Report so far'; }
   $('progress').hidden = $('frontbox').hidden = !search.folder;
   if (!search.folder) return;
-  const share = search.total ? Math.min(1, search.done / search.total) : 0;
+  // A search that runs says how far the whole of it is, its confirmation and checks included.
+  const told = search.progress, share = told ? told.share : search.state === 'finished' ? 1 : search.total ? Math.min(1, search.done / search.total) : 0;
   $('bar').style.setProperty('--share', `${100 * share}%`);
   $('bar').setAttribute('aria-valuenow', Math.round(100 * share));
-  $('stage').textContent = search.state === 'failed' ? search.trouble : `${search.done} of ${search.total} designs` + (running ? `; ${stages[search.stage] || ''}` : '') + `; ${search.folder}`;
+  $('stage').textContent = search.state === 'failed' ? search.trouble : `${search.done} of ${search.total} designs` + (running ? `; ${stages[search.stage] || ''}` : '') + (told && told.seconds_left !== null ? `, about ${time(told.seconds_left)} left` : '') + `; ${search.folder}`;
   showFront(search);
 }
 function showFront(search) {
