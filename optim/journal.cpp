@@ -149,8 +149,8 @@ Journal::Journal(const Folder& folder, const std::string& name, const std::strin
 // Onto the disk.
 void Journal::write(std::string_view text) const {
   const auto fail = [this] {
-    throw InputError(fmt::format("cannot write {}: {}; free some space and use --resume", path_,
-                                 std::strerror(errno)));
+    throw FailedWrite(fmt::format("cannot write {}: {}; free some space and use --resume", path_,
+                                  std::strerror(errno)));
   };
   std::size_t done = 0;
   while (done < text.size()) {

@@ -32,4 +32,12 @@ InputError::InputError(std::vector<Problem> problems)
 InputError::InputError(const std::string& message)
     : InputError(std::vector<Problem>{Problem{{}, 0, 0, {}, message}}) {}
 
+void Mistakes::add(const InputError& error) {
+  problems_.insert(problems_.end(), error.problems().begin(), error.problems().end());
+}
+
+void Mistakes::tell() const {
+  if (!problems_.empty()) throw InputError(problems_);
+}
+
 }  // namespace papilla::base

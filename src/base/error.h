@@ -30,4 +30,29 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
+// Of a file that could not be written though it may be: the disk is full, a device fails. Work that
+// failed, not what was asked for: a command ends with 1.
+class FailedWrite : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+// Mistakes of several inputs, told together: each work is done, and what it finds wrong is kept.
+class Mistakes {
+ public:
+  template <class Work>
+  void of(Work&& work) {
+    try {
+      work();
+    } catch (const InputError& error) {
+      add(error);
+    }
+  }
+  void add(const InputError& error);
+  void tell() const;  // throws InputError with all of them, where there are any
+
+ private:
+  std::vector<Problem> problems_;
+};
+
 }  // namespace papilla::base

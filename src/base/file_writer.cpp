@@ -90,12 +90,19 @@ PartFile::~PartFile() {
 
 std::string PartFile::path() const { return folder_path_ + "/" + part_; }
 
-void PartFile::fail(const std::string& why) const {
+void PartFile::refuse(const std::string& why) const {
   throw InputError("cannot write " + final_path_ + ": " + why);
 }
 
+void PartFile::fail(const std::string& why) const {
+  throw FailedWrite("cannot write " + final_path_ + ": " + why);
+}
+
 void PartFile::fail_by_errno(const char* at) const {
-  fail(fmt::format("{} ({})", std::strerror(errno), at));
+  const int error = errno;
+  const std::string why = fmt::format("{} ({})", std::strerror(error), at);
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO) fail(why);
+  refuse(why);
 }
 
 void PartFile::create(unsigned mode) {
@@ -103,8 +110,8 @@ void PartFile::create(unsigned mode) {
   const bool replaces = ::fstatat(folder_.get(), name_.empty() ? "." : name_.c_str(), &there,
                                   AT_SYMLINK_NOFOLLOW) == 0;
   if (replaces && !S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode)) {
-    fail(S_ISDIR(there.st_mode) ? "it is a folder; give the path of a file"
-                                : "it is no regular file; give the path of a file");
+    refuse(S_ISDIR(there.st_mode) ? "it is a folder; give the path of a file"
+                                  : "it is no regular file; give the path of a file");
   }
   clear_left_over();
   const bool same_mode = replaces && S_ISREG(there.st_mode);

@@ -95,6 +95,8 @@ int run(int argc, char** argv) {
       return kWorkFailed;
     }
     return status;
+  } catch (const FailedWrite& e) {
+    print_error(context, e.what());
   } catch (const InputError& e) {
     for (const Problem& problem : e.problems()) print_error(context, problem.text());
     return kWrongInput;

@@ -57,6 +57,7 @@ int run(const Context& context, const RankCommand& command) {
   std::vector<Regions> candidates;
   std::vector<Design> designs;
   std::vector<std::vector<std::string>> seen;
+  Mistakes mistakes;
   for (const std::string& file : command.files) {
     Regions regions;
     seen.emplace_back();
@@ -66,7 +67,7 @@ int run(const Context& context, const RankCommand& command) {
                          "\": A.toml+B.toml joins the regions of one design, and a name is missing "
                          "beside a +");
       }
-      regions.push_back(read_design(region, command.overrides));
+      mistakes.of([&] { regions.push_back(read_design(region, command.overrides)); });
       seen.back().push_back(std::filesystem::weakly_canonical(region).string());
     }
     if (std::count(seen.begin(), seen.end(), seen.back()) > 1)
@@ -74,6 +75,7 @@ int run(const Context& context, const RankCommand& command) {
     designs.insert(designs.end(), regions.begin(), regions.end());
     candidates.push_back(std::move(regions));
   }
+  mistakes.tell();
   say_scans(designs);
   RankOptions options;
   const bool driven =

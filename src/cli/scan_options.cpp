@@ -35,12 +35,16 @@ void say_scan(const std::string& file, const ScanChanges& changes) {
 
 void say_scans(const std::vector<Design>& designs) {
   std::set<std::string> said;
+  Mistakes mistakes;
   for (const Design& design : designs) {
-    for (const DesignScan& scan : scans_of(design)) {
-      if (const auto [line, is_new] = said.insert(text(scan)); is_new)
-        std::cerr << visible(*line) << std::endl;
-    }
+    mistakes.of([&] {
+      for (const DesignScan& scan : scans_of(design)) {
+        if (const auto [line, is_new] = said.insert(text(scan)); is_new)
+          std::cerr << visible(*line) << std::endl;
+      }
+    });
   }
+  mistakes.tell();
 }
 
 }  // namespace papilla::cli

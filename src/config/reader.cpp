@@ -413,6 +413,19 @@ struct Document::State final : public FieldVisitor {
       return fmt::format(
           "needs a unit: \"{} %\" if {} is a share of 1, \"{} %\" if it is in percent",
           format_number(100 * value), format_number(value), format_number(value));
+    // 5000 in a key of kHz may be in Hz, 3e-6 in one of um in m: both are shown, too.
+    const std::string whole = unit.substr(1);
+    const double factor = find_unit(unit)->to_si;
+    const auto base = find_unit(whole);
+    const bool other = !whole.empty() && base && base->to_si == 1 &&
+                       base->same_dimension(*find_unit(unit)) &&
+                       (factor > 1 ? value >= factor : value > 0 && value <= 1e3 * factor);
+    if (other) {
+      return fmt::format(
+          "needs a unit: \"{} {}\" if {} is in {}, \"{} {}\" if it is in {}",
+          format_number(std::strtod(fmt::format("{:.12g}", value / factor).c_str(), nullptr)), unit,
+          format_number(value), whole, format_number(value), unit, unit);
+    }
     return fmt::format("needs a unit, e.g. \"{} {}\"", format_number(value), unit);
   }
 
@@ -517,8 +530,14 @@ struct Document::State final : public FieldVisitor {
     problem(node->place, join_path(frame().path, spec.key),
             fmt::format("expected {}, got {}{}", list, describe(*node),
                         near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
-    // Which keys go with an unknown kind is unknown too.
-    if (std::string_view(spec.key) == "type") ignore_rest_of_table();
+    if (std::string_view(spec.key) != "type") return;
+    // The rest is read as of the kind that is most likely meant, so that its mistakes are told at
+    // once; which keys go with a kind that nobody knows is unknown too.
+    if (near.empty()) {
+      ignore_rest_of_table();
+    } else {
+      out = static_cast<int>(std::find(names.begin(), names.end(), near) - names.begin());
+    }
   }
 
   using FieldVisitor::choice;

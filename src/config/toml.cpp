@@ -80,17 +80,54 @@ void refuse_deep_keys(std::string_view text, const std::string& file) {
   }
 }
 
+// Blanks a line that gives a key its value and is whole by itself: it opens no string, list or
+// table that ends elsewhere. Whether it is one.
+bool blank_line(std::string& text, int line) {
+  std::size_t begin = 0;
+  for (int i = 1; i < line; ++i) {
+    begin = text.find('\n', begin);
+    if (begin == std::string::npos) return false;
+    ++begin;
+  }
+  const std::size_t end = std::min(text.find('\n', begin), text.size());
+  const std::string_view all = std::string_view(text).substr(begin, end - begin);
+  const auto count = [&](char c) { return std::count(all.begin(), all.end(), c); };
+  const std::size_t first = all.find_first_not_of(" \t");
+  if (first == std::string_view::npos || all[first] == '[' || count('=') == 0 ||
+      count('[') != count(']') || count('{') != count('}') || count('"') % 2 != 0 ||
+      count('\'') % 2 != 0)
+    return false;
+  std::fill(text.begin() + static_cast<std::ptrdiff_t>(begin),
+            text.begin() + static_cast<std::ptrdiff_t>(end), ' ');
+  return true;
+}
+
 }  // namespace
 
 Node parse_toml(std::string_view text, const std::string& file) {
   refuse_deep_keys(text, file);
+  // Lines that are wrong by themselves are left out after the first mistake, so that the next one
+  // is found as well.
+  constexpr std::size_t kMostMistakes = 20;
+  std::vector<Problem> problems;
+  std::string rest(text);
   try {
-    const toml::table table = toml::parse(text, std::string_view(file));
-    return convert(table, file);
-  } catch (const toml::parse_error& error) {
-    const Place place = place_of(error.source(), file);
-    throw InputError({Problem{file, place.line, place.column, "",
-                              "not valid TOML: " + std::string(error.description())}});
+    while (true) {
+      try {
+        const toml::table table = toml::parse(rest, std::string_view(file));
+        if (problems.empty()) return convert(table, file);
+        throw InputError(problems);
+      } catch (const toml::parse_error& error) {
+        const Place place = place_of(error.source(), file);
+        const bool again = !problems.empty() && place.line <= problems.back().line;
+        if (!again) {
+          problems.push_back({file, place.line, place.column, "",
+                              "not valid TOML: " + std::string(error.description())});
+        }
+        if (again || problems.size() == kMostMistakes || !blank_line(rest, place.line))
+          throw InputError(problems);
+      }
+    }
   } catch (const std::logic_error& error) {
     throw InputError({Problem{file, 1, 1, "", std::string("not valid TOML: ") + error.what()}});
   }

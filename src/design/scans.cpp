@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "geometry/measured_map.h"
 
 namespace papilla::design {
@@ -23,10 +24,15 @@ std::string text(const DesignScan& scan) {
 std::vector<DesignScan> scans_of(const Design& design) {
   const TextureFacts known = facts(design.texture);
   std::vector<DesignScan> out;
-  for (const ScanSource& source : known.scans)
-    out.push_back({source.file, changes_of_map(source), known.free_patch.exact.value_or(0)});
+  Mistakes mistakes;
+  for (const ScanSource& source : known.scans) {
+    mistakes.of([&] {
+      out.push_back({source.file, changes_of_map(source), known.free_patch.exact.value_or(0)});
+    });
+  }
   if (const Skin& skin = design.finger.skin; !skin.map.empty())
-    out.push_back({skin.map, changes_of_map({skin.map, skin.map_width})});
+    mistakes.of([&] { out.push_back({skin.map, changes_of_map({skin.map, skin.map_width})}); });
+  mistakes.tell();
   return out;
 }
 

@@ -153,6 +153,17 @@ TEST(Reader, NamesEachKindOfMistake) {
   EXPECT_TRUE(problems_of("\xff\xfe\x00\x01garbage").starts_with("hole.toml:1:1: not valid TOML"));
 }
 
+// Lines that are wrong by themselves hide none of the others; what opens a table or a list ends it.
+TEST(Reader, TellsSeveralLinesThatAreNoToml) {
+  const std::string said = problems_of(
+      "[finger]\nload = \"1 N\"\nload = \"2 N\"\nstate = \"clean\"\nstate = \"wet\"\nname = "
+      "ab c\n[surface\nload = 3\nload = 4\n");
+  for (const char* place : {"hole.toml:3:", "hole.toml:5:", "hole.toml:6:", "hole.toml:7:"})
+    EXPECT_NE(said.find(place), std::string::npos) << place << " in " << said;
+  EXPECT_EQ(said.find("hole.toml:9:"), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 3) << said;
+}
+
 TEST(Reader, OverridesTakeTextWithoutQuotesAndSayWhereTheyCameFrom) {
   const Whole whole = read_whole(
       "schema_version = 1\n[surface]\ndielectric = [{ material = \"a\" }, { material = \"b\" }]\n",

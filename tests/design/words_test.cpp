@@ -61,6 +61,29 @@ TEST(Words, AShareWithoutAUnitIsAskedBack) {
   EXPECT_EQ(mistakes("[accuracy]\ntarget = \"5 %\"\n"), "");
 }
 
+// "5000" in a key of kHz is most likely in Hz, "3e-6" in one of um in m: both are shown.
+TEST(Words, ANumberInTheUnitOfTheSiIsAskedBack) {
+  EXPECT_NE(mistakes("[drive]\nfrequency = 5000\n")
+                .find("needs a unit: \"5 kHz\" if 5000 is in Hz, \"5000 kHz\" if it is in kHz"),
+            std::string::npos)
+      << mistakes("[drive]\nfrequency = 5000\n");
+  EXPECT_NE(mistakes("[drive]\nfrequency = 5\n").find("needs a unit, e.g. \"5 kHz\""),
+            std::string::npos);
+  EXPECT_NE(mistakes("[texture]\ntype = \"hole_array\"\nperiod = 6e-6\n")
+                .find("needs a unit: \"6 um\" if 6e-6 is in m"),
+            std::string::npos)
+      << mistakes("[texture]\ntype = \"hole_array\"\nperiod = 6e-6\n");
+}
+
+// Behind a kind that is spelled wrong its keys are read as of the one that is meant.
+TEST(Words, KeysOfAMisspelledKindAreJudgedAtOnce) {
+  const std::string said =
+      mistakes("[texture]\ntype = \"hole_aray\"\nperiod = \"6 V\"\ndepht = \"350 nm\"\n");
+  EXPECT_NE(said.find("did you mean \"hole_array\"?"), std::string::npos) << said;
+  EXPECT_NE(said.find("texture.period: expected a length, got \"6 V\""), std::string::npos) << said;
+  EXPECT_NE(said.find("did you mean `depth`?"), std::string::npos) << said;
+}
+
 constexpr const char* kRough = R"toml(
 [texture]
 type = "random_rough"
