@@ -44,15 +44,7 @@ double real_value(const std::string& path, const std::map<std::string, std::stri
 class PlainRows : public HeightRows {
  public:
   void next(double* heights) override {
-    const auto count = static_cast<std::size_t>(header_.nx);
-    if (single_) {
-      row_.resize(count);
-      get(row_.data(), count * sizeof(float));
-      for (std::size_t i = 0; i < count; ++i) heights[i] = scale_ * static_cast<double>(row_[i]);
-    } else {
-      get(heights, count * sizeof(double));
-      for (std::size_t i = 0; i < count; ++i) heights[i] *= scale_;
-    }
+    get_heights(heights, static_cast<std::size_t>(header_.nx));
   }
 
  protected:
@@ -67,11 +59,24 @@ class PlainRows : public HeightRows {
     get(out.data(), out.size());
     return out;
   }
-  // The heights begin there.
+  // All heights in the order of the file.
+  std::vector<double> all() {
+    std::vector<double> out(static_cast<std::size_t>(header_.nx) *
+                            static_cast<std::size_t>(header_.ny));
+    get_heights(out.data(), out.size());
+    return out;
+  }
+  // The heights begin there, and nothing follows them.
   void begin(std::uint64_t at) {
     const std::uint64_t item = single_ ? sizeof(float) : sizeof(double);
     const auto pixels = static_cast<std::uint64_t>(header_.nx) * static_cast<unsigned>(header_.ny);
-    if (size_ < at + item * pixels) broken(path_, "the data are cut off");
+    const std::uint64_t due = at + item * pixels;
+    if (size_ < due) broken(path_, "the data are cut off");
+    if (size_ > due) {
+      broken(path_, fmt::format("{} bytes more than {} x {} pixels have: its heights are not what "
+                                "its header says",
+                                size_ - due, header_.nx, header_.ny));
+    }
     file_.seekg(static_cast<std::streamoff>(at));
   }
 
@@ -81,13 +86,23 @@ class PlainRows : public HeightRows {
   double scale_ = 1;     // to metres
 
  private:
+  void get_heights(double* to, std::size_t count) {
+    if (single_) {
+      singles_.resize(count);
+      get(singles_.data(), count * sizeof(float));
+      for (std::size_t i = 0; i < count; ++i) to[i] = scale_ * static_cast<double>(singles_[i]);
+    } else {
+      get(to, count * sizeof(double));
+      for (std::size_t i = 0; i < count; ++i) to[i] *= scale_;
+    }
+  }
   void get(void* to, std::size_t bytes) {
     if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
       broken(path_, "the data are cut off");
   }
 
   std::ifstream file_;
-  std::vector<float> row_;
+  std::vector<float> singles_;
 };
 
 std::string trimmed(std::string s) {
@@ -134,6 +149,14 @@ class GsfRows : public PlainRows {
   }
 };
 
+// What stands behind a key of the header, a Python dictionary: from there to its end.
+std::string_view npy_value(const std::string& path, const std::string& header, const char* key) {
+  const std::string quoted = fmt::format("'{}': ", key);
+  const std::size_t at = header.find(quoted);
+  if (at == std::string::npos) broken(path, fmt::format("no {} in the header", key));
+  return std::string_view(header).substr(at + quoted.size());
+}
+
 class NpyRows : public PlainRows {
  public:
   explicit NpyRows(const std::string& path) : PlainRows(path) {
@@ -145,24 +168,41 @@ class NpyRows : public PlainRows {
     std::memcpy(&length, bytes.data() + 8, first ? 2 : 4);
     if (bytes.size() < at + length) broken(path, "the header is cut off");
     const std::string header = bytes.substr(at, length);
-    const bool f8 = header.find("'<f8'") != std::string::npos,
-               f4 = header.find("'<f4'") != std::string::npos;
-    if (!f8 && !f4) broken(path, "needs float64 or float32 numbers (little endian)");
-    if (header.find("'fortran_order': False") == std::string::npos)
-      broken(path, "needs C order (numpy.ascontiguousarray)");
-    const std::size_t open = header.find("'shape': (");
-    long rows = 0, columns = 0;
-    if (open == std::string::npos ||
-        std::sscanf(header.c_str() + open, "'shape': (%ld, %ld)", &rows, &columns) != 2) {
-      broken(path, "needs a two-dimensional array");
+    const std::string_view type = npy_value(path, header, "descr");
+    single_ = type.starts_with("'<f4'");
+    if (!single_ && !type.starts_with("'<f8'")) {
+      broken(path, fmt::format("its numbers are {}; needs float64 or float32, little endian: "
+                               "array.astype('<f8')",
+                               type.substr(0, type.find(", 'fortran_order'"))));
     }
+    by_columns_ = npy_value(path, header, "fortran_order").starts_with("True");
+    const std::string shape(npy_value(path, header, "shape"));
+    const std::string written = shape.substr(0, shape.find(')') + 1);
+    long rows = 0, columns = 0;
+    int end = 0;
+    if (std::sscanf(written.c_str(), "(%ld, %ld)%n", &rows, &columns, &end) != 2 || end == 0)
+      broken(path, "needs a two-dimensional array, got the shape " + written);
     check_size(path, static_cast<double>(columns), static_cast<double>(rows));
-    single_ = !f8;
     header_.nx = static_cast<int>(columns);
     header_.ny = static_cast<int>(rows);
     header_.top_first = false;
     begin(at + length);
   }
+
+  void next(double* heights) override {
+    if (!by_columns_) return PlainRows::next(heights);
+    // Fortran order: a column after the other. All of them are read before the first row.
+    if (columns_.empty()) columns_ = all();
+    const auto ny = static_cast<std::size_t>(header_.ny);
+    for (std::size_t ix = 0; ix < static_cast<std::size_t>(header_.nx); ++ix)
+      heights[ix] = columns_[ix * ny + row_];
+    ++row_;
+  }
+
+ private:
+  bool by_columns_ = false;
+  std::vector<double> columns_;
+  std::size_t row_ = 0;
 };
 
 }  // namespace

@@ -30,7 +30,7 @@ std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_s
   if (ending == ".x3p") return open_x3p_rows(path);
   if (ending == ".exr" || ending == ".tif" || ending == ".tiff" || ending == ".png")
     return open_image_rows(path, any_size);
-  throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
+  throw InputError("cannot read " + path + ": use .npy, .gsf, .exr, .tif or .x3p");
 }
 
 Heightmap whole_map(HeightRows& rows, double width) {
@@ -47,13 +47,21 @@ Heightmap whole_map(HeightRows& rows, double width) {
 Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_numbers) {
   require_regular(path);
   const std::string ending = lower_ending(path);
-  if (ending == ".png" || ending == ".x3p")
-    throw InputError("cannot read " + path + ": use .npy, .gsf, .exr or .tif");
+  if (ending == ".png")
+    throw InputError("cannot read " + path + ": use .npy, .gsf, .exr, .tif or .x3p");
   const auto rows = open_height_rows(path);
   if (ending == ".npy" && !(width > 0)) {
     throw InputError("cannot read " + path +
                      ": the file holds no lateral size; give it (texture.width of a measured "
                      "texture, the size option of a command)");
+  }
+  const double said = rows->header().lx;
+  if (width > 0 && said > 0 && std::abs(width / said - 1) > 1e-6) {
+    throw InputError(fmt::format(
+        "cannot read {}: the file says that it is {:.6g} um wide, and {:.6g} um were given "
+        "(texture.width, the size option of a command); leave that out, or save the file without "
+        "a size",
+        path, 1e6 * said, 1e6 * width));
   }
   const Heightmap h = whole_map(*rows, width);
   if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {

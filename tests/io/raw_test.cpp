@@ -46,7 +46,7 @@ std::string refusal(const std::string& ending, const std::string& bytes) {
   const std::string path = temporary("raw." + ending);
   write_bytes(path, bytes);
   try {
-    read_heightmap(path, 6e-6);
+    read_heightmap(path, ending == "npy" ? 6e-6 : 0);
   } catch (const InputError& error) {
     return error.what();
   }
@@ -86,11 +86,27 @@ TEST(Gsf, SidesArePicometresToKilometres) {
     EXPECT_NE(of(x, y).find("expected 1 pm to 1 km"), std::string::npos) << x;
 }
 
+TEST(Gsf, AnotherWidthThanItsOwnIsRefused) {
+  const std::string path = temporary("own.gsf");
+  write_bytes(path, gsf(kSides));
+  EXPECT_NO_THROW(read_heightmap(path, 6));
+  try {
+    read_heightmap(path, 6.1);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("the file says that it is 6e+06 um wide, and 6.1e+06 um were given"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Gsf, WhatIsMissingOrNoNumberIsNamed) {
   const std::string sides = kSides;
   EXPECT_EQ(refusal("gsf", gsf(sides)), "");
   for (const auto& [bytes, why] : std::vector<std::pair<std::string, std::string>>{
            {gsf(sides, 5) + "abc", "the data are cut off"},  // a byte less than needed
+           {gsf(sides, 8), "8 bytes more than 3 x 2 pixels have"},
            {gsf("YRes = 2\nXReal = 6\nYReal = 5\n"), "no XRes in the header"},
            {gsf("XRes = 3\nYRes = 2\nXReal = 6\n"), "no YReal in the header"},
            {gsf("XRes = 3\nYRes = 2\nXReal = 0\nYReal = 5\n"), "XReal is not a positive number"},
@@ -135,6 +151,19 @@ TEST(Npy, BothKindsOfNumbersAndBothVersionsAreRead) {
   }
 }
 
+// Of Fortran order the columns stand one after the other.
+TEST(Npy, ColumnsThatComeFirstAreRowsOfTheSameMap) {
+  const std::string path = temporary("columns.npy");
+  std::string bytes = npy("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 3), }\n", 0);
+  for (const float value : {0.F, 3.F, 1.F, 4.F, 2.F, 5.F})
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  write_bytes(path, bytes);
+  const Heightmap h = read_heightmap(path, 6);
+  for (int iy = 0; iy < 2; ++iy) {
+    for (int ix = 0; ix < 3; ++ix) EXPECT_EQ(h(ix, iy), 3 * iy + ix);
+  }
+}
+
 // As its format asks for, whatever the length of the header.
 TEST(Npy, HeightsBeginAtAMultipleOfSixtyFourBytes) {
   const std::string path = temporary("aligned.npy");
@@ -166,8 +195,17 @@ TEST(Npy, WhatCannotBeReadIsNamed) {
            {"\x93NUMP", "not a .npy file"},
            {npy(header(">f8", "False", "(2, 3)"), 48), "needs float64 or float32"},
            {npy(header("<i8", "False", "(2, 3)"), 48), "needs float64 or float32"},
-           {npy(header("<f8", "True", "(2, 3)"), 48), "needs C order"},
-           {npy(header("<f8", "False", "(6,)"), 48), "two-dimensional"},
+           {npy(header("<f8", "False", "(6,)"), 48), "two-dimensional array, got the shape (6,)"},
+           // An image of three channels is no map, however many numbers follow.
+           {npy(header("<f8", "False", "(2, 3, 3)"), 144), "got the shape (2, 3, 3)"},
+           {npy(header("<f8", "False", "(2, 3"), 48), "two-dimensional"},
+           {npy(good, 49), "1 bytes more than 3 x 2 pixels have"},
+           {npy(header("<f8", "True", "(2, 3)"), 56), "8 bytes more than 3 x 2 pixels have"},
+           {npy("{'descr': [('z', '<f8'), ('q', '<f8')], 'fortran_order': False, 'shape': (2, 3), "
+                "}",
+                96),
+            "its numbers are [('z', '<f8'), ('q', '<f8')]; needs float64 or float32"},
+           {npy("{'fortran_order': False, 'shape': (2, 3), }", 48), "no descr in the header"},
            {npy(header("<f8", "False", "(0, 3)"), 48), "3 x 0 pixels"},
            {npy(header("<f8", "False", "(2, -3)"), 48), "-3 x 2 pixels"},
            {npy(header("<f8", "False", "(16385, 16384)"), 48),

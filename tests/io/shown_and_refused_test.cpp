@@ -103,9 +103,10 @@ TEST(ReadHeights, OfPicturesAndArchivesAreForOtherCommands) {
   write_gsf(gsf, h, {});
   write_gsf(other, h, {});
   write_gsf(upper, h, {});
-  for (const std::string& path : {png, x3p, other, upper})
-    EXPECT_EQ(refusal(path), "cannot read " + path + ": use .npy, .gsf, .exr or .tif");
+  for (const std::string& path : {png, other, upper})
+    EXPECT_EQ(refusal(path), "cannot read " + path + ": use .npy, .gsf, .exr, .tif or .x3p");
   EXPECT_EQ(refusal(gsf), "");
+  EXPECT_EQ(refusal(x3p), "");
   EXPECT_EQ(refusal(temporary("none.gsf")),
             "cannot read " + temporary("none.gsf") + ": no such file");
   EXPECT_EQ(refusal(temporary("")), "cannot read " + temporary("") + ": not a file");
