@@ -18,6 +18,7 @@ namespace {
 constexpr double kFarDeviations = 8;    // of the median from the median: outliers
 constexpr double kMostOutliers = 0.02;  // of the pixels; more of them are features
 constexpr double kMostFilled = 0.2;
+constexpr double kSmoothest = 0.1e-9;  // [m] rms; of superpolished glass it is 0.1 nm and more
 
 // The pixels that count: those that are numbers, then those that are no outliers either.
 using Sound = std::vector<std::uint8_t>;
@@ -26,9 +27,57 @@ std::size_t count_unsound(const Sound& sound) {
   return static_cast<std::size_t>(std::count(sound.begin(), sound.end(), std::uint8_t{0}));
 }
 
+double mean_of(const Heightmap& h) {
+  double sum = 0;
+  for (const double z : h.z) sum += z;
+  return sum / static_cast<double>(h.z.size());
+}
+
+double rms_of(const Heightmap& h) {
+  const double mean = mean_of(h);
+  double sum = 0;
+  for (const double z : h.z) sum += square(z - mean);
+  return std::sqrt(sum / static_cast<double>(h.z.size()));
+}
+
+// Root mean square over the places of a border, of what `step` says of each [m].
+template <class Step>
+double rms_along(int places, const Step& step) {
+  double sum = 0;
+  for (int i = 0; i < places; ++i) sum += square(step(i));
+  return std::sqrt(sum / places);
+}
+
+// Whether the map repeats by itself: from its last column to its first, and from its last row to
+// its first, it steps no further than to the neighbours beside them. A tilt steps by all of its
+// rise there; rough scans step by their roughness, which is more than that between neighbours
+// unless neighbours know nothing of each other.
+bool borders_meet(const Heightmap& h) {
+  constexpr double kAlike = 1.5;  // scatter of two rms steps of one surface
+  const int nx = h.grid.nx, ny = h.grid.ny;
+  if (nx < 4 || ny < 4) return false;
+  const double rms = rms_of(h);
+  const auto meet = [&](int places, const auto& z, int last) {
+    const double over = rms_along(places, [&](int i) { return z(0, i) - z(last, i); });
+    const double beside =
+        std::hypot(rms_along(places, [&](int i) { return z(1, i) - z(0, i); }),
+                   rms_along(places, [&](int i) { return z(last, i) - z(last - 1, i); })) /
+        std::sqrt(2.0);
+    return beside < rms && over <= kAlike * beside;
+  };
+  return meet(
+             ny, [&](int ix, int iy) { return h(ix, iy); }, nx - 1) &&
+         meet(
+             nx, [&](int iy, int ix) { return h(ix, iy); }, ny - 1);
+}
+
+// To a mean of 0 in any case: bands that are blended keep their variance about it.
 void level(Heightmap& h, const Sound& sound, ScanChanges& changes) {
   const Grid& g = h.grid;
-  const Plane plane = plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
+  changes.repeats = borders_meet(h);
+  const Plane plane = changes.repeats
+                          ? Plane{mean_of(h)}
+                          : plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) h(ix, iy) -= plane.at(g.x(ix), g.y(iy));
   }
@@ -111,6 +160,16 @@ std::string share_text(std::size_t part, std::size_t whole) {
 
 }  // namespace
 
+std::string impossible(const Heightmap& h) {
+  constexpr double kMostSteep = 10;  // heights over the width of their map
+  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
+  if (*high - *low <= kMostSteep * h.grid.lx) return {};
+  return fmt::format(
+      "heights over {:.4g} um on a width of {:.4g} um: no surface is so steep; the heights are "
+      "likely in another unit",
+      1e6 * (*high - *low), 1e6 * h.grid.lx);
+}
+
 double ScanChanges::tilt() const { return std::atan(std::hypot(slope_x, slope_y)); }
 
 Scan read_scan(const ScanSource& source) {
@@ -137,13 +196,10 @@ Scan read_scan(const ScanSource& source) {
     median = mark_outliers(h, sound, changes);
   }
   if (count_unsound(sound) > 0) mend(h, sound, median);
-  const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-  if (!source.as_is && *high - *low > 10 * h.grid.lx) {
-    throw InputError(fmt::format(
-        "{}: heights over {:.4g} um on a width of {:.4g} um: no surface is so steep; the file's "
-        "heights are likely in another unit (NPY holds m, EXR um)",
-        source.file, 1e6 * (*high - *low), 1e6 * h.grid.lx));
-  }
+  if (const std::string why = impossible(h); !why.empty())
+    throw InputError(source.file + ": " + why + " (NPY holds m, EXR um)");
+  changes.highest = *std::max_element(h.z.begin(), h.z.end());
+  changes.rms = rms_of(h);
   return out;
 }
 
@@ -152,8 +208,10 @@ std::string text(const std::string& file, const ScanChanges& c) {
   if (c.as_is) {
     out += "taken as it is, neither levelled nor mended";
   } else {
-    out += fmt::format("a plane of {:.3g} deg ({:.4g} nm over the map) was taken away; ",
-                       c.tilt() * 180 / kPi, 1e9 * c.rise);
+    out += c.repeats
+               ? "its borders meet, it repeats by itself: no plane was taken away; "
+               : fmt::format("a plane of {:.3g} deg ({:.4g} nm over the map) was taken away; ",
+                             c.tilt() * 180 / kPi, 1e9 * c.rise);
     out += c.replaced == 0
                ? "no pixel was replaced"
                : fmt::format(
@@ -164,6 +222,12 @@ std::string text(const std::string& file, const ScanChanges& c) {
   }
   if (c.filled > 0)
     out += fmt::format("; {} were no numbers and were filled", share_text(c.filled, c.pixels));
+  if (c.rms > 0 && c.rms < kSmoothest) {
+    out += fmt::format(
+        "; its heights have an rms of {:.2g} nm, smoother than any polished surface: they are "
+        "likely in another unit (NPY holds m, EXR um)",
+        1e9 * c.rms);
+  }
   return out;
 }
 

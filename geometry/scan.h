@@ -11,7 +11,7 @@
 namespace papilla::geometry {
 
 struct ScanSource {
-  std::string file;    // .npy .gsf .exr .tif
+  std::string file;    // .npy .gsf .exr .tif .x3p
   double width = 0;    // where the file does not say [m]
   bool fill = false;   // heights that are no numbers get those around them; else they are refused
   bool as_is = false;  // neither levelled nor mended: a surface that is known and repeats
@@ -27,6 +27,7 @@ struct ScanPlace {
 // Eq. geometry.4
 struct ScanChanges {
   bool as_is = false;
+  bool repeats = false;             // its borders meet: a plane taken away would part them
   double width = 0, height = 0;     // sides of the map [m]
   double slope_x = 0, slope_y = 0;  // of the plane that was taken away
   double rise = 0;                  // its highest less its lowest place over the map [m]
@@ -35,9 +36,15 @@ struct ScanChanges {
   double furthest = 0;              // of them from the median [m]
   ScanPlace where;                  // that holds all of them
   std::size_t filled = 0;           // were no numbers
+  double highest = 0;               // place of the map as it is taken [m]
+  double rms = 0;                   // about its mean, as it is taken [m]
 
   double tilt() const;  // angle of the plane [rad]
 };
+
+// Heights that no surface of this size has, in words; empty: possible. They are most likely in
+// another unit, and a simulation of them would take memory without end.
+std::string impossible(const Heightmap& h);
 
 struct Scan {
   Heightmap map;
@@ -45,7 +52,8 @@ struct Scan {
 };
 
 // Throws InputError for a file that cannot be read, that holds no size, or heights that are no
-// numbers and are not to be filled; for more than a fifth of those in any case.
+// numbers and are not to be filled; for more than a fifth of those in any case; for impossible
+// heights.
 Scan read_scan(const ScanSource& source);
 
 // "scan.gsf: a plane of 0.31 deg (540 nm over the map) was taken away; 1 of 160000 pixels

@@ -10,20 +10,29 @@ ScanSource source_of(const Measured3d& t) { return {t.file, t.width, t.fill, t.a
 }  // namespace
 
 void fields(FieldVisitor& v, Measured3d& t) {
-  v.path(
-      {"file", "heightmap to import (.npy .gsf .exr .tif)", Source::Choice, "", Presence::Required},
-      t.file);
+  v.path({"file", "heightmap to import (.npy .gsf .exr .tif .x3p)", Source::Choice, "",
+          Presence::Required},
+         t.file);
   v.number({"width", "um", 0, 1e6, "lateral size of the map where the file does not say"}, t.width);
   v.flag({"fill", "heights that are no numbers get the mean of those around them; else refused"},
          t.fill);
   v.flag({"as_is",
           "neither levelled, mended nor blended: a surface that is known and repeats by itself"},
          t.as_is);
+  v.number({"top", "nm", -1e5, 1e5,
+            "height of the map's highest place over the untouched land, where a planar film is as "
+            "thick as said; 0: holes cut into it, above 0: pillars that stand on it"},
+           t.top);
   v.number({"patch", "um", 0.1, 1e4, "side of the simulated square, cut from the middle"}, t.patch);
 }
 
 Heightmap heights(const Measured3d& t, const Grid& grid) {
-  return middle_of_map(source_of(t), t.patch, grid);
+  const ScanSource source = source_of(t);
+  Heightmap out = middle_of_map(source, t.patch, grid);
+  // Instruments and arrays have their own zero. Eq. geometry.9
+  const double lift = t.top - changes_of_map(source).highest;
+  for (double& z : out.z) z += lift;
+  return out;
 }
 
 TextureProblems problems(const Measured3d&) { return {}; }

@@ -138,8 +138,9 @@ class Design:
         """A texture drawn or measured as an array.
 
         z: shape (n, n), real numbers [m], high touches first, n at least 8. size: width of the map ("6 um", 6e-6).
-        values: all other keys, as of ``Design``. repeats: the map repeats by itself and is taken to the last bit;
-        else it is levelled, mended and made periodic as scans are (docs/how_to/scans.md).
+        values: all other keys, as of ``Design``. repeats: the map repeats by itself and is taken as it is, but for its
+        zero; else it is levelled, mended and made periodic as scans are (docs/how_to/scans.md). The highest place is
+        the untouched land, z = 0, whatever is added to the array; pillars on a film have "texture.top", their height.
 
         Raises InputError, naming "heights" or "size".
         """
@@ -196,7 +197,7 @@ class Design:
     def heights(self, pixels: int = 512) -> Heights:
         """A patch of whole periods, ``pixels`` along x (8 to 65536).
 
-        A design from an array gives that array back to the last bit where ``pixels`` is its width, an even number.
+        A design from an array gives z - z.max() to the last bit where ``pixels`` is its width, an even number.
         Raises InputError.
         """
         return Heights(self._inside.heights(v.whole(pixels, "pixels", 8, 65536)))
@@ -230,7 +231,7 @@ class Design:
         number that can move neither way is left out. step: relative to the value, of a 0 a share of its range. Cost:
         two evaluations a key. Raises InputError, KeyboardInterrupt.
         """
-        rows = _native.sensitivity(self._inside, v.text(metric, "metric"), [v.text(k, "keys") for k in keys],
+        rows = _native.sensitivity(self._inside, v.text(metric, "metric"), [v.text(k, "keys") for k in v.items(keys, "keys")],
                                    v.si(step, "", "step"), _how(level, 0.0, threads, False, False, (), force),
                                    shown(progress, "sensitivity"))
         return [Sensitivity(path, unit, value, down, up, Difference(*change), slope, error)
@@ -246,7 +247,7 @@ class Design:
         from papilla.trades import Exported
 
         files, warnings = _native.export_files(self._inside, v.path(folder, "folder"),
-                                               [v.text(f, "formats") for f in formats], v.si(size, "m", "size"),
+                                               [v.text(f, "formats") for f in v.items(formats, "formats")], v.si(size, "m", "size"),
                                                v.whole(pixels, "pixels", 8, 65536), v.text(polarity, "polarity"))
         return Exported(tuple(files), tuple(warnings))
 
@@ -308,7 +309,7 @@ def _how(level: str, target: float, threads: int, parameters: bool, look: bool, 
         raise wrong("target", f"expected a share from 0 to 1, got {share}")
     return {"level": v.text(level, "level"), "target": share, "threads": v.whole(threads, "threads", 0, 4096),
             "parameters": v.flag(parameters, "parameters"), "look": v.flag(look, "look"),
-            "voltage_for": [v.positive(m, "", "voltage_for") for m in voltage_for], "force": v.flag(force, "force")}
+            "voltage_for": [v.positive(m, "", "voltage_for") for m in v.items(voltage_for, "voltage_for")], "force": v.flag(force, "force")}
 
 
 def _without_version(values: Mapping[str, Any]) -> Mapping[str, Any]:

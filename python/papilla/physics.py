@@ -326,4 +326,4 @@ def haze(z: Map, size: Size | None = None, *, index: float = 1.46, fill_index: f
     """
     heights, dx, dy = _map(z, size, "z")
     return Look(**_native.look(heights, dx, dy, v.si(index, "", "index"), v.si(fill_index, "", "fill_index"),
-                               [_angle(angle, "angles") for angle in angles]))
+                               [_angle(angle, "angles") for angle in v.items(angles, "angles")]))

@@ -142,6 +142,8 @@ class Run:
         return f"<papilla.Run {end} {self.evaluations} evaluations, {len(self.finalists)} finalists in {self.folder!r}>"
 
 
+_Row = tuple[bool, str, list[float], list[float], list[float]]
+"""Of a judgement: ok, reason, values, errors, violations."""
 Values = Union[Mapping[str, float], Sequence[float], FloatArray]
 Told = Optional[Union[float, Sequence[float], FloatArray]]
 
@@ -163,6 +165,7 @@ class Study:
         self._inside = _native.Study.read(file, changes) if file else _native.Study.parse(toml, changes)
         self._search: _native.Search | None = None
         self._asked: list[Point] = []
+        self._told: list[list[_Row]] = []
         self.variables: list[Variable] = [
             Variable(*row[:4], tuple(row[4])) for row in self._inside.variables()]
         self.objectives: list[Objective] = [Objective(*row) for row in self._inside.objectives()]
@@ -172,6 +175,14 @@ class Study:
         study = cls.__new__(cls)
         study._source = source
         study._open()
+        return study
+
+    @classmethod
+    def _again(cls, source: tuple[str, str, list[tuple[str, str]]], told: list[list[_Row]], asking: bool) -> Study:
+        study = cls._of(source)
+        study._told = list(told)
+        if asking:
+            study.ask()
         return study
 
     @classmethod
@@ -211,10 +222,17 @@ class Study:
         """
         if self._asked:
             raise wrong("ask", f"tell() first what the {len(self._asked)} designs of the last ask() are worth")
+        self._asked = [Point(self, values) for values in self._searcher().ask()]
+        return list(self._asked)
+
+    def _searcher(self) -> _native.Search:
+        """Which knows all that was told: a copy learns it again, and asks for the same from there on."""
         if self._search is None:
             self._search = _native.Search(self._inside)
-        self._asked = [Point(self, values) for values in self._search.ask()]
-        return list(self._asked)
+            for rows in self._told:
+                self._search.ask()
+                self._search.tell(rows)
+        return self._search
 
     def tell(self, points: Sequence[Point], values: Sequence[Told], errors: Sequence[Told] | None = None,
              violations: Sequence[Sequence[float]] | None = None) -> None:
@@ -225,11 +243,13 @@ class Study:
         evaluation (``constraints``), above 0: broken. Raises InputError naming the argument.
         """
         self._require_asked(points)
+        values = v.items(values, "values")
+        errors = None if errors is None else v.items(errors, "errors")
         if len(values) != len(points):
             raise wrong("values", f"expected one for each of {len(points)} designs, got {len(values)}")
         if errors is not None and len(errors) != len(points):
             raise wrong("errors", f"expected one for each of {len(points)} designs, got {len(errors)}")
-        rows: list[tuple[bool, str, list[float], list[float], list[float]]] = []
+        rows: list[_Row] = []
         for i, value in enumerate(values):
             if value is None:
                 rows.append((False, "told so", [], [], []))
@@ -239,8 +259,8 @@ class Study:
             if min(error) < 0:
                 raise wrong("errors", "must not be negative")
             rows.append((True, "", told, error, self._broken(violations, i, len(points))))
-        assert self._search is not None
-        self._search.tell(rows)
+        self._searcher().tell(rows)
+        self._told.append(rows)
         self._asked = []
 
     @property
@@ -273,9 +293,10 @@ class Study:
                 if path not in values:
                     raise wrong(path, "missing")
             return [v.si(values[x.path], x.unit, x.path) for x in self.variables]
-        if len(values) != len(self.variables):
-            raise wrong("values", f"expected one for each of {len(self.variables)} variables, got {len(values)}")
-        return [v.si(float(value), "", variable.path) for value, variable in zip(values, self.variables)]
+        numbers = v.items(values, "values")
+        if len(numbers) != len(self.variables):
+            raise wrong("values", f"expected one for each of {len(self.variables)} variables, got {len(numbers)}")
+        return [v.si(value, x.unit, x.path) for value, x in zip(numbers, self.variables)]
 
     def _require_asked(self, points: Sequence[Point]) -> None:
         if not self._asked:
@@ -295,6 +316,7 @@ class Study:
             if count:
                 raise wrong("violations", f"the study has {count} constraints that need an evaluation")
             return []
+        violations = v.items(violations, "violations")
         if len(violations) != points:
             raise wrong("violations", f"expected one list for each of {points} designs, got {len(violations)}")
         if len(violations[i]) != count:
@@ -302,14 +324,20 @@ class Study:
         return [v.si(number, "", "violations") for number in violations[i]]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """The study itself; what it has asked and was told stays behind."""
-        return Study._of, (self._source,)
+        """The study, what it was told, and whether it waits for an answer."""
+        return Study._again, (self._source, self._told, bool(self._asked))
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Study:
+        return self._again(self._source, self._told, bool(self._asked))
+
+    def __copy__(self) -> Study:
+        return self.__deepcopy__({})
 
     def __repr__(self) -> str:
         wanted = ", ".join(("max " if o.maximise else "min ") + o.name for o in self.objectives)
         return f"<papilla.Study of {len(self.variables)} variables, {wanted}>"
 
 
-def _judgement(row: tuple[bool, str, list[float], list[float], list[float]]) -> Judgement:
+def _judgement(row: _Row) -> Judgement:
     ok, reason, values, errors, violations = row
     return Judgement(ok, reason, as_array(values), as_array(errors), as_array(violations))

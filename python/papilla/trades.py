@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -72,6 +73,8 @@ def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = 
 
     Raises InputError, KeyboardInterrupt. Source: docs/theory/ranking.md.
     """
+    designs = v.items(designs, "designs")
+    names = v.items(names, "names")
     for i, design in enumerate(designs):
         if not isinstance(design, Design):
             raise wrong(f"designs.{i}", f"expected a Design, got {type(design).__name__}")
@@ -81,7 +84,7 @@ def rank(designs: Sequence[Design], by: str = "", *, weights: Sequence[float] = 
         raise wrong("names", f"expected one for each of {len(designs)} designs, got {len(names)}")
     shown_names = list(names) or [d.title or f"design {i}" for i, d in enumerate(designs)]
     return Ranking(_native.rank(
-        [d._inside for d in designs], v.text(by, "by"), [v.positive(w, "", "weights") for w in weights],
+        [d._inside for d in designs], v.text(by, "by"), [v.positive(w, "", "weights") for w in v.items(weights, "weights")],
         v.text(states, "states"), v.whole(max_skins, "max_skins", 2, 100000), v.whole(threads, "threads", 0, 4096),
         v.flag(parameters, "parameters"), v.flag(any_conditions, "any_conditions"),
         [v.text(n, "names") for n in shown_names], shown(progress, "rank")))
@@ -119,6 +122,13 @@ class Calibration:
         self.finger: str = row["finger"]
         """The fitted finger as TOML."""
         self.table: str = row["table"]
+
+    def apply(self, design: Design) -> Design:
+        """The design under the fitted finger: all of its own finger is replaced. Raises InputError."""
+        if not isinstance(design, Design):
+            raise wrong("design", f"expected a Design, got {type(design).__name__}")
+        fitted = {key: value for key, value in tomllib.loads(self.finger).items() if key != "schema_version"}
+        return design.with_({"finger": fitted.get("finger", fitted)})
 
     def to_dict(self) -> dict[str, Any]:
         """What ``papilla calibrate --json`` prints."""

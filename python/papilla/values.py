@@ -41,14 +41,24 @@ def si(value: Quantified, unit: str, key: str) -> float:
     return number
 
 
+def _plain(value: object) -> object:
+    """Of an array without axes its one number."""
+    return value.item() if isinstance(value, np.ndarray) and value.ndim == 0 else value
+
+
 def _number(value: object, key: str) -> float:
+    value = _plain(value)
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
         raise wrong(key, f"expected a number or a text with a unit, got {type(value).__name__}")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise wrong(key, "expected a number of 64 bits, at most 1.8e308") from None
 
 
 def whole(value: object, key: str, low: int, high: int) -> int:
     """A whole number within its range."""
+    value = _plain(value)
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
         raise wrong(key, f"expected a whole number, got {type(value).__name__}")
     if not low <= int(value) <= high:
@@ -64,6 +74,7 @@ def positive(value: Quantified, unit: str, key: str) -> float:
 
 
 def flag(value: object, key: str) -> bool:
+    value = _plain(value)
     if not isinstance(value, (bool, np.bool_)):
         raise wrong(key, f"expected True or False, got {type(value).__name__}")
     return bool(value)
@@ -75,6 +86,16 @@ def text(value: object, key: str) -> str:
     return value
 
 
+def items(values: Any, key: str) -> list[Any]:
+    """The items of a sequence; a single text or number is one item, not its letters."""
+    values = _plain(values)
+    if isinstance(values, (str, int, float, np.generic)):
+        return [values]
+    if isinstance(values, Mapping) or not isinstance(values, Iterable):
+        raise wrong(key, f"expected a list, got {type(values).__name__}")
+    return list(values)
+
+
 def path(value: Path, key: str) -> str:
     if not isinstance(value, (str, os.PathLike)):
         raise wrong(key, f"expected the name of a file, got {type(value).__name__}")
@@ -82,7 +103,10 @@ def path(value: Path, key: str) -> str:
 
 
 def height_map(z: npt.ArrayLike, key: str) -> FloatArray:
-    """A map of numbers, shape (ny, nx): real, finite, 2 x 2 pixels at least."""
+    """A map of numbers, shape (ny, nx): real, finite, none masked, 2 x 2 pixels at least."""
+    if isinstance(z, np.ma.MaskedArray) and np.ma.is_masked(z):
+        raise wrong(key, f"{int(np.ma.getmaskarray(z).sum())} of {z.size} values are masked, and a map has a height "
+                         "everywhere: fill them, z.filled(...), or cut the map")
     array = np.asarray(z)
     if array.dtype.kind not in "fiu":
         raise wrong(key, f"expected an array of real numbers, got dtype {array.dtype}")
@@ -100,6 +124,7 @@ def pixel_size(shape: tuple[int, ...], size: Quantified | Sequence[Quantified],
                key: str = "size") -> tuple[float, float]:
     """dx, dy [m] of a map (ny, nx) as large as ``size``: its width, or width and height."""
     ny, nx = shape
+    size = _plain(size)  # type: ignore[assignment]
     if isinstance(size, (list, tuple, np.ndarray)):
         if len(size) != 2:
             raise wrong(key, f"expected a width, or a width and a height, got {len(size)} values")

@@ -68,15 +68,45 @@ def test_an_array_comes_back_to_the_last_bit(n: int) -> None:
     z = drawn(n)
     d = pp.Design.from_heights(z, "6.3 um")
     h = d.heights(n)
-    assert np.array_equal(h.z, z)
+    assert np.array_equal(h.z, z - z.max())
     assert h.z.dtype == np.float64 and h.dx * n == pytest.approx(6.3e-6, rel=1e-15)
     again = pickle.loads(pickle.dumps(d))
-    assert np.array_equal(again.heights(n).z, z) and again == d
+    assert np.array_equal(again.heights(n).z, z - z.max()) and again == d
+
+
+@pytest.mark.parametrize("process", ["conformal", "directional", "planar"])
+def test_an_offset_of_an_array_changes_nothing(process: str) -> None:
+    x = (np.arange(64) + 0.5) / 64
+    z = -200e-9 * (np.hypot(x[:, None] - 0.5, x[None, :] - 0.5) < 0.25)
+    surface = {"process": process, "dielectric": [{"material": "SiO2", "thickness": "600 nm"}]}
+    values = {"base": "m3_samples/flat.toml", "surface": surface, "accuracy": {"level": "draft", "grid": 64},
+              "environment.relative_humidity": ["35 %"]}
+    found = [pp.Design.from_heights(z + shift, "6 um", values).evaluate().modulation.value[0]
+             for shift in (0, 100e-9, -1e-6, 3e-6)]
+    assert found == pytest.approx([found[0]] * 4, rel=1e-9)
+    holes = pp.Design({**values, "texture": {"type": "hole_array", "period": "6 um", "diameter": "3 um",
+                                             "depth": "200 nm"}}).evaluate().modulation.value[0]
+    assert found[0] == pytest.approx(holes, rel=0.05)
+
+
+def test_heights_in_another_unit_and_masked_ones_are_refused() -> None:
+    z = drawn(64)
+    for far in (1e3, 1e9):
+        with pytest.raises(pp.InputError, match="heights: heights over .* another unit"):
+            pp.Design.from_heights(z * far, "6 um")
+    for call in (lambda: pp.contact(z * 1e9, "6 um", pressure="20 kPa", modulus="1 MPa"),
+                 lambda: pp.haze(z * 1e9, "6 um")):
+        with pytest.raises(pp.InputError, match="another unit"):
+            call()
+    masked = np.ma.masked_less(z, z.mean())
+    with pytest.raises(pp.InputError, match="are masked"):
+        pp.Design.from_heights(masked, "6 um")
+    assert pp.Design.from_heights(np.ma.masked_less(z, z.min()), "6 um")  # none is masked
 
 
 def test_float32_and_transposed_arrays_count_by_their_values() -> None:
     z = np.asfortranarray(drawn().astype(np.float32))
-    assert np.array_equal(pp.Design.from_heights(z, 6e-6).heights(96).z, z)
+    assert np.array_equal(pp.Design.from_heights(z, 6e-6).heights(96).z, z.astype(float) - z.max())
     z[0, 0] = 1  # the design has its own
     assert pp.Design.from_heights(drawn(), 6e-6).heights(96).z.max() < 1e-6
 
@@ -94,7 +124,7 @@ def test_a_drawn_design_is_saved_with_its_array(tmp_path: pathlib.Path) -> None:
     del other
     gc.collect()
     assert not file.exists()
-    assert np.array_equal(pp.Design.load(tmp_path / "drawn.toml").heights(96).z, z)
+    assert np.array_equal(pp.Design.load(tmp_path / "drawn.toml").heights(96).z, z - z.max())
 
 
 def test_a_drawn_hole_array_is_evaluated_as_the_kind_is() -> None:

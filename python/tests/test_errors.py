@@ -167,3 +167,24 @@ def test_damaged_files_are_refused(tmp_path: pathlib.Path) -> None:
         except pp.InputError:
             refused += 1
     assert refused > 30
+
+
+def test_numbers_without_axes_and_single_texts_are_taken(tmp_path: pathlib.Path) -> None:
+    d = pp.Design({**HOLES, "texture.depth": np.array(350e-9)})
+    assert d["texture.depth"] == 350e-9
+    done = d.export(tmp_path / "e", "npy", size=np.array(6e-6), pixels=np.array(64))
+    assert [pathlib.Path(f).name for f in done.files] == ["heightmap.npy"]
+    assert pp.bridge(np.array(1e-20), "100 nm", "80 deg", "50 deg").exists
+    with pytest.raises(pp.InputError, match="unknown format \"npy,gds\""):
+        d.export(tmp_path / "f", "npy,gds")
+    with pytest.raises(pp.InputError, match="texture.dep"):
+        d.sensitivity(keys="texture.dep")
+
+
+def test_numbers_beyond_64_bits_and_long_names_are_wrong_inputs() -> None:
+    for call in (lambda: pp.bridge(10**400, 1e-7, 1.0, 1.0), lambda: pp.Design(HOLES).evaluate(target=10**400),
+                 lambda: pp.Study(STUDY).judge([10**400]), lambda: pp.Study(STUDY).judge([None]),
+                 lambda: pp.Design.load("a" * 5000), lambda: pp.calibrate("a" * 5000),
+                 lambda: pp.Design(HOLES).export("a" * 5000), lambda: pp.verify("a" * 5000)):
+        with pytest.raises(pp.InputError):
+            call()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import pathlib
 import pickle
@@ -41,6 +42,24 @@ def test_two_searches_of_one_study_ask_alike() -> None:
         study.tell(points, [None if i == 0 else float(i) for i in range(len(points))])
         asked.append([list(p.values()) for p in points + study.ask()])
     assert asked[0] == asked[1]
+
+
+def test_copies_keep_what_was_told() -> None:
+    study = pp.Study(STUDY)
+    for _ in range(2):
+        points = study.ask()
+        study.tell(points, [float(i) for i in range(len(points))])
+    copies = [copy.deepcopy(study), copy.copy(study), pickle.loads(pickle.dumps(study))]
+    wanted = [list(p.values()) for p in study.ask()]
+    for other in copies:
+        assert [list(p.values()) for p in other.ask()] == wanted
+    waiting = pickle.loads(pickle.dumps(study))  # asked, not told yet
+    with pytest.raises(pp.InputError, match="tell"):
+        waiting.ask()
+    points = list(study._asked)
+    study.tell(points, [1.0] * len(points))
+    waiting.tell(points, [1.0] * len(points))
+    assert [list(p.values()) for p in waiting.ask()] == [list(p.values()) for p in study.ask()]
 
 
 def test_what_is_told_is_checked() -> None:

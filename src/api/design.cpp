@@ -49,6 +49,8 @@ Heightmap heightmap_of(const Heights& h) {
   Heightmap map{{h.nx, h.ny, h.nx * h.dx, h.ny * h.dy}, h.z};
   if (h.nx < 1 || h.ny < 1 || !(h.dx > 0 && h.dy > 0) || h.z.size() != map.grid.size())
     throw rooms::InputError("heights: expected nx times ny values and pixels above 0 m");
+  if (const std::string why = impossible(map); !why.empty())
+    throw wrong("heights", why + " (expected m)");
   return map;
 }
 

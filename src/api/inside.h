@@ -1,6 +1,7 @@
 // What the public values hold, and how problems cross the border.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -61,6 +62,8 @@ auto across(Work&& work) -> decltype(work()) {
     return work();
   } catch (const rooms::InputError& error) {
     rethrow(error);
+  } catch (const std::filesystem::filesystem_error& error) {  // a name that is too long
+    throw InputError({{error.path1().string(), 0, 0, "", error.code().message()}});
   } catch (const WorkStopped&) {
     throw Stopped();
   }

@@ -117,7 +117,8 @@ void add_solve_contact(Command solve_command, Context& context) {
       "contact", "Rough contact of a rigid surface with a layered elastic half-space");
   auto c = std::make_shared<ContactCommand>();
   command
-      .add_option("--height", c->scan.file, "Heightmap (.npy .gsf .exr .tif), high touches first")
+      .add_option("--height", c->scan.file,
+                  "Heightmap (.npy .gsf .exr .tif .x3p), high touches first")
       .required();
   add_scan_options(command, c->scan);
   command.add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"");

@@ -53,6 +53,9 @@ int solve(const FieldCommand& c) {
     texture = read_map(c.texture, c.size);
     if (texture->grid.nx != gap.grid.nx || texture->grid.ny != gap.grid.ny)
       throw InputError("--texture and --gap differ in pixels");
+    // Its highest place is where a planar film is as thick as said, as of textures. Eq. geometry.9
+    const double top = *std::max_element(texture->z.begin(), texture->z.end());
+    for (double& z : texture->z) z -= top;
   }
   FieldProblem p;
   p.v_peak = not_negative(c.voltage, "V", "--voltage");
@@ -91,7 +94,7 @@ void add_solve_field(Command solve_command, Context& context) {
   Command command = solve_command.add_command(
       "field", "Electrostatic pull over a gap: by columns, with spreading flux, or 3-D");
   auto c = std::make_shared<FieldCommand>();
-  command.add_option("--gap", c->gap, "Gap heightmap (.npy .gsf .exr .tif)").required();
+  command.add_option("--gap", c->gap, "Gap heightmap (.npy .gsf .exr .tif .x3p)").required();
   command.add_option("--texture", c->texture,
                      "Surface below the gap, whose oxide follows its walls; default: flat");
   command.add_option("--size", c->size, "Lateral size in x, where the file does not say");

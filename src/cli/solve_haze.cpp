@@ -70,7 +70,7 @@ void add_solve_haze(Command solve_command, Context& context) {
   auto options = std::make_shared<HazeOptions>();
   command.add_option("file", options->design.file, "Design or study file").type_name("FILE");
   add_set_option(command, options->design.overrides);
-  command.add_option("--height", options->scan.file, "Heightmap instead: .npy .gsf .exr .tif")
+  command.add_option("--height", options->scan.file, "Heightmap instead: .npy .gsf .exr .tif .x3p")
       .type_name("FILE");
   add_scan_options(command, options->scan);
   command.add_option("--index", options->index, "Refractive index; default: the design's, or 1.46")

@@ -43,7 +43,7 @@ void add_surface(Command app, Context& context) {
   Command command = app.add_command(
       "surface", "A measured map: what is changed of it, ISO 25178, spectrum, heights, a section");
   auto options = std::make_shared<SurfaceCommand>();
-  command.add_option("file", options->scan.file, "Heightmap: .npy .gsf .exr .tif")
+  command.add_option("file", options->scan.file, "Heightmap: .npy .gsf .exr .tif .x3p")
       .required()
       .type_name("FILE");
   add_scan_options(command, options->scan);

@@ -95,11 +95,19 @@ std::string spectrum_table(const SurfaceView& view) {
 Json scan_json(const std::string& file, const ScanChanges& c) {
   Json where;
   if (c.replaced > 0) where = {{"x", {c.where.x0, c.where.x1}}, {"y", {c.where.y0, c.where.y1}}};
-  return {{"file", file},           {"as_is", c.as_is},
-          {"tilt", c.tilt()},       {"slope", {c.slope_x, c.slope_y}},
-          {"rise", c.rise},         {"pixels", c.pixels},
-          {"replaced", c.replaced}, {"furthest", c.furthest},
-          {"where", where},         {"filled", c.filled}};
+  return {{"file", file},
+          {"as_is", c.as_is},
+          {"repeats", c.repeats},
+          {"tilt", c.tilt()},
+          {"slope", {c.slope_x, c.slope_y}},
+          {"rise", c.rise},
+          {"pixels", c.pixels},
+          {"replaced", c.replaced},
+          {"furthest", c.furthest},
+          {"where", where},
+          {"filled", c.filled},
+          {"highest", c.highest},
+          {"rms", c.rms}};
 }
 
 Json areal_json(const ArealParameters& a) {

@@ -24,6 +24,9 @@ double wave(double x, double y) {
   return 100e-9 * std::cos(2 * kPi * x / 5e-6) + 60e-9 * std::cos(2 * kPi * y / 4e-6);
 }
 
+// The highest pixel of the map, which becomes the untouched land of the texture.
+double top() { return wave(0.025e-6, 0.025e-6); }
+
 // The cut of a map that a file holds, `change` made to it before.
 Heightmap cut_of(const std::string& name,
                  const std::function<double(double x, double y, double z)>& change) {
@@ -58,7 +61,8 @@ TEST(MeasuredMap, TheCutIsFromTheMiddle) {
   // Below the bands that are blended over the border.
   for (int iy = 0; iy < 84; ++iy) {
     for (int ix = 0; ix < 84; ++ix)
-      ASSERT_NEAR(h(ix, iy), wave(x0 + h.grid.x(ix), y0 + h.grid.y(iy)), 2e-9) << ix << " " << iy;
+      ASSERT_NEAR(h(ix, iy) + top(), wave(x0 + h.grid.x(ix), y0 + h.grid.y(iy)), 2e-9)
+          << ix << " " << iy;
   }
 }
 
@@ -66,6 +70,34 @@ TEST(MeasuredMap, ATiltIsTakenAway) {
   const Heightmap tilted =
       cut_of("tilted", [](double x, double y, double z) { return z + 2e-6 + 0.05 * x - 0.03 * y; });
   EXPECT_LT(largest_difference(tilted, cut_of("plain", as_it_is)), 1e-12);
+}
+
+// A map has no zero of its own: whatever is added to it, its highest place is the untouched land,
+// or as high above it as `top` says.
+TEST(MeasuredMap, ItsHighestPlaceIsTheUntouchedLand) {
+  const Heightmap plain = cut_of("plain", as_it_is);
+  for (const double offset : {-1e-6, 100e-9, 3e-3}) {
+    const Heightmap moved = cut_of("moved", [&](double, double, double z) { return z + offset; });
+    EXPECT_LT(largest_difference(moved, plain), 1e-15) << offset;
+  }
+  const Grid grid{40, 40, 4e-6, 4e-6};
+  Heightmap holes{grid, std::vector<double>(grid.size(), 0)};
+  for (std::size_t i = 0; i < 300; ++i) holes.z[i] = -200e-9;
+  const std::string file = temporary("zero.gsf");
+  for (const double offset : {0.0, 250e-9, -2e-6}) {
+    Heightmap moved = holes;
+    for (double& z : moved.z) z += offset;
+    write_gsf(file, moved, {});
+    for (const double high : {0.0, 350e-9}) {
+      for (const bool as_is : {true, false}) {
+        Measured3d map;
+        map.file = file, map.as_is = as_is, map.patch = 4e-6, map.top = high;
+        const Heightmap h = generate(Texture{map}, grid);
+        EXPECT_NEAR(*std::max_element(h.z.begin(), h.z.end()), high, as_is ? 1e-13 : 60e-9);
+        EXPECT_NEAR(h.z[0], high - 200e-9, as_is ? 1e-13 : 1e-6);
+      }
+    }
+  }
 }
 
 TEST(MeasuredMap, ASpikeIsMendedByItsNeighboursUpAndDown) {
@@ -89,7 +121,7 @@ TEST(MeasuredMap, BandsMixBothEndsAndKeepTheVarianceOfStrangers) {
     ++mixed;
     for (int ix = 0; ix < 84; ++ix) {
       const double expected = wave(x0 + h.grid.x(ix), y0 + h.grid.y(iy)) / std::hypot(b, 1 - b);
-      ASSERT_NEAR(h(ix, iy), expected, 3e-9) << ix << " " << iy;
+      ASSERT_NEAR(h(ix, iy) + top(), expected, 3e-9) << ix << " " << iy;
     }
   }
   EXPECT_GE(mixed, 9);

@@ -13,6 +13,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/random.h"
 #include "geometry/io/files.h"
 #include "geometry/measured_map.h"
 #include "tests/temporary.h"
@@ -179,6 +180,45 @@ TEST(Scan, ItsWordsHoldItsNumbersInTheirUnits) {
   c = ScanChanges{};
   c.as_is = true;
   EXPECT_EQ(text("b.npy", c), "b.npy: taken as it is, neither levelled nor mended");
+}
+
+// An exported texture repeats by itself, whatever the phase that it is cut at: the least-squares
+// plane of that phase is no tilt. A real tilt, or a rough surface that ends anywhere, is levelled.
+TEST(Scan, FromAMapThatRepeatsNoPlaneIsTaken) {
+  const auto grooves = [](double x, double) {
+    return -40e-9 * (1 - std::cos(2 * kPi * x / 4e-6 + 1));
+  };
+  const Scan kept = scanned(map_of(kGrid, grooves));
+  EXPECT_TRUE(kept.changes.repeats);
+  EXPECT_EQ(kept.changes.rise, 0);
+  EXPECT_NE(text("a.gsf", kept.changes)
+                .find("its borders meet, it repeats by itself: no plane was taken away"),
+            std::string::npos);
+  const Scan tilted = scanned(
+      map_of(kGrid, [&](double x, double y) { return grooves(x, y) + 0.5e-3 * x - 1e-3 * y; }));
+  EXPECT_FALSE(tilted.changes.repeats);
+  EXPECT_NEAR(tilted.changes.slope_y, -1e-3, 1e-5);
+  const Scan cut = scanned(map_of(kGrid, [](double x, double) {
+    return 40e-9 * std::sin(2 * kPi * x / 3.7e-6);  // 5.4 periods
+  }));
+  EXPECT_FALSE(cut.changes.repeats);
+  RandomStream random(1, "noise");  // neighbours know nothing of each other
+  const Scan noise = scanned(map_of(kGrid, [&](double, double) { return 1e-9 * random.normal(); }));
+  EXPECT_FALSE(noise.changes.repeats);
+}
+
+TEST(Scan, HeightsInAnotherUnitAreSaidOrRefused) {
+  const auto high = [](double times) {
+    return map_of(kGrid, [=](double x, double y) { return times * waves(x, y); });
+  };
+  for (const bool as_is : {false, true}) {
+    EXPECT_THROW(scanned(high(1e9), false, as_is), InputError);  // nm as m
+    EXPECT_NO_THROW(scanned(high(100), false, as_is));           // 16 um on 20
+  }
+  EXPECT_EQ(text("a", scanned(high(1)).changes).find("another unit"), std::string::npos);
+  EXPECT_NE(text("a", scanned(high(1e-3)).changes).find("an rms of 0.041 nm, smoother than any"),
+            std::string::npos)
+      << text("a", scanned(high(1e-3)).changes);
 }
 
 // A map that repeats is taken to the last bit on its own pixels, and between them by straight

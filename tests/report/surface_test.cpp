@@ -129,6 +129,7 @@ TEST(SurfaceReport, ForProgramsIsInSi) {
   SurfaceView v = made_up();
   const nlohmann::json scan{{"file", "scan.gsf"},
                             {"as_is", false},
+                            {"repeats", false},
                             {"tilt", std::atan(0.005)},
                             {"slope", {0.003, 0.004}},
                             {"rise", 540e-9},
@@ -136,7 +137,9 @@ TEST(SurfaceReport, ForProgramsIsInSi) {
                             {"replaced", 2},
                             {"furthest", 3e-7},
                             {"where", {{"x", {1e-6, 2e-6}}, {"y", {3e-6, 4e-6}}}},
-                            {"filled", 1}};
+                            {"filled", 1},
+                            {"highest", 0},
+                            {"rms", 0}};
   std::vector<double> shares(48, 0.0);
   shares[0] = 0.5, shares[12] = shares[17] = shares[42] = shares[47] = 0.125;
   const std::vector<double> section(v.scan.map.z.begin() + 144, v.scan.map.z.end());
