@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -29,6 +30,9 @@ struct ImageSpec {
   // By the library's names. Doubles stay doubles: Gwyddion ignores floats.
   std::vector<std::pair<std::string, std::variant<int, float, double, std::string>>> attributes{};
 };
+
+// Begins the line of an ImageDescription that our own reader takes: JSON.
+inline constexpr std::string_view kOwnLine = "papilla=";
 
 // Errors are texts, "" where all is well: no exception crosses the module.
 class ImageOut {

@@ -176,7 +176,7 @@ Layout draw_contours(const Heightmap& h, int levels) {
         throw InputError("more than two million polygons; fewer pixels");
     }
   }
-  return {{std::move(top)}};
+  return {{std::move(top)}, {}};
 }
 
 }  // namespace papilla::geometry

@@ -35,8 +35,19 @@ struct LayoutCell {
   std::vector<LayoutReference> references;
 };
 
+// What the polygons of a layer are, in the file itself: without it holes and pillars of one size
+// are the same file, and a wrong tone inverts the plate.
+struct LayoutLayer {
+  int number = 1;
+  std::string name;   // "HOLES_DEEP": no spaces
+  std::string label;  // a text in the top cell: tone, kind, depth, pitch
+
+  bool operator==(const LayoutLayer&) const = default;
+};
+
 struct Layout {
   std::vector<LayoutCell> cells;  // each after those that it refers to; the last is the top
+  std::vector<LayoutLayer> layers;
 };
 
 // What an array became.
@@ -67,12 +78,13 @@ ArrayDrawing draw_array(const FeatureArray& array, double size_x, double size_y,
 Layout draw_contours(const Heightmap& h, int levels);
 
 // Files, the same bytes on every run: GDSII with a database unit of 1 nm (arrays of at most 32767
-// cells a side), OASIS with its repetitions and a sum over all of it.
+// cells a side), OASIS with its repetitions and a sum over all of it. Labels are texts at the
+// origin of the top cell. GDSII has no names of layers: there the name stands before the label.
 void write_gds(const std::string& path, const Layout& layout);
 void write_oasis(const std::string& path, const Layout& layout);
 
-// What those two write, read back; polygons and references alone. Throws InputError for anything
-// else, for files that are cut off or changed, and for units other than 1 nm.
+// What those two write, read back; polygons, references and labels alone. Throws InputError for
+// anything else, for files that are cut off or changed, and for units other than 1 nm.
 Layout read_gds(const std::string& path);
 Layout read_oasis(const std::string& path);
 

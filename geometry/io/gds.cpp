@@ -1,6 +1,7 @@
 // GDSII: big-endian records [length, type, data].
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -28,12 +29,15 @@ enum Record {
   kBoundary = 0x0800,
   kReference = 0x0A00,
   kArray = 0x0B00,
+  kText = 0x0C00,
   kLayer = 0x0D02,
   kDataType = 0x0E02,
   kPoints = 0x1003,
   kElementEnd = 0x1100,
   kTarget = 0x1206,
   kColumnsRows = 0x1302,
+  kTextType = 0x1602,
+  kString = 0x1906,
 };
 
 using Points = std::vector<std::pair<std::int32_t, std::int32_t>>;  // [nm]
@@ -122,6 +126,17 @@ void reference(GdsStream& gds, const LayoutReference& r) {
   gds.empty(kElementEnd);
 }
 
+constexpr std::string_view kAfterName = ": ";  // of a layer, before its label
+
+void label(GdsStream& gds, const LayoutLayer& layer) {
+  gds.empty(kText);
+  gds.shorts(kLayer, {layer.number});
+  gds.shorts(kTextType, {0});
+  gds.points({{0, 0}});
+  gds.text(kString, layer.name + std::string(kAfterName) + layer.label);
+  gds.empty(kElementEnd);
+}
+
 // --- reading ---
 
 struct GdsRecord {
@@ -196,6 +211,8 @@ class GdsReader {
         cell.polygons.push_back(polygon());
       } else if (r.type == kReference || r.type == kArray) {
         cell.references.push_back(placed(r.type == kArray));
+      } else if (r.type == kText) {
+        layout_.layers.push_back(labelled());
       } else {
         fail(fmt::format("a record 0x{:04x} that no layout of ours has", r.type));
       }
@@ -213,6 +230,18 @@ class GdsReader {
       out.outline.x.push_back(points.coordinate(2 * i));
       out.outline.y.push_back(points.coordinate(2 * i + 1));
     }
+    expect(kElementEnd, 0);
+    return out;
+  }
+  LayoutLayer labelled() {
+    LayoutLayer out;
+    out.number = expect(kLayer, 2).number(0);
+    expect(kTextType, 2);
+    expect(kPoints, 8);
+    const std::string text = expect(kString, 1).text();
+    const std::size_t name = std::min(text.find(kAfterName), text.size());
+    out.name = text.substr(0, name);
+    out.label = text.substr(std::min(name + kAfterName.size(), text.size()));
     expect(kElementEnd, 0);
     return out;
   }
@@ -272,6 +301,9 @@ void write_gds(const std::string& path, const Layout& layout) {
             r.columns, r.rows));
       }
       reference(gds, r);
+    }
+    if (&cell == &layout.cells.back()) {
+      for (const LayoutLayer& layer : layout.layers) label(gds, layer);
     }
     gds.empty(kCellEnd);
   }

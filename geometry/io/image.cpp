@@ -166,8 +166,11 @@ void set_resolution(ImageSpec& spec, const Grid& grid) {
   a.emplace_back("PixelAspectRatio", y / x);  // without it unequal pixels are silently made equal
 }
 
+// What other programs find of a TIFF. ImageJ takes lines of names and values: the unit of the
+// resolution tags, and the heights of levels by c0 + c1 * level (cf = 0: a straight line); floats
+// are in the unit themselves. All that our own reader needs stands on a line of its own.
 std::string description(const Heightmap& h, const FileInfo& info, const char* polarity, double low,
-                        double high) {
+                        double high, int levels) {
   nlohmann::ordered_json json{{"papilla", PAPILLA_VERSION},
                               {"title", info.title},
                               {"comment", info.comment},
@@ -177,7 +180,11 @@ std::string description(const Heightmap& h, const FileInfo& info, const char* po
                               {"black_m", low},
                               {"white_m", high},
                               {"rows", "top first"}};
-  return json.dump();
+  const std::string heights = levels > 0 ? fmt::format("cf=0\nc0={:.9g}\nc1={:.9g}\n", 1e6 * low,
+                                                       1e6 * (high - low) / levels)
+                                         : "";
+  return "ImageJ=1.53\nunit=cm\n" + heights + "vunit=um\n" + std::string(kOwnLine) + json.dump() +
+         "\n";
 }
 
 void write_sixteen_bits(const std::string& path, const ImageSpec& spec, const Heightmap& h,
@@ -200,9 +207,9 @@ void write_sixteen(const std::string& path, const Heightmap& h, Polarity polarit
   set_resolution(spec, h.grid);
   const auto [low, high] = range;
   const bool white_high = polarity == Polarity::WhiteHigh;
-  spec.attributes.emplace_back("ImageDescription",
-                               description(h, info, white_high ? "white-is-high" : "white-is-deep",
-                                           white_high ? low : high, white_high ? high : low));
+  spec.attributes.emplace_back(
+      "ImageDescription", description(h, info, white_high ? "white-is-high" : "white-is-deep",
+                                      white_high ? low : high, white_high ? high : low, 65535));
   write_sixteen_bits(path, spec, h, range, polarity, binary);
 }
 
@@ -265,7 +272,8 @@ void write_tiff_float(const std::string& path, const Heightmap& h, const FileInf
   const double low = checked_range(path, h).low;
   ImageSpec spec = plain_spec(h.grid);
   set_resolution(spec, h.grid);
-  spec.attributes.emplace_back("ImageDescription", description(h, info, "white-is-high", 0, 1e-6));
+  spec.attributes.emplace_back("ImageDescription",
+                               description(h, info, "white-is-high", 0, 1e-6, 0));
   write_rows<float>(path, spec, [&](int y, float* out) { micrometre_row(h, low, y, out); });
 }
 

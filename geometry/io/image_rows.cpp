@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
 #include "base/units.h"
 #include "geometry/io/codec.h"
 #include "geometry/io/height_rows.h"
@@ -104,6 +105,15 @@ void read_tags(const ImageIn& in, std::optional<double>& x, std::optional<double
   }
 }
 
+// The JSON in a description: all of it, or a line among those of other programs; empty: none.
+std::string own_line(const std::string& description) {
+  if (description.starts_with('{')) return description;
+  for (const std::string& line : split(description, '\n')) {
+    if (line.starts_with(kOwnLine)) return line.substr(kOwnLine.size());
+  }
+  return {};
+}
+
 class ImageRows : public HeightRows {
  public:
   ImageRows(const std::string& path, bool any_size)
@@ -115,8 +125,7 @@ class ImageRows : public HeightRows {
     header_.ny = spec_.height;
     read_gwyddion_keys();
     const bool whole = spec_.sample == Sample::U16 || spec_.sample == Sample::U8;
-    if (const std::string text = in_->text("ImageDescription");
-        !text.empty() && text.front() == '{') {
+    if (const std::string text = own_line(in_->text("ImageDescription")); !text.empty()) {
       read_description(text);
     } else if (whole && !read_gwyddion_heights()) {
       broken(path_, "an integer image without its height scale; use a float image, .gsf or .npy");

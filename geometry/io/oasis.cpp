@@ -21,12 +21,22 @@ constexpr std::string_view kMagic = "%SEMI-OASIS\r\n";
 constexpr std::size_t kEndLength = 256;  // of the last record
 constexpr std::uint64_t kGridPerMicrometre = 1000;
 
-enum Record : std::uint64_t { kStart = 1, kEnd = 2, kCell = 14, kPlacement = 17, kPolygon = 21 };
+enum Record : std::uint64_t {
+  kStart = 1,
+  kEnd = 2,
+  kLayerName = 11,
+  kCell = 14,
+  kPlacement = 17,
+  kText = 19,
+  kPolygon = 21,
+};
+constexpr std::uint64_t kOneNumber = 3;  // a range of layers: this one
 enum Repetition : std::uint64_t { kColumnsAndRows = 1, kColumns = 2, kRows = 3 };
 // Bits of the byte that says what of an element is given.
 constexpr unsigned kHasLayer = 1, kHasType = 2, kHasRepetition = 4, kHasY = 8, kHasX = 16,
                    kHasPoints = 32;
 constexpr unsigned kPlacedRepeats = 8, kPlacedY = 16, kPlacedX = 32, kNamesCell = 128;
+constexpr unsigned kHasText = 64;
 constexpr std::uint64_t kAnyAngle = 4;  // list of points: a pair of numbers each
 
 class OasisStream {
@@ -89,6 +99,25 @@ void placement(OasisStream& out, const LayoutReference& r) {
   if (rows) out.number(static_cast<std::uint64_t>(r.step_y));
 }
 
+void layer_name(OasisStream& out, const LayoutLayer& layer) {
+  out.number(kLayerName);
+  out.text(layer.name);
+  out.number(kOneNumber);
+  out.number(static_cast<std::uint64_t>(layer.number));
+  out.number(kOneNumber);
+  out.number(0);
+}
+
+void label(OasisStream& out, const LayoutLayer& layer) {
+  out.number(kText);
+  out.byte(kHasText | kHasX | kHasY | kHasLayer | kHasType);
+  out.text(layer.label);
+  out.number(static_cast<std::uint64_t>(layer.number));
+  out.number(0);
+  out.whole(0);
+  out.whole(0);
+}
+
 std::string sum_of(std::string_view bytes) {
   Crc32 sum;
   sum.add(bytes.data(), bytes.size());
@@ -114,8 +143,12 @@ class OasisReader {
         layer.reset();
         if (!names_.insert(layout_.cells.back().name).second)
           fail("two cells \"" + layout_.cells.back().name + "\"");
+      } else if (record == kLayerName) {
+        layout_.layers.push_back(named());
       } else if (layout_.cells.empty()) {
         fail("an element outside of any cell");
+      } else if (record == kText) {
+        take_label();
       } else if (record == kPolygon) {
         layout_.cells.back().polygons.push_back(polygon(layer));
       } else if (record == kPlacement) {
@@ -166,6 +199,26 @@ class OasisReader {
     if (number() != 0 || number() != kGridPerMicrometre) fail("the database unit is not 1 nm");
     if (number() != 0) fail("tables at its end, which no layout of ours has");
     for (int i = 0; i < 12; ++i) number();
+  }
+  LayoutLayer named() {
+    LayoutLayer out;
+    out.name = text();
+    if (number() != kOneNumber) fail("a name of several layers");
+    out.number = static_cast<int>(number() & 0xffff);
+    if (number() != kOneNumber || number() != 0) fail("a name of several data types");
+    return out;
+  }
+  void take_label() {
+    if (byte() != (kHasText | kHasX | kHasY | kHasLayer | kHasType))
+      fail("a text that no layout of ours has");
+    const std::string label = text();
+    const std::uint64_t layer = number();
+    number();
+    coordinate(whole());
+    coordinate(whole());
+    for (LayoutLayer& known : layout_.layers) {
+      if (static_cast<std::uint64_t>(known.number) == layer) known.label = label;
+    }
   }
   LayoutPolygon polygon(std::optional<int>& layer) {
     const unsigned given = byte();
@@ -237,12 +290,16 @@ void write_oasis(const std::string& path, const Layout& layout) {
   out.number(kGridPerMicrometre);
   out.number(0);  // the places of the tables follow, none
   for (int i = 0; i < 12; ++i) out.number(0);
+  for (const LayoutLayer& layer : layout.layers) layer_name(out, layer);
   for (const LayoutCell& cell : layout.cells) {
     out.number(kCell);
     out.text(cell.name);
     std::optional<int> layer;
     for (const LayoutPolygon& p : cell.polygons) polygon(out, p, layer);
     for (const LayoutReference& r : cell.references) placement(out, r);
+    if (&cell == &layout.cells.back()) {
+      for (const LayoutLayer& l : layout.layers) label(out, l);
+    }
   }
   // The last record has 256 bytes: its number, a padding of 248 with its length in 2, the kind of
   // sum, and the sum of all before in 4.

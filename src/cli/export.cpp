@@ -33,27 +33,35 @@ struct ExportCommand {
   std::string size, polarity, out, pick, shrink, edge_rounding, facet_error, dose_curve,
       tolerance = "5 %";
   int pixels = 1024, repeat = 1, levels = 1;
-  bool verify = false;
+  bool verify = false, unrounded = false;
 };
 
 // What is exported, and where its files go by default: beside a folder of results.
 struct ExportSourceFile {
   std::string design, beside;
+  bool rounded = false;  // on the grid of the fab, as the build sheet has it
 };
 
 ExportSourceFile source_of(const ExportCommand& command) {
   namespace fs = std::filesystem;
   const fs::path named(command.design.file);
-  if (command.pick.empty() && fs::exists(named / "design.toml"))  // front/02
-    return {(named / "design.toml").string(), (named / "export").string()};
-  if (fs::is_directory(named)) {
-    const fs::path picked(picked_design_file(named.string(), command.pick));
-    return {picked.string(),
-            (named / "export" / picked.parent_path().lexically_relative(named)).string()};
+  const bool folder_of_design = command.pick.empty() && fs::exists(named / "design.toml");
+  if (!folder_of_design && !fs::is_directory(named)) {
+    if (!command.pick.empty())
+      throw InputError("--pick chooses from a folder of results; " + named.string() + " is a file");
+    if (command.unrounded)
+      throw InputError("--unrounded is for a folder of results; " + named.string() + " is a file");
+    return {named.string(), ""};
   }
-  if (!command.pick.empty())
-    throw InputError("--pick chooses from a folder of results; " + named.string() + " is a file");
-  return {named.string(), ""};
+  const fs::path found = folder_of_design
+                             ? named / "design.toml"  // front/02
+                             : fs::path(picked_design_file(named.string(), command.pick));
+  const fs::path beside = folder_of_design
+                              ? named / "export"
+                              : named / "export" / found.parent_path().lexically_relative(named);
+  const fs::path build = found.parent_path() / "build.toml";
+  if (!command.unrounded && fs::exists(build)) return {build.string(), beside.string(), true};
+  return {found.string(), beside.string()};
 }
 
 // "1 mm", or "110x62 mm", "110 mm x 62 mm": both sides; 0 where only one is given.
@@ -98,12 +106,10 @@ ExportOptions options_of(const ExportCommand& command) {
 int export_files(const Context& context, const ExportCommand& command) {
   const ExportSourceFile source = source_of(command);
   const Study study = read_study(source.design, command.design.overrides);
-  if (const auto rounded = std::filesystem::path(source.design).replace_filename("build.toml");
-      !source.beside.empty() && std::filesystem::exists(rounded)) {
-    context.note(
-        "as the search left it; on the grid of the fab, as the build sheet has it: "
-        "papilla export " +
-        rounded.string());
+  if (source.rounded) {
+    context.note(source.design +
+                 ", on the grid of the fab as the build sheet has it; as the search left it: "
+                 "--unrounded");
   }
   const ExportOptions options = options_of(command);
   say_scans({study.design});
@@ -182,6 +188,9 @@ void add_export(Command app, Context& context) {
                   "Folder; default results/NAME/export, of a folder FILE in FILE/export")
       .type_name("DIR");
   add_pick_option(command, options->pick);
+  command.add_flag("--unrounded", options->unrounded,
+                   "Of a folder of results the design as the search left it; without it the one on "
+                   "the grid of the fab that the build sheet has");
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return export_files(context, *options); };
   });

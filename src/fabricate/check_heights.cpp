@@ -83,6 +83,8 @@ class HeightsCheck {
                                     rows->header().ny, repeat_ * grid.nx, repeat_ * grid.ny));
       return faults_;
     }
+    if (const std::string lost = lost_between_pixels(s_.texture, grid); !lost.empty())
+      faults_.push_back("edges are lost between its pixels: " + lost);
     if (all_within(*rows)) return faults_;
     compare(*open_height_rows(path, repeat_ > 1));
     judge_heights();
@@ -166,6 +168,10 @@ class HeightsCheck {
       for (int ix = 0; ix < said.nx; ++ix) {
         const double file = row[static_cast<std::size_t>(ix)];
         const double z = s_.heightmap(ix % grid.nx, iy), design = expected(z);
+        if (!std::isfinite(file)) {
+          if (no_numbers_++ == 0) first_x_ = ix, first_y_ = r;
+          continue;
+        }
         c_.add(file, design);
         deep_ += file < middle(), design_deep_ += design < middle();
         const double miss = std::abs(file - design);
@@ -185,6 +191,11 @@ class HeightsCheck {
     return held_.above_lowest ? 0.5 * (planes_.high - planes_.low) : planes_.middle();
   }
   void judge_heights() {
+    if (no_numbers_ > 0) {
+      faults_.push_back(fmt::format(
+          "{} of {} heights are no finite numbers, the first in column {} of row {} of the file",
+          no_numbers_, static_cast<std::size_t>(c_.n) + no_numbers_, first_x_, first_y_));
+    }
     if (c_.off == 0) return;
     const double depth = c_.f_high - c_.f_low, wanted = planes_.high - planes_.low;
     if (c_.correlation() < -0.5) {
@@ -221,6 +232,8 @@ class HeightsCheck {
   Planes planes_;
   Compared c_;
   double deep_ = 0, design_deep_ = 0;  // pixels below half the depth
+  std::size_t no_numbers_ = 0;
+  int first_x_ = 0, first_y_ = 0;  // of those
   Faults faults_;
 };
 
@@ -252,6 +265,8 @@ Faults check_picture(const std::string& path, int width, int height, int channel
 }  // namespace
 
 std::string differs(double is, double design, double unit, const char* name) {
+  if (!std::isfinite(is))
+    return fmt::format("is no finite number, the design's {:.4g} {}", design / unit, name);
   if (design == 0) return fmt::format("is {:.4g} {}, the design's 0", is / unit, name);
   // As many digits as show the difference.
   const double share = std::abs(is / design - 1);

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "fabricate/checks.h"
+#include "fabricate/layers.h"
 #include "geometry/io/drawing.h"
 
 namespace papilla::fabricate {
@@ -198,17 +199,61 @@ Faults check_contours(const ExportSource& s, Layout& layout) {
                   1e-3 * first.outline.x.front(), 1e-3 * first.outline.y.front())};
 }
 
+// --- names and labels of layers ---
+
+Faults check_layers(const std::vector<LayoutLayer>& wanted, const std::vector<LayoutLayer>& found) {
+  Faults out;
+  for (const LayoutLayer& layer : wanted) {
+    const auto same = [&](const LayoutLayer& l) { return l.number == layer.number; };
+    const auto at = std::find_if(found.begin(), found.end(), same);
+    if (at == found.end()) {
+      out.push_back(fmt::format(
+          "its layer {} has no name and label, which say what its polygons are: \"{}: {}\"",
+          layer.number, layer.name, layer.label));
+    } else if (*at != layer) {
+      out.push_back(fmt::format("its layer {} is said to be \"{}: {}\", the design's \"{}: {}\"",
+                                layer.number, at->name, at->label, layer.name, layer.label));
+    }
+  }
+  if (found.size() > wanted.size()) out.push_back("labels of layers that the design does not have");
+  return out;
+}
+
 Faults check_layout(const ExportSource& s, Layout layout) {
   const TextureFacts known = facts(s.texture);
-  if (const FeatureArray* array = array_of(known)) return check_array(s, *array, layout);
-  return check_contours(s, layout);
+  const FeatureArray* array = array_of(known);
+  Faults out = array ? check_array(s, *array, layout) : check_contours(s, layout);
+  const Faults labels = check_layers(layers_of(s), layout.layers);
+  out.insert(out.end(), labels.begin(), labels.end());
+  return out;
 }
 
 // --- triangles ---
 
 struct Corner {
   float x, y, z;
+
+  bool finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(z); }
 };
+struct Triangle {
+  Corner normal;
+  std::array<Corner, 3> corners;
+};
+static_assert(sizeof(Triangle) == 48);
+
+// Whether the normal stands on the triangle, outwards: to the rounding of 32 bits of a product.
+bool stands(const Triangle& t) {
+  const auto& [a, b, c] = t.corners;
+  const auto d = [](float to, float from) { return double{to} - double{from}; };
+  const double ux = d(b.x, a.x), uy = d(b.y, a.y), uz = d(b.z, a.z), vx = d(c.x, a.x),
+               vy = d(c.y, a.y), vz = d(c.z, a.z);
+  const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+  const double length = std::sqrt(x * x + y * y + z * z);
+  if (length == 0) return true;
+  const Corner& n = t.normal;
+  return std::hypot(double{n.x} - x / length, double{n.y} - y / length, double{n.z} - z / length) <=
+         1e-3;
+}
 
 // A binary STL, one triangle at a time.
 class Triangles {
@@ -218,11 +263,11 @@ class Triangles {
     get(head.data(), head.size());
     std::memcpy(&count, &head[80], 4);
   }
-  std::array<Corner, 3> next() {
+  Triangle next() {
     std::array<char, 50> bytes{};
     get(bytes.data(), bytes.size());
-    std::array<Corner, 3> out{};
-    std::memcpy(out.data(), &bytes[12], sizeof out);
+    Triangle out{};
+    std::memcpy(&out, bytes.data(), sizeof out);
     return out;
   }
   bool at_end() { return file_.peek() == std::ifstream::traits_type::eof(); }
@@ -252,6 +297,9 @@ class BodyCheck {
       out.push_back(fmt::format("{} triangles, the design's {}", file.count, due));
     for (std::uint32_t i = 0; i < file.count; ++i) add(file.next());
     if (!file.at_end()) out.push_back("more after its last triangle");
+    if (no_numbers_ > 0)
+      out.push_back(
+          fmt::format("{} triangles have corners that are no finite numbers", no_numbers_));
     side(out, "its width", right_, grid.lx);
     side(out, "its height", top_, grid.ly);
     double mean = 0;
@@ -265,6 +313,10 @@ class BodyCheck {
                       "{:.4g}) um",
                       off_, 1e3 * most_, most_x_, most_y_));
     }
+    if (turned_ > 0) {
+      out.push_back(
+          fmt::format("the normals of {} triangles do not stand on them, outwards", turned_));
+    }
     return out;
   }
 
@@ -273,14 +325,21 @@ class BodyCheck {
     if (!(std::abs(1e-6 * is / design - 1) <= 1e-6))
       out.push_back(fmt::format("{} {}", what, differs(1e-6 * is, design, 1e-6, "um")));
   }
-  void add(const std::array<Corner, 3>& t) {
-    const auto& [a, b, c] = t;
+  void add(const Triangle& t) {
+    if (!std::all_of(t.corners.begin(), t.corners.end(),
+                     [](const Corner& corner) { return corner.finite(); })) {
+      ++no_numbers_;
+      return;
+    }
+    const auto& [a, b, c] = t.corners;
     const auto d = [](float v) { return static_cast<double>(v); };
     volume_ += (d(a.x) * (d(b.y) * d(c.z) - d(b.z) * d(c.y)) -
                 d(a.y) * (d(b.x) * d(c.z) - d(b.z) * d(c.x)) +
                 d(a.z) * (d(b.x) * d(c.y) - d(b.y) * d(c.x))) /
                6;
-    for (const Corner& corner : t) judge(corner);
+    const std::size_t off = off_;
+    for (const Corner& corner : t.corners) judge(corner);
+    turned_ += off_ == off && !stands(t);  // corners that are off turn it by themselves
   }
   void judge(const Corner& corner) {
     const Grid& grid = h_.grid;
@@ -307,7 +366,7 @@ class BodyCheck {
   const Heightmap& h_;
   double low_;
   double right_ = 0, top_ = 0, volume_ = 0;  // um
-  std::size_t off_ = 0;
+  std::size_t off_ = 0, no_numbers_ = 0, turned_ = 0;
   double most_ = 0, most_x_ = 0, most_y_ = 0;
 };
 

@@ -94,25 +94,18 @@ std::string more_pixels(const Grid& grid, double pixels_across, double smallest)
                                pixels);
 }
 
-// Edges are lost between pixels.
-bool too_coarse(const Texture& texture, const Grid& grid) {
-  const double smallest = facts(texture).margins.smallest();
-  return std::isfinite(smallest) && smallest > 0 && std::max(grid.dx(), grid.dy()) > 0.5 * smallest;
-}
-
 // Of too few pixels heights have their edges elsewhere, and what follows edges means nothing.
 void judge_pixels(const Texture& texture, const Grid& grid, bool follows_edges,
                   std::vector<std::string>& warnings) {
   const double smallest = facts(texture).margins.smallest();
   const double pixel = std::max(grid.dx(), grid.dy());
   if (!std::isfinite(smallest) || !(smallest > 0)) return;
-  if (follows_edges && too_coarse(texture, grid)) {
-    throw InputError(
-        fmt::format("a mask of these pixels means nothing: a pixel of {} nm is more than half the "
-                    "smallest hole "
-                    "or wall, {} nm; {}; or name other files, --format exr,tiff",
-                    significant(1e9 * pixel, 3), significant(1e9 * smallest, 3),
-                    more_pixels(grid, 4, smallest)));
+  if (const std::string lost = lost_between_pixels(texture, grid); !lost.empty()) {
+    if (follows_edges)
+      throw InputError("a mask of these pixels means nothing: " + lost +
+                       "; or name other files, --format exr,tiff");
+    warnings.push_back(lost);
+    return;
   }
   if (pixel <= smallest / 4) return;
   warnings.push_back(fmt::format(
@@ -134,15 +127,20 @@ Grid rectangle(const Texture& texture, const Grid& square, double size_y) {
   return out;
 }
 
-// The grid of the heights. Throws InputError above 2^28 pixels and for more than the memory holds.
-Grid export_grid(const Texture& texture, const Grid& cell, const ExportOptions& options) {
+// The grid of the heights. Throws InputError above so many pixels and for more than the memory
+// holds.
+Grid export_grid(const Texture& texture, const Grid& cell, const ExportOptions& options,
+                 double most_pixels = kMostPixels) {
   Grid grid = patch_grid(texture, options.pixels, options.size > 0 ? options.size : kWindow);
   if (options.size > 0 && cell.lx > 0 && options.size < 1.5 * cell.lx) grid = cell;
   if (options.size_y > 0) grid = rectangle(texture, grid, options.size_y);
-  constexpr double kLargest = 1 << 28;
-  if (static_cast<double>(grid.nx) * grid.ny > kLargest) {
+  if (static_cast<double>(grid.nx) * grid.ny > most_pixels) {
     throw InputError(
-        fmt::format("{} x {} pixels are more than 2^28; ask for fewer", grid.nx, grid.ny));
+        most_pixels == kMostPixels
+            ? fmt::format("{} x {} pixels are more than 2^28; ask for fewer", grid.nx, grid.ny)
+            : fmt::format("{} x {} pixels are more than the {:.3g} that files of this size can "
+                          "hold; export the design again",
+                          grid.nx, grid.ny, most_pixels));
   }
   // The heights, the encoded file, and both again when the file is read back.
   require_memory(32.0 * static_cast<double>(grid.size()),
@@ -171,6 +169,15 @@ void judge_size(Export& out, const ExportOptions& options) {
 }
 
 }  // namespace
+
+std::string lost_between_pixels(const Texture& texture, const Grid& grid) {
+  const double smallest = facts(texture).margins.smallest();
+  const double pixel = std::max(grid.dx(), grid.dy());
+  if (!std::isfinite(smallest) || !(smallest > 0) || pixel <= 0.5 * smallest) return {};
+  return fmt::format("a pixel of {} nm is more than half the smallest hole or wall, {} nm; {}",
+                     significant(1e9 * pixel, 3), significant(1e9 * smallest, 3),
+                     more_pixels(grid, 4, smallest));
+}
 
 const FeatureArray* array_of(const TextureFacts& known) {
   return std::get_if<FeatureArray>(&known.outline);
@@ -223,7 +230,7 @@ bool any_of(const std::vector<ExportFormat>& formats, bool (*holds)(const Export
 }
 
 Export prepared(Texture drawn, const ExportOptions& options,
-                const std::vector<ExportFormat>& formats) {
+                const std::vector<ExportFormat>& formats, double most_pixels = kMostPixels) {
   Export out;
   out.texture = std::move(drawn);
   const bool array = array_of(facts(out.texture)) != nullptr;
@@ -232,7 +239,7 @@ Export prepared(Texture drawn, const ExportOptions& options,
   const bool pixels = any_of(formats, [](const ExportFormat& f) { return f.has_pixels(); });
   if (layout && array) snap_period(out.texture, out.warnings);
   const Grid cell = unit_cell(out.texture, options.pixels);
-  const Grid grid = export_grid(out.texture, cell, options);
+  const Grid grid = export_grid(out.texture, cell, options, most_pixels);
   const bool contours = layout && !array;
   if (pixels || contours) judge_pixels(out.texture, grid, mask || contours, out.warnings);
   out.heightmap = generate(out.texture, grid);
@@ -246,16 +253,18 @@ Export prepared(Texture drawn, const ExportOptions& options,
 
 }  // namespace
 
-Export prepare_export(const Design& design, const ExportOptions& options) {
+Export prepare_export(const Design& design, const ExportOptions& options, double most_pixels) {
   Texture drawn = compensated(design.texture, options.bias);
   const std::vector<ExportFormat> formats = chosen_formats(drawn, options);
-  return prepared(std::move(drawn), options, formats);
+  return prepared(std::move(drawn), options, formats, most_pixels);
 }
 
 bool mask_shows(const Texture& texture, const ExportOptions& options) {
   const TextureFacts known = facts(texture);
   if (known.relief.present && !undrawable(known).empty()) return false;
-  return !too_coarse(texture, export_grid(texture, unit_cell(texture, options.pixels), options));
+  return lost_between_pixels(texture,
+                             export_grid(texture, unit_cell(texture, options.pixels), options))
+      .empty();
 }
 
 FileInfo info_of(const Design& design) {

@@ -66,11 +66,17 @@ const FeatureArray* array_of(const TextureFacts& known);
 // wider than half its smallest hole or wall.
 bool mask_shows(const Texture& texture, const ExportOptions& options);
 
+// Why a map of such pixels does not show the texture, one being wider than half its smallest hole
+// or wall; empty: it does.
+std::string lost_between_pixels(const Texture& texture, const Grid& grid);
+
 // All that an export is but its files: the texture as drawn on its grid. options.formats names the
 // files that are meant. With a layout of an array the period of all files is the nearest whole
 // nanometre, with a warning; so there is one where a pixel is more than a quarter of the smallest
-// hole or wall. Throws InputError.
-Export prepare_export(const Design& design, const ExportOptions& options);
+// hole or wall. Throws InputError, also above so many pixels: before memory is taken for them.
+inline constexpr double kMostPixels = 1 << 28;
+Export prepare_export(const Design& design, const ExportOptions& options,
+                      double most_pixels = kMostPixels);
 
 // What the files say of themselves.
 FileInfo info_of(const Design& design);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "fabricate/checks.h"
+#include "fabricate/layers.h"
 
 namespace papilla::fabricate {
 namespace {
@@ -19,9 +20,11 @@ Layout draw(const ExportSource& s, Export& out) {
   if (const FeatureArray* array = array_of(known)) {
     ArrayDrawing drawing = draw_array(*array, grid.lx, grid.ly, s.options.facet_error);
     out.array = drawing.array;
+    drawing.layout.layers = layers_of(s);
     return std::move(drawing.layout);
   }
   Layout layout = draw_contours(s.heightmap, s.options.levels);
+  layout.layers = layers_of(s);
   out.contours = {layout.cells.back().polygons.size(), s.options.levels};
   return layout;
 }

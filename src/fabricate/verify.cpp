@@ -25,6 +25,14 @@ double mean_of(const std::string& metric, const Response& response) {
   return value->value;
 }
 
+// The highest place of a texture over its untouched land [m]: the film below the heights of a file
+// lies there, wherever the file has its zero. Eq. geometry.9
+double top_of(const Texture& texture, const Grid& grid) {
+  if (const auto planes = facts(texture).relief.planes) return planes->high;
+  const Heightmap h = generate(texture, grid);
+  return *std::max_element(h.z.begin(), h.z.end());
+}
+
 // The design beside the files of a run.
 FileVerdict verify_design(const ExportRecord& record, const std::string& path) {
   if (read_design(path) == record.design) return {path, FileState::Sound, {}};
@@ -70,6 +78,20 @@ std::vector<ExportedFile> strangers(const ExportRecord& record, const std::strin
   return out;
 }
 
+// How many pixels the files of a record can hold: a record is a text that anybody can write, and
+// memory is taken for as many as it asks for. Deflate packs a pixel of 16 bits into 1/516 byte at
+// best.
+double pixels_held(const ExportRecord& record) {
+  constexpr double kPixelsPerByte = 2000, kAlways = 1 << 24;
+  double bytes = 0;
+  for (const ExportedFile& file : record.files) {
+    std::error_code missing;
+    const auto size = std::filesystem::file_size(file.path, missing);
+    if (!missing) bytes += static_cast<double>(size);
+  }
+  return std::clamp(kPixelsPerByte * bytes, kAlways, kMostPixels);
+}
+
 FileVerdict verify_stranger(const ExportRecord& record, const Export& made,
                             const ExportedFile& file, const FileProgress& progress) {
   const ExportFormat& format = find_export_format(file.format);
@@ -97,7 +119,7 @@ std::vector<FileVerdict> verify_files(const ExportRecord& record, const Export& 
 std::vector<FileVerdict> verify_folder(const std::string& folder, const std::string& file,
                                        const FileProgress& progress) {
   ExportRecord record = read_record(folder);
-  const Export made = prepare_export(record.design, record.options);
+  const Export made = prepare_export(record.design, record.options, pixels_held(record));
   std::vector<ExportedFile> foreign = strangers(record, folder);
   if (!file.empty()) {
     const auto other = [&](const ExportedFile& f) { return f.path != folder + "/" + file; };
@@ -119,22 +141,23 @@ Verification verify_export(const ExportRecord& record, double tolerance) {
   return verify_export(judged, heights_file(record.files), tolerance);
 }
 
-Verification verify_export(const Study& study, const std::string& file, double tolerance) {
+Verification verify_export(const Study& study, const std::string& file, double tolerance,
+                           double width) {
   const Design& design = study.design;
-  const Heightmap h = read_heightmap(file);
+  const Heightmap h = read_heightmap(file, width);
   Verification out;
   out.pixels = measure_margins(h);
   // Grains of a surface without edges are no holes and walls.
   if (!std::isfinite(facts(design.texture).margins.smallest()))
     out.pixels.min_hole = out.pixels.min_wall = kInfinity;
   for (const Constraint& c : study.constraints) {
-    const double width = c.name == "min_hole"   ? out.pixels.min_hole
-                         : c.name == "min_wall" ? out.pixels.min_wall
-                                                : kInfinity;
-    if (width < c.limit - out.pixels.pixel) {
+    const double narrowest = c.name == "min_hole"   ? out.pixels.min_hole
+                             : c.name == "min_wall" ? out.pixels.min_wall
+                                                    : kInfinity;
+    if (narrowest < c.limit - out.pixels.pixel) {
       out.faults.push_back(
           fmt::format("{} of the file is {:.3g} um, below {:.3g} um (pixel {:.2g} um)", c.name,
-                      1e6 * width, 1e6 * c.limit, 1e6 * out.pixels.pixel));
+                      1e6 * narrowest, 1e6 * c.limit, 1e6 * out.pixels.pixel));
     }
   }
   Fidelity fidelity = fidelity_level("draft");
@@ -148,9 +171,11 @@ Verification verify_export(const Study& study, const std::string& file, double t
   const double side = std::min(h.grid.lx, h.grid.ly);
   Measured3d map;
   map.file = file;
+  map.width = width;
   // A lattice repeats by itself: nothing is to be levelled, mended or blended.
   map.as_is = facts(design.texture).cell.has_value();
   map.patch = side < 1.5 * plan.grid.lx ? side : plan.grid.lx;
+  map.top = top_of(design.texture, h.grid);
   out.file = mean_of(metric, evaluate(scene, Texture{map}, fidelity));
   out.loss = std::abs(out.file - out.design) / std::abs(out.design);
   if (!(out.loss <= tolerance)) {

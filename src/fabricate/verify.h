@@ -44,10 +44,12 @@ struct Verification {
   std::vector<std::string> faults;  // what is beyond a limit; empty: sound
 };
 
-// File: one of exr, gsf, tiff written by export_design. Limits: the constraints min_hole and
+// File: heights written by export_design. Limits: the constraints min_hole and
 // min_wall of the study, kept to a pixel; the loss of merit at most `tolerance`. Cost: two
-// evaluations at draft level. Throws InputError for a file that cannot be read.
-Verification verify_export(const Study& study, const std::string& file, double tolerance);
+// evaluations at draft level. width [m]: where the file does not say. Throws InputError for a file
+// that cannot be read.
+Verification verify_export(const Study& study, const std::string& file, double tolerance,
+                           double width = 0);
 // The same of a record's most exact file of heights, of what the process makes of it. Throws
 // InputError where there is none.
 Verification verify_export(const ExportRecord& record, double tolerance);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -287,6 +288,34 @@ TEST(JudgedHeights, TheShareThatIsJudgedIsToldEachThousandRows) {
   judge.progress = [&](double share) { told.push_back(share); };
   EXPECT_EQ(judge.of("npy", judge.design), Faults{});
   EXPECT_EQ(told, (std::vector<double>{0, 1024.0 / 2050, 2048.0 / 2050}));
+}
+
+TEST(JudgedHeights, WhatIsNoNumberIsCountedWithItsPlace) {
+  const Judge judge{with_deep(20)};
+  Heightmap file = with_deep(20);
+  file.z[57] = file.z[58] = std::numeric_limits<double>::quiet_NaN();
+  const std::string path = temporary("heightmap.npy");
+  write_npy(path, file);
+  const std::function<void(double)> quiet;
+  const FileInfo info;
+  EXPECT_EQ(find_export_format("npy").check(
+                {judge.design, judge.texture, judge.options, info, quiet}, path),
+            Faults{"2 of 100 heights are no finite numbers, the first in column 7 of row 5 of the "
+                   "file"});
+}
+
+// What lies between two pixels is in no file, however exact its heights are.
+TEST(JudgedHeights, OfFeaturesThatAreFinerThanPixelsNoMapIsSound) {
+  for (const auto& [width, lost] : {std::pair{2.1e-6, false}, {1.9e-6, true}}) {
+    const Judge judge{with_deep(20), Texture{HoleArray{.period = 10e-6, .diameter = width}}};
+    const Faults faults = judge.of("npy", with_deep(20));
+    EXPECT_EQ(faults.size(), lost ? 1u : 0u);
+    if (!lost) continue;
+    EXPECT_EQ(
+        faults[0],
+        "edges are lost between its pixels: a pixel of 1000 nm is more than half the smallest "
+        "hole or wall, 1880 nm; --pixels 22 would do");
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "fabricate/checks.h"
+#include "fabricate/layers.h"
 #include "geometry/io/drawing.h"
 #include "geometry/io/layout.h"
 #include "tests/temporary.h"
@@ -25,15 +26,24 @@ struct LayoutJudge {
   double facet_error = 2e-9;
 
   Layout drawn() const {
-    return draw_array(*array_of(facts(texture)), grid.lx, grid.ly, facet_error).layout;
+    Layout out = draw_array(*array_of(facts(texture)), grid.lx, grid.ly, facet_error).layout;
+    with_source([&](const ExportSource& source) { out.layers = layers_of(source); });
+    return out;
   }
-  Faults of(const Layout& layout) const {
+  void with_source(const std::function<void(const ExportSource&)>& use) const {
     const Heightmap map{grid, {}};
     ExportOptions options;
     options.facet_error = facet_error;
     const FileInfo info;
     const std::function<void(double)> quiet;
-    const ExportSource source{map, texture, options, info, quiet};
+    use({map, texture, options, info, quiet});
+  }
+  Faults of(const Layout& layout) const {
+    Faults out;
+    with_source([&](const ExportSource& source) { out = judged(source, layout); });
+    return out;
+  }
+  static Faults judged(const ExportSource& source, const Layout& layout) {
     write_gds(temporary("judged.gds"), layout);
     write_oasis(temporary("judged.oas"), layout);
     const Faults out = check_gds(source, temporary("judged.gds"));
@@ -62,6 +72,33 @@ const LayoutJudge kHoles{Texture{HoleArray{.period = 6e-6, .diameter = 3e-6}},
                          {64, 64, 12e-6, 12e-6}};
 const LayoutJudge kGrooves{Texture{Grating{.period = 4e-6, .width = 1.5e-6, .depth = 1e-7}},
                            {64, 64, 12e-6, 10e-6}};
+
+// A hole and a pillar of one size have the same polygons; what they are stands in the file.
+TEST(JudgedLayouts, ALayerSaysWhetherItsPolygonsAreDeepOrHigh) {
+  const LayoutJudge pillars{
+      Texture{PillarArray{.period = 6e-6, .diameter = 3e-6, .height = 350e-9}},
+      {64, 64, 12e-6, 12e-6}},
+      holes{Texture{HoleArray{.period = 6e-6, .diameter = 3e-6, .depth = 350e-9}},
+            {64, 64, 12e-6, 12e-6}};
+  const Layout deep = holes.drawn(), high = pillars.drawn();
+  EXPECT_EQ(deep.cells[0].polygons, high.cells[0].polygons);
+  EXPECT_EQ(deep.layers,
+            (std::vector<LayoutLayer>{
+                {1, "HOLES_DEEP",
+                 "tone: polygons are deep, what is around them is high; kind: holes; depth 350 nm; "
+                 "diameter 3 um; pitch 6 um, square"}}));
+  EXPECT_EQ(high.layers[0].name, "PILLARS_HIGH");
+  EXPECT_EQ(pillars.of(high), Faults{});
+  const Faults inverted = pillars.of(deep);
+  ASSERT_EQ(inverted.size(), 1u);
+  EXPECT_TRUE(
+      inverted[0].starts_with("its layer 1 is said to be \"HOLES_DEEP: tone: polygons are "
+                              "deep"))
+      << inverted[0];
+  const Faults silent = pillars.of([](Layout& layout) { layout.layers.clear(); });
+  ASSERT_EQ(silent.size(), 1u);
+  EXPECT_TRUE(silent[0].starts_with("its layer 1 has no name and label")) << silent[0];
+}
 
 TEST(JudgedLayouts, AWidthIsRightToANanometre) {
   EXPECT_EQ(kGrooves.of([](Layout&) {}), Faults{});
@@ -267,6 +304,33 @@ TEST_F(JudgedBody, ACornerIsSaidByItsPlaceAndHowFarItIsOff) {
             "1 corners are off the surface, by inf nm at most, at (12.62, 0) um");
   EXPECT_EQ(changed(0, 1, [](float) { return 8.625F; }).back(),
             "1 corners are off the surface, by inf nm at most, at (0, 8.625) um");
+}
+
+// Programs shade, and some slice, by the normals.
+TEST_F(JudgedBody, ItsNormalsStandOnTheTrianglesOutwards) {
+  const auto with_normal = [&](std::size_t triangle, float times) {
+    std::string bytes = bytes_;
+    for (std::size_t k = 0; k < 3; ++k) {
+      char* at = bytes.data() + 84 + 50 * triangle + 4 * k;
+      float value = 0;
+      std::memcpy(&value, at, 4);
+      value *= times;
+      std::memcpy(at, &value, 4);
+    }
+    write_bytes(path_, bytes);
+    return judged();
+  };
+  const Faults turned{"the normals of 1 triangles do not stand on them, outwards"};
+  EXPECT_EQ(with_normal(5, -1), turned);
+  EXPECT_EQ(with_normal(100, 0), turned);
+  EXPECT_EQ(with_normal(100, 1), Faults{});
+}
+
+TEST_F(JudgedBody, CornersThatAreNoNumbersAreCounted) {
+  const Faults faults =
+      changed(7, 2, [](float) { return std::numeric_limits<float>::quiet_NaN(); });
+  EXPECT_EQ(faults.front(), "1 triangles have corners that are no finite numbers");
+  for (const std::string& fault : faults) EXPECT_EQ(fault.find("nan"), std::string::npos) << fault;
 }
 
 // 4 triangles a pixel and 4 a pixel of the sides; volume 32 of 96 um2 times 1.2 and 64 times 1 um.

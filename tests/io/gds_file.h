@@ -52,11 +52,11 @@ class GdsFile {
       if (type == 0x0606) name = text();
       if (type == 0x1206) target = text();
       if (type == 0x0D02) layer = static_cast<int>(number(data, 2));
-      if (type == 0x0800 || type == 0x0A00 || type == 0x0B00)
+      if (type == 0x0800 || type == 0x0A00 || type == 0x0B00 || type == 0x0C00)
         element = static_cast<int>(type), columns = rows = 1;
       if (type == 0x1302)
         columns = static_cast<int>(number(data, 2)), rows = static_cast<int>(number(data + 2, 2));
-      if (type == 0x1003) {
+      if (type == 0x1003 && element != 0x0C00) {  // of no text
         std::vector<std::pair<double, double>> points;
         for (std::size_t i = data; i < data + length - 4; i += 8)
           points.emplace_back(coordinate(i), coordinate(i + 4));

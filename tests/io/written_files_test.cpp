@@ -71,14 +71,15 @@ TEST(WrittenFiles, ATiffDescribesItselfAndHasItsPixelsPerCentimetre) {
   const std::string path = temporary("six.tif");
   const FileInfo info{"my title", "my comment"};
   const auto expect = [&](const std::string& polarity, const std::string& black,
-                          const std::string& white) {
+                          const std::string& white, const std::string& levels) {
     const OIIO::ImageSpec spec = spec_of(path);
     EXPECT_EQ(spec.get_string_attribute("ImageDescription"),
-              "{\"papilla\":\"" PAPILLA_VERSION
-              "\",\"title\":\"my title\",\"comment\":\"my comment\",\"size_x_m\":6e-06,"
-              "\"size_y_m\":5e-06,\"polarity\":\"" +
+              "ImageJ=1.53\nunit=cm\n" + levels +
+                  "vunit=um\npapilla={\"papilla\":\"" PAPILLA_VERSION
+                  "\",\"title\":\"my title\",\"comment\":\"my comment\",\"size_x_m\":6e-06,"
+                  "\"size_y_m\":5e-06,\"polarity\":\"" +
                   polarity + "\",\"black_m\":" + black + ",\"white_m\":" + white +
-                  ",\"rows\":\"top first\"}");
+                  ",\"rows\":\"top first\"}\n");
     EXPECT_EQ(spec.get_string_attribute("DateTime"), "2000:01:01 00:00:00");
     EXPECT_EQ(spec.get_string_attribute("Software"), "papilla " PAPILLA_VERSION);
     EXPECT_EQ(spec.get_string_attribute("compression"), "none");
@@ -90,13 +91,16 @@ TEST(WrittenFiles, ATiffDescribesItselfAndHasItsPixelsPerCentimetre) {
     EXPECT_EQ(spec.nchannels, 1);
   };
   write_tiff_float(path, six(), info);
-  expect("white-is-high", "0.0", "1e-06");
+  expect("white-is-high", "0.0", "1e-06", "");  // its numbers are um
+  // ImageJ: the height of a level is c0 + c1 * level um.
+  const std::string up = "cf=0\nc0=0\nc1=7.62951095e-08\n",
+                    down = "cf=0\nc0=0.005\nc1=-7.62951095e-08\n";
   write_tiff16(path, six(), Polarity::WhiteHigh, info);
-  expect("white-is-high", "0.0", "5e-09");
+  expect("white-is-high", "0.0", "5e-09", up);
   write_tiff16(path, six(), Polarity::WhiteDeep, info);
-  expect("white-is-deep", "5e-09", "0.0");
+  expect("white-is-deep", "5e-09", "0.0", down);
   write_mask_tiff(path, six(), Polarity::WhiteDeep, info);
-  expect("white-is-deep", "5e-09", "0.0");
+  expect("white-is-deep", "5e-09", "0.0", down);
 }
 
 std::vector<int> levels(const std::string& path) {
