@@ -163,11 +163,12 @@ std::string share_text(std::size_t part, std::size_t whole) {
 std::string impossible(const Heightmap& h) {
   constexpr double kMostSteep = 10;  // heights over the width of their map
   const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-  if (*high - *low <= kMostSteep * h.grid.lx) return {};
+  const double span = *high - *low;
+  if (!std::isfinite(span) || span <= kMostSteep * h.grid.lx) return {};  // no numbers: for others
   return fmt::format(
       "heights over {:.4g} um on a width of {:.4g} um: no surface is so steep; the heights are "
       "likely in another unit",
-      1e6 * (*high - *low), 1e6 * h.grid.lx);
+      1e6 * span, 1e6 * h.grid.lx);
 }
 
 double ScanChanges::tilt() const { return std::atan(std::hypot(slope_x, slope_y)); }

@@ -51,9 +51,10 @@ class Design {
   static Design parse(const std::string& toml, const Values& values = {});
 
   // Heights as they are drawn, or measured, as the texture: square, with square pixels, high
-  // touches first; all else by `values`. `repeats`: they repeat by themselves and are taken to the
-  // last bit; else they are levelled, mended and made periodic, as scans are. They lie in a file
-  // that toml() names and that is there for as long as a design of them. Throws InputError.
+  // touches first; all else by `values`. `repeats`: they repeat by themselves and are taken as they
+  // are, but for their zero: the highest place is the untouched land; else they are levelled,
+  // mended and made periodic, as scans are. They lie in a file that toml() names and that is there
+  // for as long as a design of them. Throws InputError.
   static Design from_heights(const Heights& heights, const Values& values = {},
                              bool repeats = true);
   // The toml() of such a design, in another process or at another time.

@@ -168,3 +168,16 @@ def test_numbers_say_unit_range_and_meaning() -> None:
     numbers = {n.path: n for n in pp.Design({"texture": {"type": "flat"}}).numbers}
     angle = numbers["surface.contact_angle"]
     assert angle.unit == "deg" and angle.low == 0 and angle.high == pytest.approx(np.pi) and "angle" in angle.meaning
+
+
+def test_a_fitted_finger_replaces_that_of_a_design() -> None:
+    finger = (ROOT / "designs/fingers/reference.toml").read_text()
+    fit = pp.Calibration({"converged": True, "explains_data": True, "warning": "", "parameters": [], "chi2_before": 2.0,
+                          "chi2": 1.0, "degrees_of_freedom": 1, "finger": finger.replace('"256 nm"', '"300 nm"'),
+                          "table": "", "json": "{}"})
+    d = pp.Design.load("m3_samples/a3h350.toml", {"finger.load": "0.5 N"})
+    fitted = fit.apply(d)
+    assert fitted["finger.skin.rms"] == 300e-9 and fitted["finger.load"] == 0.2
+    assert fitted["texture.depth"] == d["texture.depth"]
+    with pytest.raises(pp.InputError, match="expected a Design"):
+        fit.apply("a3h350.toml")  # type: ignore[arg-type]
