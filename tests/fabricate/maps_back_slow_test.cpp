@@ -13,10 +13,8 @@
 #include "fabricate/export.h"
 #include "fabricate/formats.h"
 #include "fabricate/verify.h"
-#include "forward/forward.h"
 #include "geometry/io/files.h"
 #include "measure/coverage.h"
-#include "metrics/metrics.h"
 #include "report/export.h"
 #include "tests/fabricate/exported_folder.h"
 
@@ -73,21 +71,6 @@ double highest(const Heightmap& h) { return *std::max_element(h.z.begin(), h.z.e
 
 constexpr double kMostOff = 0.02;  // of the modulation
 
-// A map as any user has it in a design. top: of its highest place over the untouched land [m].
-Texture map_of(const std::string& file, double width, double top) {
-  Measured3d map;
-  map.file = file, map.width = width, map.top = top, map.as_is = true;
-  const Heightmap h = read_heightmap(file, width);
-  map.patch = std::min(h.grid.lx, h.grid.ly);
-  return Texture{map};
-}
-
-double modulation_of(const Design& design, const Texture& texture) {
-  const Fidelity fidelity = fidelity_level("draft");
-  return summarise(Summary::Mean, "modulation", evaluate(scene_of(design), texture, fidelity))
-      ->value;
-}
-
 TEST(MapsBack, AreTheDesignInHeightsAndInFriction) {
   const Workplace place;
   std::printf("%3s %-13s %-14s %8s  %-44s %s\n", "", "kind", "film", "depth nm",
@@ -124,10 +107,9 @@ TEST(MapsBack, AreTheDesignInHeightsAndInFriction) {
       heights += fmt::format(" {} {:.1g}", file.format, 1e9 * miss);
       const bool felt = file.format == "tiff" || file.format == "npy" || file.format == "x3p";
       if (!felt) continue;
-      const double off =
-          modulation_of(study.design, map_of(file.path, width, top)) / own.design - 1;
-      EXPECT_LT(std::abs(off), kMostOff) << file.path;
-      friction += fmt::format(" {} {:.2g}", file.format, 100 * off);
+      const Verification map = verify_export(study, file.path, kMostOff, width);
+      EXPECT_TRUE(map.faults.empty()) << file.path << ": " << map.faults.at(0);
+      friction += fmt::format(" {} {:.2g}", file.format, 100 * (map.file / map.design - 1));
     }
     std::printf("%3d %-13s %-14s %8.1f %s  %s\n", index, texture_name(study.design.texture).c_str(),
                 process_of(study.design), 1e9 * depth, heights.c_str(), friction.c_str());
