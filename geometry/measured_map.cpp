@@ -18,7 +18,7 @@
 namespace papilla::geometry {
 namespace {
 
-// Bilinear value at (x, y) [m]; beyond the border the border's value.
+// Bilinear value at (x, y) [m] within the map; beyond its last pixels the border's value.
 double value_at(const Heightmap& h, double x, double y) {
   const double u = std::clamp(x / h.grid.dx() - 0.5, 0.0, h.grid.nx - 1.0);
   const double v = std::clamp(y / h.grid.dy() - 0.5, 0.0, h.grid.ny - 1.0);
@@ -84,6 +84,21 @@ Heightmap periodic_cut(const Heightmap& source, const Grid& grid, double x0, dou
   return out;
 }
 
+// A map that repeats, over sides that need not be its own: from its corner on, as often as it
+// takes.
+Heightmap tiled(const Heightmap& source, const Grid& grid) {
+  const Grid& g = source.grid;
+  const int nx = static_cast<int>(std::ceil(grid.lx / g.lx - 1e-9)),
+            ny = static_cast<int>(std::ceil(grid.ly / g.ly - 1e-9));
+  Heightmap tiles{{nx * g.nx, ny * g.ny, nx * g.lx, ny * g.ly}, {}};
+  tiles.z.reserve(tiles.grid.size());
+  for (int iy = 0; iy < tiles.grid.ny; ++iy) {
+    const auto row = source.z.begin() + static_cast<std::ptrdiff_t>(g.index(0, iy % g.ny));
+    for (int tile = 0; tile < nx; ++tile) tiles.z.insert(tiles.z.end(), row, row + g.nx);
+  }
+  return periodic_cut(tiles, grid, 0, 0, 0, 0, {});
+}
+
 bool same_pixels(const Grid& a, const Grid& b) {
   return a.nx == b.nx && a.ny == b.ny && std::abs(a.lx - b.lx) < 1e-12 * b.lx &&
          std::abs(a.ly - b.ly) < 1e-12 * b.ly;
@@ -104,6 +119,8 @@ Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid
         source.file, 1e6 * whole.lx, 1e6 * whole.ly, 1e6 * patch));
   }
   if (source.as_is && same_pixels(grid, whole)) return {grid, scan->map.z};  // to the last bit
+  const auto other = [&](double side) { return std::abs(side / patch - 1) > 1e-9; };
+  if (source.as_is && (other(grid.lx) || other(grid.ly))) return tiled(scan->map, grid);
   const double x0 = 0.5 * (whole.lx - grid.lx), y0 = 0.5 * (whole.ly - grid.ly);
   const double seam = source.as_is ? 0 : kSeam;  // what is known repeats by itself
   return periodic_cut(scan->map, grid, x0, y0, std::clamp(x0, 0.0, seam * grid.lx),

@@ -11,7 +11,9 @@
 namespace papilla::geometry {
 
 // The map of the file, levelled, mended and made periodic, resampled on the grid: cut from the
-// middle. Throws InputError for a map smaller than `patch` [m].
+// middle. One that repeats by itself and is asked for other sides than its patch, as a part of a
+// stack, begins at its corner, as textures do. Throws InputError for a map smaller than `patch`
+// [m].
 Heightmap middle_of_map(const ScanSource& source, double patch, const Grid& grid);
 
 // What was changed of the map before that. Read once, whoever asks.

@@ -142,16 +142,15 @@ Journal::Journal(const Folder& folder, const std::string& name, const std::strin
     copy_ = keep_copy(folder, name, text);
   if (::ftruncate(file_.get(), static_cast<off_t>(sound)) != 0 ||
       ::lseek(file_.get(), 0, SEEK_END) < 0)
-    cannot_write(path_, std::strerror(errno), errno);
+    throw InputError(fmt::format("cannot write {}: {}", path_, std::strerror(errno)));
   if (sound == 0) write(first);
 }
 
 // Onto the disk.
 void Journal::write(std::string_view text) const {
   const auto fail = [this] {
-    const int error = errno;
-    cannot_write(path_, fmt::format("{}; free some space and use --resume", std::strerror(error)),
-                 error);
+    throw FailedWrite(fmt::format("cannot write {}: {}; free some space and use --resume", path_,
+                                  std::strerror(errno)));
   };
   std::size_t done = 0;
   while (done < text.size()) {

@@ -65,7 +65,7 @@ void write_rows(const std::string& path, ImageSpec spec, const FillRow& fill_row
   const auto fail = [&](const std::string& why) {
     std::error_code ignored;
     const bool full = fs::space(fs::path(path).parent_path(), ignored).available < 1 << 16;
-    part.fail_writing(why + (full ? " (the disk is full)" : ""));
+    part.fail(why + (full ? " (the disk is full)" : ""));
   };
   const std::size_t width = static_cast<std::size_t>(spec.width) * spec.channels.size();
   // Whole blocks of 16 rows of the compressor, enough for its threads, 64 MB at most.

@@ -17,7 +17,6 @@
 
 #include "base/check.h"
 #include "base/error.h"
-#include "base/files.h"
 
 namespace papilla::base {
 namespace {
@@ -91,17 +90,19 @@ PartFile::~PartFile() {
 
 std::string PartFile::path() const { return folder_path_ + "/" + part_; }
 
-void PartFile::fail(const std::string& why) const {
+void PartFile::refuse(const std::string& why) const {
   throw InputError("cannot write " + final_path_ + ": " + why);
 }
 
-void PartFile::fail_writing(const std::string& why) const {
+void PartFile::fail(const std::string& why) const {
   throw FailedWrite("cannot write " + final_path_ + ": " + why);
 }
 
 void PartFile::fail_by_errno(const char* at) const {
   const int error = errno;
-  cannot_write(final_path_, fmt::format("{} ({})", std::strerror(error), at), error);
+  const std::string why = fmt::format("{} ({})", std::strerror(error), at);
+  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO) fail(why);
+  refuse(why);
 }
 
 void PartFile::create(unsigned mode) {
@@ -109,8 +110,8 @@ void PartFile::create(unsigned mode) {
   const bool replaces = ::fstatat(folder_.get(), name_.empty() ? "." : name_.c_str(), &there,
                                   AT_SYMLINK_NOFOLLOW) == 0;
   if (replaces && !S_ISREG(there.st_mode) && !S_ISLNK(there.st_mode)) {
-    fail(S_ISDIR(there.st_mode) ? "it is a folder; give the path of a file"
-                                : "it is no regular file; give the path of a file");
+    refuse(S_ISDIR(there.st_mode) ? "it is a folder; give the path of a file"
+                                  : "it is no regular file; give the path of a file");
   }
   clear_left_over();
   const bool same_mode = replaces && S_ISREG(there.st_mode);
@@ -186,7 +187,7 @@ void FileWriter::commit() {
     sum = check_sum(sum, block.data(), static_cast<std::size_t>(n));
     size += static_cast<std::size_t>(n);
   }
-  if (size != size_ || sum != sum_) part_.fail_writing("reads back with other bytes");
+  if (size != size_ || sum != sum_) part_.fail("reads back with other bytes");
   part_.put();
 }
 

@@ -14,8 +14,9 @@ namespace papilla::base {
 // The file beside its final name until it is put there: under a name that nobody guesses, new, and
 // never behind a link. It has the mode of the file that it replaces; of a new one the mask of the
 // process decides. A link of the final name is replaced, not followed. What a killed process left
-// of the same file goes when the next one begins. Throws InputError, as well for a folder, a device
-// or a pipe of the name, which a rename would destroy.
+// of the same file goes when the next one begins. Throws FailedWrite where the disk takes no more,
+// InputError for a place that cannot be written to: also for a folder, a device or a pipe of the
+// name, which a rename would destroy.
 class PartFile {
  public:
   explicit PartFile(const std::string& path);
@@ -30,13 +31,12 @@ class PartFile {
   std::string path() const;
   // Flushed to disk, named, and its folder flushed.
   void put();
-  // "cannot write PATH: WHY": InputError for a place that cannot be written to, FailedWrite for a
-  // disk that fails, and what errno says: "cannot write PATH: ... (AT)".
+  // "cannot write PATH: WHY", a FailedWrite; "cannot write PATH: ... (AT)", one by errno.
   [[noreturn]] void fail(const std::string& why) const;
-  [[noreturn]] void fail_writing(const std::string& why) const;
   [[noreturn]] void fail_by_errno(const char* at) const;
 
  private:
+  [[noreturn]] void refuse(const std::string& why) const;  // of the place
   void create(unsigned mode);
   void clear_left_over() const;
 

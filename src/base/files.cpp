@@ -46,12 +46,6 @@ std::string end_of_links(const std::string& path) {
   return target.string();
 }
 
-void cannot_write(const std::string& path, const std::string& why, int error) {
-  const std::string text = "cannot write " + path + ": " + why;
-  if (error == ENOSPC || error == EDQUOT || error == EFBIG || error == EIO) throw FailedWrite(text);
-  throw InputError(text);
-}
-
 void write_bytes(const std::string& path, std::string_view bytes) {
   FileWriter out(path);
   out.append(bytes);

@@ -17,10 +17,6 @@ namespace papilla::base {
 // for links that lead nowhere.
 std::string end_of_links(const std::string& path);
 
-// "cannot write PATH: WHY": FailedWrite where errno says that the disk is full or fails, InputError
-// for a place that cannot be written to.
-[[noreturn]] void cannot_write(const std::string& path, const std::string& why, int error);
-
 // Writes bytes atomically (PartFile of file_writer.h). Throws InputError.
 void write_bytes(const std::string& path, std::string_view bytes);
 

@@ -232,12 +232,12 @@ TEST(MiddleOfAMap, IsTheMapItselfWhereItIsKnown) {
   for (std::size_t i = 0; i < h.z.size(); ++i)
     ASSERT_EQ(same.z[i], static_cast<double>(static_cast<float>(h.z[i])));
   EXPECT_EQ(changes_of_map(source).as_is, true);
-  // Finer pixels, a part of it about its middle: 7.5 um and 1 um from the corner.
-  const Grid part{60, 70, 5e-6, 7e-6};
+  // Finer pixels, a part of it about its middle: 6.5 um and 1 um from the corner.
+  const Grid part{84, 70, 7e-6, 7e-6};
   const Heightmap cut = middle_of_map(source, 7e-6, part);
   for (int iy = 0; iy < part.ny; ++iy) {
     for (int ix = 0; ix < part.nx; ++ix) {
-      ASSERT_NEAR(cut(ix, iy), 1e-3 * (7.5e-6 + part.x(ix)) - 2e-3 * (1e-6 + part.y(iy)), 1e-14);
+      ASSERT_NEAR(cut(ix, iy), 1e-3 * (6.5e-6 + part.x(ix)) - 2e-3 * (1e-6 + part.y(iy)), 1e-14);
     }
   }
   // The border's value holds beyond the centres of the last pixels.
@@ -245,6 +245,21 @@ TEST(MiddleOfAMap, IsTheMapItselfWhereItIsKnown) {
   const Heightmap fine = middle_of_map(source, 9e-6, whole);
   EXPECT_EQ(fine(0, 0), same(0, 0));
   EXPECT_EQ(fine(799, 479), same(199, 119));
+}
+
+// On another patch than its own a map that repeats begins at its corner, as often as it takes.
+TEST(MiddleOfAMap, OneThatRepeatsIsTiledOverOtherSides) {
+  const Grid grid{60, 60, 6e-6, 6e-6}, oblong{120, 180, 12e-6, 18e-6};
+  const auto lattice = [](double x, double y) {
+    return 40e-9 * std::sin(2 * kPi * x / 6e-6) + 30e-9 * std::cos(2 * kPi * y / 3e-6);
+  };
+  const std::string file = temporary("tile.gsf");
+  write_gsf(file, map_of(grid, lattice), {});
+  const Heightmap h = middle_of_map({file, 0, false, true}, 6e-6, oblong);
+  for (int iy = 0; iy < oblong.ny; ++iy) {
+    for (int ix = 0; ix < oblong.nx; ++ix)
+      ASSERT_NEAR(h(ix, iy), lattice(oblong.x(ix), oblong.y(iy)), 1e-14) << ix << " " << iy;
+  }
 }
 
 TEST(MiddleOfAMap, ALargerPixelIsTheMeanOverItsArea) {
