@@ -203,7 +203,7 @@ std::string worth_building(const ResultFiles& f) {
   if (const std::string same = gains_and_costs(f, best.confirmed, *r.flat); !same.empty())
     clauses.push_back("Against the same surface without texture it " + same + ".");
   const auto flat = best_flat(f.problem, r);
-  if (flat && r.finalists[*flat].confirmed.values != r.flat->values) {
+  if (flat && surface_text(f, r.finalists[*flat].unit) != surface_text(f, best.unit)) {
     const FinalDesign& other = r.finalists[*flat];
     const std::string both = gains_and_costs(f, best.confirmed, other.confirmed);
     const std::string surface = surface_text(f, other.unit);

@@ -105,11 +105,4 @@ std::string picked_design_file(const std::string& results, const std::string& ru
   return root.file(picked_design(root, rule) + "/design.toml");
 }
 
-std::string built_design_file(const std::string& results) {
-  const Folder root(results);
-  // A run by an older version has none where nothing was rounded.
-  return root.has("best/build.toml") ? root.file("best/build.toml")
-                                     : picked_design_file(results, "");
-}
-
 }  // namespace papilla::search

@@ -29,8 +29,4 @@ std::string picked_design(const Folder& results, const std::string& rule);
 // Its design.toml.
 std::string picked_design_file(const std::string& results, const std::string& rule);
 
-// The file of what a folder of results says to build: the recommended design (flat, where that is
-// the advice) with its numbers on the grid of the fab. Throws InputError for an unfinished run.
-std::string built_design_file(const std::string& results);
-
 }  // namespace papilla::search

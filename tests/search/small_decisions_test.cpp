@@ -366,9 +366,6 @@ TEST(Pick, AFolderIsReadAsItsFront) {
   std::filesystem::create_directories(root + "/best");
   write_bytes(root + "/best/design.toml", "");
   EXPECT_EQ(picked(""), "/best/design.toml");
-  EXPECT_EQ(built_design_file(root), root + "/best/design.toml");  // of an older run
-  write_bytes(root + "/best/build.toml", "");
-  EXPECT_EQ(built_design_file(root), root + "/best/build.toml");
   write_bytes(root + "/front/02/metrics.json", "{\"objectives\": {}}");
   EXPECT_TRUE(refusal([&] { picked("1"); }).starts_with(root + ": metrics.json is damaged: "));
   std::filesystem::remove_all(root + "/front/01");
