@@ -90,6 +90,7 @@ Heightmap tiled(const Heightmap& source, const Grid& grid) {
   const Grid& g = source.grid;
   const int nx = static_cast<int>(std::ceil(grid.lx / g.lx - 1e-9)),
             ny = static_cast<int>(std::ceil(grid.ly / g.ly - 1e-9));
+  if (nx == 1 && ny == 1) return periodic_cut(source, grid, 0, 0, 0, 0, {});
   Heightmap tiles{{nx * g.nx, ny * g.ny, nx * g.lx, ny * g.ly}, {}};
   tiles.z.reserve(tiles.grid.size());
   for (int iy = 0; iy < tiles.grid.ny; ++iy) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/constants.h"
 #include "fabricate/export.h"
 #include "forward/forward.h"
@@ -220,30 +222,48 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   EXPECT_TRUE(verify_export(study, file, 0.2).faults.empty());
 }
 
-// The patch of this design is 12 um wide: of a file of twice that only as much is judged, one that
-// is hardly larger is judged whole.
+// Where nothing repeats the patch of a design is 12 um wide: of a file of twice that only as much
+// is judged, one that is hardly larger is judged whole, and as it is.
 TEST(Verify, OfAFileThatIsMuchLargerThanItsDesignsPatchAPatchIsJudged) {
   Study study;
   study.design.environment.relative_humidity = {0.35};
-  HoleArray holes;
-  holes.period = 6e-6, holes.diameter = 4e-6, holes.depth = 200e-9;
-  study.design.texture = Texture{holes};
+  RandomRough rough;
+  rough.rms = 30e-9;
+  study.design.texture = Texture{rough};
   const std::string file = temporary("patch.gsf");
   const Scene scene = scene_of(study.design);
-  const auto judged = [&](double patch) {
-    Measured3d map;
-    map.file = file, map.as_is = true, map.patch = patch;
-    return summarise(Summary::Mean, "friction",
-                     evaluate(scene, Texture{map}, fidelity_level("draft")))
-        ->value;
-  };
   for (const auto& [side, other] : {std::pair{24, 12}, {15, 15}}) {
     const Grid grid{16 * side / 3, 16 * side / 3, 1e-6 * side, 1e-6 * side};
-    write_gsf(file, generate(study.design.texture, grid), {});
+    const Heightmap drawn = generate(study.design.texture, grid);
+    write_gsf(file, drawn, {});
+    const auto judged = [&](double patch) {
+      Measured3d map;
+      map.file = file, map.patch = patch, map.as_is = patch == grid.lx;
+      map.top = *std::max_element(drawn.z.begin(), drawn.z.end());
+      return summarise(Summary::Mean, "friction",
+                       evaluate(scene, Texture{map}, fidelity_level("draft")))
+          ->value;
+    };
     const double found = verify_export(study, file, 1).file;
     EXPECT_NEAR(found, judged(1e-6 * other), 1e-9 * found) << side;
     EXPECT_GT(std::abs(found - judged(1e-6 * (other == 12 ? side : 12))), 1e-6 * found) << side;
   }
+}
+
+// A lattice is judged on the patch of its design, whatever the sides of the file: of two by two
+// periods where the design is simulated on two by three.
+TEST(Verify, TheMapOfALatticeIsJudgedOnThePatchOfItsDesign) {
+  Study study;
+  study.design.environment.relative_humidity = {0.35};
+  HoleArray holes;
+  holes.period = 4.9e-6, holes.diameter = 2.4e-6, holes.depth = 300e-9;
+  study.design.texture = Texture{holes};
+  const Grid patch = simulated_patch(study.design.texture, 128);
+  ASSERT_GT(patch.ly, 1.4 * patch.lx);
+  const Grid grid{196, 196, 9.8e-6, 9.8e-6};
+  const std::string file = temporary("lattice.gsf");
+  write_gsf(file, generate(study.design.texture, grid), {});
+  EXPECT_LT(verify_export(study, file, 0.05).loss, 0.01);
 }
 
 }  // namespace
