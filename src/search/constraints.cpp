@@ -142,8 +142,8 @@ std::string StudyConstraints::geometry_reason(const Point& unit) const {
     const double value =
         limit_on(c) == LimitOn::Look ? look_value(c.name, appearance_of(d)) : cheap_value(place, d);
     if (!keeps(c, value))
-      return fmt::format("{} is {}, {} is asked for", c.name, limit_value_text(c, value),
-                         limit_text(c));
+      return fmt::format("{} {} is {} {}", c.name, limit_value_text(c, value),
+                         c.at_least ? "below" : "above", limit_value_text(c, c.limit));
   }
   return {};
 }

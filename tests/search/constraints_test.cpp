@@ -31,8 +31,7 @@ TEST(Constraints, OfAShapeAreRelativeToTheirLimit) {
   EXPECT_NEAR(g[1], 0.5 - 1, 1e-9);
   EXPECT_NEAR(g[2], 2 / (4 - 0.8 * std::tan(kPi / 90)) - 1, 1e-9);
   EXPECT_NEAR(g[3], 0.4 / 0.05 - 1, 1e-9);
-  EXPECT_EQ(problem.constraints().geometry_reason(unit),
-            "aspect_ratio is 0.4, at most 0.05 is asked for");
+  EXPECT_EQ(problem.constraints().geometry_reason(unit), "aspect_ratio 0.4 is above 0.05");
 }
 
 TEST(Constraints, OfAnEvaluationAreRelativeAndBounded) {
