@@ -114,8 +114,10 @@ void PartFile::create(unsigned mode) {
                                   : "it is no regular file; give the path of a file");
   }
   clear_left_over();
-  const bool same_mode = replaces && S_ISREG(there.st_mode);
-  if (same_mode) mode = there.st_mode & 0777;
+  if (replaces && S_ISREG(there.st_mode)) {
+    kept_mode_ = there.st_mode & 0777;
+    mode = 0600;  // until it is put: a file may be read only, and is written by its name too
+  }
   const PartName name{fs::path(name_)};
   // Somebody who begins at the same time may take a file that is not locked yet for a left-over.
   struct stat own {};
@@ -127,7 +129,6 @@ void PartFile::create(unsigned mode) {
     ::flock(file_.get(), LOCK_EX | LOCK_NB);
     if (::fstat(file_.get(), &own) != 0) fail_by_errno("open");
   } while (own.st_nlink == 0);
-  if (same_mode && ::fchmod(file_.get(), mode) != 0) fail_by_errno("set the mode");
 }
 
 // Who writes holds a lock on its part, which goes with the process.
@@ -154,6 +155,7 @@ void PartFile::put() {
   if (::fstatat(folder_.get(), part_.c_str(), &named, AT_SYMLINK_NOFOLLOW) != 0)
     fail_by_errno("rename");
   if (own.st_ino != named.st_ino || own.st_dev != named.st_dev) fail("another file took its place");
+  if (kept_mode_ && ::fchmod(file_.get(), *kept_mode_) != 0) fail_by_errno("set the mode");
   if (::fsync(file_.get()) != 0) fail_by_errno("flush");
   if (::renameat(folder_.get(), part_.c_str(), folder_.get(), name_.c_str()) != 0)
     fail_by_errno("rename");

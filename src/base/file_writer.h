@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -41,6 +42,7 @@ class PartFile {
   void clear_left_over() const;
 
   std::string final_path_, folder_path_, name_, part_;
+  std::optional<unsigned> kept_mode_;  // of the file that is replaced
   Handle folder_, file_;
 };
 

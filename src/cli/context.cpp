@@ -3,11 +3,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <string_view>
 
 #include "base/error.h"
+#include "base/folder.h"
 #include "base/text.h"
 
 namespace papilla::cli {
@@ -53,12 +53,7 @@ void Context::note(const std::string& text) const {
 }
 
 void make_folder(const std::string& path) {
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (!error && !std::filesystem::is_directory(path, error))
-    error = std::make_error_code(std::errc::not_a_directory);
-  if (error)
-    throw InputError({Problem{path, 0, 0, "", "no such folder can be made: " + error.message()}});
+  Folder::made(path);
   if (access(path.c_str(), W_OK | X_OK) != 0)
     throw InputError({Problem{path, 0, 0, "", "the folder cannot be written to"}});
 }

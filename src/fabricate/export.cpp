@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <utility>
 
 #include "base/error.h"
+#include "base/folder.h"
 #include "base/memory.h"
 #include "base/text.h"
 #include "fabricate/formats.h"
@@ -276,10 +276,7 @@ Export export_design(const Design& design, const ExportOptions& options, const s
   Texture drawn = compensated(design.texture, options.bias);
   const std::vector<ExportFormat> formats = chosen_formats(drawn, options);
   Export out = prepared(std::move(drawn), options, formats);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error)
-    throw InputError(fmt::format("cannot make the folder {}: {}", folder, error.message()));
+  Folder::made(folder);
   const FileInfo info = info_of(design);
   for (const ExportFormat& format : formats) {
     const std::string path = folder + "/" + format.file;

@@ -192,7 +192,7 @@ TEST(Export, AFullDiskAndAMissingFolderLeaveTheOldFile) {
   place.write("plain", "a file");
   const Outcome none = place.run(design + "--format gsf --out plain/below");
   EXPECT_EQ(none.status, 2);
-  EXPECT_NE(none.err.find("cannot make the folder"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("no such folder can be made"), std::string::npos) << none.err;
 }
 
 TEST(Export, AKillInTheMiddleLeavesTheOldFile) {
