@@ -64,7 +64,7 @@ FitReport fit_to_folder(const std::string& file, const FitOptions& options) {
   FitReport fit;
   fit.calibration = read_calibration(file, m3_claim_ids());
   if (kept) make_fit_folder(options.folder);
-  fit.result = fit_finger(fit.calibration, {options.threads, true, options.note});
+  fit.result = fit_finger(fit.calibration, {options.threads, true, options.note, options.folder});
   // At once: what the fit has cost is not lost to a claim that cannot be judged.
   if (kept) write_fitted(options.folder, fit);
   const JudgedFit claims = judged(fit.calibration, fit.result, options);
