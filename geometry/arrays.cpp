@@ -7,6 +7,7 @@
 
 #include "base/constants.h"
 #include "base/parallel.h"
+#include "geometry/profile.h"
 
 namespace papilla::geometry {
 namespace {
@@ -33,6 +34,30 @@ FabricationMargins array_margins(const FeatureArray& a, const WallSection& wall)
   const double hole = (a.deep ? a.width : gap) - 2 * wall.run();  // at its floor
   const double land = a.deep ? gap : a.width;
   return {hole, land, wall.depth / std::min(hole, land)};
+}
+
+// The outlines in the middle of steps of the section, each 8 nm high at most, which light does not
+// tell from a slope. One where the wall is upright.
+std::vector<Terrace> terraces_of(const FeatureArray& a, const WallSection& wall) {
+  constexpr double kStep = 8e-9, kFewest = 16, kMost = 512;
+  const WallProfile profile(wall.depth, wall.wall_angle, wall.edge_radius);
+  const double span = profile.end() - profile.start();
+  const bool upright = span < 1e-6 * a.width;
+  const int steps =
+      upright ? 1 : static_cast<int>(std::clamp(std::ceil(wall.depth / kStep), kFewest, kMost));
+  std::vector<Terrace> out;
+  for (int k = 0; k < steps; ++k) {
+    const double outer = profile.start() + span * k / steps,
+                 inner = profile.start() + span * (k + 1) / steps, middle = 0.5 * (outer + inner);
+    // Holes fall inwards from the land; pillars rise inwards from the floor.
+    if (a.deep) {
+      out.push_back({a.width - 2 * middle, -profile.drop(inner)});
+    } else {
+      out.push_back({a.width + 2 * middle, wall.depth - profile.drop(outer)});
+    }
+  }
+  if (!a.deep) std::reverse(out.begin(), out.end());
+  return out;
 }
 
 }  // namespace
@@ -95,8 +120,9 @@ double feature_share(const FeatureArray& a) {
   return kPi / 4 * a.width * a.width / cell;
 }
 
-TextureFacts array_facts(const FeatureArray& array, const WallSection& wall) {
+TextureFacts array_facts(FeatureArray array, const WallSection& wall) {
   const bool relief = wall.depth > 0;
+  if (relief) array.terraces = terraces_of(array, wall);
   const double row =
       array.lattice == Lattice::Square ? array.period : std::sqrt(3.0) * array.period;
   const double share = array.deep ? feature_share(array) : 1 - feature_share(array);
@@ -108,6 +134,7 @@ TextureFacts array_facts(const FeatureArray& array, const WallSection& wall) {
           .rim_radius = relief ? std::optional(wall.edge_radius) : std::nullopt,
           .outline = array,
           .scans = kNoScans,
+          .directional = relief && array.shape == FeatureArray::Shape::Line,
           .quick_look = true};
 }
 

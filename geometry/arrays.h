@@ -27,7 +27,7 @@ Heightmap round_features(const FeatureArray& array, const WallSection& wall, con
                          const std::function<double(double, double)>& height);
 
 double feature_share(const FeatureArray& array);  // of the area, inside the features
-TextureFacts array_facts(const FeatureArray& array, const WallSection& wall);
+TextureFacts array_facts(FeatureArray array, const WallSection& wall);
 
 // Features that overlap, and walls that meet before the depth is reached.
 TextureProblems array_problems(double period, double width, const char* width_key);

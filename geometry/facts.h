@@ -84,6 +84,12 @@ struct FabricationMargins {
   }
 };
 
+// Height [m] between an outline of a feature, this wide [m], and the next one inside it; over what
+// is around the features.
+struct Terrace {
+  double width, height;
+};
+
 // Equal features on a lattice as seen from above: what a layout repeats, and what the closed forms
 // of optics take.
 struct FeatureArray {
@@ -93,6 +99,8 @@ struct FeatureArray {
   Lattice lattice;
   double period, width;    // distance of neighbours; diameter or width of a feature [m]
   std::string_view drawn;  // "holes": what the shapes are
+  // Walls and rims in steps, from the outermost outline in.
+  std::vector<Terrace> terraces{};
 };
 struct Contours {};  // the level sets of its heights
 struct NoOutline {
@@ -111,7 +119,8 @@ struct TextureFacts {
   Stated<std::optional<double>> rim_radius;  // least radius of convex rims [m]; none: no rims
   Stated<Outline> outline;                   // of what is deep, at any depth of it
   Stated<std::vector<ScanSource>> scans;     // the measured maps that it is made of
-  Stated<bool> quick_look;  // optics take a millisecond, whatever the numbers of this kind are
+  Stated<bool> directional;  // made along one direction: grooves, crests; of a scan not judged
+  Stated<bool> quick_look;   // optics take a millisecond, whatever the numbers of this kind are
 
   double period() const { return cell ? cell->x : 0; }  // [m]; 0: aperiodic or flat
 };

@@ -39,6 +39,14 @@ double WallProfile::integral(double s) const {
   return sum;
 }
 
+double WallProfile::drop(double s) const {
+  const double t = s - start_;
+  if (t <= 0) return 0;
+  if (t >= floor_) return depth_;
+  if (t > rim_end_) return rim_drop_ + slope_ * (t - rim_end_);
+  return rim_ - std::sqrt(rim_ * rim_ - t * t);
+}
+
 double WallProfile::mean_drop(double s, double pixel) const {
   if (depth_ <= 0) return 0;
   return (integral(s + 0.5 * pixel) - integral(s - 0.5 * pixel)) / pixel;

@@ -13,6 +13,10 @@ class WallProfile {
   // Depth below the land at a distance s [m] inside the edge (negative: on the land), averaged over
   // a pixel: exact integral of the section, so the removed volume is right. Eq. geometry.1
   double mean_drop(double s, double pixel) const;
+  double drop(double s) const;  // the same at a point
+  // From where to where the section falls, as s.
+  double start() const { return start_; }
+  double end() const { return start_ + floor_; }
 
  private:
   double integral(double s) const;  // of the drop from far outside to s

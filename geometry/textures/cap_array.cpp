@@ -73,7 +73,8 @@ TextureFacts facts(const CapArray& t) {
        .hole = dimples ? chord : t.period - chord,
        .land = dimples ? t.period - chord : chord,
        .open_share = dimples ? share : 1 - share,
-       .rim_radius = dimples ? 0.0 : radius});
+       .rim_radius = dimples ? 0.0 : radius,
+       .directional = false});
 }
 
 Roles roles(CapArray& t) {

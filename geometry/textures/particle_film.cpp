@@ -20,6 +20,55 @@ double disc_radius(const Particle& p, double embedding) {
 
 double periodic(double d, double length) { return d - length * std::round(d / length); }
 
+// Discs on a periodic patch, by squares at least as wide as the widest: whatever a disc can touch
+// lies in its own square or beside it.
+class PlacedDiscs {
+ public:
+  PlacedDiscs(const Grid& patch, double widest)
+      : patch_(patch),
+        nx_(squares(patch.lx, widest)),
+        ny_(squares(patch.ly, widest)),
+        in_(static_cast<std::size_t>(nx_) * ny_) {}
+
+  bool touches(double x, double y, double radius) const {
+    const int cx = square_of(x, patch_.lx, nx_), cy = square_of(y, patch_.ly, ny_);
+    // Of fewer than three squares each is beside each, once.
+    for (int j = 0; j < std::min(ny_, 3); ++j) {
+      for (int i = 0; i < std::min(nx_, 3); ++i) {
+        for (const Disc& d : at(wrap(cx + i - 1, nx_), wrap(cy + j - 1, ny_))) {
+          if (square(periodic(x - d.x, patch_.lx)) + square(periodic(y - d.y, patch_.ly)) <
+              square(radius + d.radius))
+            return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  void add(double x, double y, double radius) {
+    in_[index(square_of(x, patch_.lx, nx_), square_of(y, patch_.ly, ny_))].push_back(
+        {x, y, radius});
+  }
+
+ private:
+  struct Disc {
+    double x, y, radius;
+  };
+  static int squares(double length, double widest) {
+    constexpr double kMost = 1024;
+    return static_cast<int>(std::clamp(std::floor(length / widest), 1.0, kMost));
+  }
+  static int square_of(double at, double length, int count) {
+    return std::clamp(static_cast<int>(at / length * count), 0, count - 1);
+  }
+  std::size_t index(int x, int y) const { return static_cast<std::size_t>(y) * nx_ + x; }
+  const std::vector<Disc>& at(int x, int y) const { return in_[index(x, y)]; }
+
+  Grid patch_;
+  int nx_, ny_;
+  std::vector<std::vector<Disc>> in_;
+};
+
 }  // namespace
 
 void fields(FieldVisitor& v, ParticleFilm& t) {
@@ -54,6 +103,8 @@ std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid
   }
   std::stable_sort(particles.begin(), particles.end(),
                    [](const Particle& a, const Particle& b) { return a.radius > b.radius; });
+  // The first is the largest.
+  PlacedDiscs discs(grid, particles.empty() ? 1 : 2 * disc_radius(particles[0], film.embedding));
   for (std::size_t i = 0; i < particles.size(); ++i) {
     Particle& p = particles[i];
     const double own = disc_radius(p, film.embedding);
@@ -73,14 +124,9 @@ std::vector<Particle> place_particles(const ParticleFilm& film, const Grid& grid
         p.x = random.uniform(0, grid.lx);
         p.y = random.uniform(0, grid.ly);
       }
-      placed = 2 * own < std::min(grid.lx, grid.ly);
-      for (std::size_t j = 0; j < i && placed; ++j) {
-        const double reach = own + disc_radius(particles[j], film.embedding);
-        placed = square(periodic(p.x - particles[j].x, grid.lx)) +
-                     square(periodic(p.y - particles[j].y, grid.ly)) >=
-                 square(reach);
-      }
+      placed = 2 * own < std::min(grid.lx, grid.ly) && !discs.touches(p.x, p.y, own);
     }
+    if (placed) discs.add(p.x, p.y, own);
     if (!placed) {
       throw InputError(
           fmt::format("a coverage of {:.0f} % with particles of {:.3g} um radius cannot be reached "
@@ -130,6 +176,7 @@ TextureFacts facts(const ParticleFilm& t) {
           .outline = NoOutline{"a film of particles has no outline: its caps rise gradually from "
                                "the film, and nothing is etched"},
           .scans = kNoScans,
+          .directional = false,
           .quick_look = false};
 }
 

@@ -46,7 +46,8 @@ TextureFacts facts(const VGrooves& t) {
                         .hole = 0.5 * t.width,
                         .land = t.period - 0.5 * t.width,
                         .open_share = 0.5 * t.width / t.period,
-                        .rim_radius = 0.0});
+                        .rim_radius = 0.0,
+                        .directional = true});
 }
 
 Roles roles(VGrooves& t) {

@@ -47,7 +47,8 @@ TextureFacts facts(const Waves& t) {
                         .hole = width,
                         .land = width,
                         .open_share = 0.5,
-                        .rim_radius = 1 / curvature});
+                        .rim_radius = 1 / curvature,
+                        .directional = t.directions == Waves::Directions::One});
 }
 
 Roles roles(Waves& t) {

@@ -29,8 +29,8 @@ Point point_of(const ResponsePoint& p) {
   out.wetted_fraction = quantity_of(p.wetted_fraction);
   out.mean_gap = quantity_of(p.mean_gap);
   out.indentation = quantity_of(p.indentation);
-  out.sound = p.status.sound();
-  out.status = text(p.status);
+  out.sound = p.said().sound();
+  out.status = text(p.said());
   return out;
 }
 
@@ -52,7 +52,7 @@ const std::vector<Point>& Response::points() const { return inside_->points; }
 
 bool Response::driven() const { return inside_->response.driven; }
 
-std::string Response::trouble() const { return text(inside_->response.troubles()); }
+std::string Response::trouble() const { return text(inside_->response.said()); }
 
 std::string Response::json(bool with_time) const {
   return response_json(inside_->response, with_time);

@@ -222,8 +222,7 @@ Look look(const Heights& heights, const LookOptions& options) {
             "angles", "are 0 to 70 deg, one at least");
     Light light;
     light.angles = options.angles;
-    return look_of(phase_screen(heightmap_of(heights), PixelEdges::Sloped,
-                                {options.index, options.fill_index}, light));
+    return look_of(phase_screen(heightmap_of(heights), {options.index, options.fill_index}, light));
   });
 }
 

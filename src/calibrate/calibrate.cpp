@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
+#include "base/watch.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "forward/plan.h"
 #include "published/targets.h"
 
 namespace papilla::calibrate {
@@ -70,20 +73,37 @@ std::vector<double> flat_glass_friction(const Finger& finger, const Fidelity& fi
 class Fit {
  public:
   Fit(const Calibration& calibration, const CalibrationOptions& options)
-      : calibration_(calibration), options_(options), residuals_(calibration, options.threads) {
+      : calibration_(calibration),
+        options_(options),
+        residuals_(calibration, options.threads, options.folder) {
     for (const CalibrationParameter& p : calibration.parameters) parameters_.push_back(p.fit);
   }
 
   CalibrationResult run() {
+    if (const int known = residuals_.kept().known(); known > 0)
+      note(fmt::format("goes on: {} answers of the model are kept in {}", known,
+                       residuals_.kept().file()));
     start();
     descend();
     finish();
+    residuals_.kept().remove();
     return std::move(out_);
   }
 
  private:
   void note(const std::string& text) const {
     if (options_.note) options_.note(text);
+  }
+
+  // Calls `evaluate` and keeps its time, unless it found its answers in the file.
+  template <class Evaluate>
+  auto timed(Evaluate&& evaluate) {
+    const int made = residuals_.kept().made();
+    const auto begin = std::chrono::steady_clock::now();
+    auto out = evaluate();
+    if (residuals_.kept().made() > made)
+      seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return out;
   }
 
   // The rows of the finger that the fit starts from; their sampling error stays in the weights.
@@ -93,7 +113,7 @@ class Fit {
     out_.start = with_parameters(calibration_, values);
     residuals_.correct(out_.start);
     std::vector<FitRow>& rows = residuals_.rows();
-    const std::vector<Estimate> before = residuals_.model(out_.start);
+    const std::vector<Estimate> before = timed([&] { return residuals_.model(out_.start); });
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].before = before[i].value;
       rows[i].sampling_sd = before[i].se;
@@ -103,18 +123,35 @@ class Fit {
     out_.chi2_before = sum_of_squares(r);
     note(fmt::format("{} residuals, {} parameters, chi2 {:.4g} at the start", rows.size(),
                      parameters_.size(), out_.chi2_before));
+    if (seconds_ > 0) {
+      const double most = seconds_ * an_iteration() * calibration_.iterations;
+      note(fmt::format(
+          "price: {} an evaluation, {} of them an iteration; {} iterations and {} at most, again "
+          "(up to {} times) where the finger moves far. Ctrl-C keeps what is done",
+          duration(seconds_), an_iteration(), calibration_.iterations, duration(most),
+          kMostRounds - 1));
+    }
   }
+
+  int an_iteration() const { return 2 * static_cast<int>(parameters_.size()) + 1; }
 
   // Where the fitted finger is far from the start the correction is another: again from there.
   void descend() {
     const auto misses = [this](std::span<const double> p, std::span<double> r) {
-      const bool ok = residuals_.residuals(with_parameters(calibration_, p), r);
-      if (++evaluations_ % 10 == 0)
-        note(fmt::format("evaluation {}: chi2 {:.4g}", evaluations_, sum_of_squares(r)));
+      const bool ok =
+          timed([&] { return residuals_.residuals(with_parameters(calibration_, p), r); });
+      Watch::look();
+      if (++evaluations_ % 10 == 0) {
+        const int left = std::max(0, an_iteration() * calibration_.iterations - in_round_);
+        note(fmt::format("evaluation {}: chi2 {:.4g}; {} at most to the last iteration",
+                         evaluations_, sum_of_squares(r), duration(seconds_ * left)));
+      }
+      ++in_round_;
       return ok;
     };
     const LeastSquaresOptions options = fit_options(calibration_, options_);
     for (int round = 0; round < kMostRounds; ++round) {
+      in_round_ = 0;
       out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
       const std::vector<double> found = out_.fit.values();
       if (residuals_.correct(with_parameters(calibration_, found)) < kSmallCorrection) break;
@@ -146,7 +183,8 @@ class Fit {
   Residuals residuals_;
   std::vector<FitParameter> parameters_;
   CalibrationResult out_;
-  int evaluations_ = 0;
+  int evaluations_ = 0, in_round_ = 0;
+  double seconds_ = 0;  // of an evaluation
 };
 
 }  // namespace

@@ -28,8 +28,10 @@ struct CalibrationOptions {
   int threads = 0;
   bool check = true;  // also the friction on flat glass, at the level of [check]
   std::function<void(const std::string&)> note;
+  std::string folder;  // keeps the model's answers until the fit ends; empty: nothing is kept
 };
 
+// WorkStopped out of a Watch leaves what was answered in the folder: the same call goes on.
 CalibrationResult fit_finger(const Calibration& calibration,
                              const CalibrationOptions& options = {});
 

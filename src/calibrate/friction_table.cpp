@@ -66,6 +66,7 @@ class FrictionReader {
     }
     if (column.empty() && problems_.empty()) problem("", "no header line");
     if (out.empty() && problems_.empty()) problem("", "no rows below the header");
+    if (problems_.empty()) check_order(out);
     if (!problems_.empty()) throw InputError(problems_);
     return out;
   }
@@ -171,6 +172,21 @@ class FrictionReader {
             fmt::format("{:.6g} N is {:.3g} times the load of {:.3g} N{}", force, force / load,
                         load, guess),
             row.place(column));
+  }
+
+  // A voltage draws the finger to the surface: columns that say the contrary are exchanged.
+  void check_order(const std::vector<FrictionDatum>& data) {
+    double off = 0, on = 0;
+    for (const FrictionDatum& d : data) {
+      if (d.on_sd <= 0) continue;
+      off += d.off;
+      on += d.on;
+    }
+    if (!(on < off)) return;
+    line_ = 1;
+    problem("F_on_N",
+            "under voltage the finger rubs less on average than without it: are F_off_N and "
+            "F_on_N exchanged?");
   }
 
   std::string path_;

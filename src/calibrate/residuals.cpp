@@ -9,11 +9,32 @@
 #include <set>
 #include <tuple>
 
+#include "base/files.h"
+#include "config/writer.h"
 #include "forward/forward.h"
 
 namespace papilla::calibrate {
 
-Residuals::Residuals(const Calibration& calibration, int threads)
+namespace {
+
+std::string as_text(const SkinSampling& s) {
+  return fmt::format("{} {} {} {}", s.level, s.skins, s.first_skin, s.grid);
+}
+
+// All that the model's answers depend on beside finger and sampling.
+std::string problem_of(const Calibration& calibration, const std::vector<MeasuredGroup>& groups) {
+  std::string out = PAPILLA_VERSION "\n" + read_bytes(calibration.file);
+  for (const MeasuredGroup& group : groups) {
+    out += write_toml(to_table(group.design));
+    for (const std::size_t row : group.rows) out += fmt::format(" {}", row);
+    for (const std::size_t at : group.humidity_of) out += fmt::format(" {}", at);
+  }
+  return out;
+}
+
+}  // namespace
+
+Residuals::Residuals(const Calibration& calibration, int threads, const std::string& folder)
     : calibration_(calibration), threads_(threads), factors_(calibration.data.size()) {
   const std::set<std::string> wanted(calibration.fit.begin(), calibration.fit.end());
   for (PublishedTarget& target : published_targets()) {
@@ -23,6 +44,7 @@ Residuals::Residuals(const Calibration& calibration, int threads)
   for (const PublishedTarget& t : targets_)
     rows_.push_back({t.claim, t.what, t.low, t.high, t.sd, 0, 0, 0});
   for (const FrictionDatum& d : calibration.data) add_rows(d);
+  if (!folder.empty()) kept_ = KeptAnswers(folder, problem_of(calibration, groups_));
 }
 
 void Residuals::add_rows(const FrictionDatum& d) {
@@ -37,10 +59,17 @@ void Residuals::add_rows(const FrictionDatum& d) {
   if (d.on_sd > 0) add("F_on", d.on, d.on_sd);
 }
 
-std::vector<Estimate> Residuals::model(const Finger& finger) const {
-  std::vector<Estimate> out;
-  FingerModel finger_model(finger, finger.calibrated_for.preset, threads_, calibration_.sampling);
-  for (const PublishedTarget& t : targets_) out.push_back(t.model(finger_model));
+std::vector<Estimate> Residuals::model(const Finger& finger) {
+  std::vector<Estimate> out =
+      kept_.get("targets " + as_text(calibration_.sampling) + write_toml(to_table(finger)),
+                targets_.size(), [&] {
+                  FingerModel finger_model(finger, finger.calibrated_for.preset, threads_,
+                                           calibration_.sampling);
+                  std::vector<Estimate> answers;
+                  for (const PublishedTarget& t : targets_)
+                    answers.push_back(t.model(finger_model));
+                  return answers;
+                });
   const std::vector<Friction> friction = frictions(finger, calibration_.sampling, false);
   for (std::size_t i = 0; i < friction.size(); ++i) {
     const auto add = [&](const Estimate& force, double factor) {
@@ -75,7 +104,7 @@ double Residuals::correct(const Finger& finger) {
   return largest;
 }
 
-bool Residuals::residuals(const Finger& finger, std::span<double> r) const {
+bool Residuals::residuals(const Finger& finger, std::span<double> r) {
   const std::vector<Estimate> values = model(finger);
   for (std::size_t i = 0; i < values.size(); ++i) {
     const FitRow& row = rows_[i];
@@ -87,6 +116,24 @@ bool Residuals::residuals(const Finger& finger, std::span<double> r) const {
 }
 
 std::vector<Residuals::Friction> Residuals::frictions(const Finger& finger,
+                                                      const SkinSampling& sampling,
+                                                      bool corrected) {
+  const std::string question =
+      fmt::format("frictions {} {} ", corrected, as_text(sampling)) + write_toml(to_table(finger));
+  const std::vector<Estimate> both = kept_.get(question, 2 * calibration_.data.size(), [&] {
+    std::vector<Estimate> flat;
+    for (const Friction& f : evaluated(finger, sampling, corrected)) {
+      flat.push_back(f.off);
+      flat.push_back(f.on);
+    }
+    return flat;
+  });
+  std::vector<Friction> out;
+  for (std::size_t i = 0; i + 1 < both.size(); i += 2) out.push_back({both[i], both[i + 1]});
+  return out;
+}
+
+std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
                                                       const SkinSampling& sampling,
                                                       bool corrected) const {
   std::vector<Friction> out(calibration_.data.size());

@@ -8,6 +8,7 @@
 #include "base/rooms.h"
 #include "base/statistics.h"
 #include "calibrate/calibration_file.h"
+#include "calibrate/kept_answers.h"
 #include "design/design.h"
 #include "published/targets.h"
 
@@ -31,14 +32,17 @@ struct MeasuredGroup {
 
 class Residuals {
  public:
-  // The calibration has to outlive this. threads 0: all.
-  Residuals(const Calibration& calibration, int threads);
+  // The calibration has to outlive this. threads 0: all. folder: for what is kept of the model's
+  // answers until the fit ends (`calibrate/kept_answers.h`); empty: nothing is.
+  Residuals(const Calibration& calibration, int threads, const std::string& folder = {});
+
+  KeptAnswers& kept() { return kept_; }
 
   std::vector<FitRow>& rows() { return rows_; }
   int size() const { return static_cast<int>(rows_.size()); }
 
   // The model at every row, with the error of its sampling.
-  std::vector<Estimate> model(const Finger& finger) const;
+  std::vector<Estimate> model(const Finger& finger);
 
   // What a coarse level gets wrong in a friction, a factor: taken at this finger from the level of
   // the checks on the same skins. Returns the largest change of a friction in standard deviations
@@ -47,7 +51,7 @@ class Residuals {
 
   // Distance from the band in standard deviations: the data's and the model's sampling error,
   // which stays what it was at the start. false: the model has no answer. Eq. calibration.5
-  bool residuals(const Finger& finger, std::span<double> r) const;
+  bool residuals(const Finger& finger, std::span<double> r);
 
  private:
   struct Friction {
@@ -62,10 +66,13 @@ class Residuals {
   // At every datum.
   // corrected: for what the grid leaves out of the skin (Eq. accuracy.2), at twice the price.
   std::vector<Friction> frictions(const Finger& finger, const SkinSampling& sampling,
+                                  bool corrected);
+  std::vector<Friction> evaluated(const Finger& finger, const SkinSampling& sampling,
                                   bool corrected) const;
 
   const Calibration& calibration_;
   int threads_;
+  KeptAnswers kept_;
   std::vector<PublishedTarget> targets_;
   std::vector<MeasuredGroup> groups_;
   std::vector<Factor> factors_;  // of each datum

@@ -149,15 +149,21 @@ FigureTables figure_tables(const FigureOptions& options) {
   FingerModel papilla(options.finger, Preset::Papilla, options.threads, options.sampling);
   FingerModel m3(options.finger, Preset::M3, options.threads, options.sampling);
   FigureTables out;
-  for (const Shown& shown : shown_cases()) {
+  const auto wanted = [&](const std::string& claim) {
+    return options.claims.empty() ||
+           std::find(options.claims.begin(), options.claims.end(), claim) != options.claims.end();
+  };
+  for (const Shown& shown : options.claims.empty() ? shown_cases() : std::vector<Shown>{}) {
     if (options.started) options.started(shown.sample);
     add_rows(papilla, shown, out.rows);
     add_rows(m3, shown, out.rows);
   }
   if (options.started) options.started("printed numbers");
-  for (const PublishedTarget& target : printed_numbers())
+  for (const PublishedTarget& target : printed_numbers()) {
+    if (!wanted(target.claim)) continue;
     out.printed.push_back({target.claim, target.what, target.low, target.high,
                            target.model(papilla), target.model(m3)});
+  }
   return out;
 }
 

@@ -48,6 +48,7 @@ struct FigureOptions {
   Finger finger;
   int threads = 0;
   SkinSampling sampling{.skins = 8};
+  std::vector<std::string> claims;  // only the printed numbers of these, and no curves; empty: all
   std::function<void(const std::string& sample)> started;
 };
 

@@ -6,7 +6,9 @@
 #include <memory>
 
 #include "base/text.h"
+#include "base/watch.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "report/fit_folder.h"
 
 namespace papilla::cli {
@@ -22,8 +24,16 @@ int run(const Context& context, const CalibrateCommand& command) {
   const std::string out = !command.out.empty()
                               ? command.out
                               : "results/" + std::filesystem::path(command.file).stem().string();
-  const FitReport fit = fit_to_folder(
-      command.file, {command.jobs, out, [&](const std::string& text) { context.note(text); }});
+  const Interruptible interrupt;
+  const Watch watch({}, &interrupt.asked());
+  FitReport fit;
+  try {
+    fit = fit_to_folder(command.file,
+                        {command.jobs, out, [&](const std::string& text) { context.note(text); }});
+  } catch (const WorkStopped&) {
+    context.note("interrupted; what is done is kept in " + out + ", the same command goes on");
+    return interrupt.status();
+  }
   const std::string warning = calibration_warning(fit.result);
   if (!warning.empty()) std::cerr << "warning: " << visible(warning) << '\n';
   context.note("wrote " + out);

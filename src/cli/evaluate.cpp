@@ -1,6 +1,7 @@
 // papilla evaluate DESIGN.toml: the forward model over humidity.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <memory>
@@ -182,7 +183,12 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   else
     context.print(response_table(response));
   if (options.check_field && design.drive.driven()) print_field_check(context, design, fidelity);
-  return kSuccess;
+  // A voltage or a load that no state exists under has no answer.
+  const bool known =
+      std::all_of(response.points.begin(), response.points.end(), [&](const ResponsePoint& p) {
+        return response.driven ? p.knows_driven() : p.knows_undriven();
+      });
+  return known ? kSuccess : kWorkFailed;
 }
 
 }  // namespace

@@ -1,10 +1,8 @@
 // papilla optimize STUDY.toml: searches the design space, writes a folder of results.
 #include <fmt/format.h>
 #include <omp.h>
-#include <signal.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -15,6 +13,7 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "cli/scan_options.h"
 #include "optim/mpi.h"
 #include "optim/search.h"
@@ -33,16 +32,6 @@ struct OptimizeOptions {
   bool resume = false, finish = false, json = false;
   int jobs = 0, evaluations = 0, seed = -1;
 };
-
-std::atomic<bool> interrupted{false};
-std::atomic<int> interrupted_by{0};
-
-// The first Ctrl-C ends after the running evaluation; a second one ends at once (the journal is
-// safe either way).
-extern "C" void on_interrupt(int signal) {
-  interrupted_by = signal;
-  if (interrupted.exchange(true)) ::_exit(kSignalled + signal);
-}
 
 // A bar and a text in the columns of a terminal line.
 std::string terminal_line(double share, const std::string& text) {
@@ -216,14 +205,11 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   run.folder = options.out.empty() ? "results/" + study.name : options.out;
   run.resume = options.resume;
   run.finish = options.finish;
-  run.stop = &interrupted;
+  const Interruptible interrupt;
+  run.stop = &interrupt.asked();
   run.pick = options.pick;
   ProgressPrinter printer(context);
   run.progress = [&](const Progress& p) { printer.show(p); };
-  struct sigaction action {};
-  action.sa_handler = on_interrupt;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
 
   context.note(
       "search: many designs quickly; narrow: the best and their neighbours again, more precisely; "
@@ -268,7 +254,7 @@ int optimize(const OptimizeOptions& options, const Context& context) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (result.interrupted) {
     context.note("interrupted; continue with: " + resume_command(options, run.folder));
-    return kSignalled + interrupted_by;
+    return interrupt.status();
   }
   const std::string best =
       result.has_best() ? std::string("report.html, summary.md, pareto.csv, best/ is what to build")

@@ -25,6 +25,7 @@ void write_figures(const Context& context, const ReproduceCommand& command, cons
   FigureOptions options;
   options.finger = finger;
   options.threads = command.jobs;
+  options.claims = command.claims;
   options.started = [&](const std::string& sample) { context.note("figures: " + sample + " ..."); };
   const FigureTables tables = figure_tables(options);
   write_bytes(command.out + "/figures.csv", figures_csv(tables));
@@ -69,8 +70,10 @@ void add_reproduce(Command app, Context& context) {
   command.add_option("--finger", options->finger, "Finger file; default: fingers/reference.toml")
       .type_name("FILE");
   command.add_option("--out", options->out, "Also write claims.csv and claims.md").type_name("DIR");
-  command.add_flag("--figures", options->figures,
-                   "Also the M3 paper's figures as tables: figures.csv and figures.md in --out");
+  command.add_flag(
+      "--figures", options->figures,
+      "Also the M3 paper's figures as tables: figures.csv and figures.md in --out; with "
+      "--claim the numbers that the paper prints for it alone");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");
   command.on_chosen([&context, options] {

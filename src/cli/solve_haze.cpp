@@ -53,7 +53,7 @@ int solve(const HazeOptions& options) {
     const Scan scan = read_scan(options.scan.source());
     changes = scan.changes;
     say_scan(options.scan.file, *changes);
-    o = phase_screen(scan.map, PixelEdges::Sloped, media, light);
+    o = phase_screen(scan.map, media, light);
   }
   const auto json = [&] {
     return changes ? with_scan(optics_json(o), options.scan.file, *changes) : optics_json(o);

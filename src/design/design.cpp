@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "config/reader.h"
 #include "config/writer.h"
+#include "physics/capillary/facts.h"
 #include "scene/uncertainty.h"
 
 namespace papilla::design {
@@ -130,6 +131,22 @@ void film_problems(const Texture& texture, const Surface& surface, Problems& out
   }
 }
 
+// What would take minutes for every patch is refused before it begins.
+void droplet_problems(const Design& design, Problems& out) {
+  const SkinWater& water = design.finger.water;
+  if (design.model.water != WaterModel::Droplets || water.volume.empty()) return;
+  const Grid patch = simulated_patch(design.texture, 16);
+  double most = 0;
+  for (const double rh : design.environment.relative_humidity)
+    most = std::max(most, starting_droplets(patch, water.volume_per_area(rh), water.drops_per_um3));
+  if (most <= kMostDroplets) return;
+  out.push_back({"finger.water.drops_per_um3",
+                 fmt::format("{:.3g} makes {:.2g} droplets on a patch of {:.3g} um, more than the "
+                             "{:g} that are settled in reasonable time: fewer of them, a shorter "
+                             "period, or model.water = \"threshold\"",
+                             water.drops_per_um3, most, 1e6 * patch.lx, kMostDroplets)});
+}
+
 void view_problems(const View& view, const Surface& surface, Problems& out) {
   if (view.angles.empty()) out.push_back({"view.angles", "expected at least one angle"});
   if (view.fill_index > surface.refractive_index) {
@@ -200,6 +217,7 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   drive_problems(design.drive, design.surface, out);
   film_problems(design.texture, design.surface, out);
   view_problems(design.view, design.surface, out);
+  if (out.empty()) droplet_problems(design, out);  // of a design that has a patch and a finger
   return out;
 }
 

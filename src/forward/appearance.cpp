@@ -53,21 +53,19 @@ double finest_period(double index, const View& view) {
   return visible_wavelengths().front() / (index + std::sin(steepest));
 }
 
+// Walls and rims that reach those of their neighbours: slopes everywhere.
+Heightmap one_period(const Texture& texture, double period) {
+  Grid grid = patch_grid(texture, 2 * kPeriodPixels, 2 * period);
+  grid.nx /= 2, grid.lx /= 2;
+  return generate(texture, grid);
+}
+
 Optics screen(const Texture& texture, const OpticalMedia& media, const Light& light) {
   const TextureFacts known = facts(texture);
-  const double period = known.period();
-  const bool array = std::holds_alternative<FeatureArray>(known.outline);
-  Grid grid = patch_grid(texture, kRandomPixels, kRandomPatch);
-  if (array) {
-    grid = patch_grid(texture, 2 * kPeriodPixels, 2 * period);
-    grid.nx /= 2, grid.lx /= 2;  // one of the two periods
-  }
-  const double edge = std::max(known.rim_radius.value_or(0), 0.1 * grid.dx());
-  const PixelEdges edges =
-      array && edge < 0.1 * period ? PixelEdges::TwoLevels : PixelEdges::Sloped;
-  const Heightmap h = generate(texture, grid);
-  Optics out = phase_screen(h, edges, media, light);
-  if (array) {
+  if (const auto* array = std::get_if<FeatureArray>(&known.outline)) {
+    Optics out = has_closed_form(*array)
+                     ? array_screen(*array, media, light)
+                     : phase_screen(one_period(texture, known.period()), media, light);
     const double feature = known.margins.smallest();
     if (feature < kTrusted) {
       warn(out, fmt::format("features of {:.2g} um are few wavelengths: scalar theory is rough",
@@ -77,6 +75,9 @@ Optics screen(const Texture& texture, const OpticalMedia& media, const Light& li
     }
     return out;
   }
+  const Grid grid = patch_grid(texture, kRandomPixels, kRandomPatch);
+  const Heightmap h = generate(texture, grid);
+  Optics out = phase_screen(h, media, light);
   if (const double slope = std::atan(roughness_parameters(h).sdq); slope > kTrustedSlope) {
     warn(out, fmt::format("slopes of {:.0f} deg (root mean square) are too steep for a thin screen",
                           slope * 180 / kPi));
@@ -98,7 +99,7 @@ Optics computed(const Texture& texture, double index, const View& view) {
   Optics out;
   if (!known.relief.present) {
     const Heightmap flat{{8, 8, 1e-6, 1e-6}, std::vector<double>(64, 0.0)};
-    out = phase_screen(flat, PixelEdges::Sloped, media, light);
+    out = phase_screen(flat, media, light);
     out.regime = OpticsRegime::Flat;
   } else if (const std::string why = optics_refusal(texture, index, view); !why.empty()) {
     out.regime = OpticsRegime::Refused;

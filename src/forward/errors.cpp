@@ -83,6 +83,13 @@ double missing_of_features(double pixels) {
          std::max(1.0, kLostFeature / std::max(pixels, 1.0));  // walls that meet leave no floor
 }
 
+// Of a step between two grids, what is the features' own: all where both resolve the skin alike.
+// It is the step that drops waves of the skin, whether or not the finer grid has all of them.
+double own_step(const Plan& fine, const Plan& coarse) {
+  const double dropped = std::log2(coarse.effective_cutoff / fine.effective_cutoff);
+  return 1 - (1 - kOfFeatures) * std::clamp(dropped, 0.0, 1.0);
+}
+
 // Numbers of one origin at each humidity, each given the larger of its own and the root mean square
 // over humidity, as a difference may cross zero between two of them. Humidities at which next to
 // nothing of the quantity `of` is left (a flooded patch) say nothing about the others: their
@@ -133,8 +140,7 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
       const double step = grid_error(out.halving);
       const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));
       missing = all - (1 - kNotKnown) * left_out_of(step, runs.octaves);
-      const double own = 1 - (1 - kOfFeatures) * std::min(runs.octaves, 1.0);
-      missing = std::max(missing, own * runs.coarse_features);
+      missing = std::max(missing, runs.coarse_features);
       scatter = std::max(0.0, all - missing);
     }
     // What is taken off is known as well as the control skins agree on it.
@@ -187,7 +193,6 @@ class Controls {
     out.own = respond(scene_, fidelity_, first);
     out.octaves =
         std::max(0.0, std::log2(patches.plan.effective_cutoff / patches.plan.skin_cutoff));
-    out.coarse_features = missing_of_features(patches.plan.feature_pixels);
     Fidelity resolved = fidelity_;
     if (fidelity_.estimator == Estimator::Load && (patches.plan.water || patches.plan.field)) {
       resolved.estimator = Estimator::Area;
@@ -204,7 +209,10 @@ class Controls {
       Fidelity half = resolved;
       half.grid = fidelity_.grid / 2;
       half.most_pixels = fidelity_.pixels_per_side() / 2;  // else long patches keep their pixels
-      out.coarse = respond(scene_, half, again(half, grid));
+      const PatchSet coarse = again(half, grid);
+      out.coarse = respond(scene_, half, coarse);
+      out.coarse_features =
+          missing_of_features(patches.plan.feature_pixels) * own_step(patches.plan, coarse.plan);
     }
   }
 

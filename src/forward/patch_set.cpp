@@ -181,6 +181,7 @@ Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& s
     add_field_error(set.field[i], fidelity.load_exponent, response.points.back());
     for (const MeasuredError& error : set.errors)
       add_measured_error(error, i, response.points.back());
+    if (set.plan.water) note_water(response.points.back(), scene.finger.water);
   }
   PatchCosts costs = set.costs();
   response.piece_seconds = costs.seconds;

@@ -35,6 +35,14 @@ std::string coarse_features(const Plan& plan, const Fidelity& fidelity, double s
                            : fmt::format("no grid up to {} resolves it", kLargestKey));
 }
 
+// Friction is shear strength times area, whichever way the finger slides.
+std::string sliding_direction(const Texture& texture) {
+  if (!facts(texture).directional) return {};
+  return "the texture has a direction and friction has none here: shear strength times contact "
+         "area, the same along the grooves or crests and across them; what the direction does is "
+         "not known";
+}
+
 // What becomes of a direct voltage: the pull that stays, and how soon it is that.
 std::string direct_voltage(const Scene& scene) {
   if (!scene.drive.driven() || scene.drive.waveform != Waveform::Dc) return {};
@@ -98,14 +106,29 @@ struct Prices {
   double sum() const { return contact + water + field + tractions; }
 };
 
+// The mean over the humidities; the water of a skin may be several placements and volumes.
+// room: about the mean gap [m].
 Prices prices(const Scene& scene, const Plan& plan, const Grid& grid, const Fidelity& fidelity,
-              bool tractions) {
+              bool tractions, double room) {
+  const SkinWater& water = scene.finger.water;
+  const std::vector<double>& humidities = scene.environment.relative_humidity;
+  double droplets = 0;
+  for (const double rh : humidities) {
+    const double volume = water.volume_per_area(rh);
+    if (volume < room)  // else the gap is full, and no droplet moves
+      droplets += starting_droplets(grid, volume, water.drops_per_um3) /
+                  static_cast<double>(humidities.size());
+  }
+  double members = 1;
+  if (plan.water && water.volume_spread > 0) members *= 2;
+  if (plan.water && scene.model.water == WaterModel::Droplets) members *= fidelity.droplet_seeds;
   Prices out;
   out.contact = contact_seconds(grid, fidelity.contact_tolerance);
-  if (plan.water) out.water = water_facts(scene.model.water).seconds(grid);
+  if (plan.water) out.water = members * water_facts(scene.model.water).seconds(grid, droplets);
   if (plan.field)
-    out.field = field_rule(field_method(scene.model)).seconds(grid, fidelity.field_tolerance);
-  if (tractions) out.tractions = (plan.field ? 2 : 1) * out.contact;
+    out.field =
+        members * field_rule(field_method(scene.model)).seconds(grid, fidelity.field_tolerance);
+  if (tractions) out.tractions = members * (plan.field ? 2 : 1) * out.contact;
   return out;
 }
 
@@ -118,6 +141,7 @@ struct Setting {
   std::vector<double> water;  // volumes per area [m], one per humidity
   Prices price;
   double states;  // patches to solve: skins, humidities, patch pressures
+  double room;    // about the mean gap [m]
 };
 
 // A piece says what it does, or why it is skipped and what that costs; or nothing, where there is
@@ -248,8 +272,8 @@ Entry errors(const Setting& s) {
   const bool forces = s.plan.water || s.plan.field;
   const bool load_law = !s.plan.traction_solves && forces;
   const Grid half = simulated_patch(s.texture, fidelity.grid / 2, fidelity.pixels_per_side() / 2);
-  double seconds = prices(s.scene, s.plan, half, fidelity, forces).sum();
-  if (load_law) seconds += prices(s.scene, s.plan, s.plan.grid, fidelity, true).sum();
+  double seconds = prices(s.scene, s.plan, half, fidelity, forces, s.room).sum();
+  if (load_law) seconds += prices(s.scene, s.plan, s.plan.grid, fidelity, true, s.room).sum();
   return PlanStep{Piece::Errors, fmt::format("{} of the skins on half the pixels", controls),
                   load_law ? "what the grid and the load law may be off by, on solved areas"
                            : "what the grid may be off by",
@@ -324,17 +348,22 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   Plan plan;
   set_resolution(plan, scene.finger.skin, texture, fidelity);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
-  Setting setting{scene, texture, fidelity, plan, {}, {}, 0};
+  Setting setting{scene, texture, fidelity, plan, {}, {}, 0, 0};
+  // Peaks of a rough skin rest on the land.
+  constexpr double kPeakOverRms = 3;
+  setting.room =
+      kPeakOverRms * scene.finger.skin.rms + 0.5 * facts(texture).relief.height().value_or(0);
   for (const double rh : humidities)
     setting.water.push_back(scene.finger.water.volume_per_area(rh));
   plan.water =
       std::any_of(setting.water.begin(), setting.water.end(), [](double v) { return v > 0; });
   plan.field = scene.drive.driven();
-  for (std::string said : {direct_voltage(scene), source_at_compliance(scene)})
+  for (std::string said :
+       {direct_voltage(scene), source_at_compliance(scene), sliding_direction(texture)})
     if (!said.empty()) plan.warnings.push_back(std::move(said));
   plan.retention = plan.water && scene.finger.water.hysteresis > 0 && retention_counts(scene);
   plan.traction_solves = fidelity.estimator == Estimator::Area && (plan.water || plan.field);
-  setting.price = prices(scene, plan, plan.grid, fidelity, plan.traction_solves);
+  setting.price = prices(scene, plan, plan.grid, fidelity, plan.traction_solves, setting.room);
   setting.states = static_cast<double>(fidelity.skins) * static_cast<double>(humidities.size()) *
                    (scene.model.closure == Closure::Persson ? fidelity.bridge_nodes : 1);
   for (const PieceRow& piece : kPieces) {

@@ -159,4 +159,16 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   return point;
 }
 
+void note_water(ResponsePoint& point, const SkinWater& water) {
+  constexpr double kLeastOpen = 0.05;
+  const double open = 1 - point.wetted_fraction.value - point.area_fraction_off.value;
+  if (open < kLeastOpen) point.status.note({Trouble::NearlyFlooded, std::max(open, 0.0), ""});
+  const std::vector<double>& fitted = water.relative_humidity;
+  if (fitted.size() < 2) return;  // one volume at every humidity
+  const double nearest = std::clamp(point.relative_humidity, fitted.front(), fitted.back());
+  constexpr double kSame = 1e-9;
+  if (std::abs(point.relative_humidity - nearest) > kSame)
+    point.status.note({Trouble::WaterBeyondFit, nearest, ""});
+}
+
 }  // namespace papilla::forward

@@ -25,4 +25,8 @@ struct PointSetting {
 ResponsePoint response_point(const PointSetting& setting, double relative_humidity, double weight,
                              const ScaleBridge& bridge, std::span<const PatchResult> patches);
 
+// The state of the water where nothing else is wrong: next to no open gap left, so that the pull
+// hangs on single pixels; a humidity beyond those of the volumes, which are continued.
+void note_water(ResponsePoint& point, const SkinWater& water);
+
 }  // namespace papilla::forward

@@ -24,6 +24,28 @@ GridLaw grid_law(Measured PointQuantities::*quantity) {
   return GridLaw::Other;
 }
 
+ModelStatus ResponsePoint::said() const {
+  if (oxide_margin < 1) return {Trouble::Breakdown, 1 / oxide_margin, ""};
+  return status;
+}
+
+bool ResponsePoint::knows_undriven() const { return !(area_fraction_off.value > 1); }
+
+bool ResponsePoint::knows_driven() const {
+  const Trouble trouble = said().trouble;
+  return knows_undriven() && !(area_fraction_on.value > 1) && trouble != Trouble::Breakdown &&
+         trouble != Trouble::FullContact && trouble != Trouble::FieldUnsolved;
+}
+
+std::vector<PointTrouble> Response::said() const {
+  std::vector<PointTrouble> out;
+  for (const ResponsePoint& point : points) {
+    if (const ModelStatus said = point.said(); !said.sound())
+      out.push_back({point.relative_humidity, said});
+  }
+  return out;
+}
+
 std::vector<PointTrouble> Response::troubles() const {
   std::vector<PointTrouble> out;
   for (const ResponsePoint& point : points) {

@@ -116,6 +116,13 @@ struct ResponsePoint : PointQuantities {
   PatchSamples samples;
   std::vector<VoltageAnswer> voltages;  // one per target asked for
 
+  // What people are told: a voltage that the dielectric does not hold comes first, as full contact,
+  // pull-in and whatever else it leads to never happen.
+  ModelStatus said() const;
+  // Whether the numbers without the drive, and under it, are those of a state that exists.
+  bool knows_undriven() const;
+  bool knows_driven() const;
+
   bool operator==(const ResponsePoint&) const = default;
 };
 
@@ -214,8 +221,9 @@ struct Response : Resampled {
   double fft_pairs = 0;
   std::optional<Optics> appearance;  // where a metric of the texture's look is asked for
 
-  // The points that are not sound.
+  // The points that are not sound, and what people are told of each.
   std::vector<PointTrouble> troubles() const;
+  std::vector<PointTrouble> said() const;
 };
 
 }  // namespace papilla::forward

@@ -41,6 +41,21 @@ std::string text(const ModelStatus& status) {
           "full contact: the area estimate is {:.3g} times the patch, friction and modulation mean "
           "nothing physical",
           status.number);
+    case Trouble::NearlyFlooded:
+      return fmt::format(
+          "nearly flooded: water and contact cover all but {:.2g} % of the patch, the pull that is "
+          "left hangs on single pixels and its error is not known",
+          100 * status.number);
+    case Trouble::WaterBeyondFit:
+      return fmt::format(
+          "water beyond its fit: the volumes of the finger were fitted up to {:.0f} % RH on this "
+          "side and are continued from there (finger.water.relative_humidity)",
+          100 * status.number);
+    case Trouble::Breakdown:
+      return fmt::format(
+          "breakdown: the field in a layer of the dielectric is {:.3g} times its strength, the "
+          "numbers under voltage mean nothing physical",
+          status.number);
   }
   PAPILLA_CHECK(false, "a trouble without words");
   return {};

@@ -22,6 +22,9 @@ enum class Trouble {
   FarGapPullIn,      // the gaps between patches in contact close
   PassesUsedUp,      // coupling not settled; number: passes
   FullContact,       // number: area estimate over the patch
+  NearlyFlooded,     // number: share of the patch that neither water nor contact covers
+  WaterBeyondFit,    // number: the nearest humidity that the water volumes were fitted at
+  Breakdown,         // of the dielectric; number: its field over its strength
 };
 
 struct ModelStatus {

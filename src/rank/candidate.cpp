@@ -4,12 +4,57 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "estimate/parameters.h"
 
 namespace papilla::rank {
+
+namespace {
+
+// Another arrangement of what is random in a texture; whether anything is.
+bool rearrange(Texture& texture, int by) {
+  bool random = std::visit(
+      [&](auto& kind) {
+        if constexpr (requires { kind.seed; }) {
+          kind.seed += by;
+          return true;
+        } else {
+          return false;
+        }
+      },
+      texture.kind);
+  if (std::vector<Texture>* parts = roles(texture).parts) {
+    for (Texture& part : *parts) random = rearrange(part, by) || random;
+  }
+  return random;
+}
+
+bool looked_at(const RankOptions& options) {
+  return std::any_of(options.criteria.begin(), options.criteria.end(),
+                     [](const Criterion& c) { return c.info().appearance; });
+}
+
+// The mean over regions; of one that has no numbers, that.
+Optics mean_look(const std::vector<Optics>& regions) {
+  Optics out = regions.front();
+  out.haze = out.transmittance = out.gloss = out.colour_shift = 0;
+  const double share = 1 / static_cast<double>(regions.size());
+  for (const Optics& region : regions) {
+    if (region.refused()) return region;
+    out.haze += share * region.haze;
+    out.transmittance += share * region.transmittance;
+    out.gloss += share * region.gloss;
+    out.colour_shift += share * region.colour_shift;
+  }
+  return out;
+}
+
+}  // namespace
 
 Candidate::Candidate(const Regions& regions, FingerState state, const RankOptions& options)
     : regions_(regions),
@@ -20,19 +65,42 @@ Candidate::Candidate(const Regions& regions, FingerState state, const RankOption
   scene_.finger.state = state;
   fidelity_.threads = options.threads;
   fidelity_.skins = options.batch;
-  if (std::any_of(options.criteria.begin(), options.criteria.end(),
-                  [](const Criterion& c) { return c.info().appearance; })) {
-    look_ = appearance_of(design_);
+}
+
+// A look for every skin: the next arrangements where something is random.
+void Candidate::look_on() {
+  if (!looked_at(options_)) return;
+  std::vector<std::vector<Optics>> next;
+  const auto count = static_cast<int>(looks_.size());
+  bool random = false;
+  for (const Design& region : regions_) {
+    Texture texture = region.texture;
+    random = rearrange(texture, 0) || random;
   }
+  const int wanted = random ? skins() : 1;
+  next.resize(static_cast<std::size_t>(std::max(0, wanted - count)));
+  parallel_for(
+      static_cast<int>(next.size()),
+      [&](int k) {
+        for (const Design& region : regions_) {
+          Design other = region;
+          rearrange(other.texture, count + k);
+          next[static_cast<std::size_t>(k)].push_back(appearance_of(other));
+        }
+      },
+      options_.threads);
+  for (const std::vector<Optics>& regions : next) looks_.push_back(mean_look(regions));
 }
 
 void Candidate::extend() {
   solve([](const Finger& finger) { return finger; }, fidelity_, patches_);
   const int n = skins();
+  look_on();
   Response response = respond(scene_, fidelity_, patches_);
   const auto values = [&] {
     std::vector<double> out;
-    for (const Criterion& c : options_.criteria) out.push_back(value(c, response));
+    for (const Criterion& c : options_.criteria)
+      out.push_back(value(c, response, looks_.empty() ? nullptr : &looks_.front()));
     return out;
   };
   const std::vector<double> all = values();
@@ -42,8 +110,13 @@ void Candidate::extend() {
   for (int k = 0; k < n; ++k) {
     response.points = without[static_cast<std::size_t>(k)];
     const std::vector<double> others = values();
-    for (std::size_t c = 0; c < all.size(); ++c)
-      pseudo_[c][static_cast<std::size_t>(k)] = n * all[c] - (n - 1) * others[c];
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      const bool seen = options_.criteria[c].info().appearance;
+      pseudo_[c][static_cast<std::size_t>(k)] =
+          seen ? value(options_.criteria[c], response,
+                       &looks_[static_cast<std::size_t>(k) % looks_.size()])
+               : n * all[c] - (n - 1) * others[c];
+    }
   }
 }
 
@@ -69,7 +142,7 @@ void Candidate::step() {
   for (const Criterion& c : options_.criteria) {
     const auto samples = step_samples(ends, [&](const std::vector<ResponsePoint>& points) {
       there.points = points;
-      return std::optional(value(c, there));
+      return std::optional(value(c, there, looks_.empty() ? nullptr : &looks_.front()));
     });
     steps_.push_back(*samples);
   }
@@ -98,15 +171,15 @@ void Candidate::solve(const std::function<Finger(const Finger&)>& move, Fidelity
   }
 }
 
-double Candidate::value(const Criterion& c, Response& response) const {
-  response.appearance = look_;
+double Candidate::value(const Criterion& c, Response& response, const Optics* look) const {
+  response.appearance = look ? std::optional(*look) : std::nullopt;
   const auto v = summarise(c.expression.summary, c.expression.metric, response);
   if (!v || !std::isfinite(v->value)) {
     throw InputError(fmt::format("{} is not defined for \"{}\"{}", metric_text(c.expression),
                                  design_.title,
-                                 look_ && look_->refused() ? ": " + look_->warning
-                                 : response.driven         ? ""
-                                                           : ": it is not driven (0 V)"));
+                                 look && look->refused() ? ": " + look->warning
+                                 : response.driven       ? ""
+                                                         : ": it is not driven (0 V)"));
   }
   return v->value;
 }

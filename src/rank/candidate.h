@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "base/rooms.h"
@@ -30,14 +29,17 @@ class Candidate {
  private:
   void solve(const std::function<Finger(const Finger&)>& move, Fidelity fidelity,
              PatchSet& patches) const;
-  double value(const Criterion& c, Response& response) const;
+  double value(const Criterion& c, Response& response, const Optics* look) const;
+  void look_on();
 
   const Regions& regions_;
   const Design& design_;  // the first region: what all share
   const RankOptions& options_;
   Scene scene_;
   Fidelity fidelity_;
-  std::optional<Optics> look_;  // where a criterion asks for it
+  // Where a criterion asks for it: mean over the regions, one per skin of a surface that is random,
+  // each of another arrangement; else one. Eq. ranking.7
+  std::vector<Optics> looks_;
   PatchSet patches_;
   std::vector<std::vector<double>> pseudo_;  // [criterion][skin]
   std::vector<StepSamples> steps_;           // one per criterion

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/statistics.h"
+#include "base/text.h"
 #include "estimate/parameters.h"
 #include "rank/candidate.h"
 
@@ -282,6 +283,33 @@ void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
   out.step_grid = few.grid;
 }
 
+// Surfaces without a shear strength of their own all have the finger's on glass.
+std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
+                                  const RankOptions& options) {
+  const bool rubs =
+      std::any_of(options.criteria.begin(), options.criteria.end(), [](const auto& c) {
+        return metric_quantity(c.expression.metric) == &PointQuantities::friction_off ||
+               metric_quantity(c.expression.metric) == &PointQuantities::friction_on;
+      });
+  std::vector<std::string> without;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (std::any_of(candidates[i].begin(), candidates[i].end(),
+                    [](const Design& d) { return d.surface.shear_strength <= 0; }))
+      without.push_back(i < options.names.size() ? options.names[i] : candidates[i].front().title);
+  }
+  if (!rubs || without.empty()) return {};
+  if (without.size() == candidates.size()) {
+    return {
+        "friction: no candidate has surface.shear_strength, all rub with the finger's on glass: "
+        "the order of friction is that of contact area (and water) alone, whatever they are made "
+        "of"};
+  }
+  return {fmt::format(
+      "friction: {} has no surface.shear_strength and rubs with the finger's on glass, others "
+      "have their own",
+      join_names(without))};
+}
+
 }  // namespace
 
 std::string parameters_unknown(const std::vector<Regions>& candidates) {
@@ -310,6 +338,7 @@ Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& op
   }
   for (const Regions& regions : candidates) out.titles.push_back(regions.front().title);
   out.conditions = condition_differences(candidates, options);
+  out.notes = notes_of(candidates, options);
   if (!options.any_conditions) require_same_conditions(out.conditions);
   if (options.parameters) plan_steps(candidates, out);
   for (FingerState state : options.states) {

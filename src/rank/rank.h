@@ -55,6 +55,7 @@ struct Ranking {
   std::vector<StateRanking> states;
   std::vector<std::string> titles;              // of the designs as given
   std::vector<ConditionDifference> conditions;  // empty unless any_conditions
+  std::vector<std::string> notes;               // what the order leaves out, for people
   int skins = 0;                                // solved in all
   std::optional<double> seconds;                // of the clock
   // Steps of the finger's parameters: independent directions, and what their steps were run with.

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/statistics.h"
 #include "report/tables.h"
 
 namespace papilla::report {
@@ -55,6 +57,45 @@ std::string bench_json(const std::vector<BenchRow>& rows) {
                     {"met", r.met()}});
   }
   return Json{{"schema", 1}, {"rows", list}}.dump(2);
+}
+
+std::string prices_text(const std::vector<PriceRow>& rows) {
+  std::vector<double> ratios, sound;
+  const PriceRow* slowest = nullptr;
+  for (const PriceRow& row : rows) {
+    ratios.push_back(row.ratio());
+    if (row.sound) sound.push_back(row.ratio());
+    if (!slowest || row.taken > slowest->taken) slowest = &row;
+  }
+  if (!slowest) return "no designs\n";
+  std::string out =
+      fmt::format("taken over announced, {} legal designs at draft, processor time of one core:\n",
+                  rows.size());
+  const auto list = [&](const char* which, const std::vector<double>& of) {
+    if (of.empty()) return;
+    // How fast this machine is has to be taken out: the announced seconds are of a usual one.
+    const double machine = quantile(of, 0.5);
+    const auto within = std::count_if(
+        of.begin(), of.end(), [&](double r) { return r >= machine / 2 && r <= machine * 2; });
+    out += fmt::format("{} ({}): ", which, of.size());
+    for (const double p : {0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0})
+      out += fmt::format("{:.0f} % {:.2f}, ", 100 * p, quantile(of, p));
+    out += fmt::format("{:.0f} % within a factor 2 of the median\n",
+                       100 * static_cast<double>(within) / static_cast<double>(of.size()));
+  };
+  list("all", ratios);
+  list("of those whose answer is sound", sound);
+  return out + fmt::format("longest: design {} ({}), {:.3g} s, announced {:.3g} s: {}\n",
+                           slowest->design, slowest->texture, slowest->taken, slowest->announced,
+                           slowest->numbers);
+}
+
+std::string prices_csv(const std::vector<PriceRow>& rows, const std::string& provenance) {
+  std::string out = "# " + provenance + "\ndesign,texture,announced [s],taken [s],status,numbers\n";
+  for (const PriceRow& row : rows)
+    out += fmt::format("{},{},{:.3g},{:.3g},{},{}\n", row.design, row.texture, row.announced,
+                       row.taken, csv_cell(row.status), csv_cell(row.numbers));
+  return out;
 }
 
 }  // namespace papilla::report

@@ -57,7 +57,7 @@ FitReport fit_to_folder(const std::string& file, const FitOptions& options) {
   FitReport fit;
   fit.calibration = read_calibration(file, m3_claim_ids());
   if (!options.folder.empty()) folder = Folder::made(options.folder);
-  fit.result = fit_finger(fit.calibration, {options.threads, true, options.note});
+  fit.result = fit_finger(fit.calibration, {options.threads, true, options.note, options.folder});
   // At once: what the fit has cost is not lost to a claim that cannot be judged.
   if (folder) write_fitted(*folder, fit);
   const JudgedFit claims = judged(fit.calibration, fit.result, options);

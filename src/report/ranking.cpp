@@ -47,6 +47,9 @@ std::string si_unit(const Criterion& c) {
 
 std::string metric_cell(const Criterion& c, const Interval& i) {
   const double scale = shown_unit(c.expression).scale;
+  // Of a look that nothing scatters there is no ±; the last bits of a mean are none.
+  constexpr double kBits = 1e-9;
+  if (!(i.high - i.low > kBits * std::abs(i.value))) return fmt::format("{:.4g}", i.value * scale);
   return with_error(i.value * scale, (i.high - i.low) / 2 * scale);
 }
 
@@ -240,6 +243,7 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
         "no weights (--weights), so no single order: rank 1 is beaten by nobody, rank 2 by one. "
         "Better: ahead in a criterion and behind in none, as far as the intervals tell; open: no "
         "difference is told from none\n";
+  for (const std::string& note : ranking.notes) out += note + "\n";
   if (!options.parameters)
     out += "what the fit of the finger leaves open is in no interval and no probability\n";
   int fewest = std::numeric_limits<int>::max();
@@ -284,6 +288,7 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
            {"weights", options.weights},
            {"scored", options.scored()},
            {"conditions_differ", conditions},
+           {"notes", ranking.notes},
            {"criteria", criteria},
            {"candidates", states.front()["candidates"]},
            {"states", states},

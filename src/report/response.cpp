@@ -39,10 +39,10 @@ std::string budget_text(const SummaryValue& v) {
   return out + (unknown.empty() ? "" : "; error from " + unknown + ": unknown");
 }
 
-bool beyond_contact(const Response& response) {
-  return std::any_of(response.points.begin(), response.points.end(), [](const ResponsePoint& p) {
-    return p.area_fraction_off.value > 1 || p.area_fraction_on.value > 1;
-  });
+// Whether every humidity has numbers under the drive.
+bool knows_driven(const Response& response) {
+  return std::all_of(response.points.begin(), response.points.end(),
+                     [](const ResponsePoint& p) { return p.knows_driven(); });
 }
 
 // "sampling, solver; grid, method not in it": what ± of a voltage holds.
@@ -83,14 +83,16 @@ std::string humidity_table(const Response& response) {
                   "patch kPa", "F_off mN", "F_on mN", "modulation", "contact off %", "capillary mN",
                   "electro mN", "bridges", "gap nm");
   for (const ResponsePoint& p : response.points) {
+    const auto shown = [](bool known, const Measured& m, double scale, int digits) {
+      return known ? with_error(m, scale, digits) : std::string("-");
+    };
+    const bool off = p.knows_undriven(), on = response.driven && p.knows_driven();
     out += fmt::format(
         "{:>5.0f}% {:>9.0f} {:>16} {:>16} {:>15} {:>14} {:>14} {:>14} {:>9.1f} {:>9.0f}\n",
-        100 * p.relative_humidity, 1e-3 * p.patch_pressure, with_error(p.friction_off, 1e3, 1),
-        response.driven ? with_error(p.friction_on, 1e3, 1) : "-",
-        response.driven ? with_error(p.modulation, 1, 3) : "-",
-        with_error(p.area_fraction_off, 100, 3), with_error(p.capillary_force, 1e3, 1),
-        response.driven ? with_error(p.electrostatic_force, 1e3, 1) : "-", p.bridges.value,
-        1e9 * p.mean_gap.value);
+        100 * p.relative_humidity, 1e-3 * p.patch_pressure, shown(off, p.friction_off, 1e3, 1),
+        shown(on, p.friction_on, 1e3, 1), shown(on, p.modulation, 1, 3),
+        shown(off, p.area_fraction_off, 100, 3), with_error(p.capillary_force, 1e3, 1),
+        shown(on, p.electrostatic_force, 1e3, 1), p.bridges.value, 1e9 * p.mean_gap.value);
   }
   return out;
 }
@@ -119,6 +121,7 @@ std::string choices_line(const Response& response, bool water) {
 
 // What the modulation is over humidity, and how sure that is.
 std::string modulation_lines(const Response& response) {
+  if (!knows_driven(response)) return "modulation: no number over humidity, see the notes below\n";
   std::string out;
   const auto mean = summarise(Summary::Mean, "modulation", response);
   std::optional<SummaryValue> variation, range;
@@ -166,7 +169,7 @@ std::string field_lines(const Response& response) {
         "physical\n",
         1 / margin, margin);
   }
-  const bool physical = margin >= 1 && !beyond_contact(response);
+  const bool physical = knows_driven(response);
   if (physical && measured) {
     out +=
         fmt::format("pull: field rule times {:.2f} to {:.2f}, by the 3-D field; good to {:.0f} %\n",
@@ -192,6 +195,9 @@ std::string source_line(const Response& response) {
 
 std::string undriven_lines(const Response& response) {
   std::string out = "undriven (0 V): no modulation\n";
+  if (!std::all_of(response.points.begin(), response.points.end(),
+                   [](const ResponsePoint& p) { return p.knows_undriven(); }))
+    return out + "friction: no number over humidity, see the notes below\n";
   if (const auto friction = summarise(Summary::Mean, "friction", response))
     out += fmt::format("mean friction {:.1f} ±{:.1f} mN; error: {}\n", 1e3 * friction->value,
                        1e3 * friction->se, budget_text(*friction));
@@ -292,8 +298,7 @@ std::string response_table(const Response& response) {
   if (response.accuracy.target > 0) out += target_lines(response);
   if (!response.parameters.steps.empty()) out += parameter_line(response.parameters);
   for (const std::string& said : response.plan.warnings) out += "warning: " + said + "\n";
-  if (const auto troubles = response.troubles(); !troubles.empty())
-    out += "note: " + text(troubles) + "\n";
+  if (const auto said = response.said(); !said.empty()) out += "note: " + text(said) + "\n";
   return out;
 }
 

@@ -22,7 +22,12 @@ Json with_parts(double value, double se, const ErrorParts& parts) {
 
 Json measured(const Measured& m) { return with_parts(m.value, m.se(), m.parts); }
 
+// Null where a humidity has no number for it.
 Json summarised(Summary kind, const char* metric, const Response& response) {
+  const bool driven = find_metric(metric)->needs_drive, contact = std::string(metric) == "friction";
+  for (const ResponsePoint& p : response.points) {
+    if (driven ? !p.knows_driven() : contact && !p.knows_undriven()) return nullptr;
+  }
   const auto value = summarise(kind, metric, response);
   return value ? with_parts(value->value, value->se, value->parts) : Json(nullptr);
 }
@@ -83,13 +88,21 @@ Json point_json(const ResponsePoint& p, bool driven) {
   point["relative_humidity"] = p.relative_humidity;
   point["weight"] = p.weight;
   point["patch_pressure"] = json_number(p.patch_pressure);
-  point["F_off"] = measured(p.friction_off);
-  point["F_on"] = driven ? measured(p.friction_on) : Json(nullptr);
-  point["modulation"] = driven ? measured(p.modulation) : Json(nullptr);
-  point["area_fraction_off"] = measured(p.area_fraction_off);
-  point["area_fraction_on"] = driven ? measured(p.area_fraction_on) : Json(nullptr);
+  // Null where the state does not exist; `status` says why.
+  const auto undriven = [&](const Measured& m) {
+    return p.knows_undriven() ? measured(m) : Json(nullptr);
+  };
+  const auto under_voltage = [&](const Measured& m) {
+    return driven && p.knows_driven() ? measured(m) : Json(nullptr);
+  };
+  point["F_off"] = undriven(p.friction_off);
+  point["F_on"] = under_voltage(p.friction_on);
+  point["modulation"] = under_voltage(p.modulation);
+  point["area_fraction_off"] = undriven(p.area_fraction_off);
+  point["area_fraction_on"] = under_voltage(p.area_fraction_on);
   point["capillary_force"] = measured(p.capillary_force);
-  point["electrostatic_force"] = measured(p.electrostatic_force);
+  point["electrostatic_force"] =
+      driven ? under_voltage(p.electrostatic_force) : measured(p.electrostatic_force);
   point["retention_force"] = measured(p.retention_force);
   point["bridges"] = measured(p.bridges);
   point["wetted_fraction"] = measured(p.wetted_fraction);
@@ -105,10 +118,7 @@ Json point_json(const ResponsePoint& p, bool driven) {
   point["field_error"] = p.field_error ? json_number(*p.field_error) : Json();
   point["oxide_margin"] = json_number(p.oxide_margin);
   for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
-  point["status"] = (p.status.sound() || p.status.pull_in()) && driven && p.oxide_margin < 1
-                        ? "breakdown: the dielectric does not hold this field, the numbers under "
-                          "voltage mean nothing physical"
-                        : text(p.status);
+  point["status"] = text(driven ? p.said() : p.status);
   return point;
 }
 
@@ -150,6 +160,7 @@ std::string response_json(const Response& response, bool with_time, int indent) 
   for (const ResponsePoint& p : response.points) points.push_back(point_json(p, response.driven));
   Json out{{"schema", 1},
            {"points", points},
+           {"status", response.said().empty() ? "ok" : text(response.said())},
            {"summary", summary_json(response)},
            {"plan", plan_json(response.plan)}};
   if (response.appearance) out["appearance"] = appearance_json(*response.appearance);

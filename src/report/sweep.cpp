@@ -9,11 +9,9 @@
 namespace papilla::report {
 namespace {
 
-const char* breakdown(const Response& response) {
-  for (const ResponsePoint& p : response.points) {
-    if (response.driven && p.oxide_margin < 1) return "  the dielectric breaks down";
-  }
-  return "";
+std::string trouble(const Response& response) {
+  const auto said = response.said();
+  return said.empty() ? "" : "  " + text(said);
 }
 
 std::string haze_column(const Optics& look) {
@@ -30,6 +28,10 @@ std::string sweep_head(const std::string& path, bool appearance) {
 
 std::string sweep_line(const std::string& value, const Response& response) {
   const auto column = [&](Summary summary, const char* metric, double scale) {
+    const bool driven = find_metric(metric)->needs_drive;
+    for (const ResponsePoint& p : response.points) {
+      if (driven ? !p.knows_driven() : !p.knows_undriven()) return std::string("-");
+    }
     const auto v = summarise(summary, metric, response);
     return v ? fmt::format("{:.3f} ±{:.3f}", v->value * scale, v->se * scale) : std::string("-");
   };
@@ -37,8 +39,7 @@ std::string sweep_line(const std::string& value, const Response& response) {
                      column(Summary::Mean, "friction", 1e3), column(Summary::Mean, "modulation", 1),
                      response.points.size() > 1 ? column(Summary::Variation, "modulation", 1) : "-",
                      column(Summary::Worst, "modulation", 1)) +
-         (response.appearance ? haze_column(*response.appearance) : "") + breakdown(response) +
-         '\n';
+         (response.appearance ? haze_column(*response.appearance) : "") + trouble(response) + '\n';
 }
 
 std::string sweep_json(const std::string& path, const std::vector<SweepRun>& runs) {

@@ -86,6 +86,23 @@ TEST_F(Calibrate, FrictionOfLessThanFiftyTimesTheLoadIsNotTakenForMillinewtons) 
   }
 }
 
+// Columns exchanged fit for 23 minutes and explained nothing.
+TEST_F(Calibrate, AVoltageThatLowersFrictionIsTakenForExchangedColumns) {
+  const std::string row = "m3_samples/flat.toml,0.55,200,5000,0.3,";
+  EXPECT_EQ(read_friction(write("right.csv", kHeader + row + "0.1,0.01,0.15,0.01\n" + row +
+                                                 "0.12,0.01,0.11,0.01\n"))
+                .size(),
+            2u);
+  try {
+    read_friction(write("exchanged.csv", kHeader + row + "0.15,0.01,0.1,0.01\n"));
+    FAIL() << "not noticed";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.problems().front().message,
+              "under voltage the finger rubs less on average than without it: are F_off_N and "
+              "F_on_N exchanged?");
+  }
+}
+
 TEST_F(Calibrate, AFitThatExplainsNothingIsNoSuccess) {
   write("far.csv", std::string(kHeader) +
                        "m3_samples/flat.toml,35 %,200,5000,0.2,1.2,0.01,1.2,"

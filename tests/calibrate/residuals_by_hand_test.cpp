@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "base/constants.h"
+#include "base/watch.h"
 #include "calibrate/calibrate.h"
 #include "calibrate/residuals.h"
 #include "forward/forward.h"
@@ -201,6 +204,43 @@ TEST_F(FitByHand, OfOneNumberIsTheMeanByItsWeights) {
   ASSERT_EQ(r.friction_coefficient.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k)
     near(r.friction_coefficient[k], own.points[k].friction_off.value / load);
+}
+
+// The model's answers lie in the folder until the fit ends: a second call asks the same again.
+TEST_F(FitByHand, AStoppedFitGoesOnToTheSameFinger) {
+  Calibration c;
+  c.finger.macro.area_growth = 0.7;
+  c.fit = {"M3"};
+  c.file = write("fit.toml", "title = \"of one number\"");
+  CalibrationParameter p{"macro.area_growth", "%", {}};
+  p.fit = {.name = p.path, .start = 0.7, .low = 0.2, .high = 1.2, .step = 0.04};
+  c.parameters = {p};
+  c.check = {.level = "search", .skins = 2, .first_skin = 3, .grid = 32};
+  CalibrationOptions options;
+  options.threads = 1;
+  options.check = false;
+  const Finger whole = fit_finger(c, options).finger;
+
+  const auto unfinished = [&] {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_))
+      count += entry.path().filename().string().starts_with("unfinished-");
+    return count;
+  };
+  options.folder = folder_;
+  std::atomic<bool> stop{false};
+  options.note = [&](const std::string&) { stop = true; };
+  {
+    const Watch watch({}, &stop);
+    EXPECT_THROW(fit_finger(c, options), WorkStopped);
+  }
+  EXPECT_EQ(unfinished(), 1);
+  std::vector<std::string> notes;
+  options.note = [&](const std::string& text) { notes.push_back(text); };
+  EXPECT_EQ(fit_finger(c, options).finger, whole);
+  ASSERT_FALSE(notes.empty());
+  EXPECT_TRUE(notes[0].starts_with("goes on: ")) << notes[0];
+  EXPECT_EQ(unfinished(), 0);
 }
 
 // At its bound a number has no deviation, and those after it no correlation with it.

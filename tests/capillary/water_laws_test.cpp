@@ -194,11 +194,11 @@ TEST(WaterLaws, OfTheDropletModelWordsErrorAndPriceAreKnown) {
   const std::vector<double> humidities{0.5e-9, 7e-9, 20e-9, 52e-9};
   EXPECT_NEAR(facts.error(humidities), band(20), 1e-13);
   EXPECT_EQ(facts.error(std::vector{0.0}), 0);
-  // 10 us a pixel of the side, on a window of 12 um and what is smaller.
-  EXPECT_NEAR(facts.seconds({256, 256, kWindow, kWindow}), 2.56e-3, 1e-12);
-  EXPECT_NEAR(facts.seconds({400, 100, kWindow, 0.25 * kWindow}), 2e-3, 1e-12);
-  // 27 windows take 9 times as long.
-  EXPECT_NEAR(facts.seconds({128, 128, 9 * kWindow, 3 * kWindow}), 9 * 1.28e-3, 1e-12);
+  // 10 us a pixel of the side, and 2 us a droplet.
+  EXPECT_NEAR(facts.seconds({256, 256, kWindow, kWindow}, 0), 2.56e-3, 1e-12);
+  EXPECT_NEAR(facts.seconds({400, 100, kWindow, 0.25 * kWindow}, 1e4), 2e-3 + 0.02, 1e-12);
+  // 50 nm of water on 144 um2 are 7.2 um3.
+  EXPECT_NEAR(starting_droplets({128, 128, kWindow, kWindow}, 50e-9, 100), 720, 1e-9);
 }
 
 TEST(WaterLaws, OfTheThresholdModelWordsErrorAndPriceAreKnown) {
@@ -208,7 +208,7 @@ TEST(WaterLaws, OfTheThresholdModelWordsErrorAndPriceAreKnown) {
             "cheap and smooth; it reverses the sign of the texture's effect on variation");
   const std::vector<double> humidities{0.5e-9, 0.5e-9 * std::exp(3.0), 0.5e-9 * std::exp(1.0)};
   EXPECT_NEAR(facts.error(humidities), 0.75, 1e-13);  // of the most water
-  EXPECT_NEAR(facts.seconds({200, 50, 1, 1}), 9e-5, 1e-15);
+  EXPECT_NEAR(facts.seconds({200, 50, 1, 1}, 1e5), 9e-5, 1e-15);
 }
 
 TEST(WaterLaws, AStatusHasItsWords) {

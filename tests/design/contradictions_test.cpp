@@ -371,5 +371,27 @@ TEST(Variables, AreWrittenAsPeopleWriteThem) {
   EXPECT_EQ(variable_text(plain, 0.75), "0.75");
 }
 
+// A period of 1 mm never ended, 1e5 droplets a um3 took minutes.
+TEST(Contradictions, MoreDropletsThanCanBeSettledAreRefusedBeforeTheWork) {
+  Design d;
+  d.environment.relative_humidity = {0.15, 0.75};
+  HoleArray holes;
+  holes.period = 6e-6, holes.diameter = 3e-6, holes.depth = 300e-9;
+  const auto refused = [&](double period, double drops) {
+    holes.period = period;
+    d.texture = {holes};
+    d.finger.water.drops_per_um3 = drops;
+    const std::vector<DesignProblem> problems = design_problems(d);
+    return !problems.empty() && problems.front().path == "finger.water.drops_per_um3" &&
+           problems.front().message.find("droplets on a patch of") != std::string::npos;
+  };
+  EXPECT_FALSE(refused(6e-6, 100));
+  EXPECT_FALSE(refused(100e-6, 100));
+  EXPECT_TRUE(refused(1e-3, 100));
+  EXPECT_TRUE(refused(6e-6, 1e5));
+  d.model.water = WaterModel::Threshold;
+  EXPECT_FALSE(refused(6e-6, 1e5));
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -241,7 +241,7 @@ TEST(FieldRules, AreOneTable) {
   };
   // 3.3e-10 s a pixel and halving is a transform forth and back; the spread rule takes 10.5 of them
   // a digit but for 12, six at least.
-  const double pair = 3.3e-10 * 8192 * 13;
+  const double pair = 3.3e-10 * 8192 * 13 * (1 + 8192 / 2.5e5);
   const Grid grid{128, 64, 12e-6, 6e-6};
   for (const Row& row : {Row{FieldMethod::Local, "columns, one by one",
                              "pull 20 to 45 % below the 3-D field", 0.3, 2e-8 * 8192},

@@ -105,11 +105,11 @@ TEST(FieldColumns, WhatTouchesHasNextToNothingBetween) {
                                         {0, 0, 0, kThird, kTwoThirds, 1},
                                         {1, 1, 1, 1, 1},
                                         {0.0075, 0.0025, 0.01 / 3, 0.01 / 3, 0.01 / 3}});
-  // A film that would conduct worse than vacuum counts as vacuum.
+  // A film that conducts less than the gap takes more of the voltage than as much gap would.
   expect_nodes(column(-400, 0, 90, 800, 0), {{-400, -100, 0, 30, 60, 90},
                                              {0, 0, 0, kThird, kTwoThirds, 1},
-                                             {1, 1, 1, 1, 1},
-                                             {300, 100, 30, 30, 30}});
+                                             {0.5, 0.5, 1, 1, 1},
+                                             {600, 200, 30, 30, 30}});
 }
 
 TEST(FieldColumns, TheNodesAtBodiesHaveTheirPotential) {

@@ -261,5 +261,18 @@ TEST(Potential, ConvergesInAFewCycles) {
   EXPECT_LE(solve_potential(p, {.tolerance = 1e-6}).iterations, 2 * three + 1);
 }
 
+// A layer that counts like micrometres of air would let flux spread above the skin, and pull it
+// away: 100 um of it gave minus 24 mN.
+TEST(FullFieldTerms, ALayerThickerThanATenthOfThePatchIsRefused) {
+  Case c;
+  c.problem.skin_layer = 0.15e-6;
+  EXPECT_TRUE(solve_full_field(c.gap, nullptr, c.water, c.problem).ok);
+  c.problem.skin_layer = 0.17e-6;
+  const FieldSolution refused = solve_full_field(c.gap, nullptr, c.water, c.problem);
+  EXPECT_FALSE(refused.ok);
+  EXPECT_TRUE(refused.reason.find("too thick for the 3-D field") != std::string::npos);
+  EXPECT_EQ(refused.mean_pressure, 0);
+}
+
 }  // namespace
 }  // namespace papilla::tests

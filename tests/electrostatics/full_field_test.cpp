@@ -50,6 +50,25 @@ TEST(FullField, AFlatStackIsExactAtAnyGap) {
   }
 }
 
+// A film that passes next to nothing sets the flux, whatever stands above: of a ripple a cos kx of
+// the skin over a gap g the stress through the film's plane is that flux's times
+// 1 - (k a)^2 / (2 cosh^2 k g), to second order in a.
+TEST(FullField, UnderAFilmThatSetsTheFluxARippledSkinIsPulledLess) {
+  const double period = 1e-6, gap = 60e-9, a = 25e-9, k = 2 * kPi / period;
+  PotentialProblem p = bodies({128, 1, period, period / 128});
+  for (int i = 0; i < 128; ++i) {
+    p.electrode[i] = -100e-9;
+    p.skin[i] = gap + a * std::cos(2 * kPi * (i + 0.5) / 128);
+  }
+  fill(p, 4e-4);
+  const PotentialSolution s = solve_potential(p, {.tolerance = 1e-6});
+  ASSERT_TRUE(s.ok) << s.reason;
+  const double flux = 1 / (100e-9 / 4e-4 + gap);
+  const double expected = square(flux) * (1 - square(k * a / std::cosh(k * gap)) / 2);
+  EXPECT_NEAR(mean_square_field(s), expected, 2e-3 * expected);
+  EXPECT_LT(expected, 0.991 * square(flux));
+}
+
 // As many cells as the thickness has in half pixels of the finer side, and two.
 TEST(FullField, CellsOfTheDielectricFollowTheFinerPixel) {
   for (const bool along_x : {true, false}) {

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <complex>
 
+#include "base/constants.h"
 #include "forward/scale_bridge.h"
 #include "forward/scene_terms.h"
 #include "physics/drive/network.h"
@@ -24,6 +27,8 @@ Scene leaky(double resistivity, Waveform waveform = Waveform::Sine, double frequ
   scene.surface.dielectric[0].resistivity = resistivity;
   return scene;
 }
+
+constexpr std::array kFieldMethods{FieldMethod::Local, FieldMethod::Spread, FieldMethod::Full};
 
 // The pull on a plane gap by the field rule of a design [Pa].
 double pull(const Scene& scene) {
@@ -56,12 +61,36 @@ double circuit_pull(const Scene& scene, double frequency) {
   return r.mean_force / kArea;
 }
 
+// The circuit is an exact complex solve of the flat stack.
 TEST(ElectricPath, ALeakyFilmPullsAsTheCircuitOfSolveDriveAtEveryFrequency) {
-  for (const double resistivity : {1e5, 1e7, 1e9, 1e14}) {
+  for (const double resistivity : {1e5, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e14}) {
     for (const double frequency : {1.0, 30.0, 300.0, 5e3, 1e5}) {
-      const Scene scene = leaky(resistivity, Waveform::Sine, frequency);
+      Scene scene = leaky(resistivity, Waveform::Sine, frequency);
       const double expected = circuit_pull(scene, frequency);
-      EXPECT_NEAR(pull(scene), expected, 0.01 * expected) << resistivity << ", " << frequency;
+      for (const FieldMethod method : kFieldMethods) {
+        scene.model.field = method;
+        EXPECT_NEAR(pull(scene), expected, 0.01 * expected)
+            << resistivity << ", " << frequency << ", " << static_cast<int>(method);
+      }
+    }
+  }
+}
+
+// By hand: resistances in series share the voltage, and the gap has the field of its share.
+TEST(ElectricPath, ADirectVoltageSharesItselfByResistances) {
+  for (const double resistivity : {1e8, 3e8, 1e9, 3e9, 1e10, 1e11, 1e12}) {
+    Scene scene = leaky(resistivity, Waveform::Dc);
+    const ElectricalLayer& skin = scene.finger.electrical;
+    // Each times an area [ohm m^2]; the skin's by its corner, 1 / (2 pi R C).
+    const double of_gap = skin.gap_resistivity * kGap, of_film = resistivity * 1e-6;
+    const double of_skin = skin.equivalent_thickness(kHumidity) /
+                           (2 * kPi * skin.corner_frequency * kVacuumPermittivity);
+    const double field = 100 * of_gap / (of_gap + of_film + of_skin) / kGap;
+    const double expected = 0.5 * kVacuumPermittivity * square(field);
+    for (const FieldMethod method : kFieldMethods) {
+      scene.model.field = method;
+      EXPECT_NEAR(pull(scene), expected, 0.01 * expected)
+          << resistivity << ", " << static_cast<int>(method);
     }
   }
 }

@@ -211,7 +211,7 @@ TEST(FieldRatioLaws, AreThoseOfTheSumsOfItsSkins) {
   for (const FieldRatio& r :
        field_ratios(holes_scene(FieldMethod::Full), deep_holes(), coarse(2))) {
     EXPECT_EQ(r.correction, 1);
-    EXPECT_EQ(r.error, 0.02);
+    EXPECT_NEAR(*r.error, 0.02, 1e-7);  // and next to no lag at 5 kHz
   }
   EXPECT_FALSE(field_ratios(holes_scene(FieldMethod::Spread), deep_holes(), coarse(0))[1].error);
 }

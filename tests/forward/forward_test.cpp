@@ -298,6 +298,8 @@ TEST(Plan, TheShortestWaveIsTwoPixelsOfTheCoarserDirection) {
 TEST(Plan, ThePriceGrowsWithEverySkinAndHumidity) {
   Scene scene = driven_scene();
   scene.environment.relative_humidity = {0.35};
+  scene.finger.water.relative_humidity = {0.5};  // as many droplets at every humidity
+  scene.finger.water.volume = {2e-18};
   Fidelity f = fidelity_level("search");
   const auto seconds = [&] { return make_plan(scene, Texture{HoleArray{}}, f).seconds(); };
   const double one = seconds();

@@ -76,7 +76,14 @@ double contact_price(const Grid& g, double tolerance) { return contact_seconds(g
 double field_price(const Grid& g, FieldMethod m, double tolerance) {
   return field_rule(m).seconds(g, tolerance);
 }
-double water_price(const Grid& g) { return water_facts(WaterModel::Droplets).seconds(g); }
+double water_price(const Scene& scene, const Grid& g) {
+  const SkinWater& water = scene.finger.water;
+  double droplets = 0;
+  for (const double rh : scene.environment.relative_humidity)
+    droplets += starting_droplets(g, water.volume_per_area(rh), water.drops_per_um3);
+  return water_facts(WaterModel::Droplets)
+      .seconds(g, droplets / static_cast<double>(scene.environment.relative_humidity.size()));
+}
 
 // Water and drive by the load law, on 2 humidities: 12 skins, of which 5 are controls.
 TEST(PlanPieces, OfADrivenSearchWithControls) {
@@ -93,11 +100,11 @@ TEST(PlanPieces, OfADrivenSearchWithControls) {
   EXPECT_EQ(plan.skin_cutoff, 100e-9);
   EXPECT_NEAR(plan.effective_cutoff, 2 * 12e-6 / 128, 1e-15);
   EXPECT_EQ(plan.feature_pixels, kInfinity);
-  const double contact = contact_price(g, 1e-3), water = water_price(g),
+  const double contact = contact_price(g, 1e-3), water = water_price(scene, g),
                field = field_price(g, FieldMethod::Spread, 1e-2);
   // Control skins: half the pixels and solved areas, each with both states under tractions.
   const double again = 3 * contact + water + field,
-               halved = 3 * contact_price(half, 1e-3) + water_price(half) +
+               halved = 3 * contact_price(half, 1e-3) + water_price(scene, half) +
                         field_price(half, FieldMethod::Spread, 1e-2);
   const double water_error =
       water_facts(WaterModel::Droplets)
@@ -131,6 +138,48 @@ TEST(PlanPieces, OfADrivenSearchWithControls) {
        kKelvin,
        kOptics});
   EXPECT_TRUE(plan.warnings.empty());
+}
+
+// Two volumes and three placements are six times the water; of a gap that is full no droplet moves.
+TEST(PlanPieces, ThePriceCountsDropletsPlacementsAndVolumes) {
+  Scene scene;
+  scene.environment.relative_humidity = {0.5};
+  const auto seconds = [&](int placements) {
+    Fidelity f = fidelity_level("search");
+    f.droplet_seeds = placements;
+    double water = 0;
+    for (const PlanStep& step : make_plan(scene, Texture{}, f).steps) {
+      if (step.piece == Piece::Water) water = step.seconds;
+    }
+    return water;
+  };
+  const double one = seconds(1);
+  EXPECT_NEAR(one, 12 * water_price(scene, {128, 128, 12e-6, 12e-6}), 1e-9 * one);
+  EXPECT_NEAR(seconds(3), 3 * one, 1e-9 * one);
+  scene.finger.water.volume_spread = 0.33;
+  EXPECT_NEAR(seconds(3), 6 * one, 1e-9 * one);
+  scene.finger.water.volume_spread = 0, scene.finger.water.drops_per_um3 *= 100;
+  EXPECT_NEAR(seconds(1), 12 * water_price(scene, {128, 128, 12e-6, 12e-6}), 1e-9 * one);
+  for (double& volume : scene.finger.water.volume) volume *= 1000;
+  EXPECT_NEAR(seconds(1), 12 * 1.28e-3, 1e-9);
+}
+
+// What has a direction says that friction has none.
+TEST(PlanPieces, ATextureWithADirectionIsWarnedOf) {
+  const auto warned = [](const Texture& texture) {
+    for (const std::string& said : make_plan({}, texture, fidelity_level("search")).warnings) {
+      if (said.starts_with("the texture has a direction and friction has none here")) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(warned({Grating{}}));
+  EXPECT_TRUE(warned({VGrooves{}}));
+  EXPECT_TRUE(warned({Waves{}}));
+  EXPECT_TRUE(warned({Stack{.combine = {}, .parts = {{HoleArray{}}, {Grating{}}}}}));
+  EXPECT_FALSE(warned({Waves{.directions = Waves::Directions::Both}}));
+  EXPECT_FALSE(warned({HoleArray{}}));
+  EXPECT_FALSE(warned({Flat{}}));
+  EXPECT_FALSE(warned({Grating{.depth = 0}}));
 }
 
 // Solved areas, self-consistent, patches of the ridges, without water.
@@ -196,12 +245,12 @@ TEST(PlanPieces, OfThePaperAtRest) {
                 "6 skins on 64 x 64 pixels, skin resolved to 375 nm", 6 * contact, 0},
                {"water", "droplet ensemble by lowest energy",
                 "its variation over humidity is what textures change; error: mobility and number",
-                6 * water_price(g), error},
+                6 * water_price(scene, g), error},
                {"contact with tractions", "off state",
                 "areas from resolved contact, not from the load law", 6 * contact, 0},
                {"sampling", "6 skins, common to all designs", kPatches, 0, 0.11 / std::sqrt(6.0)},
                {"errors", "4 of the skins on half the pixels", "what the grid may be off by",
-                4 * (2 * contact_price(half, 1e-4) + water_price(half)), 0}},
+                4 * (2 * contact_price(half, 1e-4) + water_price(scene, half)), 0}},
               skips);
   // By the load law at rest it is off by what the published samples had.
   f.estimator = Estimator::Load;

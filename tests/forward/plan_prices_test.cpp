@@ -38,6 +38,8 @@ TEST(PlanPrices, EveryPatchCostsTheSameAndNodesMultiplyThem) {
   Fidelity f = fidelity_level("search");
   f.skins = 10;
   Scene scene = driven();
+  scene.finger.water.relative_humidity = {0.5};  // as many droplets at every humidity
+  scene.finger.water.volume = {2e-18};
   const Plan four = plan_of(scene, f);
   scene.environment.relative_humidity = {0.5};
   const Plan one = plan_of(scene, f);

@@ -175,5 +175,28 @@ TEST(Point, WithoutADriveThereIsNoModulation) {
   EXPECT_EQ(c.point().bridge_water_share, 0);
 }
 
+// The volumes of the reference finger are known from 15 to 75 % RH.
+TEST(Point, WaterBeyondItsFitAndWaterWithoutRoomAreSaid) {
+  Case c;
+  ModelStatus before;
+  const auto at = [&](double rh) {
+    ResponsePoint p = c.point();
+    p.relative_humidity = rh;
+    p.status = before;
+    note_water(p, c.scene.finger.water);
+    return p.status;
+  };
+  EXPECT_TRUE(at(0.15).sound() && at(0.5).sound() && at(0.75).sound());
+  EXPECT_EQ(at(0.14), (ModelStatus{Trouble::WaterBeyondFit, 0.15, ""}));
+  EXPECT_EQ(at(0.9), (ModelStatus{Trouble::WaterBeyondFit, 0.75, ""}));
+  for (PatchResult& p : c.patches) p.wetted = 0.93;  // and contact has some 2 to 3 %
+  EXPECT_EQ(at(0.5).trouble, Trouble::NearlyFlooded);
+  EXPECT_NEAR(at(0.5).number, 1 - 0.93 - c.point().area_fraction_off.value, 1e-12);
+  for (PatchResult& p : c.patches) p.wetted = 0.9;
+  EXPECT_TRUE(at(0.5).sound());
+  before = {Trouble::Flooded, 0, ""};  // says more
+  EXPECT_EQ(at(0.9), before);
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -118,9 +118,9 @@ TEST(StatedErrors, OctavesThatTheGridLeavesOutAreTakenOffTheAreas) {
     EXPECT_NEAR(resolved_areas(runs), 1 - lacking, 1e-9) << octaves;
     EXPECT_NEAR(grid_part(runs, area), 0.12 * lacking, 1e-9) << octaves;
   }
-  // Coarse features add a fifth of a step that drops an octave of the skin as well.
+  // What coarse features leave of the step counts where it is more.
   runs.octaves = 1;
-  runs.coarse_features = 1;
+  runs.coarse_features = 0.2;
   EXPECT_NEAR(grid_part(runs, area), 0.2 * 0.1, 1e-9);
   runs.coarse_features = 0;
   // Of a grid that leaves next to nothing out nothing is taken off, and that its areas are known no

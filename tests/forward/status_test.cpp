@@ -9,7 +9,7 @@
 namespace papilla::tests {
 namespace {
 
-constexpr int kTroubles = static_cast<int>(Trouble::FullContact) + 1;
+constexpr int kTroubles = static_cast<int>(Trouble::Breakdown) + 1;
 
 TEST(Status, EveryTroubleHasWordsOfItsOwn) {
   std::set<std::string> words;
@@ -63,6 +63,34 @@ TEST(Status, AResponseTellsItsTroublesByHumidity) {
   r.points[1].status.note({Trouble::Flooded, 3, ""});
   ASSERT_EQ(r.troubles().size(), 1u);
   EXPECT_EQ(r.troubles()[0], (PointTrouble{0.4, {Trouble::Flooded, 3, ""}}));
+}
+
+// What a voltage beyond breakdown leads to never happens: that is said first, and no number is
+// known under it.
+TEST(Status, BreakdownIsSaidBeforeWhatItLeadsTo) {
+  ResponsePoint p;
+  p.status.note({Trouble::FullContact, 3e4, ""});
+  p.area_fraction_off.value = 0.01, p.area_fraction_on.value = 300;
+  EXPECT_EQ(p.said(), p.status);
+  EXPECT_TRUE(p.knows_undriven());
+  EXPECT_FALSE(p.knows_driven());
+  p.oxide_margin = 0.004;
+  EXPECT_EQ(p.said(), (ModelStatus{Trouble::Breakdown, 250, ""}));
+  EXPECT_TRUE(p.knows_undriven());
+  EXPECT_FALSE(p.knows_driven());
+  p.oxide_margin = 1, p.status = {};
+  EXPECT_TRUE(p.said().sound() && p.knows_driven());
+  p.status.note({Trouble::FieldUnsolved, 0, "why"});
+  EXPECT_FALSE(p.knows_driven());
+  p.status = {Trouble::WaterBeyondFit, 0.75, ""};
+  EXPECT_TRUE(p.knows_driven());
+  p.area_fraction_off.value = 1.01;
+  EXPECT_FALSE(p.knows_undriven() || p.knows_driven());
+  Response r;
+  r.points = {p};
+  r.points[0].relative_humidity = 0.9, r.points[0].oxide_margin = 0.5;
+  EXPECT_EQ(r.said(), (std::vector<PointTrouble>{{0.9, {Trouble::Breakdown, 2, ""}}}));
+  EXPECT_EQ(r.troubles(), (std::vector<PointTrouble>{{0.9, p.status}}));
 }
 
 TEST(Status, EveryEndOfASearchForAVoltageHasItsWords) {

@@ -74,5 +74,23 @@ TEST(Particles, AreTheHighestSphereOverEveryPixel) {
   }
 }
 
+// Thousands of clustered particles asked each other: minutes.
+TEST(Particles, OfManySmallOnesNoTwoOverlap) {
+  ParticleFilm film = equal_spheres(0.2);
+  film.radius = 0.05e-6, film.radius_spread = 0.3, film.coverage = 0.4, film.clustering = 0.7;
+  const Grid grid{64, 64, 12e-6, 9e-6};
+  const std::vector<Particle> particles = place_particles(film, grid);
+  ASSERT_GT(particles.size(), 4000u);
+  double worst = 1;  // distance over what two need
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const double dx = std::remainder(particles[i].x - particles[j].x, grid.lx),
+                   dy = std::remainder(particles[i].y - particles[j].y, grid.ly);
+      worst = std::min(worst, std::hypot(dx, dy) / (particles[i].radius + particles[j].radius));
+    }
+  }
+  EXPECT_GT(worst, 1 - 1e-12);
+}
+
 }  // namespace
 }  // namespace papilla::tests

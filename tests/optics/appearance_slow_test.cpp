@@ -19,7 +19,7 @@ TEST(Appearance, OfRoughGlassIsThatOfItsMap) {
   EXPECT_EQ(own.regime, OpticsRegime::PhaseScreen);
   for (const double side : {48e-6, 100e-6}) {
     const Heightmap map = generate(rough, patch_grid(rough, 1024, side));
-    const Optics seen = phase_screen(map, PixelEdges::Sloped, {1.46, 1});
+    const Optics seen = phase_screen(map, {1.46, 1});
     EXPECT_NEAR(own.haze, seen.haze, 0.05 * seen.haze) << side;
     EXPECT_NEAR(own.gloss, seen.gloss, 0.05 * seen.gloss) << side;
   }
@@ -43,7 +43,7 @@ TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
   write_npy(measured.file, map);
   Stack stack;
   stack.parts = {Texture{}, rough};
-  const double whole = phase_screen(map, PixelEdges::Sloped, {1.46, 1}).haze;
+  const double whole = phase_screen(map, {1.46, 1}).haze;
   EXPECT_NEAR(appearance(Texture{measured}, 1.46, {}).haze, whole, 0.1 * whole);
   EXPECT_EQ(appearance(Texture{measured}, 1.46, {}).warning, "");
   EXPECT_EQ(appearance(Texture{stack}, 1.46, {}).haze, appearance(rough, 1.46, {}).haze);

@@ -79,7 +79,7 @@ TEST(ScreenOrders, OfAnyHeightmapAreItsFourierCoefficients) {
   const Heightmap h = bumps();
   for (const auto& [fill, glass] : {std::pair{1.0, 1.5}, {1.3, 1.46}}) {
     const Light light{{430e-9, 640e-9}, {0.0, 0.6, 1.2}};
-    const Optics o = phase_screen(h, PixelEdges::Sloped, {glass, fill}, light);
+    const Optics o = phase_screen(h, {glass, fill}, light);
     EXPECT_EQ(o.regime, OpticsRegime::PhaseScreen);
     ASSERT_EQ(o.spectrum.size(), 6u);
     for (std::size_t k = 0; k < 6; ++k) {
@@ -99,36 +99,6 @@ TEST(ScreenOrders, OfAnyHeightmapAreItsFourierCoefficients) {
       EXPECT_NEAR(p.gloss, power(back, 0, 0), 1e-9) << k;
     }
   }
-}
-
-// A pixel between the planes has as much of the upper level's amplitude as it is up.
-TEST(ScreenOrders, OfTwoLevelsAPixelBetweenIsAMeanOfTheirAmplitudes) {
-  Heightmap h = bumps();
-  for (double& z : h.z) z = z < -200e-9 ? -250e-9 : z < -100e-9 ? z : 50e-9;
-  const Light light{{430e-9, 640e-9}, {0.0, 0.6}};
-  const Optics o = phase_screen(h, PixelEdges::TwoLevels, {1.5, 1.1}, light);
-  for (std::size_t k = 0; k < 4; ++k) {
-    const SpectrumPoint& p = o.spectrum[k];
-    const double s2 = square(std::sin(p.angle));
-    const double path = std::sqrt(2.25 - s2) - std::sqrt(1.21 - s2);
-    const auto amplitudes = [&](double phase) {
-      std::vector<Complex> t;
-      for (const double z : h.z) {
-        const double up = (z + 250e-9) / 300e-9;
-        t.push_back((1 - up) * std::polar(1.0, -250e-9 * phase) +
-                    up * std::polar(1.0, 50e-9 * phase));
-      }
-      return t;
-    };
-    const std::vector<Complex> through = amplitudes(2 * kPi * path / p.wavelength);
-    EXPECT_NEAR(p.specular, power(through, 0, 0), 1e-9) << k;
-    EXPECT_NEAR(p.haze, 1 - cone(through, p.wavelength, p.angle), 1e-9) << k;
-    EXPECT_NEAR(p.gloss, power(amplitudes(4 * kPi * std::sqrt(1.21 - 0.75) / p.wavelength), 0, 0),
-                1e-9);
-  }
-  // Of one level alone there is no step.
-  const Heightmap flat{kGrid, std::vector<double>(kGrid.size(), -1e-7)};
-  EXPECT_NEAR(phase_screen(flat, PixelEdges::TwoLevels, {1.5, 1}).haze, 0, 1e-12);
 }
 
 TEST(ScreenOrders, SeventeenWavelengthsAreTheVisible) {
@@ -162,7 +132,7 @@ TEST(ScreenOrders, MeansAreThoseOfTheObserver) {
   const Heightmap h = bumps();
   for (int nm = 405; nm < 720; nm += 11) {
     const Light light{{1e-9 * nm, 548e-9}, {0.0, 0.9}};
-    const Optics o = phase_screen(h, PixelEdges::Sloped, {1.5, 1}, light);
+    const Optics o = phase_screen(h, {1.5, 1}, light);
     double haze = 0, transmittance = 0, gloss = 0, shift = 0;
     for (std::size_t a = 0; a < 2; ++a) {
       double weights = 0;

@@ -26,5 +26,28 @@ TEST(Rank, TheLuckOfFewSkinsDoesNotOrder) {
   }
 }
 
+// Surfaces of one roughness differ by their arrangement alone: no haze of one is that of another,
+// and none is the best. Of an array there is no arrangement: its haze has no ±.
+TEST(Rank, ArrangementsOfOneRoughnessAreNotToldApartByTheirHaze) {
+  std::vector<Design> designs;
+  for (const int seed : {1, 101, 201}) {
+    Design d = sample("flat");
+    RandomRough rough;
+    rough.rms = 60e-9, rough.roll_off = 6e-6, rough.seed = seed;
+    d.texture = {rough};
+    designs.push_back(d);
+  }
+  RankOptions options = by("haze:low");
+  options.max_skins = 12;
+  const Ranking r = ranking_of(designs, options);
+  for (const RankedCandidate& c : r.states.front().candidates) {
+    EXPECT_LT(c.p_best, 0.97) << c.index;
+    EXPECT_GT(c.metrics[0].high, c.metrics[0].low) << c.index;
+  }
+  designs = {sample("a3h350"), sample("a3h600")};
+  for (const RankedCandidate& c : ranking_of(designs, options).states.front().candidates)
+    EXPECT_NEAR(c.metrics[0].high, c.metrics[0].low, 1e-12);
+}
+
 }  // namespace
 }  // namespace papilla::tests

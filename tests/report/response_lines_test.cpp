@@ -82,7 +82,10 @@ TEST(ResponseLines, OfTheFieldSayTheWorstOfAllHumidities) {
   EXPECT_EQ(last(), air +
                         "warning: the dielectric breaks down: the field in a layer is 2 times its "
                         "strength; at most 0.5 of this amplitude holds; the numbers under voltage "
-                        "mean nothing physical\n");
+                        "mean nothing physical\n"
+                        "note: 20 % RH: breakdown: the field in a layer of the dielectric is 2 "
+                        "times its strength, the numbers under voltage mean nothing physical\n");
+  EXPECT_NE(response_table(r).find("modulation: no number over humidity"), std::string::npos);
   a.oxide_margin = 5;
   for (Measured PointQuantities::*area :
        {&PointQuantities::area_fraction_off, &PointQuantities::area_fraction_on}) {
@@ -145,9 +148,9 @@ TEST(ResponseLines, SayWhatWasAskedForBesideTheFriction) {
             std::string::npos)
       << below(r);
   // A sweep has a refused look in its column.
-  EXPECT_TRUE(sweep_line("1", r).ends_with("    50.00\n")) << sweep_line("1", r);
+  EXPECT_NE(sweep_line("1", r).find("    50.00  15 % RH: flooded: "), std::string::npos);
   r.appearance->regime = OpticsRegime::Refused;
-  EXPECT_TRUE(sweep_line("1", r).ends_with("  refused\n"));
+  EXPECT_NE(sweep_line("1", r).find("  refused  15 % RH: flooded: "), std::string::npos);
   EXPECT_EQ(sweep_head("p", false),
             "               p     F_off mN    mean modulation      variation          worst\n");
 }
@@ -233,14 +236,14 @@ TEST(ResponseDocuments, HaveTheirPartsOnRequest) {
   EXPECT_FALSE(json.contains("parameters") || json.contains("accuracy"));
   r.appearance.reset();
   EXPECT_FALSE(Json::parse(response_json(r)).contains("appearance"));
-  // A field beyond the strength says so, unless the model itself has no numbers.
+  // A field beyond the strength says so, whatever else there is.
   r.points[0].oxide_margin = 0.99;
   const auto status = [&] {
     return Json::parse(response_json(r))["points"][0]["status"].get<std::string>();
   };
   EXPECT_TRUE(status().starts_with("breakdown: "));
   r.points[0].status = {Trouble::Flooded, 0, ""};
-  EXPECT_EQ(status(), text(r.points[0].status));
+  EXPECT_TRUE(status().starts_with("breakdown: "));
   r.points[0].status = {};
   r.driven = false;
   EXPECT_EQ(status(), "ok");

@@ -253,8 +253,19 @@ TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
   EXPECT_TRUE(off["area_fraction_on"].is_null());
   Response broken = r;
   broken.points[0].oxide_margin = 0.9;
-  const auto status = nlohmann::json::parse(response_json(broken))["points"][0]["status"];
-  EXPECT_TRUE(status.get<std::string>().starts_with("breakdown: "));
+  const auto numberless = nlohmann::json::parse(response_json(broken));
+  const nlohmann::json& there = numberless["points"][0];
+  EXPECT_TRUE(there["status"].get<std::string>().starts_with("breakdown: "));
+  EXPECT_TRUE(numberless["status"].get<std::string>().starts_with("35 % RH: breakdown: "));
+  for (const char* name : {"F_on", "modulation", "area_fraction_on", "electrostatic_force"})
+    EXPECT_TRUE(there[name].is_null()) << name;
+  EXPECT_FALSE(there["F_off"].is_null() || there["area_fraction_off"].is_null());
+  for (const char* name : {"mean_modulation", "variation", "range", "worst", "std"})
+    EXPECT_TRUE(numberless["summary"][name].is_null()) << name;
+  EXPECT_FALSE(numberless["summary"]["mean_friction"].is_null());
+  broken.points[0].area_fraction_off.value = 1.5;  // full contact under the load alone
+  const auto full = nlohmann::json::parse(response_json(broken));
+  EXPECT_TRUE(full["points"][0]["F_off"].is_null() && full["summary"]["mean_friction"].is_null());
 }
 
 TEST(ResponseReport, ASweepHasALineAValue) {
@@ -268,7 +279,8 @@ TEST(ResponseReport, ASweepHasALineAValue) {
             "          300 nm 100.000 ±3.000       0.102 ±0.005              -   0.102 ±0.005     "
             "3.45\n");
   r.points[0].oxide_margin = 0.5;
-  EXPECT_TRUE(sweep_line("1", r).ends_with("  the dielectric breaks down\n"));
+  EXPECT_NE(sweep_line("1", r).find("  35 % RH: breakdown: "), std::string::npos);
+  EXPECT_EQ(sweep_line("1", r).find("0.102"), std::string::npos);
   const auto json = nlohmann::json::parse(sweep_json("texture.depth", {{3e-7, r}, {4e-7, r}}));
   EXPECT_EQ(json["runs"][0]["value"], 3e-7);
   EXPECT_EQ(json["runs"][1]["value"], 4e-7);

@@ -26,14 +26,16 @@ double threshold_error(std::span<const double> water_per_area) {
   return threshold_shortfall(*std::max_element(water_per_area.begin(), water_per_area.end()));
 }
 
-// A smooth finger takes three times that. More droplets on a longer patch: 100 um take 16 times the
-// water of the window, not 69.
-double droplet_seconds(const Grid& grid) {
-  const double room = std::pow(std::max(1.0, grid.area() / square(kWindow)), 2.0 / 3);
-  return 1e-5 * std::sqrt(static_cast<double>(grid.size())) * room;
+// Once settled, droplets of a window are few; of 1,000 and more each costs its own way there, less
+// where it floats and more where many merge. A smooth finger takes three times the first part.
+double droplet_seconds(const Grid& grid, double droplets) {
+  constexpr double kPerDroplet = 2e-6;
+  return 1e-5 * std::sqrt(static_cast<double>(grid.size())) + kPerDroplet * droplets;
 }
 
-double threshold_seconds(const Grid& grid) { return 9e-9 * static_cast<double>(grid.size()); }
+double threshold_seconds(const Grid& grid, double) {
+  return 9e-9 * static_cast<double>(grid.size());
+}
 
 constexpr WaterFacts kDroplets{
     "droplet ensemble by lowest energy",
@@ -46,6 +48,10 @@ constexpr WaterFacts kThreshold{
     threshold_seconds};
 
 }  // namespace
+
+double starting_droplets(const Grid& patch, double water_per_area, double drops_per_um3) {
+  return 1e18 * drops_per_um3 * water_per_area * patch.area();
+}
 
 const WaterFacts& water_facts(WaterModel model) {
   switch (model) {

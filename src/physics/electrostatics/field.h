@@ -27,8 +27,8 @@ struct FieldProblem {
 };
 
 // Whether the film insulates so much better than the gap that next to nothing of the voltage is
-// left to the gap, and hardly any flux spreads in the film: its columns are exact then, and a 3-D
-// field has nothing to add.
+// left to the gap, and hardly any flux spreads in the film: columns are the rule with spreading
+// flux then. In the air flux spreads all the same.
 bool holds_all_voltage(const FieldProblem& problem);
 
 struct FieldSolution {

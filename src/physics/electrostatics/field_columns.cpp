@@ -35,7 +35,7 @@ void FieldColumns::place_nodes(std::size_t column, const PotentialProblem& p) {
   for (int k = 0; k <= below_; ++k) {
     z[k] = surface - thickness * square(1 - static_cast<double>(k) / below_);
     if (k < below_ && !p.dielectric.empty() && p.dielectric[column] > 0)
-      permittivity[k] = std::max(thickness / p.dielectric[column], 1.0);
+      permittivity[k] = thickness / p.dielectric[column];
   }
   const double gap = std::max(p.skin[column] - surface, 0.0);
   const auto water = [&](const std::vector<double>& of) {

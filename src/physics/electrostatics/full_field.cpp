@@ -1,5 +1,7 @@
 #include "physics/electrostatics/full_field.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -92,6 +94,11 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
 
 }  // namespace
 
+bool knows_skin_layer(const Grid& grid, const FieldProblem& problem) {
+  constexpr double kOfPatch = 0.1;
+  return problem.skin_layer.real() <= kOfPatch * std::min(grid.lx, grid.ly);
+}
+
 double full_field_seconds(const Grid& grid) { return 3e-6 * static_cast<double>(grid.size()); }
 
 FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
@@ -101,6 +108,14 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
   const Grid& grid = gap.grid;
   out.traction = {grid, std::vector<double>(grid.size(), 0)};
   if (p.v_rms == 0 && p.v_peak == 0) return out;
+  if (!knows_skin_layer(grid, p)) {
+    out.ok = false;
+    out.reason = fmt::format(
+        "the skin's layer counts like {:.3g} um of air, more than a tenth of the patch: too thick "
+        "for the 3-D field, in which flux spreads there; field = \"spread\" knows it",
+        1e6 * p.skin_layer.real());
+    return out;
+  }
   const PotentialSolution s = solve_potential(potential_problem(gap, surface, wetting, p), options);
   out.residual = s.residual;
   out.iterations = s.iterations;
@@ -108,6 +123,10 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
   out.reason = s.reason;
   if (s.iterations == 0 && !s.ok) return out;
   add_pull(s, gap, wetting, p, out);
+  if (out.ok && out.mean_pressure < 0) {
+    out.ok = false;
+    out.reason = "the 3-D field is not resolved on these pixels: its pull is negative";
+  }
   out.peak_air_field = p.v_peak * s.peak_air;
   out.peak_oxide_field = p.v_peak * s.peak_dielectric;
   if (p.edge_radius > 0 && p.edge_radius < 2 * std::min(grid.dx(), grid.dy()) && surface &&

@@ -127,63 +127,112 @@ Inside inside(const Grid& grid, double wavelength, double sx, double sy, const P
   return out;
 }
 
+// Of a screen: the mean of its power over the planes of incidence x and y.
+template <typename Power>
+Inside both_planes(const Grid& grid, double wavelength, double sine, const Power& power) {
+  const Inside x = inside(grid, wavelength, sine, 0, power);
+  if (sine == 0) return x;
+  const Inside y = inside(grid, wavelength, 0, sine, power);
+  return {x.specular, 0.5 * (x.cone + y.cone)};
+}
+
 // The amplitudes exp(i k h) of a heightmap, for any phase k a metre of height. Eq. optics.1
 class Screen {
  public:
-  Screen(const Heightmap& h, PixelEdges edges, double shortest) : h_(h), edges_(edges) {
-    const auto [low, high] = std::minmax_element(h.z.begin(), h.z.end());
-    low_ = *low, high_ = *high;
-    t_.resize(h.z.size());
-    if (edges == PixelEdges::Sloped) return;
-    std::vector<double> share(h.z.size());
-    for (std::size_t i = 0; i < h.z.size(); ++i)
-      share[i] = high_ > low_ ? (h.z[i] - low_) / (high_ - low_) : 1;
-    share_ = orders(h.grid, share, kReach / shortest);
-  }
+  explicit Screen(const Heightmap& h) : h_(h), t_(h.z.size()) {}
 
-  // Phase k a metre of height; the mean over the planes of incidence x and y.
   Inside power(double k, double wavelength, double sine) {
-    if (edges_ == PixelEdges::TwoLevels) {
-      // The share of the upper level knows no wavelength: its transform serves all.
-      const Complex bottom = std::polar(1.0, k * low_), step = std::polar(1.0, k * high_) - bottom;
-      return both_planes(wavelength, sine, [&](int m, int n) {
-        return std::norm((m == 0 && n == 0 ? bottom : 0.0) + share_.at(m, n) * step);
-      });
-    }
     for (std::size_t i = 0; i < h_.z.size(); ++i) t_[i] = std::polar(1.0, k * h_.z[i]);
     const Orders f = orders(h_.grid, t_, kReach / wavelength);
-    return both_planes(wavelength, sine, [&](int m, int n) { return std::norm(f.at(m, n)); });
+    return both_planes(h_.grid, wavelength, sine,
+                       [&](int m, int n) { return std::norm(f.at(m, n)); });
   }
-
   // |mean amplitude|^2 alone.
   double specular(double k) const {
-    if (edges_ == PixelEdges::TwoLevels) {
-      const Complex bottom = std::polar(1.0, k * low_), step = std::polar(1.0, k * high_) - bottom;
-      return std::norm(bottom + share_.at(0, 0) * step);
-    }
     Complex sum = 0;
     for (const double z : h_.z) sum += std::polar(1.0, k * z);
     return std::norm(sum / static_cast<double>(h_.z.size()));
   }
 
  private:
-  template <typename Power>
-  Inside both_planes(double wavelength, double sine, const Power& power) const {
-    const Inside x = inside(h_.grid, wavelength, sine, 0, power);
-    if (sine == 0) return x;
-    const Inside y = inside(h_.grid, wavelength, 0, sine, power);
-    return {x.specular, 0.5 * (x.cone + y.cone)};
-  }
-
   const Heightmap& h_;
-  PixelEdges edges_;
-  double low_ = 0, high_ = 0;
-  Orders share_;
   std::vector<Complex> t_;
 };
 
 // 2 J1(x)/x and J0(x) for x up to a few.
 double airy(double x) { return x < 1e-6 ? 1 - x * x / 8 : 2 * std::cyl_bessel_j(1, x) / x; }
+double sinc(double x) { return x < 1e-6 ? 1 - x * x / 6 : std::sin(x) / x; }
+
+// The cell that repeats: of lines a strip as narrow as no order along it asks.
+Grid cell_of(const FeatureArray& a) {
+  if (a.shape == FeatureArray::Shape::Line) return {1, 1, a.period, 1e-3 * a.period};
+  return {1, 1, a.period, a.lattice == Lattice::Square ? a.period : std::sqrt(3.0) * a.period};
+}
+
+// The amplitudes of an array: 1 around its features, and inside each outline what the terrace there
+// has more than the one around it. The transforms of the outlines know no wavelength. Eq. optics.9
+class ArrayScreen {
+ public:
+  ArrayScreen(const FeatureArray& array, double shortest) : array_(array), cell_(cell_of(array)) {
+    mx_ = static_cast<int>(kReach / shortest * cell_.lx);
+    my_ = static_cast<int>(kReach / shortest * cell_.ly);
+    for (int m = 0; m <= mx_; ++m) {
+      for (int n = 0; n <= my_; ++n) {
+        for (const Terrace& t : array.terraces) share_.push_back(share(t.width, m, n));
+      }
+    }
+  }
+
+  Inside power(double k, double wavelength, double sine) const {
+    const std::vector<Complex> rises = rises_at(k);
+    std::vector<double> powers;
+    for (int m = 0; m <= mx_; ++m) {
+      for (int n = 0; n <= my_; ++n) powers.push_back(std::norm(order(rises, m, n)));
+    }
+    // Orders of either sign are alike: the outlines are symmetric.
+    return both_planes(cell_, wavelength, sine,
+                       [&](int m, int n) { return powers[at(std::abs(m), std::abs(n))]; });
+  }
+  double specular(double k) const { return std::norm(order(rises_at(k), 0, 0)); }
+
+ private:
+  std::size_t at(int m, int n) const { return static_cast<std::size_t>(m * (my_ + 1) + n); }
+
+  // Of the amplitude at each outline, for a phase k a metre of height.
+  std::vector<Complex> rises_at(double k) const {
+    std::vector<Complex> out;
+    Complex around = 1;
+    for (const Terrace& t : array_.terraces) {
+      const Complex here = std::polar(1.0, k * t.height);
+      out.push_back(here - around);
+      around = here;
+    }
+    return out;
+  }
+
+  Complex order(const std::vector<Complex>& rises, int m, int n) const {
+    const double* shares = &share_[rises.size() * at(m, n)];
+    Complex f = m == 0 && n == 0 ? 1.0 : 0.0;
+    for (std::size_t j = 0; j < rises.size(); ++j) f += shares[j] * rises[j];
+    return f;
+  }
+
+  // Fourier coefficient of the inside of an outline, its phase left out.
+  double share(double width, int m, int n) const {
+    const double w = std::max(width, 0.0);
+    if (array_.shape == FeatureArray::Shape::Line)
+      return n == 0 ? w / array_.period * sinc(kPi * m * w / array_.period) : 0;
+    const bool hexagonal = array_.lattice == Lattice::Hexagonal;
+    if (hexagonal && (m + n) % 2 != 0) return 0;  // two features in the cell, half of it apart
+    const double q = kPi * w * std::hypot(m / cell_.lx, n / cell_.ly);
+    return (hexagonal ? 2 : 1) * 0.25 * kPi * w * w / cell_.area() * airy(q);
+  }
+
+  const FeatureArray& array_;
+  Grid cell_;
+  int mx_ = 0, my_ = 0;
+  std::vector<double> share_;  // of each order and terrace, terraces fastest
+};
 
 // The layer in each plane of incidence that counts. Eq. optics.5
 std::vector<Medium> layers(double open, bool lines, const OpticalMedia& media) {
@@ -242,7 +291,7 @@ double disorder_haze(double open, double depth, Features features, const Optical
     double f = 0, df = 0;  // of one feature, and its change with ln w
     if (lines) {
       const double x = 0.5 * q * w;
-      f = w * (x < 1e-6 ? 1 : std::sin(x) / x), df = w * std::cos(x);
+      f = w * sinc(x), df = w * std::cos(x);
     } else {
       const double area = 0.25 * kPi * w * w, x = 0.5 * q * w;
       f = area * airy(x), df = 2 * area * std::cyl_bessel_j(0, x);
@@ -314,12 +363,13 @@ const std::vector<double>& visible_wavelengths() {
   return list;
 }
 
-Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& media,
-                    const Light& light) {
+namespace {
+
+template <class AnyScreen>
+Optics seen_through(AnyScreen& screen, const OpticalMedia& media, const Light& light) {
   Optics out;
   out.regime = OpticsRegime::PhaseScreen;
   const Medium air = plain(1), fill = plain(media.fill), glass = plain(media.index);
-  Screen screen(h, edges, *std::min_element(light.wavelengths.begin(), light.wavelengths.end()));
   for (const double angle : light.angles) {
     const double sine = std::sin(angle);
     double faces = 0;  // what a flat plate lets through
@@ -344,6 +394,24 @@ Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& me
   }
   photopic_means(out, light);
   return out;
+}
+
+}  // namespace
+
+Optics phase_screen(const Heightmap& h, const OpticalMedia& media, const Light& light) {
+  Screen screen(h);
+  return seen_through(screen, media, light);
+}
+
+bool has_closed_form(const FeatureArray& array) {
+  if (array.terraces.empty()) return false;
+  const double outermost = array.terraces.front().width, innermost = array.terraces.back().width;
+  return outermost <= array.period && innermost >= 0;
+}
+
+Optics array_screen(const FeatureArray& array, const OpticalMedia& media, const Light& light) {
+  ArrayScreen screen(array, *std::min_element(light.wavelengths.begin(), light.wavelengths.end()));
+  return seen_through(screen, media, light);
 }
 
 Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "geometry/facts.h"
 #include "geometry/heightmap.h"
 #include "physics/optics/regime.h"
 
@@ -46,11 +47,6 @@ struct Optics {
   bool refused() const { return regime == OpticsRegime::Refused; }
 };
 
-// What a pixel between the lowest and the highest plane is: a slope, or an edge of a two-level
-// texture that crosses it (then its amplitude is the mean over both levels, right to 1e-4 at 96
-// pixels per period, where a mean height errs by 1 %).
-enum class PixelEdges { Sloped, TwoLevels };
-
 // What a perfect array lacks: each feature displaced at random, each diameter (or groove width)
 // another.
 struct Disorder {
@@ -62,8 +58,13 @@ struct Disorder {
 // Thin phase screen of one period (or a patch of 100 um and more for random textures).
 // Eq. optics.1-4, 8. Oblique light: mean over the planes of incidence x and y. Cost: pixels x
 // wavelengths x angles x orders inside the cone.
-Optics phase_screen(const Heightmap& h, PixelEdges edges, const OpticalMedia& media,
-                    const Light& light = {});
+Optics phase_screen(const Heightmap& h, const OpticalMedia& media, const Light& light = {});
+
+// The same of an array by the closed forms of its discs and lines, terrace by terrace: no pixels.
+// The outlines must not reach those of their neighbours (`has_closed_form`). Cost: terraces x
+// orders inside the cone x (1 + wavelengths x angles / 10); a millisecond.
+bool has_closed_form(const FeatureArray& array);
+Optics array_screen(const FeatureArray& array, const OpticalMedia& media, const Light& light = {});
 
 // A layer finer than the wavelength: a share `open` of it is the fill, the rest glass. Eq.
 // optics.5. Lines: grooves (mean over polarisations and planes of incidence), else round holes or
