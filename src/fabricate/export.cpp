@@ -273,21 +273,25 @@ FileInfo info_of(const Design& design) {
 
 Export export_design(const Design& design, const ExportOptions& options, const std::string& folder,
                      const FileProgress& progress) {
-  Texture drawn = compensated(design.texture, options.bias);
-  const std::vector<ExportFormat> formats = chosen_formats(drawn, options);
-  Export out = prepared(std::move(drawn), options, formats);
+  Export out = prepare_export(design, options);
   Folder::made(folder);
+  write_files(design, options, folder, progress, out);
+  return out;
+}
+
+void write_files(const Design& design, const ExportOptions& options, const std::string& folder,
+                 const FileProgress& progress, Export& prepared) {
   const FileInfo info = info_of(design);
-  for (const ExportFormat& format : formats) {
+  for (const ExportFormat& format :
+       chosen_formats(compensated(design.texture, options.bias), options)) {
     const std::string path = folder + "/" + format.file;
     const std::function<void(double)> share = [&](double done) {
       if (progress) progress(path, done);
     };
     share(0);
-    format.write({out.heightmap, out.texture, options, info, share}, path, out);
-    out.files.push_back({format.name, path});
+    format.write({prepared.heightmap, prepared.texture, options, info, share}, path, prepared);
+    prepared.files.push_back({format.name, path});
   }
-  return out;
 }
 
 }  // namespace papilla::fabricate

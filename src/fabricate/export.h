@@ -84,8 +84,12 @@ FileInfo info_of(const Design& design);
 // Told before each file, and during a long one: its name and the share that is done.
 using FileProgress = std::function<void(const std::string& file, double share)>;
 
-// Writes heightmap.exr, heightmap.tif, mask.tif and so on into a folder, which it makes. Throws
-// InputError; then files of the formats before stay.
+// Writes heightmap.exr, heightmap.tif, mask.tif and so on of what was prepared of a design into a
+// folder that there is. Throws InputError; then files of the formats before stay.
+void write_files(const Design& design, const ExportOptions& options, const std::string& folder,
+                 const FileProgress& progress, Export& prepared);
+
+// Both; makes the folder.
 Export export_design(const Design& design, const ExportOptions& options, const std::string& folder,
                      const FileProgress& progress = {});
 

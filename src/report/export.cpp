@@ -135,9 +135,10 @@ std::string size_line(const Export& result) {
 Export export_with_record(const Study& study, const ExportOptions& options,
                           const std::string& folder, const FileProgress& progress,
                           const std::vector<ExportedFile>& beside) {
+  Export result = prepare_export(study.design, options);  // what is refused leaves no folder
   const Folder place = Folder::made(folder);
   const SoleWriter alone(place, "another export is writing");
-  Export result = export_design(study.design, options, folder, progress);
+  write_files(study.design, options, folder, progress, result);
   result.files.insert(result.files.end(), beside.begin(), beside.end());
   place.write(kRecordName, record(study, options, result).dump(2) + "\n");
   return result;

@@ -38,12 +38,13 @@ bool possible(const StudyProblem& problem, Stage stage, const TaskAnswer& a) {
   if (!a.steps.empty() && a.steps.size() != count) return false;
   if (stage == Stage::Steps) return true;
   if (a.objectives.size() != count) return false;
-  if (stage == Stage::Stability) return true;  // the summaries alone
   if (a.limited.size() != goals.limited.size() || (goals.looks && !a.look)) return false;
   if (!a.samples.empty() && a.samples.size() != count) return false;
   for (std::size_t k = 0; k < count; ++k) {
     if (a.objectives[k].points.size() != humidities) return false;
-    const std::size_t numbers = goals.by_points(k) ? humidities : 1;
+    // Checks of the order compare the summaries themselves.
+    const bool by_points = stage != Stage::Stability && goals.by_points(k);
+    const std::size_t numbers = by_points ? humidities : 1;
     if (!a.samples.empty() && a.samples[k].size() != numbers) return false;
   }
   return true;

@@ -242,7 +242,8 @@ TEST(ContactOutcome, TheDenseSolverGoesOnFromTheSparse) {
   const ContactKernel kernel(kGrid, kSolid);
   const std::vector<double> h = rough();
   int found = 0;
-  for (const double mean : {50.0, 500.0, 2e3, 8e3}) {
+  // Whether it gives up at a load hangs on the last bits, which other processors round otherwise.
+  for (double mean = 50; mean < 1e4; mean *= 1.2) {
     const StandardProblem problem{kernel, h, {}, deviation(h), mean * 768};
     StandardState sparse;
     if (solve_sparse(problem, 1e-20, nullptr, true, sparse)) continue;

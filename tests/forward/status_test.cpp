@@ -78,7 +78,7 @@ TEST(Status, BreakdownIsSaidBeforeWhatItLeadsTo) {
   EXPECT_EQ(p.said(), (ModelStatus{Trouble::Breakdown, 250, ""}));
   EXPECT_TRUE(p.knows_undriven());
   EXPECT_FALSE(p.knows_driven());
-  p.oxide_margin = 1, p.status = {};
+  p.oxide_margin = 1, p.status = {}, p.area_fraction_on.value = 0.02;
   EXPECT_TRUE(p.said().sound() && p.knows_driven());
   p.status.note({Trouble::FieldUnsolved, 0, "why"});
   EXPECT_FALSE(p.knows_driven());

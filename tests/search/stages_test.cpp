@@ -45,7 +45,7 @@ TaskAnswer lines(const TaskRequest& r) {
   TaskAnswer out;
   const double mean = 0.8 - 0.3 * depth + 0.1 * angle + offset,
                variation = 0.5 - 0.4 * depth + 0.02 * angle;
-  out.objectives = {{mean, 0.01, {mean}}, {variation, 0.01, {variation}}};
+  out.objectives = {{mean, 0.01, {mean, mean}}, {variation, 0.01, {variation, variation}}};
   out.worst = 0.2 + 0.1 * depth;
   out.oxide_margin = 10;
   return out;

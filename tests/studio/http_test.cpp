@@ -74,8 +74,9 @@ TEST_F(Http, EveryAnswerTellsTheBrowserWhatItMayDo) {
       std::string::npos);
   const std::string report = get("report").text;
   EXPECT_NE(report.find("\r\nContent-Type: text/html; charset=utf-8\r\n"), std::string::npos);
-  EXPECT_NE(report.find("\r\nContent-Security-Policy: default-src 'none'; script-src "
-                        "'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri "
+  EXPECT_NE(report.find("\r\nContent-Security-Policy: sandbox allow-scripts; "
+                        "default-src 'none'; script-src 'unsafe-inline'; style-src "
+                        "'unsafe-inline'; img-src data:; base-uri "
                         "'none'; form-action 'none'; frame-ancestors 'none'\r\n"),
             std::string::npos);
   EXPECT_EQ(report.find("'self'"), std::string::npos);

@@ -315,7 +315,7 @@ TEST_F(LeftSearch, ShowsWhatWasFound) {
       {"values":["240 nm"],"objectives":[0.4],"ok":true,"feasible":true}])"));
   left.erase("points");
   EXPECT_EQ(left, Json::parse(R"json({"state":"paused","number":3,"folder":"searches/003",
-      "stage":"search","done":4,"total":12,"trouble":"",
+      "stage":"search","done":4,"total":12,"trouble":"","progress":null,
       "variables":[{"path":"texture.depth","unit":"nm"}],
       "objectives":[{"name":"mean(modulation)","maximise":true}],"front":[3],"confirmed":[]})json"));
 }
