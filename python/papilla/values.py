@@ -104,8 +104,8 @@ def path(value: Path, key: str) -> str:
 
 def height_map(z: npt.ArrayLike, key: str) -> FloatArray:
     """A map of numbers, shape (ny, nx): real, finite, none masked, 2 x 2 pixels at least."""
-    if isinstance(z, np.ma.MaskedArray) and np.ma.is_masked(z):
-        raise wrong(key, f"{int(np.ma.getmaskarray(z).sum())} of {z.size} values are masked, and a map has a height "
+    if isinstance(z, np.ma.MaskedArray) and (masked := np.count_nonzero(np.asarray(z.mask))):
+        raise wrong(key, f"{masked} of {z.size} values are masked, and a map has a height "
                          "everywhere: fill them, z.filled(...), or cut the map")
     array = np.asarray(z)
     if array.dtype.kind not in "fiu":

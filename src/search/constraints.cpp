@@ -216,9 +216,8 @@ std::vector<std::string> StudyConstraints::never_kept(const std::vector<Evaluati
 }
 
 std::optional<Contradiction> StudyConstraints::contradiction() const {
-  constexpr int kPlaces = 1000, kSteps = 600;
-  constexpr std::size_t kMostCorners = 8;  // variables of which all corners are asked
-  constexpr double kSure = 1e-3;           // the nearest design is farther beyond a limit than this
+  constexpr int kSteps = 600;
+  constexpr double kSure = 1e-3;  // the nearest design is farther beyond a limit than this
   const Places limits = cheap();
   const std::size_t n = space_.size();
   if (limits.empty() || n == 0) return std::nullopt;
@@ -243,15 +242,7 @@ std::optional<Contradiction> StudyConstraints::contradiction() const {
     if (auto one = judged(raw)) tried.push_back(*std::move(one));
   };
   for (const Point& start : space_.starts()) consider(start);
-  const int corners = 1 << std::min(n, kMostCorners);
-  for (int k = 0; k < corners + kPlaces; ++k) {
-    Point unit(n);
-    for (std::size_t v = 0; v < n; ++v) {
-      const bool at_corner = k < corners && v < kMostCorners;
-      unit[v] = at_corner ? static_cast<double>((k >> v) & 1) : random.uniform();
-    }
-    consider(unit);
-  }
+  for (const Point& unit : space_.corners_and_places(random)) consider(unit);
   if (tried.empty()) return std::nullopt;  // no such shape: the evaluations say why
   // The design that is least beyond these limits: the best of all, then smaller and smaller steps.
   const auto nearest = [&](const Places& of) {

@@ -19,10 +19,7 @@ namespace {
 // Corners of the space, as small features lie there, and places inside; then smaller steps from the
 // smallest, as searches end on the limits of the shape, where few places lie.
 double smallest_feature_of(const DesignSpace& space, const StudyConstraints& constraints) {
-  constexpr int kPlaces = 1000, kSteps = 400;
-  constexpr std::size_t kMostCorners = 8;  // variables of which all corners are asked
-  const std::size_t n = space.size();
-  const int corners = 1 << std::min(n, kMostCorners);
+  constexpr int kSteps = 400;
   RandomStream random(1, "smallest feature");
   double out = std::numeric_limits<double>::infinity();
   Point smallest;
@@ -33,14 +30,7 @@ double smallest_feature_of(const DesignSpace& space, const StudyConstraints& con
     const double feature = facts(space.design(unit).texture).margins.smallest();
     if (feature < out) out = feature, smallest = unit;
   };
-  for (int k = 0; k < corners + kPlaces; ++k) {
-    Point unit(n);
-    for (std::size_t v = 0; v < n; ++v) {
-      const bool at_corner = k < corners && v < kMostCorners;
-      unit[v] = at_corner ? static_cast<double>((k >> v) & 1) : random.uniform();
-    }
-    consider(unit);
-  }
+  for (const Point& unit : space.corners_and_places(random)) consider(unit);
   for (int k = 0; k < kSteps && !smallest.empty(); ++k) {
     Point unit = smallest;
     const double reach = 0.3 * std::pow(0.01, k / static_cast<double>(kSteps));

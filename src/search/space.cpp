@@ -162,6 +162,21 @@ std::optional<Point> DesignSpace::flat_by(std::size_t variable, const Point& uni
   return cube_.snapped(flat);
 }
 
+std::vector<Point> DesignSpace::corners_and_places(RandomStream& random) const {
+  constexpr int kPlaces = 1000;
+  constexpr std::size_t kMostCorners = 8;
+  const int corners = 1 << std::min(size(), kMostCorners);
+  std::vector<Point> out;
+  for (int k = 0; k < corners + kPlaces; ++k) {
+    Point& unit = out.emplace_back(size());
+    for (std::size_t v = 0; v < size(); ++v) {
+      const bool at_corner = k < corners && v < kMostCorners;
+      unit[v] = at_corner ? static_cast<double>((k >> v) & 1) : random.uniform();
+    }
+  }
+  return out;
+}
+
 std::optional<Point> DesignSpace::flattened(const Point& unit) const {
   for (std::size_t i = 0; i < cube_.size(); ++i) {
     if (auto flat = flat_by(i, unit)) return flat;

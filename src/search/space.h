@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/random.h"
 #include "base/rooms.h"
 #include "config/describe.h"
 #include "design/study.h"
@@ -27,6 +28,9 @@ class DesignSpace {
   Design design_of(const std::vector<double>& values) const;  // SI, exactly these
   Point unit_of_study() const;                                // the study's own design
   std::vector<Point> starts() const;
+  // All corners of the first eight variables, where small features and borders of limits lie, and a
+  // thousand places drawn inside.
+  std::vector<Point> corners_and_places(RandomStream& random) const;
   // The same surface without its texture, where the space holds that and the point has a texture.
   std::optional<Point> flattened(const Point& unit) const;
 

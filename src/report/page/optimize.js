@@ -94,9 +94,8 @@ function showPareto() {
   });
 }
 function showFinalists() {
-  const limits = heads.filter((h) => h.startsWith('limit '));
-  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], limits, ['feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' || limits.includes(c) || r[c] === '' ? r[c] : entry(r[c]);
+  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : entry(r[c]);
   // Keys break where people read a break, not inside words.
   const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
@@ -108,6 +107,10 @@ function showFinalists() {
     row.tabIndex = 0;
     row.onkeydown = (e) => { if (e.key === 'Enter') select(r.design); };
   });
+  // What each has of the limits that the study sets: a table of its own, as both together are wider than a page.
+  const limits = heads.filter((h) => h.startsWith('limit '));
+  $('kept').parentElement.hidden = !limits.length;
+  table($('kept'), ['design'].concat(limits.map(heading)), finalists.map((r) => ['design'].concat(limits).map((c) => r[c])), limits.map((c, i) => i + 1));
 }
 
 function showBudget() {
