@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <map>
 #include <set>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "config/writer.h"
 
 namespace papilla::claims {
 namespace {
@@ -35,28 +37,59 @@ void check_ids(const std::vector<std::string>& ids) {
 
 }  // namespace
 
+double usual_seconds(const Claim& claim) {
+  // `papilla reproduce --json`, both presets.
+  static const std::map<std::string, double> kSeconds{
+      {"M1", 40}, {"M4", 4},   {"M5", 4},   {"M6", 64},  {"M7", 16},  {"M13", 12},
+      {"M15", 4}, {"M19", 38}, {"M20", 44}, {"M22", 20}, {"M25", 14}, {"M27", 1}};
+  const auto found = kSeconds.find(claim.id);
+  return found == kSeconds.end() ? 0 : found->second;
+}
+
 std::vector<ClaimResult> reproduce(const ReproduceOptions& options) {
   check_ids(options.ids);
+  std::vector<const Claim*> asked;
+  for (const Claim& claim : claims()) {
+    if (options.ids.empty() ||
+        std::find(options.ids.begin(), options.ids.end(), claim.id) != options.ids.end())
+      asked.push_back(&claim);
+  }
+  const SkinSampling& skins = options.sampling;
+  KeptResults kept;
+  if (!options.folder.empty()) {
+    kept = KeptResults(options.folder,
+                       fmt::format(PAPILLA_VERSION " {} {} {} {} {}\n", skins.level, skins.skins,
+                                   skins.first_skin, skins.grid, options.one_preset) +
+                           to_toml(options.finger));
+  }
+  std::vector<ClaimResult> results;
+  double left = 0;
+  for (const Claim* claim : asked) {
+    ClaimResult& result = results.emplace_back();
+    result.claim = claim;
+    if (!kept.find(result)) left += usual_seconds(*claim);
+  }
   const std::set<std::string> fitted = words(options.finger.fitted_to);
   FingerModel papilla(options.finger, Preset::Papilla, options.threads, options.sampling);
   FingerModel m3(options.finger, Preset::M3, options.threads, options.sampling);
-  std::vector<ClaimResult> results;
-  for (const Claim& claim : claims()) {
-    if (!options.ids.empty() &&
-        std::find(options.ids.begin(), options.ids.end(), claim.id) == options.ids.end()) {
-      continue;
+  for (ClaimResult& result : results) {
+    const Claim& claim = *result.claim;
+    if (!kept.find(result)) {
+      if (options.begun) options.begun(claim, left);
+      left -= usual_seconds(claim);
+      const auto begin = std::chrono::steady_clock::now();
+      result.papilla = claim.judge(papilla);
+      if (claim.both_presets && !options.one_preset) result.m3 = claim.judge(m3);
+      result.seconds =
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      for (Judgement* j : {&result.papilla, &result.m3}) {
+        if (j->verdict == Verdict::Agrees && fitted.count(claim.id)) j->verdict = Verdict::Fitted;
+      }
+      kept.keep(result);
     }
-    const auto begin = std::chrono::steady_clock::now();
-    ClaimResult result{&claim, claim.judge(papilla), {}, 0};
-    if (claim.both_presets && !options.one_preset) result.m3 = claim.judge(m3);
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    for (Judgement* j : {&result.papilla, &result.m3}) {
-      if (j->verdict == Verdict::Agrees && fitted.count(claim.id)) j->verdict = Verdict::Fitted;
-    }
-    results.push_back(result);
-    if (options.done) options.done(results.back());
+    if (options.done) options.done(result);
   }
+  kept.remove();
   return results;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/scan_options.h"
 #include "design/study.h"
 #include "estimate/target.h"
+#include "forward/price.h"
 #include "forward/skips.h"
 #include "report/response.h"
 #include "search/levels.h"
@@ -64,6 +65,8 @@ int explain(const Context& context, const DesignOptions& options, bool measure) 
           "accuracy.level and accuracy.grid count for --sweep, --voltage-for and pictures only\n";
   }
   text += plan.text();
+  text += fmt::format("on this machine about {} of one core, as two of the skins tell\n",
+                      duration(measured_seconds(scene_of(design), design.texture, fidelity)));
   for (const std::string& line : calibration_mismatch(design)) text += "warning: " + line + '\n';
   if (const std::string why = frequency_not_felt(design); design.drive.driven() && !why.empty())
     text += "frequency not felt: " + why + '\n';

@@ -108,18 +108,36 @@ int run(int argc, char** argv) {
   return kWorkFailed;
 }
 
+// An error where nothing can be caught: before there is a command, or in a function of a library
+// that may not throw (destructors of JSON need memory). The end is told all the same, with no more
+// memory; what is not an error is a fault of the program, whose core tells where.
+void end_uncaught() {
+  bool told = std::uncaught_exceptions() > 0;  // thrown, and no handler begun
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    told = true;
+  } catch (...) {
+    told = false;
+  }
+  constexpr std::string_view kWords =
+      "error: not enough memory; a file under way may be left as .NAME.part, the next run removes "
+      "it\n";
+  if (!told || ::write(STDERR_FILENO, kWords.data(), kWords.size()) < 0) std::abort();
+  ::_exit(kWorkFailed);
+}
+
 }  // namespace
 }  // namespace papilla::cli
 
 int main(int argc, char** argv) {
   // A file that may not grow is told as any other that cannot be written.
   ::signal(SIGXFSZ, SIG_IGN);
+  std::set_terminate(papilla::cli::end_uncaught);
   papilla::base::keep_freed_memory();
-  try {
-    return papilla::cli::run(argc, argv);
-  } catch (const std::exception&) {  // before there is a command: the memory for its options
-    constexpr char kWords[] = "error: not enough memory\n";
-    if (::write(STDERR_FILENO, kWords, sizeof kWords - 1) < 0) return papilla::cli::kWorkFailed;
-  }
-  return papilla::cli::kWorkFailed;
+  const int status = papilla::cli::run(argc, argv);
+  if (status == papilla::cli::kSuccess) return status;
+  // What ends libraries' static objects takes for granted that all their work succeeded.
+  std::cout.flush();
+  ::_exit(status);
 }

@@ -18,7 +18,7 @@ struct ReportOptions {
   bool json = false;
 };
 
-int report(const Context& context, const ReportOptions& options) {
+int report(const ReportOptions& options) {
   const bool picture = !options.svg.empty();
   const std::string path = picture               ? options.svg
                            : options.out.empty() ? options.folder + "/report.html"
@@ -26,7 +26,8 @@ int report(const Context& context, const ReportOptions& options) {
   const std::string text =
       picture ? front_svg(options.folder) : report_page(options.folder, options.pick);
   if (const auto changed = changed_files(Folder(options.folder)); !changed.empty())
-    context.note("warning: not as the run wrote them: " + join_names(changed));
+    std::cerr << "warning: not as the run wrote them, or not to be read: "
+              << visible(join_names(changed)) << '\n';
   write_bytes(options.out.empty() && !picture ? path : end_of_links(path), text);
   if (options.json) {
     std::cout << nlohmann::ordered_json{{"schema", 1}, {"file", path}, {"bytes", text.size()}}.dump(
@@ -55,7 +56,7 @@ void add_report(Command app, Context& context) {
   command.add_flag("--json", options->json, "One JSON object on standard output");
   add_pick_option(command, options->pick);
   command.on_chosen([&context, options] {
-    context.action = [&context, options] { return report(context, *options); };
+    context.action = [options] { return report(*options); };
   });
 }
 

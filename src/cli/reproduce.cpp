@@ -1,12 +1,20 @@
 // papilla reproduce: every published claim beside the model's number.
 #include "claims/reproduce.h"
 
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <chrono>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/text.h"
+#include "base/watch.h"
 #include "cli/commands.h"
+#include "cli/interrupt.h"
 #include "design/design.h"
 #include "report/claims.h"
 #include "report/figures.h"
@@ -19,6 +27,28 @@ struct ReproduceCommand {
   std::string finger, out;
   int jobs = 0;
   bool json = false, figures = false;
+};
+
+// Of what is left, at the speed so far; at first that of a usual machine.
+class TimeLeft {
+ public:
+  explicit TimeLeft(int threads) : threads_(threads > 0 ? threads : omp_get_max_threads()) {}
+
+  std::string said(double usual) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!begun_) {
+      begun_ = now;
+      all_ = usual;
+      return fmt::format("about {} on {}", duration(usual / threads_), counted(threads_, "thread"));
+    }
+    const double taken = std::chrono::duration<double>(now - *begun_).count();
+    return "about " + duration(taken * usual / (all_ - usual));
+  }
+
+ private:
+  int threads_;
+  std::optional<std::chrono::steady_clock::time_point> begun_;
+  double all_ = 0;
 };
 
 void write_figures(const Context& context, const ReproduceCommand& command, const Finger& finger) {
@@ -41,10 +71,28 @@ int run(const Context& context, const ReproduceCommand& command) {
   options.finger =
       read_finger(command.finger.empty() ? find_design("fingers/reference.toml") : command.finger);
   options.threads = command.jobs;
-  options.done = [&](const ClaimResult& r) {
-    if (r.seconds > 1) context.note(r.claim->id + ": " + verdict_name(r.papilla.verdict));
+  options.folder = command.out;
+  TimeLeft left(command.jobs);
+  options.begun = [&](const Claim& claim, double usual) {
+    if (usual_seconds(claim) == 0) return;
+    context.note(fmt::format("{}: {} left", claim.id, left.said(usual)));
   };
-  const std::vector<ClaimResult> results = reproduce(options);
+  options.done = [&](const ClaimResult& r) {
+    if (usual_seconds(*r.claim) > 0)
+      context.note(r.claim->id + ": " + verdict_name(r.papilla.verdict));
+  };
+  const Interruptible interrupt;
+  const Watch watch({}, &interrupt.asked());
+  std::vector<ClaimResult> results;
+  try {
+    results = reproduce(options);
+  } catch (const WorkStopped&) {
+    context.note(command.out.empty()
+                     ? std::string("interrupted; with --out what has been judged would be kept")
+                     : "interrupted; what has been judged is kept in " + command.out +
+                           ", the same command goes on");
+    return interrupt.status();
+  }
   if (!command.out.empty()) {
     write_bytes(command.out + "/claims.csv", claims_csv(results));
     write_bytes(command.out + "/claims.md", claims_markdown(results, options.finger.name));
@@ -69,7 +117,11 @@ void add_reproduce(Command app, Context& context) {
       .repeatable();
   command.add_option("--finger", options->finger, "Finger file; default: fingers/reference.toml")
       .type_name("FILE");
-  command.add_option("--out", options->out, "Also write claims.csv and claims.md").type_name("DIR");
+  command
+      .add_option("--out", options->out,
+                  "Also write claims.csv and claims.md; what an interrupted run has judged is kept "
+                  "there")
+      .type_name("DIR");
   command.add_flag(
       "--figures", options->figures,
       "Also the M3 paper's figures as tables: figures.csv and figures.md in --out; with "

@@ -18,7 +18,6 @@
 namespace papilla::forward {
 namespace {
 
-constexpr int kMostPixels = 128;  // along the window: the ratio does not follow the grid beyond
 // What one skin says of others, relative: one standard deviation, like kOfFullField, over the table
 // of docs/theory/electrostatics.md.
 constexpr double kOfOneSkin = 0.03;
@@ -36,7 +35,7 @@ struct AtRest {
 
 Fidelity control_fidelity(const Fidelity& fidelity) {
   Fidelity out = fidelity;
-  out.grid = std::min(fidelity.grid, kMostPixels);
+  out.grid = std::min(fidelity.grid, kMostFieldPixels);
   out.most_pixels = std::max(64, fidelity.pixels_per_side() * out.grid / fidelity.grid);
   out.skins = fidelity.field_skins;
   out.estimator = Estimator::Load;
@@ -109,7 +108,7 @@ bool field_corrected(const Scene& scene, const Fidelity& fidelity) {
 }
 
 double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity) {
-  const double finer = std::max(1.0, static_cast<double>(fidelity.grid) / kMostPixels);
+  const double finer = std::max(1.0, static_cast<double>(fidelity.grid) / kMostFieldPixels);
   const Grid pixels{static_cast<int>(grid.nx / finer), static_cast<int>(grid.ny / finer), grid.lx,
                     grid.ly};
   return fidelity.field_skins * full_field_seconds(pixels) *

@@ -31,6 +31,7 @@ inline constexpr double kCorrectedFieldError = 0.03;
 // What pixels and cells of the 3-D field leave of the pull, relative: common to all runs that are
 // corrected to it.
 inline constexpr double kOfFullField = 0.02;
+inline constexpr int kMostFieldPixels = 128;  // along the window: finer ones move no ratio
 double field_ratio_seconds(const Scene& scene, const Grid& grid, const Fidelity& fidelity);
 
 // Adds what the pull's error leaves of the numbers of a point. Eq. electrostatics.17, friction.3

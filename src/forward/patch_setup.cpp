@@ -40,7 +40,9 @@ PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelit
       fidelity_(fidelity),
       texture_(texture),
       plan_(make_plan(scene_, texture, fidelity)),
-      surface_(generate(texture, plan_.grid), film_of(scene_)),
+      surface_(
+          generate(texture, plan_.grid),
+          plan_.field ? film_of(scene_) : std::vector<FilmLayer>()),  // nothing else asks for it
       body_(compliant_body(scene_.surface, surface_.height)) {
   if (surface_.cut_through > 0) {
     plan_.warnings.push_back(fmt::format(

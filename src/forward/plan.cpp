@@ -395,7 +395,7 @@ std::string Plan::text() const {
     }
     out += '\n';
   }
-  out += "expected " + duration(seconds()) + " on one core\n";
+  out += "expected " + duration(seconds()) + " on one core of a usual machine\n";
   for (const std::string& said : warnings) out += "warning: " + said + '\n';
   return out;
 }

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 #include "forward/forward.h"
+#include "forward/price.h"
 
 namespace papilla::measure {
 namespace {
@@ -78,7 +79,7 @@ std::vector<PriceRow> prices_of(const PriceOptions& options) {
     PriceRow row;
     row.design = i;
     row.texture = texture_name(drawn.design.texture);
-    row.announced = make_plan(scene, drawn.design.texture, fidelity).seconds();
+    row.announced = measured_seconds(scene, drawn.design.texture, fidelity);
     row.numbers = drawn.numbers;
     const std::clock_t begin = std::clock();
     try {

@@ -1,4 +1,4 @@
-// The price that a plan announces against what an evaluation takes, on designs drawn from all that
+// The price that is announced (`measured_seconds`) against what an evaluation takes, on designs drawn from all that
 // is legal.
 #pragma once
 

@@ -74,7 +74,7 @@ std::string plots(bool solid) {
 std::string notice(const Folder& folder) {
   const std::vector<std::string> changed = changed_files(folder);
   if (changed.empty()) return "";
-  return "<p class=\"notice\" role=\"alert\">Not as the run wrote them: " +
+  return "<p class=\"notice\" role=\"alert\">Not as the run wrote them, or not to be read: " +
          markup_text(visible(join_names(changed))) +
          ". This page shows them as they are; it is no report of that run.</p>\n";
 }

@@ -285,7 +285,7 @@ TEST(PlanPieces, AreSaidALineEach) {
             "  van der Waals                    small (estimate 5 % of friction)\n"
             "  Kelvin condensation              steep (no bound)\n"
             "  retention                        rest (bound 12 % of friction)\n"
-            "expected 3 min on one core\n"
+            "expected 3 min on one core of a usual machine\n"
             "warning: first\n"
             "warning: second\n");
 }
@@ -464,9 +464,11 @@ TEST(PatchSetupLaws, WaterHasItsVolumesAndStreams) {
   EXPECT_EQ(m[0].index, 12u);
 }
 
-// A surface cut through its film says so; heights are those of texture and skin.
-TEST(PatchSetupLaws, HeightsAddUpAndACutFilmIsSaid) {
+// A surface cut through its film says so where a voltage meets it; heights are those of texture and
+// skin.
+TEST(PatchSetupLaws, HeightsAddUpAndACutFilmIsSaidUnderVoltage) {
   Scene scene;
+  scene.drive.amplitude = 100;
   scene.surface.process = FilmProcess::Planar;
   scene.surface.dielectric[0].thickness = 200e-9;
   Fidelity f = fidelity_level("search");
@@ -476,6 +478,9 @@ TEST(PatchSetupLaws, HeightsAddUpAndACutFilmIsSaid) {
   };
   const auto whole = setup(150e-9), cut = setup(300e-9);
   EXPECT_TRUE(whole->plan().warnings.empty());
+  Scene undriven = scene;
+  undriven.drive.amplitude = 0;
+  EXPECT_TRUE(PatchSetup(undriven, Texture{HoleArray{.depth = 300e-9}}, f).plan().warnings.empty());
   ASSERT_EQ(cut->plan().warnings.size(), 1u);
   EXPECT_EQ(cut->plan().warnings[0],
             fmt::format("the texture cuts through its planar film on {:.2g} % of the patch: the "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/constants.h"
 
@@ -20,15 +21,18 @@ void DropHash::build(const std::vector<Drop>& drops) {
   per_cell_x_ = cells_x_ / lx_;
   per_cell_y_ = cells_y_ / ly_;
   head_.assign(static_cast<std::size_t>(cells_x_) * cells_y_, -1);
+  in_row_.assign(static_cast<std::size_t>(cells_y_), 0);
   linked_.resize(drops.size());
+  seen_.assign(drops.size(), 0);
+  search_ = 0;
   for (int i = 0; i < static_cast<int>(drops.size()); ++i) {
     if (drops[i].film < 1) link(i, drops[i]);  // film is no disc that others meet
   }
 }
 
-int DropHash::cell_of(const Drop& d) const {
-  return std::min(static_cast<int>(d.y * per_cell_y_), cells_y_ - 1) * cells_x_ +
-         std::min(static_cast<int>(d.x * per_cell_x_), cells_x_ - 1);
+DropHash::Cell DropHash::cell_of(const Drop& d) const {
+  return {std::min(static_cast<int>(d.x * per_cell_x_), cells_x_ - 1),
+          std::min(static_cast<int>(d.y * per_cell_y_), cells_y_ - 1)};
 }
 
 void DropHash::link(int i, const Drop& drop) {
@@ -38,9 +42,9 @@ void DropHash::link(int i, const Drop& drop) {
     return;
   }
   largest_ = std::max(largest_, drop.radius);
-  int& head = head_[cell_of(drop)];
-  linked_[i].next = head;
-  head = i;
+  const Cell cell = cell_of(drop);
+  ++in_row_[cell.row];
+  linked_[i].next = std::exchange(head(cell), i);
 }
 
 void DropHash::unlink(int i, const Drop& drop) {
@@ -48,33 +52,44 @@ void DropHash::unlink(int i, const Drop& drop) {
     large_.erase(std::find(large_.begin(), large_.end(), i));
     return;
   }
-  int* at = &head_[cell_of(drop)];
+  const Cell cell = cell_of(drop);
+  --in_row_[cell.row];
+  int* at = &head(cell);
   while (*at != i) at = &linked_[*at].next;
   *at = linked_[i].next;
 }
 
 void DropHash::collect_overlaps(const Drop& d, std::vector<int>& members, int from) const {
+  ++search_;
+  for (int j : members) seen_[j] = search_;
   const auto consider = [&](int j) {
-    if (j < from) return;
+    if (j < from || seen_[j] == search_) return;
     const Disc& other = linked_[j].disc;
     const double ex = image_distance(other.x - d.x, lx_);
     const double ey = image_distance(other.y - d.y, ly_);
     if (square(ex) + square(ey) >= square(d.radius + other.radius)) return;
-    if (std::find(members.begin(), members.end(), j) == members.end()) members.push_back(j);
+    seen_[j] = search_;
+    members.push_back(j);
   };
   for (int j : large_) consider(j);
   const double reach = d.radius + largest_;
-  const int x0 = static_cast<int>(std::floor((d.x - reach) * per_cell_x_));
-  const int x1 =
-      std::min(static_cast<int>(std::floor((d.x + reach) * per_cell_x_)), x0 + cells_x_ - 1);
   const int y0 = static_cast<int>(std::floor((d.y - reach) * per_cell_y_));
   const int y1 =
       std::min(static_cast<int>(std::floor((d.y + reach) * per_cell_y_)), y0 + cells_y_ - 1);
-  const int first = wrap(x0, cells_x_);
+  const bool around = 2 * reach >= std::min(lx_, ly_);
   for (int cy = y0, row = wrap(y0, cells_y_); cy <= y1; ++cy) {
-    for (int cx = x0, column = first; cx <= x1; ++cx) {
-      for (int j = head_[row * cells_x_ + column]; j >= 0; j = linked_[j].next) consider(j);
-      if (++column == cells_x_) column = 0;
+    if (in_row_[row] > 0) {
+      // Of the row what lies within reach: all of it where the reach meets its own image.
+      const double away =
+          around ? 0 : std::max({0.0, cy / per_cell_y_ - d.y, d.y - (cy + 1) / per_cell_y_});
+      const double chord = std::sqrt(std::max(0.0, square(reach) - square(away)));
+      const int x0 = static_cast<int>(std::floor((d.x - chord) * per_cell_x_));
+      const int x1 =
+          std::min(static_cast<int>(std::floor((d.x + chord) * per_cell_x_)), x0 + cells_x_ - 1);
+      for (int cx = x0, column = wrap(x0, cells_x_); cx <= x1; ++cx) {
+        for (int j = head_[row * cells_x_ + column]; j >= 0; j = linked_[j].next) consider(j);
+        if (++column == cells_x_) column = 0;
+      }
     }
     if (++row == cells_y_) row = 0;
   }

@@ -23,7 +23,11 @@ class DropHash {
   void collect_overlaps(const Drop& d, std::vector<int>& members, int from = 0) const;
 
  private:
-  int cell_of(const Drop& d) const;
+  struct Cell {
+    int column, row;
+  };
+  Cell cell_of(const Drop& d) const;
+  int& head(Cell cell) { return head_[cell.row * cells_x_ + cell.column]; }
 
   double lx_, ly_;
   struct Linked {
@@ -37,7 +41,10 @@ class DropHash {
   double small_radius_ = 0;
   double largest_ = 0;  // radius that has been in a cell since they were built
   std::vector<int> head_, large_;
+  std::vector<int> in_row_;  // drops in the cells of a row
   std::vector<Linked> linked_;
+  mutable std::vector<int> seen_;  // the search that met a drop last
+  mutable int search_ = 0;
 };
 
 }  // namespace papilla::capillary

@@ -12,6 +12,9 @@ namespace {
 constexpr double kSame = 1e-12;          // [m] heights closer than this are one
 constexpr double kThinnestFilm = 1e-10;  // [m] of a planar film that its texture cuts through
 
+constexpr std::size_t kLooks = 16;  // places between two looks at what is still to be lowered
+constexpr int kPiece = 64;          // pixels of a row that are looked at together
+
 int reach_of(double distance, double step, int n) {
   return std::min(static_cast<int>(distance / step), (n - 1) / 2);
 }
@@ -32,7 +35,7 @@ class WideRows {
       high_.push_back(*high);
     }
   }
-  // The row `iy`, up to a period away, from place `shift`, at most the margin away, on.
+  // The row `iy`, up to a period away, from place `shift` on, at most the margin off its own.
   const double* from(int shift, int iy) const {
     return &wide_[static_cast<std::size_t>(wrap(iy, ny_)) * width_ + margin_ + shift];
   }
@@ -45,6 +48,14 @@ class WideRows {
   std::vector<double> wide_, low_, high_;
 };
 
+// A place beside a pixel, rows and pixels away. far: what it is the farther by, for all pixels
+// alike.
+struct Beside {
+  int j, k;
+  double far;
+};
+bool before(const Beside& a, const Beside& b) { return a.far < b.far; }
+
 // Shortest distance from the surface to the electrode [m], where that is nearer beside a pixel than
 // below it.
 std::vector<double> nearest_electrode(const Heightmap& surface,
@@ -54,26 +65,41 @@ std::vector<double> nearest_electrode(const Heightmap& surface,
   const double thickest = *std::max_element(film.begin(), film.end());
   const int nx = reach_of(thickest, g.dx(), g.nx), ny = reach_of(thickest, g.dy(), g.ny);
   const WideRows below(g, electrode, nx), above(g, surface.z, 0), between(g, film, 0);
+  // Near ones first: they leave little for the others.
+  std::vector<Beside> places;
+  for (int j = -ny; j <= ny; ++j) {
+    for (int k = -nx; k <= nx; ++k)
+      places.push_back({j, k, square(k * g.dx()) + square(j * g.dy())});
+  }
+  std::stable_sort(places.begin(), places.end(), before);
+  double highest = below.high(0);  // of the electrode
+  for (int iy = 1; iy < g.ny; ++iy) highest = std::max(highest, below.high(iy));
   std::vector<double> out(film.size());
   for (int iy = 0; iy < g.ny; ++iy) {
-    const double *z = above.from(0, iy), *own = between.from(0, iy);
-    double* best = &out[g.index(0, iy)];  // squared
-    for (int ix = 0; ix < g.nx; ++ix) best[ix] = own[ix] * own[ix];
-    for (int j = -ny; j <= ny; ++j) {
-      // No place of that row is nearer than this in height.
-      const double drop = std::max(0.0, above.low(iy) - below.high(iy + j));
-      for (int k = -nx; k <= nx; ++k) {
-        const double beside = square(k * g.dx()) + square(j * g.dy());
-        if (!(beside + square(drop) < square(between.high(iy)))) continue;
-        const double* there = below.from(k, iy + j);
+    for (int from = 0; from < g.nx; from += kPiece) {
+      const int n = std::min(kPiece, g.nx - from);
+      const double *z = above.from(from, iy), *own = between.from(from, iy);
+      const double low = *std::min_element(z, z + n);
+      const double least = square(std::max(0.0, low - highest));
+      double* best = &out[g.index(from, iy)];  // squared
+      for (int ix = 0; ix < n; ++ix) best[ix] = own[ix] * own[ix];
+      double worst = *std::max_element(best, best + n);
+      for (std::size_t p = 0; p < places.size() && places[p].far + least < worst; ++p) {
+        if (p % kLooks == 0) worst = *std::max_element(best, best + n);
+        const int j = places[p].j;
+        const double beside = places[p].far;
+        // No place of that row is nearer than this in height.
+        const double drop = std::max(0.0, low - below.high(iy + j));
+        if (!(beside + square(drop) < worst)) continue;
+        const double* there = below.from(places[p].k + from, iy + j);
 #pragma omp simd
-        for (int ix = 0; ix < g.nx; ++ix) {
+        for (int ix = 0; ix < n; ++ix) {
           const double distance2 = beside + (z[ix] - there[ix]) * (z[ix] - there[ix]);
           best[ix] = distance2 < best[ix] ? distance2 : best[ix];
         }
       }
+      for (int ix = 0; ix < n; ++ix) best[ix] = std::sqrt(best[ix]);
     }
-    for (int ix = 0; ix < g.nx; ++ix) best[ix] = std::sqrt(best[ix]);
   }
   return out;
 }
@@ -100,11 +126,8 @@ Heightmap below_layer(const Heightmap& surface, double thickness, double side_th
   const int nx = reach_of(side_thickness, g.dx(), g.nx),
             ny = reach_of(side_thickness, g.dy(), g.ny);
   if (thickness <= 0) return below;
-  // Places beside a pixel, and how high the ellipsoid is there over its lowest point.
-  struct Beside {
-    int j, k;
-    double cap;
-  };
+  // With the height of the ellipsoid over its lowest point. Low ones first: they leave little for
+  // the others.
   std::vector<Beside> places;
   for (int j = -ny; j <= ny; ++j) {
     for (int k = -nx; k <= nx; ++k) {
@@ -112,13 +135,19 @@ Heightmap below_layer(const Heightmap& surface, double thickness, double side_th
       if (r2 < 1) places.push_back({j, k, thickness * (1 - std::sqrt(1 - r2))});
     }
   }
+  std::stable_sort(places.begin(), places.end(), before);
   const WideRows above(g, surface.z, nx);
+  const double lowest = *std::min_element(surface.z.begin(), surface.z.end());
   for (int iy = 0; iy < g.ny; ++iy) {
     double* least = &below.z[g.index(0, iy)];
-    for (const auto& [j, k, cap] : places) {
+    double worst = above.high(iy);
+    for (std::size_t p = 0; p < places.size() && lowest + places[p].far < worst; ++p) {
+      if (p % kLooks == 0) worst = *std::max_element(least, least + g.nx);
+      const int j = places[p].j, k = places[p].k;
+      const double up = places[p].far;
       // No place of that row is lower by as much.
-      if (cap >= above.high(iy) - above.low(iy + j)) continue;
-      const double *there = above.from(k, iy + j), up = cap;
+      if (above.low(iy + j) + up >= worst) continue;
+      const double* there = above.from(k, iy + j);
 #pragma omp simd
       for (int ix = 0; ix < g.nx; ++ix) {
         const double z = there[ix] + up;

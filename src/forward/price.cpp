@@ -1,0 +1,73 @@
+#include "forward/price.h"
+
+#include <algorithm>
+#include <ctime>
+
+#include "base/constants.h"
+#include "forward/field_ratio.h"
+#include "forward/patch_set.h"
+#include "forward/patch_setup.h"
+
+namespace papilla::forward {
+namespace {
+
+constexpr int kSkins = 2;
+constexpr double kControlSetups = 1.25;  // on all pixels, and on half of a side
+
+// Processor time of this thread that the work takes [s].
+template <class Work>
+double seconds_of(Work&& work) {
+  const auto now = [] {
+    timespec t{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  };
+  const double begin = now();
+  work();
+  return now() - begin;
+}
+
+// The control skins over all skins, as plans price them.
+double control_share(const Plan& plan) {
+  double controls = 0, patches = 0;
+  for (const PlanStep& step : plan.steps) {
+    if (step.piece == Piece::Errors)
+      controls += step.seconds;
+    else
+      patches += step.seconds;
+  }
+  return patches > 0 ? controls / patches : 0;
+}
+
+}  // namespace
+
+double measured_seconds(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  Fidelity few = fidelity;
+  few.threads = 1;
+  few.skins = std::min(kSkins, fidelity.skins);
+  few.control_skins = 0;
+  few.field_skins = 0;
+  const auto make = [&] { const PatchSetup made(scene, texture, few); };
+  const double setup = seconds_of(make), again = seconds_of(make);  // some of it is kept
+  const double solved = seconds_of([&] { solve_patches(scene, texture, few); });
+  const double skin = std::max(0.0, solved - again) / few.skins;
+
+  Fidelity whole = fidelity;  // but for the 3-D field
+  whole.field_skins = 0;
+  const double controls = control_share(make_plan(scene, texture, whole));
+  double out = setup + fidelity.skins * skin * (1 + controls);
+  if (controls > 0) out += setup * kControlSetups;
+  if (!field_corrected(scene, fidelity)) return out;
+
+  Scene once = scene;
+  std::vector<double>& humidities = once.environment.relative_humidity;
+  const auto fields = static_cast<double>(humidities.size()) * fidelity.field_skins;
+  humidities = {humidities[humidities.size() / 2]};
+  few.field_skins = 1;
+  const double pixels =
+      std::min(1.0, square(static_cast<double>(kMostFieldPixels) / fidelity.grid));
+  const double one = seconds_of([&] { field_ratios(once, texture, few); });
+  return out + one + (fields - 1) * std::max(0.0, one - again * pixels);
+}
+
+}  // namespace papilla::forward

@@ -1,0 +1,18 @@
+// What an evaluation takes on the machine at hand, before it is begun.
+#pragma once
+
+#include "base/rooms.h"
+#include "forward/fidelity.h"
+#include "geometry/texture.h"
+#include "scene/scene.h"
+
+namespace papilla::forward {
+
+// Processor time of one core [s] that `evaluate` takes: two skins at every humidity and one 3-D
+// field at one of them are solved and counted as often as the fidelity asks, the control skins by
+// their share of the plan. Unlike `Plan::seconds`, which searches plan by and which is the same on
+// every machine, it knows how hard this scene is and how fast this machine; `papilla bench
+// --prices` says how well. Cost: what it solves, 2 to 15 % of the evaluation.
+double measured_seconds(const Scene& scene, const Texture& texture, const Fidelity& fidelity);
+
+}  // namespace papilla::forward
