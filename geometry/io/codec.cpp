@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/installation.h"
+#include "base/memory.h"
 #include "geometry/io/files.h"
 
 namespace papilla::geometry {
@@ -13,6 +14,14 @@ void require_images() { image_codec(); }
 
 const ImageCodec& image_codec() {
   static const ImageCodec* codec = [] {
+    // Its hundred libraries do not survive it if they find too little.
+    constexpr std::size_t kAddressSpace = 480u << 20;
+    if (!has_address_space(kAddressSpace)) {
+      throw std::runtime_error(
+          "cannot read or write images: not enough memory for the image library, which takes 480 "
+          "MB "
+          "of addresses (ulimit -v)");
+    }
     // Never unloaded: its threads and statics live as long as the program.
     const std::string path = find_module("papilla_images.so").string();
     void* module = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);

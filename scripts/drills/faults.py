@@ -22,6 +22,11 @@ def turns(total, most):
     return sorted({1 + round(k * (total - 1) / (most - 1)) for k in range(most)})
 
 
+def page_of(place, differing):
+    """The text of a page that is not the undisturbed one."""
+    return "".join((place / name).read_text(errors="replace") for name in differing if name.endswith("report.html") and (place / name).exists())
+
+
 def drill(bench, library, kind, seconds):
     """Each command again and again, another call of the kind failing each time. A run tells an error or what it lacks (a warning), or does its work whole."""
     tally = running.Tally({"allocation": "allocations", "file": "file calls", "disk": "disk full"}[kind])
@@ -47,10 +52,11 @@ def drill(bench, library, kind, seconds):
             after = running.files_of(place)
             more = ""
             damaged = [name for name, digest in bench.made.items() if after.get(name, digest) not in (digest, sound.get(name))]
-            if running.leftovers(place) and "may be left as .NAME.part" not in outcome.error:
-                more = f"left {running.leftovers(place)[0]} behind"
-            elif outcome.status == 0 and after != sound and "warning:" not in outcome.error:
-                differing = sorted(name for name in {*after, *sound} if after.get(name) != sound.get(name))
+            differing = sorted(name for name in {*after, *sound} if after.get(name) != sound.get(name))
+            lacks_said = "warning:" in outcome.error or 'role="alert"' in page_of(place, differing)
+            if left := running.leftovers(place, outcome):
+                more = f"left {left[0]} behind"
+            elif outcome.status == 0 and differing and not lacks_said:
                 more = f"said success and wrote another {differing[0]}"
             elif damaged:
                 more = f"damaged {damaged[0]}, which was there before"

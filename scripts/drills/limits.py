@@ -24,7 +24,7 @@ def drill(bench, name, kind, values, seconds):
             if loader_failed(outcome):
                 tally.count("not started")
                 continue
-            left = running.leftovers(place)
+            left = running.leftovers(place, outcome)
             tally.judge(outcome, f"{command.name} under {name} {value}", f"left {left[0]} behind" if left else "")
     return tally
 

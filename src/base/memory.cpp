@@ -1,6 +1,7 @@
 #include "base/memory.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -42,6 +43,14 @@ void require_memory(double bytes, const std::string& what) {
     throw InputError(fmt::format("{} needs {:.2g} GiB of memory; {:.2g} GiB are there", what,
                                  bytes / 1073741824, limit / 1073741824));
   }
+}
+
+bool has_address_space(std::size_t bytes) {
+  void* const place =
+      ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (place == MAP_FAILED) return false;
+  ::munmap(place, bytes);
+  return true;
 }
 
 }  // namespace papilla::base

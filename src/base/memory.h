@@ -1,6 +1,7 @@
 // Memory of the process.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "base/rooms.h"
@@ -18,5 +19,8 @@ double memory_limit();
 
 // Throws InputError, before anything is allocated, when `what` needs more than memory_limit().
 void require_memory(double bytes, const std::string& what);
+
+// Whether so many bytes of address space are free in one piece: less where `ulimit -v` says so.
+bool has_address_space(std::size_t bytes);
 
 }  // namespace papilla::base

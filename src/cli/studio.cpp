@@ -46,6 +46,7 @@ int serve(const Context& context, const StudioCommand& command) {
 
   StudioOptions options;
   options.file = command.file;
+  if (!command.folder.empty()) make_folder(command.folder);
   options.folder = command.folder;
   options.port = command.port;
   options.program = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -73,7 +74,9 @@ void add_studio(Command app, Context& context) {
       .show_default();
   command
       .add_option("--folder", options->folder,
-                  "The one folder that the page may read and write; default: that of the file")
+                  "The one folder that the page may read and write, made if it is not there; "
+                  "default: that of "
+                  "the file")
       .type_name("DIR");
   command.add_flag("--no-open", options->no_open, "Print the address and open no browser");
   command.on_chosen([&context, options] {
