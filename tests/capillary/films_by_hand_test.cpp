@@ -379,5 +379,42 @@ TEST(FilmsByHand, NearTheDiscAFilmInAFlatGapIsTheNearestPixelsOverBothBorders) {
   EXPECT_NEAR(f.regions[0].retention, retention_of(circle), 0.04 * retention_of(circle));
 }
 
+// Down a slope all water becomes one: it fills what one source of all of it fills from below. Those
+// that meet are more than are filled anew for each.
+TEST(FilmsByHand, ABodyThatMeetsManyFillsWhatOneOfTheirWaterFills) {
+  const Grid grid{300, 3, 300 * kUm, 3 * kUm};
+  Gap gap{grid, std::vector<double>(grid.size(), 1e-3)};  // walls of a ditch along y = 1
+  for (int ix = 0; ix < grid.nx; ++ix) gap.value[grid.index(ix, 1)] = (100 + ix) * kNm;
+  const auto volume_of = [&](int pixels) {  // of the lowest ones
+    double sum = 0;
+    for (int ix = 0; ix < pixels; ++ix) sum += gap.value[grid.index(ix, 1)] * grid.pixel_area();
+    return sum;
+  };
+  for (const int joining : {3, 8, 9, 40}) {
+    const double all = volume_of(200);
+    std::vector<FilmSource> sources;
+    std::vector<std::size_t> seeds;
+    for (int k = 0; k <= joining; ++k) {
+      const int at = k == 0 ? 0 : 60 + 5 * k;
+      sources.push_back({.x = grid.x(at),
+                         .y = grid.y(1),
+                         .radius = kUm,
+                         .edge_gap = 50 * kNm,
+                         .volume = all * (k == 0 ? 0.5 : 0.5 / joining),
+                         .share = 1});
+      seeds.push_back(grid.index(at, 1));
+    }
+    const FilmRegions f =
+        grow_films(gap, sources, seeds, water(), [](std::size_t, int) { return 0.0; });
+    ASSERT_EQ(f.regions.size(), 1u) << joining;
+    EXPECT_NEAR(f.regions[0].volume, all, 1e-12 * all);
+    EXPECT_NEAR(f.regions[0].area, 200 * grid.pixel_area(), 1e-6 * grid.pixel_area()) << joining;
+    EXPECT_NEAR(f.regions[0].height, 299 * kNm, 1.0001 * kNm);
+    const auto wet = std::count_if(f.source.begin(), f.source.end(), [](int s) { return s > 0; });
+    EXPECT_NEAR(static_cast<double>(wet), 200, 1.01) << joining;
+    for (const int region : f.of_source) EXPECT_EQ(region, 0);
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -111,7 +111,9 @@ class Growth {
   }
 
   // In rounds: bodies that meet in one grow as one from the next on, so that a patch of many costs
-  // a few fillings and not one for each that joins.
+  // a few fillings and not one for each that joins. A body that has begun anew kMostGrowths times
+  // keeps what it has filled and takes in what it meets as it goes: of so many that one more hardly
+  // moves its level.
   FilmRegions run(const WaterProperties& water) {
     for (bool met = true; met;) {
       met = false;
@@ -131,8 +133,10 @@ class Growth {
     std::vector<int> members;  // sources
     std::vector<std::size_t> pixels;
     FilmRegion region;
+    int growths = 0;
     bool grown = false;
   };
+  static constexpr int kMostGrowths = 8;
 
   double level_at(int source, std::size_t pixel) const {
     const FilmSource& s = sources_[source];
@@ -157,6 +161,7 @@ class Growth {
   bool grow(int index) {
     Body& body = bodies_[index];
     FilmRegion& region = body.region;
+    const bool goes_on = ++body.growths > kMostGrowths;
     release(body);
     region.height = 0;
     const double pixel_area = gap_.grid.pixel_area();
@@ -181,8 +186,15 @@ class Growth {
       const auto [level, at, source] = edge.top();
       edge.pop();
       if (out_.source[at] != 0) {
-        unite(index, out_.of_source[out_.source[at] - 1]);
-        return false;
+        const int other = out_.of_source[out_.source[at] - 1];
+        if (!goes_on) {
+          unite(index, other);
+          return false;
+        }
+        const std::vector<int> joining = bodies_[other].members;
+        release(bodies_[other]);
+        unite(index, other);
+        for (int m : joining) reach(seeds_[m], m);
       }
       out_.source[at] = source + 1;
       body.pixels.push_back(at);
@@ -210,6 +222,7 @@ class Growth {
     for (int m : taken.members) out_.of_source[m] = index;
     body.members.insert(body.members.end(), taken.members.begin(), taken.members.end());
     body.region.volume += taken.region.volume;
+    body.growths = std::max(body.growths, taken.growths);
     taken = {};
   }
 
