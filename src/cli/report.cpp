@@ -55,9 +55,8 @@ void add_report(Command app, Context& context) {
       .type_name("FILE");
   command.add_flag("--json", options->json, "One JSON object on standard output");
   add_pick_option(command, options->pick);
-  command.on_chosen([&context, options] {
-    context.action = [options] { return report(*options); };
-  });
+  command.on_chosen(
+      [&context, options] { context.action = [options] { return report(*options); }; });
 }
 
 }  // namespace papilla::cli

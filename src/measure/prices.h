@@ -1,5 +1,5 @@
-// The price that is announced (`measured_seconds`) against what an evaluation takes, on designs drawn from all that
-// is legal.
+// The price that is announced (`measured_seconds`) against what an evaluation takes, on designs
+// drawn from all that is legal.
 #pragma once
 
 #include <functional>

@@ -395,12 +395,12 @@ TEST(FilmsByHand, ABodyThatMeetsManyFillsWhatOneOfTheirWaterFills) {
     std::vector<FilmSource> sources;
     std::vector<std::size_t> seeds;
     for (int k = 0; k <= joining; ++k) {
-      const int at = k == 0 ? 0 : 60 + 5 * k;
+      const int at = k == 0 ? 0 : 50 + 130 * k / joining;
       sources.push_back({.x = grid.x(at),
                          .y = grid.y(1),
                          .radius = kUm,
                          .edge_gap = 50 * kNm,
-                         .volume = all * (k == 0 ? 0.5 : 0.5 / joining),
+                         .volume = all * (k == 0 ? 0.2 : 0.8 / joining),
                          .share = 1});
       seeds.push_back(grid.index(at, 1));
     }

@@ -237,7 +237,8 @@ TEST(PlanText, SaysEveryPieceWithItsNumbers) {
   for (const char* said :
        {" reason; about 3 s; error 5.0 %\n", " r\n", " why (no bound)\n",
         " no water (bound 5.1 % of friction)\n", " once (estimate 60 % of friction)\n", " apart\n",
-        "\nnot modelled:\n  Kelvin condensation ", "\nexpected 3 s on one core of a usual machine\nwarning: beware\n"})
+        "\nnot modelled:\n  Kelvin condensation ",
+        "\nexpected 3 s on one core of a usual machine\nwarning: beware\n"})
     EXPECT_NE(text.find(said), std::string::npos) << said << text;
 }
 

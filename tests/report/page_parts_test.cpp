@@ -253,7 +253,8 @@ TEST(Pages, SayWhatIsNotAsTheRunWroteIt) {
   place.write("timing.json", "1");
   place.write("log.txt", "2");
   const auto said = [&] {
-    const std::string text = report_page(folder), mark = "Not as the run wrote them, or not to be read: ";
+    const std::string text = report_page(folder),
+                      mark = "Not as the run wrote them, or not to be read: ";
     const std::size_t at = text.find(mark);
     if (at == text.npos) return std::string();
     const std::size_t from = at + mark.size();
