@@ -199,6 +199,34 @@ TEST(Footprints, HoldTheVolumeWhateverTheGuess) {
 
 // --- which drops overlap ---
 
+// A disc of about half the patch meets rows of cells from both sides.
+TEST(DropHashes, FindEveryOverlapOfADiscOfHalfThePatch) {
+  RandomStream random(7, "wide discs of a test", 0);
+  const Grid patch{64, 64, 10e-6, 10e-6};
+  std::vector<capillary::Drop> drops(60);
+  for (capillary::Drop& d : drops) {
+    d.x = random.uniform(0, patch.lx), d.y = random.uniform(0, patch.ly);
+    d.radius = 0.1e-6;
+  }
+  capillary::DropHash hash(patch);
+  hash.build(drops);
+  for (int k = 0; k < 5000; ++k) {
+    capillary::Drop d;
+    d.x = random.uniform(0, patch.lx), d.y = random.uniform(0, patch.ly);
+    d.radius = random.uniform(3.5e-6, 6e-6);
+    std::vector<int> found, expected;
+    hash.collect_overlaps(d, found);
+    std::sort(found.begin(), found.end());
+    for (int i = 0; i < static_cast<int>(drops.size()); ++i) {
+      const capillary::Drop& o = drops[static_cast<std::size_t>(i)];
+      if (std::hypot(capillary::nearest_image(d.x - o.x, patch.lx),
+                     capillary::nearest_image(d.y - o.y, patch.ly)) < d.radius + o.radius)
+        expected.push_back(i);
+    }
+    ASSERT_EQ(found, expected) << k;
+  }
+}
+
 TEST(DropHashes, FindEveryOverlapThatAComparisonOfAllFinds) {
   RandomStream random(6, "drops of a test", 0);
   std::vector<capillary::Drop> drops(150);

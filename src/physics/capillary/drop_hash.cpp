@@ -74,12 +74,12 @@ void DropHash::collect_overlaps(const Drop& d, std::vector<int>& members, int fr
   for (int j : large_) consider(j);
   const double reach = d.radius + largest_;
   const int y0 = static_cast<int>(std::floor((d.y - reach) * per_cell_y_));
-  const int y1 =
-      std::min(static_cast<int>(std::floor((d.y + reach) * per_cell_y_)), y0 + cells_y_ - 1);
-  const bool around = 2 * reach >= std::min(lx_, ly_);
+  const int last = static_cast<int>(std::floor((d.y + reach) * per_cell_y_));
+  const int y1 = std::min(last, y0 + cells_y_ - 1);
+  const bool around = last > y1;  // some row is met from both sides
   for (int cy = y0, row = wrap(y0, cells_y_); cy <= y1; ++cy) {
     if (in_row_[row] > 0) {
-      // Of the row what lies within reach: all of it where the reach meets its own image.
+      // Of the row what lies within reach, of its nearest image.
       const double away =
           around ? 0 : std::max({0.0, cy / per_cell_y_ - d.y, d.y - (cy + 1) / per_cell_y_});
       const double chord = std::sqrt(std::max(0.0, square(reach) - square(away)));
