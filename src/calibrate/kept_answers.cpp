@@ -3,11 +3,6 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <system_error>
-#include <utility>
-
-#include "base/folder.h"
 
 namespace papilla::calibrate {
 namespace {
@@ -34,31 +29,17 @@ std::vector<Estimate> read_answer(const std::string& text) {
 
 }  // namespace
 
-KeptAnswers::KeptAnswers(const std::string& folder, const std::string& problem) {
-  const std::string key = text_hash(problem);
-  path_ = folder + "/unfinished-" + key + ".journal";
-  journal_ = std::make_unique<Journal>(Folder(folder), "unfinished-" + key + ".journal", key, true);
-  for (const JournalRecord& record : journal_->records())
-    answers_[record.key] = read_answer(record.payload);
-}
-
 std::vector<Estimate> KeptAnswers::get(const std::string& question, std::size_t size,
                                        const std::function<std::vector<Estimate>()>& make) {
   const std::string key = text_hash(question);
-  if (const auto kept = answers_.find(key); kept != answers_.end() && kept->second.size() == size)
-    return kept->second;
+  if (const std::string* kept = unfinished_.find(key)) {
+    std::vector<Estimate> answer = read_answer(*kept);
+    if (answer.size() == size) return answer;
+  }
   std::vector<Estimate> answer = make();
   ++made_;
-  if (!journal_) return answer;
-  journal_->append({key, written(answer)});
-  return answers_[key] = std::move(answer);
-}
-
-void KeptAnswers::remove() {
-  if (!journal_) return;
-  journal_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  unfinished_.keep(key, written(answer));
+  return answer;
 }
 
 }  // namespace papilla::calibrate

@@ -3,14 +3,12 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
 #include "base/statistics.h"
-#include "optim/journal.h"
+#include "optim/unfinished.h"
 
 namespace papilla::calibrate {
 
@@ -19,21 +17,20 @@ class KeptAnswers {
   KeptAnswers() = default;  // keeps nothing
   // The folder must exist. `problem`: all that an answer depends on but what `get` names; answers
   // to another problem lie in another file. Throws InputError where the file cannot be written.
-  KeptAnswers(const std::string& folder, const std::string& problem);
+  KeptAnswers(const std::string& folder, const std::string& problem)
+      : unfinished_(folder, problem) {}
 
-  int known() const { return static_cast<int>(answers_.size()); }
+  int known() const { return unfinished_.known(); }
   int made() const { return made_; }  // by `get`, not found in the file
-  const std::string& file() const { return path_; }
+  const std::string& file() const { return unfinished_.file(); }
   // The answer of `size` numbers to `question`, by `make` where it is not kept. Anybody can have
   // written the file: an answer of another size is none.
   std::vector<Estimate> get(const std::string& question, std::size_t size,
                             const std::function<std::vector<Estimate>()>& make);
-  void remove();  // the fit has ended
+  void remove() { unfinished_.remove(); }  // the fit has ended
 
  private:
-  std::string path_;
-  std::unique_ptr<Journal> journal_;
-  std::map<std::string, std::vector<Estimate>> answers_;
+  Unfinished unfinished_;
   int made_ = 0;
 };
 

@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 #include <vector>
 
-#include "base/folder.h"
 #include "base/text.h"
 
 namespace papilla::claims {
@@ -59,17 +56,10 @@ std::optional<Judgement> read_judgement(const std::vector<std::string>& fields, 
 
 }  // namespace
 
-KeptResults::KeptResults(const std::string& folder, const std::string& problem) {
-  const std::string key = text_hash(problem), name = "unfinished-" + key + ".journal";
-  path_ = folder + "/" + name;
-  journal_ = std::make_unique<Journal>(Folder(folder), name, key, true);
-  for (const JournalRecord& record : journal_->records()) written_[record.key] = record.payload;
-}
-
 bool KeptResults::find(ClaimResult& result) const {
-  const auto kept = written_.find(result.claim->id);
-  if (kept == written_.end()) return false;
-  const std::vector<std::string> fields = split(kept->second, kSeparator);
+  const std::string* kept = unfinished_.find(result.claim->id);
+  if (!kept) return false;
+  const std::vector<std::string> fields = split(*kept, kSeparator);
   if (fields.size() != 2 * kFields + 1) return false;
   const auto papilla = read_judgement(fields, 0), m3 = read_judgement(fields, kFields);
   const auto seconds = read_number(fields.back());
@@ -81,17 +71,9 @@ bool KeptResults::find(ClaimResult& result) const {
 }
 
 void KeptResults::keep(const ClaimResult& result) {
-  if (!journal_) return;
-  journal_->append(
-      {result.claim->id, fmt::format("{1}{0}{2}{0}{3}", kSeparator, judgement_text(result.papilla),
-                                     judgement_text(result.m3), number_text(result.seconds))});
-}
-
-void KeptResults::remove() {
-  if (!journal_) return;
-  journal_.reset();
-  std::error_code ignored;
-  std::filesystem::remove(path_, ignored);
+  unfinished_.keep(result.claim->id,
+                   fmt::format("{1}{0}{2}{0}{3}", kSeparator, judgement_text(result.papilla),
+                               judgement_text(result.m3), number_text(result.seconds)));
 }
 
 }  // namespace papilla::claims

@@ -2,13 +2,11 @@
 // stopped.
 #pragma once
 
-#include <map>
-#include <memory>
 #include <string>
 
 #include "base/rooms.h"
 #include "claims/claim.h"
-#include "optim/journal.h"
+#include "optim/unfinished.h"
 
 namespace papilla::claims {
 
@@ -23,18 +21,17 @@ class KeptResults {
   KeptResults() = default;  // keeps nothing
   // The folder must exist. `problem`: all that a judgement depends on but its claim; judgements of
   // another problem lie in another file. Throws InputError where the file cannot be written.
-  KeptResults(const std::string& folder, const std::string& problem);
+  KeptResults(const std::string& folder, const std::string& problem)
+      : unfinished_(folder, problem) {}
 
   // Whether the judgement of result.claim is kept; then the result is filled in. Anybody can have
   // written the file: what is no judgement in every letter is none.
   bool find(ClaimResult& result) const;
   void keep(const ClaimResult& result);
-  void remove();  // all has been judged
+  void remove() { unfinished_.remove(); }  // all has been judged
 
  private:
-  std::string path_;
-  std::unique_ptr<Journal> journal_;
-  std::map<std::string, std::string> written_;  // by the claim's id
+  Unfinished unfinished_;  // by the claim's id
 };
 
 }  // namespace papilla::claims
