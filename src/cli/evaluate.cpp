@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <iostream>
 #include <memory>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/units.h"
+#include "base/watch.h"
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "config/describe.h"
@@ -147,7 +149,36 @@ double wanted_accuracy(const std::string& text) {
   return target;
 }
 
+constexpr double kSecondsBetweenNotes = 10;
+
+// What a Watch of a long evaluation calls after each patch: says now and then how far it is.
+class LongEvaluation {
+ public:
+  explicit LongEvaluation(const Context& context) : context_(context) {}
+
+  void operator()(int patches) {
+    const double elapsed = seconds_since(begin_);
+    if (elapsed < next_) return;
+    next_ = elapsed + kSecondsBetweenNotes;
+    context_.note(
+        fmt::format("evaluating: {} patches solved in {:.0f} s; papilla explain says how long it "
+                    "takes, Ctrl-C ends it without a result",
+                    patches, elapsed));
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  const Context& context_;
+  Clock::time_point begin_ = Clock::now();
+  double next_ = kSecondsBetweenNotes;
+};
+
 int evaluate_file(const Context& context, const EvaluateOptions& options) {
+  const Watch watch(LongEvaluation(context), nullptr);
   const Study study = read_study(options.design.file, options.design.overrides);
   const Design& design = study.design;
   if (!options.force) require_fitted_model(design, options.design.file, "run with --force");
