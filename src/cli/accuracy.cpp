@@ -62,8 +62,8 @@ int run(const Context& context, const AccuracyCommand& c) {
     write_bytes(
         c.out + "/sweeps.csv",
         accuracy_csv(rows, fmt::format("# papilla {} accuracy {}: base {} pixels, {} skins, solved "
-                                       "areas, tolerance 1e-4\n# seconds are of this machine under "
-                                       "other load; pairs and work are exact\n",
+                                       "areas, tolerance 1e-4\n# processor seconds of all threads; "
+                                       "pairs and work are the same on every machine\n",
                                        PAPILLA_VERSION, study.name, c.grid, c.skins)));
     std::string last;
     for (const AccuracyRow& row : rows) {

@@ -51,7 +51,7 @@ void add_bench(Command app, Context& context) {
   Command command = app.add_command("bench", "The performance targets, measured here");
   auto c = std::make_shared<BenchCommand>();
   command.add_flag("--json", c->json, "One JSON object on standard output");
-  command.add_flag("--page", c->page, "As the page docs/performance.md");
+  command.add_flag("--page", c->page, "As the page docs/measured/performance.md");
   command.add_flag("--large", c->large, "Contact at 4096 x 4096 too (2.5 GB)");
   command
       .add_option("--prices", c->prices,

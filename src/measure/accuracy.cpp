@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <limits>
+#include <utility>
 
 #include "base/constants.h"
 #include "estimate/target.h"
@@ -34,7 +36,10 @@ class Sweeper {
     tolerances();
     estimators();
     model();
-    if (options_.levels) levels();
+    if (options_.levels) {
+      levels();
+      costs();
+    }
     return std::move(rows_);
   }
 
@@ -117,15 +122,76 @@ class Sweeper {
     for (const char* name : {"search", "draft", "design"}) level(name);
     const TargetOptions options{.target = 0.05, .threads = options_.threads};
     note("level: target 5 %");
-    push("level", "target 5 %", evaluate_to_target(scene_, design_.texture, options));
+    const std::clock_t begin = std::clock();
+    const Response to_target = evaluate_to_target(scene_, design_.texture, options);
+    push("level", "target 5 %", to_target, processor_seconds(begin));
     level("reference");
     compare("level");
   }
 
-  void level(const char* name) {
+  void level(const char* name) { add("level", name, scene_, fidelity_of_level(name)); }
+
+  Fidelity fidelity_of_level(const char* name) const {
     Fidelity f = fidelity_level(name);
     f.threads = options_.threads;
-    add("level", name, scene_, f);
+    return f;
+  }
+
+  // The root-mean-square error over four seeds against the reference, the last row so far, beside
+  // the processor time of one of them: pixels and skins in turn, and the levels.
+  void costs() {
+    const std::vector<double> truth = rows_.back().value;
+    for (int grid : {32, 64, 128, 256}) {
+      for (int skins : {4, 12, 32}) {
+        for (const auto& [estimator, name] :
+             {std::pair{Estimator::Load, "load law"}, std::pair{Estimator::Area, "solved areas"}}) {
+          Fidelity f = base_;
+          f.grid = grid;
+          f.skins = skins;
+          f.estimator = estimator;
+          cost(fmt::format("{} pixels {} skins {}", grid, skins, name), f, truth);
+        }
+      }
+    }
+    for (const char* name : {"draft", "design"}) cost(name, fidelity_of_level(name), truth);
+  }
+
+  void cost(const std::string& setting, Fidelity f, const std::vector<double>& truth) {
+    constexpr int kSeeds = 4;
+    AccuracyRow mean;
+    for (int seed = 2; seed < 2 + kSeeds; ++seed) {  // none of the reference
+      f.seed = static_cast<std::uint64_t>(seed);
+      add("cost", setting, scene_, f);
+      AccuracyRow row = std::move(rows_.back());
+      rows_.pop_back();
+      for (std::size_t q = 0; q < truth.size(); ++q)
+        row.error.push_back(truth[q] == 0 ? 0 : square(row.value[q] / truth[q] - 1));
+      if (seed == 2) {
+        mean = std::move(row);
+        continue;
+      }
+      for (std::size_t q = 0; q < truth.size(); ++q) {
+        mean.value[q] += row.value[q];
+        mean.stated[q] += row.stated[q];
+        mean.error[q] += row.error[q];
+      }
+      mean.seconds += row.seconds;
+      mean.fft_pairs += row.fft_pairs;
+      mean.work += row.work;
+    }
+    for (std::size_t q = 0; q < truth.size(); ++q) {
+      mean.value[q] /= kSeeds;
+      mean.stated[q] /= kSeeds;
+      mean.error[q] = std::sqrt(mean.error[q] / kSeeds);
+    }
+    mean.seconds /= kSeeds;
+    mean.fft_pairs /= kSeeds;
+    mean.work /= kSeeds;
+    rows_.push_back(std::move(mean));
+  }
+
+  static double processor_seconds(std::clock_t begin) {  // of all threads
+    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   }
 
   void note(const std::string& text) const {
@@ -135,11 +201,14 @@ class Sweeper {
   void add(const std::string& sweep, const std::string& setting, const Scene& scene,
            const Fidelity& fidelity) {
     note(sweep + ": " + setting);
-    push(sweep, setting, evaluate(scene, design_.texture, fidelity));
+    const std::clock_t begin = std::clock();
+    const Response response = evaluate(scene, design_.texture, fidelity);
+    push(sweep, setting, response, processor_seconds(begin));
   }
 
-  void push(const std::string& sweep, const std::string& setting, const Response& r) {
-    AccuracyRow row{sweep, setting, r.fidelity, {}, {}, {}, r.seconds, r.fft_pairs, 0, "ok"};
+  void push(const std::string& sweep, const std::string& setting, const Response& r,
+            double seconds) {
+    AccuracyRow row{sweep, setting, r.fidelity, {}, {}, {}, seconds, r.fft_pairs, 0, "ok"};
     for (const AccuracyQuantity& q : accuracy_quantities()) {
       const auto v = summarise(q.summary, q.metric, r);
       row.value.push_back(v ? v->value : std::numeric_limits<double>::quiet_NaN());

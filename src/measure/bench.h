@@ -1,4 +1,4 @@
-// The performance targets, measured here: the page docs/performance.md.
+// The performance targets, measured here: the page docs/measured/performance.md.
 #pragma once
 
 #include <functional>

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 std::string accuracy_text(const std::vector<AccuracyRow>& rows) {
   std::string out = fmt::format("{:<10} {:<26}", "sweep", "setting");
   for (const AccuracyQuantity& q : accuracy_quantities()) out += fmt::format(" {:>15}", q.name);
-  out += fmt::format(" {:>9} {:>9} {:>8}\n", "pairs", "work", "seconds");
+  out += fmt::format(" {:>9} {:>9} {:>8}\n", "pairs", "work", "proc. s");
   for (const AccuracyRow& row : rows) {
     out += fmt::format("{:<10} {:<26}", row.sweep, row.setting);
     for (double e : row.error) out += fmt::format(" {:>+13.2f} %", 100 * e);
@@ -41,7 +41,7 @@ std::string accuracy_csv(const std::vector<AccuracyRow>& rows, const std::string
   std::string out = provenance + "sweep,setting,grid,skins,estimator,tolerance";
   for (const AccuracyQuantity& q : accuracy_quantities())
     out += fmt::format(",{0},{0}_stated,{0}_error", q.name);
-  out += ",seconds,fft_pairs,work,status\n";
+  out += ",processor_seconds,fft_pairs,work,status\n";
   const auto number = [](double v) {
     return std::isfinite(v) ? fmt::format("{:.5g}", v) : std::string();
   };
@@ -103,7 +103,7 @@ std::string accuracy_json(const std::vector<AccuracyRow>& rows) {
     list.push_back({{"sweep", r.sweep},
                     {"setting", r.setting},
                     {"quantities", quantities},
-                    {"seconds", r.seconds},
+                    {"processor_seconds", r.seconds},
                     {"fft_pairs", r.fft_pairs},
                     {"work", r.work},
                     {"status", r.status}});

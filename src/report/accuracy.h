@@ -1,4 +1,4 @@
-// Speed against error as tables, pictures and the page docs/accuracy.md.
+// Speed against error as tables, pictures and the page docs/measured/accuracy.md.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// The page docs/accuracy.md from the committed tables.
+// The page docs/measured/accuracy.md from the committed tables.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -28,6 +28,10 @@ const char* sweep_text(const std::string& sweep) {
   if (sweep == "model")
     return "Options of `[model]`; shift against the file's own (absorbed by the fit of the finger)";
   if (sweep == "level") return "Levels; error against reference";
+  if (sweep == "cost")
+    return "Pixels and skins together, and levels: root-mean-square error over four seeds against "
+           "the level reference. The lines of the picture join the settings that no cheaper one "
+           "beats";
   return "";
 }
 
@@ -59,7 +63,8 @@ class SweepRow {
     std::vector<std::string> out{cell("setting")};
     for (const AccuracyQuantity& q : accuracy_quantities()) out.push_back(error(q.name));
     out.push_back(shown(cell("modulation"), 1, "{:.4f}"));
-    for (const char* name : {"fft_pairs", "work", "seconds", "status"}) out.push_back(cell(name));
+    for (const char* name : {"fft_pairs", "work", "processor_seconds", "status"})
+      out.push_back(cell(name));
     return markdown_row(out);
   }
 
@@ -72,11 +77,11 @@ std::string sweep_head(const std::string& sweep) {
   std::vector<std::string> names{"setting"};
   for (const AccuracyQuantity& q : accuracy_quantities()) names.push_back(q.name);
   for (const char* name :
-       {"mean modulation", "FFT pairs", "work, pairs of 256²", "seconds", "status"})
+       {"mean modulation", "FFT pairs", "work, pairs of 256²", "processor seconds", "status"})
     names.emplace_back(name);
   return fmt::format(
              "\n## {0}\n\n{1}. Error of the value, in brackets the standard error stated "
-             "beside it.\n\n![{0}](../results/accuracy/{0}.svg)\n\n",
+             "beside it.\n\n![{0}](../../results/accuracy/{0}.svg)\n\n",
              sweep, sweep_text(sweep)) +
          markdown_head(names);
 }
@@ -85,7 +90,8 @@ std::string sweep_head(const std::string& sweep) {
 std::string sweep_sections(const CsvTable& sweeps) {
   std::string out, current, beyond;  // of the sweep: what its rows state too little for
   const auto end_sweep = [&] {
-    if (current.empty() || current == "model") return;  // there are no errors there, but shifts
+    // The options of the model have shifts, no errors; a root mean square has no sign.
+    if (current.empty() || current == "model" || current == "cost") return;
     out +=
         "\nBeyond two of the standard errors stated: " + (beyond.empty() ? "none" : beyond) + ".\n";
   };

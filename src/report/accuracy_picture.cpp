@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/constants.h"
 #include "report/accuracy.h"
@@ -34,24 +36,42 @@ struct Decades {
 
 bool is_drawn(double error) { return std::isfinite(error) && error != 0; }
 
+struct Mark {
+  double cost, error;
+};
+
+// The marks that no cheaper one beats, by rising cost.
+std::vector<Mark> cost_front(std::vector<Mark> marks) {
+  std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) {
+    return std::pair(a.cost, a.error) < std::pair(b.cost, b.error);
+  });
+  std::vector<Mark> front;
+  for (const Mark& mark : marks) {
+    if (front.empty() || mark.error < front.back().error) front.push_back(mark);
+  }
+  return front;
+}
+
 }  // namespace
 
 std::string accuracy_svg(const std::vector<AccuracyRow>& all, const std::string& sweep) {
+  const bool of_cost = sweep == "cost";
   std::vector<const AccuracyRow*> rows;
-  Decades work, errors;
+  Decades costs, errors;
+  const auto cost = [&](const AccuracyRow& row) { return of_cost ? row.seconds : row.work; };
   for (const AccuracyRow& row : all) {
     if (row.sweep != sweep) continue;
     rows.push_back(&row);
-    work.add(row.work);
+    costs.add(cost(row));
     for (double e : row.error) {
       if (is_drawn(e)) errors.add(std::abs(e));
     }
   }
   std::string out = svg_sheet(640, 420, 12);
-  if (work.empty() || errors.empty()) return out + "</svg>\n";
-  const auto px = [&](double x) { return kLeft + work.place(x, kRight - kLeft); };
+  if (costs.empty() || errors.empty()) return out + "</svg>\n";
+  const auto px = [&](double x) { return kLeft + costs.place(x, kRight - kLeft); };
   const auto py = [&](double y) { return kBottom - errors.place(y, kBottom - kTop); };
-  for (double d = work.first(); d <= work.last(); ++d) {
+  for (double d = costs.first(); d <= costs.last(); ++d) {
     out += fmt::format(
         "<line x1=\"{0:.1f}\" y1=\"40\" x2=\"{0:.1f}\" y2=\"360\" stroke=\"#ddd\"/>"
         "<text x=\"{0:.1f}\" y=\"376\" text-anchor=\"middle\">1e{1:.0f}</text>\n",
@@ -64,19 +84,20 @@ std::string accuracy_svg(const std::vector<AccuracyRow>& all, const std::string&
         py(std::pow(10, d)), d);
   }
   out += fmt::format(
-      "<text x=\"70\" y=\"24\" font-size=\"14\">{}: relative error against work"
-      "</text><text x=\"270\" y=\"400\" text-anchor=\"middle\">FFT pairs of 256 x "
-      "256</text>\n",
-      sweep);
+      "<text x=\"70\" y=\"24\" font-size=\"14\">{}: relative error against {}"
+      "</text><text x=\"270\" y=\"400\" text-anchor=\"middle\">{}</text>\n",
+      sweep, of_cost ? "time" : "work", of_cost ? "processor time [s]" : "FFT pairs of 256 x 256");
   for (std::size_t q = 0; q < accuracy_quantities().size(); ++q) {
-    std::string points;
+    std::vector<Mark> marks;
     for (const AccuracyRow* r : rows) {
-      if (!is_drawn(r->error[q])) continue;
-      const double x = px(r->work), y = py(std::abs(r->error[q]));
-      points += fmt::format("{:.1f},{:.1f} ", x, y);
-      out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"/>\n", x, y,
-                         kColours[q]);
+      if (is_drawn(r->error[q])) marks.push_back({cost(*r), std::abs(r->error[q])});
     }
+    for (const Mark& mark : marks)
+      out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" fill=\"{}\"/>\n",
+                         px(mark.cost), py(mark.error), of_cost ? "2" : "3.5", kColours[q]);
+    std::string points;
+    for (const Mark& mark : of_cost ? cost_front(marks) : marks)
+      points += fmt::format("{:.1f},{:.1f} ", px(mark.cost), py(mark.error));
     out += fmt::format(
         "<polyline fill=\"none\" stroke=\"{0}\" stroke-width=\"1.5\" points=\"{1}\"/>"
         "<text x=\"484\" y=\"{2}\" fill=\"{0}\">{3}</text>\n",

@@ -1,4 +1,4 @@
-// The performance targets as tables and as the page docs/performance.md.
+// The performance targets as tables and as the page docs/measured/performance.md.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// docs/hard-cases.md names tests that exist.
+// docs/measured/hard_cases.md names tests that exist.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,7 +25,7 @@ std::set<std::string> test_names() {
 
 TEST(HardCaseMap, NamesTestsThatExist) {
   const std::set<std::string> names = test_names();
-  const std::string page = read_bytes(PAPILLA_SOURCE_DIR "/docs/hard-cases.md");
+  const std::string page = read_bytes(PAPILLA_SOURCE_DIR "/docs/measured/hard_cases.md");
   const std::regex mention("`([A-Z]\\w+)\\.(\\w*)(\\*|\\.\\.\\.|)`");
   int mentions = 0;
   for (std::sregex_iterator it(page.begin(), page.end(), mention), end; it != end; ++it) {
@@ -34,7 +34,7 @@ TEST(HardCaseMap, NamesTestsThatExist) {
     const auto found = names.lower_bound(name);
     EXPECT_TRUE(found != names.end() &&
                 (prefix ? found->compare(0, name.size(), name) == 0 : *found == name))
-        << name << " is named in docs/hard-cases.md, no test has that name";
+        << name << " is named in docs/measured/hard_cases.md, no test has that name";
     ++mentions;
   }
   EXPECT_GE(mentions, 30);

@@ -169,7 +169,8 @@ TEST(Errors, OfTheMeanOverHumidityCountItsNodes) {
 
 TEST(AccuracyPage, IsThatOfTheCommittedTables) {
   const std::string root = PAPILLA_SOURCE_DIR;
-  EXPECT_EQ(accuracy_page(root + "/results/accuracy"), read_bytes(root + "/docs/accuracy.md"));
+  EXPECT_EQ(accuracy_page(root + "/results/accuracy"),
+            read_bytes(root + "/docs/measured/accuracy.md"));
 }
 
 // Honest and not huge, as the committed tables of 100 and 50 scenes have it: every quantity by
