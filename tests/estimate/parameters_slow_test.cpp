@@ -26,9 +26,9 @@ TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
 
   const std::size_t n = scene.finger.uncertainty.size();
   const std::vector<double> factor = covariance_factor(scene.finger.uncertainty);
-  const std::array<std::pair<Summary, const char*>, 3> kinds{{{Summary::Mean, "modulation"},
-                                                              {Summary::Variation, "modulation"},
-                                                              {Summary::Mean, "friction"}}};
+  const std::array<std::pair<Summary, const char*>, 3> kinds{{{Summary::Mean, kModulation},
+                                                              {Summary::Variation, kModulation},
+                                                              {Summary::Mean, kFriction}}};
   std::array<std::vector<double>, kinds.size()> values;
   RandomStream random(1, "parameter draws", 0);
   for (int draw = 0; draw < kDraws; ++draw) {
