@@ -52,7 +52,7 @@ TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
     std::cout << metric_text(kinds[q]) << ": stated " << *stated->parts.parameters / stated->value
               << ", drawn " << std::sqrt(variance) / mean << " of the value\n";
     // The scatter of a standard deviation of 48 draws is 10 %; the rest is curvature.
-    EXPECT_NEAR(ratio, 1, 0.35) << kinds[q].metric;
+    EXPECT_NEAR(ratio, 1, 0.35) << metric_text(kinds[q]);
   }
 }
 
