@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "papilla/design.h"
+#include "papilla/quantities.h"
 
 namespace papilla::api {
 
@@ -26,15 +27,9 @@ struct Quantity {
   ErrorParts parts;
 };
 
-struct Point {
-  double relative_humidity = 0;                  // share
-  Quantity friction_off, friction_on;            // [N], whole finger
-  Quantity modulation;                           // (on - off) / off; 0 when undriven
-  Quantity area_fraction_off, area_fraction_on;  // of the load-carrying patches
-  Quantity capillary_force, electrostatic_force, retention_force;  // [N], whole finger
-  Quantity bridges;                                                // per patch
-  Quantity wetted_fraction;
-  Quantity mean_gap, indentation;  // [m]
+// One humidity: friction_off, modulation, ... of papilla/quantities.h, and whether to trust them.
+struct Point : Quantities<Quantity> {
+  double relative_humidity = 0;  // share
   bool sound = true;
   std::string status;  // for people: "ok", or what went wrong
 };

@@ -13,26 +13,6 @@ using namespace py::literals;
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-struct Named {
-  const char* name;
-  Quantity Point::*quantity;
-  bool driven = false;  // has no value without a drive
-};
-constexpr std::array kQuantities{
-    Named{"friction_off", &Point::friction_off},
-    Named{"friction_on", &Point::friction_on, true},
-    Named{"modulation", &Point::modulation, true},
-    Named{"area_fraction_off", &Point::area_fraction_off},
-    Named{"area_fraction_on", &Point::area_fraction_on, true},
-    Named{"capillary_force", &Point::capillary_force},
-    Named{"electrostatic_force", &Point::electrostatic_force},
-    Named{"retention_force", &Point::retention_force},
-    Named{"bridges", &Point::bridges},
-    Named{"wetted_fraction", &Point::wetted_fraction},
-    Named{"mean_gap", &Point::mean_gap},
-    Named{"indentation", &Point::indentation},
-};
-
 struct Part {
   const char* name;
   std::optional<double> ErrorParts::*part;
@@ -44,7 +24,7 @@ constexpr std::array kParts{
     Part{"water", &ErrorParts::water},
 };
 
-py::dict quantity_columns(const Response& r, Quantity Point::*q) {
+py::dict quantity_columns(const Response& r, Quantity Quantities<Quantity>::*q) {
   py::dict parts("sampling"_a =
                      column(r.points(), [&](const Point& p) { return (p.*q).parts.sampling; }));
   for (const Part& part : kParts) {
@@ -60,8 +40,8 @@ py::dict quantity_columns(const Response& r, Quantity Point::*q) {
 // Plain arrays and texts: what a response is in Python, and what is pickled.
 py::dict response_columns(const Response& r) {
   py::dict quantities;
-  for (const Named& named : kQuantities) {
-    if (!named.driven || r.driven()) quantities[named.name] = quantity_columns(r, named.quantity);
+  for (const auto& q : kQuantities<Quantity>) {
+    if (q.drive != FingerDrive::On || r.driven()) quantities[q.name] = quantity_columns(r, q.value);
   }
   py::list sound, status;
   for (const Point& p : r.points()) {
@@ -73,6 +53,14 @@ py::dict response_columns(const Response& r) {
                   "quantities"_a = quantities, "sound"_a = sound, "status"_a = status,
                   "driven"_a = r.driven(), "trouble"_a = r.trouble(), "json"_a = r.json(),
                   "table"_a = r.table(), "svg"_a = r.svg());
+}
+
+// Name, unit, whether it is of a drive alone, meaning.
+py::list quantity_list() {
+  py::list out;
+  for (const auto& q : kQuantities<Quantity>)
+    out.append(py::make_tuple(q.name, q.unit, q.drive == FingerDrive::On, q.doc));
+  return out;
 }
 
 // level, target, threads, parameters, look, voltage_for, force: of papilla/evaluate.py.
@@ -129,6 +117,7 @@ py::tuple sensitivity_row(const Sensitivity& s) {
 }  // namespace
 
 void bind_response(py::module_& module) {
+  module.def("quantities", quantity_list);
   module.def(
       "evaluate",
       [](const Design& design, const py::dict& how, const py::object& progress) {

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from papilla import _native
 from papilla.values import FloatArray
 
 if TYPE_CHECKING:
@@ -42,35 +43,15 @@ class Quantity:
         return f"Quantity({pairs})"
 
 
-_OF_A_DRIVE = ("modulation", "friction_on", "area_fraction_on")
-
-
 class Response:
     """Friction of a finger on a design over humidity, drive off and on, with errors.
 
-    Made by ``Design.evaluate``. Arrays have one item per humidity. Source: docs/theory/friction.md.
+    Made by ``Design.evaluate``. Arrays have one item per humidity. Source: docs/theory/friction.md. Its quantities are
+    those of the library's own list, include/papilla/quantities.h.
     """
 
     humidity: FloatArray
     """Relative humidities, shares of 1."""
-    friction_off: Quantity
-    """Of the whole finger without voltage [N]."""
-    area_fraction_off: Quantity
-    """Real contact over the area that carries the load, without voltage."""
-    capillary_force: Quantity
-    """Of the whole finger [N], positive attracts."""
-    electrostatic_force: Quantity
-    """Of the whole finger [N], positive attracts."""
-    retention_force: Quantity
-    """Lateral force that water holds back [N]."""
-    bridges: Quantity
-    """Liquid bridges of a patch."""
-    wetted_fraction: Quantity
-    """Share of a patch under bridges."""
-    mean_gap: Quantity
-    """Between skin and surface [m]."""
-    indentation: Quantity
-    """Approach since first touch [m]."""
     sound: tuple[bool, ...]
     """Whether each point can be trusted."""
     status: tuple[str, ...]
@@ -83,34 +64,14 @@ class Response:
     def __init__(self, columns: dict[str, Any]) -> None:
         self._columns = columns
         self.humidity = columns["relative_humidity"]
-        for name, quantity in columns["quantities"].items():
-            if name not in _OF_A_DRIVE:
-                setattr(self, name, Quantity(**quantity))
         self.sound = tuple(columns["sound"])
         self.status = tuple(columns["status"])
         self.driven = columns["driven"]
         self.trouble = columns["trouble"]
 
-    def _driven(self, name: str) -> Quantity:
-        quantities = self._columns["quantities"]
-        if name not in quantities:
-            raise AttributeError(f"{name}: the design has no drive; give drive.amplitude")
-        return Quantity(**quantities[name])
+    if TYPE_CHECKING:
 
-    @property
-    def modulation(self) -> Quantity:
-        """(F_on - F_off) / F_off. AttributeError for a design without a drive."""
-        return self._driven("modulation")
-
-    @property
-    def friction_on(self) -> Quantity:
-        """Of the whole finger under voltage [N]. AttributeError for a design without a drive."""
-        return self._driven("friction_on")
-
-    @property
-    def area_fraction_on(self) -> Quantity:
-        """Real contact over the area that carries the load, under voltage."""
-        return self._driven("area_fraction_on")
+        def __getattr__(self, name: str) -> Quantity: ...  # friction_off, modulation, ...
 
     def to_dict(self) -> dict[str, Any]:
         """What ``papilla evaluate --json`` prints, number for number: points, summary, plan, fidelity."""
@@ -177,6 +138,25 @@ class Response:
         return _without_clock(self) == _without_clock(other)
 
     __hash__ = None  # type: ignore[assignment]
+
+
+def _quantity(name: str, unit: str, driven: bool, meaning: str) -> property:
+    """The member of a response that holds a quantity of the library's list."""
+
+    def found(self: Response) -> Quantity:
+        quantities = self._columns["quantities"]
+        if name not in quantities:
+            raise AttributeError(f"{name}: the design has no drive; give drive.amplitude")
+        return Quantity(**quantities[name])
+
+    found.__doc__ = meaning[0].upper() + meaning[1:] + (f" [{unit}]" if unit else "") + "."
+    if driven:
+        found.__doc__ += " AttributeError for a design without a drive."
+    return property(found)
+
+
+for _name, _unit, _driven, _meaning in _native.quantities():
+    setattr(Response, _name, _quantity(_name, _unit, _driven, _meaning))
 
 
 def _without_clock(response: Response) -> dict[str, Any]:

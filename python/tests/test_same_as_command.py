@@ -11,21 +11,22 @@ import pytest
 
 import kinds
 import papilla as pp
+from papilla import _native
 from conftest import ROOT, command, command_json
 
 CLOCKS = ("seconds", "processor_seconds")
-# The name of a quantity in the command's JSON.
-NAMES = {"friction_off": "F_off", "friction_on": "F_on"}
+# Names of the list of quantities, and those that differ in the command's JSON.
+QUANTITIES = [name for name, *_ in _native.quantities()]
+KEYS = {"friction_off": "F_off", "friction_on": "F_on"}
 
 
 def agree(response: pp.Response, printed: dict[str, Any]) -> int:
     """Every array against the printed numbers; returns how many were compared."""
     assert response.humidity.tolist() == [p["relative_humidity"] for p in printed["points"]]
     compared = 0
-    for name in ("friction_off", "friction_on", "modulation", "area_fraction_off", "area_fraction_on",
-                 "capillary_force", "electrostatic_force", "retention_force", "bridges", "wetted_fraction",
-                 "mean_gap", "indentation"):
-        rows = [p[NAMES.get(name, name)] for p in printed["points"]]
+    assert len(QUANTITIES) >= 12
+    for name in QUANTITIES:
+        rows = [p[KEYS.get(name, name)] for p in printed["points"]]
         if rows[0] is None:
             with pytest.raises(AttributeError, match="drive"):
                 getattr(response, name)

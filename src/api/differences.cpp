@@ -38,16 +38,16 @@ Comparison compare(const Design& first, const Design& second, const EvaluateOpti
     for (std::size_t i = 0; i < a.points.size(); ++i) {
       ComparedPoint p;
       p.relative_humidity = a.points[i].relative_humidity;
-      p.friction_off = difference_of(difference_at(i, "friction", a, b));
+      p.friction_off = difference_of(difference_at(i, kFriction, a, b));
       if (driven) {
-        p.modulation = difference_of(difference_at(i, "modulation", a, b));
-        p.friction_on = difference_of(difference_at(i, "friction_on", a, b));
+        p.modulation = difference_of(difference_at(i, kModulation, a, b));
+        p.friction_on = difference_of(difference_at(i, kFrictionOn, a, b));
       }
       out.points.push_back(p);
     }
-    out.mean_friction = difference_of(rooms::difference_of(parse_metric("friction"), a, b));
+    out.mean_friction = difference_of(rooms::difference_of({Summary::Mean, kFriction}, a, b));
     if (driven)
-      out.mean_modulation = difference_of(rooms::difference_of(parse_metric("modulation"), a, b));
+      out.mean_modulation = difference_of(rooms::difference_of({Summary::Mean, kModulation}, a, b));
     return out;
   });
 }

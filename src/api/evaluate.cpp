@@ -17,18 +17,8 @@ Quantity quantity_of(const Measured& m) {
 Point point_of(const ResponsePoint& p) {
   Point out;
   out.relative_humidity = p.relative_humidity;
-  out.friction_off = quantity_of(p.friction_off);
-  out.friction_on = quantity_of(p.friction_on);
-  out.modulation = quantity_of(p.modulation);
-  out.area_fraction_off = quantity_of(p.area_fraction_off);
-  out.area_fraction_on = quantity_of(p.area_fraction_on);
-  out.capillary_force = quantity_of(p.capillary_force);
-  out.electrostatic_force = quantity_of(p.electrostatic_force);
-  out.retention_force = quantity_of(p.retention_force);
-  out.bridges = quantity_of(p.bridges);
-  out.wetted_fraction = quantity_of(p.wetted_fraction);
-  out.mean_gap = quantity_of(p.mean_gap);
-  out.indentation = quantity_of(p.indentation);
+  for (std::size_t k = 0; k < kQuantities<Quantity>.size(); ++k)
+    out.*kQuantities<Quantity>[k].value = quantity_of(p.*kQuantities<Measured>[k].value);
   out.sound = p.said().sound();
   out.status = text(p.said());
   return out;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/check.h"
 #include "base/constants.h"
+#include "base/error.h"
 #include "base/text.h"
 #include "base/units.h"
 #include "metrics/shown.h"
@@ -21,14 +23,92 @@ double bounded(double violation) {
   return std::max(violation, -1.0);
 }
 
-const ConstraintKind* kind_of(const Constraint& limit) {
+const ConstraintKind& listed_kind(const Limited& on) {
   const auto& kinds = constraint_kinds();
-  const auto found = std::find_if(kinds.begin(), kinds.end(),
-                                  [&](const ConstraintKind& k) { return k.name == limit.name; });
-  return found == kinds.end() ? nullptr : &*found;
+  const auto found =
+      std::find_if(kinds.begin(), kinds.end(), [&](const ConstraintKind& k) { return k.on == on; });
+  PAPILLA_CHECK(found != kinds.end(), "a limit with a key of its own is in the list");
+  return *found;
+}
+
+// A metric is limited on its bad side.
+ConstraintKind metric_kind(const std::string& key) {
+  const MetricExpression expression = parse_metric(key);
+  const Better better = better_direction(expression);
+  if (better == Better::Neither)
+    throw InputError("\"" + key + "\" has no better direction to be limited in");
+  const bool relative =
+      expression.summary == Summary::Variation || expression.summary == Summary::Range;
+  return {MetricLimit{expression}, metric_text(expression),
+          relative ? "" : info_of(expression.metric).unit, better == Better::Higher, ""};
+}
+
+// A value in the unit that people read it in.
+struct Shown {
+  double value = 0;
+  std::string unit;
+};
+Shown shown(const Limited& on, double si) {
+  if (const auto* metric = std::get_if<MetricLimit>(&on)) {
+    const ShownUnit unit = shown_unit(metric->expression);
+    return {si * unit.scale, unit.unit};
+  }
+  const std::string& unit = listed_kind(on).unit;
+  return {si / find_unit(unit)->to_si, unit};
 }
 
 }  // namespace
+
+const std::vector<ConstraintKind>& constraint_kinds() {
+  static const std::vector<ConstraintKind> kinds{
+      {ShapeLimit{ShapeMargin::MinHole}, "min_hole", "um", true,
+       "smallest hole or gap between features"},
+      {ShapeLimit{ShapeMargin::MinWall}, "min_wall", "um", true, "smallest wall or feature"},
+      {ShapeLimit{ShapeMargin::AspectRatio}, "aspect_ratio", "", false,
+       "largest depth / smallest width of a hole"},
+      {FilmLimit{}, "oxide_breakdown_margin", "", true,
+       "breakdown field of the dielectric / largest field in it, at the drive's amplitude and at "
+       "the voltages that voltage_for asks for; a bridge or a contact at the thinnest place "
+       "counted"},
+      {LookLimit{&Look::haze}, "haze", "%", false, "share of the transmitted light beyond 2.5 deg"},
+      {LookLimit{&Look::transmittance}, "transmittance", "%", true,
+       "undeviated share of the light on the plate"},
+      {LookLimit{&Look::gloss}, "gloss", "%", true,
+       "specular reflection at 60 deg over that of flat glass"},
+      {LookLimit{&Look::colour_shift}, "colour_shift", "", false,
+       "CIE 1976 u'v' distance of the undeviated light"},
+  };
+  return kinds;
+}
+
+ConstraintKind read_constraint_kind(const std::string& key) {
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    if (kind.name == key) return kind;
+  }
+  return metric_kind(key);
+}
+
+Constraint read_constraint(const std::string& key, double limit) {
+  const ConstraintKind kind = read_constraint_kind(key);
+  return {kind.on, limit, kind.at_least};
+}
+
+std::string limit_name(const Limited& on) {
+  if (const auto* metric = std::get_if<MetricLimit>(&on)) return metric_text(metric->expression);
+  return listed_kind(on).name;
+}
+
+double margin_of(ShapeMargin margin, const FabricationMargins& margins) {
+  switch (margin) {
+    case ShapeMargin::MinHole:
+      return margins.min_hole;
+    case ShapeMargin::MinWall:
+      return margins.min_wall;
+    case ShapeMargin::AspectRatio:
+      return margins.aspect_ratio;
+  }
+  return kInfinity;
+}
 
 double violation(const Constraint& limit, double value) {
   if (limit.limit <= 0) return limit.at_least ? -1 : bounded(value);
@@ -40,24 +120,10 @@ double violation(const Constraint& limit, double value) {
 
 bool keeps(const Constraint& limit, double value) { return violation(limit, value) <= 0; }
 
-LimitOn limit_on(const Constraint& limit) {
-  const ConstraintKind* kind = kind_of(limit);
-  return kind ? kind->on : LimitOn::Metric;
-}
-
 std::string limit_value_text(const Constraint& limit, double value) {
   if (!std::isfinite(value)) return "none";
-  double shown = value;
-  std::string unit;
-  if (const ConstraintKind* kind = kind_of(limit)) {
-    shown /= find_unit(kind->unit)->to_si;
-    unit = kind->unit;
-  } else {
-    const ShownUnit metric = shown_unit(parse_metric(limit.name));
-    shown *= metric.scale;
-    unit = metric.unit;
-  }
-  return significant(shown, kDigits) + (unit.empty() ? "" : " " + unit);
+  const auto [number, unit] = shown(limit.on, value);
+  return significant(number, kDigits) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string limit_text(const Constraint& limit) {

@@ -31,11 +31,11 @@ std::vector<std::string> texts(StudyFile& file, const Node& section, const char*
   return out;
 }
 
-std::vector<std::string> metrics(StudyFile& file, const Node& section, const char* key) {
-  std::vector<std::string> out = texts(file, section, key, "objective");
-  for (const std::string& text : out) {
+std::vector<MetricExpression> metrics(StudyFile& file, const Node& section, const char* key) {
+  std::vector<MetricExpression> out;
+  for (const std::string& text : texts(file, section, key, "objective")) {
     try {
-      parse_metric(text);
+      out.push_back(parse_metric(text));
     } catch (const InputError& error) {
       file.document.problem(section.find(key)->place, std::string("objective.") + key,
                             error.problems().front().message);
@@ -44,25 +44,17 @@ std::vector<std::string> metrics(StudyFile& file, const Node& section, const cha
   return out;
 }
 
-// A key such as "worst(modulation)", limited on its bad side.
-std::optional<ConstraintKind> metric_constraint(StudyFile& file, const Node& child) {
-  if (child.key.find('(') == std::string::npos) return std::nullopt;
+// What has a value at every humidity; nothing, and a mistake, where the key is no such metric.
+std::optional<Metric> target_metric(StudyFile& file, const Node& item) {
+  std::string wrong = fmt::format("no metric over humidity is called \"{}\"", item.key);
   try {
-    const MetricExpression expression = parse_metric(child.key);
-    const Better better = better_direction(expression);
-    if (better != Better::Neither) {
-      const bool relative =
-          expression.summary == Summary::Variation || expression.summary == Summary::Range;
-      return ConstraintKind{metric_text(expression),
-                            relative ? "" : find_metric(expression.metric)->unit,
-                            better == Better::Higher, ""};
-    }
-    file.document.problem(child.key_place, "constraints",
-                          "\"" + child.key + "\" has no better direction to be limited in");
+    const std::optional<Metric> metric = find_metric(item.key);
+    if (metric && !info_of(*metric).appearance) return metric;
   } catch (const InputError& error) {
-    file.document.problem(child.key_place, "constraints", error.problems().front().message);
+    wrong = error.problems().front().message;
   }
-  return ConstraintKind{child.key, "", true, ""};
+  file.document.problem(item.key_place, "objective.target", wrong);
+  return std::nullopt;
 }
 
 void read_targets(StudyFile& file, const Node& section) {
@@ -73,16 +65,13 @@ void read_targets(StudyFile& file, const Node& section) {
     return;
   }
   for (const Node& item : section.children) {
-    const MetricInfo* metric = find_metric(item.key);
-    if (!metric || metric->appearance) {
-      file.document.problem(item.key_place, "objective.target",
-                            fmt::format("no metric over humidity is called \"{}\"", item.key));
-      continue;
-    }
+    const std::optional<Metric> metric = target_metric(file, item);
+    if (!metric) continue;
+    const MetricInfo& info = info_of(*metric);
     double value = 0;
     if (file.document.number(item, "objective.target." + item.key,
-                             {metric->name.c_str(), metric->unit.c_str(), -1e9, 1e9, ""}, value))
-      file.study.objective.targets.push_back({metric->name, value});
+                             {info.name.c_str(), info.unit.c_str(), -1e9, 1e9, ""}, value))
+      file.study.objective.targets.push_back({*metric, value});
   }
 }
 
@@ -102,23 +91,20 @@ void read_objective(StudyFile& file) {
 void read_constraints(StudyFile& file) {
   const Node* section = file.section("constraints");
   if (!section) return;
-  std::vector<std::string> names;
-  for (const ConstraintKind& kind : constraint_kinds()) names.push_back(kind.name);
-  std::vector<std::string> keys = names;
+  std::vector<std::string> keys;
+  for (const ConstraintKind& kind : constraint_kinds()) keys.push_back(kind.name);
   for (const Node& child : section->children) {
-    std::optional<ConstraintKind> kind = metric_constraint(file, child);
-    if (kind) {
-      keys.push_back(child.key);
-    } else if (const auto at = std::find(names.begin(), names.end(), child.key);
-               at != names.end()) {
-      kind = constraint_kinds()[static_cast<std::size_t>(at - names.begin())];
-    } else {
-      continue;
-    }
-    double limit = 0;
-    if (file.document.number(child, "constraints." + child.key,
-                             {kind->name.c_str(), kind->unit.c_str(), 0, 1e9, ""}, limit)) {
-      file.study.constraints.push_back({kind->name, limit, kind->at_least});
+    const bool is_metric = child.key.find('(') != std::string::npos;
+    if (is_metric) keys.push_back(child.key);
+    if (std::find(keys.begin(), keys.end(), child.key) == keys.end()) continue;  // `only` says so
+    try {
+      const ConstraintKind kind = read_constraint_kind(child.key);
+      double limit = 0;
+      if (file.document.number(child, "constraints." + child.key,
+                               {kind.name.c_str(), kind.unit.c_str(), 0, 1e9, ""}, limit))
+        file.study.constraints.push_back({kind.on, limit, kind.at_least});
+    } catch (const InputError& error) {
+      file.document.problem(child.key_place, "constraints", error.problems().front().message);
     }
   }
   file.only(*section, "constraints", keys);

@@ -27,24 +27,6 @@ void fields(FieldVisitor& v, Search& s) {
            s.rounding);
 }
 
-const std::vector<ConstraintKind>& constraint_kinds() {
-  static const std::vector<ConstraintKind> kinds{
-      {"min_hole", "um", true, "smallest hole or gap between features", LimitOn::Shape},
-      {"min_wall", "um", true, "smallest wall or feature", LimitOn::Shape},
-      {"aspect_ratio", "", false, "largest depth / smallest width of a hole", LimitOn::Shape},
-      {"oxide_breakdown_margin", "", true,
-       "breakdown field of the dielectric / largest field in it, at the drive's amplitude and at "
-       "the voltages that voltage_for asks for; a bridge or a contact at the thinnest place "
-       "counted",
-       LimitOn::Film},
-      {"haze", "%", false, "share of the transmitted light beyond 2.5 deg", LimitOn::Look},
-      {"transmittance", "%", true, "undeviated share of the light on the plate", LimitOn::Look},
-      {"gloss", "%", true, "specular reflection at 60 deg over that of flat glass", LimitOn::Look},
-      {"colour_shift", "", false, "CIE 1976 u'v' distance of the undeviated light", LimitOn::Look},
-  };
-  return kinds;
-}
-
 std::string variable_text(const Variable& variable, double value, bool plain) {
   if (variable.is_kind()) return texture_kinds()[static_cast<std::size_t>(value)];
   const double shown = value / find_unit(variable.unit)->to_si;

@@ -9,6 +9,7 @@
 #include "config/node.h"
 #include "config/reader.h"
 #include "design/design.h"
+#include "design/limits.h"
 #include "design/paths.h"
 #include "optim/problem.h"
 
@@ -31,40 +32,19 @@ struct Variable {
 
 // What a metric should be at every humidity.
 struct Target {
-  std::string metric;
+  Metric metric;
   double value = 0;  // SI
 
   bool operator==(const Target&) const = default;
 };
 
-// Metric expressions such as "mean(modulation)"; two objectives make a Pareto front.
+// Two objectives make a Pareto front.
 struct Objective {
-  std::vector<std::string> maximise, minimise;
+  std::vector<MetricExpression> maximise, minimise;
   std::vector<Target> targets;  // the root mean square distance from each is minimised
   std::string risk;  // "mean - 2 std", "cvar 20 %", "worst"; "": mean over the population
 
   bool operator==(const Objective&) const = default;
-};
-
-// What a limit is about, and with it when its value is known: of a shape and of the film under it
-// from the numbers of a design, of its look by an optical calculation, of a metric by an
-// evaluation.
-enum class LimitOn { Shape, Film, Look, Metric };
-
-struct ConstraintKind {
-  std::string name, unit;
-  bool at_least = true;  // else at most
-  std::string doc;
-  LimitOn on = LimitOn::Shape;
-};
-const std::vector<ConstraintKind>& constraint_kinds();
-
-struct Constraint {
-  std::string name;
-  double limit = 0;  // SI
-  bool at_least = true;
-
-  bool operator==(const Constraint&) const = default;
 };
 
 // A state of the product that counts beside the others: new, worn.

@@ -72,7 +72,10 @@ void read_search(Document& document, Study& study) {
 
 void check_whole(Document& document, const Study& study) {
   const Objective& wanted = study.objective;
-  if (study.is_study() && wanted.maximise.empty() && wanted.minimise.empty() &&
+  const bool misread =
+      std::any_of(document.problems().begin(), document.problems().end(),
+                  [](const Problem& p) { return p.key.starts_with("objective."); });
+  if (study.is_study() && !misread && wanted.maximise.empty() && wanted.minimise.empty() &&
       wanted.targets.empty()) {
     document.problem_at("objective",
                         "a study needs `maximise`, `minimise` or `target`, e.g. maximise = "

@@ -19,10 +19,11 @@ ResponseDifference difference(double first, double second, double first_error, d
           paired.has_value()};
 }
 
-[[noreturn]] void undefined(const std::string& metric, const Response& response) {
+[[noreturn]] void undefined(const Metric& metric, const Response& response) {
   const std::string why = why_undefined(metric, response);
-  throw InputError({Problem{"", 0, 0, "metric",
-                            metric + " has no value here" + (why.empty() ? "" : ": " + why)}});
+  throw InputError(
+      {Problem{"", 0, 0, "metric",
+               metric_text(metric) + " has no value here" + (why.empty() ? "" : ": " + why)}});
 }
 
 // The nearest value towards `to` that makes a design: whole or half of the way, else none of it.
@@ -38,8 +39,8 @@ double reached(const Design& design, const std::string& path, double from, doubl
 
 }  // namespace
 
-ResponseDifference difference_at(std::size_t point, const std::string& metric,
-                                 const Response& first, const Response& second) {
+ResponseDifference difference_at(std::size_t point, const Metric& metric, const Response& first,
+                                 const Response& second) {
   const auto a = metric_at(metric, first.points.at(point)),
              b = metric_at(metric, second.points.at(point));
   if (!a) undefined(metric, first);

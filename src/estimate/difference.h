@@ -17,8 +17,8 @@ struct ResponseDifference {
   bool paired = false;  // from common samples (Eq. accuracy.14); else both errors in squares
 };
 // At one humidity, and of a summary over all. Throws InputError where the metric has no value.
-ResponseDifference difference_at(std::size_t point, const std::string& metric,
-                                 const Response& first, const Response& second);
+ResponseDifference difference_at(std::size_t point, const Metric& metric, const Response& first,
+                                 const Response& second);
 ResponseDifference difference_of(const MetricExpression& expression, const Response& first,
                                  const Response& second);
 

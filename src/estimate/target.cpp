@@ -113,8 +113,7 @@ class TargetRun {
   // Parts of the answer so far; counts the work done since `before` skins.
   Response measured(const char* why, double seconds, int before) {
     Response response = respond(scene_, fidelity_, patches_);
-    const auto mean =
-        summarise(Summary::Mean, response.driven ? "modulation" : "friction", response);
+    const auto mean = summarise(Summary::Mean, response.driven ? kModulation : kFriction, response);
     report_.quantity = response.driven ? "mean(modulation)" : "mean(friction)";
     value_ = mean ? std::abs(mean->value) : 0;
     parts_ = {};

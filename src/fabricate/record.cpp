@@ -45,8 +45,12 @@ class RecordReader {
     if (!member("dose_curve").is_null())
       o.dose_curve = DoseCurve{numbers("dose_curve", "depth"), numbers("dose_curve", "grey")};
     for (const auto& [name, limit] : member("limits").items()) {
-      if (!limit.is_number()) fail("limits");
-      out.limits.push_back({name, limit.get<double>(), true});
+      const auto found =
+          std::find_if(constraint_kinds().begin(), constraint_kinds().end(),
+                       [&key = name](const ConstraintKind& kind) { return kind.name == key; });
+      if (!limit.is_number() || found == constraint_kinds().end() || !in_pixels(found->on, {}))
+        fail("limits");
+      out.limits.push_back({found->on, limit.get<double>(), found->at_least});
     }
     for (const Json& file : member("files")) read_file(file, out);
     if (o.dose_curve &&
@@ -106,6 +110,20 @@ class RecordReader {
 
 }  // namespace
 
+std::optional<double> in_pixels(const Limited& on, const PixelMargins& pixels) {
+  const auto* shape = std::get_if<ShapeLimit>(&on);
+  if (!shape) return std::nullopt;
+  switch (shape->margin) {
+    case ShapeMargin::MinHole:
+      return pixels.min_hole;
+    case ShapeMargin::MinWall:
+      return pixels.min_wall;
+    case ShapeMargin::AspectRatio:
+      break;
+  }
+  return std::nullopt;
+}
+
 ExportRecord record_of(const Study& study, const ExportOptions& options, const Export& result) {
   ExportRecord out{study.design, options, result.files, {}};
   out.options.formats.clear();
@@ -113,7 +131,7 @@ ExportRecord record_of(const Study& study, const ExportOptions& options, const E
     if (file.format != kDesignFormat) out.options.formats.push_back(file.format);
   }
   for (const Constraint& c : study.constraints) {
-    if (c.name == "min_hole" || c.name == "min_wall") out.limits.push_back(c);
+    if (in_pixels(c.on, {})) out.limits.push_back(c);
   }
   return out;
 }
@@ -125,7 +143,7 @@ std::string record_json(const ExportRecord& record) {
     files.push_back(
         {{"format", file.format}, {"file", std::filesystem::path(file.path).filename().string()}});
   }
-  for (const Constraint& c : record.limits) limits[c.name] = c.limit;
+  for (const Constraint& c : record.limits) limits[limit_name(c.on)] = c.limit;
   if (o.polarity) polarity = *o.polarity == Polarity::WhiteHigh ? kWhiteHigh : kWhiteDeep;
   if (o.dose_curve) dose = {{"depth", o.dose_curve->depth}, {"grey", o.dose_curve->grey}};
   return Json{{"design", to_toml(record.design)},

@@ -2,12 +2,14 @@
 // export.json.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
 #include "design/study.h"
 #include "fabricate/export.h"
+#include "geometry/io/mask.h"
 
 namespace papilla::fabricate {
 
@@ -19,8 +21,11 @@ struct ExportRecord {
   Design design;          // as asked for: the process is undone in the files alone
   ExportOptions options;  // formats: those of the files
   std::vector<ExportedFile> files;
-  std::vector<Constraint> limits;  // of the study: min_hole, min_wall
+  std::vector<Constraint> limits;  // of the study, as far as files show them
 };
+
+// What the pixels of a file show of a limit; nothing of one that they do not tell.
+std::optional<double> in_pixels(const Limited& on, const PixelMargins& pixels);
 
 ExportRecord record_of(const Study& study, const ExportOptions& options, const Export& result);
 

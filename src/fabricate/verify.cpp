@@ -20,7 +20,7 @@
 namespace papilla::fabricate {
 namespace {
 
-double mean_of(const std::string& metric, const Response& response) {
+double mean_of(const Metric& metric, const Response& response) {
   const auto value = summarise(Summary::Mean, metric, response);
   if (!value) throw InputError("the file cannot be judged: " + text(response.troubles()));
   return value->value;
@@ -165,13 +165,13 @@ Verification verify_export(const Study& study, const std::string& file, double t
   if (!std::isfinite(facts(design.texture).margins.smallest()))
     out.pixels.min_hole = out.pixels.min_wall = kInfinity;
   for (const Constraint& c : study.constraints) {
-    const double narrowest = c.name == "min_hole"   ? out.pixels.min_hole
-                             : c.name == "min_wall" ? out.pixels.min_wall
-                                                    : kInfinity;
-    if (!keeps({c.name, c.limit - out.pixels.pixel, true}, narrowest)) {
+    const std::optional<double> narrowest = in_pixels(c.on, out.pixels);
+    Constraint to_a_pixel = c;
+    to_a_pixel.limit -= out.pixels.pixel;
+    if (narrowest && !keeps(to_a_pixel, *narrowest)) {
       out.faults.push_back(
-          fmt::format("{} of the file is {:.3g} um, below {:.3g} um (pixel {:.2g} um)", c.name,
-                      1e6 * narrowest, 1e6 * c.limit, 1e6 * out.pixels.pixel));
+          fmt::format("{} of the file is {:.3g} um, below {:.3g} um (pixel {:.2g} um)",
+                      limit_name(c.on), 1e6 * *narrowest, 1e6 * c.limit, 1e6 * out.pixels.pixel));
     }
   }
   Fidelity fidelity = fidelity_level("draft");
@@ -179,7 +179,7 @@ Verification verify_export(const Study& study, const std::string& file, double t
   const Scene scene = scene_of(design);
   const Plan plan = make_plan(scene, design.texture, fidelity);
   out.merit = design.drive.driven() ? "mean(modulation)" : "mean(friction)";
-  const char* metric = design.drive.driven() ? "modulation" : "friction";
+  const Metric metric = design.drive.driven() ? kModulation : kFriction;
   out.design = mean_of(metric, evaluate(scene, design.texture, fidelity));
   // Where nothing repeats as much of the map as a patch of the design is; whole, where it is hardly
   // larger.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/check.h"
+
 namespace papilla::forward {
 
 PatchCosts& PatchCosts::operator+=(const PatchCosts& other) {
@@ -12,6 +14,14 @@ PatchCosts& PatchCosts::operator+=(const PatchCosts& other) {
   seconds.water += other.seconds.water;
   seconds.field += other.seconds.field;
   return *this;
+}
+
+GridLaw grid_law(Measured PointQuantities::*quantity) {
+  for (const PointQuantity& q : kPointQuantities) {
+    if (q.value == quantity) return q.grid;
+  }
+  PAPILLA_CHECK(false, "every quantity is in the table");
+  return GridLaw::Other;
 }
 
 PatchResult over_water(std::span<const PatchResult> members) {

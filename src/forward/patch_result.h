@@ -1,4 +1,5 @@
-// The numbers of one solved patch, and the table that says once how each of them combines.
+// The numbers of one solved patch and how each of them combines; and which quantity of a humidity
+// is made of them, by which law and with which errors.
 #pragma once
 
 #include <array>
@@ -6,7 +7,9 @@
 
 #include "base/constants.h"
 #include "base/rooms.h"
+#include "forward/measured.h"
 #include "forward/status.h"
+#include "papilla/quantities.h"
 
 namespace papilla::forward {
 
@@ -54,8 +57,7 @@ struct PatchMember {
   OverWater water;
   OverPressures pressures;
 };
-// Every number of a patch, in any order. How a mean over skins becomes a quantity of a humidity,
-// and with which errors, is the table of quantities in forward/response.h.
+// Every number of a patch, in any order.
 inline constexpr std::array kPatchMembers{
     PatchMember{&PatchResult::load, OverWater::Common, OverPressures::Given},
     PatchMember{&PatchResult::capillary_off, OverWater::Mean, OverPressures::Off},
@@ -82,6 +84,57 @@ inline constexpr std::array kPatchMembers{
 static_assert(sizeof(PatchResult) ==
                   kPatchMembers.size() * sizeof(double) + sizeof(PatchCosts) + sizeof(ModelStatus),
               "every member says how it combines");
+
+// What a humidity answers, each with its errors.
+using PointQuantities = api::Quantities<Measured>;
+
+// What is missing on a grid to the limit of fine pixels, and by which law it goes: Eq. accuracy.2
+enum class GridLaw { Area, Pull, Modulation, Other };
+
+// Which part of the band that the droplets leave open reaches the quantity: Eq. capillary.19, 20
+enum class WaterBand { None, Capillary, Pull, LoadOff, LoadOn };
+
+struct PointQuantity {
+  Measured PointQuantities::*value;
+  double PatchResult::*mean_of;  // over the skins; null: by a law of its own (forward/point.cpp)
+  bool whole_finger;             // mean_of is a force on a patch: times the patches of a finger
+  GridLaw grid;
+  WaterBand water;
+};
+// One row per quantity of papilla/quantities.h, in that order: where it comes from and how its
+// errors do.
+inline constexpr std::array kPointQuantities{
+    PointQuantity{&PointQuantities::friction_off, nullptr, true, GridLaw::Area, WaterBand::LoadOff},
+    PointQuantity{&PointQuantities::friction_on, nullptr, true, GridLaw::Area, WaterBand::LoadOn},
+    PointQuantity{&PointQuantities::modulation, nullptr, false, GridLaw::Modulation,
+                  WaterBand::Pull},
+    PointQuantity{&PointQuantities::area_fraction_off, nullptr, false, GridLaw::Area,
+                  WaterBand::LoadOff},
+    PointQuantity{&PointQuantities::area_fraction_on, nullptr, false, GridLaw::Area,
+                  WaterBand::LoadOn},
+    PointQuantity{&PointQuantities::capillary_force, &PatchResult::capillary_off, true,
+                  GridLaw::Other, WaterBand::Capillary},
+    PointQuantity{&PointQuantities::electrostatic_force, &PatchResult::pull, true, GridLaw::Pull,
+                  WaterBand::Pull},
+    PointQuantity{&PointQuantities::retention_force, &PatchResult::retention, true, GridLaw::Other,
+                  WaterBand::Capillary},
+    PointQuantity{&PointQuantities::bridges, &PatchResult::bridges, false, GridLaw::Other,
+                  WaterBand::Capillary},
+    PointQuantity{&PointQuantities::wetted_fraction, &PatchResult::wetted, false, GridLaw::Other,
+                  WaterBand::Capillary},
+    PointQuantity{&PointQuantities::mean_gap, &PatchResult::mean_gap, false, GridLaw::Other,
+                  WaterBand::None},
+    PointQuantity{&PointQuantities::indentation, &PatchResult::indentation, false, GridLaw::Other,
+                  WaterBand::None}};
+GridLaw grid_law(Measured PointQuantities::*quantity);
+static_assert(
+    [] {
+      bool same = kPointQuantities.size() == api::kQuantities<Measured>.size();
+      for (std::size_t k = 0; same && k < kPointQuantities.size(); ++k)
+        same = kPointQuantities[k].value == api::kQuantities<Measured>[k].value;
+      return same;
+    }(),
+    "every quantity says where it comes from");
 
 // One result for the skin: costs add up, the first trouble counts.
 PatchResult over_water(std::span<const PatchResult> members);

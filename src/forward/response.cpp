@@ -8,22 +8,6 @@
 
 namespace papilla::forward {
 
-double ErrorParts::total() const {
-  double sum = sampling * sampling;
-  for (const ErrorOrigin& origin : kErrorOrigins) {
-    if (origin.in_total) sum += square((this->*origin.part).value_or(0));
-  }
-  return std::sqrt(sum);
-}
-
-GridLaw grid_law(Measured PointQuantities::*quantity) {
-  for (const PointQuantity& q : kPointQuantities) {
-    if (q.value == quantity) return q.grid;
-  }
-  PAPILLA_CHECK(false, "every quantity is in the table");
-  return GridLaw::Other;
-}
-
 ModelStatus ResponsePoint::said() const {
   if (oxide_margin < 1) return {Trouble::Breakdown, 1 / oxide_margin, ""};
   return status;

@@ -16,47 +16,6 @@
 
 namespace papilla::forward {
 
-// One standard error by origin, in the unit of the value; nothing where it was not measured.
-// Independent: they add in squares. docs/theory/accuracy.md
-struct ErrorParts {
-  double sampling = 0;                 // skins, offsets, droplets
-  std::optional<double> grid{};        // discretisation
-  std::optional<double> solver{};      // tolerance of the contact solve
-  std::optional<double> humidity{};    // quadrature over humidity (none at a point)
-  std::optional<double> method{};      // load law in place of solved areas
-  std::optional<double> field{};       // of the pull, against the 3-D field
-  std::optional<double> parameters{};  // of the finger, from the covariance of its fit
-
-  // Half the band that the free choices of the droplets leave (mobility, number per volume; Eqs.
-  // capillary.19, 20), with threshold water its distance from droplets (Eq. capillary.21): common
-  // to all designs and no standard error, so it is not in the total.
-  std::optional<double> water{};
-
-  double total() const;
-  bool operator==(const ErrorParts&) const = default;
-};
-struct ErrorOrigin {
-  const char* name;
-  std::optional<double> ErrorParts::*part;
-  bool in_total = true;
-};
-// Every part but sampling, in the order of reports.
-inline constexpr std::array<ErrorOrigin, 7> kErrorOrigins{{{"grid", &ErrorParts::grid},
-                                                           {"solver", &ErrorParts::solver},
-                                                           {"humidity", &ErrorParts::humidity},
-                                                           {"method", &ErrorParts::method},
-                                                           {"field", &ErrorParts::field},
-                                                           {"parameters", &ErrorParts::parameters},
-                                                           {"water", &ErrorParts::water, false}}};
-
-struct Measured {
-  double value = 0;
-  ErrorParts parts;
-
-  double se() const { return parts.total(); }
-  bool operator==(const Measured&) const = default;
-};
-
 // Per-skin quantities of one humidity, kept for paired differences between designs.
 struct PatchSamples {
   std::vector<double> load_off, load_on;  // [N] on the patch: preload + capillary (+ pull)
@@ -80,22 +39,6 @@ struct VoltageAnswer {
 };
 // What came first, of an answer that is not reached: "the dielectric breaks down at 500 V".
 std::string text(const VoltageAnswer& answer);
-
-// What a humidity answers, each with its errors.
-struct PointQuantities {
-  Measured friction_off, friction_on;            // [N], whole finger
-  Measured modulation;                           // (F_on - F_off) / F_off; 0 when undriven
-  Measured area_fraction_off, area_fraction_on;  // of the load-carrying patches
-  Measured capillary_force;                      // [N], whole finger, off
-  Measured electrostatic_force;                  // [N], whole finger
-  Measured retention_force;                      // [N], whole finger
-  Measured bridges;                              // per patch
-  Measured wetted_fraction;
-  Measured mean_gap;     // [m]
-  Measured indentation;  // approach since first touch [m]
-
-  bool operator==(const PointQuantities&) const = default;
-};
 
 struct ResponsePoint : PointQuantities {
   double relative_humidity = 0;
@@ -125,47 +68,6 @@ struct ResponsePoint : PointQuantities {
 
   bool operator==(const ResponsePoint&) const = default;
 };
-
-// What is missing on a grid to the limit of fine pixels, and by which law it goes: Eq. accuracy.2
-enum class GridLaw { Area, Pull, Modulation, Other };
-
-// Which part of the band that the droplets leave open reaches the quantity: Eq. capillary.19, 20
-enum class WaterBand { None, Capillary, Pull, LoadOff, LoadOn };
-
-struct PointQuantity {
-  Measured PointQuantities::*value;
-  double PatchResult::*mean_of;  // over the skins; null: by a law of its own (forward/point.cpp)
-  bool whole_finger;             // mean_of is a force on a patch: times the patches of a finger
-  GridLaw grid;
-  WaterBand water;
-};
-// Every quantity of a humidity: where it comes from and how its errors do.
-inline constexpr std::array kPointQuantities{
-    PointQuantity{&PointQuantities::friction_off, nullptr, true, GridLaw::Area, WaterBand::LoadOff},
-    PointQuantity{&PointQuantities::friction_on, nullptr, true, GridLaw::Area, WaterBand::LoadOn},
-    PointQuantity{&PointQuantities::modulation, nullptr, false, GridLaw::Modulation,
-                  WaterBand::Pull},
-    PointQuantity{&PointQuantities::area_fraction_off, nullptr, false, GridLaw::Area,
-                  WaterBand::LoadOff},
-    PointQuantity{&PointQuantities::area_fraction_on, nullptr, false, GridLaw::Area,
-                  WaterBand::LoadOn},
-    PointQuantity{&PointQuantities::capillary_force, &PatchResult::capillary_off, true,
-                  GridLaw::Other, WaterBand::Capillary},
-    PointQuantity{&PointQuantities::electrostatic_force, &PatchResult::pull, true, GridLaw::Pull,
-                  WaterBand::Pull},
-    PointQuantity{&PointQuantities::retention_force, &PatchResult::retention, true, GridLaw::Other,
-                  WaterBand::Capillary},
-    PointQuantity{&PointQuantities::bridges, &PatchResult::bridges, false, GridLaw::Other,
-                  WaterBand::Capillary},
-    PointQuantity{&PointQuantities::wetted_fraction, &PatchResult::wetted, false, GridLaw::Other,
-                  WaterBand::Capillary},
-    PointQuantity{&PointQuantities::mean_gap, &PatchResult::mean_gap, false, GridLaw::Other,
-                  WaterBand::None},
-    PointQuantity{&PointQuantities::indentation, &PatchResult::indentation, false, GridLaw::Other,
-                  WaterBand::None}};
-GridLaw grid_law(Measured PointQuantities::*quantity);
-static_assert(sizeof(PointQuantities) == kPointQuantities.size() * sizeof(Measured),
-              "every quantity says where it comes from");
 
 // What was asked for by [accuracy] target, and what came of it.
 struct TargetReport {

@@ -250,12 +250,12 @@ class Sweeper {
 
 const std::vector<AccuracyQuantity>& accuracy_quantities() {
   static const std::vector<AccuracyQuantity> quantities{
-      {"modulation", Summary::Mean, "modulation"},
-      {"variation", Summary::Variation, "modulation"},
-      {"friction", Summary::Mean, "friction"},
-      {"contact_area", Summary::Mean, "contact_area"},
-      {"capillary_force", Summary::Mean, "capillary_force"},
-      {"pull", Summary::Mean, "electrostatic_force"}};
+      {"modulation", Summary::Mean, kModulation},
+      {"variation", Summary::Variation, kModulation},
+      {"friction", Summary::Mean, kFriction},
+      {"contact_area", Summary::Mean, QuantityMetric{&PointQuantities::area_fraction_off}},
+      {"capillary_force", Summary::Mean, QuantityMetric{&PointQuantities::capillary_force}},
+      {"pull", Summary::Mean, QuantityMetric{&PointQuantities::electrostatic_force}}};
   return quantities;
 }
 

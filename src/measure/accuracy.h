@@ -16,7 +16,7 @@ namespace papilla::measure {
 struct AccuracyQuantity {
   std::string name;  // "modulation", "variation", ...
   Summary summary;
-  std::string metric;
+  Metric metric;
 };
 const std::vector<AccuracyQuantity>& accuracy_quantities();
 

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -26,50 +25,12 @@ bool is_spread(Summary summary) {
   return summary == Summary::Variation || summary == Summary::Range || summary == Summary::Std;
 }
 
-namespace {
-
-// X of "NAME(modulation = X)"; nothing where another name stands.
-std::optional<double> modulation_of(const std::string& metric, const char* name) {
-  std::string compact;
-  for (char c : metric) {
-    if (c != ' ') compact += c;
-  }
-  if (compact != name && !compact.starts_with(std::string(name) + '(')) return std::nullopt;
-  const std::string head = std::string(name) + "(modulation=";
-  if (compact.starts_with(head) && compact.back() == ')') {
-    const std::string text = compact.substr(head.size(), compact.size() - head.size() - 1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc{} && end == text.data() + text.size() && value > 0 && value < 1e6)
-      return value;
-  }
-  throw InputError(fmt::format("\"{}\": expected {}(modulation = X), X above 0", metric, name));
-}
-
-// A metric of a modulation of its own, written one way; nothing for the others.
-std::optional<std::string> with_modulation(const std::string& metric) {
-  for (const char* name : {kVoltageFor, kFelt}) {
-    if (const auto value = modulation_of(metric, name))
-      return fmt::format("{}(modulation = {})", name, *value);
-  }
-  return std::nullopt;
-}
-
-}  // namespace
-
-std::optional<double> voltage_target(const std::string& metric) {
-  return modulation_of(metric, kVoltageFor);
-}
-
-std::optional<double> felt_threshold(const std::string& metric) {
-  return modulation_of(metric, kFelt);
-}
-
 MetricExpression parse_metric(const std::string& text) {
   MetricExpression expression;
   std::string name = text;
+  std::optional<Metric> metric = find_metric(name);
   const std::size_t open = text.find('(');
-  if (open != std::string::npos && !with_modulation(text)) {
+  if (!metric && open != std::string::npos) {
     const std::string word = text.substr(0, open);
     if (text.back() != ')') throw InputError("\"" + text + "\": missing )");
     name = text.substr(open + 1, text.size() - open - 2);
@@ -86,28 +47,30 @@ MetricExpression parse_metric(const std::string& text) {
       throw InputError(fmt::format("\"{}\" is no summary over humidity; use one of {}", word,
                                    join_names(known)));
     }
+    metric = find_metric(name);
   }
-  if (!find_metric(name)) {
+  if (!metric) {
     std::vector<std::string> known;
     for (const MetricInfo& info : metric_list()) known.push_back(info.name);
     const std::string near = nearest_name(name, known);
     throw InputError(fmt::format("\"{}\" is no metric{}; see `papilla describe metrics`", name,
                                  near.empty() ? "" : ", did you mean \"" + near + "\"?"));
   }
-  expression.metric = with_modulation(name).value_or(name);
+  expression.metric = *metric;
   return expression;
 }
 
 std::string metric_text(const MetricExpression& expression) {
   for (const auto& [label, summary] : kSummaries) {
-    if (summary == expression.summary) return std::string(label) + "(" + expression.metric + ")";
+    if (summary == expression.summary)
+      return std::string(label) + "(" + metric_text(expression.metric) + ")";
   }
-  return expression.metric;
+  return metric_text(expression.metric);
 }
 
 Better better_direction(const MetricExpression& expression) {
   if (is_spread(expression.summary)) return Better::Lower;
-  return find_metric(expression.metric)->better;
+  return info_of(expression.metric).better;
 }
 
 }  // namespace papilla::metrics

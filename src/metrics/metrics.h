@@ -1,5 +1,4 @@
-// Numbers that judge a design: functions of a Response over humidity. `papilla describe metrics` is
-// this list.
+// Summaries of a metric over humidity, each with its errors.
 #pragma once
 
 #include <functional>
@@ -8,49 +7,9 @@
 #include <vector>
 
 #include "base/rooms.h"
-#include "forward/response.h"
+#include "metrics/metric.h"
 
 namespace papilla::metrics {
-
-enum class Better { Higher, Lower, Neither };
-
-struct MetricInfo {
-  std::string name, unit, doc;
-  Better better = Better::Neither;
-  bool needs_drive = false;
-  bool appearance = false;  // how the texture looks: from Response::appearance, at no humidity
-};
-
-// A quantity at each humidity: modulation, friction, friction_on, adhesion, ...
-const std::vector<MetricInfo>& metric_list();
-const MetricInfo* find_metric(const std::string& name);
-
-// What the source applies, by the key that sets it.
-inline constexpr const char* kAmplitude = "drive.amplitude";
-
-// The one metric with a target of its own: the amplitude at which the modulation reaches a value.
-inline constexpr const char* kVoltageFor = "voltage_for";
-// The modulation of "voltage_for(modulation = 0.5)"; nothing for another metric. Throws InputError
-// where the target is no number above 0.
-std::optional<double> voltage_target(const std::string& metric);
-
-// The share of people who would notice: the probability that the modulation of a humidity is above
-// a Weber fraction, its errors in it.
-inline constexpr const char* kFelt = "felt";
-// The least relative difference of friction that people notice: Fehlberg 2022.
-inline constexpr double kNoticed = 0.2;
-// The fraction of "felt(modulation = 0.2)"; else as above.
-std::optional<double> felt_threshold(const std::string& metric);
-
-// Value at one point; nothing when undefined there (a voltage that was not asked for or that does
-// not reach its modulation).
-std::optional<Measured> metric_at(const std::string& name, const ResponsePoint& point);
-
-// The quantity that carries the errors of a metric; nothing for a voltage, which has its own.
-std::optional<Measured PointQuantities::*> metric_quantity(const std::string& metric);
-
-// Value of a metric of the look, in a regime that has one.
-double appearance_value(const std::string& metric, const Optics& look);
 
 // How a quantity is summarised over humidity with the points' weights. Eq. metrics.1-5
 enum class Summary { Mean, Variation, Range, Std, Worst, Best, First, Last };
@@ -67,7 +26,7 @@ struct SummaryValue {
 // Worst: the smallest for Better::Higher, the largest for Better::Lower. Variation is the weighted
 // population standard deviation / mean; range is (max - min) / mean. Nothing when undefined
 // (undriven, or a mean of zero).
-std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
+std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
                                       const Response& response);
 
 // Half the change of a number over each step of the finger's parameters, one sample per skin whose
@@ -85,9 +44,8 @@ struct ErrorSamples {
   std::vector<double> sampling;      // their mean is the value
   std::vector<double> grid, method;  // of the control skins: their mean is what would be added
 };
-ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response);
-ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
-                              const Response& response);
+ErrorSamples error_samples(Summary summary, const Metric& metric, const Response& response);
+ErrorSamples error_samples_at(std::size_t point, const Metric& metric, const Response& response);
 // The error of the first less the second, from samples of the same skins: sampling, grid and method
 // part. Nothing where one of them lacks the samples of the other. Eq. accuracy.14
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second);
@@ -95,14 +53,14 @@ std::optional<double> difference_error(const ErrorSamples& first, const ErrorSam
 // "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name).
 struct MetricExpression {
   Summary summary = Summary::Mean;
-  std::string metric;
+  Metric metric{};
+
+  bool operator==(const MetricExpression&) const = default;
 };
 MetricExpression parse_metric(const std::string& text);  // throws InputError
+// Reads back to the same expression.
 std::string metric_text(const MetricExpression& expression);
 // Which direction is better, of the metric or of its spread.
 Better better_direction(const MetricExpression& expression);
-
-// Why a metric of a response has no value, for people; "" when nothing is known.
-std::string why_undefined(const std::string& metric, const Response& response);
 
 }  // namespace papilla::metrics

@@ -7,7 +7,7 @@
 namespace papilla::metrics {
 
 ShownUnit shown_unit(const MetricExpression& e) {
-  const std::string& unit = find_metric(e.metric)->unit;
+  const std::string& unit = info_of(e.metric).unit;
   // As a share of its mean over humidity it has no unit.
   if (e.summary == Summary::Variation || e.summary == Summary::Range || unit.empty())
     return {1, ""};

@@ -12,8 +12,8 @@ namespace papilla::metrics {
 namespace {
 
 // A summary of a metric of any points of a response.
-Reading reading(Summary summary, const std::string& metric) {
-  const Better better = find_metric(metric)->better;
+Reading reading(Summary summary, const Metric& metric) {
+  const Better better = info_of(metric).better;
   return [=](const std::vector<ResponsePoint>& points) -> std::optional<double> {
     std::vector<double> values, weights;
     for (const ResponsePoint& point : points) {
@@ -59,7 +59,7 @@ std::optional<double> humidity_error(Summary summary, const Response& response,
 constexpr double kFieldApart = 0.3;
 
 // The samples behind a number of a metric.
-ErrorSamples samples_of(const std::string& metric, const Reading& number, Change kind,
+ErrorSamples samples_of(const Metric& metric, const Reading& number, Change kind,
                         const Response& response) {
   ErrorSamples out;
   const auto quantity = metric_quantity(metric);
@@ -112,17 +112,16 @@ double step_error(const StepSamples& samples) {
   return std::sqrt(std::max(0.0, sum));
 }
 
-std::optional<SummaryValue> summarise(Summary summary, const std::string& metric,
+std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
                                       const Response& response) {
-  const MetricInfo* info = find_metric(metric);
-  if (info && info->appearance) {
+  const MetricInfo& info = info_of(metric);
+  if (const auto* look = std::get_if<LookMetric>(&metric)) {
     if (!response.appearance || response.appearance->refused()) return std::nullopt;
     // One look at all humidities: no spread.
     if (is_spread(summary)) return SummaryValue{};
-    return SummaryValue{appearance_value(metric, *response.appearance), 0, {}};
+    return SummaryValue{(*response.appearance).*look->number, 0, {}};
   }
-  if (!info || response.points.empty() || (info->needs_drive && !response.driven))
-    return std::nullopt;
+  if (response.points.empty() || (info.needs_drive && !response.driven)) return std::nullopt;
   double total = 0;
   std::vector<double> values, sampling, weights, field;
   std::array<std::vector<double>, kErrorOrigins.size()> errors;
@@ -139,14 +138,14 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
     total += point.weight;
   }
   if (total <= 0) return std::nullopt;
-  const Series series(values, weights, info->better);
+  const Series series(values, weights, info.better);
   if (!series.defined(summary)) return std::nullopt;
   SummaryValue out{series.value(summary), 0, {.sampling = series.error(summary, sampling)}};
   for (std::size_t k = 0; k < errors.size(); ++k) {
     if (errors[k].size() == values.size())
       out.parts.*kErrorOrigins[k].part = series.error(summary, errors[k]);
   }
-  out.parts.humidity = humidity_error(summary, response, values, weights, info->better);
+  out.parts.humidity = humidity_error(summary, response, values, weights, info.better);
   // Where the runs behind a part are at hand, the summary itself is followed through them, so that
   // what humidities share cancels where it does. Eq. accuracy.13
   const ErrorSamples samples = error_samples(summary, metric, response);
@@ -165,13 +164,12 @@ std::optional<SummaryValue> summarise(Summary summary, const std::string& metric
   return out;
 }
 
-ErrorSamples error_samples(Summary summary, const std::string& metric, const Response& response) {
+ErrorSamples error_samples(Summary summary, const Metric& metric, const Response& response) {
   return samples_of(metric, reading(summary, metric),
                     is_spread(summary) ? Change::Absolute : Change::Relative, response);
 }
 
-ErrorSamples error_samples_at(std::size_t point, const std::string& metric,
-                              const Response& response) {
+ErrorSamples error_samples_at(std::size_t point, const Metric& metric, const Response& response) {
   const auto number = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
     const auto m = metric_at(metric, points[point]);
     return m ? std::optional(m->value) : std::nullopt;

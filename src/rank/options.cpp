@@ -17,7 +17,7 @@ Criterion parse_criterion(std::string word) {
     word.resize(colon);
   }
   c.expression = parse_metric(word);
-  if (voltage_target(c.expression.metric) || felt_threshold(c.expression.metric))
+  if (info_of(c.expression.metric).takes_modulation)
     throw InputError(fmt::format("\"{}\": a ranking is by forces at the designs' own drive", word));
   const Better better = better_direction(c.expression);
   if (direction.empty() && better == Better::Neither) {
@@ -32,7 +32,7 @@ Criterion parse_criterion(std::string word) {
 
 }  // namespace
 
-const MetricInfo& Criterion::info() const { return *find_metric(expression.metric); }
+const MetricInfo& Criterion::info() const { return info_of(expression.metric); }
 
 std::string Criterion::text() const { return metric_text(expression) + (high ? ":high" : ":low"); }
 

@@ -58,7 +58,7 @@ std::string voltage_parts(const ErrorParts& parts) {
 
 // Parts of the mean's ± that a target leaves out: humidities and finger are the user's.
 std::string beside_target(const Response& response) {
-  const auto v = summarise(Summary::Mean, response.driven ? "modulation" : "friction", response);
+  const auto v = summarise(Summary::Mean, response.driven ? kModulation : kFriction, response);
   if (!v || v->value == 0) return {};
   std::string out;
   for (const auto& [name, part] :
@@ -123,13 +123,13 @@ std::string choices_line(const Response& response, bool water) {
 std::string modulation_lines(const Response& response) {
   if (!knows_driven(response)) return "modulation: no number over humidity, see the notes below\n";
   std::string out;
-  const auto mean = summarise(Summary::Mean, "modulation", response);
+  const auto mean = summarise(Summary::Mean, kModulation, response);
   std::optional<SummaryValue> variation, range;
   if (response.points.size() > 1) {  // one humidity does not vary
-    variation = summarise(Summary::Variation, "modulation", response);
-    range = summarise(Summary::Range, "modulation", response);
+    variation = summarise(Summary::Variation, kModulation, response);
+    range = summarise(Summary::Range, kModulation, response);
   }
-  const auto worst = summarise(Summary::Worst, "modulation", response);
+  const auto worst = summarise(Summary::Worst, kModulation, response);
   out += fmt::format("modulation {}", modulation_sparkline(response));
   if (mean) out += fmt::format("  mean {:.3f} ±{:.3f}", mean->value, mean->se);
   if (worst) out += fmt::format("  worst {:.3f} ±{:.3f}", worst->value, worst->se);
@@ -198,7 +198,7 @@ std::string undriven_lines(const Response& response) {
   if (!std::all_of(response.points.begin(), response.points.end(),
                    [](const ResponsePoint& p) { return p.knows_undriven(); }))
     return out + "friction: no number over humidity, see the notes below\n";
-  if (const auto friction = summarise(Summary::Mean, "friction", response))
+  if (const auto friction = summarise(Summary::Mean, kFriction, response))
     out += fmt::format("mean friction {:.1f} ±{:.1f} mN; error: {}\n", 1e3 * friction->value,
                        1e3 * friction->se, budget_text(*friction));
   return out;

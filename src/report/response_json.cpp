@@ -23,8 +23,8 @@ Json with_parts(double value, double se, const ErrorParts& parts) {
 Json measured(const Measured& m) { return with_parts(m.value, m.se(), m.parts); }
 
 // Null where a humidity has no number for it.
-Json summarised(Summary kind, const char* metric, const Response& response) {
-  const bool driven = find_metric(metric)->needs_drive, contact = std::string(metric) == "friction";
+Json summarised(Summary kind, const Metric& metric, const Response& response) {
+  const bool driven = info_of(metric).needs_drive, contact = metric == Metric{kFriction};
   for (const ResponsePoint& p : response.points) {
     if (driven ? !p.knows_driven() : contact && !p.knows_undriven()) return nullptr;
   }
@@ -40,10 +40,10 @@ Json summary_json(const Response& response) {
                                                               {"worst", Summary::Worst},
                                                               {"std", Summary::Std}}};
   for (const auto& [name, kind] : kinds) {
-    out[name] = summarised(kind, "modulation", response);
+    out[name] = summarised(kind, kModulation, response);
   }
-  for (const char* metric : {"friction", "adhesion", "compliance"}) {
-    out[std::string("mean_") + metric] = summarised(Summary::Mean, metric, response);
+  for (const Metric& metric : {Metric{kFriction}, Metric{Adhesion{}}, Metric{Compliance{}}}) {
+    out["mean_" + metric_text(metric)] = summarised(Summary::Mean, metric, response);
   }
   return out;
 }
@@ -83,31 +83,29 @@ Json voltage_json(const VoltageAnswer& v) {
           {"status", v.reached() ? "ok" : text(v)}};
 }
 
+// Whether the state exists that a quantity describes.
+bool exists(api::FingerDrive drive, const ResponsePoint& p, bool driven) {
+  switch (drive) {
+    case api::FingerDrive::Any:
+      return true;
+    case api::FingerDrive::Off:
+      return p.knows_undriven();
+    case api::FingerDrive::On:
+      return driven && p.knows_driven();
+    case api::FingerDrive::OnElseZero:
+      return !driven || p.knows_driven();
+  }
+  return false;
+}
+
 Json point_json(const ResponsePoint& p, bool driven) {
   Json point;
   point["relative_humidity"] = p.relative_humidity;
   point["weight"] = p.weight;
   point["patch_pressure"] = json_number(p.patch_pressure);
   // Null where the state does not exist; `status` says why.
-  const auto undriven = [&](const Measured& m) {
-    return p.knows_undriven() ? measured(m) : Json(nullptr);
-  };
-  const auto under_voltage = [&](const Measured& m) {
-    return driven && p.knows_driven() ? measured(m) : Json(nullptr);
-  };
-  point["F_off"] = undriven(p.friction_off);
-  point["F_on"] = under_voltage(p.friction_on);
-  point["modulation"] = under_voltage(p.modulation);
-  point["area_fraction_off"] = undriven(p.area_fraction_off);
-  point["area_fraction_on"] = under_voltage(p.area_fraction_on);
-  point["capillary_force"] = measured(p.capillary_force);
-  point["electrostatic_force"] =
-      driven ? under_voltage(p.electrostatic_force) : measured(p.electrostatic_force);
-  point["retention_force"] = measured(p.retention_force);
-  point["bridges"] = measured(p.bridges);
-  point["wetted_fraction"] = measured(p.wetted_fraction);
-  point["mean_gap"] = measured(p.mean_gap);
-  point["indentation"] = measured(p.indentation);
+  for (const auto& q : api::kQuantities<Measured>)
+    point[q.key] = exists(q.drive, p, driven) ? measured(p.*q.value) : Json(nullptr);
   point["bridge_water_share"] = json_number(p.bridge_water_share);
   point["over_limit_area"] = json_number(p.over_limit_area);
   point["over_limit_share"] = json_number(p.over_limit_share);

@@ -112,7 +112,7 @@ class Writer {
     for (const StudyObjective& o : objectives)
       out += fmt::format(",{0},{0} se,{0} parameters,{0} at search level", o.name);
     out += ",worst modulation,breakdown margin";
-    for (const Constraint& c : f_.study.constraints) out += ",limit " + csv_text(c.name);
+    for (const Constraint& c : f_.study.constraints) out += ",limit " + csv_text(limit_name(c.on));
     out += ",feasible,on front,status\n";
     const auto row = [&](const std::string& name, const FinalDesign& d) {
       const Score &c = d.confirmed, &searched = d.searched;

@@ -204,11 +204,14 @@ Json by_path(Json value) {
 }
 
 std::string metric_pattern() {
-  std::vector<std::string> names;
-  for (const MetricInfo& m : metric_list()) names.push_back(regex_escaped(m.name));
+  std::vector<std::string> names, with_modulation;
+  for (const MetricInfo& m : metric_list()) {
+    names.push_back(regex_escaped(m.name));
+    if (m.takes_modulation) with_modulation.push_back(m.name);
+  }
   return fmt::format(
-      "((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|({}|{})\\(.*\\))\\s*\\)?",
-      join_names(names, "|"), kVoltageFor, kFelt);
+      "((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|({})\\(.*\\))\\s*\\)?",
+      join_names(names, "|"), join_names(with_modulation, "|"));
 }
 
 Json constraints_schema() {

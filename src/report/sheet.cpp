@@ -104,7 +104,7 @@ std::string shape_text(const Design& design) {
 }
 
 std::string limit_broken(const LimitValue& v) {
-  return fmt::format("{} is {}, {} your limit of {}", v.limit.name,
+  return fmt::format("{} is {}, {} your limit of {}", limit_name(v.limit.on),
                      limit_value_text(v.limit, v.value), v.limit.at_least ? "below" : "above",
                      limit_value_text(v.limit, v.limit.limit));
 }
@@ -127,7 +127,8 @@ std::vector<LimitValue> built_limits(const ResultFiles& f) {
   const FinalDesign& made = f.result.build->made;
   if (made.confirmed.ok) return constraints.values(made.design, made.confirmed);
   std::vector<LimitValue> out = constraints.values(made.design, recommended_of(f).confirmed);
-  std::erase_if(out, [](const LimitValue& v) { return limit_on(v.limit) == LimitOn::Metric; });
+  std::erase_if(
+      out, [](const LimitValue& v) { return std::holds_alternative<MetricLimit>(v.limit.on); });
   return out;
 }
 
@@ -407,7 +408,7 @@ std::string limits_table(const std::vector<LimitValue>& limits) {
   if (limits.empty()) return {};
   std::string out = "\n" + markdown_head({"limit", "asked for", "as built"});
   for (const LimitValue& v : limits) {
-    out += markdown_row({v.limit.name, limit_text(v.limit),
+    out += markdown_row({limit_name(v.limit.on), limit_text(v.limit),
                          limit_value_text(v.limit, v.value) + (v.kept() ? "" : ", **broken**")});
   }
   return out;
@@ -444,7 +445,7 @@ std::string drift_text(const Drift& drift, const std::string& unit) {
 Json limits_json(const std::vector<LimitValue>& limits) {
   Json out = Json::array();
   for (const LimitValue& v : limits) {
-    out.push_back({{"name", v.limit.name},
+    out.push_back({{"name", limit_name(v.limit.on)},
                    {"at_least", v.limit.at_least},
                    {"limit", json_number(v.limit.limit)},
                    {"value", json_number(v.value)},

@@ -183,7 +183,7 @@ std::string stability_text(const ResultFiles& f) {
       if (v.values[i].empty()) out += " no value";
       if (i < v.broken.size()) {
         for (const LimitValue& limit : v.broken[i]) {
-          out += fmt::format(", breaks {} ({})", limit.limit.name,
+          out += fmt::format(", breaks {} ({})", limit_name(limit.limit.on),
                              limit_value_text(limit.limit, limit.value));
         }
       }
@@ -257,7 +257,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   const bool driven = problem.driven();
   if (driven) out += " | worst modulation";
   for (const Constraint& c : study.constraints)
-    out += fmt::format(" | {} {}", c.name, limit_text(c));
+    out += fmt::format(" | {} {}", limit_name(c.on), limit_text(c));
   out += " |\n|";
   const std::size_t columns =
       study.variables.size() + objectives.size() + (driven ? 2 : 1) + study.constraints.size();

@@ -27,8 +27,8 @@ std::string sweep_head(const std::string& path, bool appearance) {
 }
 
 std::string sweep_line(const std::string& value, const Response& response) {
-  const auto column = [&](Summary summary, const char* metric, double scale) {
-    const bool driven = find_metric(metric)->needs_drive;
+  const auto column = [&](Summary summary, const Metric& metric, double scale) {
+    const bool driven = info_of(metric).needs_drive;
     for (const ResponsePoint& p : response.points) {
       if (driven ? !p.knows_driven() : !p.knows_undriven()) return std::string("-");
     }
@@ -36,9 +36,9 @@ std::string sweep_line(const std::string& value, const Response& response) {
     return v ? fmt::format("{:.3f} ±{:.3f}", v->value * scale, v->se * scale) : std::string("-");
   };
   return fmt::format("{:>16} {:>12} {:>18} {:>14} {:>14}", value,
-                     column(Summary::Mean, "friction", 1e3), column(Summary::Mean, "modulation", 1),
-                     response.points.size() > 1 ? column(Summary::Variation, "modulation", 1) : "-",
-                     column(Summary::Worst, "modulation", 1)) +
+                     column(Summary::Mean, kFriction, 1e3), column(Summary::Mean, kModulation, 1),
+                     response.points.size() > 1 ? column(Summary::Variation, kModulation, 1) : "-",
+                     column(Summary::Worst, kModulation, 1)) +
          (response.appearance ? haze_column(*response.appearance) : "") + trouble(response) + '\n';
 }
 

@@ -139,11 +139,11 @@ class Rounding {
       return std::all_of(v.begin(), v.end(), [](double one) { return one <= 0; });
     };
     if (!kept(constraints.geometry(design)) || !kept(constraints.look(design))) return false;
-    for (const Constraint& c : constraints.judged_by_geometry()) {
-      if (limit_on(c) == LimitOn::Film && !keeps(c, film_share_ * constraints.film_margin(design)))
-        return false;
-    }
-    return true;
+    const double film = film_share_ * constraints.film_margin(design);
+    const std::vector<Constraint>& limits = run_.problem.study().constraints;
+    return std::all_of(limits.begin(), limits.end(), [&](const Constraint& limit) {
+      return !std::holds_alternative<FilmLimit>(limit.on) || keeps(limit, film);
+    });
   }
 
   void note_film(const FinalDesign& judged) {

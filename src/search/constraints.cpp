@@ -14,21 +14,6 @@
 namespace papilla::search {
 namespace {
 
-template <class Look>
-double look_value(const std::string& name, const Look& look) {
-  if (name == "haze") return look.haze;
-  if (name == "transmittance") return look.transmittance;
-  if (name == "gloss") return look.gloss;
-  return look.colour_shift;
-}
-
-double shape_value(const std::string& name, const Design& d) {
-  const FabricationMargins m = facts(d.texture).margins;
-  if (name == "min_hole") return m.min_hole;
-  if (name == "min_wall") return m.min_wall;
-  return m.aspect_ratio;
-}
-
 std::string look_refusal(const Design& d) {
   return optics_refusal(d.texture, d.surface.refractive_index, d.view);
 }
@@ -45,53 +30,61 @@ bool slow_look(const Study& study) {
   return false;
 }
 
-// Of all but the shape itself, the most that one of these is beyond its limit.
-double most_beyond(const std::vector<double>& geometry, const std::vector<std::size_t>& limits) {
+// The number that judges a limit; nothing where none of them does.
+std::optional<double> number_of(const Constraint& limit, const Judged& judged,
+                                const std::vector<double>& numbers) {
+  const auto found = std::find(judged.begin(), judged.end(), &limit);
+  const auto place = static_cast<std::size_t>(found - judged.begin());
+  return place < numbers.size() && found != judged.end() ? std::optional(numbers[place])
+                                                         : std::nullopt;
+}
+
+// The most that a shape is beyond one of these limits.
+double most_beyond(const std::vector<double>& geometry, const Judged& judged,
+                   const Judged& limits) {
   double most = -kInfinity;
-  for (std::size_t k : limits) most = std::max(most, geometry[1 + k]);
+  for (const Constraint* limit : limits)
+    most = std::max(most, *number_of(*limit, judged, geometry));
   return most;
 }
+
+// When the value of a limit is known.
+struct Known {
+  bool with_shape = false, with_look = false, with_evaluation = false;
+};
+struct KnownWhen {
+  bool slow_look;
+
+  Known operator()(const ShapeLimit&) const { return {.with_shape = true}; }
+  Known operator()(const FilmLimit&) const { return {.with_shape = true, .with_evaluation = true}; }
+  Known operator()(const LookLimit&) const {
+    return slow_look ? Known{.with_evaluation = true} : Known{.with_look = true};
+  }
+  Known operator()(const MetricLimit&) const { return {.with_evaluation = true}; }
+};
 
 }  // namespace
 
 StudyConstraints::StudyConstraints(const Study& study, const DesignSpace& space,
                                    const std::vector<StudyTask>& tasks, const StudyGoals& goals)
-    : study_(study), space_(space), tasks_(tasks), goals_(goals) {
-  const bool slow = slow_look(study);
-  for (std::size_t place = 0; place < study.constraints.size(); ++place) {
-    switch (limit_on(at(place))) {
-      case LimitOn::Shape:
-        shape_.push_back(place);
-        break;
-      case LimitOn::Film:
-        film_.push_back(place);
-        evaluated_.push_back(place);
-        break;
-      case LimitOn::Look:
-        (slow ? evaluated_ : look_).push_back(place);
-        break;
-      case LimitOn::Metric:
-        evaluated_.push_back(place);
-        break;
-    }
+    : study_(study), space_(space), tasks_(tasks), goals_(goals), geometry_{nullptr} {
+  const KnownWhen known_when{slow_look(study)};
+  for (const Constraint& limit : study.constraints) {
+    const Known known = std::visit(known_when, limit.on);
+    if (known.with_shape) geometry_.push_back(&limit);
+    if (known.with_look) look_.push_back(&limit);
+    if (known.with_evaluation) evaluated_.push_back(&limit);
   }
+  // The film comes after the shape.
+  std::stable_partition(geometry_.begin() + 1, geometry_.end(), [](const Constraint* limit) {
+    return std::holds_alternative<ShapeLimit>(limit->on);
+  });
 }
 
-std::vector<Constraint> StudyConstraints::listed(const Places& places) const {
-  std::vector<Constraint> out;
-  for (std::size_t place : places) out.push_back(at(place));
+Judged StudyConstraints::in_before_evaluation() const {
+  Judged out = geometry_;
+  out.insert(out.end(), look_.begin(), look_.end());
   return out;
-}
-
-StudyConstraints::Places StudyConstraints::cheap() const {
-  Places out = shape_;
-  out.insert(out.end(), film_.begin(), film_.end());
-  return out;
-}
-
-std::vector<Constraint> StudyConstraints::judged_by_geometry() const { return listed(cheap()); }
-std::vector<Constraint> StudyConstraints::judged_by_evaluation() const {
-  return listed(evaluated_);
 }
 
 // Why a design cannot be judged at all; "" where it can.
@@ -110,76 +103,98 @@ double StudyConstraints::film_margin(const Design& design) const {
   return out;
 }
 
-double StudyConstraints::cheap_value(std::size_t place, const Design& design) const {
-  return limit_on(at(place)) == LimitOn::Film ? film_margin(design)
-                                              : shape_value(at(place).name, design);
+// Nothing of what an evaluation alone says.
+std::optional<double> StudyConstraints::value_before(const Constraint& limit,
+                                                     const Design& design) const {
+  struct Of {
+    const StudyConstraints& all;
+    const Design& design;
+
+    std::optional<double> operator()(const ShapeLimit& l) const {
+      return margin_of(l.margin, facts(design.texture).margins);
+    }
+    std::optional<double> operator()(const FilmLimit&) const { return all.film_margin(design); }
+    std::optional<double> operator()(const LookLimit& l) const {
+      return appearance_of(design).*l.number;
+    }
+    std::optional<double> operator()(const MetricLimit&) const { return std::nullopt; }
+  };
+  return std::visit(Of{*this, design}, limit.on);
+}
+
+// Nothing of what an evaluation does not say: of a look, where it was not asked for one.
+std::optional<double> StudyConstraints::value_with(const Constraint& limit,
+                                                   const Score& score) const {
+  struct Of {
+    const StudyGoals& goals;
+    const Score& score;
+
+    std::optional<double> operator()(const ShapeLimit&) const { return std::nullopt; }
+    std::optional<double> operator()(const FilmLimit&) const { return score.oxide_margin; }
+    std::optional<double> operator()(const LookLimit& l) const {
+      return score.look ? std::optional((*score.look).*l.number) : std::nullopt;
+    }
+    std::optional<double> operator()(const MetricLimit& l) const {
+      return score.limited.at(goals.place_of(l));
+    }
+  };
+  return std::visit(Of{goals_, score}, limit.on);
 }
 
 std::vector<double> StudyConstraints::geometry(const Design& d) const {
-  std::vector<double> out{refusal(d).empty() ? -1.0 : 1.0};
-  for (std::size_t place : cheap()) out.push_back(violation(at(place), cheap_value(place, d)));
+  std::vector<double> out;
+  for (const Constraint* limit : geometry_)
+    out.push_back(limit ? violation(*limit, value_before(*limit, d).value())
+                        : (possible(d) ? -1.0 : 1.0));
   return out;
 }
 
 std::vector<double> StudyConstraints::look(const Design& d) const {
-  std::vector<double> out;
-  if (look_.empty()) return out;
+  if (look_.empty()) return {};
   // A shape that cannot be judged has no numbers to compare.
-  const bool judged = refusal(d).empty();
-  const Optics optics = judged ? appearance_of(d) : Optics{};
-  for (std::size_t place : look_)
-    out.push_back(judged ? violation(at(place), look_value(at(place).name, optics)) : 1.0);
+  if (!possible(d)) return std::vector<double>(look_.size(), 1.0);
+  const Look look = appearance_of(d);
+  std::vector<double> out;
+  for (const Constraint* limit : look_)
+    out.push_back(violation(*limit, look.*std::get<LookLimit>(limit->on).number));
+  return out;
+}
+
+std::vector<double> StudyConstraints::before_evaluation(const Design& d) const {
+  std::vector<double> out = geometry(d);
+  for (const double v : look(d)) out.push_back(v);
   return out;
 }
 
 std::string StudyConstraints::geometry_reason(const Point& unit) const {
   const Design d = space_.design(unit);
   if (const std::string wrong = refusal(d); !wrong.empty()) return wrong;
-  Places known = cheap();
-  known.insert(known.end(), look_.begin(), look_.end());
-  for (std::size_t place : known) {
-    const Constraint& c = at(place);
-    const double value =
-        limit_on(c) == LimitOn::Look ? look_value(c.name, appearance_of(d)) : cheap_value(place, d);
-    if (!keeps(c, value))
-      return fmt::format("{} {} is {} {}", c.name, limit_value_text(c, value),
-                         c.at_least ? "below" : "above", limit_value_text(c, c.limit));
+  for (const Constraint* limit : in_before_evaluation()) {
+    if (!limit) continue;
+    const double value = value_before(*limit, d).value();
+    if (!keeps(*limit, value))
+      return fmt::format("{} {} is {} {}", limit_name(limit->on), limit_value_text(*limit, value),
+                         limit->at_least ? "below" : "above",
+                         limit_value_text(*limit, limit->limit));
   }
   return {};
 }
 
 std::vector<double> StudyConstraints::violations(const Score& score) const {
   std::vector<double> out;
-  std::size_t metric = 0;
-  for (std::size_t place : evaluated_) {
-    const Constraint& c = at(place);
-    const double value = limit_on(c) == LimitOn::Metric ? score.limited[metric++]
-                         : limit_on(c) == LimitOn::Look ? look_value(c.name, *score.look)
-                                                        : score.oxide_margin;
-    out.push_back(violation(c, value));
-  }
+  for (const Constraint* limit : evaluated_)
+    out.push_back(violation(*limit, value_with(*limit, score).value()));
   return out;
 }
 
 std::vector<LimitValue> StudyConstraints::values(const Design& design, const Score& score) const {
   std::vector<LimitValue> out;
-  std::size_t metric = 0;
-  for (const Constraint& c : study_.constraints) {
-    switch (limit_on(c)) {
-      case LimitOn::Shape:
-        out.push_back({c, shape_value(c.name, design)});
-        break;
-      case LimitOn::Film:
-        out.push_back({c, std::min(film_margin(design), score.oxide_margin)});
-        break;
-      case LimitOn::Look:
-        out.push_back({c, score.look ? look_value(c.name, *score.look)
-                                     : look_value(c.name, appearance_of(design))});
-        break;
-      case LimitOn::Metric:
-        out.push_back({c, score.limited.at(metric++)});
-        break;
-    }
+  for (const Constraint& limit : study_.constraints) {
+    std::optional<double> value = value_with(limit, score);
+    if (!value) value = value_before(limit, design);
+    // Of a film the evaluation knows the field, the design what a bridge leaves.
+    if (std::holds_alternative<FilmLimit>(limit.on)) value = std::min(*value, film_margin(design));
+    out.push_back({limit, value.value()});
   }
   return out;
 }
@@ -191,26 +206,19 @@ bool StudyConstraints::kept(const Design& design, const Score& score) const {
 }
 
 std::vector<std::string> StudyConstraints::never_kept(const std::vector<Evaluation>& tried) const {
-  // A refused design has the shape itself first, then these.
-  Places refused = cheap();
-  refused.insert(refused.end(), look_.begin(), look_.end());
-  const auto place_in = [](const Places& list, std::size_t place) {
-    const auto found = std::find(list.begin(), list.end(), place);
-    return found == list.end() ? std::nullopt
-                               : std::optional(static_cast<std::size_t>(found - list.begin()));
-  };
+  const Judged refused = in_before_evaluation();
   std::vector<std::string> out;
-  for (std::size_t place = 0; place < study_.constraints.size(); ++place) {
-    const auto before = place_in(refused, place), with = place_in(evaluated_, place);
+  for (const Constraint& limit : study_.constraints) {
     int known = 0, kept = 0;
     for (const Evaluation& e : tried) {
-      const std::vector<double>& values = e.outcome.constraints;
-      if (!e.outcome.ok && (!before || *before + 1 >= values.size())) continue;
-      ++known;  // what was evaluated keeps every limit of the shape
-      kept += e.outcome.ok ? !with || values[*with] <= 0 : values[*before + 1] <= 0;
+      const auto beyond =
+          number_of(limit, e.outcome.ok ? evaluated_ : refused, e.outcome.constraints);
+      if (!beyond && !e.outcome.ok) continue;
+      ++known;
+      kept += !beyond || *beyond <= 0;  // what was evaluated keeps every limit of the shape
     }
     if (known > 0 && kept == 0)
-      out.push_back(fmt::format("{} ({})", at(place).name, limit_text(at(place))));
+      out.push_back(fmt::format("{} ({})", limit_name(limit.on), limit_text(limit)));
   }
   return out;
 }
@@ -218,7 +226,7 @@ std::vector<std::string> StudyConstraints::never_kept(const std::vector<Evaluati
 std::optional<Contradiction> StudyConstraints::contradiction() const {
   constexpr int kSteps = 600;
   constexpr double kSure = 1e-3;  // the nearest design is farther beyond a limit than this
-  const Places limits = cheap();
+  const Judged limits(geometry_.begin() + 1, geometry_.end());
   const std::size_t n = space_.size();
   if (limits.empty() || n == 0) return std::nullopt;
   RandomStream random(1, "contradiction");
@@ -244,30 +252,33 @@ std::optional<Contradiction> StudyConstraints::contradiction() const {
   for (const Point& start : space_.starts()) consider(start);
   for (const Point& unit : space_.corners_and_places(random)) consider(unit);
   if (tried.empty()) return std::nullopt;  // no such shape: the evaluations say why
+  const auto beyond = [&](const Tried& one, const Judged& of) {
+    return most_beyond(one.geometry, geometry_, of);
+  };
   // The design that is least beyond these limits: the best of all, then smaller and smaller steps.
-  const auto nearest = [&](const Places& of) {
+  const auto nearest = [&](const Judged& of) {
     Tried best = *std::min_element(tried.begin(), tried.end(), [&](const Tried& a, const Tried& b) {
-      return most_beyond(a.geometry, of) < most_beyond(b.geometry, of);
+      return beyond(a, of) < beyond(b, of);
     });
-    for (int k = 0; k < kSteps && most_beyond(best.geometry, of) > 0; ++k) {
+    for (int k = 0; k < kSteps && beyond(best, of) > 0; ++k) {
       Point unit = best.unit;
       const double reach = 0.3 * std::pow(1e-4, k / static_cast<double>(kSteps));
       for (double& u : unit) u = std::clamp(u + reach * random.normal(), 0.0, 1.0);
       auto next = judged(unit);
-      if (next && most_beyond(next->geometry, of) < most_beyond(best.geometry, of))
-        best = *std::move(next);
+      if (next && beyond(*next, of) < beyond(best, of)) best = *std::move(next);
     }
     return best;
   };
-  const auto impossible = [&](const Places& of) -> std::optional<Contradiction> {
+  const auto impossible = [&](const Judged& of) -> std::optional<Contradiction> {
     const Tried best = nearest(of);
-    if (most_beyond(best.geometry, of) <= kSure) return std::nullopt;
+    if (beyond(best, of) <= kSure) return std::nullopt;
     const Design d = space_.design(best.unit);
     std::vector<std::string> wanted, had;
-    for (std::size_t k : of) {
-      const Constraint& c = at(limits[k]);
-      wanted.push_back(fmt::format("{} ({})", c.name, limit_text(c)));
-      had.push_back(fmt::format("{} {}", c.name, limit_value_text(c, cheap_value(limits[k], d))));
+    for (const Constraint* limit : of) {
+      const std::string name = limit_name(limit->on);
+      wanted.push_back(fmt::format("{} ({})", name, limit_text(*limit)));
+      had.push_back(
+          fmt::format("{} {}", name, limit_value_text(*limit, value_before(*limit, d).value())));
     }
     const std::vector<double> values = space_.value(best.unit);
     std::vector<std::string> where;
@@ -281,17 +292,15 @@ std::optional<Contradiction> StudyConstraints::contradiction() const {
                     of.size() > 1 ? "one of them" : "it"),
         flat_keeps};
   };
-  Places all(limits.size());
-  for (std::size_t k = 0; k < all.size(); ++k) all[k] = k;
-  const auto together = impossible(all);
+  const auto together = impossible(limits);
   if (!together) return std::nullopt;
   // The fewest that contradict each other: one by itself, two, else all of them.
-  for (std::size_t k : all) {
-    if (auto one = impossible({k})) return one;
+  for (const Constraint* limit : limits) {
+    if (auto one = impossible({limit})) return one;
   }
-  for (std::size_t k : all) {
-    for (std::size_t j = k + 1; j < all.size(); ++j) {
-      if (auto two = impossible({k, j})) return two;
+  for (auto first = limits.begin(); first != limits.end(); ++first) {
+    for (auto second = first + 1; second != limits.end(); ++second) {
+      if (auto two = impossible({*first, *second})) return two;
     }
   }
   return together;

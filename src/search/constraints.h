@@ -26,30 +26,43 @@ struct Contradiction {
   bool flat_keeps = false;  // a surface without a texture keeps them: the search finds nothing else
 };
 
+// What each number of a vector of violations is about, as the numbers travel through a search
+// without it. Null: that the shape exists and can be judged at all.
+using Judged = std::vector<const Constraint*>;
+
 // Violations are <= 0 where a constraint is kept, relative to its limit (design/limits.h).
 class StudyConstraints {
  public:
   StudyConstraints(const Study& study, const DesignSpace& space,
                    const std::vector<StudyTask>& tasks, const StudyGoals& goals);
+  // Places of its lists are those of the study's own constraints.
+  StudyConstraints(const StudyConstraints&) = delete;
+  StudyConstraints& operator=(const StudyConstraints&) = delete;
 
   // Fabrication limits, known without an evaluation; the first is 1 for a shape that cannot exist.
   // Of the shape, and what is left of the film below it under the drive's amplitude: microseconds.
   std::vector<double> geometry(const Point& unit) const { return geometry(space_.design(unit)); }
   std::vector<double> geometry(const Design& design) const;
+  const Judged& in_geometry() const { return geometry_; }
+  // Of its look: an optical calculation.
   std::vector<double> look(const Point& unit) const { return look(space_.design(unit)); }
-  std::vector<double> look(const Design& design) const;  // of its look: an optical calculation
-  bool limits_look() const { return !look_.empty(); }
+  std::vector<double> look(const Design& design) const;
+  const Judged& in_look() const { return look_; }
+  // Of those that need an evaluation.
+  std::vector<double> violations(const Score& score) const;
+  const Judged& in_evaluation() const { return evaluated_; }
+  std::size_t evaluated() const { return evaluated_.size(); }
+  // All that is known of a design without an evaluation: of the shape, then of the look.
+  std::vector<double> before_evaluation(const Design& design) const;
+  Judged in_before_evaluation() const;
+
   // Why the shape or its look is refused, for people; "" where it is not.
   std::string geometry_reason(const Point& unit) const;
-  // The limits that geometry() judges after its first number, in that order.
-  std::vector<Constraint> judged_by_geometry() const;
+  // Whether the shape exists and can be judged.
+  bool possible(const Design& design) const { return refusal(design).empty(); }
   // The breakdown margin as far as it is known before an evaluation, at the scenario that is worst;
   // infinite where the evaluation says it: a current source, a wish with a voltage of its own.
   double film_margin(const Design& design) const;
-
-  std::size_t evaluated() const { return evaluated_.size(); }  // how many need an evaluation
-  std::vector<double> violations(const Score& score) const;    // of those
-  std::vector<Constraint> judged_by_evaluation() const;        // those, in that order
 
   // Of each limit of the study, in its order. The score: of an evaluation that has not failed.
   std::vector<LimitValue> values(const Design& design, const Score& score) const;
@@ -63,12 +76,8 @@ class StudyConstraints {
   std::optional<Contradiction> contradiction() const;
 
  private:
-  using Places = std::vector<std::size_t>;  // in the constraints of the study
-
-  const Constraint& at(std::size_t place) const { return study_.constraints[place]; }
-  std::vector<Constraint> listed(const Places& places) const;
-  Places cheap() const;  // as geometry() judges them
-  double cheap_value(std::size_t place, const Design& design) const;
+  std::optional<double> value_before(const Constraint& limit, const Design& design) const;
+  std::optional<double> value_with(const Constraint& limit, const Score& score) const;
   std::string refusal(const Design& design) const;
 
   const Study& study_;
@@ -78,7 +87,7 @@ class StudyConstraints {
   // What is known when. The film's margin is judged twice: what is left of it under the drive's own
   // amplitude before an evaluation, the field in it with one. Looks of arrays cost a millisecond
   // and steer the search itself; of others they are known with the evaluation.
-  Places shape_, film_, look_, evaluated_;
+  Judged geometry_, look_, evaluated_;
 };
 
 }  // namespace papilla::search

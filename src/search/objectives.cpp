@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/check.h"
 #include "base/error.h"
-#include "design/limits.h"
 
 namespace papilla::search {
 namespace {
@@ -24,30 +24,28 @@ bool always_driven(const Study& study, const std::vector<StudyTask>& tasks) {
 StudyObjective aimed_at(const Target& target) {
   return {{Summary::Mean, target.metric},
           false,
-          fmt::format("distance({}, {:g})", target.metric, target.value),
+          fmt::format("distance({}, {:g})", metric_text(target.metric), target.value),
           true,
           target.value};
 }
 
-StudyObjective wanted(const std::string& text, bool maximise) {
-  const MetricExpression expression = parse_metric(text);
+StudyObjective wanted(const MetricExpression& expression, bool maximise) {
   return {expression, maximise, metric_text(expression)};
 }
 
-bool has_look(const StudyObjective& o) { return find_metric(o.expression.metric)->appearance; }
+bool is_amplitude(const StudyObjective& o) {
+  return std::holds_alternative<SourceAmplitude>(o.expression.metric);
+}
 
 bool feels_drive(const StudyObjective& o) {
-  return find_metric(o.expression.metric)->needs_drive && o.expression.metric != kAmplitude;
+  return info_of(o.expression.metric).needs_drive && !is_amplitude(o);
 }
 
 // The amplitude as a wish has to differ between designs, and something has to ask for it.
 void check_amplitude(const Study& study, const StudyGoals& goals) {
   const bool searched = std::any_of(study.variables.begin(), study.variables.end(),
-                                    [](const Variable& v) { return v.path == kAmplitude; });
+                                    [](const Variable& v) { return v.path == "drive.amplitude"; });
   const bool fixed = !searched && study.design.drive.control == DriveControl::Voltage;
-  const auto is_amplitude = [](const StudyObjective& o) {
-    return o.expression.metric == kAmplitude;
-  };
   const auto any = [](const std::vector<StudyObjective>& of, const auto& is) {
     return std::any_of(of.begin(), of.end(), is);
   };
@@ -78,31 +76,39 @@ bool StudyGoals::by_points(std::size_t objective) const {
   return o.aimed || (risk.kind != Risk::Kind::Mean && o.expression.summary == Summary::Mean);
 }
 
+std::size_t StudyGoals::place_of(const MetricLimit& limit) const {
+  const auto found = std::find_if(limited.begin(), limited.end(), [&](const StudyObjective& o) {
+    return o.expression == limit.expression;
+  });
+  PAPILLA_CHECK(found != limited.end(), "every limited metric is a goal");
+  return static_cast<std::size_t>(found - limited.begin());
+}
+
 StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) {
   StudyGoals goals;
   const bool driven = always_driven(study, tasks);
   const auto add = [&](std::vector<StudyObjective>& list, StudyObjective objective) {
-    const std::string& metric = objective.expression.metric;
-    if (const auto modulation = voltage_target(metric)) {
+    const Metric& metric = objective.expression.metric;
+    if (const auto* voltage = std::get_if<VoltageFor>(&metric)) {
       std::vector<double>& known = goals.voltage_targets;
-      if (std::find(known.begin(), known.end(), *modulation) == known.end())
-        known.push_back(*modulation);
+      if (std::find(known.begin(), known.end(), voltage->modulation) == known.end())
+        known.push_back(voltage->modulation);
     }
-    if (find_metric(metric)->needs_drive && !driven) {
+    if (info_of(metric).needs_drive && !driven) {
       throw InputError(
           fmt::format("objective: {} needs a driven design; the drive is at 0", objective.name));
     }
-    goals.looks = goals.looks || has_look(objective);
+    goals.looks = goals.looks || std::holds_alternative<LookMetric>(metric);
     list.push_back(std::move(objective));
   };
-  for (const std::string& text : study.objective.maximise)
-    add(goals.objectives, wanted(text, true));
-  for (const std::string& text : study.objective.minimise)
-    add(goals.objectives, wanted(text, false));
+  for (const MetricExpression& e : study.objective.maximise) add(goals.objectives, wanted(e, true));
+  for (const MetricExpression& e : study.objective.minimise)
+    add(goals.objectives, wanted(e, false));
   for (const Target& target : study.objective.targets) add(goals.objectives, aimed_at(target));
   for (const Constraint& c : study.constraints) {
-    if (limit_on(c) == LimitOn::Metric) add(goals.limited, wanted(c.name, c.at_least));
-    goals.looks = goals.looks || limit_on(c) == LimitOn::Look;
+    if (const auto* metric = std::get_if<MetricLimit>(&c.on))
+      add(goals.limited, wanted(metric->expression, c.at_least));
+    goals.looks = goals.looks || std::holds_alternative<LookLimit>(c.on);
   }
   if (goals.objectives.empty() || goals.objectives.size() > 3) {
     throw InputError(fmt::format("objective: one to three objectives are possible, got {}",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "design/limits.h"
 #include "metrics/metrics.h"
 #include "search/risk.h"
 #include "search/tasks.h"
@@ -32,6 +33,8 @@ struct StudyGoals {
   // The objective is made of its quantity at each humidity, not of a summary over them: its aim or
   // its risk takes those.
   bool by_points(std::size_t objective) const;
+  // Where a limited metric stands in `limited`, and its values in scores and answers.
+  std::size_t place_of(const MetricLimit& limit) const;
 };
 
 // Throws InputError for what cannot be judged.

@@ -105,7 +105,8 @@ std::string StudyProblem::identity() const {
     out += (o.maximise ? "max " : "min ") + o.name + "\n";
   for (const Scatter& s : study_.scatter) out += fmt::format("{} +- {:a}\n", s.path, s.tolerance);
   out += study_.objective.risk + "\n";
-  for (const Constraint& c : study_.constraints) out += fmt::format("{} {:a}\n", c.name, c.limit);
+  for (const Constraint& c : study_.constraints)
+    out += fmt::format("{} {:a}\n", limit_name(c.on), c.limit);
   for (const StudyTask& t : tasks_) {
     out += fmt::format("{} {:a}\n", t.name, t.weight) + to_toml(t.finger);
     for (const Setting& s : t.settings) out += fmt::format("{} {:a}\n", s.path, s.value);
@@ -133,7 +134,7 @@ SearchProblem search_problem(const StudyProblem& problem) {
   p.constraints = constraints.evaluated();
   p.residuals = problem.residuals();
   p.cheap_constraints = [&constraints](const Point& u) { return constraints.geometry(u); };
-  if (constraints.limits_look()) {
+  if (!constraints.in_look().empty()) {
     // Each point is asked of again when it is evaluated and counted.
     p.costly_constraints = [&constraints,
                             known = std::make_shared<std::map<Point, Point>>()](const Point& u) {

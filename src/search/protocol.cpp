@@ -29,7 +29,7 @@ void members(Codec& c, TaskObjective& o) {
   code_all(c, o.value, o.error, o.points);
 }
 template <class Codec>
-void members(Codec& c, TaskLook& l) {
+void members(Codec& c, Look& l) {
   code_all(c, l.haze, l.transmittance, l.gloss, l.colour_shift);
 }
 template <class Codec>

@@ -70,20 +70,13 @@ struct TaskObjective {
   bool operator==(const TaskObjective&) const = default;
 };
 
-// How the texture looks, of Optics.
-struct TaskLook {
-  double haze = 0, transmittance = 0, gloss = 0, colour_shift = 0;
-
-  bool operator==(const TaskLook&) const = default;
-};
-
 // A task's answer. How each member is combined over the tasks of a design: score.h.
 struct TaskAnswer {
   TaskStatus status;  // the members below where it is Ok
   std::vector<TaskObjective> objectives;
   double worst = 0;                 // lowest modulation over humidity; 0: undriven
   double oxide_margin = kInfinity;  // smallest over humidity; infinite without a field
-  std::optional<TaskLook> look;     // where the study asks for it
+  std::optional<Look> look;         // where the study asks for it
   std::vector<double> limited;      // of each constraint on a metric
   // [objective][number that it is made of]; only of confirmed tasks.
   std::vector<std::vector<ErrorSamples>> samples;

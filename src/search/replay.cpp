@@ -164,8 +164,7 @@ Judgement Replay::refusal(const Point& unit) const {
   const StudyConstraints& constraints = problem_.constraints();
   Judgement out;
   out.outcome.reason = constraints.geometry_reason(unit);
-  out.outcome.constraints = constraints.geometry(unit);
-  for (double c : constraints.look(unit)) out.outcome.constraints.push_back(c);
+  out.outcome.constraints = constraints.before_evaluation(problem_.space().design(unit));
   return out;
 }
 

@@ -29,7 +29,7 @@ struct Score {
   // Over tasks of some weight:
   double worst = 0;                    // the lowest modulation; 0: undriven
   double oxide_margin = 0;             // the smallest; infinite without a field
-  std::optional<TaskLook> look;        // that of the highest haze, where the study asks for it
+  std::optional<Look> look;            // that of the highest haze, where the study asks for it
   std::vector<double> limited;         // the bad side of each constraint on a metric
   std::vector<std::string> reports{};  // of each task as designed; empty where not confirmed
 };

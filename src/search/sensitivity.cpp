@@ -32,43 +32,36 @@ Room room_before_evaluation(const StudyProblem& problem, const MovedDesign& cent
                             const SensitivityMove& move) {
   constexpr int kHalvings = 30;
   const StudyConstraints& constraints = problem.constraints();
-  std::vector<Constraint> limits = constraints.judged_by_geometry();
-  const bool looks = constraints.limits_look();
-  for (const Constraint& c : problem.study().constraints) {
-    if (looks && limit_on(c) == LimitOn::Look) limits.push_back(c);
-  }
   const auto at = [&](double share) {
     Design d =
         problem.space().design(moved_point(centre.unit, move.variable, share * move.sign * kStep));
     if (centre.flat) d.texture = Texture{};
-    std::vector<double> out = constraints.geometry(d);
-    out.erase(out.begin());  // the shape itself
-    for (double v : constraints.look(d)) out.push_back(v);
-    return out;
+    return constraints.before_evaluation(d);
   };
+  const Judged limits = constraints.in_before_evaluation();
   const std::vector<double> here = at(0), there = at(1);
   Room out;
-  for (std::size_t k = 0; k < there.size(); ++k) {
-    if (here[k] > 0 || there[k] <= 0) continue;
+  for (std::size_t k = 0; k < limits.size(); ++k) {
+    if (!limits[k] || here[k] > 0 || there[k] <= 0) continue;
     double kept = 0, broken = 1;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (kept + broken);
       (at(middle)[k] <= 0 ? kept : broken) = middle;
     }
-    out.end(kept > kLimitTolerance ? kept : 0, limits[k].name);
+    out.end(kept > kLimitTolerance ? kept : 0, limit_name(limits[k]->on));
   }
   return out;
 }
 
 // To the first of those that an evaluation judges, linear between both.
 Room room_with_evaluation(const StudyProblem& problem, const Score& centre, const Score& moved) {
-  const std::vector<Constraint> limits = problem.constraints().judged_by_evaluation();
+  const Judged& limits = problem.constraints().in_evaluation();
   const std::vector<double> here = problem.constraints().violations(centre),
                             there = problem.constraints().violations(moved);
   Room out;
   for (std::size_t k = 0; k < limits.size(); ++k) {
     if (there[k] <= 0) continue;
-    out.end(here[k] < 0 ? -here[k] / (there[k] - here[k]) : 0, limits[k].name);
+    out.end(here[k] < 0 ? -here[k] / (there[k] - here[k]) : 0, limit_name(limits[k]->on));
   }
   return out;
 }
@@ -118,7 +111,7 @@ std::vector<SensitivityMove> sensitivity_moves(const StudyProblem& problem,
     for (int sign : {-1, 1}) {
       const Point u = moved_point(centre.unit, k, sign * kStep);
       const bool possible =
-          u[k] >= 0 && u[k] <= 1 && problem.constraints().geometry(u).front() <= 0;
+          u[k] >= 0 && u[k] <= 1 && problem.constraints().possible(space.design(u));
       if (possible && space.snapped(u) != centre.unit) out.push_back({k, sign, u});
     }
   }

@@ -158,9 +158,8 @@ TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string
     if (!value) return out;
     out.limited.push_back(value->value);
   }
-  if (const auto w = summarise(Summary::Worst, "modulation", response)) out.worst = w->value;
-  if (const auto& look = response.appearance)
-    out.look = {look->haze, look->transmittance, look->gloss, look->colour_shift};
+  if (const auto w = summarise(Summary::Worst, kModulation, response)) out.worst = w->value;
+  out.look = response.appearance;
   if (!response.parameters.steps.empty()) out.steps = steps_of(goals, response);
   out.oxide_margin = oxide_margin(goals, d, response);
   return out;

@@ -221,8 +221,10 @@ std::optional<Response> Evaluator::response_at(const Design& design, Step step) 
 }
 
 std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
-  constexpr std::array kMetrics{"mean(modulation)", "worst(modulation)", "variation(modulation)",
-                                "mean(friction)"};
+  const std::array<MetricExpression, 4> compared{{{Summary::Mean, kModulation},
+                                                  {Summary::Worst, kModulation},
+                                                  {Summary::Variation, kModulation},
+                                                  {Summary::Mean, kFriction}}};
   const std::lock_guard lock(mutex_);
   std::vector<Comparison> out;
   const std::optional<Response> ours = response_at(wish.design, step);
@@ -230,15 +232,14 @@ std::vector<Comparison> Evaluator::comparisons(const Wish& wish, Step step) {
     const std::optional<Response> theirs = response_at(design, step);
     if (!theirs || !ours) continue;
     const double drift = step == Step::First ? difference_drift(*anchor_, design, wish.design) : 0;
-    for (const char* metric : kMetrics) {
-      const MetricExpression expression = parse_metric(metric);
-      const auto a = summarise(expression.summary, expression.metric, *ours);
-      const auto b = summarise(expression.summary, expression.metric, *theirs);
+    for (const MetricExpression& e : compared) {
+      const auto a = summarise(e.summary, e.metric, *ours);
+      const auto b = summarise(e.summary, e.metric, *theirs);
       if (!a || !b) continue;
-      auto error = difference_error(error_samples(expression.summary, expression.metric, *ours),
-                                    error_samples(expression.summary, expression.metric, *theirs));
+      auto error = difference_error(error_samples(e.summary, e.metric, *ours),
+                                    error_samples(e.summary, e.metric, *theirs));
       if (error) error = std::hypot(*error, drift * a->value);
-      out.push_back({number, metric, a->value - b->value, error});
+      out.push_back({number, metric_text(e), a->value - b->value, error});
     }
   }
   return out;

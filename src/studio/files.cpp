@@ -33,10 +33,10 @@ ScanSource scan_source(const fs::path& file, const std::string& size, bool fill,
   return {file.string(), width, fill, as_is};
 }
 
-// A limit that a study set, by its name; nothing: none.
-std::optional<double> limit_of(const Study& study, const std::string& name) {
+// The limit that a study set on a shape; nothing: none.
+std::optional<double> limit_of(const Study& study, ShapeMargin margin) {
   for (const Constraint& c : study.constraints) {
-    if (c.name == name) return c.limit;
+    if (c.on == Limited{ShapeLimit{margin}}) return c.limit;
   }
   return std::nullopt;
 }
@@ -124,9 +124,10 @@ void Files::save(const Draft& draft, const Study& study, const std::string& file
 Json Files::export_preview(const Study& study) const {
   const TextureFacts known = facts(study.design.texture);
   const FabricationMargins& margins = known.margins;
-  const auto row = [&](const char* name, double value, const char* limit_name) {
-    const auto limit = limit_of(study, limit_name);
-    return Json{{"name", name}, {"value", json_number(value)}, {"limit", json_number(limit)}};
+  const auto row = [&](const char* name, ShapeMargin margin) {
+    return Json{{"name", name},
+                {"value", json_number(margin_of(margin, margins))},
+                {"limit", json_number(limit_of(study, margin))}};
   };
   ExportOptions options;
   options.pixels = kExportPixels;
@@ -134,13 +135,13 @@ Json Files::export_preview(const Study& study) const {
   Json formats = Json::array();
   for (const ExportFormat& f : chosen_formats(study.design.texture, options))
     formats.push_back({{"name", f.name}, {"file", f.file}, {"holds", f.holds}});
-  return {{"margins",
-           {row("smallest hole", margins.min_hole, "min_hole"),
-            row("smallest wall", margins.min_wall, "min_wall")}},
-          {"aspect_ratio",
-           {{"value", json_number(margins.aspect_ratio)},
-            {"limit", json_number(limit_of(study, "aspect_ratio"))}}},
-          {"formats", formats}};
+  return {
+      {"margins",
+       {row("smallest hole", ShapeMargin::MinHole), row("smallest wall", ShapeMargin::MinWall)}},
+      {"aspect_ratio",
+       {{"value", json_number(margins.aspect_ratio)},
+        {"limit", json_number(limit_of(study, ShapeMargin::AspectRatio))}}},
+      {"formats", formats}};
 }
 
 Json Files::export_files(const Study& study, const std::string& name) const {

@@ -149,15 +149,23 @@ SearchWish search_wish(const Json& json) {
   return out;
 }
 
+namespace {
+
+std::vector<std::string> metric_texts(const std::vector<MetricExpression>& expressions) {
+  std::vector<std::string> out;
+  for (const MetricExpression& e : expressions) out.push_back(metric_text(e));
+  return out;
+}
+
+}  // namespace
+
 Json proposed_wish(const Study& study) {
   Json limits = Json::array(), kinds = Json::array(), known = Json::array(),
        metrics = Json::array();
   for (const Constraint& c : study.constraints) {
-    std::string unit;
-    for (const ConstraintKind& kind : constraint_kinds()) {
-      if (kind.name == c.name) unit = kind.unit;
-    }
-    limits.push_back({{"name", c.name}, {"limit", quantity(c.limit, unit)}});
+    const std::string name = limit_name(c.on);
+    limits.push_back(
+        {{"name", name}, {"limit", quantity(c.limit, read_constraint_kind(name).unit)}});
   }
   for (const ConstraintKind& kind : constraint_kinds())
     known.push_back(
@@ -169,20 +177,21 @@ Json proposed_wish(const Study& study) {
     if (!v.is_kind()) continue;
     for (const double choice : v.choices) kinds.push_back(variable_text(v, choice));
   }
-  const bool own = !study.objective.maximise.empty() || !study.objective.minimise.empty();
-  return {
-      {"variables", proposed_variables(study)},
-      {"kinds", kinds},
-      {"maximise", own ? study.objective.maximise
-                       : std::vector<std::string>{study.design.drive.driven() ? "mean(modulation)"
-                                                                              : "mean(friction)"}},
-      {"minimise", own                           ? study.objective.minimise
-                   : study.design.drive.driven() ? std::vector<std::string>{"variation(modulation)"}
-                                                 : std::vector<std::string>{}},
-      {"limits", limits},
-      {"known_limits", known},
-      {"metrics", metrics},
-      {"evaluations", study.search.evaluations}};
+  const Objective& own = study.objective;
+  std::vector<MetricExpression> maximise = own.maximise, minimise = own.minimise;
+  if (maximise.empty() && minimise.empty()) {
+    const bool driven = study.design.drive.driven();
+    maximise = {{Summary::Mean, driven ? kModulation : kFriction}};
+    if (driven) minimise = {{Summary::Variation, kModulation}};
+  }
+  return {{"variables", proposed_variables(study)},
+          {"kinds", kinds},
+          {"maximise", metric_texts(maximise)},
+          {"minimise", metric_texts(minimise)},
+          {"limits", limits},
+          {"known_limits", known},
+          {"metrics", metrics},
+          {"evaluations", study.search.evaluations}};
 }
 
 std::string study_text(const Study& study, const SearchWish& wish) {

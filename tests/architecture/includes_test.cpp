@@ -61,7 +61,9 @@ TEST(Includes, GoOnlyDownTheLayers) {
     const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
     for (std::sregex_iterator it(text.begin(), text.end(), include), end; it != end; ++it) {
       const std::string name = (*it)[1];
-      EXPECT_TRUE(may_include(room_of(file), room_of(name)) || name == "base/rooms.h")
+      // The list of quantities is what the model answers and what other programs see.
+      const bool everywhere = name == "base/rooms.h" || name == "papilla/quantities.h";
+      EXPECT_TRUE(may_include(room_of(file), room_of(name)) || everywhere)
           << file << " includes " << name;
       ++seen;
     }

@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
       if (grid != kGrids[0]) fidelity.control_skins = 0;
       const Response r = evaluate(scene_of(design), Texture{holes}, fidelity);
       for (std::size_t q = 0; q < kMetrics.size(); ++q) {
-        const SummaryValue v = summarise(Summary::Mean, kMetrics[q], r).value();
+        const SummaryValue v = summarise(Summary::Mean, *find_metric(kMetrics[q]), r).value();
         if (grid == kGrids[0]) {
           ErrorParts parts = v.parts;  // the skins and humidities are the same
           parts.sampling = 0;

@@ -81,7 +81,7 @@ Front judged_front(const std::string& text, const Fidelity& fidelity, std::size_
   out.name = text.substr(0, equals);
   for (const Point& u : read_front(text.substr(colon + 1), problem, most)) {
     const Score score = judged(problem, problem.space().design(u), fidelity);
-    if (!score.ok || !problem.feasible(score, u)) continue;
+    if (!score.ok || !problem.feasible(score, problem.space().design(u))) continue;
     out.mean.push_back(score.values.at(0));
     out.mean_error.push_back(score.errors[0]);
     out.variation.push_back(score.values.at(1));

@@ -53,7 +53,7 @@ Run run(const Design& design, const Texture& texture, int placements) {
 }
 
 std::vector<double> samples(const Run& of, Summary summary) {
-  return error_samples(summary, "modulation", of.response).sampling;
+  return error_samples(summary, kModulation, of.response).sampling;
 }
 
 std::vector<double> less(std::vector<double> a, const std::vector<double>& b) {

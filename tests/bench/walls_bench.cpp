@@ -38,7 +38,7 @@ double mean_modulation(const Design& design, const HoleArray& holes, int grid) {
   fidelity.skins = kSkins;
   fidelity.control_skins = 0;
   const Response r = evaluate(scene_of(design), Texture{holes}, fidelity);
-  return summarise(Summary::Mean, "modulation", r).value().value;
+  return summarise(Summary::Mean, kModulation, r).value().value;
 }
 
 }  // namespace

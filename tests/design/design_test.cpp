@@ -103,11 +103,11 @@ TEST(Study, TheMainStudyHasItsSpaceWishesLimitsAndFingers) {
   EXPECT_EQ(study.variables[4].path, "texture.wall_angle");
   EXPECT_EQ(study.variables[5].path, "surface.dielectric.0.thickness");
   EXPECT_EQ(study.variables[6].high, 80 * 3.14159265358979323846 / 180);
-  EXPECT_EQ(study.objective.maximise, std::vector<std::string>{"mean(modulation)"});
-  EXPECT_EQ(study.objective.minimise, std::vector<std::string>{"variation(modulation)"});
+  EXPECT_EQ(study.objective.maximise, std::vector{parse_metric("mean(modulation)")});
+  EXPECT_EQ(study.objective.minimise, std::vector{parse_metric("variation(modulation)")});
   ASSERT_EQ(study.constraints.size(), 4u);
-  EXPECT_EQ(study.constraints[1], (Constraint{"min_wall", 0.4e-6, true}));
-  EXPECT_EQ(study.constraints[2], (Constraint{"aspect_ratio", 1.0, false}));
+  EXPECT_EQ(study.constraints[1], (read_constraint("min_wall", 0.4e-6)));
+  EXPECT_EQ(study.constraints[2], (read_constraint("aspect_ratio", 1.0)));
   ASSERT_EQ(study.population.size(), 4u);
   EXPECT_EQ(study.population[1].name, "smooth");
   EXPECT_EQ(study.search.seed, 1);
@@ -321,14 +321,16 @@ TEST(Study, LimitsAndWishesAreReadWithTheirSides) {
       "target = { modulation = 0.8 }\n[constraints]\nmin_wall = \"0.4 um\"\naspect_ratio = 1.5\n"
       "\"worst(modulation)\" = 0.2\n\"variation(modulation)\" = 0.3\n",
       "s.toml");
-  EXPECT_EQ(study.objective, (Objective{{"mean(modulation)"},
-                                        {"variation(modulation)", "mean(friction)"},
-                                        {{"modulation", 0.8}},
-                                        "worst"}));
-  EXPECT_EQ(study.constraints, (std::vector<Constraint>{{"min_wall", 0.4e-6, true},
-                                                        {"aspect_ratio", 1.5, false},
-                                                        {"worst(modulation)", 0.2, true},
-                                                        {"variation(modulation)", 0.3, false}}));
+  EXPECT_EQ(study.objective,
+            (Objective{{parse_metric("mean(modulation)")},
+                       {parse_metric("variation(modulation)"), parse_metric("mean(friction)")},
+                       {{kModulation, 0.8}},
+                       "worst"}));
+  EXPECT_EQ(study.constraints,
+            (std::vector<Constraint>{read_constraint("min_wall", 0.4e-6),
+                                     read_constraint("aspect_ratio", 1.5),
+                                     read_constraint("worst(modulation)", 0.2),
+                                     read_constraint("variation(modulation)", 0.3)}));
 }
 
 TEST(Study, APopulationTouchesAsTheStudySays) {

@@ -27,12 +27,12 @@ Response with_friction(double dry, double wet, double error) {
 
 TEST(Difference, IsTheSecondLessTheFirstWithBothErrorsInSquares) {
   const Response a = with_friction(1, 2, 0.03), b = with_friction(5, 9, 0.04);
-  const ResponseDifference dry = difference_at(0, "friction", a, b);
+  const ResponseDifference dry = difference_at(0, kFriction, a, b);
   EXPECT_DOUBLE_EQ(dry.value, 4);
   EXPECT_NEAR(dry.error, 0.05, 1e-12);
   EXPECT_FALSE(dry.paired);
-  EXPECT_DOUBLE_EQ(difference_at(1, "friction", a, b).value, 7);
-  EXPECT_DOUBLE_EQ(difference_at(1, "friction", b, a).value, -7);
+  EXPECT_DOUBLE_EQ(difference_at(1, kFriction, a, b).value, 7);
+  EXPECT_DOUBLE_EQ(difference_at(1, kFriction, b, a).value, -7);
   EXPECT_DOUBLE_EQ(difference_of(parse_metric("mean(friction)"), a, b).value, 5.5);
   EXPECT_THROW(difference_of(parse_metric("mean(modulation)"), a, b), InputError);
 }
@@ -48,14 +48,14 @@ TEST(Difference, OfTheSameSkinsIsPairedAndOfADesignFromItselfNothing) {
   scene.finger.macro.shear_strength *= 1.5;
   scene.finger.water.hysteresis = 0;
   const Response b = evaluate(scene, Texture{}, f);
-  const ResponseDifference none = difference_at(0, "friction", a, a);
+  const ResponseDifference none = difference_at(0, kFriction, a, a);
   EXPECT_TRUE(none.paired);
   EXPECT_EQ(none.value, 0);
   EXPECT_NEAR(none.error, 0, 1e-15);
-  const ResponseDifference more = difference_at(0, "friction", a, b);
+  const ResponseDifference more = difference_at(0, kFriction, a, b);
   EXPECT_TRUE(more.paired);
   EXPECT_LT(more.error, std::hypot(a.points[0].friction_off.se(), b.points[0].friction_off.se()));
-  EXPECT_DOUBLE_EQ(more.error, difference_at(0, "friction", b, a).error);
+  EXPECT_DOUBLE_EQ(more.error, difference_at(0, kFriction, b, a).error);
 }
 
 Design holes(double period, double diameter) {

@@ -154,13 +154,13 @@ TEST(Target, NeverRunsMoreSkinsThanItMay) {
   EXPECT_EQ(pilot.accuracy.steps.size(), 1u);
   EXPECT_EQ(pilot.fidelity.skins, 8);
   EXPECT_EQ(pilot.accuracy.quantity, "mean(friction)");
-  const auto friction = *summarise(Summary::Mean, "friction", pilot);
+  const auto friction = *summarise(Summary::Mean, kFriction, pilot);
   EXPECT_NEAR(pilot.accuracy.reached, friction.parts.total() / friction.value, 1e-12);
   // The tolerance of the contact follows the target: once more with nearly the one to come.
   options.target = 1.001 * pilot.accuracy.reached;
   const Response again = evaluate_to_target(scene, Texture{}, options);
   ASSERT_EQ(again.accuracy.steps.size(), 1u);
-  const auto there = *summarise(Summary::Mean, "friction", again);
+  const auto there = *summarise(Summary::Mean, kFriction, again);
   options.target =
       std::sqrt(square(there.parts.total()) - square(there.parts.sampling) * (1 - 8 / 8.5)) /
       there.value;
@@ -180,7 +180,7 @@ TEST(Target, OutOfReachNamesTheLargestPartAndTheLimits) {
   EXPECT_EQ(r.accuracy.target, 0.003);
   EXPECT_EQ(r.accuracy.largest_grid, 64);
   EXPECT_EQ(r.accuracy.most_skins, 8);
-  const auto friction = *summarise(Summary::Mean, "friction", r);
+  const auto friction = *summarise(Summary::Mean, kFriction, r);
   const double grid = *friction.parts.grid / friction.value;
   EXPECT_GT(grid, friction.parts.sampling / friction.value);
   EXPECT_STREQ(r.accuracy.largest_part, "grid");
@@ -206,7 +206,7 @@ TEST(Target, OfZeroHasNoRelativeError) {
   scene.finger.water.hysteresis = 0;
   const Response r =
       evaluate_to_target(scene, Texture{}, {.target = 0.05, .largest_grid = 64, .threads = 1});
-  EXPECT_EQ(summarise(Summary::Mean, "friction", r)->value, 0);
+  EXPECT_EQ(summarise(Summary::Mean, kFriction, r)->value, 0);
   EXPECT_EQ(r.accuracy.end, TargetEnd::NoRelativeError);
   EXPECT_EQ(r.accuracy.steps.size(), 1u);
 }

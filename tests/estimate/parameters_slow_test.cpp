@@ -26,9 +26,9 @@ TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
 
   const std::size_t n = scene.finger.uncertainty.size();
   const std::vector<double> factor = covariance_factor(scene.finger.uncertainty);
-  const std::array<std::pair<Summary, const char*>, 3> kinds{{{Summary::Mean, "modulation"},
-                                                              {Summary::Variation, "modulation"},
-                                                              {Summary::Mean, "friction"}}};
+  const std::array<MetricExpression, 3> kinds{{{Summary::Mean, kModulation},
+                                               {Summary::Variation, kModulation},
+                                               {Summary::Mean, kFriction}}};
   std::array<std::vector<double>, kinds.size()> values;
   RandomStream random(1, "parameter draws", 0);
   for (int draw = 0; draw < kDraws; ++draw) {
@@ -41,19 +41,18 @@ TEST(ParametersSlow, OfTheReferenceFingerEqualDrawsFromItsCovariance) {
     drawn.finger = moved_finger(scene.finger, logarithms);
     const Response there = evaluate(drawn, design.texture, f);
     for (std::size_t q = 0; q < kinds.size(); ++q)
-      values[q].push_back(summarise(kinds[q].first, kinds[q].second, there)->value);
+      values[q].push_back(summarise(kinds[q].summary, kinds[q].metric, there)->value);
   }
   for (std::size_t q = 0; q < kinds.size(); ++q) {
     double mean = 0, variance = 0;
     for (const double v : values[q]) mean += v / kDraws;
     for (const double v : values[q]) variance += square(v - mean) / (kDraws - 1);
-    const auto stated = summarise(kinds[q].first, kinds[q].second, r);
+    const auto stated = summarise(kinds[q].summary, kinds[q].metric, r);
     const double ratio = *stated->parts.parameters / std::sqrt(variance);
-    std::cout << metric_text({kinds[q].first, kinds[q].second}) << ": stated "
-              << *stated->parts.parameters / stated->value << ", drawn "
-              << std::sqrt(variance) / mean << " of the value\n";
+    std::cout << metric_text(kinds[q]) << ": stated " << *stated->parts.parameters / stated->value
+              << ", drawn " << std::sqrt(variance) / mean << " of the value\n";
     // The scatter of a standard deviation of 48 draws is 10 %; the rest is curvature.
-    EXPECT_NEAR(ratio, 1, 0.35) << kinds[q].second;
+    EXPECT_NEAR(ratio, 1, 0.35) << metric_text(kinds[q]);
   }
 }
 

@@ -51,11 +51,11 @@ TEST(Parameters, OfALinearModelTheErrorOfTheMeanIsExact) {
   for (std::size_t k = 0; k < 2; ++k)
     r.parameters.steps.push_back({{model(l[k], l[2 + k]), {}}, {model(-l[k], -l[2 + k]), {}}});
   const double variance = 4 * square(0.1) + 0.25 * square(0.2) + 2 * 2 * 0.5 * 0.5 * 0.1 * 0.2;
-  EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.parameters, std::sqrt(variance),
+  EXPECT_NEAR(*summarise(Summary::Mean, kModulation, r)->parts.parameters, std::sqrt(variance),
               1e-15);
   // The first humidity alone: a + 2 b.
   const double first = square(0.1) + 4 * square(0.2) + 2 * 2 * 0.5 * 0.1 * 0.2;
-  EXPECT_NEAR(*summarise(Summary::First, "modulation", r)->parts.parameters, std::sqrt(first),
+  EXPECT_NEAR(*summarise(Summary::First, kModulation, r)->parts.parameters, std::sqrt(first),
               1e-15);
 }
 

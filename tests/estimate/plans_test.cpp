@@ -23,7 +23,7 @@ Scene dry() {
 struct Relative {
   double sampling, grid, method, solver;
 };
-Relative parts_of(const Response& r, const char* metric) {
+Relative parts_of(const Response& r, const Metric& metric) {
   const SummaryValue v = *summarise(Summary::Mean, metric, r);
   const double of = std::abs(v.value);
   return {v.parts.sampling / of, v.parts.grid.value_or(0) / of, v.parts.method.value_or(0) / of,
@@ -75,7 +75,7 @@ TEST(Plans, TheCheapestInsideTheTargetIsRun) {
   for (const bool driven : {false, true}) {
     Scene scene = dry();
     if (driven) scene.drive.amplitude = 150;
-    const char* metric = driven ? "modulation" : "friction";
+    const Metric metric = driven ? kModulation : kFriction;
     const auto run = [&](double target, double seconds) {
       TargetOptions options{.target = target, .largest_grid = 128, .most_skins = 40, .threads = 1};
       options.most_seconds = seconds;
@@ -90,7 +90,7 @@ TEST(Plans, TheCheapestInsideTheTargetIsRun) {
       const Relative parts = parts_of(pilot, metric);
       EXPECT_EQ(pilot.accuracy.end, TargetEnd::TimeSpent);
       EXPECT_NEAR(pilot.accuracy.reached, total(parts), 1e-12);
-      EXPECT_EQ(pilot.accuracy.quantity, fmt::format("mean({})", metric));
+      EXPECT_EQ(pilot.accuracy.quantity, fmt::format("mean({})", metric_text(metric)));
       const Planned plan = plan_of(parts, target, 128, 40);
       ASSERT_LT(plan.work, INFINITY) << share;
       ASSERT_GT(r.accuracy.steps.size(), 1u);
@@ -126,7 +126,7 @@ TEST(Plans, OutOfReachTheCheapestNextToTheLeastErrorIsRun) {
   const Scene scene = dry();
   TargetOptions options{.target = 0.002, .largest_grid = 128, .most_skins = 11, .threads = 1};
   options.most_seconds = 1e-9;
-  const Relative parts = parts_of(evaluate_to_target(scene, Texture{}, options), "friction");
+  const Relative parts = parts_of(evaluate_to_target(scene, Texture{}, options), kFriction);
   double least = INFINITY;
   for (const double finer : {1.0, 0.5}) {
     for (const double method : {parts.method, 0.0})
@@ -152,7 +152,7 @@ TEST(Plans, ATimeThatIsEnoughForThePlanIsEnough) {
   options.target = 10;
   options.target = 0.8 * evaluate_to_target(scene, Texture{}, options).accuracy.reached;
   options.most_seconds = 1e-9;
-  const Relative parts = parts_of(evaluate_to_target(scene, Texture{}, options), "friction");
+  const Relative parts = parts_of(evaluate_to_target(scene, Texture{}, options), kFriction);
   const Planned plan = plan_of(parts, options.target, 128, 40);
   ASSERT_FALSE(plan.grid == 64 && !plan.areas);  // a plan of its own, controls and all
   Fidelity f = pilot_fidelity(options);

@@ -56,7 +56,7 @@ TEST(Steps, OfADifferenceSayWhatHasNoValue) {
             "metric: modulation has no value here: not driven (0 V)");
   EXPECT_EQ(refusal([&] { difference_of(parse_metric("modulation"), r, sound); }),
             "metric: modulation has no value here: not driven (0 V)");
-  EXPECT_EQ(refusal([&] { difference_at(0, "voltage_for(modulation = 0.2)", sound, sound); }),
+  EXPECT_EQ(refusal([&] { difference_at(0, VoltageFor{0.2}, sound, sound); }),
             "metric: voltage_for(modulation = 0.2) has no value here");
   EXPECT_EQ(refusal([&] { difference_of(parse_metric("friction"), sound, r); }), "");
 }
@@ -77,7 +77,7 @@ TEST(Steps, ADifferenceOfTheSameSkinsIsThatOfItsPairs) {
     return r;
   };
   const Response first = response(2, 4), second = response(3, 8);
-  for (const ResponseDifference& d : {difference_at(0, "friction", first, second),
+  for (const ResponseDifference& d : {difference_at(0, kFriction, first, second),
                                       difference_of(parse_metric("friction"), first, second)}) {
     EXPECT_TRUE(d.paired);
     EXPECT_NEAR(d.value, 2.5, 1e-12);

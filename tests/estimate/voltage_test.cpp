@@ -121,7 +121,7 @@ TEST(VoltageFor, IsAMetric) {
   EXPECT_EQ(metric_text(e), "worst(voltage_for(modulation = 0.2))");
   EXPECT_FALSE(summarise(e.summary, e.metric, r));
   add_voltages(r, scene_at(0.35), Texture{Flat{}}, small(Estimator::Load),
-               std::vector<double>{*voltage_target(e.metric)});
+               std::vector<double>{std::get<VoltageFor>(e.metric).modulation});
   EXPECT_DOUBLE_EQ(summarise(e.summary, e.metric, r)->value,
                    r.points[0].voltages[0].amplitude.value);
   EXPECT_EQ(metric_text(parse_metric("voltage_for(modulation=0.5)")),

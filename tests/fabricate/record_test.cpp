@@ -34,7 +34,7 @@ ExportRecord whole_record() {
                {"mask", "mask.tif"},
                {"dose", "dose.png"},
                {"design", "design.toml"}};
-  out.limits = {{"min_hole", 0.4e-6, true}, {"min_wall", 0.3e-6, true}};
+  out.limits = {read_constraint("min_hole", 0.4e-6), read_constraint("min_wall", 0.3e-6)};
   return out;
 }
 
@@ -194,15 +194,15 @@ TEST_F(Record, AFileThatSaysNothingOfItsOriginIsRefusedWithWhatIsMissing) {
 // Of a study its widths alone, and of an export the formats of its files.
 TEST(RecordOf, AStudyKeepsTheLimitsOfWidths) {
   Study study;
-  study.constraints = {
-      {"min_wall", 1e-6, true}, {"aspect_ratio", 2, false}, {"min_hole", 2e-6, true}};
+  study.constraints = {read_constraint("min_wall", 1e-6), read_constraint("aspect_ratio", 2),
+                       read_constraint("min_hole", 2e-6)};
   Export made;
   made.files = {{"gsf", "f/heightmap.gsf"}, {"design", "f/design.toml"}};
   ExportOptions options;
   options.pixels = 77, options.formats = {"exr", "gsf"};
   const ExportRecord record = record_of(study, options, made);
-  EXPECT_EQ(record.limits,
-            (std::vector<Constraint>{{"min_wall", 1e-6, true}, {"min_hole", 2e-6, true}}));
+  EXPECT_EQ(record.limits, (std::vector<Constraint>{read_constraint("min_wall", 1e-6),
+                                                    read_constraint("min_hole", 2e-6)}));
   EXPECT_EQ(record.options.formats, std::vector<std::string>{"gsf"});
   EXPECT_EQ(record.options.pixels, 77);
   EXPECT_EQ(record.files.size(), 2u);

@@ -191,7 +191,7 @@ TEST(Verify, NamesWhatIsNarrowerThanItsLimitAndHowFarTheMeritIsOff) {
   HoleArray holes;
   holes.period = 6e-6, holes.diameter = 4e-6, holes.depth = 200e-9, holes.wall_angle = kPi / 2;
   study.design.texture = Texture{holes};
-  study.constraints = {{"min_wall", 1.9e-6, true}, {"min_hole", 3.9e-6, true}};
+  study.constraints = {read_constraint("min_wall", 1.9e-6), read_constraint("min_hole", 3.9e-6)};
   ExportOptions options;
   options.formats = {"gsf"};
   options.size = 12e-6;
@@ -240,7 +240,7 @@ TEST(Verify, OfAFileThatIsMuchLargerThanItsDesignsPatchAPatchIsJudged) {
       Measured3d map;
       map.file = file, map.patch = patch, map.as_is = patch == grid.lx;
       map.top = *std::max_element(drawn.z.begin(), drawn.z.end());
-      return summarise(Summary::Mean, "friction",
+      return summarise(Summary::Mean, kFriction,
                        evaluate(scene, Texture{map}, fidelity_level("draft")))
           ->value;
     };

@@ -45,7 +45,7 @@ TEST(Forward, WithoutVoltageOnIsOff) {
     EXPECT_EQ(p.friction_on.value, p.friction_off.value);
     EXPECT_EQ(p.electrostatic_force.value, 0);
   }
-  EXPECT_FALSE(summarise(Summary::Mean, "modulation", r));
+  EXPECT_FALSE(summarise(Summary::Mean, kModulation, r));
 }
 
 // Eq. accuracy.1: of a ratio on/off - 1 both sides are as unsure as their solver.
@@ -119,8 +119,8 @@ TEST(Forward, TheLoadLawAgreesWithResolvedAreas) {
   area.contact_tolerance = 1e-5;
   const Response a = evaluate(driven_scene(), Texture{}, load);
   const Response b = evaluate(driven_scene(), Texture{}, area);
-  const double x = summarise(Summary::Mean, "modulation", a)->value;
-  const double y = summarise(Summary::Mean, "modulation", b)->value;
+  const double x = summarise(Summary::Mean, kModulation, a)->value;
+  const double y = summarise(Summary::Mean, kModulation, b)->value;
   EXPECT_NEAR(x, y, 0.15 * y);
 }
 

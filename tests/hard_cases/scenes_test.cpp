@@ -138,7 +138,7 @@ TEST(HardScene, OneHumidityHasNoVariationToSpeakOf) {
   Scene scene = driven();
   scene.environment.relative_humidity = {0.55};
   const Response r = run(scene, Texture{}, "one humidity");
-  const auto variation = summarise(Summary::Variation, "modulation", r);
+  const auto variation = summarise(Summary::Variation, kModulation, r);
   if (variation) {
     EXPECT_EQ(variation->value, 0);
   }

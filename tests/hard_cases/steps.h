@@ -43,12 +43,12 @@ inline std::optional<Numbers> numbers(const Line& line, double t, const Fidelity
     const Response r = evaluate(scene_of(*design), design->texture, fidelity);
     for (const ResponsePoint& p : r.points)
       if (p.oxide_margin < 1) return std::nullopt;  // breaks down: a film nearly cut through
-    const auto of = [&](Summary summary, const char* metric) {
+    const auto of = [&](Summary summary, const Metric& metric) {
       const auto value = summarise(summary, metric, r);
       return value ? value->value : 0;
     };
-    return Numbers{of(Summary::Mean, "modulation"), of(Summary::Variation, "modulation"),
-                   of(Summary::Mean, "friction_off")};
+    return Numbers{of(Summary::Mean, kModulation), of(Summary::Variation, kModulation),
+                   of(Summary::Mean, kFriction)};
   } catch (const std::exception&) {
     return std::nullopt;  // refused: a film cut through, a shape that cannot be
   }

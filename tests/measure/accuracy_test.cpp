@@ -160,11 +160,11 @@ TEST(Errors, OfTheMeanOverHumidityCountItsNodes) {
     p.modulation.value = 2 + rh;  // a line: two nodes do
     r.points.push_back(p);
   }
-  EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.humidity, 0, 1e-12);
+  EXPECT_NEAR(*summarise(Summary::Mean, kModulation, r)->parts.humidity, 0, 1e-12);
   for (ResponsePoint& p : r.points) p.modulation.value += square(p.relative_humidity);
-  EXPECT_NEAR(*summarise(Summary::Mean, "modulation", r)->parts.humidity, 0.04 / 4 / 3, 1e-12);
+  EXPECT_NEAR(*summarise(Summary::Mean, kModulation, r)->parts.humidity, 0.04 / 4 / 3, 1e-12);
   r.points.resize(2);
-  EXPECT_FALSE(summarise(Summary::Mean, "modulation", r)->parts.humidity);
+  EXPECT_FALSE(summarise(Summary::Mean, kModulation, r)->parts.humidity);
 }
 
 TEST(AccuracyPage, IsThatOfTheCommittedTables) {

@@ -173,7 +173,8 @@ TEST(Coverage, ARowOfTheCommittedTableIsWhatItsSceneGivesToday) {
        read_coverage(std::string(PAPILLA_SOURCE_DIR) + "/results/accuracy/coverage.csv")) {
     if (row.scene != 200 || row.fidelity != "64 pixels 12 skins load law") continue;
     if (row.quantity != "pull" && row.quantity != "capillary_force") continue;
-    const std::string metric = row.quantity == "pull" ? "electrostatic_force" : row.quantity;
+    const Metric metric =
+        *find_metric(row.quantity == "pull" ? "electrostatic_force" : row.quantity);
     EXPECT_NEAR(summarise(Summary::Mean, metric, r)->value, row.value, 2e-3 * row.value);
     ++compared;
   }

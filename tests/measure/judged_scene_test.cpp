@@ -77,7 +77,8 @@ void expect_rows(const std::string& fidelity, std::size_t from, const Response& 
   for (std::size_t q = 0; q < 6; ++q) {
     const CoverageRow& row = judged().rows.at(from + q);
     const Summary summary = q == 1 ? Summary::Variation : Summary::Mean;
-    const auto v = summarise(summary, metrics[q], r), t = summarise(summary, metrics[q], truth);
+    const Metric metric = *find_metric(metrics[q]);
+    const auto v = summarise(summary, metric, r), t = summarise(summary, metric, truth);
     ASSERT_TRUE(v && t);
     const auto near = [&](double value, double expected) {
       EXPECT_NEAR(value, expected, 1e-9 * std::abs(expected)) << fidelity << " " << names[q];

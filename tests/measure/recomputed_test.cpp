@@ -38,7 +38,7 @@ TEST(AccuracyTables, ARowIsWhatTheModelGivesToday) {
   f.skins = std::stoi(row["skins"]);
   f.threads = 1;
   const Response r = evaluate(scene_of(design), design.texture, f);
-  const auto modulation = summarise(Summary::Mean, "modulation", r);
+  const auto modulation = summarise(Summary::Mean, kModulation, r);
   const double value = std::stod(row["modulation"]), stated = std::stod(row["modulation_stated"]);
   EXPECT_NEAR(modulation->value, value, 1e-3 * value);
   EXPECT_NEAR(modulation->se, stated, 0.02 * stated);

@@ -29,10 +29,10 @@ Response response_of(std::vector<double> modulation, std::vector<double> weights
 TEST(Metrics, VariationIsThePopulationStandardDeviationOverTheMean) {
   // mean 3, variance (4 + 1 + 1 + 4)/4 = 2.5
   const Response r = response_of({1, 2, 4, 5});
-  EXPECT_DOUBLE_EQ(summarise(Summary::Mean, "modulation", r)->value, 3);
-  EXPECT_DOUBLE_EQ(summarise(Summary::Variation, "modulation", r)->value, std::sqrt(2.5) / 3);
-  EXPECT_DOUBLE_EQ(summarise(Summary::Range, "modulation", r)->value, 4.0 / 3);
-  EXPECT_DOUBLE_EQ(summarise(Summary::Worst, "modulation", r)->value, 1);
+  EXPECT_DOUBLE_EQ(summarise(Summary::Mean, kModulation, r)->value, 3);
+  EXPECT_DOUBLE_EQ(summarise(Summary::Variation, kModulation, r)->value, std::sqrt(2.5) / 3);
+  EXPECT_DOUBLE_EQ(summarise(Summary::Range, kModulation, r)->value, 4.0 / 3);
+  EXPECT_DOUBLE_EQ(summarise(Summary::Worst, kModulation, r)->value, 1);
 }
 
 TEST(Metrics, ASummaryShiftsByWhatItsValuesChangeBy) {
@@ -47,22 +47,22 @@ TEST(Metrics, ASummaryShiftsByWhatItsValuesChangeBy) {
 
 TEST(Metrics, WeightsCount) {
   const Response r = response_of({1, 3}, {3, 1});
-  EXPECT_DOUBLE_EQ(summarise(Summary::Mean, "modulation", r)->value, 1.5);
-  EXPECT_DOUBLE_EQ(summarise(Summary::Std, "modulation", r)->value, std::sqrt(0.75));
+  EXPECT_DOUBLE_EQ(summarise(Summary::Mean, kModulation, r)->value, 1.5);
+  EXPECT_DOUBLE_EQ(summarise(Summary::Std, kModulation, r)->value, std::sqrt(0.75));
 }
 
 TEST(Metrics, AnUndrivenDesignHasNoModulation) {
   Response r = response_of({0, 0});
   r.driven = false;
-  EXPECT_FALSE(summarise(Summary::Mean, "modulation", r));
-  EXPECT_EQ(why_undefined("modulation", r), "not driven (0 V)");
-  EXPECT_EQ(why_undefined("friction", r), "");
+  EXPECT_FALSE(summarise(Summary::Mean, kModulation, r));
+  EXPECT_EQ(why_undefined(kModulation, r), "not driven (0 V)");
+  EXPECT_EQ(why_undefined(kFriction, r), "");
   r.driven = true;
-  EXPECT_EQ(why_undefined("modulation", r), "");
+  EXPECT_EQ(why_undefined(kModulation, r), "");
 }
 
 TEST(Metrics, VariationOfAZeroMeanIsUndefined) {
-  EXPECT_FALSE(summarise(Summary::Variation, "modulation", response_of({-1, 1})));
+  EXPECT_FALSE(summarise(Summary::Variation, kModulation, response_of({-1, 1})));
 }
 
 // What a skin or a grid does to all humidities alike moves the mean and leaves the variation.
@@ -73,7 +73,7 @@ TEST(Metrics, ErrorsOfASummaryAreThoseOfItsDerivatives) {
   const auto value = [&](Summary summary, std::size_t moved, double by) {
     std::vector<double> v = values;
     v[moved] += by;
-    return summarise(summary, "modulation", response_of(v, weights))->value;
+    return summarise(summary, kModulation, response_of(v, weights))->value;
   };
   for (const Summary summary : {Summary::Mean, Summary::Std, Summary::Variation, Summary::Range,
                                 Summary::Worst, Summary::Best, Summary::First, Summary::Last}) {
@@ -100,7 +100,7 @@ TEST(Metrics, ErrorsOfASummaryAreThoseOfItsDerivatives) {
     const double expected = spread > 0                 ? spread
                             : summary == Summary::Mean ? linear
                                                        : std::sqrt(squares);
-    const SummaryValue out = *summarise(summary, "modulation", r);
+    const SummaryValue out = *summarise(summary, kModulation, r);
     EXPECT_NEAR(out.parts.sampling, expected, 1e-8) << static_cast<int>(summary);
     EXPECT_NEAR(out.parts.grid.value(), 2 * expected, 1e-8) << static_cast<int>(summary);
   }
@@ -125,17 +125,17 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
                                     {"wetted_fraction", p.wetted_fraction.value},
                                     {"mean_gap", p.mean_gap.value},
                                     {"compliance", p.indentation.value / 8}})
-    EXPECT_DOUBLE_EQ(metric_at(name, p)->value, value) << name;
-  EXPECT_DOUBLE_EQ(metric_at("compliance", p)->parts.sampling, 0.5 / 8);
-  EXPECT_DOUBLE_EQ(metric_at("compliance", p)->parts.grid.value(), 0.25 / 8);
+    EXPECT_DOUBLE_EQ(metric_at(*find_metric(name), p)->value, value) << name;
+  EXPECT_DOUBLE_EQ(metric_at(Compliance{}, p)->parts.sampling, 0.5 / 8);
+  EXPECT_DOUBLE_EQ(metric_at(Compliance{}, p)->parts.grid.value(), 0.25 / 8);
   p.capillary_force.value = -1;  // it pushes off
-  EXPECT_EQ(metric_at("adhesion", p)->value, 0);
-  EXPECT_EQ(metric_at("capillary_force", p)->value, -1);
+  EXPECT_EQ(metric_at(Adhesion{}, p)->value, 0);
+  EXPECT_EQ(metric_at(QuantityMetric{&PointQuantities::capillary_force}, p)->value, -1);
   Optics look;
   look.haze = 0.1, look.transmittance = 0.2, look.gloss = 0.3, look.colour_shift = 0.4;
   for (const auto& [name, value] :
        {std::pair{"haze", 0.1}, {"transmittance", 0.2}, {"gloss", 0.3}, {"colour_shift", 0.4}})
-    EXPECT_EQ(appearance_value(name, look), value) << name;
+    EXPECT_EQ(look.*std::get<LookMetric>(*find_metric(name)).number, value) << name;
   for (const auto& [name, better] : {std::pair{"modulation", Better::Higher},
                                      {"friction", Better::Lower},
                                      {"friction_on", Better::Higher},
@@ -145,7 +145,7 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
                                      {"transmittance", Better::Higher},
                                      {"gloss", Better::Higher},
                                      {"colour_shift", Better::Lower}})
-    EXPECT_EQ(find_metric(name)->better, better) << name;
+    EXPECT_EQ(info_of(*find_metric(name)).better, better) << name;
   std::set<std::string> driven;
   for (const MetricInfo& info : metric_list())
     if (info.needs_drive) driven.insert(info.name);
@@ -165,7 +165,7 @@ TEST(Metrics, WhatHumiditiesShareIsNoErrorOfTheirSpread) {
     p.modulation.parts.sampling = 0.1 * p.modulation.value;
     p.modulation.parts.grid = 0.2 * p.modulation.value;
   }
-  const SummaryValue bound = *summarise(Summary::Variation, "modulation", r);
+  const SummaryValue bound = *summarise(Summary::Variation, kModulation, r);
   EXPECT_GT(bound.parts.sampling, 0.05 * bound.value);  // all that the points alone can say
   EXPECT_GT(bound.parts.grid.value(), 0.1 * bound.value);
   for (double factor : {0.9, 1.0, 1.1}) r.without.push_back(scaled(factor));
@@ -175,14 +175,14 @@ TEST(Metrics, WhatHumiditiesShareIsNoErrorOfTheirSpread) {
     r.controls.own.without.push_back(scaled(1));
     r.controls.coarse.without.push_back(scaled(1.2));
   }
-  const SummaryValue variation = *summarise(Summary::Variation, "modulation", r),
-                     mean = *summarise(Summary::Mean, "modulation", r);
+  const SummaryValue variation = *summarise(Summary::Variation, kModulation, r),
+                     mean = *summarise(Summary::Mean, kModulation, r);
   EXPECT_NEAR(variation.parts.sampling, 0, 1e-12);
   EXPECT_NEAR(variation.parts.grid.value(), 0, 1e-12);
   EXPECT_NEAR(mean.parts.sampling, 3 * 2 * 0.1 / std::sqrt(3), 1e-12);  // jackknife of 3 skins
   // A skin that matters at one humidity alone does move the spread.
   r.without[0][3].modulation.value += 1;
-  EXPECT_NEAR(summarise(Summary::Variation, "modulation", r)->parts.sampling,
+  EXPECT_NEAR(summarise(Summary::Variation, kModulation, r)->parts.sampling,
               2.0 / 3 * (std::sqrt(3.1125) / 2.95 - std::sqrt(2.5) / 3), 1e-12);
 }
 
@@ -225,23 +225,23 @@ TEST(Felt, IsTheShareThatWouldNotice) {
   EXPECT_NEAR(felt("felt(modulation = 0.2)"), (0.02275 + 0.5 + 0.97725 + 1) / 4, 1e-4);
   EXPECT_NEAR(felt("worst(felt(modulation=0.2))"), 0.02275, 1e-5);
   // Whether one feels it is yes or no: sqrt(p (1 - p)) at each humidity, common to all of them.
-  const auto mean = *summarise(Summary::Mean, "felt(modulation = 0.2)", r);
+  const auto mean = *summarise(Summary::Mean, Felt{0.2}, r);
   EXPECT_NEAR(mean.parts.sampling, (2 * 0.14910 + 0.5 + 0) / 4, 1e-4);
   // Each part of the modulation's error has its share: 3 and 4 make 5.
   ResponsePoint& edge = r.points[1];
   edge.modulation.parts = {.sampling = 0.03, .parameters = 0.04, .water = 0.2};
-  const Measured there = *metric_at("felt(modulation = 0.2)", edge);
+  const Measured there = *metric_at(Felt{0.2}, edge);
   EXPECT_NEAR(there.parts.sampling, 0.5 * 3 / 5, 1e-12);
   EXPECT_NEAR(*there.parts.parameters, 0.5 * 4 / 5, 1e-12);
   EXPECT_FALSE(there.parts.water);
   for (ResponsePoint& p : r.points) p.modulation.parts = {};
   EXPECT_EQ(felt("felt(modulation = 0.25)"), 0.5);
-  EXPECT_EQ(metric_at("felt(modulation = 0.25)", edge)->se(), 0);
+  EXPECT_EQ(metric_at(Felt{0.25}, edge)->se(), 0);
   EXPECT_EQ(metric_text(parse_metric("felt( modulation=0.2 )")), "mean(felt(modulation = 0.2))");
   for (const char* wrong : {"felt", "felt(friction = 1)", "felt(modulation = -1)", "felter"})
     EXPECT_THROW(parse_metric(wrong), InputError) << wrong;
   r.driven = false;
-  EXPECT_FALSE(summarise(Summary::Mean, "felt(modulation = 0.2)", r));
+  EXPECT_FALSE(summarise(Summary::Mean, Felt{0.2}, r));
 }
 
 // What the fit of the finger leaves open moves all humidities together: two of four change sides
@@ -260,7 +260,7 @@ TEST(Felt, HasTheErrorOfTheFinger) {
   r.driven = true;
   r.points = points(0);
   r.parameters.steps = {{{points(0.05), {}}, {points(-0.05), {}}}};
-  const auto share = *summarise(Summary::Mean, "felt(modulation = 0.2)", r);
+  const auto share = *summarise(Summary::Mean, Felt{0.2}, r);
   EXPECT_EQ(share.value, 0.5);
   EXPECT_EQ(share.parts.parameters, (0.75 - 0.25) / 2);
 }
@@ -273,10 +273,10 @@ TEST(Amplitude, IsWhatTheSourceApplies) {
     p.source_voltage = volts;
     r.points.push_back(p);
   }
-  EXPECT_EQ(summarise(Summary::Mean, "drive.amplitude", r)->value, 135);
-  EXPECT_EQ(summarise(Summary::Worst, "drive.amplitude", r)->value, 150);  // less is better
+  EXPECT_EQ(summarise(Summary::Mean, SourceAmplitude{}, r)->value, 135);
+  EXPECT_EQ(summarise(Summary::Worst, SourceAmplitude{}, r)->value, 150);  // less is better
   r.driven = false;
-  EXPECT_FALSE(summarise(Summary::Mean, "drive.amplitude", r));
+  EXPECT_FALSE(summarise(Summary::Mean, SourceAmplitude{}, r));
 }
 
 TEST(Metrics, ErrorsAreShownInTheUnitsOfTheirValues) {

@@ -34,7 +34,7 @@ Response response_of(const Values& modulation, const Values& weights = {},
   return r;
 }
 
-SummaryValue of(Summary summary, const Response& r, const char* metric = "modulation") {
+SummaryValue of(Summary summary, const Response& r, const Metric& metric = kModulation) {
   return *summarise(summary, metric, r);
 }
 
@@ -57,31 +57,31 @@ TEST(Summaries, OfThreeHumiditiesAreTheirClosedForms) {
   // Where less is better the largest is the worst.
   Response friction = r;
   for (ResponsePoint& p : friction.points) p.friction_off.value = p.modulation.value;
-  EXPECT_DOUBLE_EQ(of(Summary::Worst, friction, "friction").value, 5);
-  EXPECT_DOUBLE_EQ(of(Summary::Best, friction, "friction").value, 1);
+  EXPECT_DOUBLE_EQ(of(Summary::Worst, friction, kFriction).value, 5);
+  EXPECT_DOUBLE_EQ(of(Summary::Best, friction, kFriction).value, 1);
   for (ResponsePoint& p : friction.points) p.bridges.value = p.modulation.value;
-  EXPECT_DOUBLE_EQ(of(Summary::Worst, friction, "bridges").value, 1);  // of no better direction
+  EXPECT_DOUBLE_EQ(of(Summary::Worst, friction, QuantityMetric{&PointQuantities::bridges}).value,
+                   1);  // of no better direction
 }
 
 TEST(Summaries, OfWhatIsNotKnownAreNone) {
   Response r = response_of({1, 3});
-  EXPECT_TRUE(summarise(Summary::Mean, "modulation", r));
-  EXPECT_FALSE(summarise(Summary::Mean, "nothing", r));
-  EXPECT_FALSE(summarise(Summary::Mean, "modulation", response_of({})));
-  EXPECT_FALSE(summarise(Summary::Mean, "modulation", response_of({1, 3}, {0, 0})));
-  EXPECT_TRUE(summarise(Summary::Mean, "modulation", response_of({1, 3}, {0, 1})));
-  EXPECT_FALSE(summarise(Summary::Mean, "voltage_for(modulation = 0.2)", r));
+  EXPECT_TRUE(summarise(Summary::Mean, kModulation, r));
+  EXPECT_FALSE(summarise(Summary::Mean, kModulation, response_of({})));
+  EXPECT_FALSE(summarise(Summary::Mean, kModulation, response_of({1, 3}, {0, 0})));
+  EXPECT_TRUE(summarise(Summary::Mean, kModulation, response_of({1, 3}, {0, 1})));
+  EXPECT_FALSE(summarise(Summary::Mean, VoltageFor{0.2}, r));
   r.points[1].modulation.value = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(summarise(Summary::First, "modulation", r));
-  EXPECT_FALSE(summarise(Summary::Mean, "haze", r));
+  EXPECT_FALSE(summarise(Summary::First, kModulation, r));
+  EXPECT_FALSE(summarise(Summary::Mean, LookMetric{&Look::haze}, r));
   // One look at all humidities has no spread and no error; one that is refused has no value.
   r.appearance.emplace();
   r.appearance->haze = 0.25;
   for (const Summary summary : {Summary::Mean, Summary::Worst, Summary::First})
-    EXPECT_EQ(of(summary, r, "haze").value, 0.25);
+    EXPECT_EQ(of(summary, r, LookMetric{&Look::haze}).value, 0.25);
   for (const Summary summary : {Summary::Variation, Summary::Range, Summary::Std})
-    EXPECT_EQ(of(summary, r, "haze").value, 0);
-  EXPECT_EQ(of(Summary::Mean, r, "haze").se, 0);
+    EXPECT_EQ(of(summary, r, LookMetric{&Look::haze}).value, 0);
+  EXPECT_EQ(of(Summary::Mean, r, LookMetric{&Look::haze}).se, 0);
 }
 
 // In the mean a part adds up over humidities, each by its weight; one that a humidity lacks is not
@@ -158,16 +158,16 @@ TEST(Summaries, SamplingFollowsTheSummaryThroughTheSkins) {
   // Means 2, 2 and 2.1: samples 2.05 and 1.95; spreads 1, 0.8 and 1.3: samples 1.25 and 0.75.
   EXPECT_NEAR(of(Summary::Mean, r).parts.sampling, 0.05, 1e-12);
   EXPECT_NEAR(of(Summary::Std, r).parts.sampling, 0.25, 1e-12);
-  const ErrorSamples mean = error_samples(Summary::Mean, "modulation", r),
-                     spread = error_samples(Summary::Std, "modulation", r),
-                     second = error_samples_at(1, "modulation", r);
+  const ErrorSamples mean = error_samples(Summary::Mean, kModulation, r),
+                     spread = error_samples(Summary::Std, kModulation, r),
+                     second = error_samples_at(1, kModulation, r);
   ASSERT_EQ(mean.sampling.size(), 2u);
   EXPECT_NEAR(mean.sampling[0], 2.05, 1e-12);
   EXPECT_NEAR(mean.sampling[1], 1.95, 1e-12);
   EXPECT_NEAR(spread.sampling[0], 1.25, 1e-12);
   EXPECT_NEAR(second.sampling[0], 3.3, 1e-12);
   EXPECT_NEAR(second.sampling[1], 2.7, 1e-12);
-  EXPECT_TRUE(error_samples(Summary::Mean, "drive.amplitude", r).sampling.empty());
+  EXPECT_TRUE(error_samples(Summary::Mean, SourceAmplitude{}, r).sampling.empty());
   // A skin without which the number is not known leaves the points' own.
   r.without[0][1].modulation.value = INFINITY;
   EXPECT_NEAR(of(Summary::Mean, r).parts.sampling, 9, 1e-12);
@@ -196,8 +196,8 @@ TEST(Summaries, GridAndMethodFollowASpreadThroughTheControls) {
   EXPECT_NEAR(*of(Summary::Std, r).parts.method, method_error(spread.method), 1e-12);
   EXPECT_NEAR(*of(Summary::Mean, r).parts.grid, 9, 1e-12);  // its points have it
   const ControlledChange mean = controlled_change(r.controls, law, reading(Summary::Mean));
-  const ErrorSamples samples = error_samples(Summary::Mean, "modulation", r),
-                     of_spread = error_samples(Summary::Std, "modulation", r);
+  const ErrorSamples samples = error_samples(Summary::Mean, kModulation, r),
+                     of_spread = error_samples(Summary::Std, kModulation, r);
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_NEAR(samples.grid[k], 2 * mean.grid[k], 1e-12);
     EXPECT_NEAR(samples.method[k], 2 * mean.method[k], 1e-12);
@@ -205,7 +205,7 @@ TEST(Summaries, GridAndMethodFollowASpreadThroughTheControls) {
     EXPECT_NEAR(of_spread.method[k], spread.method[k], 1e-12);
   }
   const ControlledChange last = controlled_change(r.controls, law, reading(Summary::Last));
-  EXPECT_NEAR(error_samples_at(1, "modulation", r).grid[0], 3 * last.grid[0], 1e-12);
+  EXPECT_NEAR(error_samples_at(1, kModulation, r).grid[0], 3 * last.grid[0], 1e-12);
 }
 
 // Eq. accuracy.11 by hand: half of up less down, of all and without each of two skins.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/random.h"
 #include "metrics/metrics.h"
 #include "metrics/shown.h"
 
@@ -44,11 +45,11 @@ TEST(MetricWords, TheListIsWhole) {
 TEST(MetricWords, ANameIsAMetricAsItIsWritten) {
   for (const char* name : {"modulation", "adhesion", "haze", "drive.amplitude",
                            "voltage_for(modulation = 0.5)", "felt(modulation=0.2)"})
-    EXPECT_NE(find_metric(name), nullptr) << name;
+    EXPECT_TRUE(find_metric(name)) << name;
   for (const char* name : {"voltage_for", "felt", "friction(modulation = 0.5)", "haze(", "", "mod"})
-    EXPECT_EQ(find_metric(name), nullptr) << name;
-  EXPECT_EQ(find_metric("felt(modulation=0.2)")->name, "felt");
-  EXPECT_EQ(find_metric("voltage_for(modulation = 2)")->unit, "V");
+    EXPECT_FALSE(find_metric(name)) << name;
+  EXPECT_EQ(info_of(Felt{0.2}).name, "felt");
+  EXPECT_EQ(info_of(VoltageFor{2}).unit, "V");
 }
 
 TEST(MetricWords, AModulationOfItsOwnIsANumberAboveZero) {
@@ -56,18 +57,16 @@ TEST(MetricWords, AModulationOfItsOwnIsANumberAboveZero) {
                                     {"voltage_for(modulation=0.125)", 0.125},
                                     {" voltage_for ( modulation = 1e-3 ) ", 1e-3},
                                     {"voltage_for(modulation = 999999)", 999999.0}})
-    EXPECT_EQ(voltage_target(text), value) << text;
-  EXPECT_EQ(felt_threshold("felt(modulation = 0.2)"), 0.2);
-  for (const char* other : {"friction", "felt(modulation = 0.2)", "voltage_format", "felter"})
-    EXPECT_EQ(voltage_target(other), std::nullopt) << other;
-  for (const char* other : {"friction", "voltage_for(modulation = 0.2)", "felter"})
-    EXPECT_EQ(felt_threshold(other), std::nullopt) << other;
+    EXPECT_EQ(find_metric(text), Metric{VoltageFor{value}}) << text;
+  EXPECT_EQ(find_metric("felt(modulation = 0.2)"), Metric{Felt{0.2}});
+  for (const char* other : {"voltage_format", "felter", "felter(modulation = 0.2)"})
+    EXPECT_FALSE(find_metric(other)) << other;
   for (const char* wrong :
-       {"voltage_for", "voltage_for(modulation = 0)", "voltage_for(modulation = -1)",
+       {"voltage_for(modulation = 0)", "voltage_for(modulation = -1)",
         "voltage_for(modulation = 1e6)", "voltage_for(modulation = 0.5", "voltage_for(0.5)",
         "voltage_for(modulation = 0.5x)", "voltage_for(modulation = )"}) {
     try {
-      voltage_target(wrong);
+      find_metric(wrong);
       FAIL() << wrong;
     } catch (const InputError& e) {
       EXPECT_EQ(std::string(e.what()), fmt::format("\"{}\": expected voltage_for(modulation = X), "
@@ -75,6 +74,30 @@ TEST(MetricWords, AModulationOfItsOwnIsANumberAboveZero) {
                                                    wrong));
     }
   }
+}
+
+// Every metric under every summary is written as a text that reads back to it; modulations of any
+// size keep every bit.
+TEST(MetricWords, ReadBackToTheSameValue) {
+  RandomStream random(1, "metrics");
+  int seen = 0;
+  for (const MetricInfo& info : metric_list()) {
+    for (int k = 0; k < (info.takes_modulation ? 200 : 1); ++k) {
+      const double modulation = std::pow(10.0, -6 + 11.9 * random.uniform());
+      const Metric metric = *find_metric(
+          info.takes_modulation ? fmt::format("{}(modulation = {})", info.name, modulation)
+                                : info.name);
+      EXPECT_EQ(find_metric(metric_text(metric)), metric) << info.name;
+      EXPECT_EQ(info_of(metric).name, info.name);
+      for (const Summary summary : {Summary::Mean, Summary::Variation, Summary::Range, Summary::Std,
+                                    Summary::Worst, Summary::Best, Summary::First, Summary::Last}) {
+        const MetricExpression expression{summary, metric};
+        EXPECT_EQ(parse_metric(metric_text(expression)), expression) << metric_text(expression);
+        ++seen;
+      }
+    }
+  }
+  EXPECT_EQ(seen, 8 * (17 + 2 * 200));
 }
 
 TEST(MetricWords, ExpressionsAreReadAndWritten) {
@@ -169,45 +192,46 @@ TEST(MetricWords, AVoltageThatIsNotReachedSaysWhatCameFirst) {
     high.amplitude.value = 120;
     p.voltages = {low, high};
   }
-  EXPECT_EQ(metric_at("voltage_for(modulation = 0.2)", r.points[0])->value, 80);
-  EXPECT_EQ(metric_at("voltage_for(modulation = 0.5)", r.points[0])->value, 120);
-  EXPECT_FALSE(metric_at("voltage_for(modulation = 0.3)", r.points[0]));
-  EXPECT_EQ(why_undefined("voltage_for(modulation = 0.5)", r), "");
+  EXPECT_EQ(metric_at(VoltageFor{0.2}, r.points[0])->value, 80);
+  EXPECT_EQ(metric_at(VoltageFor{0.5}, r.points[0])->value, 120);
+  EXPECT_FALSE(metric_at(VoltageFor{0.3}, r.points[0]));
+  EXPECT_EQ(why_undefined(VoltageFor{0.5}, r), "");
   VoltageAnswer& missed = r.points[1].voltages[1];
   missed.end = VoltageEnd::Breakdown;
   missed.limit = 500;
   missed.modulation = 0.12345;
-  EXPECT_FALSE(metric_at("voltage_for(modulation = 0.5)", r.points[1]));
-  EXPECT_EQ(why_undefined("voltage_for(modulation = 0.5)", r),
+  EXPECT_FALSE(metric_at(VoltageFor{0.5}, r.points[1]));
+  EXPECT_EQ(why_undefined(VoltageFor{0.5}, r),
             "75 % RH: the dielectric breaks down at 500 V (modulation 0.123)");
-  EXPECT_EQ(why_undefined("voltage_for(modulation = 0.2)", r), "");
+  EXPECT_EQ(why_undefined(VoltageFor{0.2}, r), "");
   r.driven = false;
-  EXPECT_EQ(why_undefined("friction_on", r), "not driven (0 V)");
-  EXPECT_EQ(why_undefined("friction", r), "");
+  EXPECT_EQ(why_undefined(kFrictionOn, r), "not driven (0 V)");
+  EXPECT_EQ(why_undefined(kFriction, r), "");
 }
 
 TEST(MetricWords, EachMetricHasTheQuantityThatCarriesItsErrors) {
-  EXPECT_EQ(metric_quantity("adhesion"), &PointQuantities::capillary_force);
-  EXPECT_EQ(metric_quantity("compliance"), &PointQuantities::indentation);
-  EXPECT_EQ(metric_quantity("friction"), &PointQuantities::friction_off);
-  EXPECT_EQ(metric_quantity("mean_gap"), &PointQuantities::mean_gap);
-  EXPECT_FALSE(metric_quantity("voltage_for(modulation = 0.5)"));
-  EXPECT_FALSE(metric_quantity("felt(modulation = 0.5)"));
+  EXPECT_EQ(metric_quantity(Adhesion{}), &PointQuantities::capillary_force);
+  EXPECT_EQ(metric_quantity(Compliance{}), &PointQuantities::indentation);
+  EXPECT_EQ(metric_quantity(kFriction), &PointQuantities::friction_off);
+  EXPECT_EQ(metric_quantity(QuantityMetric{&PointQuantities::mean_gap}),
+            &PointQuantities::mean_gap);
+  EXPECT_FALSE(metric_quantity(VoltageFor{0.5}));
+  EXPECT_FALSE(metric_quantity(Felt{0.5}));
 }
 
 // Half where the modulation is the threshold; without an error a step, at the threshold not yet.
 TEST(MetricWords, WhatIsFeltIsAStepThatErrorsSoften) {
   ResponsePoint p;
   p.modulation.value = 0.25;
-  const auto felt = [&] { return metric_at("felt(modulation = 0.25)", p)->value; };
+  const auto felt = [&] { return metric_at(Felt{0.25}, p)->value; };
   EXPECT_EQ(felt(), 0);
   p.modulation.value = 0.2500001;
   EXPECT_EQ(felt(), 1);
   p.modulation.parts.solver = 0.1;
   p.modulation.value = 0.35;  // one standard error above
   EXPECT_NEAR(felt(), 0.8413447, 1e-6);
-  EXPECT_NEAR(metric_at("felt(modulation = 0.25)", p)->parts.solver.value(),
-              std::sqrt(0.8413447 * 0.1586553), 1e-6);
+  EXPECT_NEAR(metric_at(Felt{0.25}, p)->parts.solver.value(), std::sqrt(0.8413447 * 0.1586553),
+              1e-6);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Study undriven() {
   study.population.clear();
   study.constraints.clear();
   study.objective = {};
-  study.objective.minimise = {"mean(friction)", "variation(friction)"};
+  study.objective.minimise = {parse_metric("mean(friction)"), parse_metric("variation(friction)")};
   study.design.drive.amplitude = 0;
   study.design.accuracy.level = AccuracyLevel::Draft;
   study.design.accuracy.parameters = true;

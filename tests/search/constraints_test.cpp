@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <set>
 
 #include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
 #include "search/problem.h"
 
 namespace papilla::tests {
@@ -20,8 +24,9 @@ Study limited(const std::vector<Constraint>& constraints) {
 
 // Of a limit at least: limit / value - 1, at most: value / limit - 1; bounded by 11.
 TEST(Constraints, OfAShapeAreRelativeToTheirLimit) {
-  const Study study = limited(
-      {{"min_wall", 0.5e-6, true}, {"min_hole", 2e-6, true}, {"aspect_ratio", 0.05, false}});
+  const Study study =
+      limited({read_constraint("min_wall", 0.5e-6), read_constraint("min_hole", 2e-6),
+               read_constraint("aspect_ratio", 0.05)});
   const StudyProblem problem(study);
   // Period 5 um, holes of 4 um, 400 nm deep, walls of 1 um at 88 degrees from the land.
   const Point unit = problem.space().unit({5e-6, 4e-6, 400e-9, 0.87});
@@ -35,9 +40,9 @@ TEST(Constraints, OfAShapeAreRelativeToTheirLimit) {
 }
 
 TEST(Constraints, OfAnEvaluationAreRelativeAndBounded) {
-  const Study study = limited({{"oxide_breakdown_margin", 2, true},
-                               {"mean(friction)", 0.05, false},
-                               {"min_wall", 0.5e-6, true}});
+  const Study study =
+      limited({read_constraint("oxide_breakdown_margin", 2),
+               read_constraint("mean(friction)", 0.05), read_constraint("min_wall", 0.5e-6)});
   const StudyProblem problem(study);
   ASSERT_EQ(problem.constraints().evaluated(), 2u);
   const auto violations = [&](double margin, double friction) {
@@ -55,8 +60,8 @@ TEST(Constraints, OfAnEvaluationAreRelativeAndBounded) {
 }
 
 TEST(Constraints, ThoseThatNobodyKeepsAreNamed) {
-  const Study study =
-      limited({{"min_wall", 5.5e-6, true}, {"haze", 0.05, false}, {"mean(friction)", 0.05, false}});
+  const Study study = limited({read_constraint("min_wall", 5.5e-6), read_constraint("haze", 0.05),
+                               read_constraint("mean(friction)", 0.05)});
   const StudyProblem problem(study);
   Evaluation refused, judged;
   refused.outcome.constraints = {-1, 0.3, 0.2};
@@ -75,7 +80,7 @@ TEST(Constraints, ThoseThatNobodyKeepsAreNamed) {
 
 // 5.41 um less 5.01 um is a wall of 0.4 um, though not to the last bit.
 TEST(Constraints, AreKeptWithinABillionth) {
-  const Study study = limited({{"min_wall", 0.4e-6, true}});
+  const Study study = limited({read_constraint("min_wall", 0.4e-6)});
   const StudyProblem problem(study);
   ASSERT_LT(5.41e-6 - 5.01e-6, 0.4e-6);
   const auto wall = [&](double period) {
@@ -84,7 +89,7 @@ TEST(Constraints, AreKeptWithinABillionth) {
   EXPECT_LE(wall(5.41e-6), 0);
   EXPECT_GT(wall(5.41e-6 - 1e-14), 0);
   for (const bool at_least : {true, false}) {
-    const Constraint limit{"mean(friction)", 0.05, at_least};
+    const Constraint limit{MetricLimit{parse_metric("mean(friction)")}, 0.05, at_least};
     const double worse = at_least ? -1 : 1;
     EXPECT_TRUE(keeps(limit, 0.05 * (1 + worse * 0.9e-9)));
     EXPECT_FALSE(keeps(limit, 0.05 * (1 + worse * 1.1e-9)));
@@ -95,18 +100,18 @@ TEST(Constraints, AreKeptWithinABillionth) {
 TEST(Constraints, OfAStudyAreKeptByItsOwnDesign) {
   Study study = limited({});
   const FabricationMargins own = facts(study.design.texture).margins;
-  study.constraints = {{"min_wall", own.min_wall, true},
-                       {"min_hole", own.min_hole, true},
-                       {"aspect_ratio", own.aspect_ratio, false}};
+  study.constraints = {read_constraint("min_wall", own.min_wall),
+                       read_constraint("min_hole", own.min_hole),
+                       read_constraint("aspect_ratio", own.aspect_ratio)};
   const StudyProblem problem(study);
   for (const double v : problem.constraints().geometry(problem.space().unit_of_study()))
     EXPECT_LE(v, 0);
 }
 
 TEST(Constraints, HaveAValueOfEachDesign) {
-  const Study study = limited({{"min_wall", 0.5e-6, true},
-                               {"oxide_breakdown_margin", 2, true},
-                               {"mean(friction)", 0.05, false}});
+  const Study study =
+      limited({read_constraint("min_wall", 0.5e-6), read_constraint("oxide_breakdown_margin", 2),
+               read_constraint("mean(friction)", 0.05)});
   const StudyProblem problem(study);
   Score score;
   score.ok = true;
@@ -126,9 +131,101 @@ TEST(Constraints, HaveAValueOfEachDesign) {
   EXPECT_FALSE(problem.constraints().kept(design, score));
 }
 
+// Each number of a vector of violations is beside the limit that it judges: the limit alone gives
+// the same number.
+TEST(Constraints, NumbersStandBesideTheirLimits) {
+  const Study study =
+      limited({read_constraint("mean(friction)", 0.05), read_constraint("haze", 0.05),
+               read_constraint("oxide_breakdown_margin", 2), read_constraint("min_wall", 0.5e-6),
+               read_constraint("worst(friction)", 0.06), read_constraint("aspect_ratio", 3)});
+  const StudyProblem problem(study);
+  const StudyConstraints& constraints = problem.constraints();
+  const Design design = problem.space().design(problem.space().unit({5e-6, 4e-6, 400e-9, 0.87}));
+  Score score;
+  score.ok = true;
+  score.oxide_margin = 1.5;
+  score.limited = {0.036, 0.07};
+  std::set<const Constraint*> seen;
+  const auto compare = [&](const Judged& judged, const std::vector<double>& numbers,
+                           const auto& value) {
+    ASSERT_EQ(judged.size(), numbers.size());
+    for (std::size_t k = 0; k < judged.size(); ++k) {
+      if (!judged[k]) continue;  // that the shape exists
+      seen.insert(judged[k]);
+      EXPECT_EQ(numbers[k], violation(*judged[k], value(judged[k]->on)))
+          << limit_name(judged[k]->on);
+    }
+  };
+  const auto before = constraints.before_evaluation(design);
+  EXPECT_EQ(constraints.in_before_evaluation()[0], nullptr);
+  EXPECT_EQ(before[0], -1);
+  compare(constraints.in_before_evaluation(), before, [&](const Limited& on) {
+    if (on == Limited{ShapeLimit{ShapeMargin::MinWall}})
+      return facts(design.texture).margins.min_wall;
+    if (on == Limited{ShapeLimit{ShapeMargin::AspectRatio}})
+      return facts(design.texture).margins.aspect_ratio;
+    return on == Limited{FilmLimit{}} ? constraints.film_margin(design)
+                                      : appearance_of(design).haze;
+  });
+  compare(constraints.in_evaluation(), constraints.violations(score), [&](const Limited& on) {
+    if (on == Limited{FilmLimit{}}) return 1.5;
+    return limit_name(on) == "mean(friction)" ? 0.036 : 0.07;
+  });
+  EXPECT_EQ(seen.size(), study.constraints.size());
+}
+
+// Whatever a shipped study limits has a name that reads back to it, and a value on its own design.
+TEST(Constraints, HaveAValueInEveryShippedStudy) {
+  namespace fs = std::filesystem;
+  std::set<std::size_t> alternatives;
+  int limits = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(PAPILLA_SOURCE_DIR "/designs")) {
+    const std::string file = entry.path().string();
+    if (!file.ends_with(".toml") || read_bytes(file).find("[constraints]") == std::string::npos)
+      continue;
+    const Study study = read_study(file);
+    const StudyProblem problem(study);
+    Score score;
+    score.ok = true;
+    score.oxide_margin = 3;
+    score.limited.assign(problem.goals().limited.size(), 0.25);
+    const std::vector<LimitValue> values = problem.constraints().values(study.design, score);
+    ASSERT_EQ(values.size(), study.constraints.size()) << file;
+    for (const LimitValue& v : values) {
+      EXPECT_EQ(read_constraint(limit_name(v.limit.on), v.limit.limit), v.limit) << file;
+      EXPECT_FALSE(std::isnan(v.value)) << file << " " << limit_name(v.limit.on);
+      EXPECT_FALSE(limit_value_text(v.limit, v.value).empty());
+      EXPECT_EQ(v.kept(), violation(v.limit, v.value) <= 0);
+      alternatives.insert(v.limit.on.index());
+      ++limits;
+    }
+  }
+  EXPECT_GE(limits, 10);
+  EXPECT_GE(alternatives.size(), 3u);
+}
+
+// All limits with a key of their own and all metrics with a better direction: the text reads back.
+TEST(Constraints, ReadBackFromTheirNames) {
+  for (const ConstraintKind& kind : constraint_kinds()) {
+    const Constraint limit = read_constraint(kind.name, 0.3);
+    EXPECT_EQ(limit.on, kind.on);
+    EXPECT_EQ(limit_name(limit.on), kind.name);
+    EXPECT_EQ(limit.at_least, kind.at_least);
+  }
+  for (const char* key : {"worst(modulation)", "variation(friction)", "mean(haze)",
+                          "worst(voltage_for(modulation = 0.3))", "mean(felt(modulation = 0.2))"}) {
+    const Constraint limit = read_constraint(key, 0.3);
+    EXPECT_EQ(limit.on, Limited{MetricLimit{parse_metric(key)}});
+    EXPECT_EQ(limit_name(limit.on), key);
+  }
+  EXPECT_THROW(read_constraint("min_whole", 1), InputError);
+  EXPECT_THROW(read_constraint("mean(bridges)", 1), InputError);  // of no better direction
+}
+
 // Holes of 5 um and walls of 8 um take a period of 13 um, where the space ends at 10.
 TEST(Constraints, ThatContradictEachOtherAreNamedWithWhatThereIs) {
-  Study study = limited({{"min_hole", 5e-6, true}, {"min_wall", 8e-6, true}, {"haze", 0.3, false}});
+  Study study = limited({read_constraint("min_hole", 5e-6), read_constraint("min_wall", 8e-6),
+                         read_constraint("haze", 0.3)});
   const auto both = StudyProblem(study).constraints().contradiction();
   ASSERT_TRUE(both);
   EXPECT_EQ(both->text.find("constraints: no texture of [design_space] keeps min_hole (at least 5 "
@@ -137,7 +234,7 @@ TEST(Constraints, ThatContradictEachOtherAreNamedWithWhatThereIs) {
       << both->text;
   EXPECT_NE(both->text.find("(at texture.period 10 um, "), std::string::npos) << both->text;
   EXPECT_TRUE(both->flat_keeps);  // a depth of 0 is in the space
-  study.constraints = {{"min_wall", 20e-6, true}, {"min_hole", 1e-6, true}};
+  study.constraints = {read_constraint("min_wall", 20e-6), read_constraint("min_hole", 1e-6)};
   study.variables[2].low = 100e-9;
   const auto one = StudyProblem(study).constraints().contradiction();
   ASSERT_TRUE(one);
@@ -146,7 +243,8 @@ TEST(Constraints, ThatContradictEachOtherAreNamedWithWhatThereIs) {
             0u)
       << one->text;
   EXPECT_FALSE(one->flat_keeps);
-  study.constraints = {{"min_hole", 5e-6, true}, {"min_wall", 4.9e-6, true}};  // just so
+  study.constraints = {read_constraint("min_hole", 5e-6),
+                       read_constraint("min_wall", 4.9e-6)};  // just so
   EXPECT_FALSE(StudyProblem(study).constraints().contradiction());
 }
 

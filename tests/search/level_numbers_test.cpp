@@ -81,8 +81,10 @@ double plan_seconds(const Study& study, const Fidelity& fidelity) {
 TEST(LevelNumbers, APriceIsThatOfThePlanAndOfItsVoltages) {
   Study study = one_finger();
   for (const int targets : {0, 1, 2}) {
-    if (targets > 0) study.objective.minimise = {"worst(voltage_for(modulation = 0.3))"};
-    if (targets > 1) study.objective.maximise = {"mean(voltage_for(modulation = 0.4))"};
+    if (targets > 0)
+      study.objective.minimise = {parse_metric("worst(voltage_for(modulation = 0.3))")};
+    if (targets > 1)
+      study.objective.maximise = {parse_metric("mean(voltage_for(modulation = 0.4))")};
     const StudyProblem problem(study);
     ASSERT_EQ(problem.goals().voltage_targets.size(), static_cast<std::size_t>(targets));
     for (const auto& [stage, each] :
@@ -152,12 +154,12 @@ TEST(LevelNumbers, TheSmallestFeatureIsThatOfTheLimitOrOfACorner) {
   holes.wall_angle = kPi / 2, holes.edge_radius = 0;
   study.variables = {{"texture.period", "um", 4e-6, 6e-6, {}},
                      {"texture.diameter", "um", 2e-6, 3.9e-6, {}}};
-  study.constraints = {{"min_wall", 0.7e-6, true}};
+  study.constraints = {read_constraint("min_wall", 0.7e-6)};
   EXPECT_NEAR(StudyProblem(study).smallest_feature(), 0.7e-6, 0.7e-8);
   EXPECT_GE(StudyProblem(study).smallest_feature(), 0.7e-6 * (1 - 1e-9));
   study.constraints.clear();
   EXPECT_NEAR(StudyProblem(study).smallest_feature(), 0.1e-6, 1e-12);
-  study.constraints = {{"min_wall", 10e-6, true}};  // none keeps it
+  study.constraints = {read_constraint("min_wall", 10e-6)};  // none keeps it
   EXPECT_EQ(StudyProblem(study).smallest_feature(), kInfinity);
   const StudyCost cost = study_cost(study);
   EXPECT_EQ(cost.pixels, 64);

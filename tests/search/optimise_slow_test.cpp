@@ -36,7 +36,7 @@ struct FinishedRun {
   FinishedRun() {
     study.search.evaluations = 9;
     study.search.drafts = 6;
-    study.constraints.push_back({"haze", 0.03, false});
+    study.constraints.push_back(read_constraint("haze", 0.03));
     study.design.surface.refractive_index = 1.52;
     const auto progress = [this](const Progress& p) {
       if (stages.empty() || stages.back() != p.stage) stages.push_back(p.stage);
@@ -239,7 +239,7 @@ TEST(OptimiseOfOneRun, ResultsAreWrittenBeforeARuleOfPickIsRefused) {
 TEST(Optimise, RefusesASpaceThatNeverKeepsALimitOfTheShape) {
   Study study = small_study();
   study.search.evaluations = 2;
-  study.constraints = {{"min_wall", 5.5e-6, true}, {"aspect_ratio", 3, false}};
+  study.constraints = {read_constraint("min_wall", 5.5e-6), read_constraint("aspect_ratio", 3)};
   study.variables = {{"texture.diameter", "um", 1e-6, 4e-6, {}}};
   const std::string folder = fresh_folder("never");
   try {
@@ -261,7 +261,8 @@ TEST(Optimise, TheNearestToAnImpossibleLimitIsShown) {
   study.search.method = "nsga2";
   study.variables = {{"texture.diameter", "um", 1e-6, 4.9e-6, {}},
                      {"texture.depth", "nm", 100e-9, 1e-6, {}}};
-  study.constraints = {{"min_wall", 1.5e-6, true}, {"worst(modulation)", 5, true}};
+  study.constraints = {read_constraint("min_wall", 1.5e-6),
+                       read_constraint("worst(modulation)", 5)};
   const std::string folder = fresh_folder("nearest");
   const OptimiseResult result = optimise_to_folder(study, {folder, false, {}, nullptr});
   EXPECT_FALSE(result.any_feasible);
@@ -313,7 +314,7 @@ TEST(Optimise, ADesignSpaceOfOnePointIsEvaluated) {
 TEST(Optimise, ATargetIsMetByLeastSquares) {
   Study study = small_study();
   study.objective = {};
-  study.objective.targets = {{"modulation", 0.45}};
+  study.objective.targets = {{kModulation, 0.45}};
   study.constraints.clear();
   study.variables = {{"texture.depth", "nm", 0, 1e-6, {}}, {"drive.amplitude", "V", 100, 220, {}}};
   study.search.evaluations = 12;

@@ -91,7 +91,7 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
   Study study = small_study();
   study.design.environment.relative_humidity = {0.35};
   study.objective.maximise.clear();
-  study.objective.minimise = {"friction"};
+  study.objective.minimise = {parse_metric("friction")};
   study.design.accuracy.parameters = true;
   study.population.assign(2, study.design.finger);
   for (Finger& f : study.population) {

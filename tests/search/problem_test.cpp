@@ -90,12 +90,11 @@ TEST(Tasks, WithoutAPopulationTheDesignsOwnFingerIsTheOnlyOne) {
 TEST(Goals, AreNamedInTheOrderOfTheirFileAndAtMostThree) {
   Study study = oxide_study();
   study.objective = {};
-  study.objective.maximise = {"modulation", "worst(friction_on)"};
-  study.objective.targets = {{"friction_on", 0.4}};
-  study.constraints = {{"mean(friction)", 0.4, false},
-                       {"min_wall", 0.5e-6, true},
-                       {"worst(voltage_for(modulation = 0.3))", 100, false},
-                       {"mean(voltage_for(modulation = 0.3))", 80, false}};
+  study.objective.maximise = {parse_metric("modulation"), parse_metric("worst(friction_on)")};
+  study.objective.targets = {{kFrictionOn, 0.4}};
+  study.constraints = {read_constraint("mean(friction)", 0.4), read_constraint("min_wall", 0.5e-6),
+                       read_constraint("worst(voltage_for(modulation = 0.3))", 100),
+                       read_constraint("mean(voltage_for(modulation = 0.3))", 80)};
   {
     const StudyProblem problem(study);
     const auto& wanted = problem.objectives();
@@ -118,12 +117,12 @@ TEST(Goals, AreNamedInTheOrderOfTheirFileAndAtMostThree) {
     study.objective.risk = "worst";
     EXPECT_EQ(by_points(StudyProblem(study)), (std::vector<bool>{true, false, true}));
   }
-  study.objective.minimise = {"haze"};
+  study.objective.minimise = {parse_metric("haze")};
   EXPECT_NE(refusal(study).find("one to three objectives are possible, got 4"), std::string::npos)
       << refusal(study);
   study.objective = {};
   EXPECT_NE(refusal(study).find("got 0"), std::string::npos);
-  study.objective.minimise = {"haze"};
+  study.objective.minimise = {parse_metric("haze")};
   EXPECT_TRUE(StudyProblem(study).goals().looks);
 }
 
@@ -139,7 +138,7 @@ TEST(Goals, OfADriveAreRefusedWhereNothingIsDriven) {
   study.variables.back().low = 0;
   EXPECT_NE(refusal(study), "");
   study.variables.pop_back();
-  study.objective.maximise = {"mean(friction)"}, study.objective.minimise.clear();
+  study.objective.maximise = {parse_metric("mean(friction)")}, study.objective.minimise.clear();
   study.constraints.clear();
   EXPECT_FALSE(StudyProblem(study).driven());
 }
@@ -177,9 +176,9 @@ TEST(Evaluations, AreAsManyAsTheMethodAndTheVariablesAsk) {
                                                                 {"evolution", 1, 0, 50},
                                                                 {"evolution", 1, 4, 200}}) {
     study.search.method = method;
-    study.objective.maximise.assign(1, "mean(modulation)");
-    study.objective.minimise.assign(objectives > 1 ? 1 : 0, "mean(friction)");
-    study.objective.targets.assign(objectives > 2 ? 1 : 0, {"friction_on", 0.4});
+    study.objective.maximise.assign(1, parse_metric("mean(modulation)"));
+    study.objective.minimise.assign(objectives > 1 ? 1 : 0, parse_metric("mean(friction)"));
+    study.objective.targets.assign(objectives > 2 ? 1 : 0, {kFrictionOn, 0.4});
     study.variables.assign(static_cast<std::size_t>(variables), Variable{});
     EXPECT_EQ(default_evaluations(study), expected) << method << objectives << variables;
   }
@@ -367,7 +366,7 @@ TEST(Stability, TestsTheLimitsOfTheStudy) {
       judged(problem, {answered({0.5, 0.20}, 0.001), answered({0.9, 0.1}, 0.001, 1.9)});
   EXPECT_EQ(s.times_on_front, (std::vector<int>{9, 0}));
   ASSERT_EQ(s.variants[0].broken[1].size(), 1u);
-  EXPECT_EQ(s.variants[0].broken[1][0].limit.name, "oxide_breakdown_margin");
+  EXPECT_EQ(limit_name(s.variants[0].broken[1][0].limit.on), "oxide_breakdown_margin");
   EXPECT_NEAR(s.variants[0].broken[1][0].value, 1.9, 1e-12);
   EXPECT_TRUE(s.variants[0].broken[0].empty());
 }
@@ -438,7 +437,7 @@ TEST(Samples, OfTheWorstHumidityAreItsOwn) {
   study.population.clear();
   study.design.environment.relative_humidity = {0.2, 0.7};
   study.objective = {};
-  study.objective.maximise = {"modulation"};
+  study.objective.maximise = {parse_metric("modulation")};
   study.objective.risk = "worst";
   const StudyProblem problem(study);
   const ErrorSamples dry{{0.85, 0.9, 0.95}, {0.5, 0.4}, {0.3, 0.2}},

@@ -13,7 +13,7 @@ TaskAnswer full_answer() {
   TaskAnswer a;
   a.objectives = {{1.0 / 3, 1e-300, {0.1, -0.0}}, {-2, 0, {}}};
   a.worst = std::numeric_limits<double>::denorm_min();
-  a.look = TaskLook{0.01, 0.9, 1, 0.002};
+  a.look = Look{0.01, 0.9, 1, 0.002};
   a.limited = {kInfinity};
   a.samples = {{{{1, 2}, {0.5}, {}}}, {{}}};
   a.steps = {{{0.1, 0.2}, {0.3}}, {}};

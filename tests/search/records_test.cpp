@@ -30,7 +30,7 @@ class Records : public ::testing::Test {
     const std::size_t humidities = study_.design.environment.relative_humidity.size();
     out.objectives.assign(search_.objectives, {0.5, 0.01, std::vector<double>(humidities, 0.5)});
     out.limited.assign(problem_.goals().limited.size(), 0);
-    if (problem_.goals().looks) out.look = TaskLook{};
+    if (problem_.goals().looks) out.look = Look{};
     return out;
   }
   JournalRecord judged(const std::function<void(TaskRequest&, Outcome&)>& change) const {

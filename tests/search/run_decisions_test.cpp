@@ -210,7 +210,7 @@ TEST(RunDecisions, ATailIsThatOfItsOwnScatter) {
   Study study = two_variables(12);
   study.design.environment.relative_humidity = {0.35};
   study.objective = {};
-  study.objective.maximise = {"mean(modulation)"};
+  study.objective.maximise = {parse_metric("mean(modulation)")};
   study.objective.risk = "cvar 20 %";
   study.scatter = {{"texture.depth", 20e-9}, {"surface.contact_angle", 0.02}};
   const StudyProblem problem(study);

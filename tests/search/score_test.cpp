@@ -71,7 +71,7 @@ TEST(Scores, OnlyWhatIsMaximisedChangesItsSignForTheSearcher) {
 TEST(Scores, ResidualsOfATargetSumToItsSquaredDistance) {
   Study study = weighted_study();
   study.objective = {};
-  study.objective.targets = {{"modulation", 0.5}};
+  study.objective.targets = {{kModulation, 0.5}};
   const StudyProblem problem(study);
   const std::vector<std::vector<double>> points{{0.2, 0.4}, {0.5, 0.9}};
   const Score score = problem.score({answer(problem, points[0]), answer(problem, points[1])});
@@ -96,7 +96,8 @@ TEST(Scores, ResidualsOfATargetSumToItsSquaredDistance) {
 TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
   Study study = weighted_study();
   study.scenarios.push_back({"broken", 0, {}});
-  study.constraints = {{"mean(friction)", 0.05, false}, {"mean(contact_area)", 0.1, true}};
+  study.constraints = {read_constraint("mean(friction)", 0.05),
+                       {MetricLimit{parse_metric("mean(contact_area)")}, 0.1, true}};
   const StudyProblem problem(study);
   std::vector<TaskAnswer> answers(3, answer(problem, {0.2, 0.4}));
   const double worst[] = {0.3, 0.2, 0.01}, margin[] = {2, 3, 0.5};
@@ -104,7 +105,7 @@ TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
   for (std::size_t t = 0; t < 3; ++t) {
     answers[t].worst = worst[t], answers[t].oxide_margin = margin[t];
     answers[t].limited = limited[t];
-    answers[t].look = TaskLook{t == 1 ? 0.1 : 0.02, 0.9, 0.5, 0};
+    answers[t].look = Look{t == 1 ? 0.1 : 0.02, 0.9, 0.5, 0};
   }
   const Score score = problem.score(answers);
   EXPECT_EQ(score.worst, 0.2);
@@ -233,7 +234,7 @@ TEST(Slopes, EndAtTheLimitsOfTheStudy) {
   const StudyProblem problem(study);
   const auto limit = [&](const std::string& name) {
     for (const Constraint& c : study.constraints) {
-      if (c.name == name) return c.limit;
+      if (limit_name(c.on) == name) return c.limit;
     }
     return 0.0;
   };
@@ -319,10 +320,10 @@ TEST(Space, TheStudysOwnDesignIsItsPointAndUnknownNumbersStartInTheMiddle) {
 TEST(Space, LooksAreAskedForBeforeAnEvaluationOnlyWhereTheyAreLimited) {
   Study study = default_study();
   EXPECT_FALSE(search_problem(StudyProblem{study}).costly_constraints);
-  study.constraints.push_back({"haze", 0.03, false});
+  study.constraints.push_back(read_constraint("haze", 0.03));
   study.design.surface.refractive_index = 1.52;
   const StudyProblem problem(study);
-  EXPECT_TRUE(problem.constraints().limits_look());
+  EXPECT_EQ(problem.constraints().in_look().size(), 1u);
   EXPECT_EQ(search_problem(problem).costly_constraints(problem.space().unit_of_study()).size(), 1u);
 }
 

@@ -102,7 +102,7 @@ TEST(LimitBorders, ALimitOfNothingIsKeptFromBelowAlone) {
   study.variables = {{"texture.depth", "nm", 0, 600e-9, {}}};
   const auto expect = [&](double limit, bool at_least,
                           const std::vector<std::pair<double, double>>& violations) {
-    study.constraints = {{"mean(friction)", limit, at_least}};
+    study.constraints = {{MetricLimit{parse_metric("mean(friction)")}, limit, at_least}};
     const StudyProblem problem(study);
     for (const auto& [friction, violation] : violations) {
       Score score;
@@ -122,10 +122,8 @@ TEST(LimitBorders, ALimitOfNothingIsKeptFromBelowAlone) {
 TEST(LimitBorders, EachLookHasItsLimit) {
   Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   study.population.clear();
-  study.constraints = {{"haze", 0.02, false},
-                       {"transmittance", 0.9, true},
-                       {"gloss", 0.8, true},
-                       {"colour_shift", 0.01, false}};
+  study.constraints = {read_constraint("haze", 0.02), read_constraint("transmittance", 0.9),
+                       read_constraint("gloss", 0.8), read_constraint("colour_shift", 0.01)};
   const StudyProblem problem(study);
   ASSERT_EQ(problem.constraints().evaluated(), 0u);
   const Point unit = problem.space().unit_of_study();
@@ -139,7 +137,7 @@ TEST(LimitBorders, EachLookHasItsLimit) {
   EXPECT_NEAR(v[2], bounded(0.8 / look.gloss - 1), 1e-12);
   EXPECT_NEAR(v[3], bounded(look.colour_shift / 0.01 - 1), 1e-12);
   // Said with its unit.
-  study.constraints = {{"transmittance", 0.999, true}};
+  study.constraints = {read_constraint("transmittance", 0.999)};
   const StudyProblem clear(study);
   const std::string reason = clear.constraints().geometry_reason(unit);
   EXPECT_TRUE(reason.starts_with("transmittance ") && reason.ends_with(" % is below 99.9 %"))

@@ -235,7 +235,7 @@ TEST_F(Saving, ListsDesignsAndFinishedSearches) {
 
 TEST_F(Saving, AnExportIsShownBeforeItIsMade) {
   Study study = read_study(shipped_);
-  study.constraints = {{"min_wall", 1e-6, true}, {"aspect_ratio", 0.5, false}};
+  study.constraints = {read_constraint("min_wall", 1e-6), read_constraint("aspect_ratio", 0.5)};
   const auto preview = files_.export_preview(study);
   // Holes of 3 um at a pitch of 6 um, 600 nm deep.
   const auto row = [&](std::size_t i) { return preview["margins"][i]; };

@@ -63,7 +63,7 @@ TEST(SearchWish, SteersAStudyThatTheFileHasAlready) {
   }
   const Study made = reread(study_text(study, search_wish(wanted)));
   EXPECT_EQ(made.variables.size(), wanted["variables"].size());
-  EXPECT_EQ(made.objective.maximise, std::vector<std::string>{"worst(modulation)"});
+  EXPECT_EQ(made.objective.maximise, std::vector{parse_metric("worst(modulation)")});
   EXPECT_TRUE(made.objective.minimise.empty());
 }
 
@@ -142,8 +142,8 @@ TEST(SearchWish, ProposesTheGoalsAndLimitsOfItsStudy) {
   wish = proposed_wish(study);
   EXPECT_EQ(wish["maximise"], Json({"mean(friction)"}));
   EXPECT_EQ(wish["minimise"], Json::array());
-  study.objective.minimise = {"worst(friction)"};
-  study.constraints = {{"min_hole", 1.5e-6, true}, {"aspect_ratio", 2, false}};
+  study.objective.minimise = {parse_metric("worst(friction)")};
+  study.constraints = {read_constraint("min_hole", 1.5e-6), read_constraint("aspect_ratio", 2)};
   study.search.evaluations = 40;
   wish = proposed_wish(study);
   EXPECT_EQ(wish["maximise"], Json::array());
@@ -209,7 +209,7 @@ TEST(SearchWish, KeepsWhatThePageDoesNotSay) {
   wish.minimise = {"mean(modulation)"};
   const Study made = reread(study_text(study, wish));
   EXPECT_TRUE(made.objective.maximise.empty());
-  EXPECT_EQ(made.objective.minimise, wish.minimise);
+  EXPECT_EQ(made.objective.minimise, std::vector{parse_metric("mean(modulation)")});
   EXPECT_TRUE(made.constraints.empty());
   EXPECT_EQ(made.search.evaluations, 12);  // 0: as it was
   wish.evaluations = 1;

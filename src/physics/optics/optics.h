@@ -37,9 +37,15 @@ struct SpectrumPoint {
   double gloss = 1;        // specular reflection at 60 deg over that of the flat glass
 };
 
-struct Optics {
-  double haze = 0, transmittance = 1, gloss = 1;  // photopic means, mean over the angles
-  double colour_shift = 0;  // CIE 1976 u'v' distance of the undeviated light from the source; mean
+// Photopic means, over the angles.
+struct Look {
+  double haze = 0, transmittance = 1, gloss = 1;
+  double colour_shift = 0;  // CIE 1976 u'v' distance of the undeviated light from the source
+
+  bool operator==(const Look&) const = default;
+};
+
+struct Optics : Look {
   std::vector<SpectrumPoint> spectrum;
   OpticsRegime regime = OpticsRegime::Flat;
   std::string warning;  // for people; empty: inside the validity

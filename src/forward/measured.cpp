@@ -1,0 +1,17 @@
+#include "forward/measured.h"
+
+#include <cmath>
+
+#include "base/constants.h"
+
+namespace papilla::forward {
+
+double ErrorParts::total() const {
+  double sum = sampling * sampling;
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    if (origin.in_total) sum += square((this->*origin.part).value_or(0));
+  }
+  return std::sqrt(sum);
+}
+
+}  // namespace papilla::forward

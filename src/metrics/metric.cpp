@@ -1,0 +1,237 @@
+#include "metrics/metric.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/check.h"
+#include "base/error.h"
+#include "base/statistics.h"
+
+namespace papilla::metrics {
+namespace {
+
+struct Row {
+  Metric metric;  // of two families whichever modulation
+  MetricInfo info;
+};
+
+// A quantity of the response under the name that studies use; unit, meaning and state are its own.
+Row row(const char* name, Better better, Measured PointQuantities::*quantity) {
+  for (const auto& q : api::kQuantities<Measured>) {
+    if (q.value != quantity) continue;
+    const bool driven = q.drive == api::FingerDrive::On || q.drive == api::FingerDrive::OnElseZero;
+    return {QuantityMetric{quantity}, {name, q.unit, q.doc, better, driven}};
+  }
+  PAPILLA_CHECK(false, "every quantity is in the list");
+  return {};
+}
+
+Row row(const char* name, Better better, double Look::*number, const char* doc) {
+  return {LookMetric{number},
+          {.name = name, .unit = "", .doc = doc, .better = better, .appearance = true}};
+}
+
+const std::vector<Row>& rows() {
+  using Q = PointQuantities;
+  static const std::vector<Row> list{
+      row("modulation", Better::Higher, &Q::modulation),
+      row("friction", Better::Lower, &Q::friction_off),
+      row("friction_on", Better::Higher, &Q::friction_on),
+      row("capillary_force", Better::Lower, &Q::capillary_force),
+      row("electrostatic_force", Better::Higher, &Q::electrostatic_force),
+      row("retention_force", Better::Lower, &Q::retention_force),
+      row("contact_area", Better::Neither, &Q::area_fraction_off),
+      row("bridges", Better::Neither, &Q::bridges),
+      row("wetted_fraction", Better::Neither, &Q::wetted_fraction),
+      row("mean_gap", Better::Neither, &Q::mean_gap),
+      {Adhesion{},
+       {"adhesion", "N", "capillary force on the finger, drive off; never below 0", Better::Lower}},
+      {Compliance{},
+       {"compliance", "m/Pa", "indentation since first touch over patch pressure",
+        Better::Neither}},
+      row("haze", Better::Lower, &Look::haze, "share of the transmitted light beyond 2.5 deg"),
+      row("transmittance", Better::Higher, &Look::transmittance,
+          "undeviated share of the light on the plate"),
+      row("gloss", Better::Higher, &Look::gloss,
+          "specular reflection at 60 deg over that of flat glass"),
+      row("colour_shift", Better::Lower, &Look::colour_shift,
+          "CIE 1976 u'v' distance of the undeviated light from the source"),
+      {SourceAmplitude{},
+       {"drive.amplitude", "V",
+        "amplitude of the source: the design's; under current control what the "
+        "current needs at that humidity",
+        Better::Lower, true}},
+      {VoltageFor{},
+       {.name = "voltage_for",
+        .unit = "V",
+        .doc = "voltage_for(modulation = 0.5): amplitude at which the modulation reaches that "
+               "value; whatever the design's own amplitude",
+        .better = Better::Lower,
+        .takes_modulation = true}},
+      {Felt{},
+       {.name = "felt",
+        .unit = "",
+        .doc = "felt(modulation = 0.2): probability that the modulation is above that Weber "
+               "fraction; its mean over humidities and fingers is the share of people and "
+               "weathers that feel the effect",
+        .better = Better::Higher,
+        .needs_drive = true,
+        .takes_modulation = true}},
+  };
+  return list;
+}
+
+// Null of a metric that takes none.
+template <class Any>
+auto* modulation_in(Any& metric) {
+  decltype(&std::get<Felt>(metric).modulation) out = nullptr;
+  if (auto* v = std::get_if<VoltageFor>(&metric)) out = &v->modulation;
+  if (auto* f = std::get_if<Felt>(&metric)) out = &f->modulation;
+  return out;
+}
+
+std::string without_blanks(const std::string& text) {
+  std::string out;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(out), [](char c) { return c != ' '; });
+  return out;
+}
+
+// X of "NAME(modulation = X)".
+double modulation_of(const std::string& text, const std::string& name) {
+  const std::string compact = without_blanks(text), head = name + "(modulation=";
+  if (compact.starts_with(head) && compact.back() == ')') {
+    const char *from = compact.data() + head.size(), *to = compact.data() + compact.size() - 1;
+    double value = 0;
+    const auto [end, error] = std::from_chars(from, to, value);
+    if (error == std::errc{} && end == to && value > 0 && value < 1e6) return value;
+  }
+  throw InputError(fmt::format("\"{}\": expected {}(modulation = X), X above 0", text, name));
+}
+
+Measured adhesion(const ResponsePoint& point) {
+  Measured a = point.capillary_force;
+  a.value = std::max(a.value, 0.0);
+  return a;
+}
+
+// Eq. metrics.7, Eq. metrics.8: whether the effect is felt there is yes or no, and known as well as
+// the modulation is; each part of its error has its share in that.
+Measured felt(const Measured& modulation, double threshold) {
+  const double above = modulation.value - threshold, se = modulation.se();
+  if (se <= 0) return {above > 0 ? 1.0 : 0.0, {}};
+  const double p = normal_cdf(above / se), spread = std::sqrt(p * (1 - p));
+  Measured out{p, {.sampling = spread * modulation.parts.sampling / se}};
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    const auto& part = modulation.parts.*origin.part;
+    if (part && origin.in_total) out.parts.*origin.part = spread * *part / se;
+  }
+  return out;
+}
+
+Measured compliance(const ResponsePoint& point) {
+  Measured c = point.indentation;
+  c.value /= point.patch_pressure;
+  c.parts.sampling /= point.patch_pressure;
+  for (const ErrorOrigin& origin : kErrorOrigins) {
+    if (auto& part = c.parts.*origin.part) *part /= point.patch_pressure;
+  }
+  return c;
+}
+
+// One alternative at one humidity.
+struct AtPoint {
+  const ResponsePoint& point;
+
+  std::optional<Measured> operator()(const QuantityMetric& m) const { return point.*m.quantity; }
+  std::optional<Measured> operator()(const Adhesion&) const { return adhesion(point); }
+  std::optional<Measured> operator()(const Compliance&) const { return compliance(point); }
+  std::optional<Measured> operator()(const LookMetric&) const { return std::nullopt; }
+  std::optional<Measured> operator()(const SourceAmplitude&) const {
+    return Measured{point.source_voltage, {}};
+  }
+  std::optional<Measured> operator()(const VoltageFor& m) const {
+    for (const VoltageAnswer& answer : point.voltages) {
+      if (answer.target == m.modulation && answer.reached()) return answer.amplitude;
+    }
+    return std::nullopt;
+  }
+  std::optional<Measured> operator()(const Felt& m) const {
+    return felt(point.modulation, m.modulation);
+  }
+};
+
+struct CarryingQuantity {
+  using Found = std::optional<Measured PointQuantities::*>;
+
+  Found operator()(const QuantityMetric& m) const { return m.quantity; }
+  Found operator()(const Adhesion&) const { return &PointQuantities::capillary_force; }
+  Found operator()(const Compliance&) const { return &PointQuantities::indentation; }
+  Found operator()(const LookMetric&) const { return std::nullopt; }
+  Found operator()(const SourceAmplitude&) const { return std::nullopt; }
+  Found operator()(const VoltageFor&) const { return std::nullopt; }
+  Found operator()(const Felt&) const { return std::nullopt; }
+};
+
+}  // namespace
+
+const std::vector<MetricInfo>& metric_list() {
+  static const std::vector<MetricInfo> list = [] {
+    std::vector<MetricInfo> infos;
+    for (const Row& one : rows()) infos.push_back(one.info);
+    return infos;
+  }();
+  return list;
+}
+
+const MetricInfo& info_of(const Metric& metric) {
+  Metric any = metric;
+  if (double* modulation = modulation_in(any)) *modulation = 0;
+  const auto found =
+      std::find_if(rows().begin(), rows().end(), [&](const Row& one) { return one.metric == any; });
+  PAPILLA_CHECK(found != rows().end(), "every metric is in the list");
+  return found->info;
+}
+
+std::optional<Metric> find_metric(const std::string& text) {
+  const std::string compact = without_blanks(text);
+  for (const Row& one : rows()) {
+    const std::string& name = one.info.name;
+    if (!(one.info.takes_modulation ? compact.starts_with(name + "(") : text == name)) continue;
+    Metric out = one.metric;
+    if (double* modulation = modulation_in(out)) *modulation = modulation_of(text, name);
+    return out;
+  }
+  return std::nullopt;
+}
+
+std::string metric_text(const Metric& metric) {
+  const double* modulation = modulation_in(metric);
+  const std::string& name = info_of(metric).name;
+  return modulation ? fmt::format("{}(modulation = {})", name, *modulation) : name;
+}
+
+std::optional<Measured> metric_at(const Metric& metric, const ResponsePoint& point) {
+  return std::visit(AtPoint{point}, metric);
+}
+
+std::optional<Measured PointQuantities::*> metric_quantity(const Metric& metric) {
+  return std::visit(CarryingQuantity{}, metric);
+}
+
+std::string why_undefined(const Metric& metric, const Response& response) {
+  const auto* voltage = std::get_if<VoltageFor>(&metric);
+  if (!voltage) return info_of(metric).needs_drive && !response.driven ? "not driven (0 V)" : "";
+  for (const ResponsePoint& point : response.points) {
+    for (const VoltageAnswer& answer : point.voltages) {
+      if (answer.target != voltage->modulation || answer.reached()) continue;
+      return fmt::format("{:.0f} % RH: {} (modulation {:.3g})", 100 * point.relative_humidity,
+                         text(answer), answer.modulation);
+    }
+  }
+  return "";
+}
+
+}  // namespace papilla::metrics
