@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/check.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 
 namespace papilla::metrics {
 namespace {
