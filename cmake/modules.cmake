@@ -19,9 +19,8 @@ set(PAPILLA_TALKING_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # Loops over pixels run there, over arrays of their own: asserting each index costs a search a seventh of its time. Whoever
 # reads what others wrote keeps the assertions.
-set(PAPILLA_ROOMS_OF_LOOPS geometry geometry/textures src/fields src/physics/contact src/physics/capillary src/physics/electrostatics
+set(PAPILLA_ROOMS_OF_LOOPS src/numerics geometry geometry/textures src/fields src/physics/contact src/physics/capillary src/physics/electrostatics
     src/physics/optics src/physics/macro src/physics/drive src/physics/persson src/forward)
-set(PAPILLA_FILES_OF_LOOPS src/base/convolution.cpp src/base/fft_fftw.cpp src/base/fft_lanes.cpp src/base/fft_own.cpp)
 
 # papilla_library(NAME FOLDER... LIBS target...): every .cpp of the folders, one library. Other programs see its public
 # headers alone; our own program and tests link papilla_inside, which adds the internal headers and what those include.
@@ -42,7 +41,6 @@ function(papilla_library name)
       list(APPEND computing ${found})
     endif()
   endforeach()
-  set_source_files_properties(${PAPILLA_FILES_OF_LOOPS} PROPERTIES COMPILE_OPTIONS -U_GLIBCXX_ASSERTIONS)
   add_library(papilla_headers INTERFACE)
   target_include_directories(papilla_headers INTERFACE ${CMAKE_SOURCE_DIR}/include)
   target_link_libraries(papilla_headers INTERFACE papilla_options fmt::fmt OpenMP::OpenMP_CXX Eigen3::Eigen

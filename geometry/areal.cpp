@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/constants.h"
-#include "base/fft.h"
 #include "base/memory.h"
+#include "numerics/fft.h"
 
 namespace papilla::geometry {
 namespace {

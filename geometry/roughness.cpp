@@ -7,8 +7,8 @@
 
 #include "base/cache.h"
 #include "base/constants.h"
-#include "base/fft.h"
 #include "base/random.h"
+#include "numerics/fft.h"
 
 namespace papilla::geometry {
 namespace {

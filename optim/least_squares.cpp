@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/check.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "optim/fit_profile.h"
 #include "optim/trust_region.h"
 

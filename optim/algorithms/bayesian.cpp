@@ -4,7 +4,7 @@
 
 #include "base/constants.h"
 #include "base/random.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "optim/algorithms/searchers.h"
 #include "optim/gaussian_process.h"
 #include "optim/pareto.h"

@@ -5,11 +5,14 @@
 namespace papilla {
 
 namespace base {}
-namespace config {
+namespace numerics {
 using namespace base;
 }
+namespace config {
+using namespace numerics;
+}
 namespace optim {
-using namespace base;
+using namespace numerics;
 }
 namespace geometry {
 using namespace config;

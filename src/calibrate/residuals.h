@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/rooms.h"
-#include "base/statistics.h"
 #include "calibrate/calibration_file.h"
 #include "calibrate/kept_answers.h"
 #include "design/design.h"
+#include "numerics/statistics.h"
 #include "published/targets.h"
 
 namespace papilla::calibrate {

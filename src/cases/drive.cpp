@@ -9,11 +9,11 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "base/statistics.h"
 #include "cases/recording.h"
 #include "config/reader.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "numerics/statistics.h"
 #include "physics/electrostatics/breakdown.h"
 
 namespace papilla::cases {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/rooms.h"
-#include "base/statistics.h"
 #include "fields/gap.h"
+#include "numerics/statistics.h"
 #include "physics/capillary/droplets.h"
 #include "scene/finger.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/rooms.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "published/finger_model.h"
 
 namespace papilla::claims {

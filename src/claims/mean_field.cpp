@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "claims/papers.h"
+#include "numerics/statistics.h"
 #include "physics/drive/network.h"
 #include "physics/drive/signal.h"
 #include "physics/persson/persson.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/rooms.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "scene/finger.h"
 
 namespace papilla::claims {

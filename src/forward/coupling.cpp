@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "base/constants.h"
-#include "base/lanes.h"
 #include "forward/scene_terms.h"
+#include "numerics/reductions.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 #include "physics/electrostatics/breakdown.h"
@@ -287,12 +287,8 @@ class PatchSolver {
 
   void describe_gap(const ContactSolution& dry, PatchResult& out) const {
     const auto n = static_cast<double>(dry.gap.size());
-    double highest = -kInfinity;
-#pragma omp simd reduction(max : highest)
-    for (std::size_t i = 0; i < problem_.height.size(); ++i)
-      highest = problem_.height[i] > highest ? problem_.height[i] : highest;
     out.mean_gap = sum(dry.gap) / n;
-    out.indentation = highest - sum(problem_.height) / n - out.mean_gap;
+    out.indentation = largest(problem_.height) - sum(problem_.height) / n - out.mean_gap;
   }
 
   static void note_water(const Wetting& off, PatchResult& out) {

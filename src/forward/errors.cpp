@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 
 namespace papilla::forward {
 namespace {

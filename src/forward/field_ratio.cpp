@@ -8,11 +8,11 @@
 
 #include "base/constants.h"
 #include "base/parallel.h"
-#include "base/statistics.h"
 #include "forward/electric_path.h"
 #include "forward/patch_setup.h"
 #include "forward/scale_bridge.h"
 #include "forward/scene_terms.h"
+#include "numerics/statistics.h"
 #include "physics/electrostatics/full_field.h"
 
 namespace papilla::forward {

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "forward/electric_path.h"
 #include "forward/scene_terms.h"
 #include "forward/water_band.h"
+#include "numerics/statistics.h"
 #include "physics/contact/facts.h"
 
 namespace papilla::forward {

@@ -10,10 +10,10 @@
 
 #include "base/constants.h"
 #include "base/parallel.h"
-#include "base/statistics.h"
 #include "design/design.h"
 #include "forward/forward.h"
 #include "geometry/roughness.h"
+#include "numerics/statistics.h"
 #include "physics/capillary/bridge_table.h"
 #include "physics/capillary/droplets.h"
 #include "physics/contact/contact.h"

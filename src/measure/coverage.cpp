@@ -7,9 +7,9 @@
 
 #include "base/constants.h"
 #include "base/random.h"
-#include "base/statistics.h"
 #include "estimate/target.h"
 #include "measure/accuracy.h"
+#include "numerics/statistics.h"
 
 namespace papilla::measure {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/check.h"
 #include "base/error.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 
 namespace papilla::metrics {
 namespace {

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "forward/errors.h"
 #include "metrics/metrics.h"
 #include "metrics/series.h"
+#include "numerics/statistics.h"
 
 namespace papilla::metrics {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/rooms.h"
-#include "base/statistics.h"
 #include "design/design.h"
 #include "forward/response.h"
+#include "numerics/statistics.h"
 #include "published/finger_model.h"
 
 namespace papilla::published {

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/statistics.h"
 #include "base/text.h"
 #include "estimate/parameters.h"
+#include "numerics/statistics.h"
 #include "rank/candidate.h"
 
 namespace papilla::rank {

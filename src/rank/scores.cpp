@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 #include "base/random.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 
 namespace papilla::rank {
 namespace {

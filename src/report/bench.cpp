@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "report/tables.h"
 
 namespace papilla::report {

@@ -7,8 +7,8 @@
 
 #include "base/check.h"
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "estimate/parameters.h"
+#include "numerics/statistics.h"
 
 namespace papilla::search {
 namespace {

@@ -40,7 +40,7 @@ const std::map<std::string, std::set<std::string>>& seen_rooms() {
     t["api"].insert("papilla");  // include/papilla: what other programs see
     // Of what they see, these take less: exchanged maps no keys, metrics a response alone.
     t["maps"].erase("config");
-    t["metrics"] = {"base", "forward"};
+    t["metrics"] = {"base", "numerics", "forward"};
     return t;
   }();
   return table;

@@ -11,7 +11,6 @@
 
 #include "base/cache.h"
 #include "base/constants.h"
-#include "base/lanes.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/random.h"
@@ -70,23 +69,6 @@ TEST(RandomStream, IsSplitmixFromItsSeedPurposeAndIndex) {
   }
   const std::uint64_t key = mixed(mixed(mixed(3 + kStep) + kStep * 8) + kStep * 1);
   EXPECT_EQ(hash_uniform(3, 7, 0), std::ldexp(static_cast<double>(key >> 11), -53));
-}
-
-TEST(Lanes, AreReadAndStoredUpToTheVeryEnd) {
-  std::vector<double> v{1, 2, 3, 4, 5, 6, 7, 8, 9};
-  const Lanes whole = lanes_at(std::span(v), 1, -1), none = lanes_at(std::span(v), 9, -1),
-              one = lanes_at(std::span(v), 8);
-  for (std::size_t k = 0; k < kLanes; ++k) {
-    EXPECT_EQ(whole[k], static_cast<double>(k + 2));
-    EXPECT_EQ(none[k], -1);
-    EXPECT_EQ(one[k], k == 0 ? 9 : 0);
-    EXPECT_EQ(all_lanes(2.5)[k], 2.5);
-  }
-  EXPECT_EQ(total(whole), 44);
-  EXPECT_EQ(sum(std::span(v).first(8)), 36);
-  EXPECT_EQ(dot(v, std::vector<double>{1, 0, 0, 0, 0, 0, 0, 2, 3}), 1 + 16 + 27);
-  store_lanes(all_lanes(0), v, 1);
-  EXPECT_EQ(v, (std::vector<double>{1, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 // The weight of the newest does not matter, that of the others together does; what is looked up

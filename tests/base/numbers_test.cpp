@@ -5,33 +5,12 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/fft.h"
 #include "base/parallel.h"
-#include "base/quadrature.h"
 #include "base/random.h"
-#include "base/statistics.h"
 #include "base/text.h"
 
 namespace papilla::tests {
 namespace {
-
-TEST(Quadrature, GaussLegendreIsExactForDegree2nMinus1) {
-  for (int n : {1, 2, 3, 5, 8, 13, 40}) {
-    const Quadrature rule = gauss_legendre(n, 0, 2);
-    for (int degree = 0; degree < 2 * n; degree += degree < 4 ? 1 : 5) {
-      const double exact = std::pow(2, degree + 1) / (degree + 1);
-      double sum = 0;
-      for (int i = 0; i < n; ++i) sum += rule.weights[i] * std::pow(rule.nodes[i], degree);
-      EXPECT_NEAR(sum, exact, 1e-12 * exact) << n << " nodes, degree " << degree;
-    }
-    for (int i = 0; i < n; ++i) {  // ascending, and the same from both ends
-      EXPECT_NEAR(rule.nodes[i] + rule.nodes[n - 1 - i], 2, 1e-14);
-      if (i > 0) {
-        EXPECT_GT(rule.nodes[i], rule.nodes[i - 1]);
-      }
-    }
-  }
-}
 
 TEST(RandomStream, HasUnitVarianceAndIndependentStreams) {
   RandomStream a(1, "skin", 0), b(1, "skin", 1);
@@ -85,41 +64,6 @@ TEST(RandomStream, IsUniformOverItsRangeAndNamed) {
   EXPECT_NE(hash_uniform(1, 2, 3), hash_uniform(2, 2, 3));
 }
 
-TEST(Fft2d, HoldsAWaveAtItsModeAlone) {
-  const int nx = 12, ny = 10;
-  const Fft2d fft(nx, ny);
-  for (const auto& [mx, my] : {std::pair{2, 3}, {1, -4}, {0, 2}}) {
-    RealArray x(fft.real_size());
-    for (int iy = 0; iy < ny; ++iy)
-      for (int ix = 0; ix < nx; ++ix)
-        x[static_cast<std::size_t>(iy) * nx + ix] =
-            std::cos(2 * kPi * (mx * ix / double(nx) + my * iy / double(ny)));
-    SpectrumArray s(fft.spectrum_size());
-    fft.forward(x.data(), s.data());
-    for (int iy = 0; iy < ny; ++iy) {
-      for (int kx = 0; kx < fft.half(); ++kx) {
-        const int ky = signed_mode(iy, ny);
-        const bool here = kx == mx && (ky == my || (mx == 0 && ky == -my));
-        const auto& v = s[static_cast<std::size_t>(iy) * fft.half() + kx];
-        EXPECT_NEAR(std::abs(v), here ? nx * ny / 2 : 0, 1e-12) << kx << " " << ky;
-      }
-    }
-  }
-}
-
-TEST(Fft2d, ForwardThenInverseIsTheIdentityTimesN) {
-  for (auto [nx, ny] : {std::pair{8, 8}, {15, 7}, {13, 16}}) {
-    const Fft2d fft(nx, ny);
-    RealArray x(fft.real_size()), y(fft.real_size());
-    SpectrumArray s(fft.spectrum_size());
-    RandomStream random(3, "test");
-    for (double& v : x) v = random.normal();
-    fft.forward(x.data(), s.data());
-    fft.inverse(s.data(), y.data());
-    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(y[i] / (nx * ny), x[i], 1e-14);
-  }
-}
-
 TEST(ParallelFor, RethrowsTheLowestFailure) {
   try {
     parallel_for(100, [](int i) {
@@ -137,20 +81,6 @@ TEST(ParallelFor, CallsEachOnceWhateverTheThreads) {
     parallel_for(
         50, [&](int i) { ++calls[static_cast<std::size_t>(i)]; }, threads);
     EXPECT_EQ(calls, std::vector<int>(50, 1));
-  }
-}
-
-// Tables of Student's distribution (Abramowitz & Stegun 26.10), and its closed forms at 1 and 2.
-TEST(Statistics, StudentsDistributionHasItsTabulatedValues) {
-  EXPECT_NEAR(student_t_cdf(2.571, 5), 0.975, 2e-5);
-  EXPECT_NEAR(student_t_cdf(4.032, 5), 0.995, 2e-5);
-  EXPECT_NEAR(student_t_cdf(1.812, 10), 0.95, 5e-5);
-  EXPECT_NEAR(student_t_cdf(3.385, 30), 0.999, 2e-6);
-  for (double t : {-30.0, -1.7, -0.01, 0.0, 0.3, 2.5, 400.0}) {
-    EXPECT_NEAR(student_t_cdf(t, 1), 0.5 + std::atan(t) / std::acos(-1.0), 1e-10) << t;
-    EXPECT_NEAR(student_t_cdf(t, 2), 0.5 + t / (2 * std::sqrt(2 + t * t)), 1e-10) << t;
-    EXPECT_NEAR(student_t_cdf(t, 1e9), normal_cdf(t), 1e-9) << t;
-    EXPECT_NEAR(student_t_cdf(t, 0.9999e5), student_t_cdf(t, 1.0001e5), 1e-9) << t;
   }
 }
 

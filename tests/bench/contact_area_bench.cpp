@@ -11,8 +11,8 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/statistics.h"
 #include "geometry/roughness.h"
+#include "numerics/statistics.h"
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
 

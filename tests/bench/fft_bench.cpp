@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
-#include "base/fft.h"
+#include "numerics/fft.h"
 
 int main() {
   using namespace papilla::tests;

@@ -32,7 +32,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "optim/algorithms/searchers.h"
 #include "optim/pareto.h"
 #include "optim/search.h"

@@ -18,7 +18,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "optim/pareto.h"
 #include "report/svg.h"
 #include "search/problem.h"

@@ -11,11 +11,11 @@
 
 #include "base/constants.h"
 #include "base/memory.h"
-#include "base/statistics.h"
 #include "design/design.h"
 #include "design/paths.h"
 #include "forward/forward.h"
 #include "metrics/metrics.h"
+#include "numerics/statistics.h"
 
 namespace {
 

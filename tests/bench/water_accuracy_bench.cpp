@@ -13,10 +13,10 @@
 
 #include "base/constants.h"
 #include "base/random.h"
-#include "base/statistics.h"
 #include "design/design.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
+#include "numerics/statistics.h"
 #include "physics/capillary/droplets.h"
 #include "physics/capillary/threshold.h"
 

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "design/design.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
+#include "numerics/statistics.h"
 #include "physics/capillary/droplets.h"
 
 namespace {

@@ -27,45 +27,7 @@ constexpr double kDegree = kPi / 180;
 const std::vector<std::pair<double, double>> kPairs{{80, 50},  {50, 80},  {20, 35},
                                                     {110, 95}, {30, 150}, {70, 70}};
 
-// --- linear systems ---
-
-TEST(BridgeSystems, AreSolvedWithTheirDeterminant) {
-  std::array<double, 2> two{4, 11};
-  EXPECT_NEAR(branch::solve<2>({{{0, 2}, {3, 4}}}, two), -6, 1e-14);  // 2 y = 4, 3 x + 4 y = 11
-  EXPECT_NEAR(two[0], 1, 1e-15);
-  EXPECT_NEAR(two[1], 2, 1e-15);
-  // Determinant 1 (50 - 48) - 2 (40 - 42) + 3 (32 - 35) = -3, for (1, 2, 3).
-  std::array<double, 3> three{14, 32, 53};
-  EXPECT_NEAR(branch::solve<3>({{{1, 2, 3}, {4, 5, 6}, {7, 8, 10}}}, three), -3, 1e-13);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(three[i], i + 1, 1e-13);
-  // Each row has one entry: an odd permutation, 2 x 3 x 4 x 5.
-  std::array<double, 4> four{6, 12, 4, 5};
-  EXPECT_NEAR(branch::solve<4>({{{0, 0, 2, 0}, {0, 3, 0, 0}, {4, 0, 0, 0}, {0, 0, 0, 5}}}, four),
-              -120, 1e-12);
-  EXPECT_EQ(four, (std::array<double, 4>{1, 4, 3, 1}));
-  // A dense one with the pivot last.
-  std::array<double, 4> dense{1 + 4 + 9 + 16, 2 + 2 - 3 + 4, 3 - 2 + 3 + 8, 8 + 2 + 6 - 4};
-  const std::array<std::array<double, 4>, 4> a{
-      {{1, 2, 3, 4}, {2, 1, -1, 1}, {3, -1, 1, 2}, {8, 1, 2, -1}}};
-  const double determinant = branch::solve<4>(a, dense);
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(dense[i], i + 1, 1e-13);
-  // By cofactors of the first row: see the sum in the comment of each.
-  const auto minor = [&](int column) {
-    std::array<std::array<double, 3>, 3> m;
-    for (int i = 1; i < 4; ++i) {
-      for (int j = 0, k = 0; j < 4; ++j) {
-        if (j != column) m[i - 1][k++] = a[i][j];
-      }
-    }
-    return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-           m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-           m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-  };
-  EXPECT_NEAR(determinant, minor(0) - 2 * minor(1) + 3 * minor(2) - 4 * minor(3), 1e-12);
-  std::array<double, 2> none{1, 2};
-  EXPECT_EQ(branch::solve<2>({{{1, 2}, {2, 4}}}, none), 0);
-  EXPECT_EQ(branch::solve<2>({{{0, 1}, {0, 3}}}, none), 0);
-}
+// --- systems of equations ---
 
 TEST(BridgeSystems, HaveTheAngleTheHeightAndTheVolumeAsTheirResiduals) {
   branch::Profile q;
@@ -141,7 +103,7 @@ TEST(BridgeSystems, NewtonComesBackToTheBridgeAndKnowsItsDeterminant) {
       const branch::System s = branch::plate_system(branch::profile(*x, theta1), theta2, 0.1);
       for (const double r : s.residual) EXPECT_NEAR(r, 0, 1e-12);
       std::array<double, 3> unused = s.residual;
-      const double here = branch::solve<3>(s.jacobian, unused);
+      const double here = numerics::solve<3>(s.jacobian, unused);
       EXPECT_NEAR(determinant, here, 1e-5 * std::abs(here));
     }
     EXPECT_FALSE(branch::newton({std::nan(""), 1, 1}, theta1, theta2, 0.1));
@@ -340,7 +302,7 @@ TEST(BridgeClosedForms, LimitsAreWhereTheirBridgesSaySo) {
     const auto determinant = [&](const branch::Unknowns& x, double h) {
       const branch::System s = branch::plate_system(branch::profile(x, theta1), theta2, h);
       std::array<double, 3> unused = s.residual;
-      return branch::solve<3>(s.jacobian, unused);
+      return numerics::solve<3>(s.jacobian, unused);
     };
     branch::Branch before(theta1, theta2);
     ASSERT_TRUE(before.go_to(0.8 * l.rupture));

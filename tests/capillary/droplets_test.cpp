@@ -9,7 +9,7 @@
 #include "base/constants.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "physics/capillary/bridge.h"
 #include "physics/capillary/threshold.h"
 

@@ -10,8 +10,8 @@
 
 #include "base/check.h"
 #include "base/constants.h"
-#include "base/convolution.h"
 #include "base/random.h"
+#include "numerics/convolution.h"
 #include "physics/contact/contact.h"
 
 namespace papilla::tests {

@@ -236,12 +236,12 @@ TEST(LoadLevel, CarriesTheLoad) {
 }
 
 TEST(RoomOf, IsHowOftenAStepFitsBetweenTheBounds) {
-  EXPECT_DOUBLE_EQ(room_of(-2, 3, 10), 2.5);  // from 5 down to 0
-  EXPECT_DOUBLE_EQ(room_of(2, 3, 10), 4.5);   // from 1 up to 10
-  EXPECT_DOUBLE_EQ(room_of(-2, 0, 10), 1);    // to the bound
-  EXPECT_DOUBLE_EQ(room_of(4, 10, 10), 1);
-  EXPECT_EQ(room_of(0, 3, 10), kInfinity);
-  EXPECT_EQ(room_of(2, 3, kInfinity), kInfinity);
+  EXPECT_DOUBLE_EQ(room_of<double>(-2, 3, 10), 2.5);  // from 5 down to 0
+  EXPECT_DOUBLE_EQ(room_of<double>(2, 3, 10), 4.5);   // from 1 up to 10
+  EXPECT_DOUBLE_EQ(room_of<double>(-2, 0, 10), 1);    // to the bound
+  EXPECT_DOUBLE_EQ(room_of<double>(4, 10, 10), 1);
+  EXPECT_EQ(room_of<double>(0, 3, 10), kInfinity);
+  EXPECT_EQ(room_of<double>(2, 3, kInfinity), kInfinity);
 }
 
 // Each block of four carries what its pixel of the coarser grid does, as springs of a pixel's own

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "base/fft.h"
+#include "numerics/fft.h"
 #include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/electrode.h"
 #include "physics/electrostatics/electrowetting.h"

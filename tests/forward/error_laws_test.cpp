@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "forward/field_ratio.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
 #include "forward/skips.h"
+#include "numerics/statistics.h"
 #include "physics/electrostatics/full_field.h"
 
 namespace papilla::tests {

@@ -10,9 +10,9 @@
 #include <sstream>
 
 #include "base/files.h"
-#include "base/statistics.h"
 #include "base/text.h"
 #include "measure/coverage.h"
+#include "numerics/statistics.h"
 #include "physics/contact/contact.h"
 
 namespace papilla::tests {

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "forward/errors.h"
 #include "metrics/metrics.h"
 #include "metrics/series.h"
+#include "numerics/statistics.h"
 
 namespace papilla::tests {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "optim/gaussian_process.h"
 #include "optim/pareto.h"
 #include "optim/search.h"

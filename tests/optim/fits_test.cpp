@@ -7,7 +7,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "optim/least_squares.h"
 #include "optim/trust_region.h"
 

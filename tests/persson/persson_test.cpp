@@ -9,7 +9,7 @@
 #include <map>
 
 #include "base/constants.h"
-#include "base/quadrature.h"
+#include "numerics/quadrature.h"
 #include "physics/persson/gap_integrals.h"
 #include "physics/persson/power_law.h"
 #include "tests/persson/table.h"

@@ -14,8 +14,8 @@
 
 #include "base/check.h"
 #include "base/constants.h"
-#include "base/quadrature.h"
 #include "base/random.h"
+#include "numerics/quadrature.h"
 #include "physics/contact/contact.h"
 #include "physics/persson/gap_integrals.h"
 #include "physics/persson/persson.h"

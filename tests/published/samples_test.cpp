@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/statistics.h"
 #include "design/design.h"
 #include "forward/scale_bridge.h"
+#include "numerics/statistics.h"
 #include "published/targets.h"
 
 namespace papilla::tests {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "rank/rank.h"
 
 namespace papilla::tests {

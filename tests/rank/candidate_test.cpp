@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/statistics.h"
 #include "estimate/parameters.h"
+#include "numerics/statistics.h"
 #include "tests/rank/samples.h"
 
 namespace papilla::tests {

@@ -6,7 +6,7 @@
 
 #include "base/constants.h"
 #include "base/random.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "rank/scores.h"
 
 namespace papilla::tests {

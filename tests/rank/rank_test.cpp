@@ -9,7 +9,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "report/ranking.h"
 #include "tests/rank/samples.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 
 namespace papilla::tests {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 #include "report/response.h"
 #include "report/results.h"
 #include "report/summary.h"

@@ -11,8 +11,8 @@
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "base/statistics.h"
 #include "forward/plan.h"
+#include "numerics/statistics.h"
 #include "search/levels.h"
 #include "search/stability.h"
 

@@ -83,7 +83,7 @@ class SphereBridge {
     j[1][3] = -radius * sb;
     j[2][3] = -kPi * radius * radius * radius * sb * sb * sb;
     j[3][3] = -radius * cb;
-    if (bridge_branch::solve<4>(j, step) == 0) return -1;
+    if (numerics::solve<4>(j, step) == 0) return -1;
     double shrink = 1;
     shrink = std::min(shrink, 0.3 * x_.r1 / std::max(std::abs(step[0]), 1e-300));
     shrink = std::min(shrink, 0.5 * (1 + std::abs(x_.p)) / std::max(std::abs(step[1]), 1e-300));

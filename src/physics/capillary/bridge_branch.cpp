@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "base/constants.h"
-#include "base/lanes.h"
-#include "base/quadrature.h"
+#include "numerics/loops.h"
+#include "numerics/quadrature.h"
 #include "physics/capillary/bridge_system.h"
 #include "physics/capillary/water.h"
 
@@ -13,7 +14,7 @@ namespace papilla::capillary::bridge_branch {
 namespace {
 
 // sin a / a, (1 - cos a) / a and their slopes, of one sine and one cosine of a / 2. Of one number
-// or of eight.
+// or of several.
 template <class T>
 struct Turn {
   Turn(const T& a, const T& sine_of_half, const T& cosine_of_half) {
@@ -60,7 +61,6 @@ Point<double> end_of(const Unknowns& x, double cos1, double sin1) {
 
 Profile profile(const Unknowns& x, double theta1) {
   constexpr std::size_t kNodes = 48;
-  static_assert(kNodes % kLanes == 0);
   static const Quadrature gauss = gauss_legendre(kNodes, 0, 1);
   const double cos1 = std::cos(theta1), sin1 = std::sin(theta1);
   std::array<double, kNodes> sine, cosine;  // of half the turn
@@ -69,31 +69,27 @@ Profile profile(const Unknowns& x, double theta1) {
     sine[k] = std::sin(half);
     cosine[k] = std::cos(half);
   }
-  Lanes height{}, volume{}, area{};
-  std::array<Lanes, 3> height_slope{}, volume_slope{};
-  for (std::size_t k = 0; k < kNodes; k += kLanes) {
-    const Lanes t = lanes_at(gauss.nodes, k), weight = lanes_at(gauss.weights, k) * x.arc;
-    const Lanes s = t * x.arc;
-    const Point q =
-        point(x, cos1, sin1, s, Turn<Lanes>(x.p * s, lanes_at(sine, k), lanes_at(cosine, k)));
-    const Lanes r = root(q.w * q.w + q.u * q.u), per = 1 / r, climb = q.u * per;
-    height += weight * climb;
-    volume += weight * r * q.u;
-    area += weight * r;
+  const auto [height, volume, area, height_slope, volume_slope] = reduce(kNodes, [&](auto at) {
+    const auto t = at(gauss.nodes), weight = at(gauss.weights) * x.arc, s = t * x.arc;
+    using T = std::decay_t<decltype(s)>;
+    const Point<T> q = point(x, cos1, sin1, s, Turn<T>(x.p * s, at(sine), at(cosine)));
+    const T r = root(q.w * q.w + q.u * q.u), per = 1 / r, climb = q.u * per;
+    std::array<T, 3> climb_slope, volume_slope_here;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Lanes dw = i == 2 ? q.dw[i] * t : q.dw[i], du = i == 2 ? q.du[i] * t : q.du[i];
-      const Lanes dr = (q.w * dw + q.u * du) * per;
-      height_slope[i] += weight * (du - climb * dr) * per;
-      volume_slope[i] += weight * (dr * q.u + r * du);
+      const T dw = i == 2 ? q.dw[i] * t : q.dw[i], du = i == 2 ? q.du[i] * t : q.du[i];
+      const T dr = (q.w * dw + q.u * du) * per;
+      climb_slope[i] = weight * (du - climb * dr) * per;
+      volume_slope_here[i] = weight * (dr * q.u + r * du);
     }
-  }
+    return std::tuple(weight * climb, weight * r * q.u, weight * r, climb_slope, volume_slope_here);
+  });
   Profile out;
-  out.height = total(height);
-  out.volume = kPi * total(volume);
-  out.free_area = 2 * kPi * total(area);
+  out.height = height;
+  out.volume = kPi * volume;
+  out.free_area = 2 * kPi * area;
   for (std::size_t i = 0; i < 3; ++i) {
-    out.height_slope[i] = total(height_slope[i]);
-    out.volume_slope[i] = kPi * total(volume_slope[i]);
+    out.height_slope[i] = height_slope[i];
+    out.volume_slope[i] = kPi * volume_slope[i];
   }
   out.height_slope[2] += out.height / x.arc;  // the weights grow with the arc
   out.volume_slope[2] += out.volume / x.arc;
@@ -130,7 +126,7 @@ std::optional<Unknowns> newton(Unknowns x, double theta1, double theta2, double 
     const Profile q = profile(x, theta1);
     System system = plate_system(q, theta2, height);
     std::array<double, 3> step = system.residual;
-    const double det = solve<3>(system.jacobian, step);
+    const double det = numerics::solve<3>(system.jacobian, step);
     if (!(std::abs(det) > 0)) return std::nullopt;
     double shrink = 1;
     shrink = std::min(shrink, 0.5 * x.r1 / std::max(std::abs(step[0]), 1e-300));

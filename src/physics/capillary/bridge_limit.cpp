@@ -91,7 +91,7 @@ class LimitSearch {
       a[3] = tangent;
       step[3] = -length;
       for (int j = 0; j < 4; ++j) step[3] += tangent[j] * (v[j] - base[j]);
-      if (solve<4>(a, step) == 0) return s;
+      if (numerics::solve<4>(a, step) == 0) return s;
       double size = 0;
       for (int j = 0; j < 4; ++j) {
         v[j] -= step[j];
@@ -100,9 +100,9 @@ class LimitSearch {
       if (size > 2) return s;
       if ((size < 1e-8 && size < 1e-4 * last) || (size < 1e-10 && size >= 0.5 * last)) {
         std::array<double, 3> unused = system.residual;
-        s.det = solve<3>(system.jacobian, unused);
+        s.det = numerics::solve<3>(system.jacobian, unused);
         Vector next{0, 0, 0, 1};
-        if (solve<4>(a, next) == 0) return s;
+        if (numerics::solve<4>(a, next) == 0) return s;
         double norm = 0;
         for (double t : next) norm += t * t;
         for (int j = 0; j < 4; ++j) s.tangent[j] = next[j] / std::sqrt(norm);

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
+#include <tuple>
+#include <type_traits>
 
 #include "base/check.h"
 #include "base/constants.h"
+#include "numerics/loops.h"
 #include "physics/capillary/drop.h"
 
 namespace papilla::capillary {
@@ -23,9 +25,9 @@ constexpr double kRimHalfWidth = 0.07;
 
 struct GapTable::Nodes {
   // Chords: t = cos(j pi / (N + 1)), half width sin(...), weight pi / (N + 1) (Gauss-Chebyshev of
-  // the second kind: exact for the disc of a constant gap).
+  // the second kind: exact for the disc of a constant gap). Filled up with nodes of no weight.
   std::vector<double> t, half_width, weight;
-  std::vector<double> cosine, sine;  // rim
+  std::vector<double> cosine, sine, share;  // rim
 
   static const Nodes& of(int rule);
 };
@@ -45,6 +47,11 @@ const GapTable::Nodes& GapTable::Nodes::of(int rule) {
         const double angle = (j + 0.5) * 2 * kPi / n;
         all[k].cosine.push_back(std::cos(angle));
         all[k].sine.push_back(std::sin(angle));
+        all[k].share.push_back(1.0 / n);
+      }
+      for (std::vector<double>* nodes : {&all[k].t, &all[k].half_width, &all[k].weight,
+                                         &all[k].cosine, &all[k].sine, &all[k].share}) {
+        nodes->resize(padded(nodes->size()), 0.0);
       }
     }
     return all;
@@ -54,34 +61,10 @@ const GapTable::Nodes& GapTable::Nodes::of(int rule) {
 
 namespace {
 
-template <class Four>
-Four load(const double* values) {
-  Four out;
-  std::memcpy(&out, values, sizeof out);
-  return out;
-}
-
 int count_index(double wanted) {
   int k = 0;
   while (k + 1 < static_cast<int>(kCounts.size()) && kCounts[k] < wanted) ++k;
   return k;
-}
-
-struct Cell {
-  int index;        // in [0, n)
-  double fraction;  // [0, 1)
-  double turns;     // whole periods before it
-};
-
-inline Cell locate(double u, int n) {
-  double whole = std::floor(u);
-  const double fraction = u - whole;
-  double turns = 0;
-  if (whole < 0 || whole >= n) {
-    turns = std::floor(whole / n);
-    whole -= turns * n;
-  }
-  return {static_cast<int>(whole), fraction, turns};
 }
 
 }  // namespace
@@ -152,53 +135,67 @@ double GapTable::lowest_around(double x, double y) const {
   return lowest_[static_cast<std::size_t>(by) * blocks_x_ + bx];
 }
 
-// Whole part below u.
-inline GapTable::Index GapTable::floor_of(const Four& u) {
-  const Index cut = __builtin_convertvector(u, Index);  // towards 0
-  return cut + __builtin_convertvector(u < __builtin_convertvector(cut, Four), Index);
-}
-
-// Brings four indices, at most `periods` away, into [0, n); the whole periods that they were away.
-inline GapTable::Index GapTable::wrapped(Index& i, int n, int periods) {
-  Index turns{};
-  for (int k = 0; k < periods; ++k) {
-    const Index low = i < 0, high = i >= n;  // -1 where it is so
-    i += (low & n) - (high & n);
-    turns += low - high;
+// Which nodes places lie beyond; at most `periods` away from the first n they are brought there.
+template <bool kWraps, class T>
+[[gnu::always_inline]] inline GapTable::Cells<T> GapTable::cells(const T& place, int n,
+                                                                 int periods) const {
+  Cells<T> out;
+  out.node = kWraps ? floored(place) : truncated(place);
+  out.share = place - as_number(out.node);
+  out.turns = IndexOf<T>{};
+  if constexpr (kWraps) {
+    for (int k = 0; k < periods; ++k) {
+      const auto low = out.node < 0, high = out.node >= n;
+      out.node += chosen(low, n, 0) - chosen(high, n, 0);
+      out.turns += chosen(high, 1, 0) - chosen(low, 1, 0);
+    }
   }
-  return turns;
+  return out;
 }
 
-// The values at four places and the ones after them.
-[[gnu::always_inline]] inline GapTable::Neighbours GapTable::neighbours(const double* values,
-                                                                        const Index& at) {
-  const auto pair = [&](int k) { return load<Two>(values + static_cast<unsigned>(at[k])); };
-  const Four even = __builtin_shufflevector(pair(0), pair(2), 0, 1, 2, 3),
-             odd = __builtin_shufflevector(pair(1), pair(3), 0, 1, 2, 3);
-  return {__builtin_shufflevector(even, odd, 0, 4, 2, 6),
-          __builtin_shufflevector(even, odd, 1, 5, 3, 7)};
+// Integrals of rows, from their beginning to a share beyond the node `at`; `later` nodes on.
+template <class T>
+[[gnu::always_inline]] inline T GapTable::row_integrals(const IndexOf<T>& at, int later,
+                                                        const T& share) const {
+  const auto [here, next] = pairs_at(value_.data() + later, at);
+  return values_at(prefix_.data() + later, at) + share * (here + 0.5 * share * (next - here));
 }
 
-// Integrals of four rows, from their beginning to a share f beyond the node `at`; `later` nodes on.
-[[gnu::always_inline]] inline GapTable::Four GapTable::row_integrals(const Index& at, int later,
-                                                                     const Four& f) const {
-  Four prefix;
-  for (int k = 0; k < 4; ++k) prefix[k] = (prefix_.data() + later)[static_cast<unsigned>(at[k])];
-  const Neighbours n = neighbours(value_.data() + later, at);
-  return prefix + f * (n.here + 0.5 * f * (n.next - n.here));
+// Integral along a row at v, between two rows of pixels.
+template <bool kWraps, class T>
+[[gnu::always_inline]] inline T GapTable::chord(const T& from, const T& to, const T& v,
+                                                int periods) const {
+  const Cells<T> row = cells<kWraps>(v, grid_.ny, periods);
+  const IndexOf<T> first = row.node * stride_;
+  const auto integral = [&](const T& u) __attribute__((always_inline)) {
+    const Cells<T> column = cells<kWraps>(u, grid_.nx, periods);
+    T low{}, high{};
+    if constexpr (kWraps) {
+      const T turns = as_number(column.turns);
+      low = turns * values_at(prefix_.data() + grid_.nx, first);
+      high = turns * values_at(prefix_.data() + grid_.nx + stride_, first);
+    }
+    low += row_integrals<T>(first + column.node, 0, column.share);
+    high += row_integrals<T>(first + column.node, stride_, column.share);
+    return low + row.share * (high - low);
+  };
+  return integral(to) - integral(from);
+}
+
+template <bool kWraps, class T>
+[[gnu::always_inline]] inline T GapTable::gaps(const T& u, const T& v, int periods) const {
+  const Cells<T> row = cells<kWraps>(v, grid_.ny, periods),
+                 column = cells<kWraps>(u, grid_.nx, periods);
+  const IndexOf<T> node = row.node * stride_ + column.node;
+  const auto below = pairs_at(value_.data(), node), above = pairs_at(value_.data() + stride_, node);
+  const T low = below.first + column.share * (below.second - below.first);
+  const T high = above.first + column.share * (above.second - above.first);
+  return low + row.share * (high - low);
 }
 
 double GapTable::at(double x, double y) const {
-  return bilinear(x * inverse_dx_ - 0.5, y * inverse_dy_ - 0.5);
-}
-
-[[gnu::always_inline]] inline double GapTable::bilinear(double u, double v) const {
-  const Cell cx = locate(u, grid_.nx), cy = locate(v, grid_.ny);
-  const double* a = &value_[static_cast<std::size_t>(cy.index) * stride_ + cx.index];
-  const double* b = a + stride_;
-  const double low = a[0] + cx.fraction * (a[1] - a[0]);
-  const double high = b[0] + cx.fraction * (b[1] - b[0]);
-  return low + cy.fraction * (high - low);
+  const Disc d = disc(x, y, 0);
+  return d.periods > 0 ? gaps<true>(d.u, d.v, d.periods) : gaps<false>(d.u, d.v, 0);
 }
 
 GapTable::Rule GapTable::rule(double radius) const {
@@ -218,92 +215,30 @@ GapTable::Disc GapTable::disc(double x, double y, double radius) const {
   return d;
 }
 
-template <bool kWraps>
-[[gnu::always_inline]] inline GapTable::Rows GapTable::rows(const Four& v, int periods) const {
-  Index low = kWraps ? floor_of(v) : __builtin_convertvector(v, Index);
-  const Four share = v - __builtin_convertvector(low, Four);
-  if constexpr (kWraps) wrapped(low, grid_.ny, periods);
-  return {low * stride_, share};
-}
-
-template <bool kWraps>
-double GapTable::chords(const Nodes& n, const Disc& d) const {
-  const int count = static_cast<int>(n.t.size());
-  const double *t = n.t.data(), *half = n.half_width.data(), *weight = n.weight.data();
-  Four sums{};
-  for (int j = 0; j < count; j += 4) {
-    const Rows row = rows<kWraps>(d.v + d.rv * load<Four>(t + j), d.periods);
-    // From the beginning of the rows to the places u, between the rows.
-    const auto integral = [&](const Four& u) {
-      Index ix = kWraps ? floor_of(u) : __builtin_convertvector(u, Index);
-      const Four f = u - __builtin_convertvector(ix, Four);
-      Four low{}, high{};
-      if constexpr (kWraps) {
-        const Four turns = __builtin_convertvector(wrapped(ix, grid_.nx, d.periods), Four);
-        for (int k = 0; k < 4; ++k) {
-          const double* end = prefix_.data() + static_cast<unsigned>(row.low[k] + grid_.nx);
-          low[k] = end[0];
-          high[k] = end[stride_];
-        }
-        low *= turns;
-        high *= turns;
-      }
-      low += row_integrals(row.low + ix, 0, f);
-      high += row_integrals(row.low + ix, stride_, f);
-      return low + row.share * (high - low);
-    };
-    const Four w = d.ru * load<Four>(half + j);
-    sums += load<Four>(weight + j) * (integral(d.u + w) - integral(d.u - w));
-  }
-  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
-}
-
 double GapTable::disc_volume(double x, double y, double radius, const Rule& rule) const {
   const Nodes& n = Nodes::of(rule.chords);
   const Disc d = disc(x, y, radius);
-  return (d.periods > 0 ? chords<true>(n, d) : chords<false>(n, d)) * grid_.dx() * radius;
-}
-
-// The gap at four places.
-template <bool kWraps>
-[[gnu::always_inline]] inline GapTable::Four GapTable::gaps(const Four& u, const Four& v,
-                                                            int periods) const {
-  const Rows row = rows<kWraps>(v, periods);
-  Index ix = kWraps ? floor_of(u) : __builtin_convertvector(u, Index);
-  const Four f = u - __builtin_convertvector(ix, Four);
-  if constexpr (kWraps) wrapped(ix, grid_.nx, periods);
-  const Neighbours below = neighbours(value_.data(), row.low + ix),
-                   above = neighbours(value_.data() + stride_, row.low + ix);
-  const Four low = below.here + f * (below.next - below.here);
-  const Four high = above.here + f * (above.next - above.here);
-  return low + row.share * (high - low);
+  const auto volume = [&](auto wraps) {
+    return sum_over(n.t.size(), [&](auto at) {
+      const auto half = d.ru * at(n.half_width);
+      return at(n.weight) * chord<wraps>(d.u - half, d.u + half, d.v + d.rv * at(n.t), d.periods);
+    });
+  };
+  return (d.periods > 0 ? volume(std::true_type()) : volume(std::false_type())) * grid_.dx() *
+         radius;
 }
 
 std::array<double, 8> GapTable::around(double x, double y, double step) const {
   const Disc d = disc(x, y, step);
   std::array<double, 8> out;
-  for (std::size_t k = 0; k < out.size(); k += 4) {
-    const Four u = d.u + d.ru * load<Four>(&kDirections.x[k]),
-               v = d.v + d.rv * load<Four>(&kDirections.y[k]);
-    const Four four = d.periods > 0 ? gaps<true>(u, v, d.periods) : gaps<false>(u, v, 0);
-    std::memcpy(&out[k], &four, sizeof four);
-  }
+  const auto look = [&](auto wraps) {
+    for_each_pixel(out.size(), [&](auto at) {
+      at.store(out, gaps<wraps>(d.u + d.ru * at(kDirections.x), d.v + d.rv * at(kDirections.y),
+                                d.periods));
+    });
+  };
+  d.periods > 0 ? look(std::true_type()) : look(std::false_type());
   return out;
-}
-
-// Means on two circles about one place: one look at each direction.
-template <bool kWraps>
-GapTable::Pair GapTable::circles(const Nodes& n, const Disc& in, const Disc& out) const {
-  const int count = static_cast<int>(n.cosine.size());
-  const double *cosine = n.cosine.data(), *sine = n.sine.data();
-  Four inner{}, outer{};
-  for (int j = 0; j < count; j += 4) {
-    const Four c = load<Four>(cosine + j), s = load<Four>(sine + j);
-    inner += gaps<kWraps>(in.u + in.ru * c, in.v + in.rv * s, in.periods);
-    outer += gaps<kWraps>(out.u + out.ru * c, out.v + out.rv * s, out.periods);
-  }
-  const auto mean = [&](const Four& f) { return ((f[0] + f[1]) + (f[2] + f[3])) / count; };
-  return {mean(inner), mean(outer)};
 }
 
 // From two circles around the rim, exact for a bowl. Where the circle crosses a wall, slopes of
@@ -311,9 +246,20 @@ GapTable::Pair GapTable::circles(const Nodes& n, const Disc& in, const Disc& out
 GapTable::Rim GapTable::rim(double x, double y, double radius, const Rule& rule) const {
   const Nodes& n = Nodes::of(rule.rim_points);
   const double half = kRimHalfWidth * radius;
-  const Disc smaller = disc(x, y, radius - half), larger = disc(x, y, radius + half);
+  const Disc smaller_circle = disc(x, y, radius - half), larger_circle = disc(x, y, radius + half);
+  // Means on two circles about one place: one look at each direction.
+  const auto means = [&](auto wraps) {
+    return reduce(n.cosine.size(), [&](auto at) {
+      const auto c = at(n.cosine), s = at(n.sine), share = at(n.share);
+      const auto on = [&](const Disc& circle) __attribute__((always_inline)) {
+        return share *
+               gaps<wraps>(circle.u + circle.ru * c, circle.v + circle.rv * s, circle.periods);
+      };
+      return std::tuple(on(smaller_circle), on(larger_circle));
+    });
+  };
   const auto [in, out] =
-      larger.periods > 0 ? circles<true>(n, smaller, larger) : circles<false>(n, smaller, larger);
+      larger_circle.periods > 0 ? means(std::true_type()) : means(std::false_type());
   const double slope = (out - in) / (2 * half);
   return {0.5 * (in + out) - 0.5 * kRimHalfWidth * half * slope, slope};
 }

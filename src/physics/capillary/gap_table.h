@@ -5,9 +5,10 @@
 #include <array>
 #include <vector>
 
-#include "base/arrays.h"
 #include "base/rooms.h"
 #include "fields/gap.h"
+#include "numerics/arrays.h"
+#include "numerics/vector.h"
 
 namespace papilla::capillary {
 
@@ -41,42 +42,28 @@ class GapTable {
   double floor() const { return floor_; }
 
  private:
-  // Nodes of a circle or chords of a disc, four at a time; their counts are multiples of it.
-  using Four = double __attribute__((vector_size(32)));
-  using Two = double __attribute__((vector_size(16)));
-  using Index = int __attribute__((vector_size(16)));
-
   struct Nodes;
   struct Disc {  // in pixels
     double u, v, ru, rv;
     int periods = 0;  // by how many at most it reaches beyond the patch
   };
-
   Disc disc(double x, double y, double radius) const;
 
-  static Index floor_of(const Four& u);
-  static Index wrapped(Index& i, int n, int periods);
-  struct Neighbours {
-    Four here, next;
+  // Of one place or of several (T: numerics/vector.h), all of them in pixels.
+  template <class T>
+  struct Cells {
+    IndexOf<T> node;   // first of each
+    T share;           // of the place beyond it
+    IndexOf<T> turns;  // periods that it was away
   };
-  struct Pair {
-    double in, out;
-  };
-  struct Rows {
-    Index low;   // first nodes of the lower ones
-    Four share;  // of the rows after them
-  };
-  static Neighbours neighbours(const double* values, const Index& at);
-  Four row_integrals(const Index& at, int later, const Four& f) const;
-  template <bool kWraps>
-  Rows rows(const Four& v, int periods) const;
-  template <bool kWraps>
-  double chords(const Nodes& n, const Disc& d) const;  // over radius and pixel
-  template <bool kWraps>
-  Four gaps(const Four& u, const Four& v, int periods) const;  // [m]; places in pixels
-  template <bool kWraps>
-  Pair circles(const Nodes& n, const Disc& in, const Disc& out) const;  // [m]
-  double bilinear(double u, double v) const;                            // [m]; places in pixels
+  template <bool kWraps, class T>
+  Cells<T> cells(const T& place, int n, int periods) const;
+  template <class T>
+  T row_integrals(const IndexOf<T>& at, int later, const T& share) const;
+  template <bool kWraps, class T>
+  T chord(const T& from, const T& to, const T& v, int periods) const;  // over pixel
+  template <bool kWraps, class T>
+  T gaps(const T& u, const T& v, int periods) const;  // [m]
 
   Grid grid_;
   double floor_;

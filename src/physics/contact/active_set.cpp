@@ -1,7 +1,8 @@
 #include "physics/contact/active_set.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "numerics/reductions.h"
 
 namespace papilla::contact {
 
@@ -58,18 +59,13 @@ bool ActiveSet::balance(double load, double slack, std::size_t limit) {
     for (std::size_t r = 0; r < m; ++r) {
       a_[r] = -gap_[set_[r]];
       for (std::size_t c = 0; c <= r; ++c) {
-        matrix_[r * m + c] = influence(x_[set_[r]], y_[set_[r]], set_[c]);
+        matrix_[c * m + r] = influence(x_[set_[r]], y_[set_[r]], set_[c]);
       }
     }
-    if (!factorise(m)) return false;
-    substitute(m, a_);
-    substitute(m, b_);
-    double sum_a = 0, sum_b = 0;
-    for (std::size_t r = 0; r < m; ++r) {
-      sum_a += a_[r];
-      sum_b += b_[r];
-    }
-    shift_ = (load - sum_a) / sum_b;
+    if (!cholesky_.factorise(matrix_, m)) return false;
+    cholesky_.solve(a_);
+    cholesky_.solve(b_);
+    shift_ = (load - sum(a_)) / sum(b_);
     bool changed = false;
     for (std::size_t r = 0; r < m; ++r) {
       const double p = a_[r] + shift_ * b_[r];
@@ -92,37 +88,6 @@ bool ActiveSet::balance(double load, double slack, std::size_t limit) {
     if (!changed) return true;
   }
   return false;
-}
-
-// Cholesky in place, rows of the lower triangle.
-bool ActiveSet::factorise(std::size_t m) {
-  for (std::size_t r = 0; r < m; ++r) {
-    double* row = matrix_.data() + r * m;
-    for (std::size_t c = 0; c <= r; ++c) {
-      const double* other = matrix_.data() + c * m;
-      double sum = 0;
-#pragma omp simd reduction(+ : sum)
-      for (std::size_t k = 0; k < c; ++k) sum += row[k] * other[k];
-      if (c < r) {
-        row[c] = (row[c] - sum) / other[c];
-      } else {
-        if (!(row[r] - sum > 0)) return false;
-        row[r] = std::sqrt(row[r] - sum);
-      }
-    }
-  }
-  return true;
-}
-
-void ActiveSet::substitute(std::size_t m, std::vector<double>& x) const {
-  for (std::size_t r = 0; r < m; ++r) {
-    for (std::size_t c = 0; c < r; ++c) x[r] -= matrix_[r * m + c] * x[c];
-    x[r] /= matrix_[r * m + r];
-  }
-  for (std::size_t r = m; r-- > 0;) {
-    x[r] /= matrix_[r * m + r];
-    for (std::size_t c = 0; c < r; ++c) x[c] -= matrix_[r * m + c] * x[r];
-  }
 }
 
 }  // namespace papilla::contact

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "numerics/dense.h"
 #include "physics/contact/contact.h"
 
 namespace papilla::contact {
@@ -40,8 +41,6 @@ class ActiveSet {
  private:
   void sort(std::vector<std::pair<int, bool>>& members);
   double influence(int x, int y, std::size_t k) const;  // at (x, y) from the pixel at position k
-  bool factorise(std::size_t m);
-  void substitute(std::size_t m, std::vector<double>& x) const;
 
   const ContactKernel& kernel_;
   double shift_ = 0;
@@ -49,7 +48,8 @@ class ActiveSet {
   std::vector<char> touching_;
   std::vector<double> gap_, pressure_;
   std::vector<std::size_t> set_;  // touching ones, as positions
-  std::vector<double> matrix_, a_, b_;
+  Cholesky cholesky_;
+  std::vector<double> matrix_, a_, b_;  // influences, one touching pixel after another
 };
 
 }  // namespace papilla::contact

@@ -4,8 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "base/arrays.h"
 #include "base/constants.h"
+#include "numerics/arrays.h"
+#include "numerics/loops.h"
 #include "physics/contact/contact.h"
 
 namespace papilla::contact {
@@ -105,18 +106,9 @@ class AreaOfPixels {
 
   ContactArea measure() {
     std::vector<std::size_t> pressed;
-    constexpr std::size_t kBlock = 64;
-    for (std::size_t begin = 0; begin < pressure_.size(); begin += kBlock) {
-      const std::size_t end = std::min(begin + kBlock, pressure_.size());
-      double any = 0;
-#pragma omp simd reduction(+ : any)
-      for (std::size_t i = begin; i < end; ++i) any += pressure_[i] > 0 ? 1.0 : 0.0;
-      for (std::size_t i = begin; any > 0; ++i) {
-        if (!(pressure_[i] > 0)) continue;
-        pressed.push_back(i);
-        --any;
-      }
-    }
+    for_each_where(
+        pressure_.size(), [&](auto at) { return at(pressure_) > 0; },
+        [&](std::size_t i) { pressed.push_back(i); });
     AreaSums sums;
     for (const std::size_t i : pressed) add_sides(i, sums);
     for (const std::size_t i : pressed) add_squares(i, sums);

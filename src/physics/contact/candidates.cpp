@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/loops.h"
+#include "numerics/reductions.h"
+
 namespace papilla::contact {
 namespace {
 
@@ -36,17 +39,9 @@ std::vector<Low> lowest(std::span<const double> score, std::size_t count) {
                    sample.end());
   const double below = sample[rank];
   std::vector<Low> low;
-  constexpr std::size_t kBlock = 64;
-  for (std::size_t begin = 0; begin < n; begin += kBlock) {
-    const std::size_t end = std::min(begin + kBlock, n);
-    double found = 0;
-#pragma omp simd reduction(+ : found)
-    for (std::size_t i = begin; i < end; ++i) found += score[i] <= below ? 1.0 : 0.0;
-    if (found == 0) continue;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (score[i] <= below) low.emplace_back(score[i], static_cast<int>(i));
-    }
-  }
+  for_each_where(
+      n, [&](auto at) { return at(score) <= below; },
+      [&](std::size_t i) { low.emplace_back(score[i], static_cast<int>(i)); });
   return low;
 }
 
@@ -69,16 +64,14 @@ Watched watch(std::vector<Low> low, double wanted, std::span<const double> press
 // Root mean square slope of a gap function, by differences of neighbours.
 double rms_slope(const Grid& grid, std::span<const double> g0) {
   double slopes = 0;
-  const int last = grid.nx - 1;
+  const auto last = static_cast<std::size_t>(grid.nx - 1);
   for (int iy = 0; iy < grid.ny; ++iy) {
     const double* row = g0.data() + grid.index(0, iy);
     const double* next = g0.data() + grid.index(0, iy + 1 < grid.ny ? iy + 1 : 0);
-    double along = 0, across = 0;
-#pragma omp simd reduction(+ : along, across)
-    for (int ix = 0; ix < last; ++ix) {
-      along += (row[ix + 1] - row[ix]) * (row[ix + 1] - row[ix]);
-      across += (next[ix] - row[ix]) * (next[ix] - row[ix]);
-    }
+    const auto [along, across] = reduce(last, [&](auto at) {
+      const auto here = at(row), dx = at(row + 1) - here, dy = at(next) - here;
+      return std::tuple(dx * dx, dy * dy);
+    });
     slopes += along / (grid.dx() * grid.dx()) + across / (grid.dy() * grid.dy());
   }
   return std::sqrt(slopes / static_cast<double>(grid.size()));
@@ -98,12 +91,8 @@ std::optional<Watched> watch_lowest(const StandardProblem& problem, std::span<co
 std::optional<Watched> watch_near(const StandardProblem& problem, const ContactSolution& start,
                                   const WatchLimits& limits) {
   // At least three pixels for each under pressure: spares the search where those are too many.
-  double pressed = 0;
-#pragma omp simd reduction(+ : pressed)
-  for (std::size_t i = 0; i < start.pressure.size(); ++i)
-    pressed += start.pressure[i] > 0 ? 1.0 : 0.0;
-  double least = kWatchedPerPressed * pressed;
-  if (!affordable(least, limits)) return std::nullopt;
+  double fewest = kWatchedPerPressed * static_cast<double>(count_above(start.pressure, 0));
+  if (!affordable(fewest, limits)) return std::nullopt;
   // Pixels under pressure have no gap: they are among the lowest.
   std::vector<Low> low = lowest(start.gap, 2 * limits.limit);
   double load = 0, contact = 0;

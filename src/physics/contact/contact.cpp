@@ -5,24 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "numerics/reductions.h"
 #include "physics/contact/solvers.h"
 
 namespace papilla::contact {
 namespace {
-
-// Mean square about the mean; NaN or infinite where a value is.
-double variance(std::span<const double> values) {
-  const auto n = static_cast<double>(values.size());
-  const double origin = values[0];  // near enough to the mean against cancellation
-  double sum = 0, squares = 0;
-#pragma omp simd reduction(+ : sum, squares)
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double v = values[i] - origin;
-    sum += v;
-    squares += v * v;
-  }
-  return std::max(squares / n - (sum / n) * (sum / n), 0 * squares);
-}
 
 bool usable(const ContactSolution* start, std::size_t n) {
   return start && start->pressure.size() == n && start->converged() &&
@@ -109,10 +96,7 @@ ContactSolution solve_contact(const ContactKernel& kernel, std::span<const doubl
   const std::size_t n = grid.size();
   ContactSolution out;
   const double square_height = height.size() == n ? variance(height) : 0;
-  double mean_traction = 0;
-#pragma omp simd reduction(+ : mean_traction)
-  for (std::size_t i = 0; i < traction.size(); ++i) mean_traction += traction[i];
-  mean_traction /= static_cast<double>(n);
+  const double mean_traction = sum(traction) / static_cast<double>(n);
   if (height.size() != n || (!traction.empty() && traction.size() != n) ||
       !std::isfinite(square_height) || !std::isfinite(mean_traction) ||
       !std::isfinite(mean_pressure)) {

@@ -13,10 +13,11 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/convolution.h"
-#include "base/fft.h"
 #include "base/rooms.h"
 #include "geometry/grid.h"
+#include "numerics/convolution.h"
+#include "numerics/fft.h"
+#include "numerics/window.h"
 
 namespace papilla::contact {
 
@@ -46,10 +47,9 @@ class ContactKernel {
   const LayeredSolid& solid() const { return solid_; }
   const Fft2d& fft() const { return *fft_; }
   const std::vector<double>& symbol() const { return symbol_; }  // C(q)/n on the half spectrum
-  // Truncated inverse kernel, the preconditioner between contact pixels at most kReach apart: row
-  // dy - kReach of its coefficients from dx = -kReach on, padded with zeros to kStencilWidth.
-  static constexpr int kReach = 4, kStencilWidth = 16;
-  const float* stencil(int row) const { return stencil_.data() + row * kStencilWidth; }
+  // Truncated inverse kernel, the preconditioner between contact pixels at most kReach apart.
+  static constexpr int kReach = 4;
+  const Window<kReach>& stencil() const { return stencil_; }
   // Displacement at (dx, dy) pixels, 0 <= dx < nx, from a pixel under unit pressure [m/Pa].
   double influence(int dx, int dy) const { return influence_[grid_.index(dx, dy)]; }
   double self_compliance() const { return influence_[0]; }
@@ -72,7 +72,7 @@ class ContactKernel {
   std::shared_ptr<const Convolution> convolution_;  // null where the grid does not suit it
   std::vector<double> symbol_, inverse_symbol_;     // the latter 1/(C(q) n)
   RealArray arranged_, inverse_arranged_;           // for the convolution
-  std::vector<float> stencil_;
+  Window<kReach> stencil_;
   RealArray influence_;
   double influence_beyond_ = 0;
   std::shared_ptr<const ContactKernel> coarse_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
+
+#include "numerics/loops.h"
+#include "numerics/reductions.h"
 
 namespace papilla::contact {
 
@@ -21,13 +23,12 @@ DenseFields::DenseFields(const StandardProblem& standard, StandardState& state_o
 
 void DenseFields::scale_to_load() {
   const auto n = static_cast<double>(p.size());
-  double sum = 0;
-  for (double v : p) sum += v;
-  if (sum <= 0) {
+  const double carried = sum(p);
+  if (carried <= 0) {
     std::fill(p.begin(), p.end(), load / n);
     return;
   }
-  double factor = load / sum;
+  double factor = load / carried;
   if (!std::isfinite(cap)) {
     for (double& v : p) v *= factor;
     return;
@@ -76,7 +77,7 @@ void DenseFields::press_field() {
 void DenseFields::set_shift(double sum, double count, double t) {
   if (problem.approach) {
     shift = problem.level;
-    load = std::accumulate(p.begin(), p.end(), 0.0);
+    load = numerics::sum(p);
   } else if (count > 0) {
     shift = sum / count;
   } else {  // all at the cap: between the highest of them and the lowest of the others
@@ -114,59 +115,31 @@ double DenseFields::certificate() {
 }
 
 void DenseFields::close_gaps() {
-  constexpr std::size_t kBlock = 512;
-  double block[kBlock];
-  const double *pressure = p.data(), *w = gap.data(), *h = problem.height.data(),
-               *t = problem.traction.data();
-  const double level = shift;
-  double sum = 0;
-  state.gap.reserve(p.size());
-  for (std::size_t begin = 0; begin < p.size(); begin += kBlock) {
-    const std::size_t count = std::min(kBlock, p.size() - begin);
-#pragma omp simd reduction(+ : sum)
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::size_t i = begin + k;
-      block[k] = pressure[i] > 0 || w[i] < level ? 0 : w[i] - level;
-      sum += pressure[i] * (h[i] + w[i]);
-    }
-    if (t) {
-#pragma omp simd reduction(+ : sum)
-      for (std::size_t i = begin; i < begin + count; ++i) sum -= t[i] * (h[i] + w[i]);
-    }
-    state.gap.insert(state.gap.end(), block, block + count);
-  }
-  state.work = sum;
+  const std::span<const double> height = problem.height, traction = problem.traction;
+  state.gap.resize(p.size());
+  state.work = sum_over(p.size(), [&](auto at) {
+    const auto pressure = at(p), w = at(gap);
+    at.store(state.gap, chosen(pressure > 0.0 || w < shift, 0.0, w - shift));
+    return (pressure - at(traction, 0)) * (at(height) + w);
+  });
 }
 
 double load_level(std::span<const double> raw, std::span<const double> ones, double cap,
                   double load, double scale) {
-  const double *value = raw.data(), *one = ones.data();
   double level = 0, below = -kInfinity, above = kInfinity;
   for (int pass = 0; pass < 100; ++pass) {
-    double sum = 0, weight = 0;
-    if (one) {
-#pragma omp simd reduction(+ : sum, weight)
-      for (std::size_t k = 0; k < raw.size(); ++k) {
-        const double v = value[k] - level * one[k], cut = v < cap ? v : cap;
-        sum += v > 0 ? cut : 0;
-        weight += v > 0 && v < cap ? one[k] : 0;
-      }
-    } else {
-#pragma omp simd reduction(+ : sum, weight)
-      for (std::size_t k = 0; k < raw.size(); ++k) {
-        const double v = value[k] - level, cut = v < cap ? v : cap;
-        sum += v > 0 ? cut : 0;
-        weight += v > 0 && v < cap ? 1.0 : 0.0;
-      }
-    }
+    const auto [sum, weight] = reduce(raw.size(), [&](auto at) {
+      const auto one = at(ones, 1), v = at(raw) - level * one;
+      return std::tuple(within_bounds(v, cap), chosen(v > 0.0 && v < cap, one, 0.0));
+    });
     if (std::abs(sum - load) <= 1e-13 * scale) break;
     (sum > load ? below : above) = level;
     double next = weight > 0 ? level + (sum - load) / weight : kInfinity;
     if (!(next > below && next < above)) {
       double size = 0;
       for (std::size_t k = 0; k < raw.size(); ++k) {
-        const double unit = one ? one[k] : 1, v = std::abs(value[k] - level * unit) / unit;
-        if (std::abs(value[k]) != kBarred) size = std::max(size, v);
+        const double one = ones.empty() ? 1 : ones[k], v = std::abs(raw[k] - level * one) / one;
+        if (std::abs(raw[k]) != kBarred) size = std::max(size, v);
       }
       next = std::isinf(below)   ? above - 2 * size
              : std::isinf(above) ? below + 2 * size

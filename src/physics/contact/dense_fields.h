@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "numerics/loops.h"
 #include "physics/contact/solvers.h"
 
 namespace papilla::contact {
@@ -66,11 +67,26 @@ double load_level(std::span<const double> raw, std::span<const double> ones, dou
 
 constexpr double kBarred = 1e300;  // a raw value that stands for a pixel held at a bound
 
+// Of one pixel or of several (numerics/loops.h).
+
+// The pressure allowed that is nearest to `wanted`.
+template <class T>
+T within_bounds(const T& wanted, double cap) {
+  return smaller(larger(wanted, 0.0), cap);
+}
+
+// The step from the pressure `old` ends at a bound where it did not begin.
+template <class T>
+auto meets_bound(const T& old, const T& p, double cap) {
+  return (p == 0.0 && old > 0.0) || (p == cap && old < cap);
+}
+
 // How many times a pixel's step, its end p, fits between 0 and cap.
-inline double room_of(double step, double p, double cap) {
-  const double open = step < 0 ? step - p : cap - p + step;
-  const double length = open / (step != 0 ? step : 1e-300);
-  return step != 0 ? length : kInfinity;
+template <class T>
+T room_of(const T& step, const T& p, double cap) {
+  const T open = chosen(step < 0.0, step - p, cap - p + step);
+  const T length = open / chosen(step != 0.0, step, 1e-300);
+  return chosen(step != 0.0, length, kInfinity);
 }
 
 }  // namespace papilla::contact

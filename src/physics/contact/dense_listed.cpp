@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "numerics/loops.h"
+#include "numerics/reductions.h"
 #include "physics/contact/dense_whole.h"
 
 namespace papilla::contact {
@@ -48,12 +50,11 @@ void ListedPixels::precondition() {
 
 void ListedPixels::precondition_plainly() {
   const double stiffness = 1 / f_.kernel.self_compliance();
-  double sum = 0;
-  for (double r : r_) sum += stiffness * r;
-  const double mean = f_.problem.approach ? 0 : sum / static_cast<double>(r_.size());
+  const double mean =
+      f_.problem.approach ? 0 : stiffness * sum(r_) / static_cast<double>(r_.size());
   ones_.assign(r_.size(), stiffness);
   z_.resize(r_.size());
-  for (std::size_t k = 0; k < r_.size(); ++k) z_[k] = stiffness * r_[k] - mean;
+  for_each_pixel(r_.size(), [&](auto at) { at.store(z_, stiffness * at(r_) - mean); });
 }
 
 void ListedPixels::precondition_by_plane() {
@@ -61,30 +62,21 @@ void ListedPixels::precondition_by_plane() {
   for (std::size_t k = 0; k < free_.size(); ++k) f_.field[free_[k]] = r_[k];
   f_.press_field();
   z_.resize(free_.size());
-  const int* at = free_.data();
-  const double* field = f_.field.data();
-  double* z = z_.data();
-  double mean = 0;
-#pragma omp simd reduction(+ : mean)
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    z[k] = field[at[k]];
-    mean += z[k];
-  }
-  mean = f_.problem.approach ? 0 : mean / static_cast<double>(free_.size());
-  for (double& value : z_) value -= mean;
+  const double all = sum_over(free_.size(), [&](auto at) {
+    const auto z = at.listed(f_.field, free_);
+    at.store(z_, z);
+    return z;
+  });
+  const double mean = f_.problem.approach ? 0 : all / static_cast<double>(free_.size());
+  for_each_pixel(free_.size(), [&](auto at) { at.store(z_, at(z_) - mean); });
   ones_.assign(free_.size(), 1 / f_.kernel.self_compliance());
 }
 
 double ListedPixels::conjugate_share() const {
-  const int* at = free_.data();
-  const double *change = f_.change.data(), *z = z_.data(), *step = f_.step.data();
-  double cross = 0, own = 0;
-#pragma omp simd reduction(+ : cross, own)
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    const double y = change[at[k]];
-    cross += z[k] * y;
-    own += step[at[k]] * y;
-  }
+  const auto [cross, own] = reduce(free_.size(), [&](auto at) {
+    const auto y = at.listed(f_.change, free_);
+    return std::tuple(at(z_) * y, at.listed(f_.step, free_) * y);
+  });
   return own > 0 ? std::min(0.0, -cross / own) : 0;
 }
 
@@ -92,57 +84,48 @@ bool ListedPixels::move(double alpha, bool conjugate) {
   const std::size_t m = free_.size();
   raw_.resize(m);
   const double share = conjugate ? conjugate_share() : 0;
-  const int* at = free_.data();
-  const double *z = z_.data(), *one = ones_.data();
-  double *raw = raw_.data(), *p = f_.p.data(), *step = f_.step.data();
   const double cap = f_.cap;
-  double sum = 0, ones = 0;
-#pragma omp simd reduction(+ : sum, ones)
-  for (std::size_t k = 0; k < m; ++k) {
-    sum += z[k] + share * step[at[k]];
-    ones += one[k];
-  }
-  const double tilt = ones > 0 && !f_.problem.approach ? sum / ones : 0;
-#pragma omp simd
-  for (std::size_t k = 0; k < m; ++k) {
-    raw[k] = p[at[k]] - alpha * (z[k] + share * step[at[k]] - tilt * one[k]);
-  }
-  for (int i : left_) step[i] = 0;
+  const auto [along, ones] = reduce(m, [&](auto at) {
+    return std::tuple(at(z_) + share * at.listed(f_.step, free_), at(ones_));
+  });
+  const double tilt = ones > 0 && !f_.problem.approach ? along / ones : 0;
+  for_each_pixel(m, [&](auto at) {
+    const auto direction = at(z_) + share * at.listed(f_.step, free_) - tilt * at(ones_);
+    at.store(raw_, at.listed(f_.p, free_) - alpha * direction);
+  });
+  for (int i : left_) f_.step[i] = 0;
   const double level =
       f_.problem.approach ? 0 : load_level(raw_, ones_, cap, f_.load_beside(held_.size()), f_.load);
-  double clipped = 0;
-#pragma omp simd reduction(+ : clipped)
-  for (std::size_t k = 0; k < m; ++k) {
-    const double moved = raw[k] - level * one[k], old = p[at[k]];
-    const double above = moved > 0 ? moved : 0, v = above < cap ? above : cap;
-    clipped += (v == 0 && old > 0) || (v == cap && old < cap) ? 1.0 : 0.0;
-    step[at[k]] = v - old;
-    p[at[k]] = v;
-  }
+  const double clipped = sum_over(m, [&](auto at) {
+    const auto old = at.listed(f_.p, free_);
+    const auto p = within_bounds(at(raw_) - level * at(ones_), cap);
+    at.store_listed(f_.step, free_, p - old);
+    at.store_listed(f_.p, free_, p);
+    return chosen(meets_bound(old, p, cap), 1.0, 0.0);
+  });
   return clipped > 0;
 }
 
 StepSlopes ListedPixels::slopes() const {
-  double slope = 0, curvature = 0;
-  const int* at = free_.data();
-  const double *step = f_.step.data(), *change = f_.change.data(), *r = r_.data();
-#pragma omp simd reduction(+ : slope, curvature)
-  for (std::size_t k = 0; k < free_.size(); ++k) {
-    slope += r[k] * step[at[k]];
-    curvature += change[at[k]] * step[at[k]];
-  }
+  const auto [slope, curvature] = reduce(free_.size(), [&](auto at) {
+    const auto step = at.listed(f_.step, free_);
+    return std::tuple(at(r_) * step, at.listed(f_.change, free_) * step);
+  });
   return {slope, curvature};
 }
 
 double ListedPixels::room() const {
-  double longest = kInfinity;
-  for (int i : free_) longest = std::min(longest, room_of(f_.step[i], f_.p[i], f_.cap));
-  return longest;
+  return reduce(free_.size(), [&](auto at) {
+    return Least(room_of(at.listed(f_.step, free_), at.listed(f_.p, free_), f_.cap));
+  });
 }
 
 void ListedPixels::advance(double t) {
   if (t != 1) {
-    for (int i : free_) f_.p[i] = std::clamp(f_.p[i] - (1 - t) * f_.step[i], 0.0, f_.cap);
+    for_each_pixel(free_.size(), [&](auto at) {
+      const auto p = at.listed(f_.p, free_) - (1 - t) * at.listed(f_.step, free_);
+      at.store_listed(f_.p, free_, within_bounds(p, f_.cap));
+    });
   }
   old_.swap(free_);
   old_.insert(old_.end(), held_.begin(), held_.end());
@@ -151,28 +134,18 @@ void ListedPixels::advance(double t) {
 
 // Gap function and lists of the new pressure, at t of the step; old_ holds every pixel under it.
 void ListedPixels::arrive(double t) {
-  double sum = 0, count = 0, work = 0;
-  const int* old = old_.data();
-  const double *gap = f_.gap.data(), *change = f_.change.data(), *p = f_.p.data();
-  const double cap = f_.cap;
-#pragma omp simd reduction(+ : sum, count, work)
-  for (std::size_t k = 0; k < old_.size(); ++k) {
-    const double pressure = p[old[k]], w = gap[old[k]] + t * change[old[k]];
-    const bool inside = pressure > 0 && pressure < cap;
-    work += pressure * w;
-    sum += inside ? w : 0;
-    count += inside ? 1 : 0;
-  }
+  const auto [gaps, count, work] = reduce(old_.size(), [&](auto at) {
+    const auto p = at.listed(f_.p, old_);
+    const auto gap = at.listed(f_.gap, old_) + t * at.listed(f_.change, old_);
+    const auto inside = p > 0 && p < f_.cap;
+    return std::tuple(chosen(inside, gap, 0.0), chosen(inside, 1.0, 0.0), p * gap);
+  });
   f_.work = work;
-  f_.set_shift(sum, count, t);
+  f_.set_shift(gaps, count, t);
   sort_pressed(t);
   add_joining(t);
   r_.resize(free_.size());
-  const int* at = free_.data();
-  double* r = r_.data();
-  const double shift = f_.shift;
-#pragma omp simd
-  for (std::size_t k = 0; k < free_.size(); ++k) r[k] = gap[at[k]] - shift;
+  for_each_pixel(free_.size(), [&](auto at) { at.store(r_, at.listed(f_.gap, free_) - f_.shift); });
 }
 
 // old_ into those still free, held and left.
@@ -198,33 +171,22 @@ void ListedPixels::sort_pressed(double t) {
 // The gap function moves to t of the step; pixels without pressure that penetrate become free.
 void ListedPixels::add_joining(double t) {
   constexpr std::size_t kBlock = 64;
-  int joining[kBlock];
-  double* gap = f_.gap.data();
-  const double *change = f_.change.data(), *p = f_.p.data(), shift = f_.shift;
   const std::size_t n = f_.p.size();
   double lowest = kInfinity;
   for (std::size_t begin = 0; begin < n; begin += kBlock) {
     const std::size_t end = std::min(begin + kBlock, n);
-    double low = kInfinity;
-#pragma omp simd reduction(min : low)
-    for (std::size_t i = begin; i < end; ++i) {
-      gap[i] += t * change[i];
-      low = low < gap[i] ? low : gap[i];
-    }
-    if (low >= shift) continue;
+    const double low = reduce(begin, end, [&](auto at) {
+      const auto gap = at(f_.gap) + t * at(f_.change);
+      at.store(f_.gap, gap);
+      return Least(gap);
+    });
+    if (low >= f_.shift) continue;
     lowest = std::min(lowest, low);
-    double any = 0;
-#pragma omp simd reduction(+ : any)
-    for (std::size_t i = begin; i < end; ++i) any += gap[i] < shift && p[i] == 0 ? 1.0 : 0.0;
-    if (any == 0) continue;
-    std::size_t found = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      joining[found] = static_cast<int>(i);
-      found += gap[i] < shift && p[i] == 0;
-    }
-    free_.insert(free_.end(), joining, joining + found);
+    for_each_where(
+        begin, end, [&](auto at) { return at(f_.gap) < f_.shift && at(f_.p) == 0; },
+        [&](std::size_t i) { free_.push_back(static_cast<int>(i)); });
   }
-  f_.low = lowest < shift ? lowest : *std::min_element(f_.gap.begin(), f_.gap.end());
+  f_.low = lowest < f_.shift ? lowest : least(f_.gap);
 }
 
 }  // namespace papilla::contact

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "numerics/loops.h"
 #include "physics/contact/dense_listed.h"
 
 namespace papilla::contact {
@@ -19,108 +20,75 @@ void WholePixels::take_over(const ListedPixels& from) {
 
 void WholePixels::precondition_plainly() {
   const double stiffness = 1 / f_.kernel.self_compliance();
-  for (double& r : f_.field) r *= stiffness;
+  for_each_pixel(f_.field.size(), [&](auto at) { at.store(f_.field, stiffness * at(f_.field)); });
 }
 
 bool WholePixels::move(double alpha, bool conjugate) {
   const std::size_t n = f_.grid.size();
-  const char* is_free = is_free_.data();
-  const double *change = f_.change.data(), cap = f_.cap;
-  double *z = f_.field.data(), *p = f_.p.data(), *step = f_.step.data();
-  double sum = 0, cross = 0, own = 0, changes = 0, steps = 0;
+  double all = 0, cross = 0, own = 0, changes = 0, steps = 0;
   if (conjugate) {
-#pragma omp simd reduction(+ : sum, cross, own, changes, steps)
-    for (std::size_t i = 0; i < n; ++i) {
-      const double in = is_free[i] ? 1.0 : 0.0, value = in * z[i], y = in * change[i];
-      sum += value;
-      cross += value * y;
-      own += step[i] * y;
-      changes += y;
-      steps += in * step[i];
-    }
+    std::tie(all, cross, own, changes, steps) = reduce(n, [&](auto at) {
+      const auto in = at(is_free_), z = in * at(f_.field), y = in * at(f_.change);
+      const auto step = at(f_.step);
+      return std::tuple(z, z * y, step * y, y, in * step);
+    });
   } else {
-#pragma omp simd reduction(+ : sum)
-    for (std::size_t i = 0; i < n; ++i) sum += is_free[i] ? z[i] : 0;
+    all = sum_over(n, [&](auto at) { return at(is_free_) * at(f_.field); });
   }
   const bool approach = f_.problem.approach;
   const auto m = static_cast<double>(free_count_);
-  const double mean = approach ? 0 : sum / m;
+  const double mean = approach ? 0 : all / m;
   const double share = own > 0 ? std::min(0.0, -(cross - mean * changes) / own) : 0;
   const double tilt = approach ? 0 : mean + share * steps / m;
-#pragma omp simd
-  for (std::size_t i = 0; i < n; ++i) {
-    const double along = p[i] - alpha * (z[i] + share * step[i] - tilt);
-    z[i] = is_free[i] ? along : p[i] > 0 ? kBarred : -kBarred;
-  }
-  const double level = approach ? 0 : load_level(f_.field, {}, cap, f_.load, f_.load);
-  double clipped = 0;
-#pragma omp simd reduction(+ : clipped)
-  for (std::size_t i = 0; i < n; ++i) {
-    const double moved = z[i] - level, old = p[i];
-    const double above = moved > 0 ? moved : 0, v = above < cap ? above : cap;
-    clipped += (v == 0 && old > 0) || (v == cap && old < cap) ? 1.0 : 0.0;
-    step[i] = v - old;
-    p[i] = v;
-  }
+  for_each_pixel(n, [&](auto at) {
+    const auto p = at(f_.p), along = p - alpha * (at(f_.field) + share * at(f_.step) - tilt);
+    const auto barred = chosen(p > 0.0, decltype(p)(kBarred), -kBarred);
+    at.store(f_.field, chosen(at(is_free_) > 0.0, along, barred));
+  });
+  const double level = approach ? 0 : load_level(f_.field, {}, f_.cap, f_.load, f_.load);
+  const double clipped = sum_over(n, [&](auto at) {
+    const auto old = at(f_.p), p = within_bounds(at(f_.field) - level, f_.cap);
+    at.store(f_.step, p - old);
+    at.store(f_.p, p);
+    return chosen(meets_bound(old, p, f_.cap), 1.0, 0.0);
+  });
   return clipped > 0;
 }
 
 StepSlopes WholePixels::slopes() const {
-  double slope = 0, curvature = 0;
-  const double *step = f_.step.data(), *change = f_.change.data(), *w = f_.gap.data();
-  const double shift = f_.shift;
-#pragma omp simd reduction(+ : slope, curvature)
-  for (std::size_t i = 0; i < f_.gap.size(); ++i) {
-    slope += (w[i] - shift) * step[i];
-    curvature += change[i] * step[i];
-  }
+  const auto [slope, curvature] = reduce(f_.grid.size(), [&](auto at) {
+    const auto step = at(f_.step);
+    return std::tuple((at(f_.gap) - f_.shift) * step, at(f_.change) * step);
+  });
   return {slope, curvature};
 }
 
 double WholePixels::room() const {
-  const double *p = f_.p.data(), *step = f_.step.data(), cap = f_.cap;
-  double longest = kInfinity;
-#pragma omp simd reduction(min : longest)
-  for (std::size_t i = 0; i < f_.p.size(); ++i) {
-    const double found = room_of(step[i], p[i], cap);
-    longest = found < longest ? found : longest;
-  }
-  return longest;
+  return reduce(f_.grid.size(),
+                [&](auto at) { return Least(room_of(at(f_.step), at(f_.p), f_.cap)); });
 }
 
 void WholePixels::advance(double t) {
   const std::size_t n = f_.grid.size();
-  const double *change = f_.change.data(), *step = f_.step.data(), cap = f_.cap;
-  double *p = f_.p.data(), *w = f_.gap.data(), *residual = f_.field.data();
-  char* is_free = is_free_.data();
-  double sum = 0, count = 0;
   if (t != 1) {
-#pragma omp simd
-    for (std::size_t i = 0; i < n; ++i) {
-      const double v = p[i] - (1 - t) * step[i], above = v > 0 ? v : 0;
-      p[i] = above < cap ? above : cap;
-    }
+    for_each_pixel(n, [&](auto at) {
+      at.store(f_.p, within_bounds(at(f_.p) - (1 - t) * at(f_.step), f_.cap));
+    });
   }
-#pragma omp simd reduction(+ : sum, count)
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool inside = p[i] > 0 && p[i] < cap;
-    sum += inside ? w[i] + t * change[i] : 0;
-    count += inside ? 1.0 : 0.0;
-  }
-  f_.set_shift(sum, count, t);
-  const double shift = f_.shift;
-  double low = kInfinity, work = 0, free_count = 0;
-#pragma omp simd reduction(min : low) reduction(+ : work, free_count)
-  for (std::size_t i = 0; i < n; ++i) {
-    const double gap = w[i] + t * change[i];
-    const bool free = p[i] > 0 ? p[i] < cap || gap > shift : gap < shift;
-    w[i] = gap;
-    low = low < gap ? low : gap;
-    work += p[i] * gap;
-    is_free[i] = free;
-    residual[i] = free ? gap - shift : 0;
-    free_count += free ? 1.0 : 0.0;
-  }
+  const auto [gaps, count] = reduce(n, [&](auto at) {
+    const auto inside = at(f_.p) > 0.0 && at(f_.p) < f_.cap;
+    return std::tuple(chosen(inside, at(f_.gap) + t * at(f_.change), 0.0),
+                      chosen(inside, 1.0, 0.0));
+  });
+  f_.set_shift(gaps, count, t);
+  const auto [low, work, free_count] = reduce(n, [&](auto at) {
+    const auto p = at(f_.p), gap = at(f_.gap) + t * at(f_.change);
+    const auto free = chosen(p > 0.0, p < f_.cap || gap > f_.shift, gap < f_.shift);
+    at.store(f_.gap, gap);
+    at.store(is_free_, free);
+    at.store(f_.field, chosen(free, gap - f_.shift, 0.0));
+    return std::tuple(Least(gap), p * gap, chosen(free, 1.0, 0.0));
+  });
   f_.low = low;
   f_.work = work;
   free_count_ = static_cast<std::size_t>(free_count);

@@ -84,14 +84,13 @@ ContactKernel::ContactKernel(const Grid& grid, const LayeredSolid& solid)
   RealArray table(grid.size());
   SpectrumArray stiffness(inverse_symbol_.begin(), inverse_symbol_.end());
   fft_->inverse(stiffness.data(), table.data());
-  stencil_.assign((2 * kReach + 1) * kStencilWidth, 0);
   const auto first = [](int count) {
     return -std::min(kReach, (count - 1) / 2);
   };  // each pixel once
   const auto last = [](int count) { return std::min(kReach, count / 2); };
   for (int dy = first(grid.ny); dy <= last(grid.ny); ++dy) {
     for (int dx = first(grid.nx); dx <= last(grid.nx); ++dx) {
-      stencil_[static_cast<std::size_t>((dy + kReach) * kStencilWidth + dx + kReach)] =
+      stencil_.weight(dx, dy) =
           static_cast<float>(table[grid.index(wrap(dx, grid.nx), wrap(dy, grid.ny))]);
     }
   }

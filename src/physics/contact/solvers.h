@@ -4,8 +4,8 @@
 #include <span>
 
 #include "base/constants.h"
-#include "base/fft.h"
 #include "base/rooms.h"
+#include "numerics/fft.h"
 #include "physics/contact/contact.h"
 
 namespace papilla::contact {

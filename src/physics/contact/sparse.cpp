@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "base/watch.h"
+#include "numerics/loops.h"
 #include "physics/contact/active_set.h"
 #include "physics/contact/candidates.h"
 #include "physics/contact/cubic.h"
@@ -228,34 +229,20 @@ class CandidateSolver {
   // state in the same pass: it is the only one over all pixels that follows the transform.
   std::vector<int> inspect(double blur) {
     const double shift = set_.shift(), bound = shift + blur;
-    const double *rise = rise_.data(), *h = problem_.height.data(), *t = problem_.traction.data();
-    double low = kInfinity, pulled = 0;
+    const std::span<const double> height = problem_.height, traction = problem_.traction;
+    state_.gap.resize(n_);
+    const auto [low, pulled] = reduce(n_, [&](auto at) {
+      const auto rise = at(rise_), w = -at(height) - rise;
+      at.store(state_.gap, larger(w - shift, 0.0));
+      return std::tuple(Least(w), at(traction, 0) * rise);
+    });
     std::vector<int> open;
-    constexpr std::size_t kBlock = 64;
-    double block[kBlock];
-    state_.gap.clear();
-    state_.gap.reserve(n_);
-    for (std::size_t begin = 0; begin < n_; begin += kBlock) {
-      const std::size_t count = std::min(kBlock, n_ - begin);
-      double lowest = kInfinity;
-#pragma omp simd reduction(min : lowest)
-      for (std::size_t k = 0; k < count; ++k) {
-        const double w = -h[begin + k] - rise[begin + k];
-        lowest = lowest < w ? lowest : w;
-        block[k] = w > shift ? w - shift : 0;
-      }
-      state_.gap.insert(state_.gap.end(), block, block + count);
-      if (t) {
-#pragma omp simd reduction(+ : pulled)
-        for (std::size_t i = begin; i < begin + count; ++i) pulled += t[i] * rise[i];
-      }
-      low = std::min(low, lowest);
-      if (lowest >= bound) continue;
-      for (std::size_t i = begin; i < begin + count; ++i) {
-        if (-h[i] - rise[i] < bound && set_.find(static_cast<int>(i)) == set_.size()) {
-          open.push_back(static_cast<int>(i));
-        }
-      }
+    if (low < bound) {
+      for_each_where(
+          n_, [&](auto at) { return -at(height) - at(rise_) < bound; },
+          [&](std::size_t i) {
+            if (set_.find(static_cast<int>(i)) == set_.size()) open.push_back(static_cast<int>(i));
+          });
     }
     double pressed = 0, risen = 0;
     for (std::size_t k : set_.touching()) {

@@ -8,7 +8,7 @@
 
 #include "base/check.h"
 #include "base/constants.h"
-#include "base/fft.h"
+#include "numerics/fft.h"
 
 namespace papilla::drive {
 namespace {

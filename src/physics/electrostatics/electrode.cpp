@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/constants.h"
+#include "numerics/loops.h"
 
 namespace papilla::electrostatics {
 namespace {
@@ -92,11 +93,10 @@ std::vector<double> nearest_electrode(const Heightmap& surface,
         const double drop = std::max(0.0, low - below.high(iy + j));
         if (!(beside + square(drop) < worst)) continue;
         const double* there = below.from(places[p].k + from, iy + j);
-#pragma omp simd
-        for (int ix = 0; ix < n; ++ix) {
-          const double distance2 = beside + (z[ix] - there[ix]) * (z[ix] - there[ix]);
-          best[ix] = distance2 < best[ix] ? distance2 : best[ix];
-        }
+        for_each_pixel(static_cast<std::size_t>(n), [&](auto at) {
+          const auto above_it = at(z) - at(there);
+          at.store(best, smaller(beside + above_it * above_it, at(best)));
+        });
       }
       for (int ix = 0; ix < n; ++ix) best[ix] = std::sqrt(best[ix]);
     }
@@ -139,20 +139,18 @@ Heightmap below_layer(const Heightmap& surface, double thickness, double side_th
   const WideRows above(g, surface.z, nx);
   const double lowest = *std::min_element(surface.z.begin(), surface.z.end());
   for (int iy = 0; iy < g.ny; ++iy) {
-    double* least = &below.z[g.index(0, iy)];
+    double* lowest_of_row = &below.z[g.index(0, iy)];
     double worst = above.high(iy);
     for (std::size_t p = 0; p < places.size() && lowest + places[p].far < worst; ++p) {
-      if (p % kLooks == 0) worst = *std::max_element(least, least + g.nx);
+      if (p % kLooks == 0) worst = *std::max_element(lowest_of_row, lowest_of_row + g.nx);
       const int j = places[p].j, k = places[p].k;
       const double up = places[p].far;
       // No place of that row is lower by as much.
       if (above.low(iy + j) + up >= worst) continue;
       const double* there = above.from(k, iy + j);
-#pragma omp simd
-      for (int ix = 0; ix < g.nx; ++ix) {
-        const double z = there[ix] + up;
-        least[ix] = z < least[ix] ? z : least[ix];
-      }
+      for_each_pixel(static_cast<std::size_t>(g.nx), [&](auto at) {
+        at.store(lowest_of_row, smaller(at(there) + up, at(lowest_of_row)));
+      });
     }
   }
   for (double& z : below.z) z -= thickness;

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <span>
 
 #include "base/constants.h"
-#include "base/lanes.h"
+#include "numerics/loops.h"
 #include "physics/electrostatics/breakdown.h"
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
@@ -87,104 +87,73 @@ bool holds_all_voltage(const FieldProblem& problem) {
 
 namespace {
 
-// Eight pixels of what `pull` goes through.
-struct Columns {
-  Lanes open, film, air, water, potential;
-  bool spread;  // the potential is known, not that of the column
-
-  Columns(std::size_t i, const CoveredSurface* surface, const FieldProblem& p,
-          const AirColumns& columns, const FluxFactors& factors)
-      : open(lanes_at(factors.open, i, 1)),
-        film(surface ? lanes_at(surface->effective, i) : all_lanes(p.dielectric)),
-        air(lanes_at(columns.air, i, kNoPull)),
-        water(lanes_at(columns.water, i)),
-        potential(lanes_at(factors.potential, i)),
-        spread(!factors.potential.empty()) {}
-};
-
 // The air of a column breaks down: the voltage across it is beyond Paschen's.
 bool breaks_down(double v_peak, double air, double field2) {
   return air > 0 && square(v_peak * air) * field2 > square(air_breakdown_voltage(air));
 }
 
-class PullSum {
- public:
-  PullSum(const FieldProblem& p, bool walls) : p_(p), walls_(walls) {}
+// Of one column or of several (numerics/loops.h).
+template <class T>
+struct Column {
+  T open, film, air, water, potential;
+};
 
-  // The pressure of eight columns [Pa].
-  Lanes add(const Columns& c) {
+// What a column with these media carries.
+template <class T>
+struct ColumnPull {
+  T pressure;                 // [Pa]
+  T air_field2, film_field2;  // as in Strongest
+  T over_limit;               // 1 where the air breaks down
+};
+
+class ColumnLaw {
+ public:
+  // spread: the potential on the film is known, not that of the column.
+  ColumnLaw(const FieldProblem& p, bool spread) : p_(p), spread_(spread) {}
+
+  template <class T>
+  ColumnPull<T> operator()(const Column<T>& c) const {
     // A gap that is no number pulls: the sum must show it.
-    const LaneMask bridge = c.open <= 0, pulls = ~bridge & ~(c.air < 0), film = c.film > 0;
-    const Lanes reach = c.air + c.film + p_.skin_layer.real() + kPerWater * c.water;
-    const Lanes series2 = reach * reach + square(p_.skin_layer.imag());
-    const Lanes per_film = 1 / c.film, per_film2 = per_film * per_film;
+    const auto bridge = c.open <= 0.0, pulls = !bridge && !(c.air < 0.0), film = c.film > 0.0;
+    const T reach = c.air + c.film + p_.skin_layer.real() + kPerWater * c.water;
+    const T series2 = reach * reach + square(p_.skin_layer.imag());
+    const T per_film = 1 / c.film, per_film2 = per_film * per_film;
     // Squared, per volt: the field in the air, what is over the film's d/eps [1/m^2].
-    Lanes field2, of_film2;
-    if (c.spread) {
+    T field2, of_film2;
+    if (spread_) {
       // The flux over that of the column alone.
-      const Lanes skin = to_skin(c.air, c.water, p_.skin_layer.real());
-      const Lanes gain = c.potential * (skin + c.film), left = 1 - c.potential;
-      const Lanes flux2 = left * left * per_film2;
+      const T skin = to_skin(c.air, c.water, p_.skin_layer.real());
+      const T gain = c.potential * (skin + c.film), left = 1 - c.potential;
+      const T flux2 = left * left * per_film2;
       field2 = gain * gain / (skin * skin * series2);
       of_film2 = flux2 / (1 + square(p_.skin_layer.imag()) * flux2);
     } else {
       of_film2 = field2 = 1 / series2;
     }
-    const Lanes free = scale_ * field2;
-    const Lanes pressure =
-        chosen(pulls, chosen(cap_ < free, all_lanes(cap_), free) * c.open, Lanes{});
-    sum_ += pressure;
+    ColumnPull<T> out;
+    out.pressure = chosen(pulls, smaller(cap_, scale_ * field2) * c.open, 0.0);
     // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-    of_film2 *= square(p_.film_phase);
-    of_film2 = chosen(bridge | (of_film2 > per_film2), per_film2, of_film2);
-    raise(strongest_film2_, chosen((pulls | bridge) & film, of_film2, Lanes{}));
-    raise(strongest_air2_, chosen(pulls & (c.air > 0), field2, Lanes{}));
-    add_breakdown(c, pulls, field2, pressure);
-    return pressure;
-  }
-
-  void finish(std::size_t columns, FieldSolution& out) const {
-    const auto n = static_cast<double>(columns);
-    const double sum = total(sum_);
-    if (!std::isfinite(sum)) {
-      out.ok = false;
-      out.reason = "the pull is not finite";
-      return;
-    }
-    set_peaks(p_, walls_, {largest(strongest_air2_), largest(strongest_film2_)}, out);
-    out.mean_pressure = sum / n;
-    double over = 0;
-    for (std::size_t k = 0; k < kLanes; ++k) over += static_cast<double>(over_[k]);
-    out.over_limit_area = over / n;
-    out.over_limit_share = sum > 0 ? total(over_sum_) / sum : 0;
+    of_film2 = of_film2 * square(p_.film_phase);
+    of_film2 = chosen(bridge || of_film2 > per_film2, per_film2, of_film2);
+    out.film_field2 = chosen((pulls || bridge) && film, of_film2, 0.0);
+    const auto with_air = pulls && c.air > 0.0;
+    out.air_field2 = chosen(with_air, field2, 0.0);
+    // No gap breaks down below either; up to that of the minimum they are the whole law.
+    const T limit = smaller(kAirStrength * c.air, kPaschenMinimum), across = p_.v_peak * c.air;
+    const auto beyond = with_air && across * across * field2 > limit * limit;
+    const auto lasts = holds_for(
+        beyond && c.air > kPaschenGap,
+        [&](double air, double squared) { return !breaks_down(p_.v_peak, air, squared); }, c.air,
+        field2);
+    out.over_limit = chosen(beyond && !lasts, 1.0, 0.0);
+    return out;
   }
 
  private:
-  static void raise(Lanes& most, const Lanes& value) { most = chosen(most < value, value, most); }
-
-  void add_breakdown(const Columns& c, const LaneMask& pulls, const Lanes& field2,
-                     const Lanes& pressure) {
-    // No gap breaks down below either; up to that of the minimum they are the whole law.
-    const Lanes field = kAirStrength * c.air;
-    const Lanes limit = chosen(field < kPaschenMinimum, field, all_lanes(kPaschenMinimum));
-    const Lanes across = p_.v_peak * c.air;
-    LaneMask beyond = pulls & (c.air > 0) & (across * across * field2 > limit * limit);
-    const LaneMask wide = beyond & (c.air > kPaschenGap), none{};
-    if (std::memcmp(&wide, &none, sizeof wide) != 0) {
-      for (std::size_t k = 0; k < kLanes; ++k) {
-        if (wide[k] && !breaks_down(p_.v_peak, c.air[k], field2[k])) beyond[k] = 0;
-      }
-    }
-    over_ -= beyond;  // where it holds, -1
-    over_sum_ += chosen(beyond, pressure, Lanes{});
-  }
-
   const FieldProblem& p_;
-  bool walls_;
+  bool spread_;
   double scale_ = 0.5 * kVacuumPermittivity * square(p_.v_rms);
   double cap_ = p_.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
-  Lanes sum_{}, over_sum_{}, strongest_film2_{}, strongest_air2_{};
-  LaneMask over_{};  // columns beyond
 };
 
 }  // namespace
@@ -201,11 +170,26 @@ FieldSolution pull(const Gap& gap, const CoveredSurface* surface, const FieldPro
     out.reason = "no dielectric anywhere: contact would short the drive";
     return out;
   }
-  PullSum sum(p, surface && surface->walls);
-  for (std::size_t i = 0; i < n; i += kLanes) {
-    store_lanes(sum.add({i, surface, p, columns, factors}), out.traction.value, i);
+  const ColumnLaw law(p, !factors.potential.empty());
+  const std::span<const double> film =
+      surface ? std::span<const double>(surface->effective) : std::span<const double>();
+  const auto [pulled, air2, film2, over, pulled_over] = reduce(n, [&](auto at) {
+    const ColumnPull c = law(Column{at(factors.open, 1), at(film, p.dielectric), at(columns.air),
+                                    at(columns.water, 0), at(factors.potential, 0)});
+    at.store(out.traction.value, c.pressure);
+    return std::tuple(c.pressure, Largest(c.air_field2), Largest(c.film_field2), c.over_limit,
+                      chosen(c.over_limit > 0.0, c.pressure, 0.0));
+  });
+  if (!std::isfinite(pulled)) {
+    out.ok = false;
+    out.reason = "the pull is not finite";
+    return out;
   }
-  sum.finish(n, out);
+  set_peaks(p, surface && surface->walls, {air2, film2}, out);
+  const auto pixels = static_cast<double>(n);
+  out.mean_pressure = pulled / pixels;
+  out.over_limit_area = over / pixels;
+  out.over_limit_share = pulled > 0 ? pulled_over / pulled : 0;
   return out;
 }
 

@@ -9,24 +9,12 @@
 
 #include "base/check.h"
 #include "base/watch.h"
+#include "numerics/reductions.h"
 #include "physics/electrostatics/column_operator.h"
 #include "physics/electrostatics/field_columns.h"
 
 namespace papilla::electrostatics {
 namespace {
-
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
-  std::size_t i = 0;
-  for (; i + 4 <= a.size(); i += 4) {
-    s0 += a[i] * b[i];
-    s1 += a[i + 1] * b[i + 1];
-    s2 += a[i + 2] * b[i + 2];
-    s3 += a[i + 3] * b[i + 3];
-  }
-  for (; i < a.size(); ++i) s0 += a[i] * b[i];
-  return s0 + s1 + s2 + s3;
-}
 
 // The potential of a column at a height within one of its cells, by its two nodes.
 struct Interpolation {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/lanes.h"
 #include "base/rooms.h"
+#include "numerics/vector.h"
 #include "physics/electrostatics/field.h"
 
 namespace papilla::electrostatics {
@@ -23,11 +23,11 @@ AirColumns columns_above(const Gap& gap, const Wetting& wetting, const FieldProb
 inline constexpr double kPerWater = 1 / kWaterPermittivity;
 
 // d/eps from the film to the skin [m] of a column or of several; of a bare skin in contact not 0.
-template <class Real>
-Real to_skin(const Real& air, const Real& water, double skin_layer) {
+template <class T>
+T to_skin(const T& air, const T& water, double skin_layer) {
   constexpr double kLeast = 1e-10;
-  const Real sum = air + skin_layer + kPerWater * water;
-  return chosen(sum > kLeast, sum, Real{} + kLeast);
+  const T sum = air + skin_layer + kPerWater * water;
+  return chosen(sum > kLeast, sum, kLeast);
 }
 
 // Of each pixel.

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <span>
 
-#include "base/arrays.h"
 #include "base/constants.h"
+#include "numerics/arrays.h"
+#include "numerics/loops.h"
 
 namespace papilla::electrostatics {
 namespace {
@@ -102,74 +102,47 @@ class WaterDistance {
  public:
   template <class Most>
   WaterDistance(const Grid& g, const std::vector<std::uint8_t>& wet, const Most& most)
-      : step_(g.dy()), rows_(g.ny), strips_((g.nx + kLanes - 1) / kLanes), squared_(g.size()) {
-    // Rows of whole strips; what no pixel has asks for nothing.
-    const auto stride = static_cast<std::size_t>(strips_) * kLanes;
-    std::vector<float> along(stride * g.ny), reach(along.size());
+      : step_(g.dy()), grid_(g), along_(g.size()), reach_(g.size()), squared_(g.size()) {
     const double rows_per_metre = 1 / g.dy();
     for (int iy = 0; iy < g.ny; ++iy) {
       const std::size_t row = g.index(0, iy);
-      row_distance(wet.data() + row, g.nx, static_cast<float>(g.dx() / g.dy()),
-                   along.data() + iy * stride);
-      for (int ix = 0; ix < g.nx; ++ix) {
-        reach[iy * stride + ix] =
-            static_cast<float>(std::min(most(row + ix) * rows_per_metre, 0.5 * g.ny));
-      }
+      row_distance(wet.data() + row, g.nx, static_cast<float>(g.dx() / g.dy()), &along_[row]);
+      for (std::size_t i = row; i < row + static_cast<std::size_t>(g.nx); ++i)
+        reach_[i] = static_cast<float>(std::min(most(i) * rows_per_metre, 0.5 * g.ny));
     }
     for (int iy = 0; iy < g.ny; ++iy) {
-      for (int s = 0; s < strips_; ++s) {
-        const Strip nearest = nearest_row(along, reach, s, iy);
-        const int ix = s * kLanes;
-        std::memcpy(&squared_[g.index(ix, iy)], &nearest,
-                    sizeof(float) * std::min(kLanes, g.nx - ix));
-      }
+      for_each_pixel<float>(static_cast<std::size_t>(g.nx), [&](auto at) {
+        at.store(&squared_[grid_.index(0, iy)], nearest_row(at, iy));
+      });
     }
   }
   double operator()(std::size_t i) const { return step_ * std::sqrt(squared_[i]); }  // [m]
   std::span<const float> squared() const { return squared_; }  // in steps of a row
 
  private:
-  static constexpr int kLanes = 16;
-  using Strip = float __attribute__((vector_size(kLanes * sizeof(float))));
-
-  static float largest(Strip v) {
-    using Turn = int __attribute__((vector_size(sizeof(Strip))));
-    constexpr Turn kLane = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    for (int turn = kLanes / 2; turn > 0; turn /= 2) {
-      const Strip other = __builtin_shuffle(v, kLane ^ turn);
-      v = v < other ? other : v;
-    }
-    return v[0];
-  }
-
-  // Of pixels side by side: rows farther and farther off, until none of the pixels asks for one as
-  // far, or all know a nearer one.
-  Strip nearest_row(const std::vector<float>& along, const std::vector<float>& reach, int strip,
-                    int iy) const {
+  // Of one pixel or several side by side: rows farther and farther off, until none of the pixels
+  // asks for one as far, or all know a nearer one.
+  template <class At>
+  auto nearest_row(const At& at, int iy) const {
     constexpr int kLooks = 4;  // rows between two looks at what the pixels know
-    const auto load = [&](const std::vector<float>& from, int row) {
-      Strip out;
-      std::memcpy(&out, &from[(static_cast<std::size_t>(row) * strips_ + strip) * kLanes],
-                  sizeof out);
-      return out;
-    };
-    Strip nearest = load(along, iy);
-    const int rows = static_cast<int>(largest(load(reach, iy)));
-    float farthest = largest(nearest);
+    auto nearest = at(&along_[grid_.index(0, iy)]);
+    const int rows = static_cast<int>(largest_of(at(&reach_[grid_.index(0, iy)])));
+    float farthest = largest_of(nearest);
     for (int j = 1, up = iy, down = iy; j <= rows && static_cast<float>(j * j) < farthest; ++j) {
-      if (++up == rows_) up = 0;
-      if (down-- == 0) down = rows_ - 1;
-      const Strip above = load(along, up), below = load(along, down);
-      const Strip there = (above < below ? above : below) + static_cast<float>(j * j);
-      nearest = there < nearest ? there : nearest;
-      if (j % kLooks == 0) farthest = largest(nearest);
+      if (++up == grid_.ny) up = 0;
+      if (down-- == 0) down = grid_.ny - 1;
+      const auto above = at(&along_[grid_.index(0, up)]), below = at(&along_[grid_.index(0, down)]);
+      nearest = smaller(smaller(above, below) + static_cast<float>(j * j), nearest);
+      if (j % kLooks == 0) farthest = largest_of(nearest);
     }
     return nearest;
   }
 
   double step_;
-  int rows_, strips_;
-  UnsetArray<float> squared_;
+  const Grid& grid_;
+  // Squared distance along the row, and how far a pixel asks, both in steps of a row.
+  UnsetArray<float> along_, reach_;
+  UnsetArray<float> squared_;  // to the nearest wet pixel
 };
 
 // share: how much of a film it is; the factor to that power.

@@ -7,9 +7,10 @@
 
 #include "base/cache.h"
 #include "base/constants.h"
-#include "base/convolution.h"
-#include "base/fft.h"
-#include "base/lanes.h"
+#include "numerics/convolution.h"
+#include "numerics/fft.h"
+#include "numerics/loops.h"
+#include "numerics/reductions.h"
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
 
@@ -21,22 +22,6 @@ constexpr int kMaxIterations = 60;
 // 10^7 of each number, is a thousandth of them and less.
 constexpr double kSinglePrecision = 1e-3;
 
-// Of the pixels; the length is a multiple of a pack of numbers.
-template <class Real>
-using Pixels = UnsetArray<Real>;
-template <class Real>
-std::size_t padded(std::size_t n) {
-  constexpr std::size_t count = Pack<Real>::kCount;
-  return (n + count - 1) / count * count;
-}
-template <class Real>
-typename Pack<Real>::Type& pack(Pixels<Real>& values, std::size_t i) {
-  return *reinterpret_cast<typename Pack<Real>::Type*>(values.data() + i);
-}
-template <class Real>
-const typename Pack<Real>::Type& pack(const Pixels<Real>& values, std::size_t i) {
-  return *reinterpret_cast<const typename Pack<Real>::Type*>(values.data() + i);
-}
 // Multiplication by a symbol in Fourier space: vector registers where the grid suits them.
 template <class Real>
 class Filter {
@@ -57,14 +42,13 @@ class Filter {
     return fast_ ? fast_->arrange(half) : AlignedArray<Real>(half.begin(), half.end());
   }
 
-  void apply(const Pixels<Real>& in, const AlignedArray<Real>& symbol, Pixels<Real>& out) {
+  void apply(const UnsetArray<Real>& in, const AlignedArray<Real>& symbol, UnsetArray<Real>& out) {
     if (fast_) return fast_->apply(in.data(), symbol, scratch_.data(), out.data());
     for (std::size_t i = 0; i < values_.size(); ++i) values_[i] = in[i];
     fft_->forward(values_.data(), spectrum_.data());
     for (std::size_t o = 0; o < symbol.size(); ++o) spectrum_[o] *= static_cast<double>(symbol[o]);
     fft_->inverse(spectrum_.data(), values_.data());
     for (std::size_t i = 0; i < values_.size(); ++i) out[i] = static_cast<Real>(values_[i]);
-    std::fill(out.begin() + static_cast<std::ptrdiff_t>(values_.size()), out.end(), Real{0});
   }
 
  private:
@@ -126,12 +110,13 @@ struct Columns {
   const std::vector<double>& dielectric;  // d/eps [m]
   const std::vector<std::uint8_t>& wet;   // empty: nowhere
 
-  // From the film to the skin.
-  Lanes distance(std::size_t i) const {
-    const Lanes air = lanes_at(above.air, i);
-    const LaneMask known = ~(air < 0);
-    return to_skin(chosen(known, air, lanes_at(gap.value, i)),
-                   chosen(known, lanes_at(above.water, i), Lanes{}), skin_layer);
+  // From the film to the skin [m].
+  template <class At>
+  auto distance(const At& at) const {
+    const auto air = at(above.air);
+    const auto known = !(air < 0);
+    return to_skin(chosen(known, air, at(gap.value)), chosen(known, at(above.water, 0), 0.0),
+                   skin_layer);
   }
 };
 
@@ -146,44 +131,38 @@ class SurfacePotential {
       : filter_(columns.gap.grid),
         film_(known_film_response<Real>(columns.gap.grid, thickness, permittivity)),
         n_(columns.gap.grid.size()),
-        c_(padded<Real>(n_)),
-        dry_(c_.size()),
-        drive_(c_.size()),
-        start_(c_.size()),
-        weight_(c_.size()) {
+        c_(n_),
+        dry_(n_),
+        drive_(n_),
+        start_(n_),
+        weight_(n_) {
     const auto flat = static_cast<Real>(permittivity / thickness);
-    if (columns.wet.empty()) std::fill_n(dry_.begin(), n_, Real{1});
+    if (columns.wet.empty()) std::fill(dry_.begin(), dry_.end(), Real{1});
     for (std::size_t i = 0; i < columns.wet.size(); ++i) dry_[i] = columns.wet[i] ? 0 : 1;
-    for (std::size_t i = 0; i < n_; ++i) drive_[i] = 1 / static_cast<Real>(columns.dielectric[i]);
-    Pixels<Real>& distance = start_;
-    for (std::size_t i = 0; i < n_; i += kLanes) {
-      const Lanes eight = columns.distance(i);
-      for (std::size_t k = 0; k < kLanes; ++k) distance[i + k] = static_cast<Real>(eight[k]);
-    }
-    // Beyond the pixels: wet, and no numbers that spoil others.
-    const auto end = static_cast<std::ptrdiff_t>(n_);
-    std::fill(dry_.begin() + end, dry_.end(), Real{0});
-    std::fill(drive_.begin() + end, drive_.end(), flat);
-    std::fill(distance.begin() + end, distance.end(), Real{1});
+    UnsetArray<Real>& distance = start_;
+    for_each_pixel(n_, [&](auto at) {
+      at.store(distance, columns.distance(at));
+      at.store(drive_, at(columns.dielectric));
+    });
     // Contact spots of a bare skin raise c by orders of magnitude over a few pixels: the weight
     // follows c where it exceeds what K couples a pixel with, k; the rest is left to K + mean c,
     // the mean taken as 1/(k + c).
     const auto k = static_cast<Real>(film_->mean);
-    Sums sums{};
-    for (std::size_t i = 0; i < c_.size(); i += kPack) {
-      const Sums conductance = 1 / pack(distance, i), drive = pack(drive_, i);
+    const double all = sum_over<Real>(n_, [&](auto at) {
+      const auto drive = Real{1} / at(drive_), conductance = Real{1} / at(distance);
+      at.store(drive_, drive);
       // The columns by themselves.
-      pack(start_, i) = pack(dry_, i) * drive / (drive + conductance);
+      at.store(start_, at(dry_) * drive / (drive + conductance));
       // At least what keeps the sum with K positive.
-      pack(c_, i) = conductance + (drive - flat);
-      pack(weight_, i) = 1 / (k + pack(c_, i));
-      sums += pack(weight_, i);
-    }
-    double all = total(sums);
-    for (std::size_t i = n_; i < c_.size(); ++i) all -= weight_[i];
+      const auto c = conductance + (drive - flat), weight = Real{1} / (k + c);
+      at.store(c_, c);
+      at.store(weight_, weight);
+      return weight;
+    });
     const double level = static_cast<double>(n_) / all;  // k + mean c
-    for (std::size_t i = 0; i < weight_.size(); ++i)
-      weight_[i] = dry_[i] * std::sqrt(static_cast<Real>(level) * weight_[i]);
+    for_each_pixel<Real>(n_, [&](auto at) {
+      at.store(weight_, at(dry_) * root(static_cast<Real>(level) * at(weight_)));
+    });
     RealArray inverse(film_->half.size());
     const double scale = 1 / static_cast<double>(n_);
     for (std::size_t o = 0; o < inverse.size(); ++o) {
@@ -194,17 +173,15 @@ class SurfacePotential {
 
   // Once. Leaves residual (relative, energy norm), iterations and status in `out`.
   std::vector<double> solve(double tolerance, FieldSolution& out) {
-    const std::size_t n = c_.size();
-    Pixels<Real> phi = std::move(start_), r(n), z(n), s(n, 0), q(n);
+    UnsetArray<Real> phi = std::move(start_), r(n_), z(n_), s(n_, 0), q(n_);
     apply(phi, q);
-    for (std::size_t i = 0; i < n; ++i) {
-      r[i] = dry_[i] * drive_[i] - q[i];
-      q[i] = weight_[i] * r[i];
-    }
     // The first guess, good to a fraction, gives the scale of the residual.
-    Sums sums{};
-    for (std::size_t i = 0; i < n; i += kPack) sums += pack(phi, i) * pack(drive_, i);
-    const double energy = total(sums);
+    const double energy = sum_over<Real>(n_, [&](auto at) {
+      const auto drive = at(drive_), left = at(dry_) * drive - at(q);
+      at.store(r, left);
+      at.store(q, at(weight_) * left);
+      return at(phi) * drive;
+    });
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
       // q: the weighted residual.
@@ -218,55 +195,47 @@ class SurfacePotential {
             "for {:.1e}",
             out.residual, out.iterations, tolerance);
       }
-      if (!out.ok || out.residual <= tolerance)
-        return {phi.begin(), phi.begin() + static_cast<std::ptrdiff_t>(n_)};
+      if (!out.ok || out.residual <= tolerance) return {phi.begin(), phi.end()};
       const auto beta = static_cast<Real>(out.iterations > 0 ? rz / old : 0);
-      for (std::size_t i = 0; i < n; ++i) s[i] = z[i] + beta * s[i];
+      for_each_pixel<Real>(n_, [&](auto at) { at.store(s, at(z) + beta * at(s)); });
       const auto alpha = static_cast<Real>(rz / apply(s, q));
-      for (std::size_t i = 0; i < n; ++i) {
-        phi[i] += alpha * s[i];
-        r[i] -= alpha * q[i];
-        q[i] = weight_[i] * r[i];
-      }
+      for_each_pixel<Real>(n_, [&](auto at) {
+        const auto left = at(r) - alpha * at(q);
+        at.store(phi, at(phi) + alpha * at(s));
+        at.store(r, left);
+        at.store(q, at(weight_) * left);
+      });
       old = rz;
     }
   }
 
  private:
-  static constexpr std::size_t kPack = Pack<Real>::kCount;
-  using Sums = typename Pack<Real>::Type;
-
   // out = (K + c) in on dry pixels; in . out.
-  double apply(const Pixels<Real>& in, Pixels<Real>& out) {
+  double apply(const UnsetArray<Real>& in, UnsetArray<Real>& out) {
     filter_.apply(in, film_->symbol, out);
-    Sums sums{};
-    for (std::size_t i = 0; i < out.size(); i += kPack) {
-      const Sums here = pack(in, i);
-      const Sums there = pack(dry_, i) * (pack(out, i) + pack(c_, i) * here);
-      pack(out, i) = there;
-      sums += here * there;
-    }
-    return total(sums);
+    return sum_over<Real>(n_, [&](auto at) {
+      const auto here = at(in), there = at(dry_) * (at(out) + at(c_) * here);
+      at.store(out, there);
+      return here * there;
+    });
   }
   // z times the weight; r . z.
-  double weigh(const Pixels<Real>& r, Pixels<Real>& z) const {
-    Sums sums{};
-    for (std::size_t i = 0; i < z.size(); i += kPack) {
-      const Sums weighted = pack(z, i) * pack(weight_, i);
-      pack(z, i) = weighted;
-      sums += pack(r, i) * weighted;
-    }
-    return total(sums);
+  double weigh(const UnsetArray<Real>& r, UnsetArray<Real>& z) const {
+    return sum_over<Real>(n_, [&](auto at) {
+      const auto weighted = at(z) * at(weight_);
+      at.store(z, weighted);
+      return at(r) * weighted;
+    });
   }
 
   Filter<Real> filter_;
   std::shared_ptr<const FilmResponse<Real>> film_;
-  std::size_t n_;               // pixels; arrays may be longer
-  Pixels<Real> c_;              // beside K [1/m]
-  Pixels<Real> dry_;            // 0 under bridges, 1 elsewhere
-  Pixels<Real> drive_;          // 1/D [1/m]
-  Pixels<Real> start_;          // the columns by themselves, 0 under bridges
-  Pixels<Real> weight_;         // of the preconditioner, either side of 1/(K + mean c)
+  std::size_t n_;               // pixels
+  UnsetArray<Real> c_;          // beside K [1/m]
+  UnsetArray<Real> dry_;        // 0 under bridges, 1 elsewhere
+  UnsetArray<Real> drive_;      // 1/D [1/m]
+  UnsetArray<Real> start_;      // the columns by themselves, 0 under bridges
+  UnsetArray<Real> weight_;     // of the preconditioner, either side of 1/(K + mean c)
   AlignedArray<Real> inverse_;  // 1/(K + mean c) as the filter takes it
 };
 

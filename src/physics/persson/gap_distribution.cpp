@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "base/constants.h"
-#include "base/quadrature.h"
+#include "numerics/quadrature.h"
 #include "physics/persson/persson.h"
 
 namespace papilla::persson {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/constants.h"
-#include "base/quadrature.h"
+#include "numerics/quadrature.h"
 
 namespace papilla::persson {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/check.h"
 #include "base/constants.h"
-#include "base/quadrature.h"
+#include "numerics/quadrature.h"
 #include "physics/persson/gap_integrals.h"
 #include "physics/persson/persson.h"
 #include "physics/persson/power_law.h"

@@ -6,7 +6,7 @@
 
 #include "base/check.h"
 #include "base/constants.h"
-#include "base/quadrature.h"
+#include "numerics/quadrature.h"
 
 namespace papilla::persson {
 

@@ -1,4 +1,4 @@
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 
 Estimate mean_estimate(std::span<const double> samples) {
   const auto n = static_cast<double>(samples.size());
@@ -119,4 +119,4 @@ double student_t_cdf(double t, double degrees_of_freedom) {
   return t > 0 ? 1 - 0.5 * tails : 0.5 * tails;
 }
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics

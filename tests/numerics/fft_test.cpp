@@ -1,5 +1,5 @@
-// The transform of this build: FFTW's, or our own.
-#include "base/fft.h"
+// Transforms against their definition.
+#include "numerics/fft.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/constants.h"
-#include "base/fft_lanes.h"
 #include "base/random.h"
 
 namespace papilla::tests {
@@ -69,42 +68,38 @@ INSTANTIATE_TEST_SUITE_P(Sizes, Fft,
                                            std::tuple{31, 29}, std::tuple{37, 74},
                                            std::tuple{202, 101}, std::tuple{113, 34}));
 
-std::vector<LaneValue> transformed(int n, std::vector<LaneValue> x) {
-  const LaneFft fft(n);
-  std::vector<LaneValue> scratch(static_cast<std::size_t>(fft.scratch_length()));
-  fft.forward(x.data(), scratch.data());
-  return x;
-}
-
-TEST(LaneFft, TransformsEveryLaneAlone) {
-  for (int n : {12, 26, 31, 37, 60, 97}) {
-    std::vector<LaneValue> x(static_cast<std::size_t>(n));
-    for (int l = 0; l < kLanes; ++l) x[static_cast<std::size_t>(l % n)].re[l] = 1 + l;
-    const auto spectrum = transformed(n, x);
-    for (int l = 0; l < kLanes; ++l) {
-      const std::complex<double> expected = (1.0 + l) * std::polar(1.0, -2 * kPi * 3 * l / n);
-      EXPECT_NEAR(spectrum[3].re[l], expected.real(), 1e-13 * (1 + l)) << n << ", lane " << l;
-      EXPECT_NEAR(spectrum[3].im[l], expected.imag(), 1e-13 * (1 + l)) << n << ", lane " << l;
+TEST(Fft2d, HoldsAWaveAtItsModeAlone) {
+  const int nx = 12, ny = 10;
+  const Fft2d fft(nx, ny);
+  for (const auto& [mx, my] : {std::pair{2, 3}, {1, -4}, {0, 2}}) {
+    RealArray x(fft.real_size());
+    for (int iy = 0; iy < ny; ++iy)
+      for (int ix = 0; ix < nx; ++ix)
+        x[static_cast<std::size_t>(iy) * nx + ix] =
+            std::cos(2 * kPi * (mx * ix / double(nx) + my * iy / double(ny)));
+    SpectrumArray s(fft.spectrum_size());
+    fft.forward(x.data(), s.data());
+    for (int iy = 0; iy < ny; ++iy) {
+      for (int kx = 0; kx < fft.half(); ++kx) {
+        const int ky = signed_mode(iy, ny);
+        const bool here = kx == mx && (ky == my || (mx == 0 && ky == -my));
+        const auto& v = s[static_cast<std::size_t>(iy) * fft.half() + kx];
+        EXPECT_NEAR(std::abs(v), here ? nx * ny / 2 : 0, 1e-12) << kx << " " << ky;
+      }
     }
   }
 }
 
-// Of a full build Fft2d is FFTW: every length up to 300, of any factors.
-TEST(LaneFft, HasTheNumbersOfTheTransformOfThisBuild) {
-  for (int n = 1; n <= 300; ++n) {
-    const Fft2d fft(n, 1);
-    const RealArray row = noise(fft.real_size());
-    SpectrumArray expected(fft.spectrum_size());
-    fft.forward(row.data(), expected.data());
-    std::vector<LaneValue> x(static_cast<std::size_t>(n));
-    for (std::size_t i = 0; i < x.size(); ++i) x[i].re[5] = row[i];
-    const auto spectrum = transformed(n, x);
-    double worst = 0;
-    for (std::size_t k = 0; k < expected.size(); ++k) {
-      worst = std::max(worst,
-                       std::abs(std::complex(spectrum[k].re[5], spectrum[k].im[5]) - expected[k]));
-    }
-    EXPECT_LT(worst, 2e-15 * n) << n;
+TEST(Fft2d, ForwardThenInverseIsTheIdentityTimesN) {
+  for (auto [nx, ny] : {std::pair{8, 8}, {15, 7}, {13, 16}}) {
+    const Fft2d fft(nx, ny);
+    RealArray x(fft.real_size()), y(fft.real_size());
+    SpectrumArray s(fft.spectrum_size());
+    RandomStream random(3, "test");
+    for (double& v : x) v = random.normal();
+    fft.forward(x.data(), s.data());
+    fft.inverse(s.data(), y.data());
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(y[i] / (nx * ny), x[i], 1e-14);
   }
 }
 

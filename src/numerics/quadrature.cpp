@@ -1,11 +1,11 @@
-#include "base/quadrature.h"
+#include "numerics/quadrature.h"
 
 #include <cmath>
 
 #include "base/check.h"
 #include "base/constants.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 
 Quadrature gauss_legendre(int n, double a, double b) {
   PAPILLA_CHECK(n >= 1, "nodes");
@@ -30,4 +30,4 @@ Quadrature gauss_legendre(int n, double a, double b) {
   return rule;
 }
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics

@@ -1,5 +1,5 @@
 // Means, ratios, jackknife and quantiles against numbers worked out by hand and printed in tables.
-#include "base/statistics.h"
+#include "numerics/statistics.h"
 
 #include <gtest/gtest.h>
 
@@ -104,6 +104,20 @@ TEST(Statistics, StudentQuantilesMatchTables) {
     EXPECT_NEAR(student_t_quantile(0.025, degrees), -at_975, error) << degrees;
   }
   EXPECT_TRUE(std::isinf(student_t_quantile(0.975, 0)));
+}
+
+// Tables of Student's distribution (Abramowitz & Stegun 26.10), and its closed forms at 1 and 2.
+TEST(Statistics, StudentsDistributionHasItsTabulatedValues) {
+  EXPECT_NEAR(student_t_cdf(2.571, 5), 0.975, 2e-5);
+  EXPECT_NEAR(student_t_cdf(4.032, 5), 0.995, 2e-5);
+  EXPECT_NEAR(student_t_cdf(1.812, 10), 0.95, 5e-5);
+  EXPECT_NEAR(student_t_cdf(3.385, 30), 0.999, 2e-6);
+  for (double t : {-30.0, -1.7, -0.01, 0.0, 0.3, 2.5, 400.0}) {
+    EXPECT_NEAR(student_t_cdf(t, 1), 0.5 + std::atan(t) / std::acos(-1.0), 1e-10) << t;
+    EXPECT_NEAR(student_t_cdf(t, 2), 0.5 + t / (2 * std::sqrt(2 + t * t)), 1e-10) << t;
+    EXPECT_NEAR(student_t_cdf(t, 1e9), normal_cdf(t), 1e-9) << t;
+    EXPECT_NEAR(student_t_cdf(t, 0.9999e5), student_t_cdf(t, 1.0001e5), 1e-9) << t;
+  }
 }
 
 }  // namespace

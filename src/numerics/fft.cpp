@@ -1,10 +1,12 @@
+#include "numerics/fft.h"
+
 #include <fftw3.h>
 
+#include <map>
 #include <mutex>
+#include <utility>
 
-#include "base/fft.h"
-
-namespace papilla::base {
+namespace papilla::numerics {
 namespace {
 std::mutex& planner_mutex() {  // FFTW's planner is not thread safe; execution is
   static std::mutex mutex;
@@ -42,4 +44,13 @@ void Fft2d::inverse(std::complex<double>* spectrum, double* real) const {
   fftw_execute_dft_c2r(plans_->inverse, reinterpret_cast<fftw_complex*>(spectrum), real);
 }
 
-}  // namespace papilla::base
+std::shared_ptr<const Fft2d> Fft2d::shared(int nx, int ny) {
+  static std::mutex mutex;
+  static std::map<std::pair<int, int>, std::shared_ptr<const Fft2d>> plans;
+  std::lock_guard lock(mutex);
+  auto& plan = plans[{nx, ny}];
+  if (!plan) plan = std::make_shared<const Fft2d>(nx, ny);
+  return plan;
+}
+
+}  // namespace papilla::numerics

@@ -1,4 +1,4 @@
-#include "base/convolution.h"
+#include "numerics/convolution.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "base/fft.h"
 #include "base/random.h"
+#include "numerics/fft.h"
 
 namespace papilla::tests {
 namespace {

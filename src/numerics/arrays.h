@@ -9,7 +9,7 @@
 
 #include "base/rooms.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 
 // At multiples of 64 bytes: a register's, and what the plans of transforms are made for.
 template <class T>
@@ -52,4 +52,4 @@ struct UnsetAllocator : AlignedAllocator<T> {
 template <class T>
 using UnsetArray = std::vector<T, UnsetAllocator<T>>;
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics

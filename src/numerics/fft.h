@@ -4,14 +4,13 @@
 #include <complex>
 #include <memory>
 
-#include "base/arrays.h"
 #include "base/rooms.h"
+#include "numerics/arrays.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 
 // Plans for one size: made once (the same bytes every run), executable from many threads at a time.
-// Unnormalised both ways: inverse(forward(x)) = nx ny x. By FFTW (fft_fftw.cpp), in permissive
-// builds by transforms of our own (fft_own.cpp).
+// Unnormalised both ways: inverse(forward(x)) = nx ny x. By FFTW.
 class Fft2d {
  public:
   Fft2d(int nx, int ny);
@@ -39,4 +38,4 @@ class Fft2d {
 // Signed integer mode of index i in a transform of length n: 0, 1, ..., -1.
 constexpr int signed_mode(int i, int n) { return i <= n / 2 ? i : i - n; }
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics

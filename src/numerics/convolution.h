@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "base/arrays.h"
 #include "base/rooms.h"
+#include "numerics/arrays.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 
 // Real: double, or float where six digits of a field are enough (half the time).
 template <class Real>
@@ -60,4 +60,4 @@ extern template class BasicConvolution<double>;
 extern template class BasicConvolution<float>;
 using Convolution = BasicConvolution<double>;
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics

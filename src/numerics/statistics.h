@@ -6,7 +6,7 @@
 
 #include "base/rooms.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 
 struct Estimate {
   double value = 0;
@@ -27,4 +27,4 @@ double normal_quantile(double p);
 double student_t_quantile(double p, int degrees_of_freedom);  // two-sided intervals: p = 0.975
 double student_t_cdf(double t, double degrees_of_freedom);    // to 1e-9; degrees > 0
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics

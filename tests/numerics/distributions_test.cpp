@@ -9,11 +9,9 @@
 
 #include "base/check.h"
 #include "base/constants.h"
-#include "base/convolution.h"
-#include "base/fft_lanes.h"
-#include "base/quadrature.h"
 #include "base/random.h"
-#include "base/statistics.h"
+#include "numerics/convolution.h"
+#include "numerics/statistics.h"
 
 namespace papilla::tests {
 namespace {
@@ -111,32 +109,6 @@ TEST(Distributions, TheJackknifeOfOneAndOfSquares) {
   EXPECT_EQ(jackknife_samples(5, std::vector<double>{4}), std::vector<double>{5});
 }
 
-TEST(GaussLegendre, OfFewNodesIsPrintedAndOfManyAddsUp) {
-  const Quadrature two = gauss_legendre(2), three = gauss_legendre(3, 1, 5);
-  EXPECT_NEAR(two.nodes[0], -1 / std::sqrt(3.0), 1e-15);
-  EXPECT_NEAR(two.nodes[1], 1 / std::sqrt(3.0), 1e-15);
-  EXPECT_NEAR(two.weights[0], 1, 1e-15);
-  EXPECT_NEAR(two.weights[1], 1, 1e-15);
-  EXPECT_NEAR(three.nodes[0], 3 - 2 * std::sqrt(0.6), 1e-14);
-  EXPECT_NEAR(three.nodes[1], 3, 1e-14);
-  EXPECT_NEAR(three.nodes[2], 3 + 2 * std::sqrt(0.6), 1e-14);
-  EXPECT_NEAR(three.weights[0], 10 / 9.0, 1e-14);
-  EXPECT_NEAR(three.weights[1], 16 / 9.0, 1e-14);
-  for (const int n : {64, 401, 800}) {
-    const Quadrature rule = gauss_legendre(n, -3, 4);
-    double length = 0, oscillating = 0;
-    for (int i = 0; i < n; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      ASSERT_TRUE(i == 0 || rule.nodes[at] > rule.nodes[at - 1]) << i;
-      length += rule.weights[at];
-      oscillating += rule.weights[at] * std::cos(11 * rule.nodes[at]);
-    }
-    EXPECT_NEAR(length, 7, 1e-11) << n;
-    EXPECT_NEAR(oscillating, (std::sin(44.0) + std::sin(33.0)) / 11, 1e-12) << n;
-  }
-  EXPECT_THROW(gauss_legendre(0), InternalError);
-}
-
 // Multiples of 16 from 32 on whose sixteenth has no prime above 13, and nothing else.
 TEST(Convolutions, SuitTheseSizesAlone) {
   std::vector<int> sizes;
@@ -200,22 +172,6 @@ TEST(Convolutions, OfAnImpulseIsTheKernel) {
       }
     }
   }
-}
-
-// In place where the factors are small; with a prime above 31 in a power of two from 2n - 1 on, and
-// that again.
-TEST(LaneFft, NeedsRoomForItsLengthOrForItsConvolution) {
-  for (const auto& [n, room] : {std::pair{1, 1},
-                                {31, 31},
-                                {60, 60},
-                                {961, 961},
-                                {37, 256},
-                                {33 * 37, 8192},
-                                {64, 64},
-                                {128, 128},
-                                {41 * 2, 512}})
-    EXPECT_EQ(LaneFft(n).scratch_length(), room) << n;
-  EXPECT_EQ(LaneFft(37).length(), 37);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 
 #include "base/rooms.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 
 struct Quadrature {
   std::vector<double> nodes, weights;
@@ -15,4 +15,4 @@ struct Quadrature {
 // degree 2n - 1. The nodes ascend. Cost: about 10 n^2 operations.
 Quadrature gauss_legendre(int n, double a = -1, double b = 1);
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics

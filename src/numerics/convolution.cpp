@@ -1,4 +1,4 @@
-#include "base/convolution.h"
+#include "numerics/convolution.h"
 
 #include <cmath>
 #include <map>
@@ -8,30 +8,21 @@
 
 #include "base/check.h"
 #include "base/constants.h"
+#include "numerics/vector.h"
 
-namespace papilla::base {
+namespace papilla::numerics {
 namespace {
 
-// Bytes of a vector register: compilers split longer vectors through memory.
-#if defined(__AVX512F__)
-constexpr int kRegister = 64;
-#elif defined(__AVX__)
-constexpr int kRegister = 32;
-#else
-constexpr int kRegister = 16;
-#endif
+// A register's: compilers split longer vectors through memory, and no number here depends on how
+// many stand side by side.
 template <class Real>
-constexpr int kLanes = kRegister / sizeof(Real);
+constexpr int kLanes = kRegisterBytes / sizeof(Real);
 template <class Real>
-struct Register {
-  using Vector __attribute__((vector_size(kRegister))) = Real;
-};
-template <class Real>
-using Vector = typename Register<Real>::Vector;
+using Side = typename Packed<Real, kLanes<Real>>::Type;
 // A complex number per lane; an array of them is a transform of kLanes lanes side by side.
 template <class Real>
 struct Complex {
-  Vector<Real> re, im;
+  Side<Real> re, im;
 };
 
 template <class Real>
@@ -244,7 +235,7 @@ void inverse(Complex<Real>* z, int n, const std::vector<int>& radices, const Rea
 
 // End of the forward transform, multiplication by real factors, begin of the inverse one.
 template <class Real>
-void scale_spectrum(Complex<Real>* z, int n, int last, const Vector<Real>* factor) {
+void scale_spectrum(Complex<Real>* z, int n, int last, const Side<Real>* factor) {
   if (last == 2) {
     for (int i = 0; i < n; i += 2) {
       halves(z + i);
@@ -289,7 +280,7 @@ template <class Real>
 inline void take_apart(const Complex<Real>* strip, const int* slot, int ny, int block,
                        Complex<Real>* to) {
   constexpr int n = kLanes<Real>;
-  Vector<Real> a_re[n], a_im[n], b_re[n], b_im[n];
+  Side<Real> a_re[n], a_im[n], b_re[n], b_im[n];
   for (int lane = 0; lane < n; ++lane) {
     const int ky = block * n + lane;
     if (ky == 0) {
@@ -321,7 +312,7 @@ template <class Real>
 inline void put_together(const Complex<Real>* from, const int* slot, int ny, int block,
                          Complex<Real>* strip) {
   constexpr int n = kLanes<Real>;
-  Vector<Real> a_re[n], a_im[n], b_re[n], b_im[n];
+  Side<Real> a_re[n], a_im[n], b_re[n], b_im[n];
   for (int x = 0; x < n; ++x) a_re[x] = from[x].re;
   transpose(a_re);
   for (int x = 0; x < n; ++x) a_im[x] = from[x].im;
@@ -345,7 +336,7 @@ inline void put_together(const Complex<Real>* from, const int* slot, int ny, int
 // The block whose first lane holds two rows, ky = 0 and ny/2: they come apart by a share of the
 // conjugate at -kx.
 template <class Real>
-inline void scale_first_block(Complex<Real>* z, const int* slot, int nx, const Vector<Real>* factor,
+inline void scale_first_block(Complex<Real>* z, const int* slot, int nx, const Side<Real>* factor,
                               const Real* difference) {
   for (int kx = 0; kx <= nx / 2; ++kx) {
     const int i = slot[kx], j = slot[(nx - kx) % nx];
@@ -466,10 +457,10 @@ void BasicConvolution<Real>::transform_columns(const Real* in, std::complex<Real
   Complex<Real>* strip = spectrum + static_cast<std::size_t>(blocks) * nx_;
   const std::size_t row = static_cast<std::size_t>(nx_) / kLanes<Real>;
   for (int s = 0; s < strips; ++s) {
-    const auto* column = reinterpret_cast<const Vector<Real>*>(in) + 2 * s;
+    const auto* column = reinterpret_cast<const Side<Real>*>(in) + 2 * s;
     forward(
         [&](int y) {
-          const Vector<Real>* at = column + static_cast<std::size_t>(y) * row;
+          const Side<Real>* at = column + static_cast<std::size_t>(y) * row;
           return Complex<Real>{at[0], at[1]};
         },
         strip, ny_, along_y_.radices, along_y_.twiddle.data());
@@ -491,8 +482,8 @@ void BasicConvolution<Real>::multiply_rows(const AlignedArray<Real>& symbol,
     Complex<Real>* z =
         reinterpret_cast<Complex<Real>*>(scratch) + static_cast<std::size_t>(block) * nx_;
     forward([&](int x) { return z[x]; }, z, nx_, along_x_.radices, along_x_.twiddle.data());
-    const auto* factor = reinterpret_cast<const Vector<Real>*>(symbol.data()) +
-                         static_cast<std::size_t>(block) * nx_;
+    const auto* factor =
+        reinterpret_cast<const Side<Real>*>(symbol.data()) + static_cast<std::size_t>(block) * nx_;
     if (block > 0) {
       scale_spectrum(z, nx_, last, factor);
     } else {
@@ -518,10 +509,10 @@ void BasicConvolution<Real>::restore_columns(std::complex<Real>* scratch, Real* 
                    along_y_.slot.data(), ny_, block, strip);
     }
     start_inverse(strip, ny_, along_y_.radices.back());
-    auto* column = reinterpret_cast<Vector<Real>*>(out) + 2 * s;
+    auto* column = reinterpret_cast<Side<Real>*>(out) + 2 * s;
     inverse(strip, ny_, along_y_.radices, along_y_.twiddle.data() + along_y_.twiddle.size(),
             [&](int y, const Complex<Real>& value) {
-              Vector<Real>* at = column + static_cast<std::size_t>(y) * row;
+              Side<Real>* at = column + static_cast<std::size_t>(y) * row;
               at[0] = value.re;
               at[1] = value.im;
             });
@@ -531,4 +522,4 @@ void BasicConvolution<Real>::restore_columns(std::complex<Real>* scratch, Real* 
 template class BasicConvolution<double>;
 template class BasicConvolution<float>;
 
-}  // namespace papilla::base
+}  // namespace papilla::numerics
