@@ -33,12 +33,12 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/statistics.h"
+#include "bench/front_file.h"
 #include "optim/algorithms/searchers.h"
 #include "optim/pareto.h"
 #include "optim/search.h"
 #include "search/problem.h"
 #include "search/task.h"
-#include "tests/bench/front_file.h"
 
 using namespace papilla::tests;
 
