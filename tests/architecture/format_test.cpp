@@ -12,8 +12,9 @@ TEST(Sources, AreFormattedByClangFormat) {
     GTEST_SKIP() << "no clang-format here";
   }
   std::string command = "cd '" PAPILLA_SOURCE_DIR "' && clang-format --dry-run -Werror";
-  for (const std::string& file : source_files(
-           {"src", "geometry", "optim", "include", "python/bindings", "tests"}, {".h", ".cpp"})) {
+  for (const std::string& file :
+       source_files({"src", "geometry", "optim", "include", "python/bindings", "bench", "tests"},
+                    {".h", ".cpp"})) {
     command += " '" + file + "'";
   }
   EXPECT_EQ(std::system((command + " 2>&1 | grep -E 'error|warning' | head -n 20 | grep . && "
@@ -23,9 +24,9 @@ TEST(Sources, AreFormattedByClangFormat) {
 }
 
 TEST(Sources, HaveNoUnfinishedMarks) {
-  for (const std::string& file :
-       source_files({"src", "geometry", "optim", "include", "python", "tests", "designs", "docs"},
-                    {".h", ".cpp", ".md", ".toml", ".py", ".pyi", ".ipynb"})) {
+  for (const std::string& file : source_files(
+           {"src", "geometry", "optim", "include", "python", "bench", "tests", "designs", "docs"},
+           {".h", ".cpp", ".md", ".toml", ".py", ".pyi", ".ipynb"})) {
     if (file == "tests/architecture/format_test.cpp") continue;
     const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
     for (const char* mark : {"TODO", "FIXME", "XXX", "HACK"}) {
@@ -36,7 +37,7 @@ TEST(Sources, HaveNoUnfinishedMarks) {
 
 // Two tests at a time that write one name read each other's file, now and then.
 TEST(Sources, OfTestsWriteBelowAFolderOfTheirOwn) {
-  for (const std::string& file : source_files({"tests"}, {".h", ".cpp"})) {
+  for (const std::string& file : source_files({"bench", "tests"}, {".h", ".cpp"})) {
     if (file == "tests/architecture/format_test.cpp" || file == "tests/temporary.h") continue;
     const std::string text = read_source(std::string(PAPILLA_SOURCE_DIR) + "/" + file);
     for (const char* shared : {"TempDir()", "temp_directory_path", "\"/tmp"})

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "design/design.h"
 #include "tests/calibrate/files.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -22,12 +23,8 @@ using TablesAndFiles = Calibrate;
 // "line:column: key: message" of every problem.
 std::string refusal(const std::function<void()>& work) {
   std::string out;
-  try {
-    work();
-  } catch (const InputError& error) {
-    for (const Problem& p : error.problems())
-      out += fmt::format("{}:{}: {}: {}\n", p.line, p.column, p.key, p.message);
-  }
+  for (const Problem& p : problems_of(work))
+    out += fmt::format("{}:{}: {}: {}\n", p.line, p.column, p.key, p.message);
   return out;
 }
 

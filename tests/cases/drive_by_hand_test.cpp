@@ -11,24 +11,15 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "cases/drive.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
 
 const std::string kFingertip = PAPILLA_SOURCE_DIR "/designs/physics/fingertip_drive.toml";
 
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    std::string out;
-    for (const Problem& p : error.problems()) out += p.key + ": " + p.message + "\n";
-    return out;
-  }
-  return "";
-}
 std::string refused(const std::vector<std::string>& overrides) {
-  return refusal([&] { read_drive_case(kFingertip, overrides); });
+  return keyed_refusal_of([&] { read_drive_case(kFingertip, overrides); });
 }
 
 void near(double value, double expected) {
@@ -167,18 +158,18 @@ TEST(DriveByHand, MoreSamplesThanFourMillionAreRefused) {
   c.drive.frequency = 200;
   c.source.chirp_to = 131073;
   c.source.chirp_time = 1;
-  EXPECT_EQ(refusal([&] { solve_drive(c); }),
+  EXPECT_EQ(keyed_refusal_of([&] { solve_drive(c); }),
             "source.chirp_time: too many cycles: take less time\n");
   DriveCase tones = bare();
   tones.drive.waveform = Waveform::Am;
   tones.drive.frequency = 131073;
   tones.tones.frequency = {1};
-  EXPECT_EQ(refusal([&] { solve_drive(tones); }),
+  EXPECT_EQ(keyed_refusal_of([&] { solve_drive(tones); }),
             "tones.frequency: carrier and tones have no short common period: choose frequencies "
             "that are multiples of one that is not too low\n");
   tones.drive.frequency = 3e3;
   tones.tones.frequency = {std::sqrt(2.0)};
-  EXPECT_NE(refusal([&] { solve_drive(tones); }), "");
+  EXPECT_NE(keyed_refusal_of([&] { solve_drive(tones); }), "");
 }
 
 // Every line of a square wave's friction: its square is constant, so the mean alone.

@@ -11,6 +11,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "cases/persson.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -18,14 +19,7 @@ namespace {
 const std::string kWrist = PAPILLA_SOURCE_DIR "/designs/physics/wrist_on_glass.toml";
 
 std::string refused(const std::vector<std::string>& overrides) {
-  try {
-    read_mean_field(kWrist, overrides);
-  } catch (const InputError& error) {
-    std::string out;
-    for (const Problem& p : error.problems()) out += p.key + ": " + p.message + "\n";
-    return out;
-  }
-  return "";
+  return keyed_refusal_of([&] { read_mean_field(kWrist, overrides); });
 }
 
 void near(double value, double expected) {

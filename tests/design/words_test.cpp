@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "design/study.h"
 #include "report/reference.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -30,12 +31,7 @@ TEST(Words, TheSectionDecides) {
 }
 
 std::string mistakes(const std::string& text) {
-  try {
-    parse_study("schema_version = 1\n" + text, "design.toml");
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
+  return refusal_of([&] { parse_study("schema_version = 1\n" + text, "design.toml"); });
 }
 
 TEST(Words, AreTheHintOfAnUnknownKey) {

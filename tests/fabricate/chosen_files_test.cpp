@@ -11,6 +11,7 @@
 #include "fabricate/export.h"
 #include "fabricate/formats.h"
 #include "tests/io/address_limit.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -21,15 +22,6 @@ std::string names(const Texture& texture, const ExportOptions& options) {
   for (const ExportFormat& format : chosen_formats(texture, options))
     out += std::string(format.name) + " ";
   return out;
-}
-
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // Those that a polarity, a curve and an outline allow, in the order of the table.
@@ -58,7 +50,7 @@ TEST(ChosenFiles, SayWhatTheyNeed) {
     ExportOptions options;
     options.formats = {format};
     options.levels = levels;
-    return refusal([&] { chosen_formats(texture, options); });
+    return refusal_of([&] { chosen_formats(texture, options); });
   };
   const Texture holes{HoleArray{}}, rough{RandomRough{}};
   EXPECT_EQ(why(holes, "dose"), "format \"dose\" needs --dose-curve, a CSV of depth_nm,grey");
@@ -93,7 +85,7 @@ TEST(ChosenFiles, TheMostExactHeightsAreSimulatedAgain) {
   EXPECT_EQ(file({"tiff", "tiff32", "gsf"}), "f/gsf");
   EXPECT_EQ(file({"tiff", "npy", "tiff32"}), "f/tiff32");
   EXPECT_EQ(file({"mask", "tiff"}), "f/tiff");
-  EXPECT_EQ(refusal([&] {
+  EXPECT_EQ(refusal_of([&] {
               file({"mask", "npy", "gds"});
             }),
             "no file of heights to simulate: needs exr, gsf, tiff32 or tiff");
@@ -188,7 +180,7 @@ TEST(Process, MovesBothWallsAndRoundsTheRims) {
 
 TEST(Process, ThatLeavesNothingOrMovesWhatHasNoWallsIsRefused) {
   const auto why = [](const Texture& texture, const ProcessBias& bias) {
-    return refusal([&] { compensated(texture, bias); });
+    return refusal_of([&] { compensated(texture, bias); });
   };
   const Texture pillars{PillarArray{.diameter = 3e-6}};
   EXPECT_EQ(why(pillars, {1.499e-6, 0}), "");
@@ -215,7 +207,7 @@ TEST(Exports, OfMoreHeightsThanTheMemoryHoldsAreRefused) {
     const AddressLimit limit(3.0 * (1 << 30));
     prepare_export(design, options);
   };
-  EXPECT_EQ(refusal(prepare),
+  EXPECT_EQ(refusal_of(prepare),
             "a heightmap of 10036 x 10036 pixels needs 3 GiB of memory; 3 GiB are there");
 }
 

@@ -14,6 +14,7 @@
 #include "fabricate/layers.h"
 #include "geometry/io/drawing.h"
 #include "geometry/io/layout.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -56,12 +57,7 @@ struct LayoutJudge {
     return of(layout);
   }
   std::string refusal(const std::function<void(Layout&)>& change) const {
-    try {
-      of(change);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of([&] { of(change); });
   }
 };
 

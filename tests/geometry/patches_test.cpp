@@ -10,6 +10,7 @@
 #include "geometry/areal.h"
 #include "geometry/texture.h"
 #include "tests/io/address_limit.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -92,12 +93,7 @@ TEST(Areal, OfAMapThatTheMemoryDoesNotHoldIsRefused) {
   if (!kAddressesAreFree) GTEST_SKIP() << "the sanitizer has the addresses";
   const auto refusal = [](int nx, int ny) -> std::string {
     const AddressLimit limit(3.0 * (1 << 30));
-    try {
-      areal_parameters({{nx, ny, 1e-3, 1e-3}, {}});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of([&] { areal_parameters({{nx, ny, 1e-3, 1e-3}, {}}); });
   };
   EXPECT_EQ(refusal(10000, 10000),
             "the autocorrelation of a surface needs 9.3 GiB of memory; 3 GiB are there");

@@ -16,6 +16,7 @@
 #include "base/random.h"
 #include "geometry/io/files.h"
 #include "geometry/measured_map.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -53,12 +54,7 @@ Scan scanned(const Heightmap& h, bool fill = false, bool as_is = false) {
 }
 
 std::string refusal(const Heightmap& h, bool fill) {
-  try {
-    scanned(h, fill);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { scanned(h, fill); });
 }
 
 TEST(Scan, IsLevelledMendedAndSaysByHowMuchAndWhere) {
@@ -329,27 +325,18 @@ TEST(MeasuredSkin, IsLevelWhereverItIsCut) {
   }
 }
 
-std::string message_of(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(MeasuredMap, OneThatIsTooSmallIsRefusedWithItsSides) {
   const std::string file = temporary("small.gsf");
   write_gsf(file, map_of(kGrid, waves), {});
   const auto middle = [&](double patch) {
-    return message_of([&] { middle_of_map({file, 0}, patch, {32, 32, patch, patch}); });
+    return refusal_of([&] { middle_of_map({file, 0}, patch, {32, 32, patch, patch}); });
   };
   EXPECT_EQ(middle(9e-6), "");
   EXPECT_EQ(middle(9.1e-6),
             file + ": 20 x 9 um is smaller than the patch of 9.1 um; lower texture.patch");
   // As skin it needs a tenth more on either side, for the seam.
   const auto skin = [&](double lx, double ly) {
-    return message_of([&] { measured_skin(file, 0, {32, 32, lx, ly}, 1, 0); });
+    return refusal_of([&] { measured_skin(file, 0, {32, 32, lx, ly}, 1, 0); });
   };
   EXPECT_EQ(skin(20e-6 / 1.1, 9e-6 / 1.1), "");
   EXPECT_NE(skin(18.3e-6, 8e-6).find("20 x 9 um is smaller than the patch of 18.3 x 8 um"),

@@ -18,6 +18,7 @@
 #include "geometry/plane.h"
 #include "geometry/profile.h"
 #include "geometry/textures/particle_film.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -280,13 +281,10 @@ TEST(Films, OfLargeAndSmallParticlesBeginWithTheLargest) {
 
 TEST(Films, ThatCannotBePlacedAreRefusedWithTheirNumbers) {
   const auto refusal = [](double side) -> std::string {
-    try {
+    return refusal_of([&] {
       place_particles({.radius = 3e-6, .radius_spread = 0, .coverage = 0.2},
                       {64, 64, side, 2 * side});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   // A disc as wide as the patch touches itself.
   EXPECT_EQ(refusal(6.01e-6), "");

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "geometry/io/drawing.h"
 #include "geometry/texture.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -147,12 +148,7 @@ TEST(DrawnLayouts, HaveAColumnAndARowAtLeast) {
 }
 
 std::string refusal(const FeatureArray& array, double x, double y) {
-  try {
-    draw_array(array, x, y);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { draw_array(array, x, y); });
 }
 
 TEST(DrawnLayouts, OffTheirGridOrBeyondItAreRefused) {

@@ -15,6 +15,7 @@
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -49,12 +50,7 @@ TEST_F(Files, NpyKeepsEveryBit) {
 
 TEST_F(Files, ABrokenHeightIsNamedByItsPixelAndASizeByItsKey) {
   const auto message = [](const std::string& file, double width) -> std::string {
-    try {
-      read_heightmap(file, width);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return {};
+    return refusal_of([&] { read_heightmap(file, width); });
   };
   Heightmap h = holes();
   write_npy(path("h.npy"), h);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "geometry/io/drawing.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -98,12 +99,7 @@ TEST(GdsRecords, OfMoreThan32767CellsASideAreRefused) {
     LayoutReference& r = layout.cells.back().references[0];
     r.columns = columns, r.rows = rows;
     r.step_x = r.step_y = 1;
-    try {
-      write_gds(temporary("many.gds"), layout);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of([&] { write_gds(temporary("many.gds"), layout); });
   };
   EXPECT_EQ(refusal(32767, 32767), "");
   EXPECT_EQ(refusal(32768, 3),

@@ -14,6 +14,7 @@
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
 #include "report/export.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -263,12 +264,7 @@ std::string refusal(const Texture& texture, const char* format) {
   options.formats = {format};
   options.polarity = Polarity::WhiteDeep;
   options.pixels = 32;
-  try {
-    export_design(design, options, temporary("drawn"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { export_design(design, options, temporary("drawn")); });
 }
 
 TEST(Outlines, OfARoughSurfaceThereAreNoneAndTheRefusalSaysWhatToTake) {

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "geometry/io/files.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -45,12 +46,7 @@ std::string npy(const std::string& header, std::size_t bytes, int version = 1) {
 std::string refusal(const std::string& ending, const std::string& bytes) {
   const std::string path = temporary("raw." + ending);
   write_bytes(path, bytes);
-  try {
-    read_heightmap(path, ending == "npy" ? 6e-6 : 0);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { read_heightmap(path, ending == "npy" ? 6e-6 : 0); });
 }
 
 constexpr const char* kSides = "XRes = 3\nYRes = 2\nXReal = 6\nYReal = 5\n";

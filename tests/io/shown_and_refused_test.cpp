@@ -12,6 +12,7 @@
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/io/sums.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -89,12 +90,7 @@ TEST(ReadHeights, OfPicturesAndArchivesAreForOtherCommands) {
   const Heightmap h{{4, 3, 4e-6, 3e-6},
                     {1e-9, 2e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9, 9e-9, 1e-8, 1.1e-8, 1.2e-8}};
   const auto refusal = [](const std::string& path) -> std::string {
-    try {
-      read_heightmap(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of([&] { read_heightmap(path); });
   };
   const std::string png = temporary("h.png"), upper = temporary("h.PNG"), x3p = temporary("h.x3p"),
                     gsf = temporary("h.GSF"), other = temporary("h.txt");

@@ -16,6 +16,7 @@
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "tests/io/address_limit.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -262,12 +263,7 @@ TEST(WrittenStl, HasTheHeightsOfThePixelsAtTheirCorners) {
 
 TEST(WrittenStl, OfMoreThanFourMillionPixelsIsRefused) {
   const auto refusal = [](int nx, int ny) -> std::string {
-    try {
-      write_stl(temporary("large.stl"), {{nx, ny, 1e-3, 1e-3}, {}});
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of([&] { write_stl(temporary("large.stl"), {{nx, ny, 1e-3, 1e-3}, {}}); });
   };
   EXPECT_EQ(refusal(2000, 2001), "2000 x 2001 pixels are too many for STL; export fewer");
   EXPECT_EQ(refusal(4000001, 1), "4000001 x 1 pixels are too many for STL; export fewer");
@@ -291,12 +287,7 @@ TEST(ReadFiles, WhatTheMemoryDoesNotHoldIsRefusedBeforeItIsRead) {
   const auto refusal = [&](int columns, int rows) -> std::string {
     write_bytes(path, npy_of(columns, rows));
     const AddressLimit limit(3.0 * (1 << 30));
-    try {
-      open_height_rows(path);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return refusal_of([&] { open_height_rows(path); });
   };
   EXPECT_EQ(refusal(12288, 16384), "cannot read " + path + ": the data are cut off");
   EXPECT_EQ(refusal(12289, 16384),

@@ -13,6 +13,7 @@
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/io/sums.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -80,14 +81,11 @@ Heightmap oblong() {
 
 // What reading every row of the file says; "" where all of it is sound.
 std::string refusal(const std::string& path, Heightmap* read = nullptr) {
-  try {
+  return refusal_of([&] {
     const auto rows = open_height_rows(path);
     Heightmap h = whole_map(*rows, 0);
     if (read) *read = h;
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST(X3p, IsReadBackToTheLastBit) {

@@ -10,6 +10,7 @@
 #include "estimate/parameters.h"
 #include "numerics/statistics.h"
 #include "tests/rank/samples.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -145,12 +146,7 @@ TEST(Candidate, SaysWhyACriterionIsNotDefinedForIt) {
     const Regions regions{d};
     const RankOptions options = by(criterion);
     Candidate candidate(regions, FingerState::Clean, options);
-    try {
-      candidate.extend();
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+    return refusal_of([&] { candidate.extend(); });
   };
   Design d = small_sample("flat");
   d.title = "mine";

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "rank/conditions.h"
 #include "tests/rank/samples.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -113,12 +114,7 @@ TEST(ConditionTexts, TheWholeRefusalOfAnyNumberOfDifferences) {
   const auto refusal = [](int count) -> std::string {
     std::vector<ConditionDifference> list;
     for (int i = 0; i < count; ++i) list.push_back({fmt::format("k{}", i), "a", "1", "2", "b"});
-    try {
-      require_same_conditions(list);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+    return refusal_of([&] { require_same_conditions(list); });
   };
   const auto expected = [](int shown, const std::string& more, const std::string& equal) {
     std::string lines;
@@ -140,12 +136,7 @@ TEST(ConditionTexts, TheWholeRefusalOfAnyNumberOfDifferences) {
 
 TEST(CriteriaTexts, EachRefusalSaysWhatIsWrong) {
   const auto refusal = [](const std::string& text) -> std::string {
-    try {
-      parse_criteria(text);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+    return refusal_of([&] { parse_criteria(text); });
   };
   EXPECT_EQ(refusal("friction"), "");
   EXPECT_EQ(refusal("compliance"),

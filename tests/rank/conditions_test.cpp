@@ -5,17 +5,13 @@
 
 #include "base/error.h"
 #include "tests/rank/samples.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
 
 std::string refusal(const std::vector<ConditionDifference>& differences) {
-  try {
-    require_same_conditions(differences);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
+  return refusal_of([&] { require_same_conditions(differences); });
 }
 
 TEST(Conditions, ADifferenceNamesBothCandidatesAndTheirValues) {

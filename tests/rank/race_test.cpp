@@ -10,6 +10,7 @@
 #include "rank/candidate.h"
 #include "scene/uncertainty.h"
 #include "tests/rank/samples.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -348,12 +349,7 @@ TEST(Race, EachRefusalSaysWhatIsWrong) {
   b.title = "other";
   RankOptions options = quick("modulation:high,friction:low");
   const auto refusal = [&]() -> std::string {
-    try {
-      ranking_of({a, b}, options);
-    } catch (const InputError& e) {
-      return e.what();
-    }
-    return "";
+    return refusal_of([&] { ranking_of({a, b}, options); });
   };
   options.weights = {1};
   EXPECT_EQ(refusal(), "1 weights for 2 criteria: one for each is needed");

@@ -25,6 +25,7 @@
 #include "report/sums.h"
 #include "tests/report/pixels.h"
 #include "tests/report/same_json.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -194,15 +195,6 @@ struct ReadPage {
   }
 };
 
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
-}
-
 TEST(Pages, OfAFitHoldItAndItsFiles) {
   const std::string folder = fresh("a_fit");
   write_bytes(folder + "/fit.json",
@@ -230,15 +222,16 @@ TEST(Pages, OfAFitHoldItAndItsFiles) {
   EXPECT_TRUE(page.text.ends_with("</html>\n"));
   write_bytes(folder + "/fit.json", R"({"check_skins": 3, "parameters": []})");
   EXPECT_NE(report_page(folder).find("<title>a_fit</title>"), std::string::npos);
-  EXPECT_EQ(refusal([&] { report_page(folder, "knee"); }),
+  EXPECT_EQ(refusal_of([&] { report_page(folder, "knee"); }),
             "--pick is for a folder of `papilla optimize`");
   for (const char* old : {R"({"check_skins": 3})", R"({"parameters": []})"}) {
     write_bytes(folder + "/fit.json", old);
-    EXPECT_EQ(refusal([&] { report_page(folder); }),
+    EXPECT_EQ(refusal_of([&] { report_page(folder); }),
               folder + ": fit.json is of another version; run `papilla calibrate` again");
   }
   write_bytes(folder + "/fit.json", "{");
-  EXPECT_TRUE(refusal([&] { report_page(folder); }).starts_with(folder + "/fit.json is damaged"));
+  EXPECT_TRUE(
+      refusal_of([&] { report_page(folder); }).starts_with(folder + "/fit.json is damaged"));
 }
 
 // By the sums beside them; of a folder without sums nothing is said.
@@ -327,7 +320,7 @@ TEST(Pages, OfARankingHaveEachDesignUnderItsName) {
   EXPECT_TRUE(page.plain_part.ends_with("<pre>one &lt; two\n</pre>\n")) << page.plain_part;
   write_bytes(folder + "/ranking.json", R"({"candidates": [{"index": 1, "name": "two"}]})");
   EXPECT_TRUE(
-      refusal([&] { report_page(folder); }).starts_with(folder + ": ranking.json is damaged: "));
+      refusal_of([&] { report_page(folder); }).starts_with(folder + ": ranking.json is damaged: "));
 }
 
 Json list_of(const Json& one) {
@@ -409,7 +402,7 @@ TEST(Pages, OfARunHoldItsDesignsAndTables) {
   write_bytes(folder + "/front/02/metrics.json", metrics.dump());
   EXPECT_NE(report_page(folder, "2").find("<title>the second</title>"), std::string::npos);
   fs::remove(folder + "/plan.txt");
-  EXPECT_EQ(refusal([&] { report_page(folder); }),
+  EXPECT_EQ(refusal_of([&] { report_page(folder); }),
             folder + " has no plan.txt: not the folder of a finished `papilla optimize`");
 }
 

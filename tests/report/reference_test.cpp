@@ -10,17 +10,13 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "report/markup.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
 
 std::string refusal(const std::string& section) {
-  try {
-    reference_section(section, ReferenceFormat::Text);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
+  return refusal_of([&] { reference_section(section, ReferenceFormat::Text); });
 }
 
 // The pages of docs/reference/ are kept right by people who read them.

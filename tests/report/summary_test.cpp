@@ -13,6 +13,7 @@
 #include "report/results.h"
 #include "report/sheet.h"
 #include "tests/report/same_json.h"
+#include "tests/support/golden.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -85,23 +86,11 @@ struct Searched {
 
 TEST(RunSummary, TheTableOfTheFinalistsIsInTheUnitsOfTheStudy) {
   const Searched run;
-  const std::string table = result_table(run.study, run.result);
-  EXPECT_TRUE(table.starts_with(
-      "Finalists, confirmed on fresh skins at level \"draft\":\n\n| design | texture.period | "
-      "texture.diameter | texture.depth | surface.contact_angle | max mean(modulation) | min "
-      "variation(modulation) | worst modulation | min_hole at least 1 um | min_wall at least 0.4 "
-      "um | aspect_ratio at most 1 | oxide_breakdown_margin at least 2 "
-      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|\n"
-      "| front/01 | 5 um | 3 um | 300 nm | 70 deg | 0.500 ± 0.013 | 0.300 ± 0.023 | 0.250 | "))
-      << table;
+  EXPECT_TRUE(is_golden(result_table(run.study, run.result), "report/golden/finalists.md"));
   OptimiseResult failed = run.result;
   failed.finalists[0].feasible = failed.finalists[1].feasible = false;
   failed.finalists[1].confirmed.ok = false;
-  const std::string second = result_table(run.study, failed);
-  EXPECT_NE(second.find("\n| front/01 (infeasible) | 5 um |"), std::string::npos) << second;
-  EXPECT_NE(second.find("\n| (infeasible) | 8 um | 4 um | 500 nm | 40 deg | failed | failed |"),
-            std::string::npos)
-      << second;
+  EXPECT_TRUE(is_golden(result_table(run.study, failed), "report/golden/finalists_failed.md"));
 }
 
 TEST(RunSummary, EachPartHasItsNumbers) {
@@ -110,38 +99,7 @@ TEST(RunSummary, EachPartHasItsNumbers) {
   run.result.finalists[0].confirmed.reports = {
       R"({"accuracy": {"reached": 0.015, "quantity": "friction", "status": "reached"}})"};
   const std::string page = run_summary(run.files());
-  EXPECT_TRUE(
-      page.starts_with("# Hole array under a grown oxide\n\nSearch: nsga2 (two objectives). 40 "
-                       "evaluations, 3 refused by the fabrication limits, **2 failed** "
-                       "(history.csv says why).\n\n\n## What to build\n\n"))
-      << page;
-  for (const std::string& part :
-       {"\nAccuracy asked for (`accuracy.target`): 2 %. Of the best design " +
-            run.problem.tasks()[0].name + ": 1.5 % of friction, reached.\n",
-        std::string("\n`best/` is front/01: the highest worst modulation over fingers and "
-                    "humidity.\n"),
-        std::string(
-            "\n## What the texture does, and what the finish does\n\n| surface | mean(modulation) "
-            "| variation(modulation) | worst modulation |\n|---|---|---|---|\n"
-            "| flat, finish and drive of the study file | 0.350 ± 0.013 | 0.450 ± 0.023 | 0.150 "
-            "|\n"
-            "| flat, finish and drive of the best design | 0.400 ± 0.013 | 0.350 ± 0.023 | 0.200 "
-            "|\n"
-            "| best design | 0.500 ± 0.013 | 0.300 ± 0.023 | 0.250 |\n"
-            "| difference made by the texture | +0.100 ± 0.013 | -0.050 ± 0.023 | |\n"),
-        std::string("; mean(modulation), variation(modulation); * on the front of these designs: "
-                    "it keeps every limit, and none is better in all objectives by more than the "
-                    "error of their difference):\n\n| | front/01 | (dominated) |\n|---|---|---|\n"
-                    "| rough | 0.500, 0.300 * | 0.400, 0.350 |\n"
-                    "| smooth | 0.550, 0.250 * | no value |\n"
-                    "| **on the front** | 2 of 2 | 0 of 2, **unstable** |\n"),
-        std::string("\n\n| variable | step | mean(modulation), share | variation(modulation), "
-                    "share | tolerance down | up |\n|---|---|---|---|---|---|\n"
-                    "| texture.period | 0.35 um | +0.01, 60 % | -0.02, 25 % | 0.12 um | > 0.5 um "
-                    "(largest step tried) |\n"
-                    "| texture.depth | 50 nm | - | - | not judged: the search range ends here | "
-                    "20 nm, then min_wall is reached |\n")})
-    EXPECT_NE(page.find(part), std::string::npos) << part << "\n---\n" << page;
+  EXPECT_TRUE(is_golden(page, "report/golden/summary.md"));
   EXPECT_EQ(page.find(kNoBetter), std::string::npos);
   run.result.stability.times_on_front = {1, 2};
   run.pick = "knee";
@@ -236,27 +194,10 @@ TEST(RunRemarks, SayWhatNeverMovedAndWhatLiesOnItsBound) {
 
 TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   const Searched run;
-  const std::string gains =
-      "Build design 01 (holes 3 um wide, 5 um apart, 300 nm deep). Against the same surface "
-      "without "
-      "texture it gains mean(modulation) +0.100 ± 0.013, variation(modulation) -0.050 ± 0.023. The "
-      "finish changes too (surface.contact_angle 50 deg to 70 deg).";
   EXPECT_EQ(advice_of(run.problem, run.result), Advice::Texture);
-  EXPECT_EQ(recommendation(run.files()), gains);
   const std::string sheet = sheet_text(run.files());
-  EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + gains + "**\n")) << sheet;
-  for (const char* line :
-       {"\n\n| dimension | build | tolerance down | up |\n|---|---|---|---|\n",
-        "| texture.period | 5 um | 0.12 um | > 0.5 um (largest step tried) |\n",
-        "| texture.diameter | 3 um | not known | not known |\n",
-        "| texture.depth | 300 nm | not judged: the search range ends here | 20 nm, then min_wall "
-        "is reached |\n",
-        "| texture.wall_angle | 88 deg | fixed | fixed |\n",
-        "| surface.contact_angle | 70 deg | not known | not known |\n",
-        "\n| limit | asked for | as built |\n|---|---|---|\n",
-        "| min_wall | at least 0.4 um | 2 um |\n",
-        "| oxide_breakdown_margin | at least 2 | 2.5 |\n"})
-    EXPECT_NE(sheet.find(line), std::string::npos) << line << sheet;
+  EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + recommendation(run.files()) + "**\n"));
+  EXPECT_TRUE(is_golden(sheet, "report/golden/sheet.md"));
   Searched costly;
   costly.result.flat = score(0.4, 0.2, 0.2);  // 0.1 more variation with the texture
   EXPECT_NE(recommendation(costly.files())

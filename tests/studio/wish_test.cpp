@@ -15,6 +15,7 @@
 #include "search/records.h"
 #include "studio/first_answer.h"
 #include "studio/search_desk.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -179,12 +180,7 @@ TEST(SearchWish, IsReadAsThePageSendsIt) {
   const auto refused = [&](const char* key, const Json& value) {
     Json other = sent;
     other[key] = value;
-    try {
-      search_wish(other);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return refusal_of([&] { search_wish(other); });
   };
   const std::string why =
       "a search needs variables, each with path, low and high, and an objective";

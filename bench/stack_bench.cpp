@@ -18,12 +18,12 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "bench/front_file.h"
 #include "numerics/statistics.h"
 #include "optim/pareto.h"
 #include "report/svg.h"
 #include "search/problem.h"
 #include "search/task.h"
-#include "tests/bench/front_file.h"
 
 using namespace papilla::tests;
 
@@ -80,8 +80,9 @@ Front judged_front(const std::string& text, const Fidelity& fidelity, std::size_
   Front out;
   out.name = text.substr(0, equals);
   for (const Point& u : read_front(text.substr(colon + 1), problem, most)) {
-    const Score score = judged(problem, problem.space().design(u), fidelity);
-    if (!score.ok || !problem.feasible(score, problem.space().design(u))) continue;
+    const Design design = problem.space().design(u);
+    const Score score = judged(problem, design, fidelity);
+    if (!score.ok || !problem.feasible(score, design)) continue;
     out.mean.push_back(score.values.at(0));
     out.mean_error.push_back(score.errors[0]);
     out.variation.push_back(score.values.at(1));
@@ -216,7 +217,7 @@ int main(int argc, char** argv) {
   try {
     if (!a.empty() && a[0] == "fronts") return fronts(a), 0;
     if (!a.empty() && a[0] == "order") return order(a), 0;
-    throw InputError("stack_bench fronts | order: see the head of tests/bench/stack_bench.cpp");
+    throw InputError("stack_bench fronts | order: see the head of bench/stack_bench.cpp");
   } catch (const std::exception& e) {
     fmt::print(stderr, "error: {}\n", e.what());
     return 2;

@@ -14,7 +14,7 @@ import tempfile
 import time
 import urllib.request
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "studio"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "tests", "studio"))
 from browser import TREE, Browser, Studio, go, until  # noqa: E402
 
 PARTICLES = """schema_version = 1

@@ -4,10 +4,10 @@
 // Lines at random are walked with threshold water and one period, with the period too (the patch
 // holds whole numbers of them), and with droplets, which settle elsewhere. Prints a table:
 // ninja -C build steps_bench
-// build/tests/steps_bench designs 64 8 100 > results/accuracy/steps.csv
+// build/bench/steps_bench designs 64 8 100 > results/accuracy/steps.csv
 #include <cstdlib>
 
-#include "../hard_cases/steps.h"
+#include "tests/hard_cases/steps.h"
 
 using namespace papilla::tests;
 

@@ -32,13 +32,13 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "bench/front_file.h"
 #include "numerics/statistics.h"
 #include "optim/algorithms/searchers.h"
 #include "optim/pareto.h"
 #include "optim/search.h"
 #include "search/problem.h"
 #include "search/task.h"
-#include "tests/bench/front_file.h"
 
 using namespace papilla::tests;
 
