@@ -11,11 +11,11 @@
 
 #include "base/cache.h"
 #include "base/constants.h"
+#include "base/digest.h"
 #include "base/lanes.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/sha256.h"
 #include "base/watch.h"
 
 namespace papilla::tests {
