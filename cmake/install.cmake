@@ -7,7 +7,6 @@ set_target_properties(papilla PROPERTIES INSTALL_RPATH "$ORIGIN/${from_bin};$ORI
 
 install(TARGETS papilla RUNTIME)
 install(TARGETS libpapilla EXPORT papilla LIBRARY ARCHIVE)
-install(TARGETS papilla_images LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/papilla)
 install(DIRECTORY include/papilla TYPE INCLUDE)
 install(DIRECTORY designs DESTINATION ${CMAKE_INSTALL_DATADIR}/papilla)
 

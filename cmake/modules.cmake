@@ -28,9 +28,6 @@ function(papilla_library name)
   cmake_parse_arguments(ARG "" "" "LIBS" ${ARGN})
   foreach(folder ${ARG_UNPARSED_ARGUMENTS})
     file(GLOB found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
-    foreach(left_out ${PAPILLA_LEFT_OUT})
-      list(REMOVE_ITEM found ${CMAKE_SOURCE_DIR}/${left_out})
-    endforeach()
     if(folder IN_LIST PAPILLA_ROOMS_OF_LOOPS)
       set_source_files_properties(${found} PROPERTIES COMPILE_OPTIONS -U_GLIBCXX_ASSERTIONS)
     endif()
@@ -67,6 +64,15 @@ function(papilla_library name)
 
   add_library(papilla_inside INTERFACE)
   target_link_libraries(papilla_inside INTERFACE ${name} papilla_headers)
+endfunction()
+
+# papilla_module(NAME SOURCE LIBRARY): papilla_NAME.so beside the library, which loads it, and installed below it.
+function(papilla_module name source library)
+  add_library(papilla_${name} MODULE ${source})
+  set_target_properties(papilla_${name} PROPERTIES PREFIX "")
+  target_link_libraries(papilla_${name} PRIVATE papilla_options ${library})
+  add_dependencies(libpapilla papilla_${name})
+  install(TARGETS papilla_${name} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/papilla COMPONENT papilla)
 endfunction()
 
 # papilla_embed(module room OUT name file ...): each file becomes `extern const std::string_view name` in namespace papilla::room.

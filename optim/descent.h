@@ -1,6 +1,6 @@
-// A least sum of squares within bounds by Levenberg and Marquardt's steps: Ceres's
-// (descent_ceres.cpp), in permissive builds our own (descent_own.cpp), as Debian's Ceres stands on
-// parts of SuiteSparse that are under the GPL.
+// A least sum of squares within bounds by Levenberg and Marquardt's steps, behind an interface
+// (internal to optim): Ceres's, in the module papilla_descent.so (optim/modules/ceres.cpp), which
+// is loaded by the first fit.
 #pragma once
 
 #include <string>
@@ -24,18 +24,25 @@ struct DescentOptions {
   double tolerance = 1e-12;  // on the relative change of the sum and of x
 };
 
-struct Descent {
+struct DescentOutcome {
   bool converged = false;
   std::string message;  // for people
   int evaluations = 0;
 };
 
-// Steps in a row that may end where the model has no answer: each is within a region at most half
-// as large as that of the one before, so that the last is far below a millionth of the first.
-inline constexpr int kMostInvalidSteps = 20;
+class Descent {
+ public:
+  virtual ~Descent() = default;
+  // From x, which becomes the best found; bounds may be infinite.
+  virtual DescentOutcome descend(const DescentModel& model, std::vector<double>& x,
+                                 const std::vector<double>& low, const std::vector<double>& high,
+                                 const DescentOptions& options) const = 0;
+};
 
-// From x, which becomes the best found; bounds may be infinite.
-Descent descend(const DescentModel& model, std::vector<double>& x, const std::vector<double>& low,
-                const std::vector<double>& high, const DescentOptions& options);
+// Version of the classes above: the module of another build is refused.
+constexpr int kDescentInterface = 1;
+
+// Loads the module on the first call. Throws std::runtime_error where it does not load.
+const Descent& descent();
 
 }  // namespace papilla::optim

@@ -9,13 +9,15 @@
 
 namespace papilla::optim {
 
+class Ranks;
+
 // Rank of this process as its launcher names it in the environment, without starting MPI; 0 when
 // there is no launcher.
 int launched_rank();
 
 // Starts MPI when the program was launched as one of several processes and ends it in the
-// destructor; rank 0 then sends the others home. Throws InputError when launched so but built
-// without MPI.
+// destructor; rank 0 then sends the others home. Throws std::runtime_error when launched so but
+// built without MPI.
 class MpiSession {
  public:
   MpiSession();
@@ -32,6 +34,7 @@ class MpiSession {
   std::unique_ptr<Team> team() const;
 
  private:
+  const Ranks* ranks_ = nullptr;  // null: alone
   int rank_ = 0, size_ = 1;
 };
 

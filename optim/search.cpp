@@ -94,6 +94,10 @@ SearchMethod choose_method(const std::string& name, const SearchProblem& problem
   return {name, "asked for"};
 }
 
+void require_method(const SearchMethod& method) {
+  if (const auto load = method_kind(method.name).load_libraries) load();
+}
+
 std::unique_ptr<Searcher> make_searcher(const SearchMethod& method, const SearchProblem& problem) {
   return problem.space.single_point() ? make_bayesian(problem)
                                       : method_kind(method.name).make(problem);

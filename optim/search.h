@@ -86,6 +86,10 @@ struct SearchMethod {
 // Throws InputError for a method that cannot do the problem.
 SearchMethod choose_method(const std::string& name, const SearchProblem& problem);
 
+// Loads the libraries that a method stands on, for work that must not fail late. Throws
+// std::runtime_error where one is missing.
+void require_method(const SearchMethod& method);
+
 std::unique_ptr<Searcher> make_searcher(const SearchMethod& method, const SearchProblem& problem);
 
 // "auto" and the methods of the one list, optim/algorithms/methods.cpp.

@@ -190,8 +190,8 @@ bool TrustRegion::descend(std::vector<double>& x, const std::vector<std::size_t>
     high.push_back(std::isfinite(p.high) ? coordinates_.to(i, p.high) : kInfinity);
   }
   const FitModel model(coordinates_, data_, function_, options_, x, free, evaluations_);
-  const Descent done =
-      optim::descend(model, values, low, high, {iterations, region, options_.tolerance});
+  const DescentOutcome done =
+      descent().descend(model, values, low, high, {iterations, region, options_.tolerance});
   evaluations_ += done.evaluations;
   message = done.message;
   for (std::size_t j = 0; j < free.size(); ++j) x[free[j]] = values[j];

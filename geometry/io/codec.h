@@ -1,6 +1,6 @@
 // Image files behind an interface (internal to geometry/io). OpenImageIO and the 240 libraries that
 // it brings take 0.3 s to load, more than most commands run: they are in a module of their own
-// (geometry/codec), which is loaded when the first image file is touched.
+// (geometry/modules), which is loaded when the first image file is touched.
 #pragma once
 
 #include <memory>

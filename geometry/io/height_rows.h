@@ -36,7 +36,7 @@ class HeightRows {
 std::unique_ptr<HeightRows> open_image_rows(const std::string& path, bool any_size = false);
 std::unique_ptr<HeightRows> open_gsf_rows(const std::string& path);
 std::unique_ptr<HeightRows> open_npy_rows(const std::string& path);
-// X3P as write_x3p leaves it, its sums checked once the last row is read.
+// X3P of doubles, compressed or not; the sum of its heights is checked once the last row is read.
 std::unique_ptr<HeightRows> open_x3p_rows(const std::string& path);
 // By the ending: .exr .tif .tiff .png .gsf .npy .x3p
 std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size = false);

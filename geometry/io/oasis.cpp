@@ -1,5 +1,6 @@
 // OASIS (SEMI P39): records of variable-length integers, repetitions in place of arrays.
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <array>
 #include <cstdint>
@@ -12,7 +13,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "geometry/io/drawing.h"
-#include "geometry/io/sums.h"
+#include "geometry/io/raw.h"
 
 namespace papilla::geometry {
 namespace {
@@ -119,9 +120,7 @@ void label(OasisStream& out, const LayoutLayer& layer) {
 }
 
 std::string sum_of(std::string_view bytes) {
-  Crc32 sum;
-  sum.add(bytes.data(), bytes.size());
-  return little(sum.sum(), 4);
+  return little(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()), 4);
 }
 
 class OasisReader {

@@ -207,6 +207,12 @@ class NpyRows : public PlainRows {
 
 }  // namespace
 
+std::string little(std::uint64_t value, int bytes) {
+  std::string out;
+  for (int i = 0; i < bytes; ++i) out += static_cast<char>((value >> (8 * i)) & 0xff);
+  return out;
+}
+
 void check_size(const std::string& path, double nx, double ny) {
   constexpr double kMostPixels = 268435456;  // 2^28: 2 GiB of doubles
   if (!(nx >= 1 && ny >= 1 && nx * ny <= kMostPixels)) {

@@ -1,6 +1,7 @@
-// What the readers of files share (internal to geometry/io).
+// What the readers and writers of files share (internal to geometry/io).
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "base/rooms.h"
@@ -8,6 +9,8 @@
 namespace papilla::geometry {
 
 std::string lower_ending(const std::string& path);  // ".exr"
+// The lowest bytes of a number, the least first.
+std::string little(std::uint64_t value, int bytes);
 // Throws InputError for sizes that cannot be read.
 void check_size(const std::string& path, double nx, double ny);
 

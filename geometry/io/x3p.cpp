@@ -1,22 +1,25 @@
-// X3P (ISO 25178-72): a stored zip of main.xml, the heights as doubles and their MD5 sums.
+// X3P (ISO 25178-72): a zip of main.xml, the heights as doubles and their MD5 sums. Ours is not
+// compressed and holds no time: the same heights are the same bytes.
 #include <fmt/format.h>
+#include <zip.h>
+#include <zlib.h>
 
-#include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdint>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <memory>
+#include <pugixml.hpp>
 #include <string>
+#include <string_view>
 
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/file_writer.h"
 #include "base/files.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/io/raw.h"
-#include "geometry/io/sums.h"
 
 namespace papilla::geometry {
 namespace {
@@ -40,12 +43,15 @@ class Zip {
 
   // The pieces are asked for twice: their sum stands before them.
   void add(const std::string& name, const Pieces& pieces) {
-    Crc32 sum;
+    uLong sum = 0;
     std::uint64_t length = 0;
-    pieces([&](const void* bytes, std::size_t size) { sum.add(bytes, size), length += size; });
+    pieces([&](const void* bytes, std::size_t size) {
+      sum = crc32_z(sum, static_cast<const Bytef*>(bytes), size);
+      length += size;
+    });
     // Version 2.0, no compression, 1 January 2000.
     const std::string common = little(20, 2) + little(0, 2) + little(0, 2) + little(0, 2) +
-                               little(0x2821, 2) + little(sum.sum(), 4) + little(length, 4) +
+                               little(0x2821, 2) + little(sum, 4) + little(length, 4) +
                                little(length, 4) + little(name.size(), 2) + little(0, 2);
     directory_ += "PK\x01\x02" + little(20, 2) + common + little(0, 2) + little(0, 2) +
                   little(0, 2) + little(0, 4) + little(size_, 4) + name;
@@ -66,91 +72,130 @@ class Zip {
   std::uint64_t size_ = 0, files_ = 0;
 };
 
-// The number between two tags of the XML, after `from`.
-double tagged(const std::string& path, const std::string& xml, const std::string& tag,
-              std::size_t from = 0) {
-  const std::string open = "<" + tag + ">";
-  const std::size_t at = xml.find(open, from);
-  double value = 0;
-  const char* end = xml.data() + xml.size();
-  if (at == std::string::npos ||
-      std::from_chars(xml.data() + at + open.size(), end, value).ec != std::errc{})
-    throw InputError("cannot read " + path + ": no number " + tag + " in main.xml");
-  return value;
-}
-
+// What a file of another program may be: compressed or not, its entries in any order, the heights
+// wherever main.xml says.
 class X3pRows : public HeightRows {
  public:
-  explicit X3pRows(const std::string& path) : path_(path), file_(open_regular(path)) {
-    const std::uint64_t length = enter("main.xml");
-    if (length > (1 << 20)) fail("a main.xml of more than 1 MB");
-    xml_.resize(length);
-    get(xml_.data(), length);
-    const double nx = tagged(path, xml_, "SizeX"), ny = tagged(path, xml_, "SizeY");
+  explicit X3pRows(const std::string& path) : path_(path), archive_(opened(path)) {
+    const std::string xml = text("main.xml", 1 << 20);
+    pugi::xml_document document;
+    if (!document.load_buffer(xml.data(), xml.size())) fail("its main.xml is no XML");
+    const pugi::xml_node root = document.document_element();
+    const pugi::xml_node axes = root.child("Record1").child("Axes");
+    const pugi::xml_node matrix = root.child("Record3").child("MatrixDimension");
+    const pugi::xml_node link = root.child("Record3").child("DataLink");
+    const double nx = number(matrix, "SizeX"), ny = number(matrix, "SizeY");
     check_size(path, nx, ny);
     header_.nx = static_cast<int>(nx);
     header_.ny = static_cast<int>(ny);
-    header_.lx = nx * tagged(path, xml_, "Increment", xml_.find("<CX>"));
-    header_.ly = ny * tagged(path, xml_, "Increment", xml_.find("<CY>"));
-    if (xml_.find("<CZ><AxisType>A</AxisType><DataType>D</DataType>") == std::string::npos)
+    header_.lx = nx * number(axes.child("CX"), "Increment");
+    header_.ly = ny * number(axes.child("CY"), "Increment");
+    const pugi::xml_node z = axes.child("CZ");
+    if (z.child_value("AxisType") != std::string("A") ||
+        z.child_value("DataType") != std::string("D"))
       fail("its heights are no doubles");
-    scale_ = tagged(path, xml_, "Increment", xml_.find("<CZ>"));
-    const auto pixels = static_cast<std::uint64_t>(header_.nx) * static_cast<unsigned>(header_.ny);
-    if (enter("bindata/data.bin") != sizeof(double) * pixels)
-      fail("as many heights as pixels are due");
+    scale_ = number(z, "Increment");
+    heights_sum_ = lower(link.child_value("MD5ChecksumPointData"));
+    check_xml_sum(xml, root.child("Record4").child_value("ChecksumFile"));
+    open_heights(link.child_value("PointDataLink"));
   }
 
   void next(double* heights) override {
     const std::size_t bytes = static_cast<std::size_t>(header_.nx) * sizeof(double);
-    get(heights, bytes);
+    if (read(heights_.get(), heights, bytes) != bytes) fail("the data are cut off");
     sum_.add(heights, bytes);
     for (int ix = 0; ix < header_.nx; ++ix) heights[ix] *= scale_;
-    if (++row_ == header_.ny) check_sums();
+    if (++row_ < header_.ny) return;
+    if (sum_.finish() != heights_sum_) fail("the sum of its heights is another");
+    char more = 0;
+    if (read(heights_.get(), &more, 1) != 0) fail("more heights than pixels");
   }
 
  private:
+  struct Close {
+    void operator()(zip_t* archive) const { zip_discard(archive); }
+    void operator()(zip_file_t* file) const { zip_fclose(file); }
+  };
+  using Archive = std::unique_ptr<zip_t, Close>;
+  using File = std::unique_ptr<zip_file_t, Close>;
+
+  static std::string lower(std::string digits) {
+    for (char& c : digits) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return digits;
+  }
+
   [[noreturn]] void fail(const std::string& why) const {
     throw InputError("cannot read " + path_ + ": " + why);
   }
-  void get(void* to, std::size_t bytes) {
-    if (!file_.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes)))
-      fail("the data are cut off");
+  Archive opened(const std::string& path) const {
+    require_regular(path);
+    int code = 0;
+    Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
+    if (archive) return archive;
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
+    const std::string why = zip_error_strerror(&error);
+    zip_error_fini(&error);
+    fail("it does not open as a zip: " + why);
   }
-  // Into the next file of the zip, which must have this name; its length.
-  std::uint64_t enter(const std::string& name) {
-    std::array<unsigned char, 30> head{};
-    get(head.data(), head.size());
-    const auto number = [&](std::size_t at, std::size_t bytes) {
-      std::uint64_t out = 0;
-      for (std::size_t i = bytes; i-- > 0;) out = out << 8 | head[at + i];
-      return out;
-    };
-    if (number(0, 4) != 0x04034b50) fail("no zip with " + name + " where it is due");
-    if (number(8, 2) != 0) fail("a compressed zip, which no X3P of ours is");
-    std::string found(number(26, 2), '\0'), extra(number(28, 2), '\0');
-    get(found.data(), found.size());
-    get(extra.data(), extra.size());
-    if (found != name) fail("a zip without " + name + " where it is due");
-    return number(18, 4);
+  // Length of an entry as the archive declares it.
+  std::uint64_t size_of(const std::string& name) const {
+    zip_stat_t stat;
+    if (zip_stat(archive_.get(), name.c_str(), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE))
+      fail("a zip without " + name);
+    return stat.size;
   }
-  void check_sums() {
-    if (xml_.find("<MD5ChecksumPointData>" + sum_.finish() + "<") == std::string::npos)
-      fail("the sum of its heights is another");
-    std::string sum(enter("md5checksum.hex"), '\0');
-    if (sum.size() > 256) fail("a sum of more than 256 letters");
-    get(sum.data(), sum.size());
-    if (!sum.starts_with(md5(piece(xml_)))) fail("the sum of main.xml is another");
-    std::string directory(4, '\0');
-    get(directory.data(), directory.size());
-    if (directory != "PK\x01\x02") fail("the data are cut off");
-    const std::string rest{std::istreambuf_iterator<char>(file_), {}};
-    constexpr std::size_t kEndOfZip = 22;
-    if (rest.size() < kEndOfZip || rest.substr(rest.size() - kEndOfZip, 4) != "PK\x05\x06")
-      fail("the data are cut off");
+  File file(const std::string& name) const {
+    File out(zip_fopen(archive_.get(), name.c_str(), 0));
+    if (!out) fail(name + " in it: " + zip_strerror(archive_.get()));
+    return out;
+  }
+  // At most so many bytes: fewer at the end of the entry.
+  std::size_t read(zip_file_t* from, void* to, std::size_t bytes) const {
+    std::size_t done = 0;
+    while (done < bytes) {
+      const zip_int64_t n = zip_fread(from, static_cast<char*>(to) + done, bytes - done);
+      if (n < 0) fail(std::string("its data are damaged: ") + zip_file_strerror(from));
+      if (n == 0) break;
+      done += static_cast<std::size_t>(n);
+    }
+    return done;
+  }
+  // A whole entry. Whatever it declares, no more than the limit is ever unpacked.
+  std::string text(const std::string& name, std::size_t limit) const {
+    const std::uint64_t size = size_of(name);
+    if (size > limit) fail(fmt::format("{} in it has more than {} bytes", name, limit));
+    std::string out(size + 1, '\0');
+    const File entry = file(name);
+    if (read(entry.get(), out.data(), out.size()) != size)
+      fail(name + " in it is not as long as declared");
+    out.pop_back();
+    return out;
+  }
+  double number(const pugi::xml_node& parent, const char* name) const {
+    const std::string_view value = parent.child_value(name);
+    double out = 0;
+    if (std::from_chars(value.data(), value.data() + value.size(), out).ec != std::errc{})
+      fail(fmt::format("no number {} in main.xml", name));
+    return out;
+  }
+  void check_xml_sum(const std::string& xml, const std::string& name) const {
+    Md5 sum;
+    sum.add(xml.data(), xml.size());
+    constexpr std::size_t kMostLetters = 4096;
+    if (!lower(text(name, kMostLetters)).starts_with(sum.finish()))
+      fail("the sum of main.xml is another");
+  }
+  void open_heights(const std::string& name) {
+    const auto pixels = static_cast<std::uint64_t>(header_.nx) * static_cast<unsigned>(header_.ny);
+    if (size_of(name) != sizeof(double) * pixels) fail("not as many heights as pixels are due");
+    heights_ = file(name);
   }
 
-  std::string path_, xml_;
-  std::ifstream file_;
+  std::string path_;
+  Archive archive_;
+  File heights_;
+  std::string heights_sum_;
   double scale_ = 1;
   int row_ = 0;
   Md5 sum_;

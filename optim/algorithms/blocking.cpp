@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "optim/algorithms/searchers.h"
+#include "optim/descent.h"
 #include "optim/least_squares.h"
 
 namespace papilla::optim {
@@ -107,23 +108,8 @@ std::unique_ptr<Searcher> make_blocking(std::function<void(const BlockingObjecti
   return std::make_unique<Blocking>(std::move(run));
 }
 
-std::size_t nsga2_population(const SearchProblem& problem) {
-  return static_cast<std::size_t>(std::clamp(problem.evaluations / 12, 12, 100)) / 4 * 4;
-}
-
-std::vector<Point> first_points(const SearchProblem& problem, std::size_t size) {
-  std::vector<Point> points;
-  for (const Point& start : problem.starts) {
-    if (points.size() < size) points.push_back(problem.space.snapped(start));
-  }
-  for (std::uint64_t i = 0; points.size() < size; ++i) {
-    const Point u = problem.space.snapped(low_discrepancy(problem.space.size(), problem.seed, i));
-    if (problem.cheaply_feasible(u) || i > 5000) points.push_back(u);
-  }
-  return points;
-}
-
 std::unique_ptr<Searcher> make_least_squares(const SearchProblem& problem) {
+  descent();  // here, where somebody catches what is thrown
   return make_blocking([problem](const BlockingObjective& objective) {
     const std::size_t n = problem.space.size();
     std::map<Point, Outcome> known;  // differences are taken twice where a step was refused

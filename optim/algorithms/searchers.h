@@ -17,8 +17,7 @@ using MakeSearcher = std::unique_ptr<Searcher>(const SearchProblem& problem);
 // improvement (two), constraints by probability of feasibility. Small budgets, noise welcome.
 MakeSearcher make_bayesian;
 
-// NSGA-II and CMA-ES, constraints by a penalty in front of the objectives: pagmo's
-// (evolution_pagmo.cpp), in permissive builds our own (evolution_own.cpp).
+// NSGA-II and CMA-ES of pagmo, constraints by a penalty in front of the objectives.
 MakeSearcher make_nsga2, make_cmaes;
 
 // NLopt, one objective.
@@ -32,7 +31,8 @@ struct MethodKind {
   std::string name;
   std::size_t least_objectives = 1, most_objectives = 1;
   MakeSearcher* make = nullptr;
-  bool of_squares = false;  // needs the residuals of a smooth sum of squares
+  bool of_squares = false;             // needs the residuals of a smooth sum of squares
+  void (*load_libraries)() = nullptr;  // throws std::runtime_error where one is missing; null: none
 };
 
 // The one list of methods.
@@ -53,11 +53,6 @@ class Penalty {
   std::vector<double> worst_, best_;
 };
 
-// What both evolutions share: probabilities and distribution indices of NSGA-II (Deb et al. 2002),
-// points of a generation and first step of CMA-ES in the unit cube.
-inline constexpr double kCrossover = 0.95, kCrossoverIndex = 10, kMutationIndex = 20;
-inline constexpr std::size_t kCmaPoints = 12;
-inline constexpr double kCmaStep = 0.3;
 std::size_t nsga2_population(const SearchProblem& problem);
 // The user's points, then spread ones that are cheaply feasible, as they are evaluated.
 std::vector<Point> first_points(const SearchProblem& problem, std::size_t size);

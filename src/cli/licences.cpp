@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "base/module.h"
 #include "geometry/io/files.h"
 
 namespace papilla::cli {
@@ -28,9 +29,13 @@ const std::vector<Library>& known() {
       {"Chart.js, three.js", "MIT", "pages"},
       {"{fmt}", "MIT", "text", {"libfmt"}},
       {"zlib", "Zlib", "compression", {"libz.so"}},
+      {"libzip", "BSD-3-Clause", "X3P files", {"libzip"}},
+      {"bzip2", "bzip2-1.0.6", "of libzip", {"libbz2"}},
+      {"pugixml", "MIT", "X3P files", {"libpugixml"}},
+      {"libmd", "BSD-3-Clause, public domain", "sums of files", {"libmd.so"}},
       {"NLopt", "MIT, parts LGPL-2.1-or-later", "searches", {"libnlopt"}},
       {"cpp-httplib", "MIT", "studio", {"libcpp-httplib"}},
-      {"OpenSSL", "Apache-2.0", "of cpp-httplib", {"libssl", "libcrypto"}},
+      {"OpenSSL", "Apache-2.0", "of cpp-httplib, libzip", {"libssl", "libcrypto"}},
       {"Brotli", "MIT", "of cpp-httplib", {"libbrotli"}},
       {"Open MPI", "BSD-3-Clause", "clusters", {"libmpi", "libopen-"}},
       {"libevent, hwloc", "BSD-3-Clause", "of Open MPI", {"libevent", "libhwloc"}},
@@ -76,6 +81,7 @@ const std::vector<Library>& known() {
 
 std::set<std::string> loaded_files() {
   geometry::require_images();
+  for (const char* name : kModules) module_loads(name);
   std::set<std::string> out;
   dl_iterate_phdr(
       [](dl_phdr_info* object, std::size_t, void* names) {
@@ -114,8 +120,7 @@ std::string licences() {
     out += fmt::format("\n{} more that these bring have terms of their own, {} to {}.\n",
                        others.size(), *others.begin(), *others.rbegin());
   }
-  out += gpl ? "\nWho passes this build on does so under the GPL 3; "
-               "-DPAPILLA_PERMISSIVE=ON builds one without libraries under the GPL."
+  out += gpl ? "\nWho passes this build on does so under the GPL 3, with the sources."
              : "\nNo library of this build is under the GPL.";
   return out;
 }

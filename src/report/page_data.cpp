@@ -10,7 +10,7 @@
 #include <utility>
 #include <variant>
 
-#include "base/sha256.h"
+#include "base/digest.h"
 #include "base/text.h"
 #include "config/describe.h"
 #include "forward/forward.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "base/sha256.h"
+#include "base/digest.h"
 #include "base/text.h"
 #include "report/page.h"
 

@@ -37,8 +37,10 @@ void check_pick_rule(const std::string& rule, const StudyProblem& problem) {
 }
 
 // What can be refused before anything is written.
-std::string checked_folder(const OptimiseOptions& options, const StudyProblem& problem) {
+std::string checked_folder(const OptimiseOptions& options, const StudyProblem& problem,
+                           const SearchMethod& method) {
   require_images();
+  require_method(method);
   check_pick_rule(options.pick, problem);
   if (const auto wrong = problem.constraints().contradiction(); wrong && !wrong->flat_keeps)
     throw InputError(wrong->text);
@@ -156,7 +158,7 @@ Run::Run(const Study& of, const OptimiseOptions& how, const MpiSession& mpi,
       problem(of),
       search(search_problem(problem)),
       method(choose_method(of.search.method, search)),
-      folder(Folder::made(checked_folder(how, problem))),
+      folder(Folder::made(checked_folder(how, problem, method))),
       lock(folder, ".lock", "another run is working"),
       replay(problem, search, folder, how.resume,
              team ? std::move(team) : make_team(problem, how, mpi)) {}

@@ -11,10 +11,10 @@
 
 #include "base/cache.h"
 #include "base/constants.h"
+#include "base/digest.h"
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/sha256.h"
 #include "base/watch.h"
 
 namespace papilla::tests {

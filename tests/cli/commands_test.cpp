@@ -32,13 +32,13 @@ TEST(Program, HelpAndVersionSucceed) {
   EXPECT_GE(commands, 4);
 }
 
-// The library of image formats takes longer to load than most commands run.
-TEST(Program, ImageFormatsAreLoadedWhereAnImageIsTouchedAndNowhereElse) {
+// The libraries of image formats and of searches take longer to load than most commands run.
+TEST(Program, LoadsModulesWhereTheyAreUsedAndNowhereElse) {
   const Workplace place;
   const auto loads = [&](const std::string& arguments) {
     const Outcome run = place.shell("LD_DEBUG=libs '" PAPILLA_PROGRAM "' " + arguments);
     EXPECT_EQ(run.status, 0) << arguments;
-    return run.err.find("papilla_images.so") != std::string::npos;
+    return run.err.find("papilla_") != std::string::npos;  // a module of any name
   };
   EXPECT_FALSE(loads("--version"));
   EXPECT_FALSE(loads("explain " + kSample));
@@ -51,11 +51,20 @@ TEST(Program, ImageFormatsAreLoadedWhereAnImageIsTouchedAndNowhereElse) {
     if (file.path().filename().string().starts_with("libpapilla.so"))
       std::filesystem::copy(file.path(), place.path() / file.path().filename());
   }
-  const Outcome broken = place.shell("LD_LIBRARY_PATH=. ./alone export " + kSample +
-                                     " --format exr --pixels 64 --out broken");
+  const auto alone = [&](const std::string& arguments) {
+    return place.shell("LD_LIBRARY_PATH=. ./alone " + arguments);
+  };
+  const Outcome broken = alone("export " + kSample + " --format exr --pixels 64 --out broken");
   EXPECT_EQ(broken.status, 1);
   EXPECT_NE(broken.err.find("papilla_images.so"), std::string::npos) << broken.err;
   EXPECT_FALSE(std::filesystem::exists(place.path() / "broken/heightmap.exr"));
+  // With that one, but without pagmo's.
+  std::filesystem::copy_file(beside / "papilla_images.so", place.path() / "papilla_images.so");
+  const std::string study = PAPILLA_SOURCE_DIR "/designs/electroadhesive_glass/study.toml";
+  const Outcome unable = alone("optimize " + study + " --set search.method=nsga2 --out never");
+  EXPECT_EQ(unable.status, 1);
+  EXPECT_NE(unable.err.find("papilla_evolution.so"), std::string::npos) << unable.err;
+  EXPECT_FALSE(std::filesystem::exists(place.path() / "never"));
 }
 
 TEST(Program, CompletionIsValidShell) {

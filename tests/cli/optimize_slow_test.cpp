@@ -64,7 +64,7 @@ TEST(Optimize, TheLossOfARankIsResumed) {
   if (!has_mpi(place)) GTEST_SKIP() << "no MPI here";
   const Outcome lost = place.shell(
       "cp '" PAPILLA_PROGRAM "' papilla_here; cp \"$(dirname '" PAPILLA_PROGRAM
-      "')/papilla_images.so\" .; cp -d \"$(dirname '" PAPILLA_PROGRAM "')\"/libpapilla.so* .; " +
+      "')\"/papilla_*.so .; cp -d \"$(dirname '" PAPILLA_PROGRAM "')\"/libpapilla.so* .; " +
       kLaunch + "-n 3 ./papilla_here --quiet optimize '" + kStudy + "' --out run & launcher=$!; " +
       kUntilJournal +
       "sleep 0.5; "

@@ -11,7 +11,7 @@
 #include "geometry/io/files.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
-#include "geometry/io/sums.h"
+#include "tests/io/zip_file.h"
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
@@ -155,19 +155,17 @@ TEST(ShownFields, OfAPictureAreReadRowByRow) {
   EXPECT_EQ(back, rgb);
 }
 
-// X3P of another program: heights in steps of three metres, its sums made good.
+// X3P of another program: heights in steps of three metres.
 TEST(ReadHeights, OfAnX3pAreInTheStepsOfTheirAxis) {
   const std::string path = temporary("steps.x3p");
   write_x3p(path, {{3, 2, 6e-6, 5e-6}, {1, 2, 3, 4, 5, 6}});
-  std::string bytes = read_bytes(path);
-  const std::size_t axis = bytes.find("<Increment>1</Increment>"), begin = bytes.find("<?xml"),
-                    end = bytes.find("</p:ISO5436_2>\n") + 15, sum = bytes.find(" *main.xml") - 32;
+  auto [xml, heights] = x3p_parts(path, 6);
+  const std::size_t axis = xml.find("<Increment>1</Increment>");
   ASSERT_NE(axis, std::string::npos);
-  bytes[axis + 11] = '3';
-  Md5 md5;
-  md5.add(bytes.data() + begin, end - begin);
-  bytes.replace(sum, 32, md5.finish());
-  write_bytes(path, bytes);
+  xml[axis + 11] = '3';
+  write_zip(path, {{"main.xml", xml},
+                   {"bindata/data.bin", heights},
+                   {"md5checksum.hex", md5_of(xml) + " *main.xml\n"}});
   const Heightmap h = whole_map(*open_height_rows(path), 0);
   EXPECT_NEAR(h.grid.lx, 6e-6, 1e-18);
   EXPECT_NEAR(h.grid.ly, 5e-6, 1e-18);

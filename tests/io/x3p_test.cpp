@@ -1,7 +1,7 @@
 // X3P as another language reads it: a zip whose sums hold, heights with the top row first.
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -12,7 +12,8 @@
 #include "base/files.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
-#include "geometry/io/sums.h"
+#include "geometry/io/raw.h"
+#include "tests/io/zip_file.h"
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
@@ -126,28 +127,84 @@ TEST(X3p, AChangedBitAndACutEndAreNoticed) {
   }
 }
 
-// The examples of RFC 1321 and the usual one of the sum of zips, by pieces of any size.
-TEST(Sums, AreThoseOfTheirStandards) {
-  for (const auto& [text, sum] :
-       {std::pair{"", "d41d8cd98f00b204e9800998ecf8427e"},
-        {"abc", "900150983cd24fb0d6963f7d28e17f72"},
-        {"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789",
-         "d174ab98d277d9f5a5611c2c9f419d9f"},
-        {"12345678901234567890123456789012345678901234567890123456789012345678901234567890",
-         "57edf4a22be3c955ac49da2e2107b67a"}}) {
-    for (const std::size_t step : {1u, 7u, 64u, 100u}) {
-      Md5 md5;
-      const std::string all = text;
-      for (std::size_t at = 0; at < all.size(); at += step)
-        md5.add(all.data() + at, std::min(step, all.size() - at));
-      EXPECT_EQ(md5.finish(), sum) << text;
-    }
+// As other programs write it: compressed, its entries in another order and under other names,
+// digits of sums as capitals.
+std::vector<ZipEntry> entries_of_others(const Heightmap& h) {
+  const std::string path = temporary("plain.x3p");
+  write_x3p(path, h);
+  auto [xml, heights] = x3p_parts(path, h.z.size());
+  const auto exchange = [&](const std::string& from, const std::string& to) {
+    xml.replace(xml.find(from), from.size(), to);
+  };
+  std::string capitals = md5_of(heights);
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  exchange(md5_of(heights), capitals);
+  exchange("bindata/data.bin", "data/z.bin");
+  return {{"md5checksum.hex", md5_of(xml) + " *main.xml\n"},
+          {"data/z.bin", heights},
+          {"main.xml", xml}};
+}
+
+TEST(X3p, ReadsCompressedFilesOfOthersToTheLastBit) {
+  const Heightmap h = oblong();
+  const std::string path = temporary("packed.x3p");
+  for (const int method : {ZIP_CM_DEFLATE, ZIP_CM_STORE}) {
+    write_zip(path, entries_of_others(h), method);
+    Heightmap back;
+    ASSERT_EQ(refusal(path, &back), "");
+    EXPECT_EQ(back.z, h.z);
+    EXPECT_NEAR(back.grid.lx, 6e-6, 1e-18);
+    EXPECT_NEAR(back.grid.ly, 2e-6, 1e-18);
   }
-  Crc32 crc;
-  crc.add("1234", 4);
-  crc.add("56789", 5);
-  EXPECT_EQ(crc.sum(), 0xcbf43926u);
-  EXPECT_EQ(little(0x01020304, 3), (std::string{4, 3, 2}));
+}
+
+TEST(X3p, RefusesDamagedCompressedFiles) {
+  const std::string path = temporary("packed.x3p"), wrong = temporary("wrong.x3p");
+  write_zip(path, entries_of_others(oblong()));
+  const std::string bytes = read_bytes(path);
+  for (std::size_t length = 0; length < bytes.size(); length += 7) {
+    write_bytes(wrong, bytes.substr(0, length));
+    ASSERT_NE(refusal(wrong), "") << length;
+  }
+  // Another bit in the packed heights: of deflate, of a sum, or of the heights.
+  const std::size_t begin = bytes.find("data/z.bin") + 10, end = bytes.find("PK", begin);
+  for (std::size_t at = begin; at < end; ++at) {
+    std::string other = bytes;
+    other[at] = static_cast<char>(other[at] ^ 4);
+    write_bytes(wrong, other);
+    ASSERT_NE(refusal(wrong), "") << at;
+  }
+}
+
+TEST(X3p, UnpacksNoMoreThanItsPixels) {
+  const std::string path = temporary("bomb.x3p");
+  const std::vector<ZipEntry> sound = entries_of_others(oblong());
+  std::vector<ZipEntry> entries = sound;
+  entries[2].bytes.append(2 << 20, ' ');
+  write_zip(path, entries);
+  EXPECT_EQ(refusal(path), "cannot read " + path + ": main.xml in it has more than 1048576 bytes");
+
+  entries = sound;
+  entries[1].bytes.append(64 << 20, '\0');
+  write_zip(path, entries);
+  ASSERT_LT(read_bytes(path).size(), 100u << 10);
+  EXPECT_EQ(refusal(path), "cannot read " + path + ": not as many heights as pixels are due");
+
+  // Declared as small as it should be, in both directories of the zip.
+  std::string bytes = read_bytes(path);
+  const std::string declared = little(entries[1].bytes.size(), 4), due = little(28 * 8, 4);
+  for (std::size_t at = 0; (at = bytes.find(declared, at)) != std::string::npos; at += 4)
+    bytes.replace(at, 4, due);
+  write_bytes(path, bytes);
+  EXPECT_NE(refusal(path), "");
+
+  entries = sound;
+  entries.erase(entries.begin());
+  write_zip(path, entries);
+  EXPECT_EQ(refusal(path), "cannot read " + path + ": a zip without md5checksum.hex");
+  write_bytes(path, "no zip at all");
+  EXPECT_EQ(refusal(path),
+            "cannot read " + path + ": it does not open as a zip: Not a zip archive");
 }
 
 }  // namespace

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "base/sha256.h"
 #include "config/describe.h"
 #include "design/design.h"
 #include "forward/forward.h"

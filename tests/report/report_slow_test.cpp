@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "base/sha256.h"
+#include "base/digest.h"
 #include "tests/cli/program.h"
 
 namespace papilla::tests {

@@ -162,8 +162,7 @@ class Codec : public ImageCodec {
 }  // namespace
 }  // namespace papilla::geometry
 
-// interface: of the program that asks; null: another one.
-extern "C" const papilla::geometry::ImageCodec* papilla_image_codec(int interface) {
+extern "C" const papilla::geometry::ImageCodec* papilla_images(int version) {
   static const papilla::geometry::Codec codec;
-  return interface == papilla::geometry::kCodecInterface ? &codec : nullptr;
+  return version == papilla::geometry::kCodecInterface ? &codec : nullptr;
 }
