@@ -20,15 +20,21 @@ BLUE, RED, GREY, GREEN, WATER = "#1b6ca8", "#d1495b", "#777777", "#3c8d5a", "#a9
 LEFT, WIDTH, HEIGHT, GAP, TOP = 74, 600, 130, 26, 34
 
 
+def ticks(low, high):
+    """Three to six round numbers within a range."""
+    step = 10 ** np.floor(np.log10(high - low))
+    step = next(s for s in (step / 5, step / 2, step, 2 * step, 5 * step) if (high - low) / s <= 6)
+    return step * np.arange(np.ceil(low / step), np.floor(high / step) + 1)
+
+
 class Panel:
     """A plot over the same x as its neighbours: curves, and spans of x that are shaded."""
 
-    def __init__(self, y, curves, spans=(), log=False):
-        self.y, self.curves, self.spans, self.log = y, curves, spans, log
+    def __init__(self, y, curves, spans=()):
+        self.y, self.curves, self.spans = y, curves, spans
 
     def svg(self, x, top):
-        tall = lambda v: np.log10(np.maximum(v, 1e-12)) if self.log else v
-        values = np.concatenate([tall(v) for _, v, _, _ in self.curves])
+        values = np.concatenate([v for _, v, _, _ in self.curves])
         low, high = float(values.min()), float(values.max())
         low, high = low - 0.05 * (high - low), high + 0.05 * (high - low)
         px = lambda v: LEFT + WIDTH * (v - x[0]) / (x[-1] - x[0])
@@ -37,13 +43,11 @@ class Panel:
         for begin, end in self.spans:
             out.append(f'<rect x="{px(begin):.1f}" y="{top}" width="{px(end) - px(begin):.1f}" height="{HEIGHT}" '
                        f'fill="{WATER}" fill-opacity=".6"/>')
-        for share in (0, 0.5, 1):
-            v = low + share * (high - low)
-            out.append(f'<text x="{LEFT - 6}" y="{py(v) + 4:.1f}" text-anchor="end">'
-                       f'{10 ** v if self.log else v:.3g}</text>')
+        for v in ticks(low, high):
+            out.append(f'<text x="{LEFT - 6}" y="{py(v) + 4:.1f}" text-anchor="end">{v + 0:g}</text>')
         out.append(f'<text transform="translate(16 {top + HEIGHT / 2:.0f}) rotate(-90)" text-anchor="middle">{self.y}</text>')
         for k, (name, v, colour, dash) in enumerate(self.curves):
-            points = " ".join(f"{px(a):.1f},{py(b):.1f}" for a, b in zip(x, tall(v)))
+            points = " ".join(f"{px(a):.1f},{py(b):.1f}" for a, b in zip(x, v))
             out.append(f'<polyline fill="none" stroke="{colour}" stroke-width="1.6" stroke-dasharray="{dash}" points="{points}"/>')
             if name:
                 out.append(f'<text x="{LEFT + WIDTH + 10}" y="{top + 16 + 18 * k}" fill="{colour}">{name}</text>')
@@ -57,8 +61,9 @@ def draw(file, title, x, x_title, panels):
     for k, panel in enumerate(panels):
         out += panel.svg(x, TOP + k * (HEIGHT + GAP))
     bottom = TOP + len(panels) * (HEIGHT + GAP) - GAP
-    for share in (0, 0.5, 1):
-        out.append(f'<text x="{LEFT + share * WIDTH:.0f}" y="{bottom + 16}" text-anchor="middle">{x[0] + share * (x[-1] - x[0]):.3g}</text>')
+    for v in ticks(x[0], x[-1]):
+        place = LEFT + WIDTH * (v - x[0]) / (x[-1] - x[0])
+        out.append(f'<text x="{place:.0f}" y="{bottom + 16}" text-anchor="middle">{v + 0:g}</text>')
     out.append(f'<text x="{LEFT + WIDTH / 2}" y="{bottom + 34}" text-anchor="middle">{x_title}</text>')
     (HERE / file).write_text("\n".join(out + ["</svg>"]) + "\n")
 
@@ -91,8 +96,8 @@ def electrode_at_a_wall():
              for method in ("local", "spread", "full")]
     draw("electrode_at_a_wall.svg", "Pull over a trench of 350 nm, 200 V, 500 nm of oxide that follows it", 1e6 * x, "x [um]",
          [Panel("height [nm]", [("surface", 1e9 * z[0], GREY, ""), ("skin", 40 + 0 * x, RED, "")]),
-          Panel("pull [kPa]", [("columns", 1e-3 * pulls[0], GREY, "5 4"), ("flux spreads", 1e-3 * pulls[1], BLUE, ""),
-                               ("3-D", 1e-3 * pulls[2], RED, "2 3")])])
+          Panel("pull [MPa]", [("columns", 1e-6 * pulls[0], GREY, "5 4"), ("flux spreads", 1e-6 * pulls[1], BLUE, ""),
+                               ("3-D", 1e-6 * pulls[2], RED, "2 3")])])
 
 
 def one_patch(program):
@@ -111,7 +116,7 @@ def one_patch(program):
     spans = [(max(x[b] - step / 2, x[0]), min(x[e - 1] + step / 2, x[-1])) for b, e in zip(wet[::2], wet[1::2])]
     draw("one_patch.svg", "One patch of a3h350 at 55 % RH: gap, water (blue), pull, pressure", x, "x [um]",
          [Panel("gap [nm]", [("dry contact", 1e9 * maps["gap"][row], GREY, "")], spans),
-          Panel("pull [kPa]", [("drive on", 1e-3 * maps["pull"][row], BLUE, "")], spans),
+          Panel("pull [MPa]", [("drive on", 1e-6 * maps["pull"][row], BLUE, "")], spans),
           Panel("pressure [MPa]", [("drive off", 1e-6 * maps["pressure_off"][row], GREY, ""),
                                    ("drive on", 1e-6 * maps["pressure_on"][row], RED, "3 3")], spans)])
 
