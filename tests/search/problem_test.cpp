@@ -15,6 +15,7 @@
 #include "numerics/statistics.h"
 #include "search/levels.h"
 #include "search/stability.h"
+#include "tests/support/refusal.h"
 
 namespace papilla::tests {
 namespace {
@@ -30,12 +31,7 @@ Names names_of(const std::vector<StudyTask>& tasks) {
 }
 
 std::string refusal(const Study& study) {
-  try {
-    const StudyProblem problem(study);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return refusal_of([&] { const StudyProblem problem(study); });
 }
 
 TEST(Tasks, AreEveryFingerInEveryScenarioThenBothEndsOfEachScatter) {

@@ -22,6 +22,7 @@
 #include "search/risk.h"
 #include "search/rounding.h"
 #include "search/sensitivity.h"
+#include "tests/support/refusal.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -31,15 +32,6 @@ Study holes() {
   Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   study.population.clear();
   return study;
-}
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "";
 }
 
 TEST(SmallDecisions, ARiskIsReadWithItsNumber) {
@@ -357,19 +349,19 @@ TEST(Pick, AFolderIsReadAsItsFront) {
   EXPECT_EQ(picked("up"), "/front/01/design.toml");
   EXPECT_EQ(picked("down"), "/front/03/design.toml");
   EXPECT_EQ(picked("1"), "/front/01/design.toml");
-  EXPECT_EQ(refusal([&] { picked("4"); }), "--pick 4: the front has the designs 1 to 3");
-  EXPECT_EQ(refusal([&] { picked("left"); }),
+  EXPECT_EQ(refusal_of([&] { picked("4"); }), "--pick 4: the front has the designs 1 to 3");
+  EXPECT_EQ(refusal_of([&] { picked("left"); }),
             "--pick: \"left\" is no rule; use \"worst\", \"knee\", \"up\", \"down\" or the number "
             "of a design");
-  EXPECT_EQ(refusal([&] { picked(""); }),
+  EXPECT_EQ(refusal_of([&] { picked(""); }),
             root + " has no best/design.toml: not the folder of a finished `papilla optimize`");
   std::filesystem::create_directories(root + "/best");
   write_bytes(root + "/best/design.toml", "");
   EXPECT_EQ(picked(""), "/best/design.toml");
   write_bytes(root + "/front/02/metrics.json", "{\"objectives\": {}}");
-  EXPECT_TRUE(refusal([&] { picked("1"); }).starts_with(root + ": metrics.json is damaged: "));
+  EXPECT_TRUE(refusal_of([&] { picked("1"); }).starts_with(root + ": metrics.json is damaged: "));
   std::filesystem::remove_all(root + "/front/01");
-  EXPECT_EQ(refusal([&] { picked("1"); }),
+  EXPECT_EQ(refusal_of([&] { picked("1"); }),
             root + " has no front/: not the folder of a finished `papilla optimize`");
 }
 
@@ -386,7 +378,7 @@ TEST(Pick, TheFirstOfEqualsIsTaken) {
   std::vector<PickCandidate> off = front;
   for (PickCandidate& c : off) c.worst.reset();
   EXPECT_EQ(pick_design("", off), 1u);
-  EXPECT_EQ(refusal([&] { pick_design("worst", off); }),
+  EXPECT_EQ(refusal_of([&] { pick_design("worst", off); }),
             "--pick worst: without a drive there is no modulation; use \"knee\"");
 }
 
