@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/constants.h"
+#include "forward/equilibrium.h"
 #include "forward/scene_terms.h"
 #include "numerics/reductions.h"
 #include "physics/capillary/droplets.h"
@@ -69,6 +70,9 @@ FieldSolution solve_field_timed(const PatchProblem& problem, const Gap& gap, con
   return solution;
 }
 
+// Of states along a branch, where the attraction counts and not the area.
+constexpr double kBranchTolerance = 3e-3;
+
 class PatchSolver {
  public:
   PatchSolver(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity)
@@ -94,7 +98,8 @@ class PatchSolver {
       patch.dry = *known;
       note_contact(patch.dry, out);
     } else {
-      patch.dry = contact({}, start.dry.pressure.empty() ? nullptr : &start.dry, out);
+      patch.dry = contact({}, start.dry.pressure.empty() ? nullptr : &start.dry,
+                          fidelity_.contact_tolerance, out);
     }
     if (patch.dry.gap.empty()) return patch;
     out.area_dry = area(patch.dry);
@@ -113,57 +118,114 @@ class PatchSolver {
     out.capillary_on = out.capillary_off;  // until a field changes the angle
     out.retention_on = out.retention;
 
-    // Eq. coupling.1: capillary tractions off; the same water and the field on.
-    out.area_off = out.area_dry;
-    if (plan_.traction_solves) {
-      if (out.capillary_off != 0) {
-        const ContactSolution expected = carried(patch.dry, start.dry, start.off);
-        patch.off = contact(capillary_traction(patch.water, gap, water).value, &expected, out);
-        out.area_off = area(patch.off);
-      } else {
-        patch.off = patch.dry;
-      }
-    }
-    out.area_on = out.area_off;
+    out.area_off = out.area_on = out.area_dry;
+    patch.dry_gap = out;
+    if (plan_.traction_solves) close_undriven(patch, start);
     return patch;
+  }
+
+  // The undriven patch by its dry contact with its gap closed by its bridges: Eq. coupling.1 in one
+  // pass, else Eq. coupling.2.
+  void close_undriven(UndrivenPatch& patch, const PatchStates& start) const {
+    PatchResult& out = patch.result;
+    patch.off = patch.dry;
+    patch.water_off = patch.water;
+    if (out.capillary_off == 0) return;
+    const WaterProperties water =
+        water_properties(*problem_.scene, problem_.scene->surface.contact_angle);
+    const Gap gap{plan_.grid, patch.dry.gap};
+    const ContactSolution expected = carried(patch.dry, start.dry, start.off);
+    if (!in_equilibrium()) {
+      patch.off = contact(capillary_traction(patch.water, gap, water).value, &expected,
+                          fidelity_.contact_tolerance, out);
+    } else {
+      Closed closed = close(
+          {0, attraction(gap, patch.water, water, nullptr, out)}, expected, start.slope_off,
+          [&](const Gap& at) {
+            return attraction(at, rewet_timed(patch.water, at, water, out), water, nullptr, out);
+          },
+          out);
+      patch.off = std::move(closed.state);
+      patch.slope = closed.slope;
+      if (patch.off.gap.empty()) return;
+      patch.water_off = std::move(closed.last.water);
+      note_water(patch.water_off, out);
+      out.capillary_off = out.capillary_on = patch.water_off.capillary_force;
+      out.retention_on = out.retention;
+    }
+    out.area_off = out.area_on = area(patch.off);
+  }
+
+  // Contact under tractions of that shape (even, where there are none) with another mean [Pa].
+  ContactSolution closed(std::vector<double> shape, double attraction, const ContactSolution& start,
+                         PatchResult& out) const {
+    if (shape.empty()) shape.assign(plan_.grid.size(), 1);
+    return contact(with_mean(std::move(shape), attraction), &start, kBranchTolerance, out);
+  }
+
+  // What the gap of a state attracts with under the drive of the scene [Pa].
+  std::vector<double> attracted(const UndrivenPatch& dry, const ContactSolution& state,
+                                PatchResult& out) const {
+    const Scene& scene = *problem_.scene;
+    const Gap gap{plan_.grid, state.gap};
+    const FieldProblem field = field_problem(scene, problem_.relative_humidity);
+    const WaterProperties driven =
+        water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
+    return attraction(gap,
+                      dry.result.volume > 0 ? rewet_timed(dry.water, gap, driven, out) : Wetting(),
+                      driven, &field, out)
+        .traction;
   }
 
   // start: in: of a nearby humidity; out: with the driven state of this one.
   PatchResult drive(const UndrivenPatch& undriven, PatchStates& start, PatchFields* fields) const {
     const Scene& scene = *problem_.scene;
-    PatchResult out = undriven.result;
-    if (undriven.dry.gap.empty()) return out;
+    if (undriven.dry.gap.empty()) return undriven.result;
+    PatchResult out = plan_.traction_solves ? undriven.result : undriven.dry_gap;
     Wetting on;
     on.grid = plan_.grid;
     FieldSolution pull;
     pull.traction = {plan_.grid, {}};
     ContactSolution on_state;
     if (plan_.field) {
-      const Gap gap{plan_.grid, undriven.dry.gap};
+      // Without tractions, and in one pass, both fields act over the dry gap. Eq. coupling.1
+      const bool closes = plan_.traction_solves && in_equilibrium();
+      const ContactSolution& before = closes ? undriven.off : undriven.dry;
+      if (before.gap.empty()) return out;
+      const Gap gap{plan_.grid, before.gap};
       const FieldProblem field = field_problem(scene, problem_.relative_humidity);
       const WaterProperties driven =
           water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
-      if (out.volume > 0) {
-        on = rewet_timed(undriven.water, gap, driven, out);
-        out.capillary_on = on.capillary_force;
-        out.retention_on = on.retention;
-      }
-      pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
-      note_field(pull, out);
-      if (scene.model.coupling == Coupling::SelfConsistent) {
-        on_state = iterate(undriven.dry, gap, undriven.water, driven, field, pull, on, out);
-        if (plan_.traction_solves) out.area_on = area(on_state);
+      const auto at = [&](const Gap& here) {
+        const bool wet = out.volume > 0;
+        return attraction(here, wet ? rewet_timed(undriven.water, here, driven, out) : Wetting(),
+                          driven, &field, out);
+      };
+      Attraction found = at(gap);
+      const ContactSolution expected = carried(undriven.off, start.off, start.on);
+      if (closes) {
+        const double applied = mean(undriven.off.pressure) / softness_ - problem_.pressure;
+        Closed closed = close({applied, std::move(found)}, expected, start.slope_on, at, out);
+        on_state = std::move(closed.state);
+        found = std::move(closed.last);
+        start.slope_on = closed.slope;
       } else if (plan_.traction_solves) {
-        const ContactSolution expected = carried(undriven.off, start.off, start.on);
-        on_state = contact(total_traction(on, gap, driven, pull.traction), &expected, out);
-        out.area_on = area(on_state);
-        if (!on_state.gap.empty()) note_pull_in(gap, on_state, on, field, out);
+        on_state = contact(found.traction, &expected, fidelity_.contact_tolerance, out);
+        if (!on_state.gap.empty()) note_pull_in(gap, on_state, found.water, field, found.pull, out);
       }
+      if (out.volume > 0) {
+        out.capillary_on = found.water.capillary_force;
+        out.retention_on = found.water.retention;
+      }
+      note_field(found.pull, out);
+      if (!on_state.gap.empty()) out.area_on = area(on_state);
+      on = std::move(found.water);
+      pull = std::move(found.pull);
     }
     if (fields) {
       fields->off = plan_.traction_solves ? undriven.off : undriven.dry;
       fields->on = on_state.pressure.empty() ? fields->off : on_state;
-      fields->wetting_off = undriven.water;
+      fields->wetting_off = plan_.traction_solves ? undriven.water_off : undriven.water;
       fields->wetting_on = std::move(on);
       fields->pull = std::move(pull.traction);
     }
@@ -174,17 +236,17 @@ class PatchSolver {
  private:
   // Contact under the preload and an attractive traction [Pa]; pressures in and out are physical.
   ContactSolution contact(std::vector<double> traction, const ContactSolution* start,
-                          PatchResult& out) const {
+                          double tolerance, PatchResult& out) const {
     const Timed timed(out.costs.seconds.contact);
     for (double& t : traction) t *= softness_;
     ContactOptions options;
-    options.tolerance = fidelity_.contact_tolerance;
+    options.tolerance = tolerance;
     options.hardness = problem_.scene->finger.skin.hardness * softness_;
     ContactSolution solution = solve_contact(
         *problem_.kernel, problem_.height, problem_.pressure * softness_, traction, options, start);
     ++out.costs.contact_solves;
     out.costs.fft_pairs += solution.fft_pairs;
-    note_contact(solution, out);
+    if (tolerance <= fidelity_.contact_tolerance) note_contact(solution, out);
     return solution;
   }
 
@@ -214,21 +276,105 @@ class PatchSolver {
         .near_edge;
   }
 
-  std::vector<double> total_traction(const Wetting& wetting, const Gap& gap,
-                                     const WaterProperties& water, const Traction& pull) const {
-    std::vector<double> total = pull.value;
-    if (total.empty()) total.assign(plan_.grid.size(), 0);
-    if (wetting.capillary_force != 0) {
-      const Traction capillary = capillary_traction(wetting, gap, water);
-      for (std::size_t i = 0; i < total.size(); ++i) total[i] += capillary.value[i];
+  bool in_equilibrium() const { return problem_.scene->model.coupling == Coupling::Equilibrium; }
+
+  // What the water and the field of a gap attract with.
+  struct Attraction {
+    Wetting water;
+    FieldSolution pull;
+    std::vector<double> traction;  // [Pa], of both
+  };
+  Attraction attraction(const Gap& gap, Wetting wetting, const WaterProperties& water,
+                        const FieldProblem* field, PatchResult& out) const {
+    Attraction all{std::move(wetting), {}, {}};
+    all.water.grid = plan_.grid;
+    if (field) {
+      all.pull =
+          solve_field_timed(problem_, gap, all.water, *field, fidelity_.field_tolerance, out);
+      all.traction = all.pull.traction.value;
     }
-    return total;
+    if (all.traction.empty()) all.traction.assign(plan_.grid.size(), 0);
+    if (all.water.capillary_force != 0) {
+      const Traction capillary = capillary_traction(all.water, gap, water);
+      for (std::size_t i = 0; i < all.traction.size(); ++i) all.traction[i] += capillary.value[i];
+    }
+    return all;
+  }
+
+  static double mean(const std::vector<double>& v) {
+    return v.empty() ? 0 : sum(v) / static_cast<double>(v.size());
+  }
+
+  // Tractions of this shape with another mean.
+  static std::vector<double> with_mean(std::vector<double> traction, double wanted) {
+    double sizes = 0;
+    for (const double t : traction) sizes += std::abs(t);
+    if (sizes == 0) return traction;
+    const double more = (wanted - mean(traction)) / (sizes / static_cast<double>(traction.size()));
+    for (double& t : traction) t += more * std::abs(t);
+    return traction;
+  }
+
+  // A patch whose gap is closed by what it attracts with.
+  struct Known {
+    double applied;  // mean attraction that closed the gap [Pa]
+    Attraction attraction;
+  };
+  struct Closed {
+    ContactSolution state;
+    Attraction last;
+    double slope = 0;  // of the attraction over that applied, at the end
+  };
+
+  // Eq. coupling.2: contact under attractions, gap, water and field until they attract with what
+  // presses. The tractions have the shape of the gap before, their mean is the search's. Early
+  // states are solved loosely.
+  template <class At>
+  Closed close(Known first, const ContactSolution& expected, double slope, const At& at,
+               PatchResult& out) const {
+    constexpr double kFirst = 1e-2, kLater = 3e-3;  // tolerances of states that are not the last
+    constexpr double kShortWay = 0.05;              // of the load: the first state is near the last
+    constexpr double kFull = 0.9;
+    const double wanted = fidelity_.contact_tolerance;
+    EquilibriumSearch search(problem_.pressure, {first.applied, mean(first.attraction.traction)},
+                             slope, fidelity_.coupling_tolerance);
+    const bool near = std::abs(search.applied() - first.applied) < kShortWay * problem_.pressure;
+    double tolerance = near ? wanted : std::max(wanted, kFirst);
+    Closed now{expected, std::move(first.attraction), slope};
+    TractionShape shape;
+    for (int pass = 0; pass < fidelity_.coupling_passes; ++pass) {
+      const std::vector<double> traction =
+          with_mean(shape.expected(now.last.traction), search.applied());
+      now.state = contact(traction, &now.state, tolerance, out);
+      if (now.state.gap.empty()) return now;
+      const auto touching = std::count_if(now.state.pressure.begin(), now.state.pressure.end(),
+                                          [](double p) { return p > 0; });
+      if (static_cast<double>(touching) > kFull * static_cast<double>(plan_.grid.size())) {
+        out.status.note({Trouble::ClosedPullIn, 0, ""});
+        return now;
+      }
+      now.last = at(Gap{plan_.grid, now.state.gap});
+      const auto next = search.found(mean(now.last.traction));
+      now.slope = search.slope();
+      if (next == EquilibriumSearch::Next::Settled) {
+        out.coupling_residual = std::max(out.coupling_residual, search.residual());
+        if (tolerance > wanted) now.state = contact(traction, &now.state, wanted, out);
+        return now;
+      }
+      if (next == EquilibriumSearch::Next::Jumped) {
+        out.status.note({Trouble::GrowingPullIn, 0, ""});
+        return now;
+      }
+      tolerance = std::max(wanted, kLater);
+    }
+    out.status.note({Trouble::PassesUsedUp, static_cast<double>(fidelity_.coupling_passes), ""});
+    return now;
   }
 
   // Eq. coupling.5: one pass cannot see pull-in, but a next pass that would double the pull tells
   // that its answer is none. The field is solved again only where plain columns have grown by half.
   void note_pull_in(const Gap& gap, const ContactSolution& state, const Wetting& wetting,
-                    const FieldProblem& field, PatchResult& out) const {
+                    const FieldProblem& field, const FieldSolution& pull, PatchResult& out) const {
     constexpr double kSuspicious = 1.5, kTwice = 2;
     const double h0 = field.dielectric + std::abs(field.skin_layer);
     double before = 0, after = 0;
@@ -237,52 +383,11 @@ class PatchSolver {
       before += 1 / square(gap.value[i] + h0);
       after += 1 / square(state.gap[i] + h0);
     }
-    if (!(after > kSuspicious * before) || out.pull <= 0) return;
+    if (!(after > kSuspicious * before) || pull.mean_pressure <= 0) return;
     const FieldSolution next = solve_field_timed(problem_, {plan_.grid, state.gap}, wetting, field,
                                                  fidelity_.field_tolerance, out);
-    const double ratio = next.mean_pressure * plan_.grid.area() / out.pull;
+    const double ratio = next.mean_pressure / pull.mean_pressure;
     if (ratio >= kTwice) out.status.note({Trouble::SecondPassPullIn, ratio - 1, ""});
-  }
-
-  // Gap, water and field iterated to a fixed point. Eq. coupling.2: under-relaxed by a half in the
-  // traction; pull-in is a pull that grows without settling, or a closed gap.
-  ContactSolution iterate(const ContactSolution& dry, const Gap& dry_gap, const Wetting& off,
-                          const WaterProperties& driven, const FieldProblem& field,
-                          FieldSolution& pull, Wetting& on, PatchResult& out) const {
-    std::vector<double> traction = total_traction(on, dry_gap, driven, pull.traction);
-    ContactSolution state = dry;
-    double previous = out.pull;
-    const double first = out.pull;
-    double change = 0;
-    for (int pass = 0; pass < fidelity_.coupling_passes; ++pass) {
-      state = contact(traction, &state, out);
-      if (state.gap.empty()) return dry;
-      const Gap gap{plan_.grid, state.gap};
-      if (out.volume > 0) {
-        on = rewet_timed(off, gap, driven, out);
-        out.capillary_on = on.capillary_force;
-        out.retention_on = on.retention;
-      }
-      pull = solve_field_timed(problem_, gap, on, field, fidelity_.field_tolerance, out);
-      note_field(pull, out);
-      change = (out.pull - previous) / std::max(out.pull, 1e-30);
-      const std::vector<double> target = total_traction(on, gap, driven, pull.traction);
-      for (std::size_t i = 0; i < traction.size(); ++i) {
-        traction[i] = pass == 0 ? target[i] : 0.5 * (traction[i] + target[i]);
-      }
-      if (measure_area(*problem_.kernel, state).raw > 0.9) {
-        out.status = {Trouble::ClosedPullIn, 0, ""};
-        return state;
-      }
-      if (std::abs(change) < fidelity_.coupling_tolerance) return state;
-      previous = out.pull;
-    }
-    if (change > 0 && out.pull > 2 * first) {
-      out.status = {Trouble::GrowingPullIn, 0, ""};
-    } else {
-      out.status.note({Trouble::PassesUsedUp, static_cast<double>(fidelity_.coupling_passes), ""});
-    }
-    return state;
   }
 
   void describe_gap(const ContactSolution& dry, PatchResult& out) const {
@@ -296,6 +401,7 @@ class PatchSolver {
     out.wetted = off.wetted_fraction;
     out.bridge_volume = off.bridge_volume;
     out.retention = off.retention;
+    out.on_its_way = 0;
     for (const Droplet& d : off.droplets) {
       if (d.film > 0 && d.film < 1) out.on_its_way += d.volume;
     }
@@ -332,6 +438,44 @@ UndrivenPatch wet_patch(const PatchProblem& problem, const Plan& plan, const Fid
   return PatchSolver(problem, plan, fidelity).undriven({}, &dry);
 }
 
+PatchBranch::PatchBranch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity)
+    : problem_(problem), plan_(plan), fidelity_(fidelity) {
+  plan_.traction_solves = false;
+  dry_ = PatchSolver(problem_, plan_, fidelity_).undriven({});
+  state_ = dry_.dry;
+}
+
+void PatchBranch::close(double attraction) {
+  if (state_.gap.empty()) return;
+  PatchResult costs;
+  state_ = PatchSolver(problem_, plan_, fidelity_).closed(traction_, attraction, state_, costs);
+}
+
+double PatchBranch::attraction(const Scene& driven) {
+  if (state_.gap.empty()) return 0;
+  PatchProblem problem = problem_;
+  problem.scene = &driven;
+  PatchResult costs;
+  traction_ = PatchSolver(problem, plan_, fidelity_).attracted(dry_, state_, costs);
+  return sum(traction_) / static_cast<double>(traction_.size());
+}
+
+PatchResult settled_patch(const PatchProblem& problem, const Plan& given, const Fidelity& fidelity,
+                          const UndrivenPatch& undriven, PatchStates& start) {
+  Plan plan = given;
+  plan.traction_solves = true;
+  const PatchSolver solver(problem, plan, fidelity);
+  UndrivenPatch closed = undriven;
+  closed.result = undriven.dry_gap;
+  closed.result.costs = {};
+  solver.close_undriven(closed, start);
+  PatchResult out = solver.drive(closed, start, nullptr);
+  start.dry = std::move(closed.dry);
+  start.off = std::move(closed.off);
+  start.slope_off = closed.slope;
+  return out;
+}
+
 PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
                         const UndrivenPatch& undriven, PatchFields* fields) {
   PatchStates start;
@@ -339,13 +483,15 @@ PatchResult drive_patch(const PatchProblem& problem, const Plan& plan, const Fid
 }
 
 PatchResult solve_patch(const PatchProblem& problem, const Plan& plan, const Fidelity& fidelity,
-                        PatchStates& states, PatchFields* fields) {
+                        PatchStates& states, PatchFields* fields, UndrivenPatch* before_drive) {
   const PatchSolver solver(problem, plan, fidelity);
   UndrivenPatch undriven = solver.undriven(states);
   PatchResult out = solver.drive(undriven, states, fields);
+  if (before_drive) *before_drive = undriven;
   if (undriven.dry.gap.empty()) {
     states = {};
   } else {
+    states.slope_off = undriven.slope;
     states.dry = std::move(undriven.dry);
     states.off = std::move(undriven.off);
   }

@@ -13,6 +13,8 @@ Fidelity fidelity_level(const std::string& name) {
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
     f.field_tolerance = 1e-2;
+    f.coupling_tolerance = 5e-3;
+    f.equilibrium_skins = 2;
     f.control_skins = 0;
     f.field_skins = 0;
   } else if (name == "draft") {
@@ -20,6 +22,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.skins = 16;
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
+    f.coupling_tolerance = 5e-3;
     f.field_skins = 1;
   } else if (name == "reference") {
     f.grid = 512;
@@ -27,7 +30,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.field_skins = 6;
     f.contact_tolerance = 1e-6;
     f.field_tolerance = 1e-5;
-    f.coupling_tolerance = 1e-3;
+    f.coupling_tolerance = 5e-4;
     f.coupling_passes = 40;
     f.bridge_nodes = 6;
   } else if (name != "design") {

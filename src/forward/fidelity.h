@@ -29,9 +29,10 @@ struct Fidelity {
   // Residual of the potential that spreads in the dielectric, energy norm: the pull is then high by
   // at most a quarter of it, within what the error part of the solver states (Eq. accuracy.1).
   double field_tolerance = 1e-3;
-  int coupling_passes = 12;          // self-consistent coupling: largest number of passes
-  double coupling_tolerance = 5e-3;  // relative change of the pull between passes
-  int bridge_nodes = 3;              // patch-pressure nodes of the Persson closure
+  int coupling_passes = 16;          // to an equilibrium, at most
+  double coupling_tolerance = 2e-3;  // distance to it, in units of the total load
+  int equilibrium_skins = 3;  // by the load law: skins whose equilibrium is solved, for the others
+  int bridge_nodes = 3;       // patch-pressure nodes of the Persson closure
   int control_skins = 4;  // run again on a coarser grid and with better methods, for the errors; 0:
                           // those parts stay unknown
   int field_skins = 2;    // solved in 3-D, for what the field rule lacks; 0: not corrected

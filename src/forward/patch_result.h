@@ -39,6 +39,7 @@ struct PatchResult {
   double over_limit_area = 0, over_limit_share = 0, peak_oxide_field = 0, peak_air_field = 0;
   double oxide_margin = kInfinity;  // strength of the dielectric over its peak field
   double certificate = 0;           // the worst of the contact solves
+  double coupling_residual = 0;     // of the equilibrium, in units of the total load
   PatchCosts costs;
   ModelStatus status;
 };
@@ -80,7 +81,8 @@ inline constexpr std::array kPatchMembers{
     PatchMember{&PatchResult::peak_oxide_field, OverWater::Highest, OverPressures::Highest},
     PatchMember{&PatchResult::peak_air_field, OverWater::Highest, OverPressures::Highest},
     PatchMember{&PatchResult::oxide_margin, OverWater::Lowest, OverPressures::Lowest},
-    PatchMember{&PatchResult::certificate, OverWater::Highest, OverPressures::Highest}};
+    PatchMember{&PatchResult::certificate, OverWater::Highest, OverPressures::Highest},
+    PatchMember{&PatchResult::coupling_residual, OverWater::Highest, OverPressures::Highest}};
 static_assert(sizeof(PatchResult) ==
                   kPatchMembers.size() * sizeof(double) + sizeof(PatchCosts) + sizeof(ModelStatus),
               "every member says how it combines");

@@ -3,11 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "base/check.h"
 #include "base/parallel.h"
 #include "base/watch.h"
 #include "forward/kept_patches.h"
+#include "forward/load_law.h"
 #include "forward/patch_setup.h"
 #include "forward/point.h"
 #include "forward/scene_terms.h"
@@ -31,27 +33,40 @@ class SkinRun {
     if (kept) kept->height = height_;
   }
 
-  PatchResult at(std::size_t i) {
-    const ScaleBridge& bridge = set_.bridges[i];
+  // At each patch pressure, over the water; sample: also the first water's in equilibrium.
+  std::vector<SolvedPatch> at(std::size_t i, bool sample) {
     const double humidity = setup_.scene().environment.relative_humidity[i];
-    std::vector<PatchResult> patches, of_water;
-    for (const double pressure : bridge.pressures()) {
+    std::vector<SolvedPatch> patches;
+    std::vector<PatchResult> of_water;
+    for (const double pressure : set_.bridges[i].pressures()) {
+      SolvedPatch& patch = patches.emplace_back();
       of_water.clear();
       for (const WaterMember& member : members_) {
         PatchProblem problem = setup_.problem(height_, *kernels_[i], humidity, pressure, member);
         problem.field_correction = set_.field[i].correction;
-        PatchStates& start = start_[patches.size()];
-        of_water.push_back(kept_ ? solve_kept(problem, start)
-                                 : solve_patch(problem, setup_.plan(), setup_.fidelity(), start));
+        Starts& start = start_[patches.size() - 1];
+        const bool settles = sample && of_water.empty();
+        UndrivenPatch before_drive;
+        of_water.push_back(kept_
+                               ? solve_kept(problem, start.given, before_drive)
+                               : solve_patch(problem, setup_.plan(), setup_.fidelity(), start.given,
+                                             nullptr, settles ? &before_drive : nullptr));
+        if (settles && !before_drive.dry.gap.empty()) {
+          patch.sample = AttractionSample{of_water.back(),
+                                          settled_patch(problem, setup_.plan(), setup_.fidelity(),
+                                                        before_drive, start.settled)};
+        }
       }
-      patches.push_back(over_water(of_water));
+      patch.result = over_water(of_water);
+      if (patch.sample) patch.result.costs += patch.sample->settled.costs;
     }
-    return bridge.combine(patches);
+    return patches;
   }
 
  private:
   // The patch that comes next in the order of the run, from what is kept of it.
-  PatchResult solve_kept(const PatchProblem& problem, PatchStates& start) {
+  PatchResult solve_kept(const PatchProblem& problem, PatchStates& start,
+                         UndrivenPatch& before_drive) {
     const bool is_new = next_ == kept_->patches.size();
     if (is_new) kept_->patches.emplace_back();
     UndrivenPatch& patch = kept_->patches[next_++];
@@ -60,9 +75,10 @@ class SkinRun {
                   ? wet_patch(problem, setup_.plan(), setup_.fidelity(), patch.dry)
                   : undriven_patch(problem, setup_.plan(), setup_.fidelity(), start);
     } else {
-      patch.result.costs = {};  // of the run before
+      patch.dry_gap.costs = {};  // of the run before
     }
     start.dry = patch.dry.gap.empty() ? ContactSolution() : patch.dry;
+    before_drive = patch;
     return drive_patch(problem, setup_.plan(), setup_.fidelity(), patch);
   }
 
@@ -73,7 +89,10 @@ class SkinRun {
   std::size_t next_ = 0;  // of the kept patches
   std::vector<double> height_;
   std::vector<WaterMember> members_;
-  std::vector<PatchStates> start_;  // one per patch pressure
+  struct Starts {
+    PatchStates given, settled;
+  };
+  std::vector<Starts> start_;  // one per patch pressure
 };
 
 // What grid and method add to the last point, which is that of all skins.
@@ -107,8 +126,8 @@ void PatchSet::add(const PatchSet& other) {
 
 namespace {
 
-PatchSet solved(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                const FieldRatios& field, KeptPatches* kept) {
+PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
+               const FieldRatios& field, KeptPatches* kept) {
   const auto begin = std::chrono::steady_clock::now();
   const PatchSetup setup(scene, texture, fidelity);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
@@ -122,8 +141,11 @@ PatchSet solved(const Scene& scene, const Texture& texture, const Fidelity& fide
     kernels.push_back(contact_kernel(setup.scene(), setup.body(), set.plan.grid, rh));
     set.bridges.emplace_back(setup.scene(), fidelity, set.plan.grid, rh, setup.body());
   }
-  set.results.assign(humidities.size(),
-                     std::vector<PatchResult>(static_cast<std::size_t>(fidelity.skins)));
+  set.results.resize(humidities.size());
+  std::vector<std::vector<std::vector<SolvedPatch>>> solved(
+      humidities.size(),
+      std::vector<std::vector<SolvedPatch>>(static_cast<std::size_t>(fidelity.skins)));
+  const int samples = sampled_skins(setup, set.plan);
   if (kept) kept->begin(setup);
   const Watch* const watch = Watch::current();
   parallel_for(
@@ -132,11 +154,13 @@ PatchSet solved(const Scene& scene, const Texture& texture, const Fidelity& fide
         SkinRun run(setup, set, kernels, k, kept ? &kept->skin(k) : nullptr);
         for (std::size_t i = 0; i < humidities.size(); ++i) {
           if (watch) watch->before_piece();  // between patches, not only between skins
-          set.results[i][static_cast<std::size_t>(k)] = run.at(i);
+          solved[i][static_cast<std::size_t>(k)] = run.at(i, k < samples);
         }
       },
       fidelity.threads);
   if (kept) kept->end();
+  for (std::size_t i = 0; i < humidities.size(); ++i)
+    set.results[i] = combined(set.bridges[i], samples > 0, solved[i]);
   set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return set;
 }
@@ -145,11 +169,11 @@ PatchSet solved(const Scene& scene, const Texture& texture, const Fidelity& fide
 
 PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                        const FieldRatios& field) {
-  return solved(scene, texture, fidelity, field, nullptr);
+  return solve(scene, texture, fidelity, field, nullptr);
 }
 
 PatchSet KeptPatches::solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
-  return solved(scene, texture, fidelity, {}, this);
+  return forward::solve(scene, texture, fidelity, {}, this);
 }
 
 Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set) {

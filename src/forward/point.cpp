@@ -105,10 +105,14 @@ void add_friction(ResponsePoint& point, double strength, const Measured& retenti
 }
 
 // Eq. accuracy.1
-void add_solver_errors(ResponsePoint& point, Patches patches) {
-  double certificate = 0;
-  for (const PatchResult& p : patches) certificate = std::max(certificate, p.certificate);
-  const double relative = contact_error(certificate);
+void add_solver_errors(ResponsePoint& point, Patches patches, double exponent) {
+  double certificate = 0, residual = 0;
+  for (const PatchResult& p : patches) {
+    certificate = std::max(certificate, p.certificate);
+    residual = std::max(residual, p.coupling_residual);
+  }
+  // An attraction that is off by a share of the load moves the area by that times beta.
+  const double relative = std::hypot(contact_error(certificate), exponent * residual);
   for (const PointQuantity& q : kPointQuantities) {
     Measured& m = point.*q.value;
     m.parts.solver.emplace(relative * std::abs(m.value));
@@ -153,7 +157,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     for (double& area : *areas) area *= setting.area_factor;
   add_friction(point, shear_strength(scene, relative_humidity) * carrying, retention_on,
                plan.field);
-  add_solver_errors(point, patches);
+  add_solver_errors(point, patches, setting.fidelity.load_exponent);
   if (plan.water)
     add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);
   return point;

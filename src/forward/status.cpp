@@ -26,12 +26,12 @@ std::string text(const ModelStatus& status) {
     case Trouble::SecondPassPullIn:
       return fmt::format(
           "pull-in: the gap closes, a second pass would raise the pull by {:.0f} % (coupling = "
-          "\"self_consistent\" seeks an equilibrium)",
+          "\"equilibrium\" seeks one)",
           100 * status.number);
     case Trouble::ClosedPullIn:
       return "pull-in: no equilibrium short of a closed gap";
     case Trouble::GrowingPullIn:
-      return "pull-in: the pull grows from pass to pass";
+      return "pull-in: the attraction outgrows the skin's resistance, the gap jumps shut";
     case Trouble::FarGapPullIn:
       return "pull-in: the gaps between patches in contact close";
     case Trouble::PassesUsedUp:

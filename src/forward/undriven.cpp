@@ -2,6 +2,7 @@
 
 #include "base/check.h"
 #include "base/parallel.h"
+#include "forward/load_law.h"
 #include "forward/point.h"
 #include "forward/scale_bridge.h"
 #include "forward/scene_terms.h"
@@ -56,26 +57,34 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   Plan plan = setup_->plan();
   plan.traction_solves = plan.traction_solves && estimator == Estimator::Area;
   const ScaleBridge bridge(scene, fidelity, plan.grid, humidity(), setup_->body());
-  std::vector<PatchResult> results(patches_.size());
+  const int samples = sampled_skins(*setup_, plan);
+  std::vector<std::vector<SolvedPatch>> solved(patches_.size());
   parallel_for(
       fidelity.skins,
       [&](int k) {
-        std::vector<PatchResult> patches, of_water;
+        std::vector<PatchResult> of_water;
         std::size_t at = 0;
         for (const double pressure : pressures_) {
+          SolvedPatch& patch = solved[k].emplace_back();
           of_water.clear();
           for (const WaterMember& member : setup_->water_members(k)) {
             PatchProblem problem =
                 setup_->problem(height_[k], *kernel_, humidity(), pressure, member);
             problem.scene = &scene;
             problem.field_correction = field_.front().correction;
-            of_water.push_back(drive_patch(problem, plan, fidelity, patches_[k][at++]));
+            const UndrivenPatch& before = patches_[k][at++];
+            of_water.push_back(drive_patch(problem, plan, fidelity, before));
+            if (k < samples && of_water.size() == 1 && !before.dry.gap.empty()) {
+              PatchStates start;
+              patch.sample = AttractionSample{
+                  of_water.back(), settled_patch(problem, plan, fidelity, before, start)};
+            }
           }
-          patches.push_back(over_water(of_water));
+          patch.result = over_water(of_water);
         }
-        results[k] = bridge.combine(patches);
       },
       fidelity.threads);
+  const std::vector<PatchResult> results = combined(bridge, samples > 0, solved);
   ResponsePoint point = response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
   add_field_error(field_.front(), fidelity.load_exponent, point);
   return point;

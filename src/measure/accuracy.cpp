@@ -109,10 +109,12 @@ class Sweeper {
     with("field = local", [](ModelOptions& m) { m.field = FieldMethod::Local; });
     with("field = spread", [](ModelOptions& m) { m.field = FieldMethod::Spread; });
     with("field = full", [](ModelOptions& m) { m.field = FieldMethod::Full; });
-    with("coupling = self_consistent",
-         [](ModelOptions& m) { m.coupling = Coupling::SelfConsistent; });
+    with("coupling = one_pass", [](ModelOptions& m) { m.coupling = Coupling::OnePass; });
+    with("coupling = equilibrium", [](ModelOptions& m) { m.coupling = Coupling::Equilibrium; });
     with("closure = persson", [](ModelOptions& m) { m.closure = Closure::Persson; });
-    with("breakdown_cap", [](ModelOptions& m) { m.breakdown_cap = !m.breakdown_cap; });
+    with("air_limit = none", [](ModelOptions& m) { m.air_limit = AirLimit::None; });
+    with("air_limit = emission", [](ModelOptions& m) { m.air_limit = AirLimit::Emission; });
+    with("air_limit = ionisation", [](ModelOptions& m) { m.air_limit = AirLimit::Ionisation; });
     with("no droplet_enhancement", [](ModelOptions& m) { m.droplet_enhancement = false; });
     add("model", "as in the file", scene_, f);
     compare("model");

@@ -185,12 +185,14 @@ void fields(FieldVisitor& v, ModelOptions& s) {
            {"droplets", "threshold"}, s.water);
   v.choice({"closure", "one patch pressure, or Persson's distribution of patch pressures"},
            {"uniform", "persson"}, s.closure);
-  v.choice({"coupling", "one_pass as published, or iterated to a fixed point"},
-           {"one_pass", "self_consistent"}, s.coupling);
+  v.choice({"coupling", "contact, water and field in equilibrium, or one pass as published"},
+           {"one_pass", "equilibrium"}, s.coupling);
   v.choice(
       {"field", "column by column, with flux spreading in the dielectric, or the 3-D potential"},
       {"local", "spread", "full"}, s.field);
-  v.flag({"breakdown_cap", "cap the gap pressure at the breakdown field of air"}, s.breakdown_cap);
+  v.choice({"air_limit",
+            "what the air of a gap withstands: anything, 350 V/um, or that and 12 V in any gap"},
+           {"none", "emission", "ionisation"}, s.air_limit);
   v.number({"droplet_step", "nm", 1, 1e5, "first step of a moving droplet: its mobility",
             Source::Choice, "to M3"},
            s.droplet_step);

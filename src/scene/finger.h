@@ -103,7 +103,10 @@ void fields(FieldVisitor& v, Saturation& s);
 enum class Preset { Papilla, M3 };
 enum class WaterModel { Droplets, Threshold };
 enum class Closure { Uniform, Persson };
-enum class Coupling { OnePass, SelfConsistent };
+enum class Coupling { OnePass, Equilibrium };
+// What the air of a gap withstands: anything; the field at which it breaks down; or that field and
+// in any gap the voltage that ionises it.
+enum class AirLimit { None, Emission, Ionisation };
 enum class FieldMethod { Local, Spread, Full };
 
 // Options that move results at first order: fixed before calibration, recorded in the finger file.
@@ -113,11 +116,11 @@ struct ModelOptions {
   Closure closure = Closure::Uniform;
   Coupling coupling = Coupling::OnePass;
   FieldMethod field = FieldMethod::Spread;
-  bool breakdown_cap = false;       // gap pressure <= eps0/2 (350 V/um)^2
-  double droplet_step = 200e-9;     // first step of a moving droplet [m]: mobility
-  bool droplet_enhancement = true;  // droplets that do not bridge raise the pull
-  bool rim_pinning = false;         // contact lines do not pass the edges of holes
-  bool corner_wicking = false;      // droplets at the foot of a wall creep along it
+  AirLimit air_limit = AirLimit::None;  // Eq. electrostatics.19
+  double droplet_step = 200e-9;         // first step of a moving droplet [m]: mobility
+  bool droplet_enhancement = true;      // droplets that do not bridge raise the pull
+  bool rim_pinning = false;             // contact lines do not pass the edges of holes
+  bool corner_wicking = false;          // droplets at the foot of a wall creep along it
 
   bool operator==(const ModelOptions&) const = default;
 };

@@ -38,12 +38,17 @@ std::vector<Variant> variants(const StudyProblem& problem) {
     out.push_back({"droplets do not raise the pull", 0,
                    [](Scene& s) { s.model.droplet_enhancement = false; }});
   }
-  out.push_back(
-      {"breakdown cap", 0, [](Scene& s) { s.model.breakdown_cap = !s.model.breakdown_cap; }});
-  out.push_back({"self-consistent coupling", 0, [](Scene& s) {
-                   s.model.coupling = s.model.coupling == Coupling::OnePass
-                                          ? Coupling::SelfConsistent
-                                          : Coupling::OnePass;
+  const ModelOptions& model = problem.study().design.model;
+  for (const auto& [name, law] :
+       {std::pair("air insulates", AirLimit::None),
+        std::pair("air breaks down at 350 V/um", AirLimit::Emission),
+        std::pair("air breaks down, not below 12 V", AirLimit::Ionisation)}) {
+    if (law != model.air_limit)
+      out.push_back({name, 0, [law = law](Scene& s) { s.model.air_limit = law; }});
+  }
+  const bool once = model.coupling == Coupling::OnePass;
+  out.push_back({once ? "equilibrium" : "one pass", 0, [once](Scene& s) {
+                   s.model.coupling = once ? Coupling::Equilibrium : Coupling::OnePass;
                  }});
   return out;
 }

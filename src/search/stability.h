@@ -37,7 +37,7 @@ struct Stability {
 // Each design on each finger of the study alone, then on its first finger with one thing changed:
 // the state of the skin (natural where the study has degreased fingers, else degreased), then a
 // choice of the model: droplet mobility, droplets per volume, the pull over droplets that do not
-// bridge, breakdown cap, self-consistent coupling.
+// bridge, what the air withstands, equilibrium or one pass.
 std::vector<std::string> stability_variants(const StudyProblem& problem);
 // The one of another state of the skin.
 std::size_t skin_variant(const StudyProblem& problem);

@@ -138,8 +138,8 @@ TEST(Reader, NamesEachKindOfMistake) {
   EXPECT_EQ(problems_of("[surface]\ndielectric = [{ thickness = \"1 V\" }, 3]\n"),
             "hole.toml:2:29: surface.dielectric.0.thickness: expected a length, got \"1 V\"\n"
             "hole.toml:2:38: surface.dielectric.1: expected a section { ... }, got 3");
-  EXPECT_EQ(problems_of("[finger.calibrated_for]\nbreakdown_cap = 1\n"),
-            "hole.toml:2:17: finger.calibrated_for.breakdown_cap: expected true or false, got 1");
+  EXPECT_EQ(problems_of("[finger.calibrated_for]\nrim_pinning = 1\n"),
+            "hole.toml:2:15: finger.calibrated_for.rim_pinning: expected true or false, got 1");
   EXPECT_EQ(problems_of(" \n"),
             "hole.toml:1:1: the file is empty, expected `schema_version = 1` and sections");
   EXPECT_TRUE(problems_of("[finger\n").starts_with("hole.toml:1:8: not valid TOML"));

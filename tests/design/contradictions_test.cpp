@@ -231,11 +231,11 @@ TEST(DesignParts, OptionsThatTheFingerWasNotFittedWithAreNamed) {
   d.finger.name = "mine";
   d.model.water = WaterModel::Threshold;
   d.model.droplet_step = 300e-9;
-  d.finger.calibrated_for.breakdown_cap = true;
+  d.finger.calibrated_for.air_limit = AirLimit::Emission;
   EXPECT_EQ(calibration_mismatch(d),
             (std::vector<std::string>{
                 "model.water is \"threshold\", the finger \"mine\" was fitted with \"droplets\"",
-                "model.breakdown_cap is false, the finger \"mine\" was fitted with true",
+                "model.air_limit is \"none\", the finger \"mine\" was fitted with \"emission\"",
                 "model.droplet_step is \"300 nm\", the finger \"mine\" was fitted with \"200 "
                 "nm\""}));
 }

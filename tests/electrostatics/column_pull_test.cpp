@@ -127,7 +127,7 @@ TEST(ColumnPull, BridgesLeaveTheVoltageToTheFilmAndFadingTakesItsShareOfThePull)
   EXPECT_NEAR(more.peak_air_field, 1.2 * 200 / distance, 1);
   EXPECT_NEAR(more.peak_oxide_field, (1 - phi) / std::hypot(1, (1 - phi) * 0.15) * 200 / 400e-9, 1);
   // The cap holds a pixel at the field of air before it fades.
-  p.breakdown_cap = true;
+  p.air_limit = AirLimit::Emission, p.steady = true;
   const FieldSolution held = pull(gap, nullptr, p, columns, {.open = open, .potential = {}});
   const double cap = 0.5 * kVacuumPermittivity * square(350e6);
   ASSERT_GT(whole, cap);

@@ -225,7 +225,7 @@ TEST(FieldInvariants, WaterActsOnlyWhereItIsCounted) {
     Scene3d capped = dry;
     capped.problem.v_peak *= 4, capped.problem.v_rms *= 4;
     const std::vector<double> free = capped.solved(method).traction.value;
-    capped.problem.breakdown_cap = true;
+    capped.problem.air_limit = AirLimit::Emission, capped.problem.steady = true;
     const std::vector<double> held = capped.solved(method).traction.value;
     const double most = 0.5 * kVacuumPermittivity * square(350e6);
     ASSERT_GT(*std::max_element(free.begin(), free.end()), most);

@@ -149,7 +149,7 @@ TEST(Evaluation, TheOptionsTargetComesBeforeTheFiles) {
 TEST(Evaluation, AModelThatTheFingerWasNotFittedWithIsRefused) {
   Design d;
   EXPECT_NO_THROW(require_fitted_model(d, "mine.toml", "run with --force"));
-  d.model.breakdown_cap = true;
+  d.model.air_limit = AirLimit::Emission;
   d.model.rim_pinning = true;
   try {
     require_fitted_model(d, "mine.toml", "run with --force");
@@ -158,7 +158,7 @@ TEST(Evaluation, AModelThatTheFingerWasNotFittedWithIsRefused) {
     ASSERT_EQ(e.problems().size(), 3u);
     EXPECT_EQ(e.problems()[0].file, "mine.toml");
     EXPECT_EQ(e.problems()[0].message,
-              "model.breakdown_cap is true, the finger \"reference\" was fitted with false");
+              "model.air_limit is \"emission\", the finger \"reference\" was fitted with \"none\"");
     EXPECT_EQ(e.problems()[2].message,
               "such a change moves the modulation by tens of percent; fit the finger again, or run "
               "with --force");

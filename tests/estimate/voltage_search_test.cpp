@@ -128,7 +128,7 @@ TEST(VoltageSearch, TheLimitItselfMayBeTheAnswer) {
 TEST(VoltageSearch, EndsNextToWhereTheGapPullsIn) {
   Scene scene = scene_at(0);
   scene.environment.relative_humidity = {0.15};
-  scene.model.coupling = Coupling::SelfConsistent;
+  scene.model.coupling = Coupling::Equilibrium;
   scene.surface.dielectric[0].strength = 1e12;
   scene.surface.dielectric[0].thickness = 20e-9;
   const auto driven = [&](double v) {

@@ -86,7 +86,7 @@ TEST(VoltageFor, SaysThatTheSourceEndsFirst) {
 TEST(VoltageFor, SaysThatTheGapPullsInFirst) {
   // A dielectric that never breaks down: the search runs into the collapse of the gap.
   Scene scene = scene_at(0.15);
-  scene.model.coupling = Coupling::SelfConsistent;
+  scene.model.coupling = Coupling::Equilibrium;
   scene.surface.dielectric[0].strength = 1e12;
   scene.surface.dielectric[0].thickness = 20e-9;
   const VoltageAnswer a = voltage(scene, Texture{Flat{}}, small(Estimator::Load), 1e3);

@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "base/random.h"
 #include "forward/coupling.h"
+#include "forward/load_law.h"
 #include "forward/patch_setup.h"
 #include "forward/scene_terms.h"
 #include "physics/capillary/droplets.h"
@@ -228,9 +229,9 @@ TEST(DrivePatch, OnePassStatesTheRiseOfANextThatWouldDoubleThePull) {
 }
 
 // Eq. coupling.2: what settles is contact under its own field and water.
-TEST(DrivePatch, SelfConsistentItEndsAtItsFixedPoint) {
+TEST(DrivePatch, InEquilibriumItIsContactUnderItsOwnFieldAndWater) {
   Scene scene = driven(120);
-  scene.model.coupling = Coupling::SelfConsistent;
+  scene.model.coupling = Coupling::Equilibrium;
   const Patch patch(scene, Estimator::Area, {}, 60);
   PatchStates states;
   PatchFields fields;
@@ -249,73 +250,72 @@ TEST(DrivePatch, SelfConsistentItEndsAtItsFixedPoint) {
   EXPECT_NEAR(settled, r.pull, 0.03 * r.pull);
   EXPECT_EQ(r.capillary_on, fields.wetting_on.capillary_force);
   EXPECT_EQ(r.retention_on, fields.wetting_on.retention);
-  // Passes that end before it settles are told, each one solve after dry and off.
-  for (const int passes : {1, 2}) {
-    const Patch few(scene, Estimator::Area, {}, passes);
-    PatchStates none;
-    const PatchResult cut = solve_patch(few.problem, few.plan, few.fidelity, none);
-    EXPECT_EQ(cut.status.trouble, Trouble::PassesUsedUp) << passes;
-    EXPECT_EQ(cut.status.number, passes);
-    EXPECT_EQ(cut.costs.contact_solves, 2 + passes);
-  }
+  // Passes that end before it settles are told.
+  const Patch few(scene, Estimator::Area, {}, 1);
+  PatchStates none;
+  const PatchResult cut = solve_patch(few.problem, few.plan, few.fidelity, none);
+  EXPECT_EQ(cut.status.trouble, Trouble::PassesUsedUp);
+  EXPECT_EQ(cut.status.number, 1);
 }
 
-// Passes by hand: the first takes its traction whole, the next half of what changes; what has not
-// settled then is a pull-in where the pull still grows and has doubled.
-TEST(DrivePatch, SelfConsistentPassesGoHalfWay) {
-  int growing = 0, used_up = 0, grown = 0;
-  for (const double amplitude : {120.0, 200.0, 260.0, 330.0, 500.0}) {
-    Scene scene = driven(amplitude);
-    scene.model.coupling = Coupling::SelfConsistent;
-    scene.finger.water.volume = {0, 0, 0, 0};
-    const Patch patch(scene, Estimator::Load, {}, 3);
-    PatchStates states;
-    PatchFields fields;
-    const PatchResult r = solve_patch(patch.problem, patch.plan, patch.fidelity, states, &fields);
-    const ContactSolution dry = patch.contact({}, nullptr);
-    const auto corrected = [&](const std::vector<double>& gap) {
-      std::vector<double> t = patch.pull({patch.plan.grid, gap}, {}).traction.value;
-      for (double& p : t) p *= 0.8;
-      return t;
-    };
-    std::vector<double> traction = corrected(dry.gap);
-    std::vector<double> pulls{mean(traction)};
-    ContactSolution state = dry;
-    for (int pass = 0; pass < 3; ++pass) {
-      state = patch.contact(traction, &state);
-      const std::vector<double> target = corrected(state.gap);
-      pulls.push_back(mean(target));
-      for (std::size_t i = 0; i < traction.size(); ++i)
-        traction[i] = pass == 0 ? target[i] : 0.5 * (traction[i] + target[i]);
-    }
-    ASSERT_EQ(fields.on.gap.size(), state.gap.size());
-    for (std::size_t i = 0; i < state.gap.size(); ++i)
-      ASSERT_NEAR(fields.on.gap[i], state.gap[i], 1e-6 * mean(state.gap));
-    EXPECT_NEAR(r.pull, pulls[3] * patch.area(), 1e-6 * r.pull);
-    ASSERT_GT(std::abs(pulls[3] / pulls[2] - 1), patch.fidelity.coupling_tolerance) << amplitude;
-    const bool rises = pulls[3] > pulls[2], doubled = pulls[3] > 2 * pulls[0];
-    EXPECT_EQ(r.status, rises && doubled ? (ModelStatus{Trouble::GrowingPullIn, 0, ""})
-                                         : (ModelStatus{Trouble::PassesUsedUp, 3, ""}))
-        << amplitude;
-    growing += rises && doubled;
-    used_up += !(rises && doubled);
-    grown += rises && !doubled;
-  }
-  EXPECT_GT(growing, 0);
-  EXPECT_GT(used_up, 0);
-  EXPECT_GT(grown, 0);
-}
-
-// More than nine tenths of the patch touch after the first pass: nothing more is asked.
-TEST(DrivePatch, AClosedGapEndsThePasses) {
+// More than nine tenths of the patch touch in the first state: nothing more is asked.
+TEST(DrivePatch, AClosedGapEndsTheSearchForAnEquilibrium) {
   Scene scene = driven(20000);
-  scene.model.coupling = Coupling::SelfConsistent;
-  const Patch closed(scene);
+  scene.model.coupling = Coupling::Equilibrium;
+  scene.finger.water.volume = {0, 0, 0, 0};
+  const Patch closed(scene, Estimator::Area);
   PatchStates states;
   const PatchResult shut = solve_patch(closed.problem, closed.plan, closed.fidelity, states);
   EXPECT_EQ(shut.status, (ModelStatus{Trouble::ClosedPullIn, 0, ""})) << text(shut.status);
   EXPECT_TRUE(shut.status.pull_in());
   EXPECT_EQ(shut.costs.contact_solves, 2);
+}
+
+// Eq. coupling.7: what the load law makes of the dry gap, beside the same patches in equilibrium.
+TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
+  for (const AirLimit air : {AirLimit::Emission, AirLimit::Ionisation}) {
+    Scene scene = driven(150);
+    scene.model.coupling = Coupling::Equilibrium;
+    scene.model.air_limit = air;
+    const Patch patch(scene);
+    std::vector<AttractionSample> samples;
+    for (int k = 0; k < 8; ++k) {
+      const std::vector<double> height = patch.setup.height(patch.setup.skin(k));
+      PatchProblem problem = patch.problem;
+      problem.height = height;
+      problem.droplet_index = static_cast<std::uint64_t>(k);
+      PatchStates states, settled;
+      UndrivenPatch before;
+      const PatchResult dry =
+          solve_patch(problem, patch.plan, patch.fidelity, states, nullptr, &before);
+      samples.push_back({dry, settled_patch(problem, patch.plan, patch.fidelity, before, settled)});
+    }
+    const AttractionLaw law = attraction_law(std::span(samples).first(2));
+    ASSERT_TRUE(law.status.sound());
+    EXPECT_GT(law.pull, 0);
+    double by_law = 0, solved = 0, dry = 0;
+    for (const AttractionSample& s : std::span(samples).subspan(2)) {
+      PatchResult patch_by_law = s.dry;
+      law.apply(patch_by_law);
+      by_law += patch_by_law.pull + patch_by_law.capillary_on;
+      solved += s.settled.pull + s.settled.capillary_on;
+      dry += s.dry.pull + s.dry.capillary_on;
+    }
+    EXPECT_GT(std::abs(solved / dry - 1), 0.02);
+    EXPECT_LT(std::abs(by_law - solved), 0.3 * std::abs(solved - dry));
+  }
+}
+
+// Powers whose fixed points are known: T = T0 sqrt(L) and T = T0 L.
+TEST(LoadLaw, SolvesItsFixedPoint) {
+  AttractionLaw law;
+  law.pull = 0.5;
+  const double root = law.load_on(0, 0.6).value();
+  EXPECT_NEAR(std::sqrt(root), 0.3 + std::sqrt(1 + 0.09), 1e-9);
+  law.pull = 1;
+  EXPECT_NEAR(law.load_on(0, 0.6).value(), 2.5, 1e-8);
+  EXPECT_FALSE(law.load_on(0, 1.01));  // no equilibrium
+  EXPECT_NEAR(law.load_off(0.1), 1.1, 1e-12);
 }
 
 TEST(DrivePatch, WhatAPieceCannotSolveIsItsStatus) {

@@ -273,7 +273,7 @@ TEST(SkipLaws, BoundsAreThoseOfTheFieldsOfItsPatches) {
   Scene scene;
   scene.drive.amplitude = 150;
   scene.environment.relative_humidity = {0.3, 0.7};
-  scene.model.coupling = Coupling::SelfConsistent;  // the bound is of one pass
+  scene.model.coupling = Coupling::Equilibrium;  // the bound is of one pass
   Fidelity f = fidelity_level("search");
   f.grid = 32;
   const SkipBounds bounds = skip_bounds(scene, Texture{}, f, 2);

@@ -138,11 +138,11 @@ TEST(Forward, TheStartingFingerGivesThePrototypesMagnitudes) {
   EXPECT_NEAR(r.points[3].friction_off.value / r.points[0].friction_off.value, 2.33, 0.25);
 }
 
-TEST(Forward, SelfConsistentCouplingRaisesThePull) {
+TEST(Forward, TheEquilibriumHasMorePullThanOnePass) {
   Scene scene = driven_scene();
   scene.environment.relative_humidity = {0.35};
   const Response once = evaluate(scene, Texture{}, small(2));
-  scene.model.coupling = Coupling::SelfConsistent;
+  scene.model.coupling = Coupling::Equilibrium;
   Fidelity f = small(2);
   f.coupling_passes = 40;
   const Response settled = evaluate(scene, Texture{}, f);
@@ -154,7 +154,7 @@ TEST(Forward, VoltagePastPullInEndsInAStatus) {
   Scene scene = driven_scene();
   scene.drive.amplitude = 20000;
   scene.environment.relative_humidity = {0.15};
-  scene.model.coupling = Coupling::SelfConsistent;
+  scene.model.coupling = Coupling::Equilibrium;
   const Response r = evaluate(scene, Texture{}, small(1));
   EXPECT_FALSE(r.points[0].status.sound());
 }
@@ -169,7 +169,7 @@ TEST(Forward, OnePassSaysWhereItsNextPassWouldDoubleThePull) {
   const Response r = evaluate(scene, Texture{}, f);
   EXPECT_TRUE(r.points[0].status.pull_in()) << text(r.points[0].status);
   // The fixed point has indeed twice that pull or none exists.
-  scene.model.coupling = Coupling::SelfConsistent;
+  scene.model.coupling = Coupling::Equilibrium;
   f.coupling_passes = 40;
   const ResponsePoint settled = evaluate(scene, Texture{}, f).points[0];
   EXPECT_TRUE(!settled.status.sound() ||

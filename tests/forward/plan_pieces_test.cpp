@@ -130,9 +130,10 @@ TEST(PlanPieces, OfADrivenSearchWithControls) {
         "the load law F ~ L^0.84 stands for it (Eq. friction.3): within 4 % of F_on/F_off and 12 % "
         "of the modulation on 95 % of 180 random scenes, 10 and 25 % on the worst",
         0.10},
-       {"self-consistent coupling",
-        "one pass, as the finger was calibrated; iterating would raise the modulation by 30-60 %",
-        0.6},
+       {"equilibrium",
+        "one pass: the gap before the attractions gives them; an equilibrium would raise the "
+        "modulation by 5 to 50 %",
+        0.5},
        kUniform,
        kWaals,
        kKelvin,
@@ -182,13 +183,13 @@ TEST(PlanPieces, ATextureWithADirectionIsWarnedOf) {
   EXPECT_FALSE(warned({Grating{.depth = 0}}));
 }
 
-// Solved areas, self-consistent, patches of the ridges, without water.
-TEST(PlanPieces, OfADrySelfConsistentDesign) {
+// Solved areas, in equilibrium, patches of the ridges, without water.
+TEST(PlanPieces, OfADryDesignInEquilibrium) {
   Scene scene;
   scene.drive.amplitude = 100;
   scene.environment.relative_humidity = {0.3};
   scene.finger.water.volume = {0, 0, 0, 0};
-  scene.model.coupling = Coupling::SelfConsistent;
+  scene.model.coupling = Coupling::Equilibrium;
   scene.model.closure = Closure::Persson;
   scene.model.field = FieldMethod::Local;
   Fidelity f = fidelity_level("design");
@@ -205,8 +206,8 @@ TEST(PlanPieces, OfADrySelfConsistentDesign) {
        {"field", "columns, one by one", "pull 20 to 45 % below the 3-D field", 40 * field, 0.3},
        {"contact with tractions", "off and on states",
         "areas from resolved contact, not from the load law", 40 * 2 * contact, 0},
-       {"coupling", "self-consistent", "gap, field and water to a fixed point, 9 passes at most",
-        40 * 6 * (contact + field), 0},
+       {"coupling", "equilibrium", "gap, field and water until they agree within 0.2 % of the load",
+        40 * (contact + field), 0},
        {"scale bridge", "Persson, 4 patch pressures",
         "patches under a fingertip do not share one pressure", 0, 0.03},
        {"sampling", "10 skins, common to all designs", kPatches, 0, 0.11 / std::sqrt(10.0)}},

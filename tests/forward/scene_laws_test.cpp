@@ -79,14 +79,15 @@ TEST(SceneLaws, TheFieldsProblemIsTheSeriesOfItsLayers) {
   EXPECT_NEAR(std::abs(p.skin_layer - (25e-9 * skin + Complex(0, film.imag()))), 0, 1e-16);
   EXPECT_NEAR(p.film_phase, std::abs(film) / film.real(), 1e-12);
   EXPECT_TRUE(p.screening && p.droplet_enhancement);
-  EXPECT_FALSE(p.breakdown_cap || p.zero_under_droplets || p.even_screening);
+  EXPECT_FALSE(p.zero_under_droplets || p.even_screening);
+  EXPECT_EQ(p.air_limit, AirLimit::None);
   Scene other = scene;
   other.surface.electrode_edge_radius = 70e-9;
-  other.model.breakdown_cap = true;
+  other.model.air_limit = AirLimit::Ionisation;
   other.model.droplet_enhancement = false;
   const FieldProblem q = field_problem(other, 0.45);
   EXPECT_EQ(q.edge_radius, 70e-9);
-  EXPECT_TRUE(q.breakdown_cap);
+  EXPECT_EQ(q.air_limit, AirLimit::Ionisation);
   EXPECT_FALSE(q.droplet_enhancement);
   other.model.droplet_enhancement = true;
   other.model.preset = Preset::M3;

@@ -55,7 +55,7 @@ TEST(SkipBounds, HoldForTheCouplingInOnePass) {
     Scene scene = scene_at(i, texture);
     const Response one = evaluate(scene, texture, small());
     bounds.push_back(skip_bounds(scene, texture, small()).self_consistency);
-    scene.model.coupling = Coupling::SelfConsistent;
+    scene.model.coupling = Coupling::Equilibrium;
     const Response settled = evaluate(scene, texture, small());
     if (!settled.points[0].status.sound()) {
       bounds.pop_back();
@@ -64,7 +64,7 @@ TEST(SkipBounds, HoldForTheCouplingInOnePass) {
     actual.push_back(
         std::abs(settled.points[0].friction_on.value / one.points[0].friction_on.value - 1));
   }
-  expect_bounds("self-consistent coupling", bounds, actual);
+  expect_bounds("equilibrium", bounds, actual);
 }
 
 TEST(SkipBounds, HoldForRetention) {

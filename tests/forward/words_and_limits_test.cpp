@@ -24,9 +24,10 @@ TEST(AnswerWords, OfEveryTrouble) {
        "flooded: more water than gap, no meniscus and no capillary force"},
       {{Trouble::SecondPassPullIn, 1.257, ""},
        "pull-in: the gap closes, a second pass would raise the pull by 126 % (coupling = "
-       "\"self_consistent\" seeks an equilibrium)"},
+       "\"equilibrium\" seeks one)"},
       {{Trouble::ClosedPullIn, 0, ""}, "pull-in: no equilibrium short of a closed gap"},
-      {{Trouble::GrowingPullIn, 0, ""}, "pull-in: the pull grows from pass to pass"},
+      {{Trouble::GrowingPullIn, 0, ""},
+       "pull-in: the attraction outgrows the skin's resistance, the gap jumps shut"},
       {{Trouble::FarGapPullIn, 0, ""}, "pull-in: the gaps between patches in contact close"},
       {{Trouble::PassesUsedUp, 12, ""}, "coupling: not settled after 12 passes"},
       {{Trouble::FullContact, 1.2345, ""},

@@ -149,7 +149,7 @@ TEST(HardScene, ElectrodeLimits) {
   scene.finger.electrical.thickness_15 = scene.finger.electrical.thickness_75 = 0;
   run(scene, Texture{}, "h_SC = 0");
   scene.drive.amplitude = 20000;  // beyond breakdown everywhere, and past pull-in
-  for (Coupling coupling : {Coupling::OnePass, Coupling::SelfConsistent}) {
+  for (Coupling coupling : {Coupling::OnePass, Coupling::Equilibrium}) {
     scene.model.coupling = coupling;
     const Response r = run(scene, Texture{}, "20 kV");
     EXPECT_FALSE(r.troubles().empty());

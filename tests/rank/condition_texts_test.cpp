@@ -27,7 +27,7 @@ TEST(ConditionTexts, EachKindOfCriterionHasItsOwnConditions) {
   Design a, b;
   b.finger.load = 0.3;
   b.environment.relative_humidity = {0.5};
-  b.model.breakdown_cap = true;
+  b.model.rim_pinning = true;
   b.accuracy.grid = 64;
   b.drive.amplitude = 50;
   b.view.fill_index = 1.3;
@@ -35,7 +35,7 @@ TEST(ConditionTexts, EachKindOfCriterionHasItsOwnConditions) {
   b.surface.contact_angle = 1.2;
   b.title = "other";
   using Keys = std::vector<std::string>;
-  const Keys felt{"finger.load", "environment.relative_humidity", "model.breakdown_cap",
+  const Keys felt{"finger.load", "environment.relative_humidity", "model.rim_pinning",
                   "accuracy.grid"};
   Keys driven = felt, all;
   driven.push_back("drive.amplitude");
@@ -58,7 +58,7 @@ TEST(ConditionTexts, TheStoryOfAFingerItsStateAndTheTargetAreNone) {
   b.finger.name = "other";
   b.finger.fitted_to = "M1";
   b.finger.uncertainty = {{"skin.rms", 0.1, {}}};
-  b.finger.calibrated_for.breakdown_cap = true;
+  b.finger.calibrated_for.rim_pinning = true;
   b.finger.state = FingerState::Wet;
   b.accuracy.target = 0.02;
   b.accuracy.parameters = true;

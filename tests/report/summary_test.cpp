@@ -269,8 +269,8 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
   Stability& s = run.result.stability;
   s.variants = {{"finger one", {{0.5, 0.3}, {0.4, 0.35}}},
                 {"natural skin, not degreased", {{0.296, 0.627}, {0.2, 0.5}}},
-                {"breakdown cap", {{0.252, 0.2}, {0.2, 0.3}}},
-                {"self-consistent coupling", {{0.922, 0.4}, {0.8, 0.5}}}};
+                {"air breaks down", {{0.252, 0.2}, {0.2, 0.3}}},
+                {"equilibrium", {{0.922, 0.4}, {0.8, 0.5}}}};
   for (StabilityVariant& v : s.variants) v.on_front = {true, true}, v.worst = {0.25, 0.2};
   s.variants[1].worst = {0.007, 0.1};
   s.times_on_front = {4, 4};
@@ -285,7 +285,7 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
                 ") it has mean(modulation) 0.296 where it has 0.500, variation(modulation) 0.627 "
                 "where it has 0.300, a worst modulation of 0.007 where it has 0.250.");
   EXPECT_EQ(said[1],
-            "In no ±: choices of the model (breakdown cap, self-consistent coupling): over these "
+            "In no ±: choices of the model (air breaks down, equilibrium): over these "
             "it has mean(modulation) 0.252 to 0.922, variation(modulation) 0.200 to 0.400.");
   EXPECT_EQ(said[2],
             "At its worst, over fingers and humidity, the modulation is 0.053: below 0.2, the "

@@ -216,7 +216,7 @@ TEST(FieldStudy, AVoltagePastPullInIsARefusalWithItsReason) {
       study_file("pullin",
                  "[drive]\namplitude = \"150 V\"\n[design_space]\n\"drive.amplitude\" = [\"50 V\", "
                  "\"20000 V\"]\n[objective]\nmaximise = \"mean(modulation)\"\n"));
-  study.design.model.coupling = Coupling::SelfConsistent;
+  study.design.model.coupling = Coupling::Equilibrium;
   study.design.drive.amplitude = 20000;
   const TaskAnswer task = evaluate_task(StudyProblem(study), study.design, 0, {small()});
   EXPECT_FALSE(task.status.ok());

@@ -29,7 +29,7 @@ TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
   EXPECT_EQ(s.times_on_front[1], 0);
   EXPECT_TRUE(s.stable(0));
   EXPECT_FALSE(s.stable(1));
-  // The cap takes from the pull, self-consistency adds to it.
+  // Air that breaks down takes from the pull, the equilibrium adds to it.
   EXPECT_LT(s.variants[7].values[0][0], s.variants[0].values[0][0]);
   EXPECT_GT(s.variants[8].values[0][0], s.variants[0].values[0][0]);
 }

@@ -131,7 +131,12 @@ class ColumnLaw {
       of_film2 = field2 = 1 / series2;
     }
     ColumnPull<T> out;
-    out.pressure = chosen(pulls, smaller(cap_, scale_ * field2) * c.open, 0.0);
+    out.pressure = chosen(pulls, scale_ * field2 * c.open, 0.0);
+    if (p_.air_limit != AirLimit::None)
+      out.pressure =
+          out.pressure *
+          clipped_share(air_field_limit(p_.air_limit, larger(c.air, T(0))) / root(peak2_ * field2),
+                        p_.steady);
     // Water leads around the skin's layer: under a bridge the dielectric carries everything.
     of_film2 = of_film2 * square(p_.film_phase);
     of_film2 = chosen(bridge || of_film2 > per_film2, per_film2, of_film2);
@@ -153,7 +158,8 @@ class ColumnLaw {
   const FieldProblem& p_;
   bool spread_;
   double scale_ = 0.5 * kVacuumPermittivity * square(p_.v_rms);
-  double cap_ = p_.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
+  // Of a sine with the effective voltage, or that voltage.
+  double peak2_ = (p_.steady ? 1 : 2) * square(p_.v_rms);
 };
 
 }  // namespace

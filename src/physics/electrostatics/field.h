@@ -8,6 +8,7 @@
 #include "fields/gap.h"
 #include "fields/wetting.h"
 #include "physics/electrostatics/electrode.h"
+#include "scene/finger.h"
 
 namespace papilla::electrostatics {
 
@@ -19,7 +20,8 @@ struct FieldProblem {
   double edge_radius = 0;               // of the electrode's edges below walls [m]; 0: none stated
   std::complex<double> skin_layer = 0;  // h_SC = d2/eps2(omega) [m]
   double film_phase = 1;                // |d/eps| over its real part, of a film that leaks
-  bool breakdown_cap = false;           // gap pressure at most eps0/2 (350 V/um)^2
+  AirLimit air_limit = AirLimit::None;  // what holds the field in the air. Eq. electrostatics.19
+  bool steady = false;                  // a voltage of one magnitude, direct or square; else a sine
   bool screening = true;                // the field fades towards a bridge
   bool even_screening = false;          // preset m3: that as one factor. Eq. electrostatics.18
   bool droplet_enhancement = true;      // droplets that do not bridge raise the pull

@@ -68,7 +68,7 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
     hidden = droplet_columns(gap.grid, wetting);
   }
   const double scale = 0.5 * kVacuumPermittivity * square(p.v_rms);
-  const double cap = p.breakdown_cap ? 0.5 * kVacuumPermittivity * square(kAirStrength) : HUGE_VAL;
+  const double peak2 = (p.steady ? 1 : 2) * square(p.v_rms);
   double sum = 0, over_sum = 0;
   std::size_t over = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -77,10 +77,14 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
     double square_field = s.square_field[i];
     // Of the flux that the layer's real part leaves; for a flat stack exactly Eq. electrostatics.1.
     square_field /= 1 + std::max(square_field, 0.0) * square(p.skin_layer.imag());
-    const double pressure = std::min(scale * square_field, cap);
+    const double g = gap.value[i];
+    double pressure = scale * square_field;
+    if (p.air_limit != AirLimit::None && square_field > 0)
+      pressure *= clipped_share(
+          air_field_limit(p.air_limit, std::max(g, 0.0)) / std::sqrt(peak2 * square_field),
+          p.steady);
     out.traction.value[i] = pressure;
     sum += pressure;
-    const double g = gap.value[i];
     if (g > 0 && square_field > 0 &&
         p.v_peak * std::sqrt(square_field) * g > air_breakdown_voltage(g)) {
       ++over;

@@ -1,0 +1,120 @@
+#include "forward/load_law.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace papilla::forward {
+namespace {
+
+// The exponent of a force that is `before` on the dry gap and `after` under `load` times the
+// nominal one. 0 where it is none or changes its sign: the force then stays what it is.
+double exponent(double before, double after, double load) {
+  constexpr double kLargest = 4, kSame = 1e-9;
+  if (!(before * after > 0) || !(load > 0) || std::abs(load - 1) < kSame) return 0;
+  return std::clamp(std::log(after / before) / std::log(load), -kLargest, kLargest);
+}
+
+double sum_of(std::span<const AttractionSample> samples, PatchResult AttractionSample::*state,
+              double PatchResult::*value) {
+  double sum = 0;
+  for (const AttractionSample& s : samples) sum += s.*state.*value;
+  return sum;
+}
+
+// The lowest root of load = total(load), from 1 upwards; total rises.
+template <class Total>
+std::optional<double> settled_load(const Total& total) {
+  constexpr double kClosed = 1e3, kLeast = 1e-3, kExact = 1e-12;
+  constexpr int kMost = 1000;
+  double load = 1;
+  for (int k = 0; k < kMost && load < kClosed; ++k) {
+    const double next = std::max(total(load), kLeast);
+    if (std::abs(next - load) <= kExact * next) return next;
+    load = next;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+double AttractionLaw::load_off(double capillary) const {
+  return settled_load([&](double load) { return 1 + capillary * std::pow(load, capillary_off); })
+      .value_or(1 + capillary);
+}
+
+std::optional<double> AttractionLaw::load_on(double capillary, double of_field) const {
+  return settled_load([&](double load) {
+    return 1 + capillary * std::pow(load, capillary_on) + of_field * std::pow(load, pull);
+  });
+}
+
+void AttractionLaw::apply(PatchResult& patch) const {
+  patch.status.note(status);
+  if (!(patch.load > 0)) return;
+  const double off = load_off(patch.capillary_off / patch.load);
+  const std::optional<double> on =
+      load_on(patch.capillary_on / patch.load, patch.pull / patch.load);
+  if (!on) patch.status.note({Trouble::ClosedPullIn, 0, ""});
+  patch.capillary_off *= std::pow(off, capillary_off);
+  patch.capillary_on *= std::pow(on.value_or(1), capillary_on);
+  patch.pull *= std::pow(on.value_or(1), pull);
+  patch.retention *= retention_off;
+  patch.retention_on *= retention_on;
+}
+
+int sampled_skins(const PatchSetup& setup, const Plan& plan) {
+  const bool closes = setup.scene().model.coupling == Coupling::Equilibrium &&
+                      !plan.traction_solves && (plan.water || plan.field);
+  return closes ? std::min(setup.fidelity().equilibrium_skins, setup.fidelity().skins) : 0;
+}
+
+AttractionLaw attraction_law(std::span<const AttractionSample> samples) {
+  AttractionLaw law;
+  for (const AttractionSample& s : samples) {
+    const ModelStatus& status = s.settled.status;
+    if (status.pull_in() || status.trouble == Trouble::ContactUnsolved) law.status.note(status);
+  }
+  const auto sum = [&](PatchResult AttractionSample::*state, double PatchResult::*value) {
+    return sum_of(samples, state, value);
+  };
+  const auto dry = &AttractionSample::dry, settled = &AttractionSample::settled;
+  const double load = sum(dry, &PatchResult::load);
+  if (!(load > 0) || !law.status.sound()) return law;
+  const double off = 1 + sum(settled, &PatchResult::capillary_off) / load;
+  const double on =
+      1 + (sum(settled, &PatchResult::capillary_on) + sum(settled, &PatchResult::pull)) / load;
+  const auto grows = [&](double PatchResult::*force, double by) {
+    return exponent(sum(dry, force), sum(settled, force), by);
+  };
+  law.capillary_off = grows(&PatchResult::capillary_off, off);
+  law.capillary_on = grows(&PatchResult::capillary_on, on);
+  law.pull = grows(&PatchResult::pull, on);
+  const auto factor = [&](double PatchResult::*value) {
+    const double before = sum(dry, value);
+    return before > 0 ? sum(settled, value) / before : 1;
+  };
+  law.retention_off = factor(&PatchResult::retention);
+  law.retention_on = factor(&PatchResult::retention_on);
+  return law;
+}
+
+std::vector<PatchResult> combined(const ScaleBridge& bridge, bool in_equilibrium,
+                                  std::vector<std::vector<SolvedPatch>>& skins) {
+  std::vector<std::vector<PatchResult>> patches(skins.size());
+  for (std::size_t q = 0; q < bridge.pressures().size(); ++q) {
+    std::vector<AttractionSample> samples;
+    for (const auto& skin : skins) {
+      if (skin[q].sample) samples.push_back(*skin[q].sample);
+    }
+    const AttractionLaw law = attraction_law(samples);
+    for (std::size_t k = 0; k < skins.size(); ++k) {
+      if (in_equilibrium) law.apply(skins[k][q].result);
+      patches[k].push_back(skins[k][q].result);
+    }
+  }
+  std::vector<PatchResult> out;
+  for (const std::vector<PatchResult>& skin : patches) out.push_back(bridge.combine(skin));
+  return out;
+}
+
+}  // namespace papilla::forward

@@ -1,0 +1,53 @@
+// The load law in equilibrium: where no contact is solved under tractions, how the attractions of a
+// patch grow as they close its gap, measured on a few patches of the same scene.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/rooms.h"
+#include "forward/patch_result.h"
+#include "forward/patch_setup.h"
+#include "forward/scale_bridge.h"
+
+namespace papilla::forward {
+
+// One patch by its attractions on the dry gap, and in equilibrium.
+struct AttractionSample {
+  PatchResult dry, settled;
+};
+
+// Attractions as powers of the total load over the nominal one. Eq. coupling.7
+struct AttractionLaw {
+  double capillary_off = 0, capillary_on = 0, pull = 0;  // exponents
+  double retention_off = 1, retention_on = 1;            // factors
+  ModelStatus status;  // of the first sample that has no equilibrium
+
+  // Total load over the nominal one, by the attractions on the dry gap over the nominal load:
+  // before the drive, and under it; nothing: no equilibrium short of a closed gap.
+  double load_off(double capillary) const;
+  std::optional<double> load_on(double capillary, double pull) const;
+
+  // The patch by its attractions on the dry gap becomes that in equilibrium.
+  void apply(PatchResult& patch) const;
+};
+
+// How many skins of a set of patches are solved in equilibrium for it: none where every patch is,
+// or none is.
+int sampled_skins(const PatchSetup& setup, const Plan& plan);
+
+// Ratios of sums over the samples; without any the law changes nothing.
+AttractionLaw attraction_law(std::span<const AttractionSample> samples);
+
+// A skin under one patch pressure at one humidity.
+struct SolvedPatch {
+  PatchResult result;
+  std::optional<AttractionSample> sample;
+};
+// Of each skin one result: patches by the law of the samples of their pressure, where there are
+// some to be, over the patch pressures.
+std::vector<PatchResult> combined(const ScaleBridge& bridge, bool in_equilibrium,
+                                  std::vector<std::vector<SolvedPatch>>& skins);
+
+}  // namespace papilla::forward
