@@ -25,6 +25,11 @@ SeriesLayers series_layers(const Scene& scene, double relative_humidity);
 // leads, as a d/eps [m] that holds the same energy as all the voltage on it would. Eq. drive.13
 double wetted_series(const Scene& scene, double relative_humidity);
 
+// The skin's layer between water and body, as a d/eps beside that of a film as `dielectric` [m]:
+// the divider of both has the magnitude of the water's potential, in which what conducts counts.
+// Eq. drive.19
+double water_skin_layer(const Scene& scene, double relative_humidity, double dielectric);
+
 // What the source applies at a humidity. Under voltage control what it holds; under current control
 // what the current needs through the ridges under the finger, far gaps included, water and texture
 // left out, at most the compliance of the source. Eq. drive.14

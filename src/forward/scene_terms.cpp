@@ -116,12 +116,14 @@ FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   const std::complex<double> film = series.film(scene.surface);
   p.skin_layer = series.skin + std::complex<double>(0, film.imag());
   p.film_phase = film.real() > 0 ? std::abs(film) / film.real() : 1;
+  p.water_skin_layer = water_skin_layer(scene, relative_humidity, p.dielectric);
   p.air_limit = scene.model.air_limit;
   p.steady = scene.drive.waveform == Waveform::Dc || scene.drive.waveform == Waveform::Square;
   p.droplet_enhancement = scene.model.droplet_enhancement;
   if (scene.model.preset == Preset::M3) {
     p.zero_under_droplets = true;
     p.even_screening = true;
+    p.water_skin_layer = 0;  // the paper's water is at the body's potential
     p.droplet_enhancement = false;
   }
   return p;

@@ -129,6 +129,43 @@ TEST(FieldColumns, TheNodesAtBodiesHaveTheirPotential) {
   }
 }
 
+// Water with a potential of its own: its node is the one on the film, the body is behind the layer,
+// and its wall ends at the skin, beside which no layer of the skin leads.
+TEST(FieldColumns, WaterWithAPotentialOfItsOwnIsANodeBelowTheSkinsLayer) {
+  PotentialProblem p;
+  p.grid = {2, 1, 200e-9, 100e-9};
+  p.electrode = {-400e-9, -400e-9};
+  p.surface = {0, 0};
+  p.skin = {90e-9, 90e-9};
+  p.dielectric = {100e-9, 100e-9};
+  p.bridged = {1, 0};
+  p.skin_layer = 30e-9;
+  p.water_skin_layer = 25e-9;
+  const FieldColumns c(p, 2, 4);
+  EXPECT_TRUE(c.bridged(0));
+  EXPECT_EQ(c.top(0), 3);
+  EXPECT_FALSE(c.fixed(0, 2));
+  EXPECT_TRUE(c.fixed(0, 3));
+  EXPECT_EQ(c.resistance(0, 2), 25e-9);
+  double wall = 0, rising = 0;
+  c.exchanges(0, 1, 1, [&](const Exchange& e) {
+    if (e.body != Body::Water) return;
+    EXPECT_EQ(e.here, -1);
+    wall += e.conductance;
+    rising += e.per_rise;
+  });
+  EXPECT_NEAR(wall, 2 * 90e-9, 1e-15);  // over half a pixel
+  EXPECT_NEAR(rising, 2, 1e-9);
+  p.water_skin_layer = 0;
+  const FieldColumns grounded(p, 2, 4);
+  EXPECT_EQ(grounded.top(0), 2);
+  wall = 0;
+  grounded.exchanges(0, 1, 1, [&](const Exchange& e) {
+    if (e.body == Body::Water) wall += e.conductance;
+  });
+  EXPECT_NEAR(wall, 2 * 120e-9, 1e-15);  // as high as the body
+}
+
 // The cell of a column that holds a height; -1 below it, `top` above.
 int cell_at(const FieldColumns& c, std::size_t column, double z) {
   if (z < c.z(column, 0)) return -1;

@@ -265,7 +265,7 @@ TEST(Screening, WaterOnItsWayFromDiscToFilmFadesAsBothByItsShare) {
     return w;
   };
   const auto factor = [&](double film, bool discs) {
-    return screening_factor(gap, wetting(film, discs), oxide, true);
+    return screening_factor(gap, wetting(film, discs), {oxide}, true);
   };
   const std::vector<double> disc = factor(0, true), film = factor(1, false);
   int partly = 0;
@@ -318,7 +318,7 @@ TEST(Screening, AFilmsEdgeHasTheProfileOfAWall) {
     w.status = WettingStatus::Film;
     w.bridged.assign(gap.grid.size(), 0);
     for (int iy = 0; iy < 4; ++iy) w.bridged[gap.grid.index(399, iy)] = 1;
-    const std::vector<double> factor = screening_factor(gap, w, d * g, true);
+    const std::vector<double> factor = screening_factor(gap, w, {d * g}, true);
     const int ix = 399 + static_cast<int>(std::lround(number(row, "x_over_g") * 40));
     // The stated errors of the profile (0.006 up to half a gap of oxide, 0.034 at one) and of its
     // length (3.3 %, which moves tanh^2 by 0.02 at most) add up.
@@ -334,7 +334,7 @@ TEST(Screening, AFilmOfAnyShapeFadesWithTheDistanceToItsNearestPixel) {
   w.status = WettingStatus::Film;
   w.bridged.assign(gap.grid.size(), 0);
   w.bridged[gap.grid.index(2, 3)] = w.bridged[gap.grid.index(20, 22)] = 1;
-  const std::vector<double> factor = screening_factor(gap, w, 0, true);
+  const std::vector<double> factor = screening_factor(gap, w, {}, true);
   const double width = screening_length(1e-7, 0);
   for (int iy = 0; iy < 24; ++iy) {
     for (int ix = 0; ix < 24; ++ix) {

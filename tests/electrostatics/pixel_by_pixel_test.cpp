@@ -82,8 +82,14 @@ TEST(PixelByPixel, ScreeningByWaterIsTheSame) {
   const auto [together, apart] =
       both_ways([&] { return air_screening_factor(gap, some_water(), true); });
   EXPECT_EQ(together, apart);
+  const std::vector<double> potential(kGrid.size(), 0.4), film(kGrid.size(), 1e-7),
+      reach(kGrid.size(), 3e-7);
+  const WallFields wall{potential, film, reach, 2e-8};
+  const auto [floating, floating_apart] =
+      both_ways([&] { return air_screening_factor(gap, some_water(), true, &wall); });
+  expect_alike(floating, floating_apart, 1e-13, "beside water with a potential of its own");
   const auto [films, films_apart] =
-      both_ways([&] { return screening_factor(gap, some_water(), 2e-7, true); });
+      both_ways([&] { return screening_factor(gap, some_water(), {2e-7}, true); });
   EXPECT_EQ(films, films_apart);
 }
 

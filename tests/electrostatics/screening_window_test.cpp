@@ -71,7 +71,7 @@ TEST(ScreeningWindow, OfABridgeAnywhereIsTheProfileOfItsNearestImage) {
     w.status = WettingStatus::Discs;
     w.bridges = 1;
     w.droplets = {bridge(x, y, a, g)};
-    const std::vector<double> factor = screening_factor(gap, w, thickness, true);
+    const std::vector<double> factor = screening_factor(gap, w, {thickness}, true);
     ASSERT_EQ(factor.size(), grid.size());
     for (int iy = 0; iy < grid.ny; ++iy) {
       for (int ix = 0; ix < grid.nx; ++ix) {
@@ -80,7 +80,7 @@ TEST(ScreeningWindow, OfABridgeAnywhereIsTheProfileOfItsNearestImage) {
         ASSERT_NEAR(factor[grid.index(ix, iy)], expected, 3e-5) << x << ' ' << ix << ' ' << iy;
       }
     }
-    EXPECT_EQ(screening_factor(gap, w, thickness, false), std::vector<double>(grid.size(), 1.0));
+    EXPECT_EQ(screening_factor(gap, w, {thickness}, false), std::vector<double>(grid.size(), 1.0));
   }
 }
 
@@ -100,7 +100,7 @@ TEST(ScreeningWindow, FactorsMultiplyAndWetPixelsHaveNone) {
   w.droplets.push_back(film);
   w.bridged.assign(grid.size(), 0);
   w.bridged[grid.index(3, 30)] = 1;
-  const std::vector<double> factor = screening_factor(gap, w, 60e-9, true);
+  const std::vector<double> factor = screening_factor(gap, w, {60e-9}, true);
   for (int iy = 0; iy < 32; ++iy) {
     for (int ix = 0; ix < 32; ++ix) {
       const double both =
@@ -110,17 +110,17 @@ TEST(ScreeningWindow, FactorsMultiplyAndWetPixelsHaveNone) {
     }
   }
   // Nothing wet, nothing to screen; a mask alone takes its pixels.
-  EXPECT_TRUE(screening_factor(gap, {}, 60e-9, true).empty());
+  EXPECT_TRUE(screening_factor(gap, {}, {60e-9}, true).empty());
   Wetting mask;
   mask.grid = grid;
   mask.bridged = w.bridged;
-  const std::vector<double> masked = screening_factor(gap, mask, 60e-9, true);
+  const std::vector<double> masked = screening_factor(gap, mask, {60e-9}, true);
   for (std::size_t i = 0; i < masked.size(); ++i) EXPECT_EQ(masked[i], w.bridged[i] ? 0 : 1);
   // The film alone, without a bridge that counts: by its mask.
   Wetting bridges = w;
   bridges.bridged.clear();
   bridges.status = WettingStatus::Film;
-  EXPECT_EQ(screening_factor(gap, bridges, 60e-9, true)[grid.index(19, 14)], 0);
+  EXPECT_EQ(screening_factor(gap, bridges, {60e-9}, true)[grid.index(19, 14)], 0);
 }
 
 // Of a film: the gap of each pixel over the planar length, far and near, in rows of any length.
@@ -138,7 +138,7 @@ TEST(ScreeningWindow, OfAFilmTheWidthIsThatOfThePixelsOwnGap) {
     }
     w.bridged[grid.index(grid.nx - 1, 0)] = 1;
     const double thickness = 40e-9;
-    const std::vector<double> factor = screening_factor(gap, w, thickness, true);
+    const std::vector<double> factor = screening_factor(gap, w, {thickness}, true);
     int partly = 0;
     for (int iy = 0; iy < grid.ny; ++iy) {
       for (int ix = 0; ix < grid.nx; ++ix) {
@@ -179,7 +179,7 @@ TEST(ScreeningWindow, FilmAndWhatIsOnItsWayFadeByTheirOwnPixels) {
     w.droplets.resize(3);  // on a surface: no discs
     w.droplets[0].film = 0.3, w.droplets[1].film = 0.6, w.droplets[2].film = 1;
     w.bridged[film] = 1;
-    const std::vector<double> factor = screening_factor(gap, w, 50e-9, true);
+    const std::vector<double> factor = screening_factor(gap, w, {50e-9}, true);
     for (std::size_t i = 0; i < grid.size(); ++i) {
       const auto fades = [&](std::size_t from) {
         const auto nx = static_cast<std::size_t>(grid.nx);

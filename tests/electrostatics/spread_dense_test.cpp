@@ -36,18 +36,20 @@ std::vector<double> film_response(const Grid& g, double thickness, double permit
   return out;
 }
 
-// phi on the dielectric for one volt on the electrode; zero on wet pixels.
+// phi on the dielectric for one volt on the electrode; zero on wet pixels where no layer is between
+// water and body, else one for each run of wet pixels of a row, which charge it together.
 std::vector<double> potential(const Grid& g, const std::vector<double>& dielectric,
                               const std::vector<double>& conductance,
                               const std::vector<std::uint8_t>& wet, double thickness,
-                              double permittivity) {
+                              double permittivity, double water_skin_layer = 0) {
   const std::vector<double> k = film_response(g, thickness, permittivity);
   const std::size_t n = g.size();
   std::vector<std::vector<double>> a(n, std::vector<double>(n + 1, 0));
   for (int iy = 0; iy < g.ny; ++iy) {
     for (int ix = 0; ix < g.nx; ++ix) {
       const std::size_t i = g.index(ix, iy);
-      if (wet[i]) {
+      const bool floats = wet[i] && water_skin_layer > 0;
+      if (wet[i] && !floats) {
         a[i][i] = 1;
         continue;
       }
@@ -55,8 +57,17 @@ std::vector<double> potential(const Grid& g, const std::vector<double>& dielectr
         for (int jx = 0; jx < g.nx; ++jx)
           a[i][g.index(jx, jy)] = k[g.index(wrap(jx - ix, g.nx), wrap(jy - iy, g.ny))];
       }
-      a[i][i] += 1 / dielectric[i] - permittivity / thickness + conductance[i];
+      a[i][i] += 1 / dielectric[i] - permittivity / thickness +
+                 (floats ? 1 / water_skin_layer : conductance[i]);
       a[i][n] = 1 / dielectric[i];
+    }
+  }
+  for (std::size_t i = 1; i < n && water_skin_layer > 0; ++i) {
+    if (!wet[i] || !wet[i - 1]) continue;
+    // The sum of both equations, and both potentials the same.
+    for (std::size_t j = 0; j <= n; ++j) {
+      a[i][j] += a[i - 1][j];
+      a[i - 1][j] = j == i ? 1 : j == i - 1 ? -1 : 0;
     }
   }
   for (std::size_t c = 0; c < n; ++c) {
@@ -160,6 +171,55 @@ TEST(SpreadDense, EveryPixelIsPulledAsItsEquationSays) {
   }
 }
 
+// Bodies of one, two and three pixels, each at a potential of its own.
+TEST(SpreadDense, WaterHasThePotentialAtWhichItsChargeBalances) {
+  for (const Grid& grid : kGrids) {
+    RandomStream random(22, "floating", static_cast<std::uint64_t>(grid.nx));
+    Gap gap{grid, {}};
+    Wetting w;
+    w.grid = grid;
+    w.status = WettingStatus::Film;
+    w.bridges = 3;
+    w.bridged.assign(grid.size(), 0);
+    for (std::size_t i = 0; i < grid.size(); ++i) gap.value.push_back(150e-9 * random.uniform());
+    for (const int wet : {1, 2, 3}) {
+      for (int k = 0; k < wet; ++k) w.bridged[grid.index(1 + k, 2 * wet - 1)] = 1;
+    }
+    FieldProblem p;
+    p.v_rms = 60, p.v_peak = 85;
+    p.dielectric_thickness = 300e-9;
+    p.dielectric = 300e-9 / 4;
+    p.skin_layer = 20e-9;
+    p.water_skin_layer = 15e-9;
+    const FieldSolution out = solve_spread_field(gap, nullptr, w, p, 1e-11);
+    ASSERT_TRUE(out.ok) << out.reason;
+    const std::vector<double> dielectric(grid.size(), p.dielectric);
+    std::vector<double> conductance, reach;
+    for (const double g : gap.value) {
+      reach.push_back(g + 20e-9);
+      conductance.push_back(1 / reach.back());
+    }
+    const std::vector<double> phi =
+        potential(grid, dielectric, conductance, w.bridged, 300e-9, 4, 15e-9);
+    const WallFields wall{phi, dielectric, reach, 15e-9};
+    const std::vector<double> open = air_screening_factor(gap, w, true, &wall);
+    double strongest = 0;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      const double pressure =
+          open[i] * 0.5 * kVacuumPermittivity * square(60 * phi[i] * conductance[i]);
+      EXPECT_NEAR(out.traction.value[i], w.bridged[i] ? 0 : pressure, 1e-6 * out.mean_pressure)
+          << i;
+      strongest = std::max(strongest, (1 - phi[i]) / dielectric[i]);
+    }
+    EXPECT_NEAR(out.peak_oxide_field, 85 * strongest / 4, 1e-6 * out.peak_oxide_field);
+    // The more alone it stands, the more of the film around charges it.
+    const double one = phi[grid.index(1, 1)], three = phi[grid.index(2, 5)];
+    EXPECT_GT(one, three);
+    EXPECT_GT(three, 15.0 / 90);
+    EXPECT_NEAR(phi[grid.index(1, 5)], phi[grid.index(3, 5)], 1e-12);
+  }
+}
+
 // Under preset rules without pull below droplets the air there still leads.
 TEST(SpreadDense, ColumnsWithoutPullStillCarryFlux) {
   const Grid grid{16, 8, 2e-6, 1e-6};
@@ -204,6 +264,16 @@ TEST(SpreadDense, ConvergesInTheIterationsThatAreStated) {
   EXPECT_LE(solve_spread_field(gap, nullptr, {}, p, 1e-2).iterations, 2);
   EXPECT_LE(solve_spread_field(gap, nullptr, {}, p, 1e-3).iterations, 4);
   EXPECT_LE(solve_spread_field(gap, nullptr, {}, p, 1e-5).iterations, 6);
+  // Water over a fifth of it, with a potential of its own.
+  Wetting w;
+  w.grid = grid;
+  w.status = WettingStatus::Film;
+  for (const double g : gap.value) w.bridged.push_back(g < 230e-9);
+  EXPECT_GT(std::count(w.bridged.begin(), w.bridged.end(), 1), 800);
+  p.water_skin_layer = 24e-9;
+  EXPECT_LE(solve_spread_field(gap, nullptr, w, p, 1e-2).iterations, 3);
+  EXPECT_LE(solve_spread_field(gap, nullptr, w, p, 1e-3).iterations, 5);
+  EXPECT_LE(solve_spread_field(gap, nullptr, w, p, 1e-5).iterations, 8);
 }
 
 TEST(SpreadDense, WhatDoesNotConvergeSaysHowFarItCame) {

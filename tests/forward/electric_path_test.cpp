@@ -64,7 +64,7 @@ double circuit_pull(const Scene& scene, double frequency) {
 // The circuit is an exact complex solve of the flat stack.
 TEST(ElectricPath, ALeakyFilmPullsAsTheCircuitOfSolveDriveAtEveryFrequency) {
   for (const double resistivity : {1e5, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e14}) {
-    for (const double frequency : {1.0, 30.0, 300.0, 5e3, 1e5}) {
+    for (const double frequency : {0.1, 1.0, 30.0, 300.0, 5e3, 1e5}) {
       Scene scene = leaky(resistivity, Waveform::Sine, frequency);
       const double expected = circuit_pull(scene, frequency);
       for (const FieldMethod method : kFieldMethods) {
@@ -139,6 +139,35 @@ TEST(ElectricPath, ElectrowettingTakesTheVoltageOfFilmAndSkinBelowWater) {
   // A conducting film leaves all of it to the skin, a thinner capacitor.
   const double skin = insulating.finger.electrical.equivalent_thickness(kHumidity);
   EXPECT_NEAR(wetted_series(leaky(1), kHumidity), skin, 0.01 * skin);
+}
+
+// Of the circuit without its gap: water that leads stands in its place.
+TEST(ElectricPath, WaterHasTheMagnitudeOfTheCircuitsPotentialBetweenFilmAndSkin) {
+  for (const double resistivity : {1e5, 1e8, 1e10, 0.0}) {
+    for (const double frequency : {0.1, 30.0, 5e3}) {
+      const Scene scene = leaky(resistivity, Waveform::Sine, frequency);
+      const Network n = circuit(scene);
+      const std::complex<double> film = n.dielectric.impedance(frequency),
+                                 skin = n.skin.impedance(frequency);
+      const double expected = std::abs(skin / (film + skin));
+      const FieldProblem p = field_problem(scene, kHumidity);
+      // A film that leads leaves all of the voltage to the water, but for a ten-thousandth.
+      EXPECT_NEAR(p.water_skin_layer / (p.water_skin_layer + p.dielectric), expected, 2e-4)
+          << resistivity << ' ' << frequency;
+    }
+  }
+  const Scene scene = leaky(0);
+  const double h = scene.finger.electrical.equivalent_thickness(kHumidity);
+  EXPECT_NEAR(field_problem(scene, kHumidity).water_skin_layer, h, 1e-3 * h);  // far above corners
+}
+
+TEST(ElectricPath, WaterIsAtTheBodysPotentialInThePublishedRuleAndWithoutALayer) {
+  Scene scene = leaky(0);
+  scene.finger.electrical.thickness_15 = scene.finger.electrical.thickness_75 = 0;
+  EXPECT_EQ(field_problem(scene, kHumidity).water_skin_layer, 0);
+  Scene paper = leaky(0);
+  paper.model.preset = Preset::M3;
+  EXPECT_EQ(field_problem(paper, kHumidity).water_skin_layer, 0);
 }
 
 TEST(ElectricPath, ACurrentTakesTheVoltageOfTheRidgesImpedance) {

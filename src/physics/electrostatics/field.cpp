@@ -118,6 +118,9 @@ class ColumnLaw {
     const T reach = c.air + c.film + p_.skin_layer.real() + kPerWater * c.water;
     const T series2 = reach * reach + square(p_.skin_layer.imag());
     const T per_film = 1 / c.film, per_film2 = per_film * per_film;
+    // Under water: what the divider leaves, or the potential that the water has.
+    const T dry =
+        1 - (spread_ ? c.potential : p_.water_skin_layer / (p_.water_skin_layer + c.film));
     // Squared, per volt: the field in the air, what is over the film's d/eps [1/m^2].
     T field2, of_film2;
     if (spread_) {
@@ -137,9 +140,8 @@ class ColumnLaw {
           out.pressure *
           clipped_share(air_field_limit(p_.air_limit, larger(c.air, T(0))) / root(peak2_ * field2),
                         p_.steady);
-    // Water leads around the skin's layer: under a bridge the dielectric carries everything.
-    of_film2 = of_film2 * square(p_.film_phase);
-    of_film2 = chosen(bridge || of_film2 > per_film2, per_film2, of_film2);
+    of_film2 = chosen(bridge, dry * dry * per_film2, of_film2) * square(p_.film_phase);
+    of_film2 = smaller(of_film2, per_film2);
     out.film_field2 = chosen((pulls || bridge) && film, of_film2, 0.0);
     const auto with_air = pulls && c.air > 0.0;
     out.air_field2 = chosen(with_air, field2, 0.0);
@@ -220,7 +222,8 @@ FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
     return pull(gap, surface, p, columns, {.open = open, .potential = {}});
   };
   const auto screened = [&](bool fade) {
-    return screening_factor(gap, wetting, p.dielectric_thickness, fade);
+    return screening_factor(gap, wetting,
+                            {p.dielectric_thickness, p.dielectric, p.water_skin_layer}, fade);
   };
   if (!p.screening || !p.even_screening) return under(screened(p.screening));
   std::vector<double> open = screened(false);

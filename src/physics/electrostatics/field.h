@@ -19,6 +19,9 @@ struct FieldProblem {
   double dielectric_thickness = 0;      // sum of d [m]
   double edge_radius = 0;               // of the electrode's edges below walls [m]; 0: none stated
   std::complex<double> skin_layer = 0;  // h_SC = d2/eps2(omega) [m]
+  // The same layer between water that leads and the body, beside a film that counts as above: the
+  // divider of both has the magnitude of the water's potential. 0: water at the body's potential.
+  double water_skin_layer = 0;          // [m]
   double film_phase = 1;                // |d/eps| over its real part, of a film that leaks
   AirLimit air_limit = AirLimit::None;  // what holds the field in the air. Eq. electrostatics.19
   bool steady = false;                  // a voltage of one magnitude, direct or square; else a sine
@@ -48,8 +51,9 @@ struct FieldSolution {
 };
 
 // p = eps0/2 (V_rms / |g + D + h_SC|)^2 per pixel (Eq. electrostatics.1), D the d/eps of the column
-// (Eq. electrostatics.2), zero in bridges, faded around them (Eq. electrostatics.3), raised over
-// droplets that do not bridge (Eq. electrostatics.4). surface: the rigid one below the gap, for its
+// (Eq. electrostatics.2), zero in bridges, faded around them to what a wall of water at its own
+// potential leaves (Eqs. electrostatics.3, 19), raised over droplets that do not bridge (Eq.
+// electrostatics.4). surface: the rigid one below the gap, for its
 // film; null: the flat film of the problem. Not ok: a bare electrode, or a gap that is not finite.
 // Cost: O(pixels), 0.3 ms at 128^2.
 FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
@@ -57,8 +61,9 @@ FieldSolution solve_local_field(const Gap& gap, const CoveredSurface* surface,
 
 // The local rule with the flux free to spread sideways in the dielectric: the potential phi on its
 // surface solves K phi + (1/D - eps/d) phi + phi/(g + h_SC) = V/D, K = eps q coth(q d), d the mean
-// thickness, phi = 0 under bridges (Eq. electrostatics.16); the pull is the local one with the flux
-// phi/(g + h_SC), faded beside water by tanh^2 over the pixel's own gap. Conjugate gradients in the
+// thickness, under each body of water one phi that charges it through the skin's layer (Eq.
+// electrostatics.16); the pull is the local one with the flux phi/(g + h_SC), beside water that of
+// the air at its wall. Conjugate gradients in the
 // energy norm, two FFT pairs an iteration, about 6 iterations to 1e-4; in single precision from a
 // tolerance of 1e-3 on. Without a dielectric: the
 // local rule. Not ok: as the local rule, or the iteration limit. Options, caps and droplets as

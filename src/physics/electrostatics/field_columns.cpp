@@ -17,6 +17,7 @@ FieldColumns::FieldColumns(const PotentialProblem& problem, int dielectric_cells
       rise_(z_.size(), 0),
       permittivity_(z_.size(), 1),
       resistance_(z_.size()),
+      skin_(grid_.size()),
       top_(grid_.size()) {
   for (std::size_t i = 0; i < grid_.size(); ++i) place_nodes(i, problem);
 }
@@ -61,7 +62,11 @@ void FieldColumns::place_nodes(std::size_t column, const PotentialProblem& p) {
     inverse_height[k] = 1 / (z[k + 1] - z[k]);
   }
   if (high > 0) resistance[last] = high / kWaterPermittivity + p.skin_layer;
-  top_[column] = !p.bridged.empty() && p.bridged[column] ? below_ : nodes_ - 1;
+  const bool bridged = !p.bridged.empty() && p.bridged[column];
+  top_[column] = !bridged ? nodes_ - 1 : p.water_skin_layer > 0 ? below_ + 1 : below_;
+  // Grounded water stands as high as the body.
+  skin_[column] = p.water_skin_layer > 0 ? z[nodes_ - 1] - p.skin_layer : z[nodes_ - 1];
+  if (bridged && p.water_skin_layer > 0) resistance[below_] = p.water_skin_layer;
 }
 
 }  // namespace papilla::electrostatics

@@ -25,6 +25,9 @@ struct Exchange {
   Body body = Body::None;
   double share = 1;  // of the way from the column to the body's surface
   double jump = 0;   // of that surface between the columns [m]
+  double end = 0;    // upper end of the interval [m]
+  // Conductance that a wall of water gains as it rises with the skin, over eps0; 0: it does not.
+  double per_rise = 0;
 };
 
 // Nodes from the electrode up to the body behind the skin, at heights of each column's own, so that
@@ -48,9 +51,12 @@ class FieldColumns {
   }
   // Integral of 1/eps over a cell [m].
   double resistance(std::size_t column, int cell) const { return resistance_[at(column, cell)]; }
-  bool bridged(std::size_t column) const { return top_[column] == below_; }
+  // Water stands on the film's surface; its node is the one there.
+  bool bridged(std::size_t column) const { return top_[column] <= below_ + 1; }
   int top(std::size_t column) const { return top_[column]; }  // the node at the upper body
-  // Nodes at a body have its potential: 1 at the electrode, 0 at the skin and in bridges.
+  // Height of the skin over a column that is not bridged, as far up as a wall of water reaches [m].
+  double skin(std::size_t column) const { return skin_[column]; }
+  // Nodes at a body have its potential: 1 at the electrode, 0 behind the skin.
   bool fixed(std::size_t column, int k) const { return k == 0 || k >= top_[column]; }
   double body_potential(int k) const { return k == 0 ? 1 : 0; }
 
@@ -65,7 +71,7 @@ class FieldColumns {
 
   Grid grid_;
   int below_, nodes_;
-  std::vector<double> z_, inverse_height_, rise_, permittivity_, resistance_;
+  std::vector<double> z_, inverse_height_, rise_, permittivity_, resistance_, skin_;
   std::vector<int> top_;
 };
 
@@ -76,9 +82,15 @@ void FieldColumns::exchanges(std::size_t i, std::size_t j, double face, Visit&& 
   // Nearer to the start of a body's slope the potential nearly is the body's: nothing flows.
   constexpr double kLeastShare = 1e-3;
   const double *a = &z_[at(i, 0)], *b = &z_[at(j, 0)];
-  const int top_a = top_[i], top_b = top_[j];
+  // Below water the media end at the film.
+  const int top_a = bridged(i) ? below_ : top_[i], top_b = bridged(j) ? below_ : top_[j];
   const bool water = bridged(i) != bridged(j);
-  const double highest = std::max(a[top_a], b[top_b]);
+  double highest = std::max(a[top_a], b[top_b]), wall_top = highest;
+  if (water) {
+    // Beside the skin's layer over water no wall stands.
+    wall_top = skin(bridged(i) ? j : i);
+    highest = std::max(wall_top, bridged(i) ? a[top_a] : b[top_b]);
+  }
   int p = -1, q = -1;  // cells that hold z; -1 below the column, top above it
   double z = std::min(a[0], b[0]);
   for (;;) {
@@ -110,6 +122,8 @@ void FieldColumns::exchanges(std::size_t i, std::size_t j, double face, Visit&& 
       e.here = in_a ? p : -1;
       e.there = in_b ? q : -1;
       e.conductance = medium * (end - z) * face;
+      if (e.body == Body::Water && end == wall_top) e.per_rise = medium * face;
+      e.end = end;
       visit(e);
     }
     z = end;

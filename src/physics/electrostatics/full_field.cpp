@@ -54,6 +54,7 @@ PotentialProblem potential_problem(const Gap& gap, const CoveredSurface* surface
   }
   potential.dielectric = surface ? surface->dielectric : std::vector<double>(n, p.dielectric);
   potential.skin_layer = p.skin_layer.real();
+  potential.water_skin_layer = p.water_skin_layer;
   if (p.screening) potential.bridged = wetting.bridged;
   if (p.droplet_enhancement && !p.zero_under_droplets) add_droplets(gap, wetting, potential);
   return potential;
@@ -96,6 +97,24 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
   out.over_limit_share = sum > 0 ? over_sum / sum : 0;
 }
 
+// Eq. electrostatics.9: of the voltage over a column's film, as ColumnLaw has it.
+double peak_oxide_field(const PotentialSolution& s, const CoveredSurface* surface,
+                        const FieldProblem& p) {
+  if (p.dielectric_thickness <= 0) return 0;
+  double strongest = 0;
+  for (std::size_t i = 0; i < s.surface_potential.size(); ++i) {
+    const double film = surface ? surface->effective[i] : p.dielectric;
+    if (film <= 0) continue;
+    const double flux = (1 - s.surface_potential[i]) / film;
+    const double of_film = p.film_phase * flux / std::hypot(1, p.skin_layer.imag() * flux);
+    strongest = std::max(strongest, std::min(of_film, 1 / film));
+  }
+  const double corner = surface && surface->walls && p.edge_radius > 0
+                            ? corner_factor(p.dielectric_thickness, p.edge_radius)
+                            : 1;
+  return p.v_peak * strongest * p.dielectric / p.dielectric_thickness * corner;
+}
+
 }  // namespace
 
 bool knows_skin_layer(const Grid& grid, const FieldProblem& problem) {
@@ -132,13 +151,7 @@ FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
     out.reason = "the 3-D field is not resolved on these pixels: its pull is negative";
   }
   out.peak_air_field = p.v_peak * s.peak_air;
-  out.peak_oxide_field = p.v_peak * s.peak_dielectric;
-  if (p.edge_radius > 0 && p.edge_radius < 2 * std::min(grid.dx(), grid.dy()) && surface &&
-      surface->walls) {
-    out.peak_oxide_field =
-        std::max(out.peak_oxide_field, p.v_peak / p.dielectric_thickness *
-                                           corner_factor(p.dielectric_thickness, p.edge_radius));
-  }
+  out.peak_oxide_field = peak_oxide_field(s, surface, p);
   return out;
 }
 

@@ -27,9 +27,10 @@ struct PotentialProblem {
   Grid grid;
   std::vector<double> electrode, surface, skin;
   std::vector<double> water_below, water_above;  // of droplets that do not bridge [m]; may be empty
-  std::vector<std::uint8_t> bridged;  // water at the body's potential fills the gap; may be empty
-  std::vector<double> dielectric;     // d/eps between electrode and surface [m]; empty: air
-  double skin_layer = 0;              // d/eps between skin surface and body [m]
+  std::vector<std::uint8_t> bridged;             // water that leads fills the gap; may be empty
+  std::vector<double> dielectric;  // d/eps between electrode and surface [m]; empty: air
+  double skin_layer = 0;           // d/eps between skin surface and body [m]
+  double water_skin_layer = 0;     // between water and body [m]; 0: water at its potential
 };
 
 // For one volt between electrode and body.
@@ -37,9 +38,11 @@ struct PotentialSolution {
   // Twice the stress on the skin over eps0, along z, per pixel of the projection [1/m^2]; 0 in
   // bridges. A little below zero where a pixel's share of the energy is small.
   std::vector<double> square_field;
-  double capacitance = 0;                    // over eps0 [m]
-  double peak_air = 0, peak_dielectric = 0;  // largest field at the skin, in a cell [1/m]
-  double residual = 0;                       // relative, energy norm, estimated
+  std::vector<double>
+      surface_potential;   // on the dielectric, per pixel; in water that of the water
+  double capacitance = 0;  // over eps0 [m]
+  double peak_air = 0;     // largest field at the skin [1/m]
+  double residual = 0;     // relative, energy norm, estimated
   int iterations = 0;
   bool ok = true;
   std::string reason;  // when not ok
@@ -48,11 +51,13 @@ struct PotentialSolution {
 // div(eps grad phi) = 0, phi = 1 on the electrode, 0 behind the skin's layer, periodic. Every pixel
 // is a column of nodes at heights of its own, on all interfaces; neighbours exchange flux at equal
 // heights, through half a pixel of either medium, and with the straight line between their
-// surfaces where one of them is a body. A flat stack and tilted parallel plates are exact. The
-// stress on the skin is the derivative of that energy, so it is consistent with the capacitance.
-// Conjugate gradients with one multigrid cycle (semi-coarsened in x and y, columns solved
-// exactly). Eq. electrostatics.13, 14. Not ok: no dielectric somewhere, values that are not finite,
-// or the iteration limit. Cost: 0.6 kB a pixel, 3 to 5 iterations, 5 us a pixel.
+// surfaces where one of them is a body. Each body of water floats at the potential at which as much
+// charge comes to it as its contact with the skin's layer passes on. A flat stack and tilted
+// parallel plates are exact. The stress on the skin is the derivative of that energy, so it is
+// consistent with the capacitance. Conjugate gradients with one multigrid cycle (semi-coarsened in
+// x and y, columns solved exactly). Eq. electrostatics.13, 14. Not ok: no dielectric somewhere,
+// values that are not finite, or the iteration limit. Cost: 0.6 kB a pixel, 3 to 5 iterations, 5 us
+// a pixel.
 PotentialSolution solve_potential(const PotentialProblem& problem, const PotentialOptions& options);
 
 // Price of one solve on one core of a usual machine [s].
@@ -64,13 +69,13 @@ double full_field_seconds(const Grid& grid);
 bool knows_skin_layer(const Grid& grid, const FieldProblem& problem);
 
 // The pull by the 3-D potential: p = eps0/2 E_n^2 on the skin's surface (Eq. electrostatics.14),
-// water bridges at the body's potential, droplets that do not bridge as dielectric caps; options
-// of the problem as in the local rule (water without screening: pull zero in bridges only). A lossy
-// layer: the potential sees its real part, and the imaginary part lowers the pull as in Eq.
-// electrostatics.1. surface as in solve_local_field. The peak field in
-// the dielectric is that of the grid, with its square edges, or where an edge radius is stated that
-// the grid does not resolve the larger of it and the flat value times Eq. electrostatics.8. Not ok:
-// as the potential, a layer of the skin that is too thick (knows_skin_layer), a pull below zero.
+// water bridges as conductors behind the skin's layer, droplets that do not bridge as dielectric
+// caps; options of the problem as in the local rule (water without screening: pull zero in bridges
+// only). A lossy layer: the potential sees its real part, and the imaginary part lowers the pull as
+// in Eq. electrostatics.1. surface as in solve_local_field. The peak field in the dielectric is
+// that of the voltage over the whole of it, as in the other rules: at the contact line of water and
+// at sharp edges the field itself has no largest value (Eq. electrostatics.9). Not ok: as the
+// potential, a layer of the skin that is too thick (knows_skin_layer), a pull below zero.
 FieldSolution solve_full_field(const Gap& gap, const CoveredSurface* surface,
                                const Wetting& wetting, const FieldProblem& problem,
                                const PotentialOptions& options = {});

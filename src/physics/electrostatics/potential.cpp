@@ -12,6 +12,7 @@
 #include "numerics/reductions.h"
 #include "physics/electrostatics/column_operator.h"
 #include "physics/electrostatics/field_columns.h"
+#include "physics/electrostatics/water_bodies.h"
 
 namespace papilla::electrostatics {
 namespace {
@@ -61,6 +62,7 @@ class PotentialSolver {
       : problem_(problem),
         options_(options),
         columns_(problem, dielectric_cells(problem, options), options.air_cells),
+        water_(problem.grid, problem.bridged, problem.water_skin_layer <= 0),
         unknowns_(columns_.nodes() - 2) {
     for (int iy = 0; iy < problem.grid.ny; ++iy) {
       for (int ix = 0; ix < problem.grid.nx; ++ix) first_.push_back(node(ix, iy, 1));
@@ -92,8 +94,19 @@ class PotentialSolver {
     for_each_face(g, [&](std::size_t i, int ix, int iy, const Neighbour& n) {
       columns_.exchanges(i, n.column, n.face,
                          [&](const Exchange& e) { add_exchange(a, e, i, ix, iy, n); });
+      tie_water(a, i, ix, iy, n);
     });
     return a;
+  }
+
+  // Water leads: nothing flows between potentials that it can have, but the multigrid, which does
+  // not know them, comes nearer to them.
+  void tie_water(ColumnOperator& m, std::size_t i, int ix, int iy, const Neighbour& n) {
+    constexpr double kFirm = 100;  // over what leads to the body
+    if (water_.grounded() || !columns_.bridged(i) || !columns_.bridged(n.column)) return;
+    const int k = columns_.cells_below_surface();
+    join(m, {i, ix, iy, k}, {n.column, n.ix, n.iy, k},
+         kFirm * problem_.grid.dy() / problem_.water_skin_layer);
   }
 
   struct Node {
@@ -163,7 +176,7 @@ class PotentialSolver {
       weight[count++] = sign * at.upper;
     };
     const auto put_body = [&](std::size_t column, int x, int y, double sign) {
-      nodes[count] = {column, x, y, e.body == Body::Electrode ? 0 : columns_.nodes() - 1};
+      nodes[count] = {column, x, y, body_node(e, column)};
       weight[count++] = sign;
     };
     e.here >= 0 ? put(i, ix, iy, e.here, 1) : put_body(i, ix, iy, 1);
@@ -175,6 +188,21 @@ class PotentialSolver {
         if (conductance != 0) join(m, nodes[p], nodes[q], conductance);
       }
     }
+  }
+
+  // The node that a column shows to its neighbour where that meets its body.
+  int body_node(const Exchange& e, std::size_t column) const {
+    if (e.body == Body::Electrode) return 0;
+    return columns_.bridged(column) ? columns_.cells_below_surface() : columns_.nodes() - 1;
+  }
+
+  // Potentials that the water can have, nearest to these at the nodes.
+  void level(std::vector<double>& values) const {
+    if (!water_.grounded()) water_.level(values, [&](std::size_t i) { return water_node(i); });
+  }
+  std::size_t water_node(std::size_t column) const {
+    return first_[column] +
+           static_cast<std::size_t>(columns_.cells_below_surface() - 1) * problem_.grid.nx;
   }
 
   // Every column by itself.
@@ -194,18 +222,21 @@ class PotentialSolver {
         }
       }
     }
+    level(phi_);
   }
 
   void iterate(ColumnMultigrid& multigrid, PotentialSolution& out) {
     const std::size_t n = phi_.size();
-    std::vector<double> r(n), q(n), s(n, 0.0);
+    std::vector<double> r(n), q(n), s(n, 0.0), z(n);
     multigrid.fine().apply(phi_, q);
     for (std::size_t o = 0; o < n; ++o) r[o] = drive_[o] - q[o];
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
+      level(r);
       for (std::size_t o = 0; o < n; ++o) multigrid.b()[o] = static_cast<float>(r[o]);
       multigrid.cycle();
-      const std::vector<float>& z = multigrid.x();
+      std::copy(multigrid.x().begin(), multigrid.x().end(), z.begin());
+      level(z);
       double rz = 0;
       for (std::size_t o = 0; o < n; ++o) rz += r[o] * z[o];
       out.residual = std::sqrt(std::max(rz, 0.0) / energy_);
@@ -258,7 +289,7 @@ class PotentialSolver {
                          [&](const Exchange& e) { add_loss(e, i, n.column, loss, out); });
     });
     for (std::size_t i = 0; i < g.size(); ++i) {
-      measure_dielectric(i, out);
+      out.surface_potential[i] = phi(i, columns_.cells_below_surface());
       if (columns_.bridged(i)) continue;
       out.square_field[i] = loss[i] / (g.dx() * g.dy());
       if (problem_.skin[i] > problem_.surface[i])
@@ -271,7 +302,7 @@ class PotentialSolver {
   void add_loss(const Exchange& e, std::size_t i, std::size_t j, std::vector<double>& loss,
                 PotentialSolution& out) const {
     const auto value = [&](std::size_t column, int cell) {
-      if (cell < 0) return e.body == Body::Electrode ? 1.0 : 0.0;
+      if (cell < 0) return phi(column, body_node(e, column));
       const Interpolation at = interpolate(columns_, column, cell, e.middle);
       return at.lower() * phi(column, cell) + at.upper * phi(column, cell + 1);
     };
@@ -288,42 +319,17 @@ class PotentialSolver {
     };
     falls(i, e.here, 1);
     falls(j, e.there, -1);
-    if (e.body != Body::Skin) return;
     const std::size_t own = e.here >= 0 ? i : j, other = e.here >= 0 ? j : i;
+    if (e.per_rise > 0) {
+      const int cell = e.here >= 0 ? e.here : e.there;
+      const Interpolation at = interpolate(columns_, own, cell, e.end);
+      const double top = at.lower() * phi(own, cell) + at.upper * phi(own, cell + 1);
+      loss[own] -= e.per_rise * square(top - phi(other, body_node(e, other)));
+    }
+    if (e.body != Body::Skin) return;
     const double energy = e.conductance * square(difference) / e.jump;
     loss[own] += energy * (1 - e.share) / e.share;
     loss[other] += energy;
-  }
-
-  // Largest field at the cells of a column's dielectric.
-  void measure_dielectric(std::size_t i, PotentialSolution& out) const {
-    const Grid& g = problem_.grid;
-    const int ix = static_cast<int>(i % g.nx), iy = static_cast<int>(i / g.nx);
-    for (int k = 0; k < columns_.cells_below_surface(); ++k) {
-      const double z = 0.5 * (columns_.z(i, k) + columns_.z(i, k + 1));
-      double field =
-          square((phi(i, k) - phi(i, k + 1)) / (columns_.z(i, k + 1) - columns_.z(i, k)));
-      for (const bool along_x : {true, false}) {
-        const auto beside = [&](int step) {
-          return g.index(wrap(ix + (along_x ? step : 0), g.nx),
-                         wrap(iy + (along_x ? 0 : step), g.ny));
-        };
-        const double across = (at_height(beside(1), z) - at_height(beside(-1), z)) /
-                              (2 * (along_x ? g.dx() : g.dy()));
-        field += square(across);
-      }
-      out.peak_dielectric = std::max(out.peak_dielectric, std::sqrt(field));
-    }
-  }
-
-  double at_height(std::size_t column, double z) const {
-    if (z <= columns_.z(column, 0)) return 1;
-    for (int k = 0; k < columns_.top(column); ++k) {
-      if (z > columns_.z(column, k + 1)) continue;
-      const Interpolation at = interpolate(columns_, column, k, z);
-      return at.lower() * phi(column, k) + at.upper * phi(column, k + 1);
-    }
-    return 0;
   }
 
   std::size_t node(int ix, int iy, int k) const {
@@ -337,6 +343,7 @@ class PotentialSolver {
   const PotentialProblem& problem_;
   const PotentialOptions& options_;
   FieldColumns columns_;
+  WaterBodies water_;
   int unknowns_;                    // of a column
   std::vector<std::size_t> first_;  // node of each column
   std::vector<double> drive_;       // of the electrode's volt
@@ -361,6 +368,7 @@ PotentialSolution solve_potential(const PotentialProblem& problem,
                 "heights on one grid, and room for droplets in the air");
   PotentialSolution out;
   out.square_field.assign(n, 0);
+  out.surface_potential.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const double total = problem.skin[i] - problem.electrode[i] + problem.skin_layer;
     if (!std::isfinite(total) || !std::isfinite(problem.surface[i]))

@@ -17,13 +17,19 @@ namespace {
 
 constexpr double kReach = 4;        // tanh^2(4) = 0.9987
 constexpr double kLeastGap = 1e-9;  // [m]
+// Of the first and second power of the water's potential, per length of grounded water and per gap.
+// Those of the length add up to 1: in a gap that closes nothing is lost. Eq. electrostatics.19
+constexpr double kOfLength[] = {0.954, 0.046};
+constexpr double kOfGap[] = {0.419, -1.169};
 
 // Eqs. electrostatics.3 and 16: tanh^2 of the root of u, u at most kReach^2, within 2e-6: the ninth
 // step of its continued fraction.
-double tanh_square(double u) {
-  const double above = 34459425 + u * (4729725 + u * (135135 + u * (990 + u)));
-  const double below = 34459425 + u * (16216200 + u * (945945 + u * (13860 + u * 45)));
-  return u * square(above / below);
+template <class T>
+T tanh_square(const T& u) {
+  const T above = 34459425.0 + u * (4729725.0 + u * (135135.0 + u * (990.0 + u)));
+  const T below = 34459425.0 + u * (16216200.0 + u * (945945.0 + u * (13860.0 + u * 45.0)));
+  const T ratio = above / below;
+  return u * (ratio * ratio);
 }
 
 // The factor at distances of `step` times the root of `squared`, over the widths in `out`; 1 from
@@ -44,11 +50,15 @@ double profile_width(double radius, double reach) {
          (2 * kLn2);
 }
 
-void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
+// What the pull keeps where grounded water would leave a share.
+double left_of(double grounded, double lost) { return grounded + (1 - lost) * (1 - grounded); }
+
+void screen_disc(const Grid& grid, const Droplet& bridge, const WaterLayers& layers,
                  std::vector<double>& factor) {
   const double edge_gap = std::max(bridge.edge_gap, kLeastGap);
-  const double width =
-      profile_width(bridge.radius, screening_reach(edge_gap, thickness, bridge.radius));
+  const double width = profile_width(
+      bridge.radius, screening_reach(edge_gap + layers.skin, layers.thickness, bridge.radius));
+  const double lost = lost_share(edge_gap, layers);
   const double reach = bridge.radius + kReach * width;
   const double dx = grid.dx(), dy = grid.dy();
   // The window holds every pixel once, however wide the reach is.
@@ -67,7 +77,8 @@ void screen_disc(const Grid& grid, const Droplet& bridge, double thickness,
       const double r2 = x * x + y * y;
       if (r2 >= reach * reach) continue;
       const double distance = (std::sqrt(r2) - bridge.radius) / width;
-      const double fade = distance <= 0 ? 0 : tanh_square(square(std::min(distance, kReach)));
+      const double faded = distance <= 0 ? 0 : tanh_square(square(std::min(distance, kReach)));
+      const double fade = left_of(faded, lost);
       row[column] *= bridge.film > 0 ? std::pow(fade, 1 - bridge.film) : fade;
     }
   }
@@ -100,72 +111,151 @@ void row_distance(const std::uint8_t* wet, int n, float step, float* out) {
 // more elsewhere.
 class WaterDistance {
  public:
+  // potential: of the wet pixels; null: not asked for.
   template <class Most>
-  WaterDistance(const Grid& g, const std::vector<std::uint8_t>& wet, const Most& most)
-      : step_(g.dy()), grid_(g), along_(g.size()), reach_(g.size()), squared_(g.size()) {
+  WaterDistance(const Grid& g, const std::vector<std::uint8_t>& wet, const Most& most,
+                const std::vector<double>* potential = nullptr)
+      : step_(g.dy()),
+        grid_(g),
+        along_(g.size()),
+        reach_(g.size()),
+        squared_(g.size()),
+        beside_(potential ? g.size() : 0),
+        potential_(beside_.size()) {
     const double rows_per_metre = 1 / g.dy();
     for (int iy = 0; iy < g.ny; ++iy) {
       const std::size_t row = g.index(0, iy);
       row_distance(wet.data() + row, g.nx, static_cast<float>(g.dx() / g.dy()), &along_[row]);
+      if (potential)
+        row_potential(wet.data() + row, potential->data() + row, &along_[row], &beside_[row]);
       for (std::size_t i = row; i < row + static_cast<std::size_t>(g.nx); ++i)
         reach_[i] = static_cast<float>(std::min(most(i) * rows_per_metre, 0.5 * g.ny));
     }
     for (int iy = 0; iy < g.ny; ++iy) {
       for_each_pixel<float>(static_cast<std::size_t>(g.nx), [&](auto at) {
-        at.store(&squared_[grid_.index(0, iy)], nearest_row(at, iy));
+        if (potential) {
+          at.store(&squared_[grid_.index(0, iy)], nearest_row<true>(at, iy));
+        } else {
+          at.store(&squared_[grid_.index(0, iy)], nearest_row<false>(at, iy));
+        }
       });
     }
   }
   double operator()(std::size_t i) const { return step_ * std::sqrt(squared_[i]); }  // [m]
-  std::span<const float> squared() const { return squared_; }  // in steps of a row
+  std::span<const float> squared() const { return squared_; }      // in steps of a row
+  std::span<const float> potential() const { return potential_; }  // of the nearest wet pixel
 
  private:
   // Of one pixel or several side by side: rows farther and farther off, until none of the pixels
   // asks for one as far, or all know a nearer one.
-  template <class At>
-  auto nearest_row(const At& at, int iy) const {
+  template <bool kPotential, class At>
+  auto nearest_row(const At& at, int iy) {
     constexpr int kLooks = 4;  // rows between two looks at what the pixels know
-    auto nearest = at(&along_[grid_.index(0, iy)]);
+    auto nearest = at(&along_[grid_.index(0, iy)]), potential = nearest;
+    if constexpr (kPotential) potential = at(&beside_[grid_.index(0, iy)]);
     const int rows = static_cast<int>(largest_of(at(&reach_[grid_.index(0, iy)])));
     float farthest = largest_of(nearest);
     for (int j = 1, up = iy, down = iy; j <= rows && static_cast<float>(j * j) < farthest; ++j) {
       if (++up == grid_.ny) up = 0;
       if (down-- == 0) down = grid_.ny - 1;
       const auto above = at(&along_[grid_.index(0, up)]), below = at(&along_[grid_.index(0, down)]);
-      nearest = smaller(smaller(above, below) + static_cast<float>(j * j), nearest);
+      const auto nearer = smaller(above, below) + static_cast<float>(j * j);
+      if constexpr (kPotential) {
+        const auto of_row = chosen(above < below, at(&beside_[grid_.index(0, up)]),
+                                   at(&beside_[grid_.index(0, down)]));
+        potential = chosen(nearer < nearest, of_row, potential);
+      }
+      nearest = smaller(nearer, nearest);
       if (j % kLooks == 0) farthest = largest_of(nearest);
     }
+    if constexpr (kPotential) at.store(&potential_[grid_.index(0, iy)], potential);
     return nearest;
+  }
+
+  // Of the nearest wet pixel of a row; the lower one's of two.
+  void row_potential(const std::uint8_t* wet, const double* potential, const float* squared,
+                     float* out) const {
+    const int n = grid_.nx;
+    const auto step = static_cast<float>(grid_.dx() / grid_.dy());
+    if (std::isinf(squared[0])) return std::fill(out, out + n, 0.0F);
+    for (int i = 0; i < n; ++i) {
+      const int pixels = static_cast<int>(std::lround(std::sqrt(squared[i]) / step));
+      const int before = wrap(i - pixels, n);
+      out[i] = static_cast<float>(potential[wet[before] ? before : wrap(i + pixels, n)]);
+    }
   }
 
   double step_;
   const Grid& grid_;
   // Squared distance along the row, and how far a pixel asks, both in steps of a row.
   UnsetArray<float> along_, reach_;
-  UnsetArray<float> squared_;  // to the nearest wet pixel
+  UnsetArray<float> squared_;             // to the nearest wet pixel
+  UnsetArray<float> beside_, potential_;  // of the nearest wet pixel, in the row and at all
 };
+
+// What water at U = u phi adds to the pull of a column, where grounded water leaves t of it. Eq.
+// electrostatics.20
+template <class T>
+T excess(const T& t, const T& u, const T& corner) {
+  const T field = t + u * (1.0 - t);
+  return field * field / (t + corner * (1.0 - t)) - t;
+}
+
+// Of the field between the wall and the skin beside it; h, reach, gap, film [m]. Fitted.
+template <class T>
+T corner_share(double h, const T& reach, const T& gap, const T& film) {
+  const T share = h / reach;
+  return share * (3.3 + 0.8 * gap / (film + 0.14 * share * gap));
+}
+
+// The mean over a pixel, from where its side to the water is to where its far side is.
+void add_wall_pull(const WaterDistance& distance, const WallFields& wall, double pixel,
+                   double row_step, const std::vector<double>& width, std::vector<double>& factor) {
+  // Gauss and Legendre's: places in the pixel, weights.
+  constexpr double kAt[][2] = {{-0.930568155797026, 0.173927422568727},
+                               {-0.669990521792428, 0.326072577431273},
+                               {-0.330009478207572, 0.326072577431273},
+                               {-0.069431844202974, 0.173927422568727}};
+  for_each_pixel(factor.size(), [&](auto at) {
+    const auto phi = at(wall.potential), per_width = 1.0 / at(width);
+    const auto far = row_step * root(at(distance.squared()));
+    const auto u = at(distance.potential()) / phi;
+    const auto corner =
+        corner_share(wall.skin, at(wall.reach), kPi / 2 * at(width), at(wall.dielectric));
+    auto sum = 0.0 * far;
+    for (const auto& [place, weight] : kAt) {
+      const auto x = (far + pixel * place) * per_width;
+      const auto t = tanh_square(smaller(x * x, square(kReach)));
+      sum = sum + weight * excess(t, u, corner);
+    }
+    const auto near = far > 0.0 && (far - pixel) * per_width < kReach && phi > 0.0;
+    at.store(factor, at(factor) + chosen(near, sum, 0.0));
+  });
+}
 
 // share: how much of a film it is; the factor to that power.
 void screen_film(const Gap& gap, const std::vector<std::uint8_t>& wet, double share,
-                 double thickness, std::vector<double>& factor) {
+                 const WaterLayers& layers, std::vector<double>& factor) {
   // The fit never exceeds 0.64 gaps + 0.42 thicknesses.
-  const auto farthest = [&](double g) { return kReach * (0.64 * g + 0.42 * thickness); };
+  const auto farthest = [&](double g) {
+    return kReach * (0.64 * (g + layers.skin) + 0.42 * layers.thickness);
+  };
   const auto gap_at = [&](std::size_t i) { return std::max(gap.value[i], kLeastGap); };
   const WaterDistance distance(gap.grid, wet, [&](std::size_t i) { return farthest(gap_at(i)); });
   for (std::size_t i = 0; i < factor.size(); ++i) {
     const double g = gap_at(i);
     if (distance(i) >= farthest(g)) continue;  // spares the power
-    const double x = distance(i) / screening_length(g, thickness);
+    const double x = distance(i) / screening_length(g + layers.skin, layers.thickness);
     if (x >= kReach) continue;
-    const double fade = tanh_square(square(x));
+    const double fade = left_of(tanh_square(square(x)), lost_share(g, layers));
     factor[i] *= share < 1 ? std::pow(fade, share) : fade;
   }
 }
 
 // Water that is on its way from disc to film fades as both, by its share (Eq. capillary.22).
-void screen_films(const Gap& gap, const Wetting& wetting, double thickness,
+void screen_films(const Gap& gap, const Wetting& wetting, const WaterLayers& layers,
                   std::vector<double>& factor) {
-  if (wetting.film.empty()) return screen_film(gap, wetting.bridged, 1, thickness, factor);
+  if (wetting.film.empty()) return screen_film(gap, wetting.bridged, 1, layers, factor);
   double share = 0;
   for (const Droplet& drop : wetting.droplets) {
     if (drop.film < 1) share = std::max(share, drop.film);
@@ -177,7 +267,7 @@ void screen_films(const Gap& gap, const Wetting& wetting, double thickness,
       wet[i] = wetting.film[i] == kind;
       any = any || wet[i];
     }
-    if (any) screen_film(gap, wet, kind == FilmPixel::Film ? 1 : share, thickness, factor);
+    if (any) screen_film(gap, wet, kind == FilmPixel::Film ? 1 : share, layers, factor);
   }
 }
 
@@ -195,18 +285,29 @@ double screening_reach(double gap, double dielectric_thickness, double bridge_ra
          (1 - 0.23027 * i / (1 + 2 * i));
 }
 
+double lost_share(double gap, const WaterLayers& layers) {
+  if (layers.skin <= 0) return 1;
+  const double g = std::max(gap, kLeastGap), h = layers.skin, reach = g + h;
+  // The water's potential over that of the film far from it, by the dividers of both.
+  const double u = h * (reach + layers.dielectric) / (reach * (h + layers.dielectric));
+  const double per_gap = g / screening_length(reach, layers.thickness);
+  return std::min(1 - u * (kOfLength[0] + per_gap * kOfGap[0]) -
+                      square(u) * (kOfLength[1] + per_gap * kOfGap[1]),
+                  1.0);
+}
+
 std::vector<double> screening_factor(const Gap& gap, const Wetting& wetting,
-                                     double dielectric_thickness, bool fade) {
+                                     const WaterLayers& layers, bool fade) {
   const bool wet = wetting.bridges > 0 || wetting.status == WettingStatus::Film;
   if (!wet && wetting.bridged.empty()) return {};
   std::vector<double> factor(gap.grid.size(), 1.0);
   if (wet && fade) {
     if (wetting.status == WettingStatus::Film && !wetting.bridged.empty()) {
-      screen_films(gap, wetting, dielectric_thickness, factor);
+      screen_films(gap, wetting, layers, factor);
     }
     for (const Droplet& drop : wetting.droplets) {
       if (drop.state == DropletState::Bridge && drop.film < 1) {
-        screen_disc(gap.grid, drop, dielectric_thickness, factor);
+        screen_disc(gap.grid, drop, layers, factor);
       }
     }
   }
@@ -218,17 +319,22 @@ std::vector<double> screening_factor(const Gap& gap, const Wetting& wetting,
   return factor;
 }
 
-std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting, bool fade) {
+std::vector<double> air_screening_factor(const Gap& gap, const Wetting& wetting, bool fade,
+                                         const WallFields* wall) {
   const auto wet = [](std::uint8_t pixel) { return pixel != 0; };
   if (std::none_of(wetting.bridged.begin(), wetting.bridged.end(), wet)) return {};
-  if (!fade) return screening_factor(gap, wetting, 0, false);
-  std::vector<double> factor(gap.grid.size());
-  for (std::size_t i = 0; i < factor.size(); ++i) {
-    factor[i] = 2 / kPi * std::max(gap.value[i], kLeastGap);
+  if (!fade) return screening_factor(gap, wetting, {}, false);
+  std::vector<double> width(gap.grid.size());
+  for (std::size_t i = 0; i < width.size(); ++i) {
+    width[i] = 2 / kPi * std::max(gap.value[i], kLeastGap);
   }
-  const WaterDistance distance(gap.grid, wetting.bridged,
-                               [&](std::size_t i) { return kReach * factor[i]; });
+  const double pixel = wall ? std::min(gap.grid.dx(), gap.grid.dy()) : 0;
+  const WaterDistance distance(
+      gap.grid, wetting.bridged, [&](std::size_t i) { return kReach * width[i] + pixel; },
+      wall ? &wall->potential : nullptr);
+  std::vector<double> factor = width;
   fade_out(distance.squared(), gap.grid.dy(), factor);
+  if (wall) add_wall_pull(distance, *wall, pixel, gap.grid.dy(), width, factor);
   return factor;
 }
 

@@ -13,6 +13,7 @@
 #include "numerics/reductions.h"
 #include "physics/electrostatics/pull.h"
 #include "physics/electrostatics/screening.h"
+#include "physics/electrostatics/water_bodies.h"
 
 namespace papilla::electrostatics {
 namespace {
@@ -108,7 +109,8 @@ struct Columns {
   const AirColumns& above;
   double skin_layer;                      // d/eps [m]
   const std::vector<double>& dielectric;  // d/eps [m]
-  const std::vector<std::uint8_t>& wet;   // empty: nowhere
+  const WaterBodies& water;
+  double water_skin_layer;  // d/eps [m]
 
   // From the film to the skin [m].
   template <class At>
@@ -120,10 +122,12 @@ struct Columns {
   }
 };
 
-// phi for one volt on the electrode: K phi + (1/D - eps/d + c) phi = 1/D, zero on wet pixels; K of
-// a flat layer of the mean thickness d, D the d/eps of each column, c one over its distance to the
-// skin. Conjugate gradients preconditioned by 1/(K + mean of the rest) between weights that follow
-// it. Eq. electrostatics.16
+// phi for one volt on the electrode: K phi + (1/D - eps/d + c) phi = 1/D; K of a flat layer of the
+// mean thickness d, D the d/eps of each column, c one over its distance to the skin, under water
+// one over the skin's layer. Each body of water has one potential: of the equations under it the
+// sum counts, that is what charges the body. Conjugate gradients among such potentials,
+// preconditioned by 1/(K + mean of the rest) between weights that follow it, and each body by
+// itself. Eq. electrostatics.16
 template <class Real>
 class SurfacePotential {
  public:
@@ -131,19 +135,21 @@ class SurfacePotential {
       : filter_(columns.gap.grid),
         film_(known_film_response<Real>(columns.gap.grid, thickness, permittivity)),
         n_(columns.gap.grid.size()),
+        water_(columns.water),
         c_(n_),
-        dry_(n_),
         drive_(n_),
         start_(n_),
         weight_(n_) {
     const auto flat = static_cast<Real>(permittivity / thickness);
-    if (columns.wet.empty()) std::fill(dry_.begin(), dry_.end(), Real{1});
-    for (std::size_t i = 0; i < columns.wet.size(); ++i) dry_[i] = columns.wet[i] ? 0 : 1;
     UnsetArray<Real>& distance = start_;
     for_each_pixel(n_, [&](auto at) {
       at.store(distance, columns.distance(at));
       at.store(drive_, at(columns.dielectric));
     });
+    if (!water_.grounded()) {
+      for (const std::size_t i : water_.pixels())
+        distance[i] = static_cast<Real>(columns.water_skin_layer);
+    }
     // Contact spots of a bare skin raise c by orders of magnitude over a few pixels: the weight
     // follows c where it exceeds what K couples a pixel with, k; the rest is left to K + mean c,
     // the mean taken as 1/(k + c).
@@ -152,7 +158,7 @@ class SurfacePotential {
       const auto drive = Real{1} / at(drive_), conductance = Real{1} / at(distance);
       at.store(drive_, drive);
       // The columns by themselves.
-      at.store(start_, at(dry_) * drive / (drive + conductance));
+      at.store(start_, drive / (drive + conductance));
       // At least what keeps the sum with K positive.
       const auto c = conductance + (drive - flat), weight = Real{1} / (k + c);
       at.store(c_, c);
@@ -160,8 +166,20 @@ class SurfacePotential {
       return weight;
     });
     const double level = static_cast<double>(n_) / all;  // k + mean c
-    for_each_pixel<Real>(n_, [&](auto at) {
-      at.store(weight_, at(dry_) * root(static_cast<Real>(level) * at(weight_)));
+    for_each_pixel<Real>(
+        n_, [&](auto at) { at.store(weight_, root(static_cast<Real>(level) * at(weight_))); });
+    water_.level(start_, own_place);
+    water_.each([&](const std::size_t* begin, const std::size_t* end) {
+      const auto pixels = static_cast<double>(end - begin);
+      double sum = 0;
+      for (const std::size_t* p = begin; p != end; ++p) {
+        sum += c_[*p];
+        weight_[*p] = 0;
+      }
+      // K of one pixel and of a body that covers all, between them by its edge.
+      const double flat_film = film_->half[0];
+      const double coupled = flat_film + (film_->mean - flat_film) / std::sqrt(pixels);
+      of_body_.push_back(water_.grounded() ? 0 : pixels / (sum + pixels * coupled));
     });
     RealArray inverse(film_->half.size());
     const double scale = 1 / static_cast<double>(n_);
@@ -177,16 +195,17 @@ class SurfacePotential {
     apply(phi, q);
     // The first guess, good to a fraction, gives the scale of the residual.
     const double energy = sum_over<Real>(n_, [&](auto at) {
-      const auto drive = at(drive_), left = at(dry_) * drive - at(q);
+      const auto drive = at(drive_), left = drive - at(q);
       at.store(r, left);
       at.store(q, at(weight_) * left);
       return at(phi) * drive;
     });
     double old = 0;
     for (out.iterations = 0;; ++out.iterations) {
+      water_.level(r, own_place);
       // q: the weighted residual.
       filter_.apply(q, inverse_, z);
-      const double rz = weigh(r, z);
+      const double rz = weigh(r, z) + charge(r, z);
       out.residual = energy > 0 ? std::sqrt(std::max(rz, 0.0) / energy) : 0;
       if (!std::isfinite(rz) || !std::isfinite(energy) || out.iterations == kMaxIterations) {
         out.ok = false;
@@ -210,11 +229,11 @@ class SurfacePotential {
   }
 
  private:
-  // out = (K + c) in on dry pixels; in . out.
+  // out = (K + c) in; in . out.
   double apply(const UnsetArray<Real>& in, UnsetArray<Real>& out) {
     filter_.apply(in, film_->symbol, out);
     return sum_over<Real>(n_, [&](auto at) {
-      const auto here = at(in), there = at(dry_) * (at(out) + at(c_) * here);
+      const auto here = at(in), there = at(out) + at(c_) * here;
       at.store(out, there);
       return here * there;
     });
@@ -228,15 +247,29 @@ class SurfacePotential {
     });
   }
 
+  // z of the bodies, each by itself; their part of r . z.
+  double charge(const UnsetArray<Real>& r, UnsetArray<Real>& z) const {
+    double sum = 0;
+    auto of_body = of_body_.begin();
+    water_.each([&](const std::size_t* begin, const std::size_t* end) {
+      const auto by = static_cast<Real>(*of_body++ * r[*begin]);
+      for (const std::size_t* p = begin; p != end; ++p) z[*p] = by;
+      sum += static_cast<double>(end - begin) * r[*begin] * by;
+    });
+    return sum;
+  }
+  static std::size_t own_place(std::size_t pixel) { return pixel; }
+
   Filter<Real> filter_;
   std::shared_ptr<const FilmResponse<Real>> film_;
-  std::size_t n_;               // pixels
-  UnsetArray<Real> c_;          // beside K [1/m]
-  UnsetArray<Real> dry_;        // 0 under bridges, 1 elsewhere
-  UnsetArray<Real> drive_;      // 1/D [1/m]
-  UnsetArray<Real> start_;      // the columns by themselves, 0 under bridges
-  UnsetArray<Real> weight_;     // of the preconditioner, either side of 1/(K + mean c)
-  AlignedArray<Real> inverse_;  // 1/(K + mean c) as the filter takes it
+  std::size_t n_;  // pixels
+  const WaterBodies& water_;
+  UnsetArray<Real> c_;           // beside K [1/m]
+  UnsetArray<Real> drive_;       // 1/D [1/m]
+  UnsetArray<Real> start_;       // the columns by themselves
+  UnsetArray<Real> weight_;      // of the preconditioner, either side of 1/(K + mean c); 0 in water
+  std::vector<double> of_body_;  // the preconditioner of each body of water [m]
+  AlignedArray<Real> inverse_;   // 1/(K + mean c) as the filter takes it
 };
 
 template <class Real>
@@ -254,15 +287,25 @@ FieldSolution solve_spread_field(const Gap& gap, const CoveredSurface* surface,
     return solve_local_field(gap, surface, wetting, p);
   const AirColumns above = columns_above(gap, wetting, p);
   const std::vector<double> flat(surface ? 0 : gap.grid.size(), p.dielectric);
-  const Columns columns{gap, above, p.skin_layer.real(), surface ? surface->effective : flat,
-                        wetting.bridged};
+  const WaterBodies water(gap.grid, wetting.bridged, p.water_skin_layer <= 0);
+  const Columns columns{gap,
+                        above,
+                        p.skin_layer.real(),
+                        surface ? surface->effective : flat,
+                        water,
+                        p.water_skin_layer};
   const double permittivity = p.dielectric_thickness / p.dielectric;
   FieldSolution status;
   const std::vector<double> potential =
       tolerance < kSinglePrecision
           ? surface_potential<double>(columns, permittivity, tolerance, status)
           : surface_potential<float>(columns, permittivity, tolerance, status);
-  const std::vector<double> open = air_screening_factor(gap, wetting, p.screening);
+  std::vector<double> reach(water.grounded() ? 0 : gap.grid.size());
+  if (!water.grounded())
+    for_each_pixel(reach.size(), [&](auto at) { at.store(reach, columns.distance(at)); });
+  const WallFields wall{potential, columns.dielectric, reach, p.water_skin_layer};
+  const std::vector<double> open =
+      air_screening_factor(gap, wetting, p.screening, water.grounded() ? nullptr : &wall);
   FieldSolution out = pull(gap, surface, p, above, {.open = open, .potential = potential});
   out.residual = status.residual;
   out.iterations = status.iterations;
