@@ -13,6 +13,7 @@
 #include "config/reader.h"
 #include "design/design.h"
 #include "forward/forward.h"
+#include "forward/scene_terms.h"
 #include "numerics/statistics.h"
 #include "physics/electrostatics/breakdown.h"
 
@@ -54,11 +55,16 @@ Network given_network(const DriveCase& c) {
 Network design_network(const DriveCase& c, double& area) {
   const Design design = read_design(c.gap.design);
   Fidelity fidelity = fidelity_of(design);
-  const Scene scene = scene_of(design);
+  const Scene scene = in_its_state(scene_of(design));
   const double rh = c.gap.relative_humidity;
+  const ElectricalLayer& electrical = scene.finger.electrical;
+  if (electrical.skin_exponent != 1 || electrical.gap_exponent != 1)
+    throw InputError(c.gap.design +
+                     ": a network of resistors and capacitors does not disperse: set "
+                     "finger.electrical.skin_exponent and gap_exponent to 1");
   const MacroContact& macro = scene.finger.macro;
   area = macro.load_share * macro.gross_area(scene.finger.load, rh);
-  const double skin = scene.finger.electrical.equivalent_thickness(rh);
+  const double skin = scene.finger.skin_layer(rh);
   const double h0 = scene.surface.equivalent_thickness() + skin;
   if (h0 <= 0) {
     throw InputError(c.gap.design +
@@ -78,7 +84,7 @@ Network design_network(const DriveCase& c, double& area) {
   n.dielectric = stack(scene.surface.layers(), area);
   if (skin > 0) {
     const double capacitance = kVacuumPermittivity * area / skin;
-    const double corner = scene.finger.electrical.corner_frequency;
+    const double corner = electrical.corner_frequency;
     n.skin = {corner > 0 ? 1 / (2 * kPi * corner * capacitance) : kInfinity, capacitance};
   }
   const double distance = 1 / inverse - h0;
@@ -106,7 +112,7 @@ double spots_conductance(const DriveCase& c, double area) {
     }
     stiffness += (pressure[1] - pressure[0]) / (gap[0] - gap[1]) / c.gap.skins;
   }
-  const Skin& skin = design.finger.skin;
+  const Skin skin = design.finger.applied().skin;
   const double modulus =
       skin.layer_modulus * skin.modulus_factor(rh) / (1 - square(skin.layer_poisson));
   return 2 * stiffness * area / (modulus * c.skin.resistivity);

@@ -29,10 +29,27 @@ double gap_corner(const Scene& scene) {
   return corner_frequency(1, scene.finger.electrical.gap_resistivity);
 }
 
-// Share of a layer's d/eps that counts beside what conducts with a corner of its own: the ratio of
-// their complex permittivities.
-Complex beside(double other_corner, double layer_corner, double f) {
-  return Complex(other_corner, f) / Complex(layer_corner, f);
+// Complex permittivities over that of the lossless material, times the frequency [Hz]: what an
+// element conducts, its storing part along the imaginary axis.
+//
+// A resistor beside a capacitor.
+Complex conducts(double corner, double f) { return {corner, f}; }
+
+// Of the stratum corneum: a resistor beside a constant-phase element that is the capacitor of the
+// stated thickness at `dispersion_frequency`. Eq. drive.19
+Complex skin_conducts(const ElectricalLayer& skin, double f) {
+  if (skin.skin_exponent == 1) return conducts(skin.corner_frequency, f);  // to the last bit
+  const double turned = 0.5 * kPi * skin.skin_exponent;
+  const double stores = f * std::pow(f / skin.dispersion_frequency, skin.skin_exponent - 1);
+  return {skin.corner_frequency + stores * std::cos(turned), stores * std::sin(turned)};
+}
+
+// Of the gap: its capacitor of air beside leakage whose conductance rises above its corner. Eq.
+// drive.20
+Complex gap_conducts(const Scene& scene, double f) {
+  const double corner = gap_corner(scene), exponent = scene.finger.electrical.gap_exponent;
+  if (exponent == 1 || corner <= 0) return conducts(corner, f);
+  return Complex(0, f) + corner * std::pow(Complex(1, f / corner), 1 - exponent);
 }
 
 // Volts that one ampere through the finger needs, peak for peak.
@@ -44,9 +61,9 @@ double impedance(const Scene& scene, double relative_humidity) {
   const double gap = capacitive_gap(finger, ridges.mean_pressure,
                                     scene.surface.equivalent_thickness(), relative_humidity);
   const Complex thickness = gap + layers.film(scene.surface) + layers.skin;
-  const Complex conducts = 2 * kPi * kVacuumPermittivity * ridges.area *
-                           Complex(gap_corner(scene), frequency(scene.drive));
-  return std::abs(thickness / conducts);
+  const Complex per_thickness =
+      2 * kPi * kVacuumPermittivity * ridges.area * gap_conducts(scene, frequency(scene.drive));
+  return std::abs(thickness / per_thickness);
 }
 
 // What the impedance depends on.
@@ -70,31 +87,32 @@ Complex SeriesLayers::film(const Surface& surface) const {
 }
 
 SeriesLayers series_layers(const Scene& scene, double relative_humidity) {
-  const double f = frequency(scene.drive), gap = gap_corner(scene);
-  const ElectricalLayer& skin = scene.finger.electrical;
+  const double f = frequency(scene.drive);
+  // Share of a layer's d/eps that counts in the gap: the ratio of their complex permittivities.
+  const Complex gap = gap_conducts(scene, f);
   SeriesLayers out;
   for (const FilmDielectric& layer : scene.surface.dielectric) {
-    const Complex counts = beside(gap, layer.corner_frequency(), f);
+    const Complex counts = gap / conducts(layer.corner_frequency(), f);
     out.of_film.emplace_back(std::clamp(counts.real(), kThinnest, kThickest), counts.imag());
   }
-  out.skin = skin.equivalent_thickness(relative_humidity) * beside(gap, skin.corner_frequency, f);
+  const Complex counts = gap / skin_conducts(scene.finger.electrical, f);
+  out.skin = scene.finger.skin_layer(relative_humidity) * counts;
   return out;
 }
 
 double wetted_series(const Scene& scene, double relative_humidity) {
   const double f = frequency(scene.drive);
-  const ElectricalLayer& skin = scene.finger.electrical;
   // d/eps of each and, beside water, the part of it that does not conduct.
   Complex all = 0;
   double energy = 0;
-  const auto add = [&](double thickness, double corner) {
-    const Complex z = thickness * beside(0, corner, f);
+  const auto add = [&](double thickness, Complex layer) {
+    const Complex z = thickness * (Complex(0, f) / layer);
     all += z;
-    if (thickness > 0) energy += std::norm(z) / thickness;
+    if (thickness > 0) energy += std::norm(z) / thickness * (layer.imag() / f);
   };
   for (const FilmDielectric& layer : scene.surface.dielectric)
-    add(layer.equivalent_thickness(), layer.corner_frequency());
-  add(skin.equivalent_thickness(relative_humidity), skin.corner_frequency);
+    add(layer.equivalent_thickness(), conducts(layer.corner_frequency(), f));
+  add(scene.finger.skin_layer(relative_humidity), skin_conducts(scene.finger.electrical, f));
   return energy > 0 ? std::norm(all) / energy : 0;
 }
 
@@ -128,7 +146,7 @@ double relaxation_time(const Scene& scene, double relative_humidity, double gap)
   // Charge between film and gap: of capacitances in parallel through conductances in parallel.
   const ElectricalLayer& skin = scene.finger.electrical;
   // d/eps over the corner is resistance: of layers in series they add up.
-  double film = skin.equivalent_thickness(relative_humidity);
+  double film = scene.finger.skin_layer(relative_humidity);
   double resistance = film > 0 ? film / skin.corner_frequency : 0;
   for (const FilmDielectric& layer : scene.surface.dielectric) {
     film += layer.equivalent_thickness();

@@ -1,5 +1,6 @@
 // The way of the current from the source to the skin: what leakage of film, gap and skin leaves to
-// the gap, and the voltage that a current source needs. Equations drive.12 to drive.14.
+// the gap, and the voltage that a current source needs. Equations drive.12 to drive.15, drive.19
+// and drive.20.
 #pragma once
 
 #include <complex>
@@ -40,7 +41,8 @@ struct SourceVoltage {
 SourceVoltage source_voltage(const Scene& scene, double relative_humidity);
 
 // Time constants of a direct voltage: how long the pull takes to become what it stays [s]: charge
-// that leaks through the gap, for a plane gap [m]; infinite where nothing leaks. Eq. drive.15
+// that leaks through the gap, for a plane gap [m]; infinite where nothing leaks. What disperses
+// counts as its resistor and capacitor alone. Eq. drive.15
 double relaxation_time(const Scene& scene, double relative_humidity, double gap);
 
 }  // namespace papilla::forward

@@ -58,10 +58,14 @@ Heightmap PatchSetup::skin(int k) const {
   const int index = fidelity_.first_skin + k;
   const Skin& skin = scene_.finger.skin;
   const Grid& grid = plan_.grid;
-  if (!skin.map.empty())
-    return measured_skin(skin.map, skin.map_width, grid, fidelity_.seed,
-                         static_cast<std::uint64_t>(index));
-  const Spectrum spectrum{skin.rms, skin.roll_off, skin.hurst, plan_.effective_cutoff};
+  if (!skin.map.empty()) {
+    Heightmap measured = measured_skin(skin.map, skin.map_width, grid, fidelity_.seed,
+                                       static_cast<std::uint64_t>(index));
+    for (double& z : measured.z) z *= skin.relief_factor();
+    return measured;
+  }
+  const Spectrum spectrum{skin.rms * skin.relief_factor(), skin.roll_off, skin.hurst,
+                          plan_.effective_cutoff};
   return known_surface(spectrum, grid, fidelity_.seed, index);
 }
 

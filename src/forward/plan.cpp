@@ -70,6 +70,19 @@ std::string source_at_compliance(const Scene& scene) {
       humidities, 1e3 * scene.drive.current, scene.drive.source_compliance);
 }
 
+// Water on a surface that it nearly wets: caps so flat that they meet where they are laid down, and
+// merge into a few large drops, where the film that they are would fill the narrowest gaps.
+std::string nearly_wetting(const Scene& scene, bool water) {
+  constexpr double kFlat = 10 * kPi / 180;
+  const double angle = std::min(scene.surface.contact_angle, scene.finger.water.contact_angle);
+  if (!water || angle >= kFlat || scene.model.water != WaterModel::Droplets) return {};
+  return fmt::format(
+      "nearly wetting, {:.2g} deg: droplets this flat merge into few, and a film would spread in "
+      "their place; model.water = \"threshold\" gives that limit (flat glass at 0 deg, 55 % RH: "
+      "modulation 1.07 by droplets, 0.17 by a film), and what is between is not known",
+      angle * 180 / kPi);
+}
+
 // A patch so much longer than the window that its pixels, limited in number, drop waves of the skin
 // that every level keeps on the window.
 std::string unresolved_skin(const Plan& plan, const Fidelity& fidelity, double cutoff) {
@@ -360,15 +373,15 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   Setting setting{scene, texture, fidelity, plan, {}, {}, 0, 0};
   // Peaks of a rough skin rest on the land.
   constexpr double kPeakOverRms = 3;
-  setting.room =
-      kPeakOverRms * scene.finger.skin.rms + 0.5 * facts(texture).relief.height().value_or(0);
+  setting.room = kPeakOverRms * scene.finger.skin.rms * scene.finger.skin.relief_factor() +
+                 0.5 * facts(texture).relief.height().value_or(0);
   for (const double rh : humidities)
     setting.water.push_back(scene.finger.water.volume_per_area(rh));
   plan.water =
       std::any_of(setting.water.begin(), setting.water.end(), [](double v) { return v > 0; });
   plan.field = scene.drive.driven();
-  for (std::string said :
-       {direct_voltage(scene), source_at_compliance(scene), sliding_direction(texture)})
+  for (std::string said : {direct_voltage(scene), source_at_compliance(scene),
+                           sliding_direction(texture), nearly_wetting(scene, plan.water)})
     if (!said.empty()) plan.warnings.push_back(std::move(said));
   plan.retention = plan.water && scene.finger.water.hysteresis > 0 && retention_counts(scene);
   plan.traction_solves = fidelity.estimator == Estimator::Area && (plan.water || plan.field);

@@ -41,36 +41,63 @@ void gather(ResponsePoint& point, Patches patches) {
   }
 }
 
-Measured scaled(const Measured& dry, const Estimate& load_ratio, const Fidelity& fidelity) {
+// The share of the patch of a contact that grows by a factor: in proportion where it is small, to
+// rounding up to a tenth, and smoothly to all of it. Eq. friction.3
+double grown(double area, double factor) {
+  constexpr double kSharpness = 8;
+  if (!(area < 1)) return std::min(factor, 1.0);
+  const double closed = 1 - std::pow(area, kSharpness), open = area * factor;
+  return open / std::pow(closed + std::pow(open, kSharpness), 1 / kSharpness);
+}
+
+// A contact area that grows with the load on it.
+struct GrownArea {
+  Measured area;
+  double held = 1;  // of what it would be if it could be more than the patch
+};
+
+GrownArea scaled(const Measured& dry, const Estimate& load_ratio, const Fidelity& fidelity,
+                 ResponsePoint& point) {
   const double factor = fidelity.area_by_load(load_ratio.value);
   const double relative =
       load_ratio.value > 0 ? fidelity.load_exponent * load_ratio.se / load_ratio.value : 0;
-  return {dry.value * factor,
-          {.sampling = std::hypot(dry.parts.sampling * factor, dry.value * factor * relative)}};
+  const double open = dry.value * factor;
+  if (open > 1) point.status.note({Trouble::FullContact, open, ""});
+  GrownArea out;
+  if (open > 0) out.held = grown(dry.value, factor) / open;
+  out.area.value = open * out.held;
+  out.area.parts.sampling = out.held * std::hypot(dry.parts.sampling * factor, open * relative);
+  return out;
 }
 
 // Eq. friction.3: F ~ L^beta on the dry contact area.
-void areas_by_load(ResponsePoint& point, Patches patches, const Fidelity& fidelity) {
-  const Measured dry = sampled_mean(patches, &PatchResult::area_dry);
+void areas_by_load(ResponsePoint& point, Patches patches, const Fidelity& fidelity,
+                   double area_factor) {
+  const Measured dry = sampled_mean(patches, &PatchResult::area_dry, area_factor);
   std::vector<double> loads;
   for (const PatchResult& p : patches) loads.push_back(p.load);
   const Estimate off = ratio_estimate(point.samples.load_off, loads);
   const Estimate on = ratio_estimate(point.samples.load_on, loads);
   const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
-  point.area_fraction_off = scaled(dry, off, fidelity);
-  point.area_fraction_on = scaled(dry, on, fidelity);
-  const double ratio = fidelity.area_by_load(gain.value);
+  const GrownArea without = scaled(dry, off, fidelity, point);
+  const GrownArea with = scaled(dry, on, fidelity, point);
+  point.area_fraction_off = without.area;
+  point.area_fraction_on = with.area;
+  const double ratio = fidelity.area_by_load(gain.value) * with.held / without.held;
   point.modulation.value = ratio - 1;
   point.modulation.parts.sampling =
       fidelity.load_exponent * ratio * gain.se / std::max(gain.value, 1e-12);
 }
 
 // Eq. friction.1, friction.2: resolved areas, ratio of sums over the skins.
-void areas_resolved(ResponsePoint& point) {
+void areas_resolved(ResponsePoint& point, double area_factor) {
   const Estimate off = mean_estimate(point.samples.area_off);
   const Estimate on = mean_estimate(point.samples.area_on);
-  point.area_fraction_off = {off.value, {.sampling = off.se}};
-  point.area_fraction_on = {on.value, {.sampling = on.se}};
+  point.area_fraction_off = {area_factor * off.value, {.sampling = area_factor * off.se}};
+  point.area_fraction_on = {area_factor * on.value, {.sampling = area_factor * on.se}};
+  for (const Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
+    if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
+  }
   if (off.value > 0) {
     const Estimate gain = ratio_estimate(point.samples.area_on, point.samples.area_off);
     point.modulation = {gain.value - 1, {.sampling = gain.se}};
@@ -143,15 +170,9 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   Measured retention_on = sampled_mean(patches, &PatchResult::retention_on, patches_per_finger);
   if (!plan.retention) point.retention_force = retention_on = {};
   if (setting.fidelity.estimator == Estimator::Load || !plan.traction_solves) {
-    areas_by_load(point, patches, setting.fidelity);
+    areas_by_load(point, patches, setting.fidelity, setting.area_factor);
   } else {
-    areas_resolved(point);
-  }
-  for (Measured* area : {&point.area_fraction_off, &point.area_fraction_on}) {
-    area->value *= setting.area_factor;
-    area->parts.sampling *= setting.area_factor;
-    // Resolved areas end at the patch, the load law does not.
-    if (area->value > 1) point.status.note({Trouble::FullContact, area->value, ""});
+    areas_resolved(point, setting.area_factor);
   }
   for (auto* areas : {&point.samples.area_off, &point.samples.area_on})
     for (double& area : *areas) area *= setting.area_factor;

@@ -26,7 +26,8 @@ PowerSpectrum ridge_and_skin(const Finger& finger, double q_patch) {
   if (cutoff <= q_patch || skin.rms == 0) return all;
   const double begin = std::min(q_patch, roll_off);
   const PowerSpectrum within =
-      self_affine_spectrum(skin.rms, begin, roll_off, cutoff, skin.hurst).between(q_patch, cutoff);
+      self_affine_spectrum(skin.rms * skin.relief_factor(), begin, roll_off, cutoff, skin.hurst)
+          .between(q_patch, cutoff);
   for (std::size_t i = 0; i < within.wave_number.size(); ++i) {
     const double q = i == 0 ? q_patch * (1 + 1e-9) : within.wave_number[i];
     if (q <= all.wave_number.back()) continue;
@@ -74,7 +75,7 @@ double more_patches(const Finger& finger, double compliance, double rigid,
 
 double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
                       double relative_humidity) {
-  const double h0 = dielectric + finger.electrical.equivalent_thickness(relative_humidity);
+  const double h0 = dielectric + finger.skin_layer(relative_humidity);
   const MeanField field = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
   return 1 / field.gaps(ridge_pressure).inverse(h0) - h0;
 }

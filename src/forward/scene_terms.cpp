@@ -13,9 +13,18 @@ namespace papilla::forward {
 Scene in_its_state(const Scene& scene) {
   Scene out = scene;
   out.finger = scene.finger.applied();
+  Surface& surface = out.surface;
+  const MacroContact& macro = out.finger.macro;
   if (scene.finger.macro.shear_strength > 0)
-    out.surface.shear_strength *=
-        out.finger.macro.shear_strength / scene.finger.macro.shear_strength;
+    surface.shear_strength *= macro.shear_strength / scene.finger.macro.shear_strength;
+  // What a surface says of a state itself stands in place of the finger's factor. Eq. scene.12
+  if (scene.finger.state == FingerState::Natural && surface.shear_strength_natural > 0)
+    surface.shear_strength = surface.shear_strength_natural;
+  if (scene.finger.state == FingerState::Wet && surface.shear_strength_wet > 0 &&
+      macro.shear_strength > 0)
+    // It is that of saturated skin, which has lost to the water what skin at 15 % RH has not.
+    surface.shear_strength =
+        surface.shear_strength_wet * macro.shear_strength / macro.shear_strength_at(1);
   return out;
 }
 
@@ -41,7 +50,7 @@ CompliantBody compliant_body(const Surface& surface, const Heightmap& height) {
 
 double shear_strength(const Scene& scene, double relative_humidity) {
   const MacroContact& macro = scene.finger.macro;
-  const double of_finger = macro.shear_strength_at(relative_humidity);
+  const double of_finger = macro.shear_strength_at(relative_humidity, scene.finger.skin.hydration);
   if (scene.surface.shear_strength <= 0 || macro.shear_strength <= 0) return of_finger;
   return of_finger * scene.surface.shear_strength / macro.shear_strength;
 }

@@ -13,7 +13,7 @@
 
 namespace papilla::forward {
 
-// The finger in its state, and what that changes of the surface's shear strength.
+// The finger in its state, and what that changes of the surface's shear strength. Eq. scene.12
 Scene in_its_state(const Scene& scene);
 
 // The soft features of a surface (particles) as one body on what does not give: a thickness by

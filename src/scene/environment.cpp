@@ -117,6 +117,12 @@ void fields(FieldVisitor& v, Surface& s) {
             "interfacial shear strength against clean skin at 15 % RH; 0: the finger's, on glass",
             Source::Choice, "polyethylene 2.5 MPa (Briscoe and Tabor 1978)"},
            s.shear_strength);
+  v.number({"shear_strength_natural", "MPa", 0, 1e3,
+            "the same against skin with its sebum; 0: by the finger's natural.shear_factor"},
+           s.shear_strength_natural);
+  v.number({"shear_strength_wet", "MPa", 0, 1e3,
+            "the same against wet, saturated skin; 0: by the finger's wet.shear_factor"},
+           s.shear_strength_wet);
 }
 
 double Drive::rms_of_peak() const {

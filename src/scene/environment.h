@@ -67,6 +67,9 @@ struct Surface {
   double modulus = 0;         // Young's modulus of compliant features (particles); 0: rigid
   double poisson = 0.4;       // theirs
   double shear_strength = 0;  // against clean skin at 15 % RH [Pa]; 0: that of the finger, on glass
+  // Against skin in its other states [Pa]; 0: the clean one's, changed as the finger's state says.
+  double shear_strength_natural = 0;  // with its sebum, at 15 % RH
+  double shear_strength_wet = 0;      // saturated with water
 
   double equivalent_thickness() const;     // sum of d/eps [m]
   double dielectric_thickness() const;     // of all layers [m]

@@ -7,11 +7,40 @@
 
 namespace papilla::scene {
 
-double Skin::modulus_factor(double relative_humidity) const {
-  // Linear in RH through 1 at 15 % and 1/softening at 75 %; kept positive beyond the data.
-  const double slope = (1 - 1 / softening) / 0.6;
-  return std::max(0.02, 1 - slope * (relative_humidity - 0.15));
+namespace {
+
+// Of a quantity of the corneum, where a share of it is saturated and the rest in balance with the
+// air. Eq. scene.10
+double mixed(double with_air, double saturated, double hydration) {
+  return (1 - hydration) * with_air + hydration * saturated;
 }
+
+// ln(X(75 %) / X(RH)) of what the corneum loses between 75 % and saturation: 0 to the logarithm of
+// the ratio; slope: of the line below 75 %, for all the way to saturation. There it is four times
+// the mean one, as sorbed water steepens. Delbourgo and Gregory's rational function: monotone for
+// every slope and ratio. Eq. scene.1
+double lost_above_75(double slope, double ratio, double relative_humidity) {
+  const double end = std::log(ratio), t = (std::min(relative_humidity, 1.0) - 0.75) / 0.25;
+  const double bow = t * (1 - t), below = end + (slope + 2 * end) * bow;
+  return below > 0 ? end * (end * t * t + slope * bow) / below : 0;
+}
+
+}  // namespace
+
+double Skin::modulus_factor(double relative_humidity) const {
+  // Linear in RH through 1 at 15 % and 1/softening at 75 %, then on to saturation.
+  const auto with_air = [this](double rh) {
+    const double line = 1 - (1 - 1 / softening) / 0.6 * (std::min(rh, 0.75) - 0.15);
+    if (rh <= 0.75) return line;
+    const double slope = (softening - 1) / 0.6 * 0.25;  // of -ln E
+    return line * std::exp(-lost_above_75(slope, softening_saturated, rh));
+  };
+  const double factor = with_air(relative_humidity);
+  // Compliances add by their shares. Eq. scene.10
+  return factor / mixed(1, factor / with_air(1), hydration);
+}
+
+double Skin::relief_factor() const { return mixed(1, relief_saturated, hydration); }
 
 void fields(FieldVisitor& v, Skin& s) {
   v.number({"rms", "nm", 0, 1e5, "rms height over a 12 um patch", Source::Fit,
@@ -47,9 +76,27 @@ void fields(FieldVisitor& v, Skin& s) {
   v.number({"softening", "", 1, 100, "ratio of the moduli at 15 % and 75 % RH (linear between)",
             Source::Fit, "to M3; 1.87-2.31 from the paper's ratios"},
            s.softening);
+  v.number({"softening_saturated", "", 1, 1e4, "ratio of the moduli at 75 % RH and saturation",
+            Source::Estimate,
+            "tenfold in all by indentation (Yuan and Verma 2006), to 7 MPa; 1 to 10 MPa wet (Sirin "
+            "2019); 700-fold in all in tension (Papir 1975)"},
+           s.softening_saturated);
   v.number({"hardness", "MPa", 0, 1e6, "largest contact pressure; 0: no cap", Source::Choice,
             "the fit went without"},
            s.hardness);
+  v.number({"hydration", "%", 0, 100,
+            "share of the stratum corneum that is saturated; the rest is in balance with the air",
+            Source::Choice, "0: as fitted; states and touch time add to it"},
+           s.hydration);
+  v.number({"relief_saturated", "", 0.05, 1,
+            "rms height of the saturated stratum corneum over that of hydration 0",
+            Source::Estimate, "hydrated skin is smoother (Sato 2000, Dabrowska 2016)"},
+           s.relief_saturated);
+  v.number({"occlusion_time", "s", 0.01, 1e5,
+            "time constant of a touch: surface and sweat saturate the corneum in contact",
+            Source::Estimate,
+            "contact on glass grows by first-order kinetics, saturated within 20 s (Dzidek 2017)"},
+           s.occlusion_time);
 }
 
 double MacroContact::gross_area(double load, double relative_humidity) const {
@@ -57,8 +104,15 @@ double MacroContact::gross_area(double load, double relative_humidity) const {
   return area_15 * growth * std::pow(load / 0.2, load_exponent);
 }
 
-double MacroContact::shear_strength_at(double relative_humidity) const {
-  return shear_strength * std::max(0.05, 1 - shear_fall * (relative_humidity - 0.15) / 0.6);
+double MacroContact::shear_strength_at(double relative_humidity, double hydration) const {
+  const auto with_air = [this](double rh) {
+    const double line = std::max(0.05, 1 - shear_fall * (std::min(rh, 0.75) - 0.15) / 0.6);
+    if (rh <= 0.75) return shear_strength * line;
+    const double slope = shear_fall / 0.6 * 0.25 / line;
+    return shear_strength * line *
+           std::exp(-lost_above_75(slope, 1 / (1 - shear_fall_saturated), rh));
+  };
+  return mixed(with_air(relative_humidity), with_air(1), hydration);
 }
 
 void fields(FieldVisitor& v, MacroContact& s) {
@@ -83,6 +137,9 @@ void fields(FieldVisitor& v, MacroContact& s) {
   v.number({"shear_fall", "%", 0, 95, "what tau loses from 15 to 75 % RH, linear between",
             Source::Fit, "to M3; 13 MPa dry, 5 MPa wet (Kovalev 2014)"},
            s.shear_fall);
+  v.number({"shear_fall_saturated", "%", 0, 95, "what tau loses from 75 % RH to saturation",
+            Source::Paper, "to 5 MPa, of wet skin (Kovalev 2014)"},
+           s.shear_fall_saturated);
   v.number(
       {"ridge_rms", "um", 1e-3, 1e4, "closure persson: rms height of ridges above the patch size",
        Source::Estimate, "casts: below 5 um (Shultz 2015); see docs/theory/coupling.md"},
@@ -98,9 +155,16 @@ void fields(FieldVisitor& v, MacroContact& s) {
            s.tissue_modulus);
 }
 
-double ElectricalLayer::equivalent_thickness(double relative_humidity) const {
-  const double t = (relative_humidity - 0.15) / 0.6;
-  return std::max(0.0, thickness_15 + t * (thickness_75 - thickness_15));
+double ElectricalLayer::equivalent_thickness(double relative_humidity, double hydration) const {
+  const auto with_air = [this](double rh) {
+    const double t = (rh - 0.15) / 0.6;
+    const double line = std::max(0.0, thickness_15 + t * (thickness_75 - thickness_15));
+    if (rh <= 0.75 || thickness_75 >= thickness_15) return line;
+    // On with the same slope, and never nothing.
+    return thickness_75 > 0 ? thickness_75 * std::exp((t - 1) * (1 - thickness_15 / thickness_75))
+                            : 0;
+  };
+  return mixed(with_air(relative_humidity), with_air(1), hydration);
 }
 
 void fields(FieldVisitor& v, ElectricalLayer& s) {
@@ -112,10 +176,22 @@ void fields(FieldVisitor& v, ElectricalLayer& s) {
   v.number({"corner_frequency", "Hz", 0, 1e9, "below it the stratum corneum conducts; 0: never",
             Source::Paper, "Sirin 2019: 376 1/s"},
            s.corner_frequency);
+  v.number({"skin_exponent", "", 0.3, 1,
+            "of the stratum corneum's capacitance, a constant-phase element; 1: a capacitor",
+            Source::Choice, "1 as in the fits; palms .75 to .80 (Cole's law below 354 Hz)"},
+           s.skin_exponent);
+  v.number({"dispersion_frequency", "Hz", 1e-3, 1e9,
+            "where a dispersive stratum corneum has the stated thickness", Source::Choice,
+            "the drive of M3, which fitted it"},
+           s.dispersion_frequency);
   v.number(
       {"gap_resistivity", "ohm m", 0, 1e30, "of the gap between skin and surface; 0: an insulator",
        Source::Paper, "Shultz 2018: 17 Mohm on 30 mm2 over 1.06 um"},
       s.gap_resistivity);
+  v.number({"gap_exponent", "", 0.3, 1,
+            "of the gap: above its corner it conducts as f^(1 - exponent); 1: a resistor",
+            Source::Paper, "Shultz 2018: -20 dB a decade, a resistor beside a capacitor"},
+           s.gap_exponent);
 }
 
 double SkinWater::volume_per_area(double rh) const {
@@ -214,9 +290,14 @@ void fields(FieldVisitor& v, SkinState& s) {
   v.number({"water_factor", "", 0, 1e3, "on the sweat of the clean finger", Source::Estimate,
             "3 to 8 um3 against 0.3 to 1 um3 in a patch at 55 % humidity"},
            s.water_factor);
-  v.number({"shear_factor", "", 0, 10, "on the shear strength of the clean finger",
-            Source::Estimate, "13 MPa dry, 5 MPa wet (Kovalev 2014); lipids between"},
+  v.number({"shear_factor", "", 0, 10,
+            "on the shear strength of the clean finger, beside what hydration takes of it",
+            Source::Estimate, "lipids: between 13 MPa dry and 5 MPa wet (Kovalev 2014)"},
            s.shear_factor);
+  v.number({"hydration", "%", 0, 100,
+            "share of the stratum corneum that is saturated: softer, electrically thinner",
+            Source::Estimate, "soaked: all of it; sebum and sweat: as fitted on clean fingers"},
+           s.hydration);
 }
 
 void fields(FieldVisitor& v, ParameterDeviation& s) {
@@ -232,13 +313,21 @@ void fields(FieldVisitor& v, ParameterDeviation& s) {
 
 Finger Finger::applied() const {
   Finger out = *this;
+  // First-order kinetics of what is not saturated yet. Eq. scene.11
+  out.touch_time = 0;
+  out.skin.hydration = 1 - (1 - skin.hydration) * std::exp(-touch_time / skin.occlusion_time);
   if (state == FingerState::Clean) return out;
   const SkinState& change = state == FingerState::Natural ? natural : wet;
   out.state = FingerState::Clean;
   out.water.contact_angle = change.contact_angle;
   for (double& v : out.water.volume) v *= change.water_factor;
   out.macro.shear_strength *= change.shear_factor;
+  out.skin.hydration = 1 - (1 - out.skin.hydration) * (1 - change.hydration);
   return out;
+}
+
+double Finger::skin_layer(double relative_humidity) const {
+  return electrical.equivalent_thickness(relative_humidity, skin.hydration);
 }
 
 const std::vector<std::string>& finger_state_names() {
@@ -251,6 +340,10 @@ void fields(FieldVisitor& v, Finger& s) {
   v.choice({"state", "clean (degreased), natural (sebum and sweat), wet"}, finger_state_names(),
            s.state);
   v.number({"load", "N", 0, 100, "normal force", Source::Paper, "M3: 0.2 N"}, s.load);
+  v.number({"touch_time", "s", 0, 1e6,
+            "how long it has touched, on what lets no water through; 0: as in the fitted papers",
+            Source::Choice, "see skin.occlusion_time"},
+           s.touch_time);
   v.section({"skin", "micro-topography and elasticity"}, s.skin);
   v.section({"macro", "gross contact and load-carrying share"}, s.macro);
   v.section({"electrical", "the stratum corneum as a dielectric"}, s.electrical);

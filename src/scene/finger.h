@@ -25,11 +25,20 @@ struct Skin {
   double bulk_modulus = 60e6;
   double layer_poisson = 0.5;
   double bulk_poisson = 0.5;
-  double softening = 1.98;  // E(15 % RH) / E(75 % RH), both moduli, linear in RH
-  double hardness = 0;      // cap on contact pressure; 0: none
+  double softening = 1.98;         // E(15 % RH) / E(75 % RH), both moduli, linear in RH
+  double softening_saturated = 5;  // E(75 % RH) / E(100 % RH), both moduli
+  double hardness = 0;             // cap on contact pressure; 0: none
 
-  // Young's moduli at a relative humidity (0-1). Eq. scene.1
-  double modulus_factor(double relative_humidity) const;  // E(RH) / E(15 %)
+  // Share of the stratum corneum in contact that is saturated with water; the rest is in balance
+  // with the air. States and touch time add to it.
+  double hydration = 0;
+  double relief_saturated = 0.8;  // rms height of the saturated corneum over that at hydration 0
+  double occlusion_time = 7;      // of a touch, until 1 - 1/e of what was dry is saturated [s]
+
+  // Young's moduli at a relative humidity of the air (0-1), E(RH) / E(15 %), at this hydration.
+  // Positive; falls with humidity and hydration. Eq. scene.1, scene.10
+  double modulus_factor(double relative_humidity) const;
+  double relief_factor() const;  // rms height at this hydration over `rms`. Eq. scene.13
 
   bool operator==(const Skin&) const = default;
 };
@@ -37,20 +46,23 @@ void fields(FieldVisitor& v, Skin& s);
 
 // How a fingertip carries its load.
 struct MacroContact {
-  double area_15 = 45e-6;       // gross contact area at 0.2 N and 15 % RH [m^2]
-  double area_growth = 0.585;   // relative growth from 15 to 75 % RH, linear
-  double load_exponent = 0.52;  // A ~ F_N^n
-  double ridge_share = 0.3;     // share of the gross area on ridges
-  double load_share = 0.0063;   // phi: share of the gross area that carries the load
-  double shear_strength = 9e6;  // tau, interfacial, at 15 % RH [Pa]
-  double shear_fall = 0.08;     // what it loses from 15 to 75 % RH, a share, linear
+  double area_15 = 45e-6;             // gross contact area at 0.2 N and 15 % RH [m^2]
+  double area_growth = 0.585;         // relative growth from 15 to 75 % RH, linear
+  double load_exponent = 0.52;        // A ~ F_N^n
+  double ridge_share = 0.3;           // share of the gross area on ridges
+  double load_share = 0.0063;         // phi: share of the gross area that carries the load
+  double shear_strength = 9e6;        // tau, interfacial, at 15 % RH [Pa]
+  double shear_fall = 0.08;           // what it loses from 15 to 75 % RH, a share, linear
+  double shear_fall_saturated = 0.4;  // and from 75 % RH to saturation, a share of what is left
   // For closure "persson": the ridges' surface above the patch size, and what it lies on.
   double ridge_rms = 2.2e-6, ridge_longest = 1e-3;           // rms height, longest wavelength [m]
   double corneum_thickness = 200e-6, tissue_modulus = 10e3;  // [m], Young's modulus [Pa]
 
   // Gross contact area at a load [N] and relative humidity (0-1). Eq. scene.2
   double gross_area(double load, double relative_humidity) const;
-  double shear_strength_at(double relative_humidity) const;  // [Pa] Eq. scene.8
+  // [Pa]; hydration: share of the corneum that is saturated (Skin::hydration). Eq. scene.8,
+  // scene.10
+  double shear_strength_at(double relative_humidity, double hydration = 0) const;
 
   bool operator==(const MacroContact&) const = default;
 };
@@ -61,11 +73,19 @@ struct ElectricalLayer {
   double thickness_15 = 30e-9;   // h_SC at 15 % RH [m]
   double thickness_75 = 17e-9;   // at 75 %; linear between
   double corner_frequency = 60;  // 1/(2 pi eps0 eps rho): below it the layer conducts; 0: never
+  // Exponent of its capacitance against frequency, a constant-phase element: 1 a capacitor. Eq.
+  // drive.19
+  double skin_exponent = 1;
+  double dispersion_frequency = 5e3;  // where d2/eps2 is what is stated here [Hz]
   // Of the gap between skin and surface, sweat on its way through it included [ohm m]; 0: an
   // insulator. It bleeds the charge that a direct voltage leaves on an insulating film.
   double gap_resistivity = 4.8e8;
+  // Of its conductance, which rises as f^(1 - exponent) above its corner: 1 a resistor. Eq.
+  // drive.20
+  double gap_exponent = 1;
 
-  double equivalent_thickness(double relative_humidity) const;  // Eq. scene.3
+  // hydration: share of the corneum that is saturated (Skin::hydration). Eq. scene.3, scene.10
+  double equivalent_thickness(double relative_humidity, double hydration = 0) const;
 
   bool operator==(const ElectricalLayer&) const = default;
 };
@@ -134,6 +154,7 @@ struct SkinState {
   double contact_angle;  // of the skin [rad]
   double water_factor;   // on the volume of sweat
   double shear_factor;   // on the interfacial shear strength: lipids and water lower it
+  double hydration = 0;  // share of the stratum corneum that is saturated: it is softer
 
   bool operator==(const SkinState&) const = default;
 };
@@ -153,8 +174,10 @@ struct Finger {
   std::string name = "reference";
   FingerState state = FingerState::Clean;
   SkinState natural{1.0471975511965976, 8, 0.75};  // 60 deg
-  SkinState wet{1.0471975511965976, 20, 0.56};
+  SkinState wet{1.0471975511965976, 20, 1, 1};
   double load = 0.2;  // normal force [N]
+  // How long the finger has been on the surface [s]; 0: as in the papers that it is fitted to.
+  double touch_time = 0;
   Skin skin;
   MacroContact macro;
   ElectricalLayer electrical;
@@ -166,7 +189,11 @@ struct Finger {
   std::vector<ParameterDeviation> uncertainty;  // of the fitted numbers; empty: not known
 
   double patch_pressure(double relative_humidity) const;  // F_N / (phi A) [Pa], Eq. scene.6
-  Finger applied() const;  // the clean finger with the skin angle, sweat and shear of its state
+  // The clean finger with the skin angle, sweat, shear and hydration of its state, and what the
+  // touch has added to its hydration. Eq. scene.11
+  Finger applied() const;
+  // d/eps of its stratum corneum [m], at its hydration.
+  double skin_layer(double relative_humidity) const;
 
   bool operator==(const Finger&) const = default;
 };

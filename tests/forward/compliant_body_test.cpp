@@ -81,6 +81,30 @@ TEST(ShearStrength, IsTheSurfacesOwnInTheFingersStateAndHumidity) {
               1e-6);
 }
 
+// Lipids lower one surface's shear strength and not another's.
+TEST(ShearStrength, OfAStateIsWhatTheSurfaceSaysOfIt) {
+  Scene scene;
+  scene.finger.macro.shear_strength = 9e6;
+  scene.finger.macro.shear_fall = 0.3;
+  scene.surface.shear_strength = 2.5e6;
+  scene.surface.shear_strength_natural = 2.2e6;
+  scene.surface.shear_strength_wet = 1.1e6;
+  EXPECT_DOUBLE_EQ(shear_strength(in_its_state(scene), 0.15), 2.5e6);  // clean: neither
+  scene.finger.state = FingerState::Natural;
+  EXPECT_DOUBLE_EQ(shear_strength(in_its_state(scene), 0.15), 2.2e6);
+  EXPECT_DOUBLE_EQ(shear_strength(in_its_state(scene), 0.75), 2.2e6 * 0.7);
+  scene.surface.shear_strength = 0;  // on glass but for this state
+  EXPECT_DOUBLE_EQ(shear_strength(in_its_state(scene), 0.15), 2.2e6);
+  // Soaked skin does not feel the air.
+  scene.finger.state = FingerState::Wet;
+  for (const double rh : {0.15, 0.75})
+    EXPECT_NEAR(shear_strength(in_its_state(scene), rh), 1.1e6, 1e-6);
+  scene.surface.shear_strength_wet = 0;
+  const double saturated = scene.finger.macro.shear_strength_at(1) * scene.finger.wet.shear_factor;
+  EXPECT_NEAR(shear_strength(in_its_state(scene), 0.15), saturated, 1e-6);
+  EXPECT_EQ(in_its_state(in_its_state(scene)).finger, in_its_state(scene).finger);
+}
+
 // Particle films of the paper rub as films do, at every load.
 TEST(ParticleFilm, ItsFrictionCoefficientIsOneOfFilmsFromFiveHundredthsToTwoNewton) {
   for (const char* film : {"hdpe_large_1", "hdpe_small_1"}) {

@@ -209,5 +209,85 @@ TEST(ElectricPath, ADirectVoltageRelaxesInTheTimeOfItsCircuit) {
   EXPECT_NEAR(relaxation_time(scene, kHumidity, kGap), expected, 1e-6 * expected);
 }
 
+// By hand: impedances in series, the skin a resistor beside a constant-phase element.
+std::complex<double> skin_impedance(const Scene& scene, double frequency) {
+  const ElectricalLayer& skin = scene.finger.electrical;
+  const Network n = circuit(scene);
+  const double alpha = skin.skin_exponent;
+  const double q = n.skin.capacitance * std::pow(2 * kPi * skin.dispersion_frequency, 1 - alpha);
+  const std::complex<double> turning(0, 2 * kPi * frequency);
+  return 1.0 / (1 / n.skin.resistance + q * std::pow(turning, alpha));
+}
+
+// The gap's capacitor of air beside leakage that rises as a power of the frequency.
+std::complex<double> gap_impedance(const Scene& scene, double frequency) {
+  const ImpedanceLayer layer = circuit(scene).gap.layer;
+  const std::complex<double> turning(0, 2 * kPi * frequency);
+  const std::complex<double> leaks = std::pow(1.0 + turning * layer.resistance * layer.capacitance,
+                                              1 - scene.finger.electrical.gap_exponent);
+  return 1.0 / (turning * layer.capacitance + leaks / layer.resistance);
+}
+
+TEST(ElectricPath, ADispersiveSkinAndGapPullAsTheirComplexImpedancesSay) {
+  for (const double skin : {1.0, 0.85, 0.7}) {
+    for (const double gap : {1.0, 0.8}) {
+      for (const double frequency : {3.0, 60.0, 1e3, 5e3, 1e5}) {
+        for (const double resistivity : {1e8, 1e14}) {
+          Scene scene = leaky(resistivity, Waveform::Sine, frequency);
+          scene.finger.electrical.skin_exponent = skin;
+          scene.finger.electrical.gap_exponent = gap;
+          scene.finger.electrical.thickness_15 = scene.finger.electrical.thickness_75 = 300e-9;
+          const std::complex<double> of_gap = gap_impedance(scene, frequency);
+          const std::complex<double> all = of_gap + skin_impedance(scene, frequency) +
+                                           circuit(scene).dielectric.impedance(frequency);
+          const double field = 100 / std::sqrt(2.0) * std::abs(of_gap / all) / kGap;
+          const double expected = 0.5 * kVacuumPermittivity * square(field);
+          EXPECT_NEAR(pull(scene), expected, 0.01 * expected)
+              << skin << ", " << gap << ", " << frequency << ", " << resistivity;
+        }
+      }
+    }
+  }
+}
+
+// Bare of a film, electrowetting takes the energy in the skin: less where it is not a capacitor.
+TEST(ElectricPath, ElectrowettingOnADispersiveSkinTakesTheEnergyThatItStores) {
+  Scene scene = leaky(0);
+  scene.surface.dielectric.clear();
+  scene.drive.frequency = 50e3;
+  scene.finger.electrical.corner_frequency = 0;
+  scene.finger.electrical.skin_exponent = 0.8;
+  const double h = scene.finger.electrical.equivalent_thickness(kHumidity);
+  const double stored = std::pow(10, -0.2) * std::sin(0.4 * kPi);  // of the capacitor's at 5 kHz
+  EXPECT_NEAR(wetted_series(scene, kHumidity), h / stored, 1e-9 * h);
+}
+
+TEST(ElectricPath, AnExponentOfOneIsTheResistorAndTheCapacitorAndNearOneNearlySo) {
+  Scene scene = leaky(1e10, Waveform::Sine, 200);
+  scene.finger.electrical.dispersion_frequency = 123;  // says nothing then
+  const double plain = pull(scene);
+  EXPECT_EQ(plain, pull(leaky(1e10, Waveform::Sine, 200)));
+  scene.finger.electrical.skin_exponent = scene.finger.electrical.gap_exponent = 1 - 1e-7;
+  EXPECT_NEAR(pull(scene), plain, 1e-5 * plain);
+}
+
+// The voltage of a current falls with every octave, steeper where nothing
+// disperses.
+TEST(ElectricPath, TheVoltageOfACurrentFallsWithFrequencyForEveryExponent) {
+  for (const double exponent : {1.0, 0.85, 0.7}) {
+    Scene scene = leaky(0);
+    scene.drive.control = DriveControl::Current;
+    scene.drive.current = 10e-6;
+    scene.finger.electrical.skin_exponent = scene.finger.electrical.gap_exponent = exponent;
+    double before = kInfinity;
+    for (double f = 1; f < 1e5; f *= 2) {
+      scene.drive.frequency = f;
+      const double now = source_voltage(scene, kHumidity).peak;
+      EXPECT_LT(now, before) << exponent << ", " << f;
+      before = now;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests

@@ -326,6 +326,23 @@ TEST(PlanPieces, ALongPatchSaysWhatItsSkinLacks) {
   EXPECT_TRUE(warned(14.6e-6));
 }
 
+TEST(PlanPieces, WaterOnANearlyWettingSurfaceIsWarnedOf) {
+  const auto warned = [](double degrees, WaterModel water, bool dry = false) {
+    Scene scene;
+    scene.surface.contact_angle = degrees * kPi / 180;
+    scene.model.water = water;
+    if (dry) scene.finger.water.volume.assign(4, 0);
+    const auto said = make_plan(scene, Texture{}, fidelity_level("search")).warnings;
+    return said.size() == 1 &&
+           said[0].starts_with(fmt::format("nearly wetting, {:g} deg", degrees));
+  };
+  EXPECT_TRUE(warned(0, WaterModel::Droplets));
+  EXPECT_TRUE(warned(9.5, WaterModel::Droplets));
+  EXPECT_FALSE(warned(10.5, WaterModel::Droplets));
+  EXPECT_FALSE(warned(2, WaterModel::Threshold));
+  EXPECT_FALSE(warned(2, WaterModel::Droplets, true));
+}
+
 TEST(PlanPieces, WarningsAreSaidInWhole) {
   const Fidelity f = fidelity_level("search");
   Scene direct;

@@ -123,6 +123,30 @@ TEST(Point, ByTheLoadLawAreasGoWithThePowerOfTheLoads) {
               1e-12 * friction);
 }
 
+// Half the patch is a tenth of a per cent off the power, and ten times the patch is the patch.
+TEST(Point, ByTheLoadLawAreasEndSmoothlyAtThePatch) {
+  Case c;
+  c.plan.retention = false;
+  double before = 0;
+  for (double pull = 1e-7; pull < 1e-2; pull *= 1.3) {
+    for (PatchResult& p : c.patches) p.pull = pull;
+    const ResponsePoint p = c.point();
+    const double open = 0.02 * std::pow(1.2 + pull / 1e-6, c.fidelity.load_exponent);
+    EXPECT_GT(p.area_fraction_on.value, before);
+    before = p.area_fraction_on.value;
+    EXPECT_LE(before, 1);
+    if (open < 0.5) {
+      EXPECT_NEAR(before, open, 5e-4 * open);
+    }
+    if (open > 2) {
+      EXPECT_NEAR(before, 1, 5e-4);
+    }
+    EXPECT_EQ(p.status.trouble == Trouble::FullContact, open > 1) << open;
+    EXPECT_NEAR(p.modulation.value, before / p.area_fraction_off.value - 1, 2e-2);
+  }
+  EXPECT_GT(before, 0.999);
+}
+
 TEST(Point, BySolvedAreasTheModulationIsThatOfTheirSums) {
   Case c;
   c.fidelity.estimator = Estimator::Area;

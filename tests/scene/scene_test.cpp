@@ -21,8 +21,8 @@ TEST(Finger, SoftensByItsRatioBetween15And75Percent) {
   EXPECT_DOUBLE_EQ(skin.modulus_factor(0.45), 0.625);  // the mean of both
   EXPECT_DOUBLE_EQ(skin.modulus_factor(0.75), 0.25);
   EXPECT_DOUBLE_EQ(skin.modulus_factor(0), 1.1875);
-  skin.softening = 100;
-  EXPECT_DOUBLE_EQ(skin.modulus_factor(1), 0.02);  // never nothing
+  skin.softening_saturated = 10;
+  EXPECT_NEAR(skin.modulus_factor(1), 0.25 / 10, 1e-15);
 }
 
 TEST(Finger, ItsAreaGrowsWithHumidityAndLoad) {
@@ -44,14 +44,17 @@ TEST(Finger, ItsAreaGrowsWithHumidityAndLoad) {
 TEST(Finger, ItsShearStrengthFallsWithHumidity) {
   MacroContact macro;
   macro.shear_strength = 10e6;
-  macro.shear_fall = 0;
+  macro.shear_fall = macro.shear_fall_saturated = 0;
   EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.9), 10e6);
   macro.shear_fall = 0.3;
   EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.15), 10e6);
   EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.35), 9e6);
   EXPECT_DOUBLE_EQ(macro.shear_strength_at(0.75), 7e6);
-  macro.shear_fall = 0.95;
-  EXPECT_DOUBLE_EQ(macro.shear_strength_at(1), 0.05 * 10e6);  // never nothing
+  macro.shear_fall_saturated = 0.4;
+  EXPECT_NEAR(macro.shear_strength_at(1), 0.6 * 7e6, 1e-6);
+  EXPECT_NEAR((7e6 - macro.shear_strength_at(0.75 + 1e-7)) / 1e-7, 0.3 * 10e6 / 0.6, 1e3);
+  macro.shear_fall = macro.shear_fall_saturated = 0.95;
+  EXPECT_NEAR(macro.shear_strength_at(1), 0.05 * 0.05 * 10e6, 1e-6);  // never nothing
 }
 
 TEST(Film, ItsCornerFrequencyIsThatOfItsMaterial) {
@@ -66,6 +69,9 @@ TEST(Finger, ItsElectricalLayerIsALineOverHumidity) {
   EXPECT_DOUBLE_EQ(layer.equivalent_thickness(0.15), 30e-9);
   EXPECT_DOUBLE_EQ(layer.equivalent_thickness(0.75), 18e-9);
   EXPECT_DOUBLE_EQ(layer.equivalent_thickness(0.35), 26e-9);
+  // Beyond 75 % on with the same slope, and never nothing.
+  EXPECT_NEAR((layer.equivalent_thickness(0.75 + 1e-6) - 18e-9) / 1e-6, -12e-9 / 0.6, 1e-13);
+  EXPECT_NEAR(layer.equivalent_thickness(1), 18e-9 * std::exp(-(12.0 / 18) * (0.25 / 0.6)), 1e-17);
   layer.thickness_75 = 0;
   EXPECT_EQ(layer.equivalent_thickness(1), 0);
 }
