@@ -118,14 +118,16 @@ double wetted_series(const Scene& scene, double relative_humidity) {
 
 double water_skin_layer(const Scene& scene, double relative_humidity, double dielectric) {
   const double f = frequency(scene.drive);
-  const ElectricalLayer& layer = scene.finger.electrical;
-  const Complex skin =
-      layer.equivalent_thickness(relative_humidity) * beside(0, layer.corner_frequency, f);
+  const auto beside_water = [&](double thickness, Complex layer) {
+    return thickness * (Complex(0, f) / layer);
+  };
+  const Complex skin = beside_water(scene.finger.skin_layer(relative_humidity),
+                                    skin_conducts(scene.finger.electrical, f));
   Complex film = 0;
-  for (const FilmDielectric& of_film : scene.surface.dielectric)
-    film += of_film.equivalent_thickness() * beside(0, of_film.corner_frequency(), f);
+  for (const FilmDielectric& layer : scene.surface.dielectric)
+    film += beside_water(layer.equivalent_thickness(), conducts(layer.corner_frequency(), f));
   const double share = std::abs(skin) / std::max(std::abs(skin + film), 1e-300);
-  // Eq. drive.19; behind a film that leads the water is at the electrode's potential, nearly.
+  // Eq. drive.21; behind a film that leads the water is at the electrode's potential, nearly.
   return dielectric * std::min(share / std::max(1 - share, 1 / kThickest), kThickest);
 }
 

@@ -136,7 +136,7 @@ struct ModelOptions {
   Closure closure = Closure::Uniform;
   Coupling coupling = Coupling::OnePass;
   FieldMethod field = FieldMethod::Spread;
-  AirLimit air_limit = AirLimit::None;  // Eq. electrostatics.19
+  AirLimit air_limit = AirLimit::None;  // Eq. electrostatics.21
   double droplet_step = 200e-9;         // first step of a moving droplet [m]: mobility
   bool droplet_enhancement = true;      // droplets that do not bridge raise the pull
   bool rim_pinning = false;             // contact lines do not pass the edges of holes

@@ -454,7 +454,7 @@ double clipped(double free_peak, double limit) {
   return 0.5 * kVacuumPermittivity * sum / kSteps;
 }
 
-// Eq. electrostatics.19 against the mean over the cycle, from fields far over the limit to below
+// Eq. electrostatics.21 against the mean over the cycle, from fields far over the limit to below
 // it.
 TEST(Breakdown, TheFieldOfAGapIsThatOfTheCycleThatItsAirClips) {
   for (const double gap : {3e-9, 1e-8, 1e-7, 6e-7, 1.5e-6, 4e-6}) {

@@ -22,7 +22,7 @@ double air_breakdown_voltage(double gap);
 
 // Strongest field [V/m] that the air of a gap [m] holds: Eq. electrostatics.7 up to its minimum as
 // a field (350 V/um below 0.93 um), with Ionisation at least 12.07 V over the gap. Infinite for
-// None. T: double or a vector of pixels. Eq. electrostatics.19
+// None. T: double or a vector of pixels. Eq. electrostatics.21
 template <class T>
 T air_field_limit(AirLimit law, const T& gap) {
   if (law == AirLimit::None) return T(kInfinity);
@@ -32,7 +32,7 @@ T air_field_limit(AirLimit law, const T& gap) {
 }
 
 // Mean square of a field that a discharge clips, over that of the free one; x: limit over free
-// peak. steady: of one magnitude; else a sine. 1 and without slope at x = 1. Eq. electrostatics.19
+// peak. steady: of one magnitude; else a sine. 1 and without slope at x = 1. Eq. electrostatics.21
 template <class T>
 T clipped_share(const T& x, bool steady) {
   const T y = smaller(x, T(1));

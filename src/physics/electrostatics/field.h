@@ -23,7 +23,7 @@ struct FieldProblem {
   // divider of both has the magnitude of the water's potential. 0: water at the body's potential.
   double water_skin_layer = 0;          // [m]
   double film_phase = 1;                // |d/eps| over its real part, of a film that leaks
-  AirLimit air_limit = AirLimit::None;  // what holds the field in the air. Eq. electrostatics.19
+  AirLimit air_limit = AirLimit::None;  // what holds the field in the air. Eq. electrostatics.21
   bool steady = false;                  // a voltage of one magnitude, direct or square; else a sine
   bool screening = true;                // the field fades towards a bridge
   bool even_screening = false;          // preset m3: that as one factor. Eq. electrostatics.18
