@@ -15,12 +15,14 @@ Fidelity fidelity_level(const std::string& name) {
     f.field_tolerance = 1e-2;
     f.control_skins = 0;
     f.field_skins = 0;
+    f.balance_nodes = 1;
   } else if (name == "draft") {
     f.grid = 128;
     f.skins = 16;
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
     f.field_skins = 1;
+    f.balance_nodes = 1;
   } else if (name == "reference") {
     f.grid = 512;
     f.skins = 96;
@@ -30,6 +32,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.coupling_tolerance = 1e-3;
     f.coupling_passes = 40;
     f.bridge_nodes = 6;
+    f.balance_nodes = 4;
   } else if (name != "design") {
     throw InputError("unknown accuracy level \"" + name + "\"; use draft, design or reference");
   }

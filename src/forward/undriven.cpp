@@ -26,7 +26,9 @@ UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
       field_(field_ratios(driven(scene), texture, fidelity)) {
   const Grid& grid = setup_->plan().grid;
   kernel_ = contact_kernel(setup_->scene(), setup_->body(), grid, humidity());
-  pressures_ = ScaleBridge(setup_->scene(), fidelity, grid, humidity(), setup_->body()).pressures();
+  pressures_ =
+      ScaleBridge(setup_->scene(), fidelity, grid, humidity(), setup_->body(), setup_->levels())
+          .pressures();
   height_.resize(static_cast<std::size_t>(fidelity.skins));
   patches_.resize(height_.size());
   parallel_for(
@@ -55,7 +57,8 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   fidelity.estimator = estimator;
   Plan plan = setup_->plan();
   plan.traction_solves = plan.traction_solves && estimator == Estimator::Area;
-  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity(), setup_->body());
+  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity(), setup_->body(),
+                           setup_->levels());
   std::vector<PatchResult> results(patches_.size());
   parallel_for(
       fidelity.skins,
