@@ -65,11 +65,11 @@ void finger_problems(const Finger& finger, const ModelOptions& model, Problems& 
   if (finger.skin.map.empty() && finger.skin.cutoff >= finger.skin.roll_off) {
     out.push_back({"finger.skin.cutoff", "expected a shorter wavelength than roll_off"});
   }
-  if (!finger.skin.map.empty() && model.closure == Closure::Persson) {
-    out.push_back(
-        {"finger.skin.map",
-         "the Persson closure takes the spectrum of the skin; use model.closure = \"uniform\" "
-         "with a map"});
+  if (!finger.skin.map.empty() && model.closure != Closure::Uniform) {
+    out.push_back({"finger.skin.map",
+                   "closures persson and balance take the spectrum of the skin; use model.closure "
+                   "= \"uniform\" "
+                   "with a map"});
   }
 }
 

@@ -7,7 +7,7 @@
 
 #include "base/cache.h"
 #include "base/constants.h"
-#include "forward/scale_bridge.h"
+#include "forward/ridges.h"
 #include "physics/macro/fingertip.h"
 
 namespace papilla::forward {
@@ -58,8 +58,9 @@ double impedance(const Scene& scene, double relative_humidity) {
   const RidgeLoad ridges = ridge_load(finger.macro, finger.load, relative_humidity);
   if (ridges.area <= 0) return kInfinity;
   const SeriesLayers layers = series_layers(scene, relative_humidity);
-  const double gap = capacitive_gap(finger, ridges.mean_pressure,
-                                    scene.surface.equivalent_thickness(), relative_humidity);
+  const double gap =
+      capacitive_gap(finger, ridges.mean_pressure, scene.surface.equivalent_thickness(),
+                     relative_humidity, rings_of(scene.model, finger.macro));
   const Complex thickness = gap + layers.film(scene.surface) + layers.skin;
   const Complex per_thickness =
       2 * kPi * kVacuumPermittivity * ridges.area * gap_conducts(scene, frequency(scene.drive));
@@ -67,12 +68,12 @@ double impedance(const Scene& scene, double relative_humidity) {
 }
 
 // What the impedance depends on.
-using ImpedanceKey = std::tuple<double, Finger, Surface, Waveform, double>;
+using ImpedanceKey = std::tuple<double, Finger, Surface, Waveform, double, Closure>;
 
 double known_impedance(const Scene& scene, double relative_humidity) {
   static Cache<ImpedanceKey, double> cache(64, 64);
-  const ImpedanceKey key{relative_humidity, scene.finger, scene.surface, scene.drive.waveform,
-                         scene.drive.frequency};
+  const ImpedanceKey key{relative_humidity,    scene.finger,          scene.surface,
+                         scene.drive.waveform, scene.drive.frequency, scene.model.closure};
   return *cache.get(
       key, 1, [&] { return std::make_shared<const double>(impedance(scene, relative_humidity)); });
 }

@@ -17,6 +17,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.equilibrium_skins = 2;
     f.control_skins = 0;
     f.field_skins = 0;
+    f.balance_nodes = 1;
   } else if (name == "draft") {
     f.grid = 128;
     f.skins = 16;
@@ -24,6 +25,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.contact_tolerance = 1e-3;
     f.coupling_tolerance = 5e-3;
     f.field_skins = 1;
+    f.balance_nodes = 1;
   } else if (name == "reference") {
     f.grid = 512;
     f.skins = 96;
@@ -33,6 +35,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.coupling_tolerance = 5e-4;
     f.coupling_passes = 40;
     f.bridge_nodes = 6;
+    f.balance_nodes = 4;
   } else if (name != "design") {
     throw InputError("unknown accuracy level \"" + name + "\"; use draft, design or reference");
   }

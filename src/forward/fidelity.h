@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/rooms.h"
+#include "scene/finger.h"
 
 namespace papilla::forward {
 
@@ -33,6 +34,7 @@ struct Fidelity {
   double coupling_tolerance = 2e-3;  // distance to it, in units of the total load
   int equilibrium_skins = 3;  // by the load law: skins whose equilibrium is solved, for the others
   int bridge_nodes = 3;       // patch-pressure nodes of the Persson closure
+  int balance_nodes = 2;      // of the closure balance
   int control_skins = 4;  // run again on a coarser grid and with better methods, for the errors; 0:
                           // those parts stay unknown
   int field_skins = 2;    // solved in 3-D, for what the field rule lacks; 0: not corrected
@@ -42,6 +44,11 @@ struct Fidelity {
   int threads = 0;              // 0: all
 
   int pixels_per_side() const { return most_pixels > 0 ? most_pixels : std::max(1024, grid); }
+  int pressure_nodes(Closure closure) const {
+    return closure == Closure::Uniform   ? 1
+           : closure == Closure::Persson ? bridge_nodes
+                                         : balance_nodes;
+  }
   // Contact area under a load over that under the preload, by their ratio. Eq. friction.3
   double area_by_load(double load_ratio) const {
     return std::pow(std::max(load_ratio, 0.0), load_exponent);

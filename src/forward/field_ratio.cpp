@@ -53,7 +53,8 @@ std::vector<AtRest> at_rest(const PatchSetup& setup, int k) {
   for (const double rh : scene.environment.relative_humidity) {
     const auto kernel = contact_kernel(scene, setup.body(), setup.plan().grid, rh);
     const double pressure =
-        ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh, setup.body()).mean_pressure();
+        ScaleBridge(scene, setup.fidelity(), setup.plan().grid, rh, setup.body(), setup.levels())
+            .mean_pressure();
     PatchFields fields;
     solve_patch(setup.problem(height, *kernel, rh, pressure, mean), setup.plan(), setup.fidelity(),
                 start, &fields);

@@ -55,6 +55,11 @@ PatchResult over_water(std::span<const PatchResult> members) {
 
 void add_over_pressures(std::span<const PatchResult> patches, const PressureShares& shares,
                         PatchResult& out) {
+  const auto press = [&](const PatchMember& member) {
+    return member.value == &PatchResult::area_off  ? shares.press_off
+           : member.value == &PatchResult::area_on ? shares.press_on
+                                                   : 1;
+  };
   const double touching = std::accumulate(shares.off.begin(), shares.off.end(), 0.0);
   double of_pull = 0;
   for (const PatchMember& member : kPatchMembers) {
@@ -64,11 +69,14 @@ void add_over_pressures(std::span<const PatchResult> patches, const PressureShar
       switch (member.pressures) {
         case OverPressures::Given:
           break;
+        case OverPressures::Nominal:
+          value += shares.nominal[k] * one;
+          break;
         case OverPressures::Off:
-          value += shares.off[k] * one;
+          value += shares.off[k] * press(member) * one;
           break;
         case OverPressures::On:
-          value += shares.on[k] * one;
+          value += shares.on[k] * press(member) * one;
           break;
         case OverPressures::Touching:
           value += shares.off[k] / touching * one;

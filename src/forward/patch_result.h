@@ -48,10 +48,11 @@ struct PatchResult {
 // share.
 enum class OverWater { Common, Mean, Highest, Lowest };
 
-// Over the patch pressures of one humidity (closure persson), to a mean patch of the load-carrying
-// area: by the share of patches at each pressure before or under the drive; over the patches in
-// contact alone; of the pull; or given by the fingertip. `ScaleBridge::combine`
-enum class OverPressures { Given, Off, On, Touching, OfPull, Highest, Lowest };
+// Over the patch pressures of one humidity (closures persson, balance), to a mean patch of the
+// load-carrying area: by the share of patches at each pressure under the nominal load, before or
+// under the drive; over the patches in contact alone; of the pull; or given by the fingertip.
+// `ScaleBridge::combine`
+enum class OverPressures { Given, Nominal, Off, On, Touching, OfPull, Highest, Lowest };
 
 struct PatchMember {
   double PatchResult::*value;
@@ -66,7 +67,7 @@ inline constexpr std::array kPatchMembers{
     PatchMember{&PatchResult::pull, OverWater::Mean, OverPressures::On},
     PatchMember{&PatchResult::retention, OverWater::Mean, OverPressures::Off},
     PatchMember{&PatchResult::retention_on, OverWater::Mean, OverPressures::On},
-    PatchMember{&PatchResult::area_dry, OverWater::Common, OverPressures::Off},
+    PatchMember{&PatchResult::area_dry, OverWater::Common, OverPressures::Nominal},
     PatchMember{&PatchResult::area_off, OverWater::Mean, OverPressures::Off},
     PatchMember{&PatchResult::area_on, OverWater::Mean, OverPressures::On},
     PatchMember{&PatchResult::bridges, OverWater::Mean, OverPressures::Touching},
@@ -141,9 +142,11 @@ static_assert(
 // One result for the skin: costs add up, the first trouble counts.
 PatchResult over_water(std::span<const PatchResult> members);
 
-// The share of patches at each patch pressure, before and under the drive.
+// The share of patches at each patch pressure: under the nominal load, before and under the drive.
 struct PressureShares {
-  std::vector<double> off, on;
+  std::vector<double> nominal, off, on;
+  // How much harder patches press than at their own pressure, and touch on more in proportion.
+  double press_off = 1, press_on = 1;
 };
 // Adds the results at each pressure to `out`, which holds what the fingertip gives.
 void add_over_pressures(std::span<const PatchResult> patches, const PressureShares& shares,

@@ -139,7 +139,8 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
   std::vector<std::shared_ptr<const ContactKernel>> kernels;
   for (const double rh : humidities) {
     kernels.push_back(contact_kernel(setup.scene(), setup.body(), set.plan.grid, rh));
-    set.bridges.emplace_back(setup.scene(), fidelity, set.plan.grid, rh, setup.body());
+    set.bridges.emplace_back(setup.scene(), fidelity, set.plan.grid, rh, setup.body(),
+                             setup.levels());
   }
   set.results.resize(humidities.size());
   std::vector<std::vector<std::vector<SolvedPatch>>> solved(
@@ -226,7 +227,8 @@ PatchPicture picture_patch(const Scene& scene, const Texture& texture, const Fid
   const std::vector<double> height = setup.height(picture.skin);
   const auto kernel = contact_kernel(setup.scene(), setup.body(), grid, relative_humidity);
   const double pressure =
-      ScaleBridge(setup.scene(), fidelity, grid, relative_humidity, setup.body()).mean_pressure();
+      ScaleBridge(setup.scene(), fidelity, grid, relative_humidity, setup.body(), setup.levels())
+          .mean_pressure();
   const WaterMember mean{1, water_stream(fidelity.first_skin + index, placement)};
   PatchStates start;
   solve_patch(setup.problem(height, *kernel, relative_humidity, pressure, mean), setup.plan(),

@@ -44,6 +44,8 @@ PatchSetup::PatchSetup(const Scene& scene, const Texture& texture, const Fidelit
           generate(texture, plan_.grid),
           plan_.field ? film_of(scene_) : std::vector<FilmLayer>()),  // nothing else asks for it
       body_(compliant_body(scene_.surface, surface_.height)) {
+  if (scene_.model.closure == Closure::Balance)
+    levels_ = surface_levels(surface_, scene_.surface.equivalent_thickness());
   if (surface_.cut_through > 0) {
     plan_.warnings.push_back(fmt::format(
         "the texture cuts through its planar film on {:.2g} % of the patch: the drive meets the "

@@ -7,6 +7,7 @@
 
 #include "base/rooms.h"
 #include "forward/coupling.h"
+#include "forward/open_gaps.h"
 #include "forward/scene_terms.h"
 
 namespace papilla::forward {
@@ -34,6 +35,8 @@ class PatchSetup {
   const CoveredSurface& surface() const { return surface_; }
   const Heightmap& texture() const { return surface_.height; }
   const CompliantBody& body() const { return body_; }
+  // Of the surface, for the gaps between patches in contact.
+  const SurfaceLevels& levels() const { return levels_; }
   const Texture& described() const { return texture_; }
 
   // Skin k of the fidelity: common to every design, because its modes are keyed by integer index.
@@ -54,6 +57,7 @@ class PatchSetup {
   Plan plan_;
   CoveredSurface surface_;
   CompliantBody body_;
+  SurfaceLevels levels_;
 };
 
 }  // namespace papilla::forward

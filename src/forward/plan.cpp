@@ -250,10 +250,22 @@ Entry retention(const Setting& s) {
   return PlanSkip{Piece::Retention, "preset m3 counts it for hydrophobic surfaces only", 0.05};
 }
 
+// Between one patch pressure and six, relative (docs/theory/coupling.md).
+constexpr double kOfBalance = 0.03;
+
 Entry patch_pressures(const Setting& s) {
   if (s.scene.model.closure == Closure::Uniform) {
     return PlanSkip{Piece::PatchPressures,
                     "closure = uniform: phi of the finger file stands for it"};
+  }
+  if (s.scene.model.closure == Closure::Balance) {
+    const bool far = s.scene.finger.macro.far_gaps > 0;
+    return PlanStep{Piece::PatchPressures,
+                    fmt::format("one balance of all gaps, {} patch pressure{}",
+                                s.fidelity.balance_nodes, s.fidelity.balance_nodes > 1 ? "s" : ""),
+                    far ? "open gaps of the ridges pull and hold water over this texture and film"
+                        : "finger.macro.far_gaps = 0: open gaps of the ridges left out",
+                    0, kOfBalance};
   }
   return PlanStep{Piece::PatchPressures,
                   fmt::format("Persson, {} patch pressures", s.fidelity.bridge_nodes),
@@ -387,7 +399,7 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
   plan.traction_solves = fidelity.estimator == Estimator::Area && (plan.water || plan.field);
   setting.price = prices(scene, plan, plan.grid, fidelity, plan.traction_solves, setting.room);
   setting.states = static_cast<double>(fidelity.skins) * static_cast<double>(humidities.size()) *
-                   (scene.model.closure == Closure::Persson ? fidelity.bridge_nodes : 1);
+                   fidelity.pressure_nodes(scene.model.closure);
   for (const PieceRow& piece : kPieces) {
     const Entry entry = piece.entry(setting);
     if (const auto* step = std::get_if<PlanStep>(&entry)) plan.steps.push_back(*step);

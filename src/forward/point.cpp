@@ -70,20 +70,28 @@ GrownArea scaled(const Measured& dry, const Estimate& load_ratio, const Fidelity
   return out;
 }
 
-// Eq. friction.3: F ~ L^beta on the dry contact area.
-void areas_by_load(ResponsePoint& point, Patches patches, const Fidelity& fidelity,
-                   double area_factor) {
+// Eq. friction.3: F ~ L^beta on the dry contact area of the patches in contact, of which there are
+// as many more as the open gaps press on (Eq. coupling.10).
+void areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches patches,
+                   const Fidelity& fidelity, double area_factor) {
   const Measured dry = sampled_mean(patches, &PatchResult::area_dry, area_factor);
   std::vector<double> loads;
   for (const PatchResult& p : patches) loads.push_back(p.load);
+  const double gain_by_gaps = bridge.growth_on() / bridge.growth_off();
+  const auto grown = [&](double growth, const Estimate& ratio) {
+    GrownArea out = scaled(dry, {ratio.value / growth, ratio.se / growth}, fidelity, point);
+    out.area.value *= growth;
+    out.area.parts.sampling *= growth;
+    return out;
+  };
   const Estimate off = ratio_estimate(point.samples.load_off, loads);
   const Estimate on = ratio_estimate(point.samples.load_on, loads);
   const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
-  const GrownArea without = scaled(dry, off, fidelity, point);
-  const GrownArea with = scaled(dry, on, fidelity, point);
+  const GrownArea without = grown(bridge.growth_off(), off), with = grown(bridge.growth_on(), on);
   point.area_fraction_off = without.area;
   point.area_fraction_on = with.area;
-  const double ratio = fidelity.area_by_load(gain.value) * with.held / without.held;
+  const double ratio =
+      gain_by_gaps * fidelity.area_by_load(gain.value / gain_by_gaps) * with.held / without.held;
   point.modulation.value = ratio - 1;
   point.modulation.parts.sampling =
       fidelity.load_exponent * ratio * gain.se / std::max(gain.value, 1e-12);
@@ -163,6 +171,11 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
       bridge.carrying_share() * macro.gross_area(scene.finger.load, relative_humidity);  // [m^2]
   const double patches_per_finger = carrying / plan.grid.area();
   gather(point, patches);
+  if (!patches.empty()) {
+    point.samples.preload = patches.front().load;
+    point.samples.pressed_off = point.samples.preload * bridge.growth_off();
+    point.samples.pressed_on = point.samples.preload * bridge.growth_on();
+  }
   for (const PointQuantity& q : kPointQuantities) {
     if (q.mean_of)
       point.*q.value = sampled_mean(patches, q.mean_of, q.whole_finger ? patches_per_finger : 1);
@@ -170,7 +183,7 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
   Measured retention_on = sampled_mean(patches, &PatchResult::retention_on, patches_per_finger);
   if (!plan.retention) point.retention_force = retention_on = {};
   if (setting.fidelity.estimator == Estimator::Load || !plan.traction_solves) {
-    areas_by_load(point, patches, setting.fidelity, setting.area_factor);
+    areas_by_load(point, bridge, patches, setting.fidelity, setting.area_factor);
   } else {
     areas_resolved(point, setting.area_factor);
   }

@@ -20,6 +20,9 @@ namespace papilla::forward {
 struct PatchSamples {
   std::vector<double> load_off, load_on;  // [N] on the patch: preload + capillary (+ pull)
   std::vector<double> area_off, area_on;  // contact fractions of the patch
+  // Preload of a mean patch, and with what the open gaps between patches add before and under the
+  // drive [N]: the number of patches in contact goes with these.
+  double preload = 0, pressed_off = 0, pressed_on = 0;
 
   bool operator==(const PatchSamples&) const = default;
 };

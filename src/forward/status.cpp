@@ -56,6 +56,12 @@ std::string text(const ModelStatus& status) {
           "breakdown: the field in a layer of the dielectric is {:.3g} times its strength, the "
           "numbers under voltage mean nothing physical",
           status.number);
+    case Trouble::RidgesCarry:
+      return fmt::format(
+          "soft surface: {:.3g} % of the ridges carry, as many as there are; its compression "
+          "brings "
+          "no more (Eq. coupling.6)",
+          100 * status.number);
   }
   PAPILLA_CHECK(false, "a trouble without words");
   return {};

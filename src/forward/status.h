@@ -25,6 +25,7 @@ enum class Trouble {
   NearlyFlooded,     // number: share of the patch that neither water nor contact covers
   WaterBeyondFit,    // number: the nearest humidity that the water volumes were fitted at
   Breakdown,         // of the dielectric; number: its field over its strength
+  RidgesCarry,       // nearly all of the ridges carry; number: their share
 };
 
 struct ModelStatus {

@@ -27,7 +27,9 @@ UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
       field_(field_ratios(driven(scene), texture, fidelity)) {
   const Grid& grid = setup_->plan().grid;
   kernel_ = contact_kernel(setup_->scene(), setup_->body(), grid, humidity());
-  pressures_ = ScaleBridge(setup_->scene(), fidelity, grid, humidity(), setup_->body()).pressures();
+  pressures_ =
+      ScaleBridge(setup_->scene(), fidelity, grid, humidity(), setup_->body(), setup_->levels())
+          .pressures();
   height_.resize(static_cast<std::size_t>(fidelity.skins));
   patches_.resize(height_.size());
   parallel_for(
@@ -56,7 +58,8 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   fidelity.estimator = estimator;
   Plan plan = setup_->plan();
   plan.traction_solves = plan.traction_solves && estimator == Estimator::Area;
-  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity(), setup_->body());
+  const ScaleBridge bridge(scene, fidelity, plan.grid, humidity(), setup_->body(),
+                           setup_->levels());
   const int samples = sampled_skins(*setup_, plan);
   std::vector<std::vector<SolvedPatch>> solved(patches_.size());
   parallel_for(

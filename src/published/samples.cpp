@@ -14,13 +14,13 @@ namespace {
 Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Sample out{evaluate(scene, texture, fidelity), {}};
   for (const ResponsePoint& p : out.response.points)
-    out.preload.push_back(p.patch_pressure * out.response.plan.grid.area());
+    out.preload.push_back(p.samples.preload);
   if (fidelity.estimator == Estimator::Area) return out;
   for (std::size_t i = 0; i < out.response.points.size(); ++i) {  // areas from loads, of each skin
     PatchSamples& p = out.response.points[i].samples;
     for (std::size_t k = 0; k < p.area_off.size(); ++k) {
-      p.area_off[k] *= fidelity.area_by_load(p.load_off[k] / out.preload[i]);
-      p.area_on[k] *= fidelity.area_by_load(p.load_on[k] / out.preload[i]);
+      p.area_off[k] *= fidelity.area_by_load(p.load_off[k] / p.pressed_off);
+      p.area_on[k] *= fidelity.area_by_load(p.load_on[k] / p.pressed_on);
     }
   }
   return out;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/constants.h"
-#include "forward/scale_bridge.h"
+#include "forward/ridges.h"
 #include "published/samples.h"
 
 namespace papilla::published {
@@ -106,7 +106,8 @@ double capacitance_gap(const Finger& finger) {
   constexpr double kLoad = 1, kArea = 30e-6;  // [N], [m^2]
   constexpr double kOxide = 0.256e-6;         // thickness over permittivity [m]
   constexpr double kHumidity = 0.45;
-  return capacitive_gap(finger, kLoad / kArea, kOxide, kHumidity);
+  return capacitive_gap(finger, kLoad / kArea, kOxide, kHumidity,
+                        rings_of(finger.calibrated_for, finger.macro));
 }
 
 }  // namespace papilla::published

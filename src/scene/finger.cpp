@@ -140,19 +140,35 @@ void fields(FieldVisitor& v, MacroContact& s) {
   v.number({"shear_fall_saturated", "%", 0, 95, "what tau loses from 75 % RH to saturation",
             Source::Paper, "to 5 MPa, of wet skin (Kovalev 2014)"},
            s.shear_fall_saturated);
-  v.number(
-      {"ridge_rms", "um", 1e-3, 1e4, "closure persson: rms height of ridges above the patch size",
-       Source::Estimate, "casts: below 5 um (Shultz 2015); see docs/theory/coupling.md"},
-      s.ridge_rms);
-  v.number({"ridge_longest", "mm", 1e-3, 1e3, "closure persson: longest wavelength of that",
-            Source::Estimate, "Sirin 2019: roll-off of wrist skin"},
+  v.number({"ridge_rms", "um", 1e-3, 1e4,
+            "closures persson and balance: rms height of ridges above the patch size",
+            Source::Estimate, "casts: below 5 um (Shultz 2015); see docs/theory/coupling.md"},
+           s.ridge_rms);
+  v.number({"ridge_longest", "mm", 1e-3, 1e3, "longest wavelength of that", Source::Estimate,
+            "Sirin 2019: roll-off of wrist skin"},
            s.ridge_longest);
-  v.number({"corneum_thickness", "um", 0, 1e5, "closure persson: thickness of the stratum corneum",
-            Source::Paper, "Sirin 2019"},
-           s.corneum_thickness);
-  v.number({"tissue_modulus", "kPa", 1e-3, 1e9, "closure persson: Young's modulus below it",
-            Source::Paper, "Sirin 2019"},
-           s.tissue_modulus);
+  v.number({"ridge_roll_off", "mm", 1e-3, 1e3,
+            "its roll-off wavelength; the longest or more: without roll-off", Source::Choice,
+            "no cast of a fingertip resolves it"},
+           s.ridge_roll_off);
+  v.number({"ridge_hurst", "", 0, 1, "its Hurst exponent; 0: that of the skin", Source::Choice,
+            "no cast of a fingertip resolves it"},
+           s.ridge_hurst);
+  v.number({"pressure_peak", "", 1, 3,
+            "closure balance: pressure in the middle of the fingertip over its mean; 1: even",
+            Source::Estimate, "a paraboloid; Hertz 1.5 (Eq. macro.5)"},
+           s.pressure_peak);
+  v.number({"far_gaps", "", 0, 1,
+            "closure balance: share of the open gaps that pull and hold water; 0: none",
+            Source::Choice, "1: every gap of the ridges"},
+           s.far_gaps);
+  v.number(
+      {"corneum_thickness", "um", 0, 1e5,
+       "closures persson, balance: thickness of the stratum corneum", Source::Paper, "Sirin 2019"},
+      s.corneum_thickness);
+  v.number(
+      {"tissue_modulus", "kPa", 1e-3, 1e9, "Young's modulus below it", Source::Paper, "Sirin 2019"},
+      s.tissue_modulus);
 }
 
 double ElectricalLayer::equivalent_thickness(double relative_humidity, double hydration) const {
@@ -259,8 +275,10 @@ void fields(FieldVisitor& v, ModelOptions& s) {
            {"papilla", "m3"}, s.preset);
   v.choice({"water", "droplets, or the cheap threshold model (never for variability)"},
            {"droplets", "threshold"}, s.water);
-  v.choice({"closure", "one patch pressure, or Persson's distribution of patch pressures"},
-           {"uniform", "persson"}, s.closure);
+  v.choice({"closure",
+            "one patch pressure, Persson's distribution of patch pressures over a flat surface, or "
+            "one balance of all gaps of the ridges over this one"},
+           {"uniform", "persson", "balance"}, s.closure);
   v.choice({"coupling", "contact, water and field in equilibrium, or one pass as published"},
            {"one_pass", "equilibrium"}, s.coupling);
   v.choice(

@@ -54,9 +54,16 @@ struct MacroContact {
   double shear_strength = 9e6;        // tau, interfacial, at 15 % RH [Pa]
   double shear_fall = 0.08;           // what it loses from 15 to 75 % RH, a share, linear
   double shear_fall_saturated = 0.4;  // and from 75 % RH to saturation, a share of what is left
-  // For closure "persson": the ridges' surface above the patch size, and what it lies on.
-  double ridge_rms = 2.2e-6, ridge_longest = 1e-3;           // rms height, longest wavelength [m]
+  // For closures "persson" and "balance": the ridges' surface above the patch size, and what it
+  // lies on.
+  double ridge_rms = 2.2e-6, ridge_longest = 1e-3;  // rms height, longest wavelength [m]
+  double ridge_roll_off = 1e-3;  // wavelength [m]; at least ridge_longest: no roll-off
+  double ridge_hurst = 0;        // 0: that of the skin
   double corneum_thickness = 200e-6, tissue_modulus = 10e3;  // [m], Young's modulus [Pa]
+
+  // For closure "balance".
+  double pressure_peak = 2;  // of the ridges in the middle of the fingertip, over their mean
+  double far_gaps = 1;       // share of the open gaps that pull and hold water
 
   // Gross contact area at a load [N] and relative humidity (0-1). Eq. scene.2
   double gross_area(double load, double relative_humidity) const;
@@ -122,7 +129,7 @@ void fields(FieldVisitor& v, Saturation& s);
 
 enum class Preset { Papilla, M3 };
 enum class WaterModel { Droplets, Threshold };
-enum class Closure { Uniform, Persson };
+enum class Closure { Uniform, Persson, Balance };
 enum class Coupling { OnePass, Equilibrium };
 // What the air of a gap withstands: anything; the field at which it breaks down; or that field and
 // in any gap the voltage that ionises it.

@@ -88,7 +88,7 @@ TEST(Contradictions, OfTheFingerAreItsWaterItsLoadAndItsSkin) {
               d.finger.skin.map = "skin.gsf";
               d.model.closure = Closure::Persson;
             }),
-            "finger.skin.map: the Persson closure takes the spectrum of the skin; use "
+            "finger.skin.map: closures persson and balance take the spectrum of the skin; use "
             "model.closure = \"uniform\" with a map\n");
 }
 

@@ -102,5 +102,21 @@ TEST(Fingertip, RidgesCarryTheWholeLoad) {
   EXPECT_EQ(ridge_load(macro, 0, 0.15).mean_pressure, 0);
 }
 
+// Eq. macro.5: of a paraboloid 2 (1 - t) over the share of area t, of Hertz 1.5 (1 - t)^.5.
+TEST(Fingertip, RingsCarryTheirProfile) {
+  ASSERT_EQ(pressure_rings(1, 3).size(), 1u);
+  for (const double peak : {1.5, 2.0, 3.0}) {
+    double share = 0, mean = 0, second = 0;
+    for (const PressureRing& ring : pressure_rings(peak, 3)) {
+      share += ring.share;
+      mean += ring.share * ring.over_mean;
+      second += ring.share * ring.over_mean * ring.over_mean;
+    }
+    EXPECT_NEAR(share, 1, 1e-12);
+    EXPECT_NEAR(mean, 1, 1e-12);
+    EXPECT_NEAR(second, peak * peak / (2 * peak - 1), 2e-2);
+  }
+}
+
 }  // namespace
 }  // namespace papilla::tests

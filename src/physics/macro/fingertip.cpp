@@ -98,4 +98,19 @@ RidgeLoad ridge_load(const MacroContact& macro, double load, double relative_hum
   return out;
 }
 
+std::vector<PressureRing> pressure_rings(double peak, int rings) {
+  PAPILLA_CHECK(peak >= 1 && rings >= 1, "a pressure profile");
+  if (peak == 1) return {{}};
+  // Over the share of the area inside: 1 - (r/a)^2 falls evenly from 1 to 0.
+  const Quadrature rule = gauss_legendre(rings, 0, 1);
+  std::vector<PressureRing> out;
+  double mean = 0;
+  for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
+    out.push_back({rule.weights[i], peak * std::pow(rule.nodes[i], peak - 1)});
+    mean += out.back().share * out.back().over_mean;
+  }
+  for (PressureRing& ring : out) ring.over_mean /= mean;
+  return out;
+}
+
 }  // namespace papilla::macro

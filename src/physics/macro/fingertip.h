@@ -3,6 +3,8 @@
 // Equations macro.N: docs/theory/macro.md.
 #pragma once
 
+#include <vector>
+
 #include "base/rooms.h"
 #include "scene/finger.h"
 
@@ -56,5 +58,12 @@ struct RidgeLoad {
   double peak_pressure = 0;  // on the ridge in the middle [Pa]
 };
 RidgeLoad ridge_load(const MacroContact& macro, double load, double relative_humidity);
+
+// Rings of the fingertip of given shares of the area, and their pressure over the mean: p(r) =
+// K mean (1 - r^2/a^2)^(K - 1), K = peak >= 1. Their mean is 1. Eq. macro.5
+struct PressureRing {
+  double share = 1, over_mean = 1;
+};
+std::vector<PressureRing> pressure_rings(double peak, int rings);
 
 }  // namespace papilla::macro

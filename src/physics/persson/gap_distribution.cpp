@@ -97,9 +97,18 @@ double GapDistribution::inverse_square(std::complex<double> h0) const {
 
 double GapDistribution::far_inverse_square(std::complex<double> h0, double q) const {
   const double re = h0.real(), im2 = square(h0.imag());
+  return far_mean([&](double u) { return 1 / (square(u + re) + im2); }, std::abs(h0), q);
+}
+
+double GapDistribution::far_mean(const std::function<double(double)>& of, double scale,
+                                 double q) const {
+  return band_sum(*this, far_bands(q), scale, of);
+}
+
+std::size_t GapDistribution::far_bands(double q) const {
   std::size_t count = 0;
   while (count < share.size() && wave_number[count] <= q * (1 + 1e-12)) ++count;
-  return band_sum(*this, count, std::abs(h0), [&](double u) { return 1 / (square(u + re) + im2); });
+  return count;
 }
 
 double GapDistribution::inverse(double h0) const {

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/check.h"
 #include "base/constants.h"
@@ -11,19 +12,31 @@
 namespace papilla::persson {
 
 PatchPressures::PatchPressures(double stress_measure, double pressure, int nodes)
-    : measure_(stress_measure), nominal_(pressure) {
-  PAPILLA_CHECK(stress_measure > 0 && pressure > 0, "patches need roughness and a load");
+    : PatchPressures(stress_measure, std::vector<NominalPressure>{{pressure, 1}}, nodes) {}
+
+PatchPressures::PatchPressures(double stress_measure, std::vector<NominalPressure> parts, int nodes)
+    : measure_(stress_measure), parts_(std::move(parts)) {
+  PAPILLA_CHECK(stress_measure > 0 && !parts_.empty(), "patches need roughness and a load");
   PAPILLA_CHECK(nodes >= 1 && nodes <= 64, "1 to 64 patch pressures");
+  double least = kInfinity, most = 0;
+  for (const NominalPressure& part : parts_) {
+    PAPILLA_CHECK(part.pressure > 0, "patches need roughness and a load");
+    least = std::min(least, part.pressure);
+    most = std::max(most, part.pressure);
+  }
   // In units of sqrt(M): density at s about x. Discretised, then Stieltjes' recurrence and the
   // eigenvalues of the Jacobi matrix.
-  const double root = std::sqrt(stress_measure), x = pressure / root;
-  const Quadrature fine = gauss_legendre(400, std::max(0.0, x - 7), x + 7);
+  const double root = std::sqrt(stress_measure);
+  const Quadrature fine = gauss_legendre(400, std::max(0.0, least / root - 7), most / root + 7);
   std::vector<double> weight(fine.nodes.size());
   for (std::size_t i = 0; i < weight.size(); ++i) {
     const double s = fine.nodes[i];
-    // exp(-(s-x)^2) - exp(-(s+x)^2) without cancellation
-    weight[i] =
-        fine.weights[i] * std::exp(-square(s - x)) * -std::expm1(-4 * s * x) / std::sqrt(kPi);
+    for (const NominalPressure& part : parts_) {
+      const double x = part.pressure / root;
+      // exp(-(s-x)^2) - exp(-(s+x)^2) without cancellation
+      weight[i] += part.share * fine.weights[i] * std::exp(-square(s - x)) *
+                   -std::expm1(-4 * s * x) / std::sqrt(kPi);
+    }
   }
   const auto n = static_cast<Eigen::Index>(nodes);
   Eigen::VectorXd diagonal(n), off(std::max<Eigen::Index>(n - 1, 0));
@@ -55,20 +68,45 @@ PatchPressures::PatchPressures(double stress_measure, double pressure, int nodes
 }
 
 std::vector<double> PatchPressures::share_at(double p) const {
-  PAPILLA_CHECK(p > 0, "patches need a load");
-  // Ratio of densities up to a factor that the load fixes; the largest is 1, so that none
-  // overflows.
+  double mean = 0, all = 0;
+  for (const NominalPressure& part : parts_) {
+    mean += part.share * part.pressure;
+    all += part.share;
+  }
+  std::vector<double> pressures;
+  for (const NominalPressure& part : parts_) pressures.push_back(p * part.pressure * all / mean);
+  return share_at(pressures);
+}
+
+std::vector<double> PatchPressures::share_at(const std::vector<double>& p) const {
+  PAPILLA_CHECK(p.size() == parts_.size(), "one pressure for each part");
+  // Ratio of densities up to a factor that the load fixes: exponents from the largest one, so that
+  // none overflows.
+  const auto exponent = [&](double s, double pressure) { return -square(s - pressure) / measure_; };
+  double most = -kInfinity, load = 0, carried = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    PAPILLA_CHECK(p[i] > 0, "patches need a load");
+    load += parts_[i].share * p[i];
+    for (const double s : pressure_) {
+      most = std::max(most, exponent(s, p[i]) - exponent(s, parts_[i].pressure));
+    }
+  }
   std::vector<double> share = share_;
-  const auto exponent = [&](double s) { return 2 * s * (p - nominal_) / measure_; };
-  const double most = std::max(exponent(pressure_.front()), exponent(pressure_.back()));
-  double carried = 0;
   for (std::size_t k = 0; k < share.size(); ++k) {
     const double s = pressure_[k];
-    share[k] *= std::exp(exponent(s) - most) * std::expm1(-4 * s * p / measure_) /
-                std::expm1(-4 * s * nominal_ / measure_);
+    double now = 0, before = 0;
+    const double top = exponent(s, parts_.front().pressure);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const NominalPressure& part = parts_[i];
+      now -= part.share * std::exp(exponent(s, p[i]) - top - most) *
+             std::expm1(-4 * s * p[i] / measure_);
+      before -= part.share * std::exp(exponent(s, part.pressure) - top) *
+                std::expm1(-4 * s * part.pressure / measure_);
+    }
+    share[k] *= now / before;
     carried += share[k] * s;
   }
-  for (double& w : share) w *= p / carried;
+  for (double& w : share) w *= load / carried;
   return share;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <complex>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -82,6 +83,10 @@ struct GapDistribution {
   double inverse_square(std::complex<double> h0) const;
   double far_inverse_square(std::complex<double> h0, double q) const;
   double inverse(double h0) const;  // mean of 1/(u + h0) [1/m]: capacitance per area over eps0
+  // Mean over the area of `of` in the gaps that far_inverse_square takes. scale [m] > 0: length on
+  // which it varies near gap 0.
+  double far_mean(const std::function<double(double)>& of, double scale, double q) const;
+  std::size_t far_bands(double q) const;  // how many bands those are
 };
 
 class MeanField {

@@ -1,0 +1,120 @@
+#include "forward/ridges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "base/cache.h"
+#include "base/constants.h"
+
+namespace papilla::forward {
+namespace {
+
+constexpr double kPatch = 12e-6;  // where the spectrum of the ridges meets that of the skin
+constexpr int kRings = 3;
+// Pressures of the table over the mean one: below the outermost ring, up to gaps that have closed.
+constexpr double kLowest = 0.03, kHighest = 60;
+constexpr int kPressures = 18;
+
+// Spectrum of the ridge above the patch size, then that of the skin within patches.
+PowerSpectrum ridge_and_skin(const Finger& finger, double q_patch) {
+  const MacroContact& macro = finger.macro;
+  const Skin& skin = finger.skin;
+  const double lowest = std::min(2 * kPi / macro.ridge_longest, 0.5 * q_patch);
+  const double ridge_roll_off =
+      std::clamp(2 * kPi / macro.ridge_roll_off, lowest, std::max(lowest, 0.5 * q_patch));
+  PowerSpectrum all = self_affine_spectrum(macro.ridge_rms, lowest, ridge_roll_off, q_patch,
+                                           macro.ridge_hurst > 0 ? macro.ridge_hurst : skin.hurst);
+  const double roll_off = 2 * kPi / skin.roll_off, cutoff = 2 * kPi / skin.cutoff;
+  if (cutoff <= q_patch || skin.rms == 0) return all;
+  const double begin = std::min(q_patch, roll_off);
+  const PowerSpectrum within =
+      self_affine_spectrum(skin.rms * skin.relief_factor(), begin, roll_off, cutoff, skin.hurst)
+          .between(q_patch, cutoff);
+  for (std::size_t i = 0; i < within.wave_number.size(); ++i) {
+    const double q = i == 0 ? q_patch * (1 + 1e-9) : within.wave_number[i];
+    if (q <= all.wave_number.back()) continue;
+    all.wave_number.push_back(q);
+    all.density.push_back(within.density[i]);
+  }
+  return all;
+}
+
+}  // namespace
+
+MeanField ridge_field(const Finger& finger, double q_patch, double relative_humidity) {
+  const MacroContact& macro = finger.macro;
+  const double factor = finger.skin.modulus_factor(relative_humidity);
+  return MeanField(ridge_and_skin(finger, q_patch),
+                   {finger.skin.bulk_modulus * factor, finger.skin.bulk_poisson,
+                    macro.corneum_thickness, macro.tissue_modulus, 0.5});
+}
+
+std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch,
+                                            double relative_humidity, double mean_pressure) {
+  using Key = std::tuple<double, double, double, MacroContact, Skin>;
+  constexpr double kMostBytes = 16e6;
+  static Cache<Key, RidgeGaps> cache(64, kMostBytes);
+  const Key key{q_patch, relative_humidity, mean_pressure, finger.macro, finger.skin};
+  return cache.get(key, 2 * kPressures * 450 * 4 * sizeof(double), [&] {
+    auto out = std::make_shared<RidgeGaps>(
+        RidgeGaps{ridge_field(finger, q_patch, relative_humidity), q_patch, {}, {}});
+    const MeanField ridges(out->field.spectrum().between(out->field.spectrum().lowest(), q_patch),
+                           out->field.solid());
+    const double step = std::log(kHighest / kLowest) / (kPressures - 1);
+    for (int i = 0; i < kPressures; ++i) {
+      const double pressure = mean_pressure * kLowest * std::exp(step * i);
+      out->at.push_back(out->field.gaps(pressure));
+      out->hangs.push_back(ridges.gaps(pressure));
+    }
+    return std::shared_ptr<const RidgeGaps>(out);
+  });
+}
+
+double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
+                      double relative_humidity, const std::vector<PressureRing>& rings) {
+  const double h0 = dielectric + finger.skin_layer(relative_humidity);
+  const MeanField field = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
+  double inverse = 0;
+  for (const PressureRing& ring : rings)
+    inverse += ring.share * field.gaps(ridge_pressure * ring.over_mean).inverse(h0);
+  return 1 / inverse - h0;
+}
+
+std::vector<PressureRing> rings_of(const ModelOptions& model, const MacroContact& macro) {
+  if (model.closure != Closure::Balance) return {{}};
+  return pressure_rings(macro.pressure_peak, kRings);
+}
+
+double compressed_share(const Finger& finger, double compliance, const CarryingShare& rigid,
+                        double relative_humidity) {
+  const double nominal = ridge_load(finger.macro, finger.load, relative_humidity).mean_pressure;
+  if (!(nominal > 0) || !(compliance > 0) || finger.macro.ridge_rms <= 0) return rigid.share;
+  const MeanField all = ridge_field(finger, 2 * kPi / kPatch, relative_humidity);
+  const PowerSpectrum ridges = all.spectrum().between(all.spectrum().lowest(), 2 * kPi / kPatch);
+  const GapDistribution gaps = MeanField(ridges, all.solid()).gaps(nominal);
+  // A patch at a few nanometres touches with its skin.
+  constexpr double kTouches = 5e-9;
+  const double touching = gaps.cumulative(kTouches);
+  if (!(touching > 0)) return rigid.share;
+  const auto share = [&](double pressure) {
+    return below(rigid.most, rigid.share,
+                 rigid.share * gaps.cumulative(kTouches + compliance * pressure) / touching);
+  };
+  // pressure x patches is the load: rises with the pressure.
+  double low = 0, high = rigid.pressure;
+  for (int k = 0; k < 60 && high - low > 1e-9 * rigid.pressure; ++k) {
+    const double pressure = 0.5 * (low + high);
+    (pressure * share(pressure) < rigid.pressure * rigid.share ? low : high) = pressure;
+  }
+  return rigid.pressure * rigid.share / (0.5 * (low + high));
+}
+
+double below(double most, double share, double wanted) {
+  const double room = most - share;
+  if (!(room > 0)) return share;
+  const double x = (wanted - share) / room;
+  return share + room * x / std::pow(1 + square(square(x)), 0.25);
+}
+
+}  // namespace papilla::forward

@@ -1,0 +1,51 @@
+// The ridges above the patch size: their roughness, pressures and gaps, common to the closures.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/rooms.h"
+#include "physics/macro/fingertip.h"
+#include "physics/persson/persson.h"
+#include "scene/scene.h"
+
+namespace papilla::forward {
+
+// Ridges from their longest wave to the patch's, then the skin within patches; moduli of the
+// humidity. Cost 1 ms.
+MeanField ridge_field(const Finger& finger, double q_patch, double relative_humidity);
+
+// All gaps of the ridges at pressures [Pa] about a mean one, ascending in equal ratios.
+struct RidgeGaps {
+  MeanField field;
+  double q_patch = 0;
+  std::vector<GapDistribution> at;
+  // Of the ridges above the patch size alone: how far patches hang over where they just touch.
+  std::vector<GapDistribution> hangs;
+};
+// Kept: common to the designs of a search. Cost 50 ms.
+std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch,
+                                            double relative_humidity, double mean_pressure);
+
+// The gap [m] that a capacitance measurement reports under a finger whose ridges press with
+// ridge_pressure [Pa] on a dielectric of equivalent thickness d/eps [m]: open gaps and patches in
+// contact side by side, by the ridges' roughness; over the rings of a fingertip the mean of their
+// capacitances. Eq. coupling.4. Cost 3 ms a ring.
+double capacitive_gap(const Finger& finger, double ridge_pressure, double dielectric,
+                      double relative_humidity, const std::vector<PressureRing>& rings = {{}});
+
+// The share that carries on a rigid surface, its pressure, and the share that there is.
+struct CarryingShare {
+  double share = 0, pressure = 0, most = 1;  // pressure [Pa]
+};
+// The share that carries a surface which gives by compliance [m/Pa]: patches within reach of its
+// compression as well, never more than there are. Eq. coupling.6. Cost 3 ms.
+double compressed_share(const Finger& finger, double compliance, const CarryingShare& rigid,
+                        double relative_humidity);
+// `wanted` >= share where there is room for it, and smoothly at most `most`. Eq. coupling.6
+double below(double most, double share, double wanted);
+
+// Of the closure: those of the balance have a pressure each, all others one.
+std::vector<PressureRing> rings_of(const ModelOptions& model, const MacroContact& macro);
+
+}  // namespace papilla::forward

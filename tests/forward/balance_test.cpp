@@ -1,0 +1,309 @@
+// One balance over all gaps of the ridges: its limits, what it conserves, its open gaps against
+// solved maps. Eq. coupling.7 to coupling.10
+#include "forward/balance.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "base/constants.h"
+#include "forward/forward.h"
+#include "forward/patch_setup.h"
+#include "forward/scale_bridge.h"
+#include "geometry/roughness.h"
+#include "physics/capillary/droplets.h"
+
+namespace papilla::tests {
+namespace {
+
+constexpr double kHumidity = 0.55;
+const Grid kGrid{64, 64, 12e-6, 12e-6};
+const double kPatchNumber = 2 * kPi / 12e-6;
+
+Scene balanced(double amplitude) {
+  Scene scene;
+  scene.model.closure = Closure::Balance;
+  scene.drive.amplitude = amplitude;
+  scene.environment.relative_humidity = {kHumidity};
+  return scene;
+}
+
+Fidelity small(Estimator estimator = Estimator::Load) {
+  Fidelity f = fidelity_level("search");
+  f.grid = 64;
+  f.skins = 3;
+  f.estimator = estimator;
+  return f;
+}
+
+Balance solved(const Scene& scene, int nodes = 1, const SurfaceLevels& levels = {}) {
+  return solve_balance(scene, kPatchNumber, kHumidity, nodes, levels);
+}
+
+SurfaceLevels holes(double depth) {  // half of the area, film of 500 nm
+  return {{0.5, 0.5}, {0, depth}, {128e-9, 128e-9}};
+}
+
+double carried(const std::vector<double>& share, const std::vector<double>& pressure) {
+  return std::inner_product(share.begin(), share.end(), pressure.begin(), 0.0);
+}
+
+// phi given: ridges of the roughness at which as many patches touch as it says.
+TEST(Balance, WithoutOpenGapsAndAtOnePressureItIsTheUniformClosure) {
+  Scene uniform = balanced(150);
+  uniform.model.closure = Closure::Uniform;
+  Scene scene = balanced(150);
+  MacroContact& macro = scene.finger.macro;
+  macro.far_gaps = 0;
+  macro.pressure_peak = 1;
+  double low = 0.1e-6, high = 100e-6;
+  for (int i = 0; i < 100; ++i) {
+    macro.ridge_rms = std::sqrt(low * high);
+    const ScaleBridge bridge(scene, small(), kGrid, kHumidity);
+    (bridge.mean_pressure() < scene.finger.patch_pressure(kHumidity) ? low : high) =
+        macro.ridge_rms;
+  }
+  for (const Estimator estimator : {Estimator::Load, Estimator::Area}) {
+    const ResponsePoint a =
+        evaluate(uniform, Texture{HoleArray{}}, small(estimator)).points.front();
+    const ResponsePoint b = evaluate(scene, Texture{HoleArray{}}, small(estimator)).points.front();
+    EXPECT_TRUE(b.status.sound());
+    for (const auto quantity :
+         {&ResponsePoint::friction_off, &ResponsePoint::friction_on, &ResponsePoint::modulation,
+          &ResponsePoint::electrostatic_force, &ResponsePoint::capillary_force,
+          &ResponsePoint::retention_force, &ResponsePoint::mean_gap, &ResponsePoint::bridges}) {
+      EXPECT_NEAR((b.*quantity).value, (a.*quantity).value, 1e-6 * (a.*quantity).value);
+    }
+  }
+}
+
+// Over flat glass, without water, at one pressure of the ridges. Forces of patches are counted by
+// Persson's share in contact there, by their load here: the share of three nodes is good to .3 %.
+TEST(Balance, OverFlatGlassWithoutWaterItIsThePerssonClosure) {
+  Scene scene = balanced(120);
+  scene.finger.water.volume = {0, 0, 0, 0};
+  scene.finger.macro.pressure_peak = 1;
+  Scene persson = scene;
+  persson.model.closure = Closure::Persson;
+  Fidelity fidelity = small(Estimator::Area);
+  fidelity.balance_nodes = fidelity.bridge_nodes;
+  const ScaleBridge mine(scene, fidelity, kGrid, kHumidity);
+  const ScaleBridge other(persson, fidelity, kGrid, kHumidity);
+  ASSERT_EQ(mine.pressures().size(), other.pressures().size());
+  for (std::size_t k = 0; k < mine.pressures().size(); ++k)
+    EXPECT_NEAR(mine.pressures()[k], other.pressures()[k], 1e-12 * other.pressures()[k]);
+  const std::vector<PatchResult> none(mine.pressures().size());
+  const double far = other.combine(none).pull;
+  EXPECT_NEAR(mine.combine(none).pull, far, 1e-3 * far);
+  const ResponsePoint a = evaluate(persson, Texture{}, fidelity).points.front();
+  const ResponsePoint b = evaluate(scene, Texture{}, fidelity).points.front();
+  EXPECT_NEAR(b.friction_off.value, a.friction_off.value, 1e-9 * a.friction_off.value);
+  EXPECT_NEAR(b.friction_on.value, a.friction_on.value, 3e-3 * a.friction_on.value);
+  EXPECT_NEAR(b.electrostatic_force.value, a.electrostatic_force.value,
+              3e-3 * a.electrostatic_force.value);
+}
+
+TEST(Balance, PatchesInContactCarryTheLoadAndAllThatTheOpenGapsAdd) {
+  for (const double amplitude : {0.0, 60.0, 150.0}) {
+    for (const int nodes : {1, 3}) {
+      const Balance b = solved(balanced(amplitude), nodes, holes(350e-9));
+      ASSERT_FALSE(b.pull_in);
+      EXPECT_NEAR(carried(b.shares.nominal, b.pressures), b.nominal, 1e-9 * b.nominal);
+      EXPECT_NEAR(b.shares.press_off * carried(b.shares.off, b.pressures),
+                  b.nominal + b.far.capillary, 1e-9 * b.nominal);
+      EXPECT_NEAR(b.shares.press_on * carried(b.shares.on, b.pressures),
+                  b.nominal + b.far.pull + b.far.capillary_on, 1e-9 * b.pressed_on);
+      EXPECT_NEAR(std::accumulate(b.shares.on.begin(), b.shares.on.end(), 0.0), b.touching_on,
+                  1e-12);
+      EXPECT_LT(b.touching_on, 1);
+    }
+  }
+}
+
+TEST(Balance, MoreVoltagePressesMoreUntilPullIn) {
+  double pressed = 0, stability = 1;
+  for (const double amplitude : {0.0, 25.0, 50.0, 75.0, 100.0, 125.0, 150.0}) {
+    const Balance b = solved(balanced(amplitude));
+    EXPECT_GT(b.pressed_on, pressed) << amplitude;
+    EXPECT_LE(b.stability, stability) << amplitude;
+    EXPECT_GT(b.stability, 0);
+    pressed = b.pressed_on;
+    stability = b.stability;
+  }
+  Scene smooth = balanced(20000);
+  smooth.finger.macro.ridge_rms = 0.3e-6;
+  const ScaleBridge closed(smooth, small(), kGrid, kHumidity);
+  EXPECT_EQ(closed.combine(std::vector<PatchResult>(1)).status.trouble, Trouble::FarGapPullIn);
+}
+
+// A relief that is deep beside the gap takes away what it opens.
+TEST(Balance, OverHolesTheOpenGapsPullLess) {
+  const double flat = solved(balanced(100), 1, holes(0)).far.pull;
+  EXPECT_NEAR(flat, solved(balanced(100)).far.pull, 1e-3 * flat);
+  double before = flat;
+  for (const double depth : {100e-9, 300e-9, 1e-6, 3e-6}) {
+    const double pull = solved(balanced(100), 1, holes(depth)).far.pull;
+    EXPECT_LT(pull, before) << depth;
+    before = pull;
+  }
+  EXPECT_LT(before, 0.75 * flat);  // next to half of the area is left
+  EXPECT_GT(before, 0.25 * flat);
+}
+
+// Second method for Eq. coupling.8: gaps of a skin hung over a solved map, pixel by pixel.
+TEST(Balance, TheLawOfOpenGapsIsTheSumOverAMap) {
+  Scene scene = balanced(200);
+  const PatchSetup setup(scene, Texture{HoleArray{}}, small());
+  const Grid& grid = setup.plan().grid;
+  const FieldProblem field = field_problem(scene, kHumidity);
+  const double kContact = 0.01;
+  const SurfaceLevels levels = resting(setup.levels(), scene.finger.skin.rms, kContact);
+  for (const double hang : {0.9e-6, 1.3e-6, 2.5e-6}) {
+    double sum = 0, square_sum = 0, direct = 0, mean = 0, count = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Heightmap skin = setup.skin(k);
+      for (std::size_t i = 0; i < skin.z.size(); ++i) {
+        sum += skin.z[i], square_sum += square(skin.z[i]), count += 1;
+      }
+    }
+    mean = sum / count;
+    const double rms = std::sqrt(square_sum / count - square(mean));
+    // Where the skin rests on the texture, over where it does on flat glass.
+    const double lift = levels.below.back() + setup.levels().below.back() * -1;
+    for (int k = 0; k < 3; ++k) {
+      const Heightmap skin = setup.skin(k);
+      for (std::size_t i = 0; i < skin.z.size(); ++i) {
+        const double gap = std::abs(hang + lift - setup.texture().z[i] - (skin.z[i] - mean));
+        direct += 1 /
+                  (square(gap + setup.surface().effective[i] + field.skin_layer.real()) +
+                   square(field.skin_layer.imag())) /
+                  count;
+      }
+    }
+    direct *= 0.5 * kVacuumPermittivity * square(field.v_rms);
+    GapDistribution gaps;
+    gaps.share = {1}, gaps.offset = {hang}, gaps.width = {rms}, gaps.wave_number = {1};
+    const OpenGapForces law = open_gap_forces(gaps, 10, levels, field, {});
+    EXPECT_NEAR(law.pull, direct, 0.05 * direct) << hang << " on " << grid.nx;
+  }
+}
+
+// Second method for Eq. coupling.9: droplets settled under skin that hangs over flat glass.
+TEST(Balance, WaterOfOpenGapsHoldsWhatSettledDropletsHold) {
+  Scene scene = balanced(0);
+  const PatchSetup setup(scene, Texture{}, small());
+  const double humidity = 0.75;
+  const FarWater water{scene.finger.water.volume_per_area(humidity),
+                       scene.finger.water.drops_per_um3 * 1e18,
+                       water_properties(scene, scene.surface.contact_angle),
+                       water_properties(scene, scene.surface.contact_angle)};
+  const Grid& grid = setup.plan().grid;
+  DropletOptions options;
+  options.drops_per_volume = water.drops_per_volume;
+  options.first_step = scene.model.droplet_step;
+  for (const double hang : {0.8e-6, 0.9e-6}) {
+    double direct = 0, law = 0;
+    for (int k = 0; k < 6; ++k) {
+      const Heightmap skin = setup.skin(k);
+      const double mean =
+          std::accumulate(skin.z.begin(), skin.z.end(), 0.0) / static_cast<double>(skin.z.size());
+      double square_sum = 0;
+      Gap gap{grid, skin.z};
+      for (double& g : gap.value) {
+        square_sum += square(g - mean);
+        g = std::max(0.0, hang - (g - mean));
+      }
+      direct += settle_droplets(gap, water.per_area * grid.area(), water.rest, options, 1,
+                                static_cast<std::uint64_t>(k))
+                    .capillary_force /
+                grid.area();
+      GapDistribution gaps;
+      gaps.share = {1}, gaps.offset = {hang}, gaps.wave_number = {1};
+      gaps.width = {std::sqrt(square_sum / static_cast<double>(skin.z.size()))};
+      FieldProblem none;
+      none.v_rms = 0;
+      law += open_gap_forces(gaps, 10, {}, none, water).capillary;
+    }
+    EXPECT_GT(direct, 0);
+    EXPECT_LT(law, 2 * direct) << hang;
+    EXPECT_GT(law, 0.5 * direct) << hang;
+  }
+}
+
+// Eq. coupling.6: what gives without end finds no more patches than the ridges have.
+TEST(Balance, ASoftFilmIsCarriedByNoMoreThanTheRidges) {
+  Scene scene;
+  const double most = scene.finger.macro.ridge_share;
+  double share = 0;
+  for (const double modulus : {1e9, 1e7, 2.6e6, 1e5, 1e3, 1.0}) {
+    scene.surface.modulus = modulus;
+    const ScaleBridge bridge(scene, small(), kGrid, kHumidity, {3e-6, 0.4});
+    EXPECT_GE(bridge.carrying_share(), share) << modulus;
+    EXPECT_LE(bridge.carrying_share(), most) << modulus;
+    EXPECT_NEAR(bridge.carrying_share() * bridge.mean_pressure(),
+                scene.finger.macro.load_share * scene.finger.patch_pressure(kHumidity),
+                1e-6 * bridge.carrying_share() * bridge.mean_pressure());
+    share = bridge.carrying_share();
+    EXPECT_EQ(bridge.combine(std::vector<PatchResult>(1)).status.sound(), share < 0.95 * most);
+  }
+  EXPECT_GT(share, 0.95 * most);
+  Scene balance = balanced(150);
+  balance.surface.modulus = 1;
+  const ScaleBridge bridge(balance, small(), kGrid, kHumidity, {3e-6, 0.4});
+  EXPECT_LE(bridge.balance().touching_on, 1);
+  EXPECT_GT(bridge.balance().touching_off, 0.95);
+}
+
+// Steps of a sweep lie on a smooth curve: no value is off the middle of its neighbours by more
+// than neighbours of a smooth law are.
+template <class Of>
+void expect_smooth(const char* what, double first, double last, const Of& of) {
+  constexpr int kCount = 41;
+  std::vector<double> value;
+  for (int i = 0; i < kCount; ++i)
+    value.push_back(std::log(of(first * std::pow(last / first, i / (kCount - 1.0)))));
+  double largest = 0;
+  for (int i = 1; i < kCount; ++i) largest = std::max(largest, std::abs(value[i] - value[i - 1]));
+  for (int i = 1; i + 1 < kCount; ++i)
+    EXPECT_LT(std::abs(value[i + 1] - 2 * value[i] + value[i - 1]), 0.25 * largest + 1e-4)
+        << what << " " << i;
+}
+
+TEST(Balance, HasNoStepOverRidgesLoadAndFilm) {
+  const Scene scene = balanced(100);
+  expect_smooth("ridge_rms", 1e-6, 10e-6, [&](double x) {
+    Scene s = scene;
+    s.finger.macro.ridge_rms = x;
+    return solved(s, 1, holes(350e-9)).pressed_on;
+  });
+  expect_smooth("load", 0.05, 2, [&](double x) {
+    Scene s = scene;
+    s.finger.load = x;
+    return solved(s, 1, holes(350e-9)).pressed_on;
+  });
+  for (const Closure closure : {Closure::Uniform, Closure::Balance}) {
+    expect_smooth("modulus", 1e2, 1e9, [&](double x) {
+      Scene s = scene;
+      s.model.closure = closure;
+      s.surface.modulus = x;
+      return ScaleBridge(s, small(), kGrid, kHumidity, {3e-6, 0.4}).mean_pressure();
+    });
+  }
+}
+
+// The load law and solved areas speak of one model: more patches touch, in proportion.
+TEST(Balance, TheLoadLawCountsTheOpenGapsInProportion) {
+  Scene scene = balanced(150);
+  scene.finger.water.volume = {0, 0, 0, 0};
+  const double by_load =
+      evaluate(scene, Texture{}, small(Estimator::Load)).points[0].modulation.value;
+  const double by_area =
+      evaluate(scene, Texture{}, small(Estimator::Area)).points[0].modulation.value;
+  EXPECT_NEAR(by_load, by_area, 0.05 * (1 + by_area));
+}
+
+}  // namespace
+}  // namespace papilla::tests
