@@ -14,7 +14,7 @@
 namespace papilla::report {
 namespace {
 
-// "0.612 ± 0.014 (0.051)": its own error, in brackets the one that parameters leave.
+// "0.612 ± 0.014 (0.051)": its own error, in brackets the model part.
 std::string with_errors(const StudyObjective& o, const Score& score, std::size_t k) {
   std::string out = fmt::format("{} ± {}", shown_value(o.expression, score.values[k]),
                                 shown_error(o.expression, score.errors[k]));
@@ -283,14 +283,14 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   }
   const std::string unknown = problem.parameters_unknown();
   if (!unknown.empty())
-    return out + fmt::format("\nWhat the fit of the finger leaves open is in no ±: {}.\n", unknown);
+    return out + fmt::format("\nWhat is not known of finger and model is in no ±: {}.\n", unknown);
   out += fmt::format(
-      "\n± is one standard error of skins, droplets, grid and method. In brackets{} what the fit "
-      "of "
-      "the finger leaves open, one standard deviation, common to all designs",
-      study.design.accuracy.parameters
+      "\n± is numerical: one standard error of skins, droplets, grid and method. In brackets{} the "
+      "model part, what {} leaves open, one standard deviation, common to all designs",
+      study.design.accuracy.parameters || problem.has_belief()
           ? ""
-          : ", of the best design (all: `[accuracy] parameters = true`),");
+          : ", of the best design (all: `[accuracy] parameters = true`),",
+      problem.model_source());
   // Common is not cancelled: a design may answer to the finger as its flat surface does not.
   std::vector<std::string> better, worse;
   for (std::size_t k = 0; result.has_best() && result.flat && k < objectives.size(); ++k) {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "estimate/parameters.h"
+#include "estimate/belief.h"
 #include "forward/plan.h"
 #include "search/stability.h"
 
@@ -149,9 +149,8 @@ std::size_t narrowings(const SearchProblem& p) {
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds) {
   const Fidelity f = stage_fidelity(problem, stage, most_seconds);
   if (stage != Stage::Steps) return priced(problem, f);
-  const std::size_t steps = finger_steps(problem.tasks().front().finger).size();
-  const Fidelity few = step_fidelity(steps_fidelity(problem, f));
-  return 2.0 * static_cast<double>(steps) * plan_at(problem, few).seconds();
+  const ModelCost cost = model_cost(problem.tasks().front().finger, steps_fidelity(problem, f));
+  return cost.runs * plan_at(problem, cost.fidelity).seconds();
 }
 
 StudyCost study_cost(const Study& study) {

@@ -10,7 +10,7 @@
 
 #include "base/random.h"
 #include "config/writer.h"
-#include "scene/uncertainty.h"
+#include "estimate/belief.h"
 #include "search/protocol.h"
 
 namespace papilla::search {
@@ -64,9 +64,20 @@ bool StudyProblem::driven() const {
 
 std::string StudyProblem::parameters_unknown() const {
   for (std::size_t t = 0; t < nominal_tasks(); ++t) {
-    if (tasks_[t].finger.uncertainty.empty()) return unknown_parameters(tasks_[t].finger);
+    if (const std::string why = unknown_model(tasks_[t].finger); !why.empty()) return why;
   }
   return {};
+}
+
+bool StudyProblem::has_belief() const {
+  for (std::size_t t = 0; t < nominal_tasks(); ++t) {
+    if (tasks_[t].finger.belief.empty()) return false;
+  }
+  return true;
+}
+
+std::string StudyProblem::model_source() const {
+  return has_belief() ? "belief about finger and model" : "the fit of the finger";
 }
 
 std::size_t StudyProblem::residuals() const {

@@ -197,7 +197,10 @@ void add_steps(Score& score, const Scoring& scoring, const std::vector<TaskAnswe
     for (std::size_t t = 0; t < scoring.nominal; ++t) {
       const StepSamples& steps = answers[t].steps.at(k);
       std::size_t same = 0;
-      while (tasks[same].finger.uncertainty != tasks[t].finger.uncertainty) ++same;
+      const auto moved_alike = [&](const Finger& a, const Finger& b) {
+        return a.belief == b.belief && (!a.belief.empty() || a.uncertainty == b.uncertainty);
+      };
+      while (!moved_alike(tasks[same].finger, tasks[t].finger)) ++same;
       first[t] = same < t ? first[same] : sums.size();
       known = known && !steps.empty();
       if (sums.size() < first[t] + steps.size()) sums.resize(first[t] + steps.size());

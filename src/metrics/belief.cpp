@@ -1,0 +1,111 @@
+// Numbers over the members of a belief. Eq. accuracy.15
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/metrics.h"
+#include "numerics/statistics.h"
+
+namespace papilla::metrics {
+namespace {
+
+// Of a quantity that is a size: a member moves it by a factor. The capillary force and what is made
+// of it may push or pull.
+bool keeps_sign(Summary summary, const Metric& metric) {
+  const auto* quantity = std::get_if<QuantityMetric>(&metric);
+  return quantity && !is_spread(summary) && quantity->quantity != &PointQuantities::capillary_force;
+}
+
+// Samples whose mean is a number of a run and whose scatter is its jackknife error.
+std::optional<std::vector<double>> samples_of(const Resampled& run, const Number& number) {
+  const auto all = number(run.points);
+  if (!all || !std::isfinite(*all)) return std::nullopt;
+  std::vector<double> without;
+  for (const auto& points : run.without) {
+    const auto one = number(points);
+    if (!one || !std::isfinite(*one)) return std::nullopt;
+    without.push_back(*one);
+  }
+  return jackknife_samples(*all, without);
+}
+
+}  // namespace
+
+double BeliefValues::quantile(double p) const { return weighted_quantile(values, weights, p); }
+
+std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
+                                          std::optional<double> value, bool keeps_sign) {
+  if (runs.members.empty()) return std::nullopt;
+  const auto own = number(runs.own.points);
+  const auto of_own = samples_of(runs.own, number);
+  if (!own || !of_own) return std::nullopt;
+  const double at = value.value_or(*own);
+  const double factor = keeps_sign && *own > 0 && at > 0 ? at / *own : 1;
+  BeliefValues out;
+  std::vector<double> mean(of_own->size(), 0);
+  for (const BeliefRun& m : runs.members) {
+    auto samples = samples_of(m.run, number);
+    const auto all = number(m.run.points);
+    if (!samples || !all) return std::nullopt;
+    for (std::size_t k = 0; k < mean.size(); ++k) {
+      samples->at(k) = at + factor * (samples->at(k) - (*of_own)[k]);
+      mean[k] += m.weight * samples->at(k);
+    }
+    out.weights.push_back(m.weight);
+    out.values.push_back(at + factor * (*all - *own));
+    out.moves.push_back(*std::move(samples));
+  }
+  for (std::size_t m = 0; m < out.moves.size(); ++m) {
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      out.moves[m][k] = std::sqrt(out.weights[m]) * (out.moves[m][k] - mean[k]);
+  }
+  return out;
+}
+
+std::optional<BeliefValues> belief_values(Summary summary, const Metric& metric,
+                                          const Response& response) {
+  const auto value = summary_of_points(summary, metric, response.points);
+  if (!value) return std::nullopt;
+  return belief_values(
+      response.belief,
+      [&](const std::vector<ResponsePoint>& points) {
+        return summary_of_points(summary, metric, points);
+      },
+      value, keeps_sign(summary, metric));
+}
+
+std::optional<BeliefValues> belief_values_at(std::size_t point, const Metric& metric,
+                                             const Response& response) {
+  const Number number = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    const auto m = metric_at(metric, points.at(point));
+    return m ? std::optional(m->value) : std::nullopt;
+  };
+  const auto value = number(response.points);
+  if (!value) return std::nullopt;
+  return belief_values(response.belief, number, value, keeps_sign(Summary::Mean, metric));
+}
+
+std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
+                                                  const BeliefValues& second) {
+  if (first.weights != second.weights || first.moves.front().size() != second.moves.front().size())
+    return std::nullopt;
+  StepSamples moves = first.moves;
+  std::vector<double> values = first.values;
+  BeliefDifference out{0, 0, 0, 0};
+  for (std::size_t m = 0; m < values.size(); ++m) {
+    for (std::size_t k = 0; k < moves[m].size(); ++k) moves[m][k] -= second.moves[m][k];
+    values[m] -= second.values[m];
+    out.above += first.weights[m] * (values[m] > 0 ? 1 : values[m] < 0 ? 0 : 0.5);
+  }
+  out.deviation = step_error(moves);
+  out.low = weighted_quantile(values, first.weights, 0.025);
+  out.high = weighted_quantile(values, first.weights, 0.975);
+  return out;
+}
+
+std::optional<StepSamples> model_samples(const Response& response, const Number& number) {
+  if (response.belief.members.empty()) return step_samples(response.parameters.steps, number);
+  const auto values = belief_values(response.belief, number, std::nullopt, false);
+  return values ? std::optional(values->moves) : std::nullopt;
+}
+
+}  // namespace papilla::metrics
