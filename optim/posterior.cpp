@@ -214,7 +214,7 @@ class Sampler {
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       const double v = x(static_cast<Eigen::Index>(i));
       s.values.push_back(coordinates_.from(i, v));
-      sum += square(coordinates_.prior_residual(i, v));
+      if (coordinates_.has_prior(i)) sum += square(coordinates_.prior_residual(i, v));
     }
     s.residuals.resize(static_cast<std::size_t>(residuals_));
     ++out_.evaluations;

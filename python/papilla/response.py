@@ -25,8 +25,8 @@ class Quantity:
     """A number at each humidity, SI, with one standard error.
 
     The error is the root of the sum of squares of its parts but ``model`` and ``water``, which are common to all designs:
-    what the finger's belief leaves open, and half a band of the droplets. NaN in a part: it was not measured.
-    Source: docs/theory/accuracy.md.
+    what the finger's belief leaves open, and half a band of the droplets. NaN in a part: it was not
+    measured. Source: docs/theory/accuracy.md.
     """
 
     value: FloatArray

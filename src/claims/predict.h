@@ -20,10 +20,10 @@ struct Prediction {
   std::string quantity;   // "exponent", "friction ratio", ...
   std::string unit;       // "", "V", "mN", "%"
   Estimate value;         // se: over skins
+  std::string beside;     // the values behind it
   // Standard deviation over the members of the finger's belief; nothing: it has none, or one of
   // them has no number here.
   std::optional<double> model{};
-  std::string beside;  // the values behind it
 };
 
 struct PredictOptions {

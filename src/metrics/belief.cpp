@@ -15,17 +15,22 @@ bool keeps_sign(Summary summary, const Metric& metric) {
   return quantity && !is_spread(summary) && quantity->quantity != &PointQuantities::capillary_force;
 }
 
-// Samples whose mean is a number of a run and whose scatter is its jackknife error.
-std::optional<std::vector<double>> samples_of(const Resampled& run, const Number& number) {
+// A number of a run, and without each skin.
+struct Readings {
+  double all = 0;
+  std::vector<double> without;
+};
+std::optional<Readings> readings(const Resampled& run, const Number& number) {
+  Readings out;
   const auto all = number(run.points);
   if (!all || !std::isfinite(*all)) return std::nullopt;
-  std::vector<double> without;
+  out.all = *all;
   for (const auto& points : run.without) {
     const auto one = number(points);
     if (!one || !std::isfinite(*one)) return std::nullopt;
-    without.push_back(*one);
+    out.without.push_back(*one);
   }
-  return jackknife_samples(*all, without);
+  return out;
 }
 
 }  // namespace
@@ -35,24 +40,26 @@ double BeliefValues::quantile(double p) const { return weighted_quantile(values,
 std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
                                           std::optional<double> value, bool keeps_sign) {
   if (runs.members.empty()) return std::nullopt;
-  const auto own = number(runs.own.points);
-  const auto of_own = samples_of(runs.own, number);
-  if (!own || !of_own) return std::nullopt;
-  const double at = value.value_or(*own);
-  const double factor = keeps_sign && *own > 0 && at > 0 ? at / *own : 1;
+  const auto own = readings(runs.own, number);
+  if (!own) return std::nullopt;
+  const double at = value.value_or(own->all);
+  const bool by_factor = keeps_sign && own->all > 0 && at > 0;
+  const auto moved = [&](double from, double to) {
+    return by_factor && from > 0 ? at * (to / from) : at + to - from;
+  };
   BeliefValues out;
-  std::vector<double> mean(of_own->size(), 0);
+  std::vector<double> mean;
   for (const BeliefRun& m : runs.members) {
-    auto samples = samples_of(m.run, number);
-    const auto all = number(m.run.points);
-    if (!samples || !all) return std::nullopt;
-    for (std::size_t k = 0; k < mean.size(); ++k) {
-      samples->at(k) = at + factor * (samples->at(k) - (*of_own)[k]);
-      mean[k] += m.weight * samples->at(k);
-    }
+    const auto there = readings(m.run, number);
+    if (!there || there->without.size() != own->without.size()) return std::nullopt;
+    std::vector<double> without;
+    for (std::size_t k = 0; k < own->without.size(); ++k)
+      without.push_back(moved(own->without[k], there->without[k]));
     out.weights.push_back(m.weight);
-    out.values.push_back(at + factor * (*all - *own));
-    out.moves.push_back(*std::move(samples));
+    out.values.push_back(moved(own->all, there->all));
+    out.moves.push_back(jackknife_samples(out.values.back(), without));
+    mean.resize(out.moves.back().size(), 0);
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += m.weight * out.moves.back()[k];
   }
   for (std::size_t m = 0; m < out.moves.size(); ++m) {
     for (std::size_t k = 0; k < mean.size(); ++k)

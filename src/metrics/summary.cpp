@@ -160,8 +160,8 @@ std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
     if (const auto steps = step_samples(response.parameters.steps, reading(summary, metric)))
       out.parts.parameters = step_error(*steps);
   }
-  if (const auto values = belief_values(summary, metric, response))
-    out.parts.model = values->deviation();
+  if (const auto over = belief_values(summary, metric, response))
+    out.parts.model = over->deviation();
   out.se = out.parts.total();
   return out;
 }

@@ -147,9 +147,10 @@ std::vector<double> Scores::probabilities(std::uint64_t index) const {
     } else {  // one member a draw; its move is its step over the root of its weight
       std::fill(finger.begin(), finger.end(), 0.0);
       double left = random.uniform();
-      std::size_t m = 0;
-      while (m + 1 < finger.size() && left >= member_weights[m]) left -= member_weights[m++];
-      finger[m] = 1 / std::sqrt(member_weights[m]);
+      std::size_t member = 0;
+      while (member + 1 < finger.size() && left >= member_weights[member])
+        left -= member_weights[member++];
+      finger[member] = 1 / std::sqrt(member_weights[member]);
     }
     double squares = 0;
     for (int k = 0; k < freedom; ++k) squares += square(random.normal());

@@ -11,6 +11,8 @@
 namespace papilla::report {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // Below it weighted means stand on too little.
 constexpr double kFewSamples = 10;
 
@@ -59,8 +61,7 @@ std::string belief_section(const Calibration& calibration, const BeliefFit& fit)
   return out;
 }
 
-nlohmann::ordered_json belief_fit_json(const BeliefFit& fit) {
-  using Json = nlohmann::ordered_json;
+Json belief_fit_json(const BeliefFit& fit) {
   Json hypotheses = Json::array();
   for (const HypothesisFit& h : fit.hypotheses) {
     Json valleys = Json::array(), scores = Json::object();

@@ -249,26 +249,27 @@ std::string target_lines(const Response& response) {
 }
 
 // What the members of belief leave of the numbers: of each humidity, and over all.
+struct BeliefColumn {
+  const char* head;
+  QuantityMetric metric;
+  double scale;
+  int digits;
+  bool driven;
+};
 std::string belief_table(const Response& response) {
-  struct Column {
-    const char* head;
-    QuantityMetric metric;
-    double scale;
-    int digits;
-    bool driven;
-  };
-  static constexpr std::array<Column, 3> kColumns{{{"F_off mN", kFriction, 1e3, 1, false},
-                                                   {"F_on mN", kFrictionOn, 1e3, 1, true},
-                                                   {"modulation", kModulation, 1, 3, true}}};
+  static constexpr std::array<BeliefColumn, 3> kBeliefColumns{
+      {{"F_off mN", kFriction, 1e3, 1, false},
+       {"F_on mN", kFrictionOn, 1e3, 1, true},
+       {"modulation", kModulation, 1, 3, true}}};
   std::string out = fmt::format("{:>6}", "RH");
-  for (const Column& c : kColumns) {
+  for (const BeliefColumn& c : kBeliefColumns) {
     if (response.driven || !c.driven)
       out += fmt::format(" {:>12} {:>12} {:>23}", c.head, "± numerical", "± model [95 %]");
   }
   out += '\n';
   const auto row = [&](const std::string& name, auto&& value, auto&& members) {
     out += name;
-    for (const Column& c : kColumns) {
+    for (const BeliefColumn& c : kBeliefColumns) {
       if (!response.driven && c.driven) continue;
       const auto v = value(c);
       const auto over = members(c);
@@ -286,20 +287,20 @@ std::string belief_table(const Response& response) {
     const ResponsePoint& p = response.points[i];
     row(
         fmt::format("{:>5.0f}%", 100 * p.relative_humidity),
-        [&](const Column& c) -> Shown {
+        [&](const BeliefColumn& c) -> Shown {
           if (c.driven ? !p.knows_driven() : !p.knows_undriven()) return std::nullopt;
           const Measured& m = p.*c.metric.quantity;
           return std::pair(m.value, m.parts.numerical());
         },
-        [&](const Column& c) { return belief_values_at(i, c.metric, response); });
+        [&](const BeliefColumn& c) { return belief_values_at(i, c.metric, response); });
   }
   row(
       fmt::format("{:>6}", "mean"),
-      [&](const Column& c) -> Shown {
+      [&](const BeliefColumn& c) -> Shown {
         const auto v = summarise(Summary::Mean, c.metric, response);
         return v ? Shown(std::pair(v->value, v->parts.numerical())) : std::nullopt;
       },
-      [&](const Column& c) { return belief_values(Summary::Mean, c.metric, response); });
+      [&](const BeliefColumn& c) { return belief_values(Summary::Mean, c.metric, response); });
   return out;
 }
 

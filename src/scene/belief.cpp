@@ -107,7 +107,8 @@ std::vector<BeliefValue> read_values(const Node* node, const std::string& key, D
 
 class BeliefReader {
  public:
-  explicit BeliefReader(const std::string& path) : document_(load_document(path)) {
+  BeliefReader(const std::string& path, const Finger& finger)
+      : document_(load_document(path)), finger_(finger) {
     out_.file = path;
   }
 
@@ -185,11 +186,11 @@ class BeliefReader {
     return out;
   }
 
-  // Every value against the keys of a finger with the defaults.
+  // Every value against the keys of the finger.
   void check_values() {
     std::vector<Problem> wrong;
     const auto check = [&](const std::vector<BeliefValue>& values) {
-      Settable scene;
+      Settable scene{{finger_, finger_.calibrated_for}};
       read_onto(values, scene, wrong);
     };
     check(out_.fitted);
@@ -198,6 +199,7 @@ class BeliefReader {
   }
 
   Document document_;
+  const Finger& finger_;
   Belief out_;
 };
 
@@ -222,10 +224,12 @@ double Belief::effective_members() const {
   return squares > 0 ? 1 / squares : 0;
 }
 
-Belief read_belief(const std::string& path) { return BeliefReader(path).read(); }
+Belief read_belief(const std::string& path, const Finger& finger) {
+  return BeliefReader(path, finger).read();
+}
 
 Belief belief_of(const Finger& finger) {
-  Belief out = read_belief(finger.belief);
+  Belief out = read_belief(finger.belief, finger);
   if (!(out.calibrated_for == finger.calibrated_for)) {
     throw InputError({Problem{
         out.file, 0, 0, "calibrated_for",

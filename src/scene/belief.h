@@ -44,7 +44,7 @@ struct Belief {
 // The members' weights are above 0 and sum to 1. Throws InputError with every mistake and its
 // place: keys that the finger or the model has not, values outside of their range, conditions of
 // the experiment (load, state) and what describes the fit itself.
-Belief read_belief(const std::string& path);
+Belief read_belief(const std::string& path, const Finger& finger = {});
 // The belief that a finger names. Throws InputError as read_belief; and where its members were
 // found for other model options than the finger's.
 Belief belief_of(const Finger& finger);

@@ -29,7 +29,7 @@ skins = 4
 "macro.area_growth" = { low = "20 %", high = "120 %", start = "56 %", prior = "56 %", sd = "4 %" }
 [belief]
 starts = 2
-samples = 2000
+samples = 600
 members = 24
 )";
 
@@ -48,7 +48,7 @@ TEST_F(FitBelief, OfOneNumberIsTheClosedForm) {
   const BeliefFit& b = *r.belief;
   const double mean = (16 * 0.585 + 9 * 0.56) / 25, deviation = 0.03 * 4 / 5;
   EXPECT_EQ(b.variance_factor, 1);
-  EXPECT_GT(b.hypotheses[0].posterior.effective, 1000);
+  EXPECT_GT(b.hypotheses[0].posterior.effective, 300);
   double middle = 0, squares = 0;
   for (const BeliefMember& m : b.belief.members) {
     const double v =
@@ -98,7 +98,7 @@ TEST_F(FitBelief, MistakesOfItsSectionsAreTold) {
     const auto problems = problems_of([&] { read(write("fit.toml", kGrowth + more)); });
     ASSERT_EQ(problems.size(), 1u) << more;
     EXPECT_NE(problems[0].message.find(words), std::string::npos) << problems[0].text();
-    EXPECT_GT(problems[0].line, 14);
+    EXPECT_GE(problems[0].line, 14);
   };
   told("seeds = 3\n", "unknown key `seeds`");
   told("[[hypothesis]]\nname = \"a\"\nset = { \"model.closre\" = \"persson\" }\n", "did you mean");
@@ -118,7 +118,7 @@ TEST_F(FitBelief, AStoppedOneGoesOnToTheSameMembers) {
   options.folder = folder_;
   std::atomic<bool> stop{false};
   options.note = [&](const std::string& text) {
-    stop = stop || text.find("sample 500 ") != std::string::npos;
+    stop = stop || text.find("sample 200 ") != std::string::npos;
   };
   {
     const Watch watch({}, &stop);

@@ -63,6 +63,14 @@ Response small_response(const Design& d, int threads = 2) {
   return r;
 }
 
+EvaluationOptions asked(bool model, bool parameters) {
+  EvaluationOptions out;
+  out.model = model;
+  out.parameters = parameters;
+  out.threads = 2;
+  return out;
+}
+
 TEST(BeliefParts, OfTheShearStrengthAreItsOwnAndTheModulationsNone) {
   Design d = small_design();
   d.finger.belief = shear_belief();
@@ -109,15 +117,15 @@ TEST(BeliefParts, AreInThePlaceOfTheCovariancesWhereBothAreKnown) {
   d.finger.uncertainty = {{"macro.shear_strength", 0.05, {}}};
   d.accuracy.level = AccuracyLevel::Draft;
   d.accuracy.grid = 32;
-  const Response by_fit = evaluate_design(d, {.parameters = true, .threads = 2});
+  const Response by_fit = evaluate_design(d, asked(true, true));
   EXPECT_TRUE(by_fit.points[0].friction_off.parts.parameters);
   EXPECT_FALSE(by_fit.points[0].friction_off.parts.model);
   EXPECT_NE(response_table(by_fit).find("names no belief"), std::string::npos);
   d.finger.belief = shear_belief();
-  const Response by_belief = evaluate_design(d, {.parameters = true, .threads = 2});
+  const Response by_belief = evaluate_design(d, asked(true, true));
   EXPECT_FALSE(by_belief.points[0].friction_off.parts.parameters);
   EXPECT_TRUE(by_belief.points[0].friction_off.parts.model);
-  const Response without = evaluate_design(d, {.model = false, .threads = 2});
+  const Response without = evaluate_design(d, asked(false, false));
   EXPECT_FALSE(without.points[0].friction_off.parts.model);
   EXPECT_TRUE(without.belief.absent.empty());
   EXPECT_EQ(without.points[0].friction_off.se(), by_belief.points[0].friction_off.se());

@@ -47,7 +47,9 @@ TEST(BeliefValues, AreTheResponsesMovedAsMembersMoveTheRuns) {
   EXPECT_EQ(summary.se, 0);  // told apart from the numerical error
   EXPECT_EQ(summary.parts.numerical(), 0);
   EXPECT_EQ(summary.parts.model_part(), summary.parts.model);
-  EXPECT_FALSE(summarise(Summary::Mean, kModulation, {})->parts.model);
+  Response none = with_members();
+  none.belief = {};
+  EXPECT_FALSE(summarise(Summary::Mean, kModulation, none)->parts.model);
 }
 
 // The force may push: half of it says nothing of twice. Runs of -.1 and .1 about a value of .5.

@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "config/reader.h"
+#include "config/writer.h"
 #include "design/design.h"
 #include "tests/support/refusal.h"
 #include "tests/temporary.h"
@@ -130,6 +132,20 @@ TEST_F(BeliefFile, OfOtherModelOptionsThanTheFingersIsRefused) {
             })[0]
                 .message.find("no such file"),
             std::string::npos);
+}
+
+// A finger is read on any machine that has the shipped designs: their files are written by their
+// names below them.
+TEST_F(BeliefFile, AShippedFileIsWrittenByItsNameBelowTheDesigns) {
+  Finger finger;
+  finger.belief = find_design("fingers/reference.toml");  // any file of theirs
+  const std::string text = to_toml(finger);
+  EXPECT_NE(text.find("belief = \"fingers/reference.toml\""), std::string::npos) << text;
+  Document document = parse_document(text, "finger.toml", {}, design_roots());
+  Finger again;
+  read_section(document, "", again);
+  finish(document);
+  EXPECT_EQ(again, finger);
 }
 
 // A mistake in the belief is told when the finger is read, with its place there.
