@@ -2,6 +2,7 @@
 // and grids, and what is common to them cancels. docs/theory/accuracy.md, Eq. accuracy.14
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ struct Difference {
   double value = 0;
   double error = 0;     // one standard error of the difference
   bool paired = false;  // from common samples; else the errors of both in squares
+  // What belief leaves of the difference, one standard deviation over the members that both fingers
+  // have, and by their weight the probability that the second has more; nothing without belief.
+  std::optional<double> model{}, above{};
 };
 
 struct ComparedPoint {

@@ -18,6 +18,7 @@ namespace papilla::api {
 struct ErrorParts {
   double sampling = 0;
   std::optional<double> grid, solver, humidity, method, field, parameters;
+  std::optional<double> model;  // over the finger's belief, no part of the total
   std::optional<double> water;  // a band common to all designs, no part of the total
 };
 
@@ -25,6 +26,10 @@ struct Quantity {
   double value = 0;
   double error = 0;  // one standard error: all parts in squares
   ErrorParts parts;
+  // The two parts of what is not known: what skins, grids and methods leave, and what is not known
+  // of finger and model (its belief, else the fit's `parameters`); nothing: not stated.
+  double numerical = 0;
+  std::optional<double> model{};
 };
 
 // One humidity: friction_off, modulation, ... of papilla/quantities.h, and whether to trust them.
@@ -58,6 +63,8 @@ struct EvaluateOptions {
   std::string level;  // "draft", "design", "reference"; empty: the design's own
   double target = 0;  // relative standard error of the modulation, in place of a level; 0: none
   int threads = 0;    // 0: all processors. The result is the same for any number
+  // What is not known of finger and model, where the finger names a belief; else
+  bool model = true;
   bool parameters = false;          // also the error that the finger's fitted numbers leave
   bool look = false;                // also haze, transmittance, gloss and colour
   std::vector<double> voltage_for;  // also the amplitudes that reach these modulations

@@ -21,7 +21,7 @@ constexpr std::array kParts{
     Part{"grid", &ErrorParts::grid},         Part{"solver", &ErrorParts::solver},
     Part{"humidity", &ErrorParts::humidity}, Part{"method", &ErrorParts::method},
     Part{"field", &ErrorParts::field},       Part{"parameters", &ErrorParts::parameters},
-    Part{"water", &ErrorParts::water},
+    Part{"model", &ErrorParts::model},       Part{"water", &ErrorParts::water},
 };
 
 py::dict quantity_columns(const Response& r, Quantity Quantities<Quantity>::*q) {
@@ -32,9 +32,13 @@ py::dict quantity_columns(const Response& r, Quantity Quantities<Quantity>::*q) 
       return ((p.*q).parts.*part.part).value_or(kNotMeasured);
     });
   }
-  return py::dict("value"_a = column(r.points(), [&](const Point& p) { return (p.*q).value; }),
-                  "error"_a = column(r.points(), [&](const Point& p) { return (p.*q).error; }),
-                  "parts"_a = parts);
+  return py::dict(
+      "value"_a = column(r.points(), [&](const Point& p) { return (p.*q).value; }),
+      "error"_a = column(r.points(), [&](const Point& p) { return (p.*q).error; }),
+      "parts"_a = parts,
+      "numerical"_a = column(r.points(), [&](const Point& p) { return (p.*q).numerical; }),
+      "model"_a =
+          column(r.points(), [&](const Point& p) { return (p.*q).model.value_or(kNotMeasured); }));
 }
 
 // Plain arrays and texts: what a response is in Python, and what is pickled.
@@ -63,12 +67,13 @@ py::list quantity_list() {
   return out;
 }
 
-// level, target, threads, parameters, look, voltage_for, force: of papilla/evaluate.py.
+// level, target, threads, model, parameters, look, voltage_for, force: of papilla/evaluate.py.
 EvaluateOptions options_of(const py::dict& d) {
   EvaluateOptions o;
   o.level = d["level"].cast<std::string>();
   o.target = d["target"].cast<double>();
   o.threads = d["threads"].cast<int>();
+  o.model = d["model"].cast<bool>();
   o.parameters = d["parameters"].cast<bool>();
   o.look = d["look"].cast<bool>();
   o.voltage_for = d["voltage_for"].cast<std::vector<double>>();
@@ -84,7 +89,10 @@ EvaluateOptions watched(EvaluateOptions options, Job& job) {
   return options;
 }
 
-py::tuple difference_row(const Difference& d) { return py::make_tuple(d.value, d.error, d.paired); }
+py::tuple difference_row(const Difference& d) {
+  return py::make_tuple(d.value, d.error, d.paired, d.model.value_or(kNotMeasured),
+                        d.above.value_or(kNotMeasured));
+}
 
 py::dict difference_columns(const std::vector<ComparedPoint>& points,
                             Difference ComparedPoint::*member) {
@@ -93,7 +101,12 @@ py::dict difference_columns(const std::vector<ComparedPoint>& points,
   return py::dict(
       "value"_a = column(points, [&](const ComparedPoint& p) { return (p.*member).value; }),
       "error"_a = column(points, [&](const ComparedPoint& p) { return (p.*member).error; }),
-      "paired"_a = paired);
+      "paired"_a = paired,
+      "model"_a = column(
+          points, [&](const ComparedPoint& p) { return (p.*member).model.value_or(kNotMeasured); }),
+      "above"_a = column(points, [&](const ComparedPoint& p) {
+        return (p.*member).above.value_or(kNotMeasured);
+      }));
 }
 
 py::dict comparison_columns(const Comparison& c) {

@@ -206,20 +206,21 @@ class Design:
         """Haze, transmittance, gloss and colour on glass. Takes a second at most."""
         return Look(**self._inside.look())
 
-    def evaluate(self, level: str = "", target: float = 0.0, *, threads: int = 0, parameters: bool = False,
+    def evaluate(self, level: str = "", target: float = 0.0, *, threads: int = 0, model: bool = True, parameters: bool = False,
                  look: bool = False, voltage_for: Sequence[float] = (), force: bool = False,
                  progress: Progress = None) -> Response:
         """Friction over humidity, drive off and on, with error bars: the numbers of ``papilla evaluate``.
 
         level: "draft" (a second), "design", "reference"; empty: the design's own. target: a relative standard error
         of the modulation in place of a level. threads: 0, all processors; the result is the same for any number.
-        parameters: also the error that the finger's fitted numbers leave. look: also haze, gloss and colour.
+        model: also what is not known of finger and model, where the finger names a belief.
+        parameters: without belief, also the error that the finger's fitted numbers leave. look: also haze, gloss and colour.
         voltage_for: also the amplitudes that reach these modulations (``to_dict()["points"]``). force: with model
         options that the finger was not fitted with. progress: called with the number of skin patches done.
 
         Other threads run meanwhile; Ctrl-C ends it within a fifth of a second. Raises InputError, KeyboardInterrupt.
         """
-        how = _how(level, target, threads, parameters, look, voltage_for, force)
+        how = _how(level, target, threads, model, parameters, look, voltage_for, force)
         return Response(_native.evaluate(self._inside, how, shown(progress, "evaluate")))
 
     def sensitivity(self, metric: str = "mean(modulation)", keys: Sequence[str] = (), *, step: float = 0.05,
@@ -232,7 +233,7 @@ class Design:
         two evaluations a key. Raises InputError, KeyboardInterrupt.
         """
         rows = _native.sensitivity(self._inside, v.text(metric, "metric"), [v.text(k, "keys") for k in v.items(keys, "keys")],
-                                   v.si(step, "", "step"), _how(level, 0.0, threads, False, False, (), force),
+                                   v.si(step, "", "step"), _how(level, 0.0, threads, False, False, False, (), force),
                                    shown(progress, "sensitivity"))
         return [Sensitivity(path, unit, value, down, up, Difference(*change), slope, error)
                 for path, unit, value, down, up, change, slope, error in rows]
@@ -298,17 +299,17 @@ def compare(first: Design, second: Design, level: str = "", *, threads: int = 0,
     for name, design in (("first", first), ("second", second)):
         if not isinstance(design, Design):
             raise wrong(name, f"expected a Design, got {type(design).__name__}")
-    how = _how(level, 0.0, threads, False, False, (), force)
+    how = _how(level, 0.0, threads, True, False, False, (), force)
     return Comparison(_native.compare(first._inside, second._inside, how, shown(progress, "compare")))
 
 
-def _how(level: str, target: float, threads: int, parameters: bool, look: bool, voltage_for: Sequence[float],
-         force: bool) -> dict[str, Any]:
+def _how(level: str, target: float, threads: int, model: bool, parameters: bool, look: bool,
+         voltage_for: Sequence[float], force: bool) -> dict[str, Any]:
     share = v.si(target, "", "target")
     if not 0 <= share < 1:
         raise wrong("target", f"expected a share from 0 to 1, got {share}")
     return {"level": v.text(level, "level"), "target": share, "threads": v.whole(threads, "threads", 0, 4096),
-            "parameters": v.flag(parameters, "parameters"), "look": v.flag(look, "look"),
+            "model": v.flag(model, "model"), "parameters": v.flag(parameters, "parameters"), "look": v.flag(look, "look"),
             "voltage_for": [v.positive(m, "", "voltage_for") for m in v.items(voltage_for, "voltage_for")], "force": v.flag(force, "force")}
 
 

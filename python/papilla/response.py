@@ -24,8 +24,9 @@ __all__ = ["Comparison", "Difference", "Differences", "Quantity", "Response", "S
 class Quantity:
     """A number at each humidity, SI, with one standard error.
 
-    The error is the root of the sum of squares of its parts but ``water``, which is half a band that is common to all
-    designs. NaN in a part: it was not measured. Source: docs/theory/accuracy.md.
+    The error is the root of the sum of squares of its parts but ``model`` and ``water``, which are common to all designs:
+    what the finger's belief leaves open, and half a band of the droplets. NaN in a part: it was not
+    measured. Source: docs/theory/accuracy.md.
     """
 
     value: FloatArray
@@ -33,7 +34,12 @@ class Quantity:
     error: FloatArray
     """Shape (humidities,): one standard error."""
     parts: Mapping[str, FloatArray]
-    """By origin, each of shape (humidities,): sampling, grid, solver, humidity, method, field, parameters, water."""
+    """By origin, each of shape (humidities,): sampling, grid, solver, humidity, method, field, parameters, model, water."""
+    numerical: FloatArray
+    """Shape (humidities,): one standard error of skins, grids and methods, in squares."""
+    model: FloatArray
+    """Shape (humidities,): one standard deviation over what is not known of finger and model, the members of the
+    finger's belief, else the part ``parameters``; NaN: not stated."""
 
     def __len__(self) -> int:
         return len(self.value)
@@ -175,6 +181,10 @@ class Difference:
     """One standard error."""
     paired: bool
     """From the same skins, droplets and grids; else both errors in squares."""
+    model: float = float("nan")
+    """One standard deviation of the difference over the members of belief; NaN: not stated."""
+    above: float = float("nan")
+    """Probability by the members of belief that the second has more; NaN: not stated."""
 
 
 @dataclass(frozen=True)
@@ -184,6 +194,10 @@ class Differences:
     value: FloatArray
     error: FloatArray
     paired: tuple[bool, ...]
+    model: FloatArray
+    """One standard deviation over the members of belief; NaN: not stated."""
+    above: FloatArray
+    """Probability by those members that the second has more; NaN: not stated."""
 
     def __repr__(self) -> str:
         pairs = ", ".join(f"{v:+.4g} ± {e:.2g}" for v, e in zip(self.value, self.error))
@@ -214,7 +228,7 @@ class Comparison:
         if name not in self._columns:
             raise AttributeError(f"{name}: one of the designs has no drive; give drive.amplitude")
         found = self._columns[name]
-        return Differences(found["value"], found["error"], tuple(found["paired"]))
+        return Differences(found["value"], found["error"], tuple(found["paired"]), found["model"], found["above"])
 
     @property
     def modulation(self) -> Differences:

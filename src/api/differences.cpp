@@ -10,7 +10,14 @@
 namespace papilla::api {
 namespace {
 
-Difference difference_of(const ResponseDifference& d) { return {d.value, d.error, d.paired}; }
+Difference difference_of(const ResponseDifference& d) {
+  Difference out{d.value, d.error, d.paired, {}, {}};
+  if (d.model) {
+    out.model = d.model->deviation;
+    out.above = d.model->above;
+  }
+  return out;
+}
 
 // Compared designs share their level: the first one's own where none is asked for.
 EvaluateOptions common(EvaluateOptions options, const Design& design) {
@@ -65,6 +72,7 @@ std::vector<Sensitivity> sensitivity(const Design& design, const std::string& me
       const DesignStep step = design_step(own, key, options.step);
       if (!step.moves()) continue;
       const EvaluationOptions how{.target = options.evaluate.target,
+                                  .model = false,
                                   .parameters = false,
                                   .appearance = false,
                                   .voltage_for = {},

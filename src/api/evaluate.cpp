@@ -11,7 +11,9 @@ Quantity quantity_of(const Measured& m) {
   return {m.value,
           m.se(),
           {m.parts.sampling, m.parts.grid, m.parts.solver, m.parts.humidity, m.parts.method,
-           m.parts.field, m.parts.parameters, m.parts.water}};
+           m.parts.field, m.parts.parameters, m.parts.model, m.parts.water},
+          m.parts.numerical(),
+          m.parts.model_part()};
 }
 
 Point point_of(const ResponsePoint& p) {
@@ -68,6 +70,7 @@ Response evaluate(const Design& design, const EvaluateOptions& options) {
     Watch watch(options.progress, options.stop);
     Response::Inside inside;
     inside.response = evaluate_design(own, {.target = options.target,
+                                            .model = options.model,
                                             .parameters = options.parameters,
                                             .appearance = options.look,
                                             .voltage_for = options.voltage_for,

@@ -86,6 +86,10 @@ class Fit {
     start();
     descend();
     finish();
+    if (calibration_.belief) {
+      out_.belief = make_belief(calibration_, residuals_, out_.fit, out_.finger, options_.note);
+      out_.evaluations += out_.belief->evaluations;
+    }
     residuals_.kept().remove();
     return std::move(out_);
   }

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
+#include "calibrate/belief_fit.h"
 #include "calibrate/calibration_file.h"
 #include "calibrate/residuals.h"
 #include "optim/least_squares.h"
@@ -22,6 +24,7 @@ struct CalibrationResult {
   double gap_before = 0, gap_after = 0;      // capacitance_gap [m]
   std::vector<double> friction_coefficient;  // after, flat glass, at 15, 35, 55, 75 % RH
   int evaluations = 0;
+  std::optional<BeliefFit> belief;  // where the calibration asks for it
 };
 
 struct CalibrationOptions {

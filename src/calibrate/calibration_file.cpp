@@ -13,6 +13,7 @@
 #include "config/describe.h"
 #include "config/reader.h"
 #include "design/design.h"
+#include "design/paths.h"
 #include "published/targets.h"
 
 namespace papilla::calibrate {
@@ -48,6 +49,7 @@ class CalibrationReader {
       }
     }
     read_parameters();
+    read_belief_section();
     if (out_.fit.empty() && out_.data.empty() && document_.problems().empty())
       document_.problem_at("fit", "nothing to fit to: name claims in `fit` or a table in `data`");
     finish(document_);
@@ -101,7 +103,10 @@ class CalibrationReader {
       document_.problem_at("finger", "missing `finger`: the file where the fit starts");
       return;
     }
-    from_file("finger", [&](const std::string& file) { out_.finger = read_finger(file); });
+    from_file("finger", [&](const std::string& file) {
+      out_.finger = read_finger(file);
+      out_.finger.belief.clear();  // of another fit
+    });
   }
 
   void read_data() {
@@ -192,6 +197,64 @@ class CalibrationReader {
       }
       parameter(name, *node, field);
     }
+  }
+
+  void read_belief_section() {
+    if (document_.has("belief")) {
+      out_.belief.emplace();
+      read_section(document_, "belief", *out_.belief);
+    }
+    const Node* list = document_.take("hypothesis");
+    if (!list) return;
+    if (!out_.belief) {
+      document_.problem(list->place, "hypothesis",
+                        "hypotheses are weighed in a belief: add a section [belief]");
+      return;
+    }
+    if (!list->is_array()) {
+      document_.problem(list->place, "hypothesis",
+                        "expected a list [[hypothesis]] of name and set");
+      return;
+    }
+    for (const Node& node : list->children) hypothesis(node);
+  }
+
+  void hypothesis(const Node& node) {
+    Hypothesis out;
+    const std::size_t before = document_.problems().size();
+    for (const Node& child : node.children) {
+      if (child.key == "name" && child.is_text()) {
+        out.name = child.text;
+      } else if (child.key == "set" && child.is_table()) {
+        for (const auto& [path, value] : members_by_path(child)) out.set.push_back({path, *value});
+      } else {
+        document_.problem(
+            child.key_place, "hypothesis",
+            fmt::format("`{}`: expected `name`, a text, and `set`, paths and values", child.key));
+      }
+    }
+    if (document_.problems().size() > before) return;
+    for (const Hypothesis& other : out_.hypotheses) {
+      if (other.name == out.name)
+        document_.problem(node.place, "hypothesis", "two of the name \"" + out.name + "\"");
+    }
+    if (out.name.empty() || out.name == out_.belief->name || out.set.empty())
+      document_.problem(node.place, "hypothesis",
+                        "expected a name of its own and what it sets: \"model.closure\" = "
+                        "\"persson\"");
+    for (const BeliefValue& v : out.set) {
+      for (const CalibrationParameter& p : out_.parameters) {
+        if (p.path == v.path)
+          document_.problem(v.value.key_place, "hypothesis." + v.path, "is fitted: not to be set");
+      }
+    }
+    try {
+      under(out_, out);
+    } catch (const InputError& error) {
+      for (const Problem& p : error.problems())
+        document_.problem({p.file, p.line, p.column}, p.key, p.message);
+    }
+    out_.hypotheses.push_back(std::move(out));
   }
 
   // A parameter is a table with `low`; everything above it is a dotted path.
@@ -301,6 +364,25 @@ class CalibrationReader {
 Calibration read_calibration(const std::string& path, const std::vector<std::string>& judged) {
   Document document = load_document(path, {}, design_roots());
   return CalibrationReader(document, path, judged).read();
+}
+
+void fields(FieldVisitor& v, BeliefSettings& s) {
+  v.text({"name", "of the hypothesis that the finger's own model options are"}, s.name);
+  v.integer({"starts", "fits of each hypothesis, from the finger and then drawn from the priors"},
+            1, 1000, s.starts);
+  v.integer({"samples", "draws of each hypothesis, evaluated with the model"}, 10, 1000000,
+            s.samples);
+  v.integer({"members", "chosen of all draws"}, 2, 1000, s.members);
+  v.integer({"seed", "of starts, draws and choice"}, 0, 1 << 30, s.seed);
+}
+
+Calibration under(const Calibration& calibration, const Hypothesis& hypothesis) {
+  Calibration out = calibration;
+  const MemberScene at = with_member({}, {1, hypothesis.name, hypothesis.set}, calibration.finger,
+                                     calibration.finger.calibrated_for);
+  out.finger = at.finger;
+  out.finger.calibrated_for = at.model;
+  return out;
 }
 
 Finger with_parameters(const Calibration& calibration, std::span<const double> values) {

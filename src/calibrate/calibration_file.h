@@ -1,6 +1,7 @@
 // What a fit starts from, moves, and is held against: a calibration as a file.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "calibrate/friction_table.h"
 #include "optim/least_squares.h"
 #include "published/finger_model.h"
+#include "scene/belief.h"
 #include "scene/finger.h"
 
 namespace papilla::calibrate {
@@ -17,6 +19,24 @@ struct CalibrationParameter {
   std::string path;  // into the finger: "skin.rms"; "water.scale" multiplies every volume
   std::string unit;
   FitParameter fit;  // SI
+};
+
+// How a belief is made of the fit: the section [belief] of the file.
+struct BeliefSettings {
+  std::string name = "as fitted";  // of the finger's own model options
+  int starts = 3;                  // fits of each hypothesis
+  int samples = 200;               // evaluated of each
+  int members = 32;
+  int seed = 1;
+
+  bool operator==(const BeliefSettings&) const = default;
+};
+void fields(FieldVisitor& v, BeliefSettings& s);
+
+// A choice of the model beside the finger's own: an item of [[hypothesis]].
+struct Hypothesis {
+  std::string name;
+  std::vector<BeliefValue> set;  // "model.closure"; a value of the finger that no fit moves
 };
 
 struct Calibration {
@@ -29,12 +49,18 @@ struct Calibration {
   SkinSampling check;                        // of the claims afterwards: other skins
   int iterations = 15;
   bool profiles = false;
+  std::optional<BeliefSettings> belief;  // none is made without
+  std::vector<Hypothesis> hypotheses;    // beside the finger's own
   std::string file;
 };
 
 // `judged`: ids of the claims that are judged afterwards, so may be held out. Throws InputError
 // with every problem.
 Calibration read_calibration(const std::string& path, const std::vector<std::string>& judged);
+
+// The same fit under a hypothesis: another finger to start from, with its model options. Throws
+// InputError for a value that belief cannot set.
+Calibration under(const Calibration& calibration, const Hypothesis& hypothesis);
 
 // The starting finger with parameters set: the order of `calibration.parameters`.
 Finger with_parameters(const Calibration& calibration, std::span<const double> values);

@@ -104,8 +104,22 @@ double Residuals::correct(const Finger& finger) {
   return largest;
 }
 
+std::vector<std::string> Residuals::sources() const {
+  std::vector<std::string> out;
+  for (const PublishedTarget& t : targets_) out.push_back(t.claim);
+  for (const FrictionDatum& d : calibration_.data) {
+    const std::string design = std::filesystem::path(d.design).stem().string();
+    out.push_back(design);
+    if (d.on_sd > 0) out.push_back(design);
+  }
+  return out;
+}
+
 bool Residuals::residuals(const Finger& finger, std::span<double> r) {
-  const std::vector<Estimate> values = model(finger);
+  return residuals(model(finger), r);
+}
+
+bool Residuals::residuals(const std::vector<Estimate>& values, std::span<double> r) const {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const FitRow& row = rows_[i];
     if (!std::isfinite(values[i].value)) return false;

@@ -41,6 +41,9 @@ class Residuals {
   std::vector<FitRow>& rows() { return rows_; }
   int size() const { return static_cast<int>(rows_.size()); }
 
+  // What each row is of, left out together: its claim, or its design.
+  std::vector<std::string> sources() const;
+
   // The model at every row, with the error of its sampling.
   std::vector<Estimate> model(const Finger& finger);
 
@@ -52,6 +55,7 @@ class Residuals {
   // Distance from the band in standard deviations: the data's and the model's sampling error,
   // which stays what it was at the start. false: the model has no answer. Eq. calibration.5
   bool residuals(const Finger& finger, std::span<double> r);
+  bool residuals(const std::vector<Estimate>& model, std::span<double> r) const;
 
  private:
   struct Friction {

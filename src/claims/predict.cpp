@@ -53,9 +53,13 @@ class Series {
          const std::vector<Setting>& settings)
       : settings_(settings) {
     Fidelity fidelity = fidelity_level("design");
-    fidelity.grid = 128;
+    fidelity.grid = options.grid;
     fidelity.skins = options.skins;
     fidelity.control_skins = 0;
+    if (options.few) {
+      fidelity.estimator = Estimator::Load;
+      fidelity.field_skins = 0;
+    }
     fidelity.threads = options.threads;
     for (const Setting& setting : settings) {
       Design design = read_design(find_design("m3_samples/" + sample + ".toml"), setting.keys);
@@ -236,6 +240,9 @@ class Predictor {
         design.finger = options_.finger;
         design.model = options_.finger.calibrated_for;
         Fidelity fidelity = fidelity_level("draft");
+        fidelity.grid = std::min(fidelity.grid, options_.grid);
+        fidelity.skins = std::min(fidelity.skins, options_.skins);
+        if (options_.few) fidelity.field_skins = fidelity.control_skins = 0;
         fidelity.threads = options_.threads;
         const Scene scene = scene_of(design);
         Response response = evaluate(scene, design.texture, fidelity);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,17 +21,26 @@ struct Prediction {
   std::string unit;       // "", "V", "mN", "%"
   Estimate value;         // se: over skins
   std::string beside;     // the values behind it
+  // Standard deviation over the members of the finger's belief; nothing: it has none, or one of
+  // them has no number here.
+  std::optional<double> model{};
 };
 
 struct PredictOptions {
   Finger finger;
   int threads = 0;
-  int skins = 16;
+  int skins = 16, grid = 128;
+  bool few = false;  // as members of a belief are run: the load law, no 3-D field
   std::function<void(const std::string& experiment)> started;
 };
 
 // In the order of the experiments: load, voltage, frequency, humidity and roughness, adhesion, look
 // of etched glass, voltages that are felt. Cost: about a minute.
 std::vector<Prediction> predictions(const PredictOptions& options);
+
+// Adds what the finger's belief leaves of each: the same experiments at every member, on few skins
+// and pixels, less those of the finger itself on these. Nothing for a finger without belief. Cost:
+// about twice that of the predictions. Eq. accuracy.15
+void add_model_parts(std::vector<Prediction>& predictions, const PredictOptions& options);
 
 }  // namespace papilla::claims

@@ -17,6 +17,7 @@
 #include "config/describe.h"
 #include "config/writer.h"
 #include "design/study.h"
+#include "estimate/belief.h"
 #include "estimate/evaluation.h"
 #include "estimate/parameters.h"
 #include "estimate/voltage.h"
@@ -33,7 +34,7 @@ struct EvaluateOptions {
   std::string sweep, out, accuracy;
   int jobs = 0;
   std::vector<double> voltage_for;  // modulations
-  bool force = false, appearance = false, check_field = false, parameters = false;
+  bool force = false, appearance = false, check_field = false, parameters = false, no_model = false;
 };
 
 // "drive.amplitude=50..200" or "texture.depth=0 nm..1 um:5": a number of the design and its values.
@@ -101,7 +102,7 @@ void check(const Sweep& sweep, const Design& design) {
 }
 
 int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& design,
-                   const Fidelity& fidelity, bool json, bool look, bool parameters) {
+                   const Fidelity& fidelity, bool json, bool look, bool model, bool parameters) {
   check(sweep, design);
   std::vector<SweepRun> runs;
   if (!json) std::cout << sweep_head(sweep.path, look);
@@ -109,7 +110,9 @@ int evaluate_sweep(const Context& context, const Sweep& sweep, const Design& des
     Design changed = design;
     set_number(changed, sweep.path, value);
     Response response = evaluate(scene_of(changed), changed.texture, fidelity);
-    if (parameters) add_parameter_errors(response, scene_of(changed), changed.texture, fidelity);
+    if (model) add_belief(response, scene_of(changed), changed.texture, fidelity);
+    if (parameters && response.belief.members.empty())
+      add_parameter_errors(response, scene_of(changed), changed.texture, fidelity);
     if (look) response.appearance = appearance_of(changed);
     const std::string shown = format_quantity(value, sweep.unit);
     if (json) {
@@ -188,12 +191,13 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
   const bool parameters = options.parameters || design.accuracy.parameters;
   if (!options.sweep.empty()) {
     return evaluate_sweep(context, parse_sweep(options.sweep, design), design, fidelity,
-                          options.design.json, options.appearance, parameters);
+                          options.design.json, options.appearance, !options.no_model, parameters);
   }
 
   if (!options.out.empty()) make_folder(options.out);
   const Response response = evaluate_design(
       design, {.target = options.accuracy.empty() ? 0 : wanted_accuracy(options.accuracy),
+               .model = !options.no_model,
                .parameters = options.parameters,
                .appearance = options.appearance,
                .voltage_for = options.voltage_for,
@@ -258,8 +262,11 @@ void add_evaluate(Command app, Context& context) {
                   "Wanted standard error of the modulation: grid, samples and estimator follow")
       .type_name("SHARE")
       .check([](const std::string& text) { return text.empty() ? "expected a share: 5%" : ""; });
-  command.add_flag("--parameters", options->parameters,
-                   "Also the error that the finger's fitted numbers leave (its [[uncertainty]])");
+  command.add_flag(
+      "--model,--parameters", options->parameters,
+      "What is not known of the finger: its belief, which is always evaluated where it "
+      "names one, else what its fitted numbers (its [[uncertainty]]) leave open");
+  command.add_flag("--no-model", options->no_model, "Leave the finger's belief out");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--force", options->force,
                    "Run with model options that the finger was not fitted with");

@@ -25,7 +25,11 @@ int run(const Context& context, const PredictCommand& command) {
       read_finger(command.finger.empty() ? find_design("fingers/reference.toml") : command.finger);
   options.threads = command.jobs;
   options.started = [&](const std::string& experiment) { context.note(experiment + " ..."); };
-  const std::vector<Prediction> found = predictions(options);
+  std::vector<Prediction> found = predictions(options);
+  add_model_parts(found, options);
+  if (options.finger.belief.empty())
+    context.note("what is not known of finger and model is in no ±: finger \"" +
+                 options.finger.name + "\" names no belief");
   if (!command.out.empty()) {
     write_bytes(command.out + "/predictions.csv", predictions_csv(found));
     write_bytes(command.out + "/predictions.md", predictions_markdown(found, options.finger.name));

@@ -321,6 +321,7 @@ struct Document::State final : public FieldVisitor {
   std::map<std::string, const Node*> visited;             // tables whose keys were looked at
   std::vector<Frame> stack;
   std::vector<const Node*> lists;
+  std::vector<std::string> roots;  // where files are looked for that are not beside
   std::function<std::string(const std::string&, const std::string&)> hint;
 
   const Frame& frame() const { return stack.back(); }
@@ -509,7 +510,7 @@ struct Document::State final : public FieldVisitor {
       problem(node->place, key, "expected the name of a file in quotes, got " + describe(*node));
     } else if (node->text.empty()) {
       out.clear();
-    } else if (const std::string found = find_beside(node->text, node->place.file, {});
+    } else if (const std::string found = find_beside(node->text, node->place.file, roots);
                found.empty()) {
       problem(node->place, key, "no such file: " + describe(*node));
     } else {
@@ -711,15 +712,19 @@ Document load_document(const std::string& path, const std::vector<std::string>& 
   const fs::path file = canonical(path);
   Node root = parse_file_text(read_text(path), path);
   BaseFiles bases{file.parent_path(), search_roots, {file}};
-  return Document(with_overrides_and_bases(std::move(root), overrides, &bases));
+  Document out(with_overrides_and_bases(std::move(root), overrides, &bases));
+  out.state_->roots = search_roots;
+  return out;
 }
 
 Document parse_document(const std::string& text, const std::string& file,
                         const std::vector<std::string>& overrides,
                         const std::vector<std::string>& search_roots) {
   BaseFiles bases{fs::current_path(), search_roots, {}};
-  return Document(with_overrides_and_bases(parse_file_text(text, file), overrides,
-                                           search_roots.empty() ? nullptr : &bases));
+  Document out(with_overrides_and_bases(parse_file_text(text, file), overrides,
+                                        search_roots.empty() ? nullptr : &bases));
+  out.state_->roots = search_roots;
+  return out;
 }
 
 void Document::set_hints(

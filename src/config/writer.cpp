@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/installation.h"
 #include "base/units.h"
 
 namespace papilla::config {
@@ -60,7 +61,16 @@ void TableWriter::text(const FieldSpec& spec, std::string& value) {
   add(spec.key, text_node(value), spec.source, spec.reference);
 }
 
-void TableWriter::path(const FieldSpec& spec, std::string& value) { text(spec, value); }
+// A TOML file of the shipped designs by its name below them, where readers look for it on any
+// machine; other files by their whole path.
+void TableWriter::path(const FieldSpec& spec, std::string& value) {
+  std::string name = value;
+  for (const std::string& root : own_designs()) {
+    const std::string folder = root.ends_with('/') ? root : root + "/";
+    if (value.ends_with(".toml") && value.starts_with(folder)) name = value.substr(folder.size());
+  }
+  text(spec, name);
+}
 
 void TableWriter::choice(const FieldSpec& spec, const std::vector<std::string>& names, int& value) {
   add(spec.key, text_node(names.at(static_cast<std::size_t>(value))), spec.source, spec.reference);

@@ -12,6 +12,7 @@
 #include "config/reader.h"
 #include "config/writer.h"
 #include "physics/capillary/facts.h"
+#include "scene/belief.h"
 #include "scene/uncertainty.h"
 
 namespace papilla::design {
@@ -274,6 +275,8 @@ Finger read_finger(const std::string& path) {
   read_section(document, "", finger);
   if (const std::string wrong = uncertainty_problem(finger); !wrong.empty())
     document.problem_at("uncertainty", wrong);
+  for (const Problem& p : belief_problems(finger))
+    document.problem({p.file, p.line, p.column}, p.key, p.message);
   finish(document);
   return finger;
 }

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "config/writer.h"
 #include "design/words.h"
+#include "scene/belief.h"
 #include "scene/uncertainty.h"
 
 namespace papilla::design {
@@ -62,6 +63,8 @@ void read_head(Document& document, Design& design) {
   for (const DesignProblem& p : design_problems(design)) document.problem_at(p.path, p.message);
   if (const std::string wrong = uncertainty_problem(design.finger); !wrong.empty())
     document.problem_at("finger.uncertainty", wrong);
+  for (const Problem& p : belief_problems(design.finger))
+    document.problem({p.file, p.line, p.column}, p.key, p.message);
 }
 
 void read_search(Document& document, Study& study) {

@@ -16,7 +16,14 @@ ResponseDifference difference(double first, double second, double first_error, d
                               const ErrorSamples& of_first, const ErrorSamples& of_second) {
   const auto paired = difference_error(of_second, of_first);
   return {second - first, paired ? *paired : std::hypot(first_error, second_error),
-          paired.has_value()};
+          paired.has_value(), std::nullopt};
+}
+
+std::optional<BeliefDifference> over_belief(const std::optional<BeliefValues>& first,
+                                            const std::optional<BeliefValues>& second,
+                                            const Response& a, const Response& b) {
+  if (!first || !second || a.belief.file != b.belief.file) return std::nullopt;
+  return belief_difference(*second, *first);
 }
 
 [[noreturn]] void undefined(const Metric& metric, const Response& response) {
@@ -45,8 +52,12 @@ ResponseDifference difference_at(std::size_t point, const Metric& metric, const 
              b = metric_at(metric, second.points.at(point));
   if (!a) undefined(metric, first);
   if (!b) undefined(metric, second);
-  return difference(a->value, b->value, a->se(), b->se(), error_samples_at(point, metric, first),
-                    error_samples_at(point, metric, second));
+  ResponseDifference out =
+      difference(a->value, b->value, a->se(), b->se(), error_samples_at(point, metric, first),
+                 error_samples_at(point, metric, second));
+  out.model = over_belief(belief_values_at(point, metric, first),
+                          belief_values_at(point, metric, second), first, second);
+  return out;
 }
 
 ResponseDifference difference_of(const MetricExpression& e, const Response& first,
@@ -54,8 +65,12 @@ ResponseDifference difference_of(const MetricExpression& e, const Response& firs
   const auto a = summarise(e.summary, e.metric, first), b = summarise(e.summary, e.metric, second);
   if (!a) undefined(e.metric, first);
   if (!b) undefined(e.metric, second);
-  return difference(a->value, b->value, a->se, b->se, error_samples(e.summary, e.metric, first),
-                    error_samples(e.summary, e.metric, second));
+  ResponseDifference out =
+      difference(a->value, b->value, a->se, b->se, error_samples(e.summary, e.metric, first),
+                 error_samples(e.summary, e.metric, second));
+  out.model = over_belief(belief_values(e.summary, e.metric, first),
+                          belief_values(e.summary, e.metric, second), first, second);
+  return out;
 }
 
 DesignStep design_step(const Design& design, const std::string& path, double step) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace papilla::estimate {
 struct ResponseDifference {
   double value = 0, error = 0;
   bool paired = false;  // from common samples (Eq. accuracy.14); else both errors in squares
+  // Over belief, where both responses have the same members: what it leaves of the difference, and
+  // how probable it is that the second has more.
+  std::optional<BeliefDifference> model{};
 };
 // At one humidity, and of a summary over all. Throws InputError where the metric has no value.
 ResponseDifference difference_at(std::size_t point, const Metric& metric, const Response& first,

@@ -1,6 +1,7 @@
 #include "estimate/evaluation.h"
 
 #include "base/error.h"
+#include "estimate/belief.h"
 #include "estimate/parameters.h"
 #include "estimate/target.h"
 #include "estimate/voltage.h"
@@ -17,7 +18,9 @@ Response evaluate_design(const Design& design, const EvaluationOptions& options)
                        scene, design.texture,
                        {.target = target, .seed = fidelity.seed, .threads = options.threads})
                  : evaluate(scene, design.texture, fidelity);
-  if (options.parameters || design.accuracy.parameters)
+  if (options.model) add_belief(response, scene, design.texture, response.fidelity);
+  // No uncertainty is counted twice: belief holds what the fit of the finger leaves open.
+  if ((options.parameters || design.accuracy.parameters) && response.belief.members.empty())
     add_parameter_errors(response, scene, design.texture, response.fidelity);
   if (options.appearance) response.appearance = appearance_of(design);
   if (!options.voltage_for.empty())

@@ -10,8 +10,9 @@
 namespace papilla::estimate {
 
 struct EvaluationOptions {
-  double target = 0;        // relative standard error; 0: the design's target, or its level
-  bool parameters = false;  // also the error that the finger's fitted numbers leave
+  double target = 0;  // relative standard error; 0: the design's target, or its level
+  bool model = true;  // what is not known of finger and model, where the finger names a belief
+  bool parameters = false;  // without belief: also the error that the finger's fitted numbers leave
   bool appearance = false;
   std::vector<double> voltage_for;  // modulations
   int threads = 0;

@@ -14,4 +14,10 @@ double ErrorParts::total() const {
   return std::sqrt(sum);
 }
 
+double ErrorParts::numerical() const {
+  ErrorParts own = *this;
+  own.parameters.reset();
+  return own.total();
+}
+
 }  // namespace papilla::forward

@@ -78,7 +78,7 @@ void areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches patc
   std::vector<double> loads;
   for (const PatchResult& p : patches) loads.push_back(p.load);
   const double gain_by_gaps = bridge.growth_on() / bridge.growth_off();
-  const auto grown = [&](double growth, const Estimate& ratio) {
+  const auto by_law = [&](double growth, const Estimate& ratio) {
     GrownArea out = scaled(dry, {ratio.value / growth, ratio.se / growth}, fidelity, point);
     out.area.value *= growth;
     out.area.parts.sampling *= growth;
@@ -87,7 +87,8 @@ void areas_by_load(ResponsePoint& point, const ScaleBridge& bridge, Patches patc
   const Estimate off = ratio_estimate(point.samples.load_off, loads);
   const Estimate on = ratio_estimate(point.samples.load_on, loads);
   const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
-  const GrownArea without = grown(bridge.growth_off(), off), with = grown(bridge.growth_on(), on);
+  const GrownArea without = by_law(bridge.growth_off(), off);
+  const GrownArea with = by_law(bridge.growth_on(), on);
   point.area_fraction_off = without.area;
   point.area_fraction_on = with.area;
   const double ratio =

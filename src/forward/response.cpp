@@ -21,6 +21,12 @@ bool ResponsePoint::knows_driven() const {
          trouble != Trouble::FullContact && trouble != Trouble::FieldUnsolved;
 }
 
+double BeliefRuns::effective() const {
+  double squares = 0;
+  for (const BeliefRun& m : members) squares += m.weight * m.weight;
+  return squares > 0 ? 1 / squares : 0;
+}
+
 std::vector<PointTrouble> Response::said() const {
   std::vector<PointTrouble> out;
   for (const ResponsePoint& point : points) {

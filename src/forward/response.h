@@ -113,9 +113,29 @@ struct ParameterSteps {
   std::vector<PointTrouble> troubles;  // of the first step whose response is not sound
 };
 
+// The scene at one member of the finger's belief.
+struct BeliefRun {
+  double weight = 0;
+  std::string hypothesis;
+  Resampled run;
+};
+// Eq. accuracy.15: the members of a belief and the scene as it is, on the same few skins, offsets and droplets.
+struct BeliefRuns {
+  std::string file;
+  std::vector<BeliefRun> members;  // empty: not asked for, or there is none
+  Resampled own;
+  int skins = 0, grid = 0;
+  double seconds = 0;                  // wall time; in no file that must be reproducible
+  std::vector<PointTrouble> troubles;  // of the first member whose response is not sound
+  std::string absent;                  // why there are no members, for people; "": not asked for
+
+  double effective() const;  // number of members: 1 / sum of the squared weights
+};
+
 struct Response : Resampled {
   ControlRuns controls;       // behind the parts of grid and method
   ParameterSteps parameters;  // behind the parts of that name
+  BeliefRuns belief;          // behind the parts `model`
   Fidelity fidelity;          // as run
   TargetReport accuracy;
   Plan plan;

@@ -29,6 +29,10 @@ struct SummaryValue {
 std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
                                       const Response& response);
 
+// The number alone, of any points.
+std::optional<double> summary_of_points(Summary summary, const Metric& metric,
+                                        const std::vector<ResponsePoint>& points);
+
 // Half the change of a number over each step of the finger's parameters, one sample per skin whose
 // mean it is; nothing where the number is not defined at a step. Eq. accuracy.11
 using StepSamples = std::vector<std::vector<double>>;  // [direction][skin]
@@ -37,6 +41,40 @@ std::optional<StepSamples> step_samples(
     const std::function<std::optional<double>(const std::vector<ResponsePoint>&)>& value);
 // The standard error that they leave, less what the skins scatter. Eq. accuracy.11
 double step_error(const StepSamples& samples);
+
+// A number over the members of a belief, each as far from the response's as that member is from the
+// scene as it is on the few skins of both: by the same factor where the number cannot change its
+// sign, else by the same difference. Eq. accuracy.15
+struct BeliefValues {
+  std::vector<double> weights, values;  // one per member
+  // Root of the weight times value less weighted mean, a sample per skin: the standard deviation
+  // over members is step_error of them, that of a difference of two designs step_error of theirs
+  // subtracted.
+  StepSamples moves;
+
+  double deviation() const { return step_error(moves); }
+  // Of the values: 0.025 and 0.975 are the ends of a 95 % interval.
+  double quantile(double p) const;
+};
+using Number = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
+// value: of the response; nothing: of the runs themselves. Nothing where a member has no number.
+std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
+                                          std::optional<double> value, bool keeps_sign);
+std::optional<BeliefValues> belief_values(Summary summary, const Metric& metric,
+                                          const Response& response);
+std::optional<BeliefValues> belief_values_at(std::size_t point, const Metric& metric,
+                                             const Response& response);
+// The first less the second, member by member, and how probable it is above 0 by belief alone.
+// Nothing where the members are not the same.
+struct BeliefDifference {
+  double deviation = 0;      // standard deviation over the members
+  double low = 0, high = 0;  // 95 %
+  double above = 0.5;        // probability
+};
+std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
+                                                  const BeliefValues& second);
+// The moves of a number over belief, else over the steps of the finger's parameters.
+std::optional<StepSamples> model_samples(const Response& response, const Number& number);
 
 // The errors of a summary skin by skin, for its difference from that of another design on the same
 // skins; empty where the runs behind them are not known. In the unit of the value.

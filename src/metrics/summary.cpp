@@ -160,8 +160,15 @@ std::optional<SummaryValue> summarise(Summary summary, const Metric& metric,
     if (const auto steps = step_samples(response.parameters.steps, reading(summary, metric)))
       out.parts.parameters = step_error(*steps);
   }
+  if (const auto over = belief_values(summary, metric, response))
+    out.parts.model = over->deviation();
   out.se = out.parts.total();
   return out;
+}
+
+std::optional<double> summary_of_points(Summary summary, const Metric& metric,
+                                        const std::vector<ResponsePoint>& points) {
+  return reading(summary, metric)(points);
 }
 
 ErrorSamples error_samples(Summary summary, const Metric& metric, const Response& response) {

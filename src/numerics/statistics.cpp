@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/check.h"
 #include "base/constants.h"
@@ -51,6 +52,30 @@ double quantile(std::vector<double> values, double p) {
   const auto low = static_cast<std::size_t>(position);
   const std::size_t high = std::min(low + 1, values.size() - 1);
   return values[low] + (position - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
+double weighted_quantile(std::span<const double> values, std::span<const double> weights,
+                         double p) {
+  PAPILLA_CHECK(!values.empty() && values.size() == weights.size(), "a weight for each value");
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  double total = 0;
+  for (const double w : weights) total += w;
+  double below = 0, last = 0, middle_of_last = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double share = weights[order[k]] / total, middle = below + share / 2,
+                 value = values[order[k]];
+    if (p <= middle) {
+      if (k == 0 || !(middle > middle_of_last)) return value;
+      return last + (value - last) * (p - middle_of_last) / (middle - middle_of_last);
+    }
+    below += share;
+    last = value;
+    middle_of_last = middle;
+  }
+  return last;
 }
 
 double normal_cdf(double x) { return 0.5 * std::erfc(-x / std::numbers::sqrt2); }

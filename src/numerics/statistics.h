@@ -22,6 +22,8 @@ Estimate ratio_estimate(std::span<const double> a, std::span<const double> b);
 // error is the jackknife error of the number (Tukey 1958). One sample, the number, without those.
 std::vector<double> jackknife_samples(double all, std::span<const double> without_each);
 double quantile(std::vector<double> values, double p);  // linear interpolation, p in [0, 1]
+// Of weighted values: linear between the middles of their shares, the ends beyond.
+double weighted_quantile(std::span<const double> values, std::span<const double> weights, double p);
 double normal_cdf(double x);
 double normal_quantile(double p);
 double student_t_quantile(double p, int degrees_of_freedom);  // two-sided intervals: p = 0.975

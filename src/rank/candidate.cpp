@@ -10,7 +10,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "estimate/parameters.h"
+#include "estimate/belief.h"
+#include "scene/uncertainty.h"
 
 namespace papilla::rank {
 
@@ -93,7 +94,7 @@ void Candidate::look_on() {
 }
 
 void Candidate::extend() {
-  solve([](const Finger& finger) { return finger; }, fidelity_, patches_);
+  solve([](Scene&) {}, fidelity_, patches_);
   const int n = skins();
   look_on();
   Response response = respond(scene_, fidelity_, patches_);
@@ -120,27 +121,49 @@ void Candidate::extend() {
   }
 }
 
+std::vector<double> Candidate::member_weights() const {
+  std::vector<double> out;
+  if (design_.finger.belief.empty()) return out;
+  for (const BeliefMember& m : belief_of(design_.finger).members) out.push_back(m.weight);
+  return out;
+}
+
 void Candidate::step() {
-  Fidelity few = step_fidelity(fidelity_of(design_));
+  Fidelity few = model_cost(design_.finger, fidelity_of(design_)).fidelity;
   few.threads = options_.threads;
-  const auto moved = [&](std::size_t direction, bool up) {
-    const auto move = [&](const Finger& finger) {
-      const FingerStep step = finger_steps(finger)[direction];
-      return up ? step.up : step.down;
-    };
+  const auto moved = [&](const std::function<void(Scene&)>& move) {
     Scene scene = scene_;
-    scene.finger = move(scene_.finger);
+    move(scene);
     PatchSet patches;
     solve(move, few, patches);
     return Resampled(respond(scene, few, patches));
   };
-  std::vector<ParameterStep> ends;
-  for (std::size_t k = 0; k < finger_steps(scene_.finger).size(); ++k)
-    ends.push_back({moved(k, true), moved(k, false)});
+  Response runs;
+  if (design_.finger.belief.empty()) {
+    const auto end = [&](std::size_t direction, bool up) {
+      return moved([&](Scene& scene) {
+        FingerStep step = finger_steps(scene.finger)[direction];
+        scene.finger = std::move(up ? step.up : step.down);
+      });
+    };
+    for (std::size_t k = 0; k < finger_steps(scene_.finger).size(); ++k)
+      runs.parameters.steps.push_back({end(k, true), end(k, false)});
+  } else {
+    const Belief belief = belief_of(design_.finger);
+    runs.belief.own = moved([](Scene&) {});
+    for (const BeliefMember& member : belief.members) {
+      runs.belief.members.push_back({member.weight, member.hypothesis, moved([&](Scene& scene) {
+                                       MemberScene at =
+                                           with_member(belief, member, scene.finger, scene.model);
+                                       scene.finger = std::move(at.finger);
+                                       scene.model = at.model;
+                                     })});
+    }
+  }
   Response there;
   there.driven = scene_.drive.driven();
   for (const Criterion& c : options_.criteria) {
-    const auto samples = step_samples(ends, [&](const std::vector<ResponsePoint>& points) {
+    const auto samples = model_samples(runs, [&](const std::vector<ResponsePoint>& points) {
       there.points = points;
       return std::optional(value(c, there, looks_.empty() ? nullptr : &looks_.front()));
     });
@@ -148,8 +171,8 @@ void Candidate::step() {
   }
 }
 
-// The next skins of the common sequence, as many as the fidelity says, on the moved finger.
-void Candidate::solve(const std::function<Finger(const Finger&)>& move, Fidelity fidelity,
+// The next skins of the common sequence, as many as the fidelity says, in the moved scene.
+void Candidate::solve(const std::function<void(Scene&)>& move, Fidelity fidelity,
                       PatchSet& patches) const {
   const int count = static_cast<int>(regions_.size()), skins = fidelity.skins;
   for (int r = 0; r < count; ++r) {
@@ -159,7 +182,7 @@ void Candidate::solve(const std::function<Finger(const Finger&)>& move, Fidelity
     const Design& region = regions_[static_cast<std::size_t>(r)];
     Scene scene = scene_of(region);
     scene.finger.state = scene_.finger.state;
-    scene.finger = move(scene.finger);
+    move(scene);
     // One region is one scene: what its field rule lacks is measured once.
     PatchSet more =
         solve_patches(scene, region.texture, fidelity, count == 1 ? patches.field : FieldRatios{});

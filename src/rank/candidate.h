@@ -22,13 +22,14 @@ class Candidate {
   // A sample per skin of each criterion: jackknife pseudo-values, Eq. ranking.2
   const std::vector<double>& samples(std::size_t criterion) const { return pseudo_[criterion]; }
 
-  // What each step of the finger's parameters does to each criterion. Eq. ranking.5
+  // What each member of the finger's belief, or without one each step of its parameters, does to
+  // each criterion. Eq. ranking.5, ranking.8
   void step();
   const StepSamples& steps(std::size_t criterion) const { return steps_[criterion]; }
+  std::vector<double> member_weights() const;  // of belief; empty: the finger has none
 
  private:
-  void solve(const std::function<Finger(const Finger&)>& move, Fidelity fidelity,
-             PatchSet& patches) const;
+  void solve(const std::function<void(Scene&)>& move, Fidelity fidelity, PatchSet& patches) const;
   double value(const Criterion& c, Response& response, const Optics* look) const;
   void look_on();
 

@@ -9,9 +9,10 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "estimate/parameters.h"
+#include "estimate/belief.h"
 #include "numerics/statistics.h"
 #include "rank/candidate.h"
+#include "scene/uncertainty.h"
 
 namespace papilla::rank {
 namespace {
@@ -142,6 +143,7 @@ class StateRanker {
 
   // Scores over the steps of the finger, the same for all candidates. Eq. ranking.5
   void add_steps(Board& board) const {
+    board.scores.member_weights = candidates_.front().member_weights();
     for (const Candidate& x : candidates_) {
       StepSamples s = x.steps(0);
       for (std::size_t k = 0; k < s.size(); ++k) {
@@ -156,7 +158,8 @@ class StateRanker {
   }
 
   void step() {
-    note("parameters of the finger");
+    note(candidates_.front().member_weights().empty() ? "parameters of the finger"
+                                                      : "belief about finger and model");
     for (Candidate& x : candidates_) x.step();
     for (Board& board : boards_) add_steps(board);
   }
@@ -277,10 +280,13 @@ class StateRanker {
 void plan_steps(const std::vector<Regions>& candidates, Ranking& out) {
   if (const std::string why = parameters_unknown(candidates); !why.empty()) throw InputError(why);
   const Design& first = candidates.front().front();
-  out.directions = static_cast<int>(finger_steps(first.finger).size());
-  const Fidelity few = step_fidelity(fidelity_of(first));
-  out.step_skins = few.skins;
-  out.step_grid = few.grid;
+  const ModelCost cost = model_cost(first.finger, fidelity_of(first));
+  if (first.finger.belief.empty())
+    out.directions = static_cast<int>(finger_steps(first.finger).size());
+  else
+    out.members = cost.runs - 1;
+  out.step_skins = cost.fidelity.skins;
+  out.step_grid = cost.fidelity.grid;
 }
 
 // Surfaces without a shear strength of their own all have the finger's on glass.
@@ -314,9 +320,16 @@ std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
 
 std::string parameters_unknown(const std::vector<Regions>& candidates) {
   const Design& first = candidates.front().front();
-  if (first.finger.uncertainty.empty()) return unknown_parameters(first.finger);
+  if (const std::string why = unknown_model(first.finger); !why.empty()) return why;
   for (const Regions& regions : candidates) {
     for (const Design& d : regions) {
+      if (d.finger.belief != first.finger.belief)
+        return fmt::format("\"{}\" and \"{}\" are of fingers with other beliefs", first.title,
+                           d.title);
+      if (!d.finger.belief.empty() && d.model != d.finger.calibrated_for)
+        return fmt::format("the belief of \"{}\" is of other model options than its [model]",
+                           d.title);
+      if (!d.finger.belief.empty()) continue;
       if (d.finger.uncertainty != first.finger.uncertainty)
         return fmt::format(
             "\"{}\" and \"{}\" are of fingers with other [[uncertainty]]: what their parameters "

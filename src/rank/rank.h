@@ -60,9 +60,11 @@ struct Ranking {
   std::optional<double> seconds;                // of the clock
   // Steps of the finger's parameters: independent directions, and what their steps were run with.
   int directions = 0, step_skins = 0, step_grid = 0;  // 0: not asked for
+  int members = 0;                                    // of belief, in the place of directions
 };
 
-// Why the finger's fitted numbers are not known, or not alike, for these candidates; "": they are.
+// Why what is not known of the finger (its belief, or without one its fitted numbers) is not
+// stated, or not alike, for these candidates; "": it is.
 std::string parameters_unknown(const std::vector<Regions>& candidates);
 
 // Throws InputError when the candidates are under other conditions (unless any_conditions), when a

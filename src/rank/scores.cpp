@@ -97,7 +97,26 @@ bool Scores::decided(std::size_t a, std::size_t b) const {
   return d.low > 0 || d.high < 0;
 }
 
+// Member by member, each with what its own move adds to the lead. Eq. ranking.8
+double Scores::probability_over_members(std::size_t a, std::size_t b) const {
+  const std::vector<double> paired = minus(skins[a], skins[b]);
+  const Estimate e = mean_estimate(paired);
+  const StepSamples moves = step_difference(a, b);
+  double all = 0;
+  for (const std::vector<double>& m : moves) all += square(mean_estimate(m).value);
+  const double sure = all > 0 ? std::min(1.0, step_error(moves) / std::sqrt(all)) : 0;
+  const double freedom = static_cast<double>(paired.size()) - 1;
+  double out = 0;
+  for (std::size_t m = 0; m < moves.size(); ++m) {
+    const double w = member_weights[m],
+                 lead = e.value + sure * mean_estimate(moves[m]).value / std::sqrt(w);
+    out += w * (e.se > 0 ? student_t_cdf(lead / e.se, freedom) : lead > 0 ? 1 : lead < 0 ? 0 : 0.5);
+  }
+  return out;
+}
+
 double Scores::probability_ahead(std::size_t a, std::size_t b) const {
+  if (!member_weights.empty()) return probability_over_members(a, b);
   const std::vector<double> paired = minus(skins[a], skins[b]);
   const Estimate e = mean_estimate(paired);
   const double se = std::hypot(e.se, step_error(step_difference(a, b)));
@@ -123,7 +142,16 @@ std::vector<double> Scores::probabilities(std::uint64_t index) const {
       static_cast<int>(std::min(skins[front[0]].size(), skins[front[1 % m]].size())) - 1;
   for (int draw = 0; draw < kDraws; ++draw) {
     for (double& v : z) v = random.normal();
-    for (double& v : finger) v = random.normal();
+    if (member_weights.empty()) {
+      for (double& v : finger) v = random.normal();
+    } else {  // one member a draw; its move is its step over the root of its weight
+      std::fill(finger.begin(), finger.end(), 0.0);
+      double left = random.uniform();
+      std::size_t member = 0;
+      while (member + 1 < finger.size() && left >= member_weights[member])
+        left -= member_weights[member++];
+      finger[member] = 1 / std::sqrt(member_weights[member]);
+    }
     double squares = 0;
     for (int k = 0; k < freedom; ++k) squares += square(random.normal());
     const double wider = freedom > 0 ? std::sqrt(freedom / squares) : 1;

@@ -29,6 +29,8 @@ double unmet(const std::vector<std::vector<double>>& samples, std::size_t i);
 struct Scores {
   std::vector<std::vector<double>> skins;  // [candidate][skin]; higher is better
   std::vector<StepSamples> steps;          // one per candidate; empty: not asked for
+  // Of the members of belief that the steps stand for; empty: the steps are independent directions.
+  std::vector<double> member_weights{};
 
   double mean(std::size_t i) const;  // over all skins that anyone has met, Eq. ranking.6
   // Best first: by the mean, then neighbours as their paired difference says.
@@ -45,6 +47,7 @@ struct Scores {
 
  private:
   StepSamples step_difference(std::size_t a, std::size_t b) const;
+  double probability_over_members(std::size_t a, std::size_t b) const;
   std::vector<std::vector<double>> step_moves() const;
   std::vector<std::vector<double>> skin_moves() const;
 };

@@ -8,6 +8,7 @@
 
 #include "base/text.h"
 #include "base/units.h"
+#include "report/fit_belief.h"
 #include "report/json.h"
 
 namespace papilla::report {
@@ -291,32 +292,34 @@ std::string calibration_warning(const CalibrationResult& result) {
 std::string calibration_markdown(const Calibration& c, const CalibrationResult& r,
                                  const JudgedFit& claims) {
   return summary_section(c, r) + parameters_section(c, r) + correlations_section(c, r) +
-         directions_section(c, r) + residuals_section(r) + claims_section(c, claims, true) +
-         claims_section(c, claims, false) + other_measurements_section(r);
+         directions_section(c, r) + (r.belief ? belief_section(c, *r.belief) : "") +
+         residuals_section(r) + claims_section(c, claims, true) + claims_section(c, claims, false) +
+         other_measurements_section(r);
 }
 
 std::string calibration_json(const Calibration& c, const CalibrationResult& r,
                              const JudgedFit& claims) {
-  return Json{{"schema", 1},
-              {"title", c.title},
-              {"converged", r.fit.converged},
-              {"warning", calibration_warning(r)},
-              {"verdicts", verdicts(c, r)},
-              {"chi2_before", r.chi2_before},
-              {"chi2", r.fit.chi2},
-              {"prior_chi2", r.fit.prior_chi2},
-              {"degrees_of_freedom", r.fit.degrees_of_freedom},
-              {"variance_factor", r.fit.variance_factor},
-              {"evaluations", r.evaluations},
-              {"parameters", parameters_json(c, r)},
-              {"correlation", r.fit.correlation},
-              {"directions", directions_json(r)},
-              {"check_skins", c.check.skins},
-              {"residuals", residuals_json(r)},
-              {"claims", claims_rows_json(c, claims)},
-              {"gap_by_capacitance", {{"before", r.gap_before}, {"after", r.gap_after}}},
-              {"friction_coefficient", r.friction_coefficient}}
-      .dump(2);
+  Json out{{"schema", 1},
+           {"title", c.title},
+           {"converged", r.fit.converged},
+           {"warning", calibration_warning(r)},
+           {"verdicts", verdicts(c, r)},
+           {"chi2_before", r.chi2_before},
+           {"chi2", r.fit.chi2},
+           {"prior_chi2", r.fit.prior_chi2},
+           {"degrees_of_freedom", r.fit.degrees_of_freedom},
+           {"variance_factor", r.fit.variance_factor},
+           {"evaluations", r.evaluations},
+           {"parameters", parameters_json(c, r)},
+           {"correlation", r.fit.correlation},
+           {"directions", directions_json(r)},
+           {"check_skins", c.check.skins},
+           {"residuals", residuals_json(r)},
+           {"claims", claims_rows_json(c, claims)},
+           {"gap_by_capacitance", {{"before", r.gap_before}, {"after", r.gap_after}}},
+           {"friction_coefficient", r.friction_coefficient}};
+  if (r.belief) out["belief"] = belief_fit_json(*r.belief);
+  return out.dump(2);
 }
 
 }  // namespace papilla::report

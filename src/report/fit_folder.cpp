@@ -37,7 +37,13 @@ JudgedFit judged(const Calibration& calibration, const CalibrationResult& result
 }
 
 void write_fitted(const Folder& folder, const FitReport& fit) {
-  write_finger(folder.path("finger.toml"), fit.result.finger,
+  Finger finger = fit.result.finger;
+  if (fit.result.belief) {
+    folder.write("belief.toml", "# " + fit.result.belief->belief.made_of + "; see fit.md.\n" +
+                                    belief_text(fit.result.belief->belief));
+    finger.belief = "belief.toml";  // beside it
+  }
+  write_finger(folder.path("finger.toml"), finger,
                "Fitted by papilla calibrate " +
                    std::filesystem::path(fit.calibration.file).filename().string() +
                    "; see fit.md.");

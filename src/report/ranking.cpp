@@ -58,7 +58,7 @@ std::vector<std::string> score_head(const RankOptions& options) {
   std::vector<std::string> head{"rank", "design"};
   for (const Criterion& c : options.criteria) head.push_back(criterion_head(c));
   head.push_back("ahead of the next, %");
-  if (options.parameters) head.push_back("finger's part");
+  if (options.parameters) head.push_back("model part");
   for (const char* name : {"p(ahead)", "p(best)", "skins"}) head.push_back(name);
   return head;
 }
@@ -160,7 +160,8 @@ Json interval_json(const Interval& i) {
   return {{"value", json_number(i.value)},
           {"low", json_number(i.low)},
           {"high", json_number(i.high)},
-          {"parameters", json_number(i.parameters)}};
+          {"parameters", json_number(i.parameters)},
+          {"model", json_number(i.parameters)}};
 }
 
 Json candidate_json(const std::string& name, const std::string& title, const RankOptions& options,
@@ -227,12 +228,18 @@ std::string ranking_table(const std::vector<std::string>& names, const RankOptio
         "surface and conditions together:\n";
     for (const ConditionDifference& d : ranking.conditions) out += "  " + d.text() + "\n";
   }
+  const char* part = options.scored() ? ". Model part: of the lead" : "";
+  if (ranking.members > 0) {
+    out += fmt::format(
+        "belief about finger and model in every interval and probability: {} members, the same for "
+        "all designs; {} skins, {} pixels{}\n",
+        ranking.members, ranking.step_skins, ranking.step_grid, part);
+  }
   if (ranking.directions > 0) {
     out += fmt::format(
         "parameters of the finger in every interval and probability: {} directions of its "
         "covariance, the same for all designs; {} skins, {} pixels{}\n",
-        ranking.directions, ranking.step_skins, ranking.step_grid,
-        options.scored() ? ". Finger's part: of the lead" : "");
+        ranking.directions, ranking.step_skins, ranking.step_grid, part);
   }
   if (options.criteria.size() > 1 && options.scored())
     out +=
@@ -278,8 +285,9 @@ std::string ranking_json(const std::vector<std::string>& names, const RankOption
         {{"key", d.key}, {"designs", {d.first, d.other}}, {"values", {d.value, d.other_value}}});
   }
   Json parameters;
-  if (ranking.directions > 0) {
+  if (ranking.directions + ranking.members > 0) {
     parameters = {{"directions", ranking.directions},
+                  {"members", ranking.members},
                   {"skins", ranking.step_skins},
                   {"grid", ranking.step_grid}};
   }

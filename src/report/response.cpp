@@ -28,14 +28,14 @@ std::string budget_text(const SummaryValue& v) {
       if (origin.in_total) {
         out += ", " + text;
       } else {
-        apart = "; not in ±: " + text + ", common to all designs";
+        apart += (apart.empty() ? "; not in ±: " : ", ") + text;
       }
-    } else if (origin.part != &ErrorParts::parameters) {
+    } else if (origin.part != &ErrorParts::parameters && origin.part != &ErrorParts::model) {
       unknown += (unknown.empty() ? "" : ", ") + std::string(origin.name);
     }
   }
-  out += apart;
-  if (!v.parts.parameters) out += "; parameters not asked for (--parameters)";
+  if (!apart.empty()) out += apart + ", common to all designs";
+  if (!v.parts.model_part()) out += "; parameters not asked for (--parameters)";
   return out + (unknown.empty() ? "" : "; error from " + unknown + ": unknown");
 }
 
@@ -131,11 +131,16 @@ std::string modulation_lines(const Response& response) {
   }
   const auto worst = summarise(Summary::Worst, kModulation, response);
   out += fmt::format("modulation {}", modulation_sparkline(response));
-  if (mean) out += fmt::format("  mean {:.3f} ±{:.3f}", mean->value, mean->se);
-  if (worst) out += fmt::format("  worst {:.3f} ±{:.3f}", worst->value, worst->se);
-  if (variation)
-    out += fmt::format("  variation (sd/mean) {:.3f} ±{:.3f}", variation->value, variation->se);
-  if (range) out += fmt::format("  range/mean {:.3f} ±{:.3f}", range->value, range->se);
+  // With belief two parts with their names, else one ±.
+  const auto with_parts = [](const SummaryValue& v) {
+    return v.parts.model ? fmt::format("{:.3f} ±{:.3f} numerical ±{:.3f} model", v.value,
+                                       v.parts.numerical(), *v.parts.model)
+                         : fmt::format("{:.3f} ±{:.3f}", v.value, v.se);
+  };
+  if (mean) out += "  mean " + with_parts(*mean);
+  if (worst) out += "  worst " + with_parts(*worst);
+  if (variation) out += "  variation (sd/mean) " + with_parts(*variation);
+  if (range) out += "  range/mean " + with_parts(*range);
   out += '\n';
   if (mean && mean->value != 0) out += "error of the mean modulation: " + budget_text(*mean) + "\n";
   if (variation && variation->value != 0)
@@ -199,8 +204,12 @@ std::string undriven_lines(const Response& response) {
                    [](const ResponsePoint& p) { return p.knows_undriven(); }))
     return out + "friction: no number over humidity, see the notes below\n";
   if (const auto friction = summarise(Summary::Mean, kFriction, response))
-    out += fmt::format("mean friction {:.1f} ±{:.1f} mN; error: {}\n", 1e3 * friction->value,
-                       1e3 * friction->se, budget_text(*friction));
+    out += fmt::format(
+        "mean friction {:.1f} ±{:.1f} mN{}; error: {}\n", 1e3 * friction->value, 1e3 * friction->se,
+        friction->parts.model
+            ? fmt::format(" numerical ±{:.1f} mN model", 1e3 * *friction->parts.model)
+            : "",
+        budget_text(*friction));
   return out;
 }
 
@@ -237,6 +246,92 @@ std::string target_lines(const Response& response) {
   if (const std::string apart = beside_target(response); !apart.empty())
     out += "not counted in it: " + apart + "\n";
   return out;
+}
+
+// What the members of belief leave of the numbers: of each humidity, and over all.
+struct BeliefColumn {
+  const char* head;
+  QuantityMetric metric;
+  double scale;
+  int digits;
+  bool driven;
+};
+std::string belief_table(const Response& response) {
+  static constexpr std::array<BeliefColumn, 3> kBeliefColumns{
+      {{"F_off mN", kFriction, 1e3, 1, false},
+       {"F_on mN", kFrictionOn, 1e3, 1, true},
+       {"modulation", kModulation, 1, 3, true}}};
+  std::string out = fmt::format("{:>6}", "RH");
+  for (const BeliefColumn& c : kBeliefColumns) {
+    if (response.driven || !c.driven)
+      out += fmt::format(" {:>12} {:>12} {:>23}", c.head, "± numerical", "± model [95 %]");
+  }
+  out += '\n';
+  const auto row = [&](const std::string& name, auto&& value, auto&& members) {
+    out += name;
+    for (const BeliefColumn& c : kBeliefColumns) {
+      if (!response.driven && c.driven) continue;
+      const auto v = value(c);
+      const auto over = members(c);
+      const auto text = [&](double x) { return fixed(x * c.scale, c.digits); };
+      out +=
+          fmt::format(" {:>12} {:>12} {:>23}", v ? text(v->first) : "-", v ? text(v->second) : "-",
+                      over ? fmt::format("{} [{}, {}]", text(over->deviation()),
+                                         text(over->quantile(0.025)), text(over->quantile(0.975)))
+                           : "-");
+    }
+    out += '\n';
+  };
+  using Shown = std::optional<std::pair<double, double>>;
+  for (std::size_t i = 0; i < response.points.size(); ++i) {
+    const ResponsePoint& p = response.points[i];
+    row(
+        fmt::format("{:>5.0f}%", 100 * p.relative_humidity),
+        [&](const BeliefColumn& c) -> Shown {
+          if (c.driven ? !p.knows_driven() : !p.knows_undriven()) return std::nullopt;
+          const Measured& m = p.*c.metric.quantity;
+          return std::pair(m.value, m.parts.numerical());
+        },
+        [&](const BeliefColumn& c) { return belief_values_at(i, c.metric, response); });
+  }
+  row(
+      fmt::format("{:>6}", "mean"),
+      [&](const BeliefColumn& c) -> Shown {
+        const auto v = summarise(Summary::Mean, c.metric, response);
+        return v ? Shown(std::pair(v->value, v->parts.numerical())) : std::nullopt;
+      },
+      [&](const BeliefColumn& c) { return belief_values(Summary::Mean, c.metric, response); });
+  return out;
+}
+
+// "one balance .62, uniform .38": the weights of the hypotheses, in the order of the file.
+std::string hypotheses_text(const BeliefRuns& belief) {
+  std::vector<std::pair<std::string, double>> shares;
+  for (const BeliefRun& m : belief.members) {
+    const auto same = std::find_if(shares.begin(), shares.end(),
+                                   [&](const auto& s) { return s.first == m.hypothesis; });
+    if (same == shares.end())
+      shares.emplace_back(m.hypothesis, m.weight);
+    else
+      same->second += m.weight;
+  }
+  std::vector<std::string> out;
+  for (const auto& [name, weight] : shares)
+    out.push_back(fmt::format("{} {:.0f} %", name.empty() ? "one hypothesis" : name, 100 * weight));
+  return join_names(out);
+}
+
+std::string belief_lines(const Response& response) {
+  const BeliefRuns& b = response.belief;
+  if (b.members.empty())
+    return b.absent.empty() ? "" : "model: in no ± here, as " + b.absent + "\n";
+  return belief_table(response) +
+         fmt::format(
+             "± model: standard deviation over {} members of belief (as good as {:.1f} equal "
+             "ones; {}), {} skins, {} pixels, in brackets 95 % of their weight; common to all "
+             "designs, in a difference its own part counts{}\n",
+             b.members.size(), b.effective(), hypotheses_text(b), b.skins, b.grid,
+             b.troubles.empty() ? "" : "; a member is not sound: " + text(b.troubles));
 }
 
 std::string parameter_line(const ParameterSteps& p) {
@@ -297,6 +392,7 @@ std::string response_table(const Response& response) {
   out += voltage_lines(response);
   if (response.accuracy.target > 0) out += target_lines(response);
   if (!response.parameters.steps.empty()) out += parameter_line(response.parameters);
+  out += belief_lines(response);
   for (const std::string& said : response.plan.warnings) out += "warning: " + said + "\n";
   if (const auto said = response.said(); !said.empty()) out += "note: " + text(said) + "\n";
   return out;

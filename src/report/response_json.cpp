@@ -17,10 +17,25 @@ Json with_parts(double value, double se, const ErrorParts& parts) {
   for (const ErrorOrigin& origin : kErrorOrigins) {
     list[origin.name] = json_number(parts.*origin.part);
   }
-  return {{"value", json_number(value)}, {"se", json_number(se)}, {"parts", list}};
+  return {{"value", json_number(value)},
+          {"se", json_number(se)},
+          {"numerical", json_number(parts.numerical())},
+          {"model", json_number(parts.model_part())},
+          {"parts", list}};
 }
 
 Json measured(const Measured& m) { return with_parts(m.value, m.se(), m.parts); }
+
+// The same with what each member of belief says, in the order of `belief.members`.
+Json with_members(Json number, const std::optional<BeliefValues>& over) {
+  if (!over) return number;
+  Json values = Json::array();
+  for (const double v : over->values) values.push_back(json_number(v));
+  number["model_interval"] = {json_number(over->quantile(0.025)),
+                              json_number(over->quantile(0.975))};
+  number["members"] = std::move(values);
+  return number;
+}
 
 // Null where a humidity has no number for it.
 Json summarised(Summary kind, const Metric& metric, const Response& response) {
@@ -29,7 +44,9 @@ Json summarised(Summary kind, const Metric& metric, const Response& response) {
     if (driven ? !p.knows_driven() : contact && !p.knows_undriven()) return nullptr;
   }
   const auto value = summarise(kind, metric, response);
-  return value ? with_parts(value->value, value->se, value->parts) : Json(nullptr);
+  if (!value) return nullptr;
+  return with_members(with_parts(value->value, value->se, value->parts),
+                      belief_values(kind, metric, response));
 }
 
 Json summary_json(const Response& response) {
@@ -98,14 +115,19 @@ bool exists(api::FingerDrive drive, const ResponsePoint& p, bool driven) {
   return false;
 }
 
-Json point_json(const ResponsePoint& p, bool driven) {
+Json point_json(const Response& response, std::size_t index) {
+  const ResponsePoint& p = response.points[index];
+  const bool driven = response.driven;
   Json point;
   point["relative_humidity"] = p.relative_humidity;
   point["weight"] = p.weight;
   point["patch_pressure"] = json_number(p.patch_pressure);
   // Null where the state does not exist; `status` says why.
   for (const auto& q : api::kQuantities<Measured>)
-    point[q.key] = exists(q.drive, p, driven) ? measured(p.*q.value) : Json(nullptr);
+    point[q.key] = exists(q.drive, p, driven)
+                       ? with_members(measured(p.*q.value),
+                                      belief_values_at(index, QuantityMetric{q.value}, response))
+                       : Json(nullptr);
   point["bridge_water_share"] = json_number(p.bridge_water_share);
   point["over_limit_area"] = json_number(p.over_limit_area);
   point["over_limit_share"] = json_number(p.over_limit_share);
@@ -136,6 +158,20 @@ Json steps_json(const ParameterSteps& p) {
           {"status", p.troubles.empty() ? "ok" : text(p.troubles)}};
 }
 
+Json belief_json(const BeliefRuns& b, bool with_time) {
+  if (b.members.empty()) return {{"members", Json::array()}, {"status", b.absent}};
+  Json members = Json::array();
+  for (const BeliefRun& m : b.members)
+    members.push_back({{"weight", m.weight}, {"hypothesis", m.hypothesis}});
+  Json out{{"members", std::move(members)},
+           {"effective_members", b.effective()},
+           {"skins", b.skins},
+           {"grid", b.grid},
+           {"status", b.troubles.empty() ? "ok" : text(b.troubles)}};
+  if (with_time) out["seconds"] = b.seconds;
+  return out;
+}
+
 Json target_json(const TargetReport& a) {
   return {{"target", a.target},     {"reached", json_number(a.reached)},
           {"quantity", a.quantity}, {"parts", {"sampling", "grid", "method", "solver"}},
@@ -155,7 +191,8 @@ Json fidelity_json(const Fidelity& f) {
 
 std::string response_json(const Response& response, bool with_time, int indent) {
   Json points = Json::array();
-  for (const ResponsePoint& p : response.points) points.push_back(point_json(p, response.driven));
+  for (std::size_t i = 0; i < response.points.size(); ++i)
+    points.push_back(point_json(response, i));
   Json out{{"schema", 1},
            {"points", points},
            {"status", response.said().empty() ? "ok" : text(response.said())},
@@ -163,6 +200,8 @@ std::string response_json(const Response& response, bool with_time, int indent) 
            {"plan", plan_json(response.plan)}};
   if (response.appearance) out["appearance"] = appearance_json(*response.appearance);
   if (!response.parameters.steps.empty()) out["parameters"] = steps_json(response.parameters);
+  if (!response.belief.members.empty() || !response.belief.absent.empty())
+    out["belief"] = belief_json(response.belief, with_time);
   if (with_time) {
     out["seconds"] = response.seconds;
     const PieceSeconds& pieces = response.piece_seconds;

@@ -110,7 +110,7 @@ class Writer {
     const auto& objectives = f_.problem.objectives();
     std::string out = "design" + variable_header();
     for (const StudyObjective& o : objectives)
-      out += fmt::format(",{0},{0} se,{0} parameters,{0} at search level", o.name);
+      out += fmt::format(",{0},{0} se,{0} model,{0} at search level", o.name);
     out += ",worst modulation,breakdown margin";
     for (const Constraint& c : f_.study.constraints) out += ",limit " + csv_text(limit_name(c.on));
     out += ",feasible,on front,status\n";
@@ -149,6 +149,7 @@ class Writer {
         value["se"] = json_number(score.errors[k]);
         const auto parameters = parameter_error(score, k);
         value["parameters"] = json_number(parameters);
+        value["model"] = json_number(parameters);
       }
       out[f_.problem.objectives()[k].name] = value;
     }
@@ -200,6 +201,7 @@ class Writer {
                             : Json(nullptr)}};
     const std::string unknown = f_.problem.parameters_unknown();
     out["parameters"] = {{"status", unknown.empty() ? "ok" : unknown},
+                         {"source", f_.problem.model_source()},
                          {"of_the_difference_to_flat", Json::object()}};
     for (std::size_t k = 0; f_.result.flat && k < d.confirmed.values.size(); ++k) {
       const auto part = parameter_error(d.confirmed, *f_.result.flat, k);

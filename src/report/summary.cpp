@@ -14,7 +14,7 @@
 namespace papilla::report {
 namespace {
 
-// "0.612 ± 0.014 (0.051)": its own error, in brackets the one that parameters leave.
+// "0.612 ± 0.014 (0.051)": its own error, in brackets the model part.
 std::string with_errors(const StudyObjective& o, const Score& score, std::size_t k) {
   std::string out = fmt::format("{} ± {}", shown_value(o.expression, score.values[k]),
                                 shown_error(o.expression, score.errors[k]));
@@ -27,6 +27,30 @@ std::string with_errors(const StudyObjective& o, const Score& score, std::size_t
 std::string heading(const StudyObjective& o) {
   const std::string unit = shown_unit(o.expression).unit;
   return o.name + (unit.empty() ? "" : " [" + unit + "]");
+}
+
+// "By belief alone the best in mean(modulation) is 02 with 71 %, 01 with 29 %.", an objective each.
+std::string belief_sentences(const StudyProblem& problem, const OptimiseResult& result) {
+  const std::vector<double> weights = problem.belief_weights();
+  std::vector<const Score*> scores;
+  std::vector<std::string> names;
+  for (const FinalDesign& f : result.finalists) {
+    if (!f.on_front || !f.confirmed.ok) continue;
+    scores.push_back(&f.confirmed);
+    names.push_back(design_name(f.folder));
+  }
+  std::string out;
+  for (std::size_t k = 0; scores.size() > 1 && k < problem.objectives().size(); ++k) {
+    const StudyObjective& o = problem.objectives()[k];
+    const std::vector<double> p = best_by_belief(scores, k, o.maximise, weights);
+    std::vector<std::string> told;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      if (p[i] > 0) told.push_back(fmt::format("{} with {:.0f} %", names[i], 100 * p[i]));
+    }
+    if (!told.empty())
+      out += fmt::format("\nBy belief alone the best in {} is {}.\n", o.name, join_names(told));
+  }
+  return out;
 }
 
 // What decides which of the front is the best, in words.
@@ -283,14 +307,14 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
   }
   const std::string unknown = problem.parameters_unknown();
   if (!unknown.empty())
-    return out + fmt::format("\nWhat the fit of the finger leaves open is in no ±: {}.\n", unknown);
+    return out + fmt::format("\nWhat is not known of finger and model is in no ±: {}.\n", unknown);
   out += fmt::format(
-      "\n± is one standard error of skins, droplets, grid and method. In brackets{} what the fit "
-      "of "
-      "the finger leaves open, one standard deviation, common to all designs",
-      study.design.accuracy.parameters
+      "\n± is numerical: one standard error of skins, droplets, grid and method. In brackets{} the "
+      "model part, what {} leaves open, one standard deviation, common to all designs",
+      study.design.accuracy.parameters || problem.has_belief()
           ? ""
-          : ", of the best design (all: `[accuracy] parameters = true`),");
+          : ", of the best design (all: `[accuracy] parameters = true`),",
+      problem.model_source());
   // Common is not cancelled: a design may answer to the finger as its flat surface does not.
   std::vector<std::string> better, worse;
   for (std::size_t k = 0; result.has_best() && result.flat && k < objectives.size(); ++k) {
@@ -303,7 +327,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
     out += "; the gain over flat is less uncertain by it than the values in " + join_names(better);
   if (!worse.empty())
     out += "; the gain over flat is as uncertain by it as the values in " + join_names(worse);
-  return out + ".\n";
+  return out + ".\n" + belief_sentences(problem, result);
 }
 
 bool is_shown(const Design& design, const Variable& variable) {

@@ -375,6 +375,8 @@ void fields(FieldVisitor& v, Finger& s) {
   v.list({"uncertainty",
           "of fitted numbers: parameter, deviation, correlation (evaluate --parameters)"},
          s.uncertainty);
+  v.path({"belief", "file of weighted members: what is not known of finger and model; \"\": none"},
+         s.belief);
   v.section({"calibrated_for", "model options the finger was fitted with"}, s.calibrated_for);
 }
 

@@ -194,6 +194,7 @@ struct Finger {
   // Ids of the published claims that its fit used, separated by spaces.
   std::string fitted_to = "M1 M2 M3 M4 M5 M6 M7 M8 M9 M10 M11 M12 M13 M14 M15 M16 M17 M21";
   std::vector<ParameterDeviation> uncertainty;  // of the fitted numbers; empty: not known
+  std::string belief;                           // file of weighted members (scene/belief.h), or ""
 
   double patch_pressure(double relative_humidity) const;  // F_N / (phi A) [Pa], Eq. scene.6
   // The clean finger with the skin angle, sweat, shear and hydration of its state, and what the

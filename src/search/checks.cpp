@@ -200,7 +200,7 @@ void find_sensitivity(Run& run, const FinalDesign& made) {
       sensitivity(run.problem, centre, moves, scores.front(), {scores.begin() + 1, scores.end()});
 }
 
-// What the fit of the fingers leaves open. Eq. accuracy.12
+// What is not known of fingers and model. Eq. accuracy.12, accuracy.15
 void find_parameters(Run& run, Score& score, const Point& unit, bool flat) {
   if (!score.ok || !score.parameter_steps.empty() || !run.problem.parameters_unknown().empty())
     return;
@@ -244,6 +244,11 @@ bool check(Run& run) {
   step(2, 0, RunPart::Parameters);
   find_parameters(run, best.confirmed, best.unit, false);
   if (result.flat) find_parameters(run, *result.flat, best.unit, true);
+  // Few runs a design where the fingers name a belief: all of the front have it.
+  for (FinalDesign& f : result.finalists) {
+    if (run.problem.has_belief() && f.on_front && &f != &best && !run.stopped())
+      find_parameters(run, f.confirmed, f.unit, false);
+  }
   step(1, 0, RunPart::Files);
   return true;
 }

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "estimate/parameters.h"
+#include "estimate/belief.h"
 #include "forward/plan.h"
 #include "search/stability.h"
 
@@ -134,6 +134,10 @@ Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_se
   return f;
 }
 
+std::size_t designs_with_model_part(const StudyProblem& problem) {
+  return problem.has_belief() ? kFinalists + 1 : 2;
+}
+
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
   confirmed.skins = std::max(2, kStepSkins / static_cast<int>(problem.nominal_tasks()));
   confirmed.grid = kStepGrid;
@@ -149,9 +153,8 @@ std::size_t narrowings(const SearchProblem& p) {
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds) {
   const Fidelity f = stage_fidelity(problem, stage, most_seconds);
   if (stage != Stage::Steps) return priced(problem, f);
-  const std::size_t steps = finger_steps(problem.tasks().front().finger).size();
-  const Fidelity few = step_fidelity(steps_fidelity(problem, f));
-  return 2.0 * static_cast<double>(steps) * plan_at(problem, few).seconds();
+  const ModelCost cost = model_cost(problem.tasks().front().finger, steps_fidelity(problem, f));
+  return cost.runs * plan_at(problem, cost.fidelity).seconds();
 }
 
 StudyCost study_cost(const Study& study) {
@@ -173,7 +176,7 @@ StudyCost study_cost(const Study& study) {
                 price(kFinalists * stability_variants(problem).size(), Stage::Stability) +
                 price((1 + 2 * variables) * tasks, Stage::Sensitivity);
   if (problem.parameters_unknown().empty())
-    out.seconds += price(2 * problem.nominal_tasks(), Stage::Steps);
+    out.seconds += price(designs_with_model_part(problem) * problem.nominal_tasks(), Stage::Steps);
   out.pixels = stage_fidelity(problem, Stage::Search).grid;
   out.feature = problem.smallest_feature();
   out.feature_pixels = out.feature * out.pixels / kWindow;

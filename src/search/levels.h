@@ -16,6 +16,9 @@ inline constexpr std::size_t kFewNarrowed = 4;
 // most_seconds: of a task, as plans price it; fewer skins, then fewer pixels where it costs more;
 // 0: anything.
 Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_seconds = 0);
+// Designs whose model part is stated at the end of a run: the best and its flat surface; with
+// belief all of the front.
+std::size_t designs_with_model_part(const StudyProblem& problem);
 // Steps of the parameters of confirmed designs: fewer skins, shared out over the population.
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed);
 

@@ -10,7 +10,7 @@
 
 #include "base/random.h"
 #include "config/writer.h"
-#include "scene/uncertainty.h"
+#include "estimate/belief.h"
 #include "search/protocol.h"
 
 namespace papilla::search {
@@ -64,9 +64,31 @@ bool StudyProblem::driven() const {
 
 std::string StudyProblem::parameters_unknown() const {
   for (std::size_t t = 0; t < nominal_tasks(); ++t) {
-    if (tasks_[t].finger.uncertainty.empty()) return unknown_parameters(tasks_[t].finger);
+    if (const std::string why = unknown_model(tasks_[t].finger); !why.empty()) return why;
   }
   return {};
+}
+
+bool StudyProblem::has_belief() const {
+  for (std::size_t t = 0; t < nominal_tasks(); ++t) {
+    if (tasks_[t].finger.belief.empty()) return false;
+  }
+  return true;
+}
+
+std::vector<double> StudyProblem::belief_weights() const {
+  const Finger& first = tasks_.front().finger;
+  if (first.belief.empty()) return {};
+  for (std::size_t t = 0; t < nominal_tasks(); ++t) {
+    if (tasks_[t].finger.belief != first.belief) return {};
+  }
+  std::vector<double> out;
+  for (const BeliefMember& m : belief_of(first).members) out.push_back(m.weight);
+  return out;
+}
+
+std::string StudyProblem::model_source() const {
+  return has_belief() ? "belief about finger and model" : "the fit of the finger";
 }
 
 std::size_t StudyProblem::residuals() const {
@@ -109,6 +131,7 @@ std::string StudyProblem::identity() const {
     out += fmt::format("{} {:a}\n", limit_name(c.on), c.limit);
   for (const StudyTask& t : tasks_) {
     out += fmt::format("{} {:a}\n", t.name, t.weight) + to_toml(t.finger);
+    if (!t.finger.belief.empty()) out += belief_text(belief_of(t.finger));
     for (const Setting& s : t.settings) out += fmt::format("{} {:a}\n", s.path, s.value);
   }
   return out +

@@ -35,6 +35,11 @@ class StudyProblem {
   double smallest_feature() const { return smallest_feature_; }
   // Why the parameters' part of confirmed designs is not known; "" when it is.
   std::string parameters_unknown() const;
+  // "belief about finger and model", or "the fit of the finger": whose that part is.
+  std::string model_source() const;
+  bool has_belief() const;  // all fingers name one
+  // Of its members, where all fingers name the same; else empty.
+  std::vector<double> belief_weights() const;
 
   // From one answer per task.
   Score score(const std::vector<TaskAnswer>& answers) const { return score_of(scoring_, answers); }

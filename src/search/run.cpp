@@ -229,7 +229,8 @@ PartSeconds Run::wanted() const {
   set(RunPart::Rounding, seconds_of_designs(1, Stage::Rounding));
   set(RunPart::Sensitivity, seconds_of_designs(1 + 2 * search.space.size(), Stage::Sensitivity));
   if (problem.parameters_unknown().empty())
-    set(RunPart::Parameters, seconds_of(2 * problem.nominal_tasks(), Stage::Steps));
+    set(RunPart::Parameters,
+        seconds_of(designs_with_model_part(problem) * problem.nominal_tasks(), Stage::Steps));
   // The page solves a patch of the best design at each humidity, and files are written.
   set(RunPart::Files, kSecondsOfFiles + seconds_of(1, Stage::Confirm) * kPagePatches / kUsualSkins);
   return out;

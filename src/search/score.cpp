@@ -197,7 +197,10 @@ void add_steps(Score& score, const Scoring& scoring, const std::vector<TaskAnswe
     for (std::size_t t = 0; t < scoring.nominal; ++t) {
       const StepSamples& steps = answers[t].steps.at(k);
       std::size_t same = 0;
-      while (tasks[same].finger.uncertainty != tasks[t].finger.uncertainty) ++same;
+      const auto moved_alike = [&](const Finger& a, const Finger& b) {
+        return a.belief == b.belief && (!a.belief.empty() || a.uncertainty == b.uncertainty);
+      };
+      while (!moved_alike(tasks[same].finger, tasks[t].finger)) ++same;
       first[t] = same < t ? first[same] : sums.size();
       known = known && !steps.empty();
       if (sums.size() < first[t] + steps.size()) sums.resize(first[t] + steps.size());
@@ -227,6 +230,30 @@ std::optional<double> parameter_error(const Score& score, const Score& other,
       difference[k][s] -= other.parameter_steps[objective].at(k).at(s);
   }
   return step_error(difference);
+}
+
+std::vector<double> best_by_belief(const std::vector<const Score*>& designs, std::size_t objective,
+                                   bool maximise, const std::vector<double>& weights) {
+  for (const Score* s : designs) {
+    if (objective >= s->parameter_steps.size() ||
+        s->parameter_steps[objective].size() != weights.size())
+      return {};
+  }
+  if (weights.empty()) return {};
+  std::vector<double> out(designs.size(), 0);
+  for (std::size_t m = 0; m < weights.size(); ++m) {
+    std::vector<double> values;
+    for (const Score* s : designs) {
+      const double move =
+          mean_estimate(s->parameter_steps[objective][m]).value / std::sqrt(weights[m]);
+      values.push_back((maximise ? 1 : -1) * (s->values[objective] + move));
+    }
+    const double best = *std::max_element(values.begin(), values.end());
+    const auto ties = static_cast<double>(std::count(values.begin(), values.end(), best));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      out[i] += values[i] == best ? weights[m] / ties : 0;
+  }
+  return out;
 }
 
 double difference_error(const Score& score, const Score& other, std::size_t objective) {

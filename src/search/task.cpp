@@ -6,7 +6,7 @@
 #include "base/check.h"
 #include "base/constants.h"
 #include "design/families.h"
-#include "estimate/parameters.h"
+#include "estimate/belief.h"
 #include "estimate/target.h"
 #include "estimate/voltage.h"
 #include "search/levels.h"
@@ -36,7 +36,7 @@ StepSamples steps_of(const StudyObjective& o, const Response& response) {
     if (!v || !std::isfinite(v->value)) return std::nullopt;
     return o.aimed ? distance(o, there) : v->value;
   };
-  return step_samples(response.parameters.steps, value).value_or(StepSamples{});
+  return model_samples(response, value).value_or(StepSamples{});
 }
 
 // The same surface without its relief. A lattice keeps a picometre of it, so that it is judged on
@@ -160,7 +160,8 @@ TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string
   }
   if (const auto w = summarise(Summary::Worst, kModulation, response)) out.worst = w->value;
   out.look = response.appearance;
-  if (!response.parameters.steps.empty()) out.steps = steps_of(goals, response);
+  if (!response.parameters.steps.empty() || !response.belief.members.empty())
+    out.steps = steps_of(goals, response);
   out.oxide_margin = oxide_margin(goals, d, response);
   return out;
 }
@@ -179,8 +180,8 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
   if (auto refused = complete(response, goals, scene, d, task.name, work.fidelity))
     return *std::move(refused);
   if (work.confirmed && task.nominal() && d.accuracy.parameters &&
-      !scene.finger.uncertainty.empty())
-    add_parameter_errors(response, scene, d.texture, steps_fidelity(problem, work.fidelity));
+      unknown_model(scene.finger).empty())
+    add_model_errors(response, scene, d.texture, steps_fidelity(problem, work.fidelity));
   TaskAnswer out = answer_of(goals, d, task.name, response);
   if (!out.status.ok() || !work.confirmed) return out;
   out.samples = samples_of(goals, response);
@@ -194,7 +195,7 @@ TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std
   Response response;
   response.driven = d.drive.driven();
   if (problem.goals().looks) response.appearance = appearance_of(d);
-  add_parameter_errors(response, scene_of(d), d.texture, steps_fidelity(problem, fidelity));
+  add_model_errors(response, scene_of(d), d.texture, steps_fidelity(problem, fidelity));
   TaskAnswer out;
   out.steps = steps_of(problem.goals(), response);
   return out;

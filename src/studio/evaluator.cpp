@@ -9,6 +9,7 @@
 #include <exception>
 
 #include "base/watch.h"
+#include "estimate/belief.h"
 #include "forward/forward.h"
 #include "metrics/metrics.h"
 
@@ -193,7 +194,15 @@ bool Evaluator::refine_to(const Wish& wish, const Design& design, Step step,
     const std::lock_guard lock(mutex_);
     known(design).by_step[Step::First] = before[Step::First];
   }
-  Response response = evaluate(scene, design.texture, fidelity_of_step(design, step));
+  const Fidelity fidelity = fidelity_of_step(design, step);
+  Response response = evaluate(scene, design.texture, fidelity);
+  // Members are run once a design, after its first answer; they do not depend on the step.
+  if (const auto draft = before.find(Step::Draft); draft != before.end()) {
+    response.belief = draft->second.belief;
+    state_belief(response);
+  } else {
+    add_belief(response, scene, design.texture, fidelity);
+  }
   {
     const std::lock_guard lock(mutex_);
     known(design).by_step[step] = response;

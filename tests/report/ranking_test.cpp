@@ -59,7 +59,7 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
   EXPECT_EQ(lines[0], "finger natural");
   EXPECT_EQ(cells(lines[1]),
             (Cells{"rank", "design", "mean(friction):low mN", "variation(friction):low",
-                   "mean(compliance):high um/MPa", "ahead of the next, %", "finger's part",
+                   "mean(compliance):high um/MPa", "ahead of the next, %", "model part",
                    "p(ahead)", "p(best)", "skins"}));
   EXPECT_EQ(cells(lines[2]), (Cells{"1=", "fine", "100 ± 10", "0.250 ± 0.050", "3.0 ± 1.0",
                                     "12.0 [4.0, 20.0]", "±9.8", "0.900", "0.800", "24"}));

@@ -95,7 +95,7 @@ function showPareto() {
 }
 function showFinalists() {
   const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' parameters'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : entry(r[c]);
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' model'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : entry(r[c]);
   // Keys break where people read a break, not inside words.
   const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
@@ -246,8 +246,8 @@ showSteps();
 showSection($('stability'), 'Does the order hold?', Object.keys(data.designs).length > 2 ? 'Whether the order holds under other choices of the model was not checked.' : 'One design on the front: there is no order to check.');
 showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;
-$('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What the fit of the finger leaves open is in no error here: ${known.status}.`
-  : 'Numbers in brackets (of the best design, where not asked for of all) are what the fit of the finger leaves open, one standard deviation. It moves all designs together'
+$('parameters').textContent = !known ? '' : known.status !== 'ok' ? `What is not known of finger and model is in no error here: ${known.status}.`
+  : `Numbers in brackets are the model part: what ${known.source} leaves open, one standard deviation. It moves all designs together`
   + Object.entries(known.of_the_difference_to_flat).filter(([n, v]) => v !== null).map(([n, v], i) => `${i ? ', ' : ': of the difference between best and flat it leaves '}${round(v, 2)} of ${n}`).join('') + '.';
 showProgress();
 if (data.fields.length) showMaps(0);

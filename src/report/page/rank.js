@@ -108,8 +108,8 @@ function showSure(state) {
     }, 'lead over the next [% of the score]');
   }
   $('skins').textContent = `${whole} ${state.skins} patches of skin were tried` + (state.skins < state.equal_skins ? `, more where two candidates are close; ${state.equal_skins} with as many for every candidate.` : '.')
-    + (!ranking.parameters ? ' What the fit of the finger leaves open is in no interval and no probability.'
-      : ' Every interval and probability holds what the fit of the finger leaves open, which moves all candidates together' + (ranking.scored ? ': of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '.'));
+    + (!ranking.parameters ? ' What is not known of finger and model is in no interval and no probability.'
+      : ' Every interval and probability holds the model part, what ' + (ranking.parameters.members ? 'belief about finger and model' : 'the fit of the finger') + ' leaves open, which moves all candidates together' + (ranking.scored ? ': of the leads ' + list.map((c) => '±' + percent(1.96 * c.ahead_of_next.parameters)).join(', ') + ' %.' : '.'));
 }
 
 function showCompared() {

@@ -38,11 +38,18 @@ export function showAnswer(answer) {
   document.documentElement.dataset.revision = answer.revision;
 }
 
-const of = (q, scale = 1, unit = '') => q ? `${unit ? round(scale * q.value, 4) : fixed(q.value)} ± ${unit ? round(scale * q.se, 2) : q.se.toFixed(3)}${unit}` : '–';
+// Two parts with their names where belief has been run, else the numerical one alone.
+const of = (q, scale = 1, unit = '') => {
+  if (!q) return '–';
+  const error = (v) => unit ? round(scale * v, 2) : v.toFixed(3);
+  const parts = q.model === null || q.model === undefined ? error(q.se) : `${error(q.numerical)} numerical ± ${error(q.model)} model`;
+  return `${unit ? round(scale * q.value, 4) : fixed(q.value)} ± ${parts}${unit}`;
+};
 function showNumbers(r) {
   const s = r.summary, rows = [];
   if (s.mean_modulation) rows.push(['modulation, mean', of(s.mean_modulation)], ['worst', of(s.worst)], ['variation over humidity', of(s.variation)]);
   rows.push(['friction, drive off, mean', of(s.mean_friction, 1e3, ' mN')]);
+  if (r.belief) rows.push(['model part of ±', r.belief.members.length ? `${r.belief.members.length} members of belief, as good as ${round(r.belief.effective_members, 3)} equal ones` : `not stated: ${r.belief.status}`]);
   const margins = r.points.map((p) => p.oxide_margin).filter((v) => v !== null);
   if (margins.length) rows.push(['breakdown margin of the film', round(Math.min(...margins), 3)]);
   r.points.filter((p) => p.status !== 'ok').forEach((p) => rows.push([`at ${Math.round(100 * p.relative_humidity)} %`, p.status]));

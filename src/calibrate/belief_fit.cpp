@@ -1,0 +1,214 @@
+#include "calibrate/belief_fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "base/watch.h"
+
+namespace papilla::calibrate {
+namespace {
+
+constexpr int kSaid = 10;  // evaluations between two notes
+
+class BeliefMaker {
+ public:
+  BeliefMaker(const Calibration& calibration, Residuals& residuals, const LeastSquaresFit& fit,
+              const Finger& finger, const std::function<void(const std::string&)>& note)
+      : calibration_(calibration),
+        settings_(*calibration.belief),
+        residuals_(residuals),
+        fit_(fit),
+        finger_(finger),
+        note_(note) {
+    for (const CalibrationParameter& p : calibration.parameters) parameters_.push_back(p.fit);
+    sources_ = residuals.sources();
+    for (const std::string& source : sources_) {
+      if (std::find(out_.groups.begin(), out_.groups.end(), source) == out_.groups.end())
+        out_.groups.push_back(source);
+    }
+  }
+
+  BeliefFit make() {
+    const std::vector<FitRow> rows = residuals_.rows();
+    sample({settings_.name, {}}, true);
+    for (const Hypothesis& h : calibration_.hypotheses) sample(h, false);
+    residuals_.rows() = rows;
+    weigh();
+    choose();
+    return std::move(out_);
+  }
+
+ private:
+  void note(const std::string& text) const {
+    if (note_) note_(text);
+  }
+
+  void sample(const Hypothesis& hypothesis, bool own) {
+    HypothesisFit& out = out_.hypotheses.emplace_back();
+    out.name = hypothesis.name;
+    values_.emplace_back();
+    try {
+      const Calibration calibration = own ? calibration_ : under(calibration_, hypothesis);
+      PosteriorOptions options;
+      options.starts = settings_.starts;
+      options.samples = settings_.samples;
+      options.seed = static_cast<std::uint64_t>(settings_.seed);
+      options.fit.iterations = calibration.iterations;
+      options.fit.noise = 1e-6;  // as the fit's own
+      options.fit.tolerance = 1e-4;
+      options.fit.profile_iterations = 0;
+      options.note = [&](const std::string& text) { note(hypothesis.name + ": " + text); };
+      if (!own) weigh_rows(calibration);
+      int said = 0;
+      const auto misses = [&](std::span<const double> p, std::span<double> r) {
+        const std::vector<Estimate> model = residuals_.model(with_parameters(calibration, p));
+        Watch::look();
+        if (++said % kSaid == 0) note(fmt::format("{}: evaluation {}", hypothesis.name, said));
+        std::vector<double>& kept = values_.back()[{p.begin(), p.end()}];
+        kept.clear();
+        for (const Estimate& e : model) kept.push_back(e.value);
+        return residuals_.residuals(model, r);
+      };
+      out.posterior =
+          sample_posterior(parameters_, residuals_.size(), misses, options, own ? &fit_ : nullptr);
+      out_.evaluations += out.posterior.evaluations;
+      std::vector<double> log_sd(out_.groups.size(), 0);
+      for (std::size_t i = 0; i < sources_.size(); ++i)
+        log_sd[group(i)] +=
+            std::log(std::hypot(residuals_.rows()[i].sd, residuals_.rows()[i].sampling_sd));
+      log_sd_.push_back(std::move(log_sd));
+    } catch (const InputError& error) {
+      if (own) throw;  // nothing would be left
+      out.failed = error.problems().empty() ? error.what() : error.problems().front().message;
+      log_sd_.emplace_back();
+      note(hypothesis.name + " has no answer: " + out.failed);
+    }
+  }
+
+  // The model's own sampling error, at the hypothesis' start.
+  void weigh_rows(const Calibration& calibration) {
+    std::vector<double> start;
+    for (const FitParameter& p : parameters_) start.push_back(p.start);
+    const Finger finger = with_parameters(calibration, start);
+    residuals_.correct(finger);
+    const std::vector<Estimate> model = residuals_.model(finger);
+    for (std::size_t i = 0; i < model.size(); ++i) residuals_.rows()[i].sampling_sd = model[i].se;
+  }
+
+  std::size_t group(std::size_t row) const {
+    return static_cast<std::size_t>(
+        std::find(out_.groups.begin(), out_.groups.end(), sources_[row]) - out_.groups.begin());
+  }
+
+  // All by the variance factor of the one that explains the data best. Eq. calibration.9
+  void weigh() {
+    double factor = std::numeric_limits<double>::infinity();
+    for (const HypothesisFit& h : out_.hypotheses) {
+      if (h.failed.empty()) factor = std::min(factor, h.posterior.variance_factor);
+    }
+    out_.variance_factor = factor;
+    std::vector<std::vector<std::size_t>> groups(out_.groups.size());
+    for (std::size_t i = 0; i < sources_.size(); ++i) groups[group(i)].push_back(i);
+    std::vector<std::vector<double>> scores;
+    for (std::size_t k = 0; k < out_.hypotheses.size(); ++k) {
+      HypothesisFit& h = out_.hypotheses[k];
+      if (!h.failed.empty()) continue;
+      reweigh(h.posterior, factor);
+      LeftOut left = leave_out(h.posterior.samples, factor, groups, log_sd_[k]);
+      h.scores = left.scores;
+      h.least_effective = left.least_effective;
+      for (const double s : h.scores) h.score += s;
+      scores.push_back(std::move(left.scores));
+    }
+    const std::vector<double> weights =
+        hypothesis_weights(scores, static_cast<std::uint64_t>(settings_.seed));
+    std::size_t next = 0;
+    for (HypothesisFit& h : out_.hypotheses) {
+      if (h.failed.empty()) h.weight = weights[next++];
+    }
+  }
+
+  double coordinate(std::size_t parameter, double value) const {
+    return parameters_[parameter].logarithmic ? std::log(value) : value;
+  }
+
+  // Members of all samples, alike in every row and parameter. Eq. calibration.10
+  void choose() {
+    std::vector<std::vector<double>> features;
+    std::vector<double> weights;
+    std::vector<int> stratum;
+    std::vector<const PosteriorSample*> samples;
+    for (std::size_t k = 0; k < out_.hypotheses.size(); ++k) {
+      const HypothesisFit& h = out_.hypotheses[k];
+      for (const PosteriorSample& s : h.posterior.samples) {
+        if (!(h.weight * s.weight > 0)) continue;
+        std::vector<double> feature = values_[k].at(s.values);
+        for (std::size_t i = 0; i < s.values.size(); ++i)
+          feature.push_back(coordinate(i, s.values[i]));
+        features.push_back(std::move(feature));
+        weights.push_back(h.weight * s.weight);
+        stratum.push_back(static_cast<int>(k));
+        samples.push_back(&s);
+      }
+    }
+    const ChosenPoints chosen = choose_points(features, weights, stratum, settings_.members,
+                                              static_cast<std::uint64_t>(settings_.seed));
+    out_.largest_mean = chosen.largest_mean;
+    out_.least_spread = chosen.least_spread;
+    out_.largest_spread = chosen.largest_spread;
+    Belief& b = out_.belief;
+    b.made_of = fmt::format("papilla calibrate, {} rows, {} hypotheses", residuals_.size(),
+                            out_.hypotheses.size());
+    b.samples = static_cast<double>(features.size());
+    b.effective_samples = effective_number(weights);
+    b.calibrated_for = finger_.calibrated_for;
+    b.fitted = values(fit_.values());
+    for (std::size_t k = 0; k < chosen.index.size(); ++k) {
+      const auto of = static_cast<std::size_t>(stratum[chosen.index[k]]);
+      BeliefMember member{chosen.weight[k], out_.hypotheses[of].name,
+                          values(samples[chosen.index[k]]->values)};
+      if (of > 0) {
+        for (const BeliefValue& v : calibration_.hypotheses[of - 1].set) member.set.push_back(v);
+      }
+      b.members.push_back(std::move(member));
+    }
+  }
+
+  std::vector<BeliefValue> values(const std::vector<double>& si) const {
+    std::vector<BeliefValue> out;
+    for (std::size_t i = 0; i < si.size(); ++i) {
+      const CalibrationParameter& p = calibration_.parameters[i];
+      Node node = p.unit.empty() ? number_node(si[i]) : text_node(format_quantity(si[i], p.unit));
+      out.push_back({p.path, std::move(node)});
+    }
+    return out;
+  }
+
+  const Calibration& calibration_;
+  const BeliefSettings& settings_;
+  Residuals& residuals_;
+  const LeastSquaresFit& fit_;
+  const Finger& finger_;
+  std::function<void(const std::string&)> note_;
+  std::vector<FitParameter> parameters_;
+  std::vector<std::string> sources_;                                        // of each row
+  std::vector<std::map<std::vector<double>, std::vector<double>>> values_;  // [hypothesis] of rows
+  std::vector<std::vector<double>> log_sd_;                                 // [hypothesis][group]
+  BeliefFit out_;
+};
+
+}  // namespace
+
+BeliefFit make_belief(const Calibration& calibration, Residuals& residuals,
+                      const LeastSquaresFit& fit, const Finger& finger,
+                      const std::function<void(const std::string&)>& note) {
+  return BeliefMaker(calibration, residuals, fit, finger, note).make();
+}
+
+}  // namespace papilla::calibrate

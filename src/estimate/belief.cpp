@@ -1,0 +1,117 @@
+#include "estimate/belief.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "base/parallel.h"
+#include "estimate/parameters.h"
+#include "metrics/metrics.h"
+
+namespace papilla::estimate {
+namespace {
+
+// Members differ by far more than skins and pixels move their differences.
+constexpr int kMostMemberSkins = 4, kFinestMemberGrid = 64;
+constexpr double kMemberTolerance = 3e-3;  // of the contact, at the finest
+
+std::string absent_belief(const Scene& scene) {
+  if (scene.finger.belief.empty())
+    return fmt::format("finger \"{}\" names no belief (finger.belief)", scene.finger.name);
+  if (scene.model != scene.finger.calibrated_for)
+    return fmt::format("the belief of finger \"{}\" is of other model options than [model]",
+                       scene.finger.name);
+  return {};
+}
+
+}  // namespace
+
+Fidelity belief_fidelity(const Fidelity& fidelity) {
+  Fidelity few = step_fidelity(fidelity);
+  few.skins = std::min(few.skins, kMostMemberSkins);
+  few.grid = std::min(few.grid, kFinestMemberGrid);
+  few.contact_tolerance = std::max(few.contact_tolerance, kMemberTolerance);
+  return few;
+}
+
+std::vector<Scene> belief_scenes(const Belief& belief, const Scene& scene) {
+  std::vector<Scene> out;
+  for (const BeliefMember& member : belief.members) {
+    MemberScene moved = with_member(belief, member, scene.finger, scene.model);
+    out.push_back(scene);
+    out.back().finger = std::move(moved.finger);
+    out.back().model = moved.model;
+  }
+  return out;
+}
+
+void add_belief(Response& response, const Scene& scene, const Texture& texture,
+                const Fidelity& fidelity) {
+  BeliefRuns& out = response.belief;
+  out = {};
+  out.absent = absent_belief(scene);
+  if (!out.absent.empty()) return;
+  const Belief belief = belief_of(scene.finger);
+  Fidelity few = belief_fidelity(fidelity);
+  const int threads = few.threads;
+  few.threads = 1;  // a member each
+  out.file = belief.file;
+  out.skins = few.skins;
+  out.grid = few.grid;
+  std::vector<Scene> scenes = belief_scenes(belief, scene);
+  scenes.push_back(scene);
+  std::vector<Response> runs(scenes.size());
+  const auto begin = std::chrono::steady_clock::now();
+  parallel_for(
+      static_cast<int>(scenes.size()),
+      [&](int i) {
+        const auto k = static_cast<std::size_t>(i);
+        const Watch quiet({}, nullptr);  // members are counted, not their skins
+        runs[k] = respond(scenes[k], few, solve_patches(scenes[k], texture, few));
+      },
+      threads);
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    response.contact_solves += runs[k].contact_solves;
+    response.fft_pairs += runs[k].fft_pairs;
+    if (out.troubles.empty()) out.troubles = runs[k].troubles();
+    if (k + 1 == runs.size())
+      out.own = std::move(runs[k]);
+    else
+      out.members.push_back(
+          {belief.members[k].weight, belief.members[k].hypothesis, std::move(runs[k])});
+  }
+  response.seconds += out.seconds;
+  state_belief(response);
+}
+
+void state_belief(Response& response) {
+  for (std::size_t i = 0; i < response.points.size(); ++i) {
+    for (const PointQuantity& quantity : kPointQuantities) {
+      const auto values = belief_values_at(i, QuantityMetric{quantity.value}, response);
+      if (values) (response.points[i].*quantity.value).parts.model = values->deviation();
+    }
+  }
+}
+
+std::string unknown_model(const Finger& finger) {
+  if (!finger.belief.empty() || !finger.uncertainty.empty()) return {};
+  return unknown_parameters(finger);
+}
+
+void add_model_errors(Response& response, const Scene& scene, const Texture& texture,
+                      const Fidelity& fidelity) {
+  if (absent_belief(scene).empty())
+    add_belief(response, scene, texture, fidelity);
+  else if (!scene.finger.uncertainty.empty())
+    add_parameter_errors(response, scene, texture, fidelity);
+}
+
+ModelCost model_cost(const Finger& finger, const Fidelity& fidelity) {
+  if (finger.belief.empty())
+    return {2 * static_cast<int>(finger_steps(finger).size()), step_fidelity(fidelity)};
+  return {static_cast<int>(belief_of(finger).members.size()) + 1, belief_fidelity(fidelity)};
+}
+
+}  // namespace papilla::estimate

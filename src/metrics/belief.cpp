@@ -1,0 +1,118 @@
+// Numbers over the members of a belief. Eq. accuracy.15
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/metrics.h"
+#include "numerics/statistics.h"
+
+namespace papilla::metrics {
+namespace {
+
+// Of a quantity that is a size: a member moves it by a factor. The capillary force and what is made
+// of it may push or pull.
+bool keeps_sign(Summary summary, const Metric& metric) {
+  const auto* quantity = std::get_if<QuantityMetric>(&metric);
+  return quantity && !is_spread(summary) && quantity->quantity != &PointQuantities::capillary_force;
+}
+
+// A number of a run, and without each skin.
+struct Readings {
+  double all = 0;
+  std::vector<double> without;
+};
+std::optional<Readings> readings(const Resampled& run, const Number& number) {
+  Readings out;
+  const auto all = number(run.points);
+  if (!all || !std::isfinite(*all)) return std::nullopt;
+  out.all = *all;
+  for (const auto& points : run.without) {
+    const auto one = number(points);
+    if (!one || !std::isfinite(*one)) return std::nullopt;
+    out.without.push_back(*one);
+  }
+  return out;
+}
+
+}  // namespace
+
+double BeliefValues::quantile(double p) const { return weighted_quantile(values, weights, p); }
+
+std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,
+                                          std::optional<double> value, bool keeps_sign) {
+  if (runs.members.empty()) return std::nullopt;
+  const auto own = readings(runs.own, number);
+  if (!own) return std::nullopt;
+  const double at = value.value_or(own->all);
+  const bool by_factor = keeps_sign && own->all > 0 && at > 0;
+  const auto moved = [&](double from, double to) {
+    return by_factor && from > 0 ? at * (to / from) : at + to - from;
+  };
+  BeliefValues out;
+  std::vector<double> mean;
+  for (const BeliefRun& m : runs.members) {
+    const auto there = readings(m.run, number);
+    if (!there || there->without.size() != own->without.size()) return std::nullopt;
+    std::vector<double> without;
+    for (std::size_t k = 0; k < own->without.size(); ++k)
+      without.push_back(moved(own->without[k], there->without[k]));
+    out.weights.push_back(m.weight);
+    out.values.push_back(moved(own->all, there->all));
+    out.moves.push_back(jackknife_samples(out.values.back(), without));
+    mean.resize(out.moves.back().size(), 0);
+    for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += m.weight * out.moves.back()[k];
+  }
+  for (std::size_t m = 0; m < out.moves.size(); ++m) {
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      out.moves[m][k] = std::sqrt(out.weights[m]) * (out.moves[m][k] - mean[k]);
+  }
+  return out;
+}
+
+std::optional<BeliefValues> belief_values(Summary summary, const Metric& metric,
+                                          const Response& response) {
+  const auto value = summary_of_points(summary, metric, response.points);
+  if (!value) return std::nullopt;
+  return belief_values(
+      response.belief,
+      [&](const std::vector<ResponsePoint>& points) {
+        return summary_of_points(summary, metric, points);
+      },
+      value, keeps_sign(summary, metric));
+}
+
+std::optional<BeliefValues> belief_values_at(std::size_t point, const Metric& metric,
+                                             const Response& response) {
+  const Number number = [&](const std::vector<ResponsePoint>& points) -> std::optional<double> {
+    const auto m = metric_at(metric, points.at(point));
+    return m ? std::optional(m->value) : std::nullopt;
+  };
+  const auto value = number(response.points);
+  if (!value) return std::nullopt;
+  return belief_values(response.belief, number, value, keeps_sign(Summary::Mean, metric));
+}
+
+std::optional<BeliefDifference> belief_difference(const BeliefValues& first,
+                                                  const BeliefValues& second) {
+  if (first.weights != second.weights || first.moves.front().size() != second.moves.front().size())
+    return std::nullopt;
+  StepSamples moves = first.moves;
+  std::vector<double> values = first.values;
+  BeliefDifference out{0, 0, 0, 0};
+  for (std::size_t m = 0; m < values.size(); ++m) {
+    for (std::size_t k = 0; k < moves[m].size(); ++k) moves[m][k] -= second.moves[m][k];
+    values[m] -= second.values[m];
+    out.above += first.weights[m] * (values[m] > 0 ? 1 : values[m] < 0 ? 0 : 0.5);
+  }
+  out.deviation = step_error(moves);
+  out.low = weighted_quantile(values, first.weights, 0.025);
+  out.high = weighted_quantile(values, first.weights, 0.975);
+  return out;
+}
+
+std::optional<StepSamples> model_samples(const Response& response, const Number& number) {
+  if (response.belief.members.empty()) return step_samples(response.parameters.steps, number);
+  const auto values = belief_values(response.belief, number, std::nullopt, false);
+  return values ? std::optional(values->moves) : std::nullopt;
+}
+
+}  // namespace papilla::metrics

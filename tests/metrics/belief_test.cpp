@@ -1,0 +1,118 @@
+// Numbers over the members of a belief, by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "metrics/metrics.h"
+
+namespace papilla::tests {
+namespace {
+
+std::vector<ResponsePoint> points(const std::vector<double>& modulations) {
+  std::vector<ResponsePoint> out;
+  for (const double m : modulations) {
+    ResponsePoint p;
+    p.modulation.value = m;
+    p.friction_off.value = 1 + m;
+    p.capillary_force.value = m - 0.5;
+    out.push_back(p);
+  }
+  return out;
+}
+
+// The runs are half of what the response has, as coarse ones may be.
+Response with_members() {
+  Response r;
+  r.driven = true;
+  r.points = points({0.8, 1.2});
+  r.belief.own.points = points({0.4, 0.6});
+  r.belief.members = {{0.5, "a", {points({0.4, 0.6}), {}}},
+                      {0.25, "a", {points({0.2, 0.3}), {}}},
+                      {0.25, "b", {points({0.8, 1.2}), {}}}};
+  return r;
+}
+
+TEST(BeliefValues, AreTheResponsesMovedAsMembersMoveTheRuns) {
+  const auto v = *belief_values(Summary::Mean, kModulation, with_members());
+  ASSERT_EQ(v.values.size(), 3u);
+  EXPECT_NEAR(v.values[0], 1, 1e-12);
+  EXPECT_NEAR(v.values[1], 0.5, 1e-12);
+  EXPECT_NEAR(v.values[2], 2, 1e-12);
+  const double mean = 0.5 + 0.125 + 0.5;
+  EXPECT_NEAR(square(v.deviation()),
+              0.5 * square(1 - mean) + 0.25 * square(0.5 - mean) + 0.25 * square(2 - mean), 1e-12);
+  const auto summary = *summarise(Summary::Mean, kModulation, with_members());
+  EXPECT_NEAR(*summary.parts.model, v.deviation(), 1e-12);
+  EXPECT_EQ(summary.se, 0);  // told apart from the numerical error
+  EXPECT_EQ(summary.parts.numerical(), 0);
+  EXPECT_EQ(summary.parts.model_part(), summary.parts.model);
+  Response none = with_members();
+  none.belief = {};
+  EXPECT_FALSE(summarise(Summary::Mean, kModulation, none)->parts.model);
+}
+
+// The force may push: half of it says nothing of twice. Runs of -.1 and .1 about a value of .5.
+TEST(BeliefValues, OfANumberThatChangesItsSignAreMovedByDifferences) {
+  const Response r = with_members();
+  const auto v = *belief_values_at(0, QuantityMetric{&PointQuantities::capillary_force}, r);
+  EXPECT_NEAR(v.values[1], 0.3 + (-0.3 - -0.1), 1e-12);
+  EXPECT_NEAR(v.values[2], 0.3 + (0.3 - -0.1), 1e-12);
+  // So are spreads: here no member moves the variation.
+  EXPECT_NEAR(belief_values(Summary::Variation, kModulation, r)->deviation(), 0, 1e-12);
+}
+
+TEST(BeliefValues, TheDifferenceOfADesignFromItselfIsNotUncertain) {
+  const auto v = *belief_values(Summary::Mean, kModulation, with_members());
+  const BeliefDifference none = *belief_difference(v, v);
+  EXPECT_EQ(none.deviation, 0);
+  EXPECT_EQ(none.low, 0);
+  EXPECT_EQ(none.high, 0);
+  EXPECT_EQ(none.above, 0.5);
+}
+
+// Twice the modulation at every member: the difference is uncertain by the value's own deviation;
+// of a design that only member b turns over, its weight is what is against it.
+TEST(BeliefValues, ADifferenceHasItsOwnDeviationAndProbability) {
+  const Response one = with_members();
+  Response two = one;
+  two.points = points({1.6, 2.4});
+  const auto a = *belief_values(Summary::Mean, kModulation, one),
+             b = *belief_values(Summary::Mean, kModulation, two);
+  EXPECT_NEAR(belief_difference(b, a)->deviation, a.deviation(), 1e-12);
+  EXPECT_EQ(belief_difference(b, a)->above, 1);
+  two.belief.members[2].run.points = points({0.1, 0.2});
+  const auto turned = *belief_values(Summary::Mean, kModulation, two);
+  EXPECT_NEAR(belief_difference(turned, a)->above, 0.75, 1e-12);
+  Response other = two;
+  other.belief.members.pop_back();
+  EXPECT_FALSE(belief_difference(*belief_values(Summary::Mean, kModulation, other), a));
+}
+
+// Two skins whose members differ by .1 and .3: what they scatter (.1) is no belief.
+TEST(BeliefValues, WhatSkinsScatterIsTakenOff) {
+  Response r;
+  r.driven = true;
+  r.points = points({1});
+  r.belief.own = {points({1}), {points({1}), points({1})}};
+  const auto member = [&](double w, double both, double first, double second) {
+    r.belief.members.push_back({w, "", {points({both}), {points({second}), points({first})}}});
+  };
+  member(0.5, 1.2, 1.1, 1.3);
+  member(0.5, 0.8, 0.9, 0.7);
+  const auto v = *belief_values(Summary::Mean, kModulation, r);
+  EXPECT_NEAR(v.deviation(), std::sqrt(square(0.2) - square(0.1)), 1e-12);
+}
+
+TEST(BeliefValues, QuantilesAreOfTheWeights) {
+  BeliefValues v;
+  v.values = {3, 1, 2};
+  v.weights = {0.25, 0.5, 0.25};
+  EXPECT_NEAR(v.quantile(0.25), 1, 1e-12);
+  EXPECT_NEAR(v.quantile(0.625), 2, 1e-12);
+  EXPECT_NEAR(v.quantile(0.4375), 1.5, 1e-12);
+  EXPECT_NEAR(v.quantile(0.999), 3, 1e-12);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,273 @@
+// Posteriors by mixtures and importance weights, against closed forms and quadrature.
+#include "optim/posterior.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <numeric>
+
+#include "base/constants.h"
+#include "base/random.h"
+#include "numerics/statistics.h"
+
+namespace papilla::tests {
+namespace {
+
+// y = A p + noise of 1, priors of 2 around 0.5: a posterior in closed form.
+struct Linear {
+  Eigen::MatrixXd a = Eigen::MatrixXd(6, 3);
+  Eigen::VectorXd y = Eigen::VectorXd(6);
+  std::vector<FitParameter> parameters;
+
+  explicit Linear(std::uint64_t seed) {
+    a << 1, 0.5, -0.2, 0.3, 2, 0.1, -0.4, 0.2, 1.5, 1, 1, 1, 0.2, -1, 0.7, 2, 0, -1;
+    RandomStream random(seed, "planted");
+    truth = Eigen::VectorXd(3);
+    for (Eigen::Index i = 0; i < 3; ++i) truth(i) = 0.5 + 2 * random.normal();
+    y = a * truth;
+    for (Eigen::Index i = 0; i < y.size(); ++i) y(i) += random.normal();
+    for (const char* name : {"a", "b", "c"}) {
+      parameters.push_back({.name = name,
+                            .start = 0.5,
+                            .low = -30,
+                            .high = 30,
+                            .prior = 0.5,
+                            .prior_sd = 2,
+                            .step = 1e-3});
+    }
+  }
+
+  ResidualFunction misses() const {
+    return [this](std::span<const double> p, std::span<double> r) {
+      const Eigen::VectorXd miss = a * Eigen::Map<const Eigen::VectorXd>(p.data(), 3) - y;
+      std::copy(miss.begin(), miss.end(), r.begin());
+      return true;
+    };
+  }
+  Eigen::MatrixXd covariance() const {
+    return (a.transpose() * a + Eigen::MatrixXd::Identity(3, 3) / 4).inverse();
+  }
+  Eigen::VectorXd mean() const {
+    return covariance() * (a.transpose() * y + Eigen::VectorXd::Constant(3, 0.5 / 4));
+  }
+
+  Eigen::VectorXd truth;
+};
+
+PosteriorOptions known(int samples, int starts = 1) {
+  PosteriorOptions out;
+  out.starts = starts;
+  out.samples = samples;
+  out.variance_factor = 1;
+  return out;
+}
+
+std::vector<double> values_of(const Posterior& posterior, std::size_t i) {
+  std::vector<double> out;
+  for (const PosteriorSample& s : posterior.samples) out.push_back(s.values[i]);
+  return out;
+}
+std::vector<double> weights_of(const Posterior& posterior) {
+  std::vector<double> out;
+  for (const PosteriorSample& s : posterior.samples) out.push_back(s.weight);
+  return out;
+}
+
+TEST(Posterior, OfALinearModelMeanAndCovarianceAreTheClosedForm) {
+  const Linear model(1);
+  const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(4000));
+  EXPECT_GT(p.effective, 2000);  // a Student proposal of 7 freedoms in three dimensions
+  ASSERT_EQ(p.valleys.size(), 1u);
+  EXPECT_NEAR(p.valleys[0].share, 1, 1e-12);
+  const Eigen::VectorXd expected = model.mean();
+  const Eigen::MatrixXd c = model.covariance();
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(3);
+  for (const PosteriorSample& s : p.samples)
+    mean += s.weight * Eigen::Map<const Eigen::VectorXd>(s.values.data(), 3);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(3, 3);
+  for (const PosteriorSample& s : p.samples) {
+    const Eigen::VectorXd d = Eigen::Map<const Eigen::VectorXd>(s.values.data(), 3) - mean;
+    covariance += s.weight * d * d.transpose();
+  }
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    EXPECT_NEAR(mean(i), expected(i), 4 * std::sqrt(c(i, i) / p.effective));
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      const double scatter = std::sqrt((c(i, i) * c(j, j) + c(i, j) * c(i, j)) / p.effective);
+      EXPECT_NEAR(covariance(i, j), c(i, j), 4 * scatter) << i << j;
+    }
+  }
+}
+
+// r = (x^2 - 1)/0.4 and a pull of (x - 0.3)/2: two valleys of unlike weight.
+TEST(Posterior, OfTwoValleysBothAreKeptWithTheirShares) {
+  const std::vector<FitParameter> parameters{
+      {.name = "x", .start = 1.2, .low = -3, .high = 3, .step = 1e-3}};
+  const auto misses = [](std::span<const double> p, std::span<double> r) {
+    r[0] = (p[0] * p[0] - 1) / 0.4;
+    r[1] = (p[0] - 0.3) / 2;
+    return true;
+  };
+  double right = 0, all = 0;  // by quadrature
+  for (int k = 0; k < 60000; ++k) {
+    const double x = -3 + 6 * (k + 0.5) / 60000;
+    const double density = std::exp(-0.5 * (square((x * x - 1) / 0.4) + square((x - 0.3) / 2)));
+    all += density;
+    right += x > 0 ? density : 0;
+  }
+  const Posterior p = sample_posterior(parameters, 2, misses, known(4000, 8));
+  ASSERT_EQ(p.valleys.size(), 2u);
+  EXPECT_NEAR(p.valleys[0].values[0], 1, 0.05);
+  EXPECT_NEAR(p.valleys[1].values[0], -1, 0.05);
+  double found = 0;
+  for (const PosteriorSample& s : p.samples) found += s.values[0] > 0 ? s.weight : 0;
+  EXPECT_NEAR(found, right / all, 4 * 0.5 / std::sqrt(p.effective));
+  EXPECT_NEAR(p.valleys[0].share, right / all, 0.05);
+  EXPECT_NEAR(p.valleys[0].share + p.valleys[1].share, 1, 1e-9);
+}
+
+// A hundred truths of three numbers each, planted: 95 % intervals hold nine or more of ten, those
+// of 32 chosen members too.
+TEST(Posterior, IntervalsHoldPlantedTruths) {
+  int held = 0, by_members = 0, all = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    const Linear model(seed);
+    const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(400));
+    std::vector<std::vector<double>> features;
+    for (const PosteriorSample& s : p.samples) features.push_back(s.values);
+    const std::vector<double> weights = weights_of(p);
+    const ChosenPoints members =
+        choose_points(features, weights, std::vector<int>(weights.size(), 0), 32, seed);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double truth = model.truth(static_cast<Eigen::Index>(i));
+      const std::vector<double> values = values_of(p, i);
+      std::vector<double> few;
+      for (const std::size_t k : members.index) few.push_back(values[k]);
+      ++all;
+      held += weighted_quantile(values, weights, 0.025) <= truth &&
+              truth <= weighted_quantile(values, weights, 0.975);
+      by_members += weighted_quantile(few, members.weight, 0.025) <= truth &&
+                    truth <= weighted_quantile(few, members.weight, 0.975);
+    }
+  }
+  EXPECT_GE(held, 0.90 * all);
+  EXPECT_LE(held, 0.99 * all);
+  EXPECT_GE(by_members, 0.90 * all);
+  EXPECT_LE(by_members, 0.99 * all);
+}
+
+TEST(Posterior, IsTheSameTwiceAndMovesWithItsSeed) {
+  const Linear model(3);
+  const auto of = [&](std::uint64_t seed) {
+    PosteriorOptions options = known(50, 2);
+    options.seed = seed;
+    return weights_of(sample_posterior(model.parameters, 6, model.misses(), options));
+  };
+  EXPECT_EQ(of(1), of(1));
+  EXPECT_NE(of(1), of(2));
+}
+
+// No sample lies outside of the bounds, which cut a posterior that is flat in between.
+TEST(Posterior, OfNoDataIsTheRange) {
+  const std::vector<FitParameter> parameters{
+      {.name = "x", .start = 0, .low = -1, .high = 1, .step = 1e-3}};
+  const auto misses = [](std::span<const double> p, std::span<double> r) {
+    r[0] = 1e-3 * p[0];
+    return true;
+  };
+  const Posterior p = sample_posterior(parameters, 1, misses, known(4000));
+  const std::vector<double> values = values_of(p, 0), weights = weights_of(p);
+  double mean = 0, squares = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    EXPECT_LE(std::abs(values[k]), 1);
+    mean += weights[k] * values[k];
+    squares += weights[k] * square(values[k]);
+  }
+  EXPECT_NEAR(mean, 0, 4 * std::sqrt(1.0 / 3 / p.effective));
+  EXPECT_NEAR(squares, 1.0 / 3, 4 * std::sqrt(4.0 / 45 / p.effective));
+}
+
+// The rows 0 and 1 of a linear model, left out together: a normal density in closed form.
+TEST(Posterior, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
+  const Linear model(5);
+  const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(20000));
+  const LeftOut left = leave_out(p.samples, 1, {{0, 1}, {2, 3, 4, 5}}, {0, 0});
+  const Eigen::MatrixXd others = model.a.bottomRows(4), own = model.a.topRows(2);
+  const Eigen::MatrixXd c =
+      (others.transpose() * others + Eigen::MatrixXd::Identity(3, 3) / 4).inverse();
+  const Eigen::VectorXd mean =
+      c * (others.transpose() * model.y.tail(4) + Eigen::VectorXd::Constant(3, 0.5 / 4));
+  const Eigen::MatrixXd spread = own * c * own.transpose() + Eigen::MatrixXd::Identity(2, 2);
+  const Eigen::VectorXd miss = model.y.head(2) - own * mean;
+  const double expected = -0.5 * miss.dot(spread.inverse() * miss) -
+                          0.5 * std::log(spread.determinant()) - std::log(2 * kPi);
+  EXPECT_NEAR(left.scores[0], expected, 0.1);
+  EXPECT_LT(left.least_effective, p.effective);
+}
+
+TEST(Posterior, AnotherVarianceFactorIsAnotherPosteriorOfTheSameSamples) {
+  const Linear model(2);
+  Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(20000));
+  reweigh(p, 2);  // chi squared of data and priors halved: twice the covariance
+  const std::vector<double> values = values_of(p, 0), weights = weights_of(p);
+  double mean = 0, variance = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) mean += weights[k] * values[k];
+  for (std::size_t k = 0; k < values.size(); ++k) variance += weights[k] * square(values[k] - mean);
+  const double expected = 2 * model.covariance()(0, 0);
+  EXPECT_NEAR(variance, expected, 4 * expected * std::sqrt(2 / p.effective));
+}
+
+TEST(HypothesisWeights, AreTheScoresWhereGroupsSayTheSameAndNeverCertainWhereTheyDoNot) {
+  const std::vector<double> same = hypothesis_weights({{-1, -2, -3}, {-1, -2, -3}}, 1);
+  EXPECT_NEAR(same[0], 0.5, 1e-12);
+  // One ahead by 1 in each of four groups: e^4 whatever their shares.
+  const std::vector<double> ahead = hypothesis_weights({{0, 0, 0, 0}, {-1, -1, -1, -1}}, 1);
+  EXPECT_NEAR(ahead[0], 1 / (1 + std::exp(-4)), 1e-9);
+  // The same lead from one group alone: less sure.
+  const std::vector<double> one = hypothesis_weights({{0, 0, 0, 0}, {-4, 0, 0, 0}}, 1);
+  EXPECT_LT(one[0], ahead[0] - 0.05);
+  EXPECT_GT(one[0], 0.5);
+}
+
+TEST(ChosenPoints, HaveTheMeansAndSpreadsOfAll) {
+  RandomStream random(1, "points");
+  std::vector<std::vector<double>> features;
+  std::vector<double> weights;
+  std::vector<int> stratum;
+  double sum = 0;
+  for (int k = 0; k < 2000; ++k) {
+    std::vector<double> f;
+    for (int i = 0; i < 5; ++i) f.push_back(random.normal());
+    f.push_back(f[0] * f[1]);
+    features.push_back(f);
+    weights.push_back(-std::log(1 - random.uniform()));
+    stratum.push_back(k % 10 == 0);
+    sum += weights.back();
+  }
+  for (double& w : weights) w /= sum;
+  double second = 0;
+  for (std::size_t k = 0; k < weights.size(); ++k) second += stratum[k] * weights[k];
+  const ChosenPoints chosen = choose_points(features, weights, stratum, 32, 1);
+  EXPECT_LE(chosen.index.size(), 32u);
+  EXPECT_GE(chosen.index.size(), 25u);
+  EXPECT_LT(chosen.largest_mean, 0.05);
+  EXPECT_GT(chosen.least_spread, 0.95);
+  EXPECT_LT(chosen.largest_spread, 1.05);
+  double own = 0, all = 0;
+  for (std::size_t k = 0; k < chosen.index.size(); ++k) {
+    own += stratum[chosen.index[k]] * chosen.weight[k];
+    all += chosen.weight[k];
+  }
+  EXPECT_NEAR(all, 1, 1e-12);
+  EXPECT_NEAR(own, second, 1e-12);
+}
+
+TEST(ChosenPoints, OfOnePointAreThatPoint) {
+  const ChosenPoints chosen = choose_points({{1, 2}}, {1}, {0}, 8, 1);
+  ASSERT_EQ(chosen.index.size(), 1u);
+  EXPECT_NEAR(chosen.weight[0], 1, 1e-15);
+  EXPECT_EQ(chosen.least_spread, 1);
+}
+
+}  // namespace
+}  // namespace papilla::tests
