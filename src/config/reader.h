@@ -28,7 +28,8 @@ using Origins = std::map<std::string, Place>;
 
 class Document {
  public:
-  explicit Document(Node root);  // throws nothing; see load_document
+  // Throws nothing; see load_document.
+  explicit Document(Node root, std::vector<std::string> search_roots = {});
   ~Document();
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
