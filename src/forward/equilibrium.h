@@ -41,7 +41,7 @@ class EquilibriumSearch {
 };
 
 // Where the shape of the tractions is going from state to state: spots beside contact close over
-// several of them, each time by about the same share of the way before (Aitken). Eq. coupling.8
+// several of them, each time by about the same share of the way before (Aitken). Eq. coupling.15
 class TractionShape {
  public:
   // The newest tractions [Pa] at the end of their way; nowhere more than twice as strong.

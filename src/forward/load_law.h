@@ -18,7 +18,7 @@ struct AttractionSample {
   PatchResult dry, settled;
 };
 
-// Attractions as powers of the total load over the nominal one. Eq. coupling.7
+// Attractions as powers of the total load over the nominal one. Eq. coupling.14
 struct AttractionLaw {
   double capillary_off = 0, capillary_on = 0, pull = 0;  // exponents
   double retention_off = 1, retention_on = 1;            // factors

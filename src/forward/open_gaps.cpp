@@ -212,16 +212,20 @@ double open_gap_pull(const GapDistribution& gaps, double q_patch, const SurfaceL
                      const FieldProblem& field) {
   if (!(field.v_rms > 0)) return 0;
   const double re = field.skin_layer.real(), im2 = square(field.skin_layer.imag());
-  const double cap = field.breakdown_cap ? square(kAirStrength / field.v_rms) : HUGE_VAL;
-  const auto flat = [&](double u) {
-    return std::min(cap, 1 / (square(u + field.dielectric + re) + im2));
+  // Squared field per volt of a column of air [1/m^2], as far as the air holds it. Eq.
+  // electrostatics.21
+  const double peak = field.v_rms * (field.steady ? 1 : std::sqrt(2.0));
+  const auto held = [&](double air, double film) {
+    const double field2 = 1 / (square(air + film + re) + im2);
+    if (field.air_limit == AirLimit::None) return field2;
+    const double limit = air_field_limit(field.air_limit, air) / (peak * std::sqrt(field2));
+    return field2 * clipped_share(limit, field.steady);
   };
+  const auto flat = [&](double u) { return held(u, field.dielectric); };
   const auto textured = [&](double u) {
     double sum = 0;
-    for (std::size_t i = 0; i < levels.share.size(); ++i) {
-      const double reach = std::abs(u + levels.below[i]) + levels.film[i] + re;
-      sum += levels.share[i] * std::min(cap, 1 / (square(reach) + im2));
-    }
+    for (std::size_t i = 0; i < levels.share.size(); ++i)
+      sum += levels.share[i] * held(std::abs(u + levels.below[i]), levels.film[i]);
     return sum;
   };
   const double length = std::abs(field.dielectric + field.skin_layer);

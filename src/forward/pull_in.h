@@ -19,7 +19,7 @@ struct PullIn {
 // Of the mean patch of fidelity.equilibrium_skins skins at the first humidity of a driven scene.
 // Along the branch the load that closes the gap rises step by step, and the voltage that attracts
 // with what is beyond the nominal load is found for each gap; the fold is its first maximum. Smooth
-// in every number of the scene, as each step is. Eq. coupling.9. Cost: some ten contact solves and
+// in every number of the scene, as each step is. Eq. coupling.16. Cost: some ten contact solves and
 // thirty fields a skin.
 PullIn pull_in(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
                double relative_humidity);

@@ -271,7 +271,7 @@ TEST(DrivePatch, AClosedGapEndsTheSearchForAnEquilibrium) {
   EXPECT_EQ(shut.costs.contact_solves, 2);
 }
 
-// Eq. coupling.7: what the load law makes of the dry gap, beside the same patches in equilibrium.
+// Eq. coupling.14: what the load law makes of the dry gap, beside the same patches in equilibrium.
 TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
   for (const AirLimit air : {AirLimit::Emission, AirLimit::Ionisation}) {
     Scene scene = driven(150);
