@@ -87,7 +87,7 @@ TEST(PixelByPixel, ScreeningByWaterIsTheSame) {
   const WallFields wall{potential, film, reach, 2e-8};
   const auto [floating, floating_apart] =
       both_ways([&] { return air_screening_factor(gap, some_water(), true, &wall); });
-  expect_alike(floating, floating_apart, 1e-13, "beside water with a potential of its own");
+  expect_alike(floating, floating_apart, 1e-6, "beside water with a potential of its own");
   const auto [films, films_apart] =
       both_ways([&] { return screening_factor(gap, some_water(), {2e-7}, true); });
   EXPECT_EQ(films, films_apart);

@@ -126,13 +126,14 @@ TEST(Forward, TheLoadLawAgreesWithResolvedAreas) {
 
 TEST(Forward, TheStartingFingerGivesThePrototypesMagnitudes) {
   // Set E, flat, 50 deg, fresh skins: modulation .73/.78/.61/.38; F_off rises 2.33x at a shear
-  // strength that does not depend on humidity.
+  // strength that does not depend on humidity. There water was at the body's potential: that it
+  // floats adds 13 and 15 % where most bridges are.
   Fidelity f = fidelity_level("search");
   f.skins = 16;
   Scene scene = driven_scene();
   scene.finger.macro.shear_fall = 0;
   const Response r = evaluate(scene, Texture{}, f);
-  const double expected[4] = {0.73, 0.78, 0.61, 0.38};
+  const double expected[4] = {0.73, 0.78, 1.13 * 0.61, 1.15 * 0.38};
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_NEAR(r.points[i].modulation.value, expected[i], 0.2 * expected[i]);
   EXPECT_NEAR(r.points[3].friction_off.value / r.points[0].friction_off.value, 2.33, 0.25);

@@ -56,8 +56,8 @@ struct PotentialSolution {
 // parallel plates are exact. The stress on the skin is the derivative of that energy, so it is
 // consistent with the capacitance. Conjugate gradients with one multigrid cycle (semi-coarsened in
 // x and y, columns solved exactly). Eq. electrostatics.13, 14. Not ok: no dielectric somewhere,
-// values that are not finite, or the iteration limit. Cost: 0.6 kB a pixel, 3 to 5 iterations, 5 us
-// a pixel.
+// values that are not finite, or the iteration limit. Cost: 0.6 kB a pixel, 3 to 5 iterations, up
+// to 9 around water, 5 us a pixel.
 PotentialSolution solve_potential(const PotentialProblem& problem, const PotentialOptions& options);
 
 // Price of one solve on one core of a usual machine [s].

@@ -102,7 +102,7 @@ class PotentialSolver {
   // Water leads: nothing flows between potentials that it can have, but the multigrid, which does
   // not know them, comes nearer to them.
   void tie_water(ColumnOperator& m, std::size_t i, int ix, int iy, const Neighbour& n) {
-    constexpr double kFirm = 100;  // over what leads to the body
+    constexpr double kFirm = 30;  // over what leads to the body
     if (water_.grounded() || !columns_.bridged(i) || !columns_.bridged(n.column)) return;
     const int k = columns_.cells_below_surface();
     join(m, {i, ix, iy, k}, {n.column, n.ix, n.iy, k},

@@ -26,8 +26,9 @@ constexpr double kOfGap[] = {0.419, -1.169};
 // step of its continued fraction.
 template <class T>
 T tanh_square(const T& u) {
-  const T above = 34459425.0 + u * (4729725.0 + u * (135135.0 + u * (990.0 + u)));
-  const T below = 34459425.0 + u * (16216200.0 + u * (945945.0 + u * (13860.0 + u * 45.0)));
+  using N = typename NumberOf<T>::Type;
+  const T above = N(34459425) + u * (N(4729725) + u * (N(135135) + u * (N(990) + u)));
+  const T below = N(34459425) + u * (N(16216200) + u * (N(945945) + u * (N(13860) + u * N(45))));
   const T ratio = above / below;
   return u * (ratio * ratio);
 }
@@ -85,21 +86,30 @@ void screen_disc(const Grid& grid, const Droplet& bridge, const WaterLayers& lay
 }
 
 // Squared distances in steps of a row, single precision: a fading factor asks for no more.
-// Distances to the nearest wet pixel of a periodic row; infinite without one.
-void row_distance(const std::uint8_t* wet, int n, float step, float* out) {
+// Distances to the nearest wet pixel of a periodic row; infinite without one. beside: the potential
+// there, of the one behind where two are as near; null: not asked for.
+void row_distance(const std::uint8_t* wet, int n, float step, float* out, const double* potential,
+                  float* beside) {
   const int first =
       static_cast<int>(std::find_if(wet, wet + n, [](auto w) { return w != 0; }) - wet);
+  if (beside) std::fill(beside, beside + n, 0.0F);
   if (first == n) return std::fill(out, out + n, std::numeric_limits<float>::infinity());
   // Pixels since the last wet one, once around from one to itself, each way.
   std::vector<int> since(n);
+  float last = 0;
   int count = 0;
   for (int k = 0, i = first; k < n; ++k) {
     since[i] = count = wet[i] ? 0 : count + 1;
+    if (beside) beside[i] = last = wet[i] ? static_cast<float>(potential[i]) : last;
     if (++i == n) i = 0;
   }
   count = 0;
   for (int k = 0, i = first; k < n; ++k) {
     count = wet[i] ? 0 : count + 1;
+    if (beside) {
+      last = wet[i] ? beside[i] : last;
+      beside[i] = count < since[i] ? last : beside[i];
+    }
     since[i] = std::min(since[i], count);
     if (i-- == 0) i = n - 1;
   }
@@ -125,9 +135,9 @@ class WaterDistance {
     const double rows_per_metre = 1 / g.dy();
     for (int iy = 0; iy < g.ny; ++iy) {
       const std::size_t row = g.index(0, iy);
-      row_distance(wet.data() + row, g.nx, static_cast<float>(g.dx() / g.dy()), &along_[row]);
-      if (potential)
-        row_potential(wet.data() + row, potential->data() + row, &along_[row], &beside_[row]);
+      row_distance(wet.data() + row, g.nx, static_cast<float>(g.dx() / g.dy()), &along_[row],
+                   potential ? potential->data() + row : nullptr,
+                   potential ? &beside_[row] : nullptr);
       for (std::size_t i = row; i < row + static_cast<std::size_t>(g.nx); ++i)
         reach_[i] = static_cast<float>(std::min(most(i) * rows_per_metre, 0.5 * g.ny));
     }
@@ -172,19 +182,6 @@ class WaterDistance {
     return nearest;
   }
 
-  // Of the nearest wet pixel of a row; the lower one's of two.
-  void row_potential(const std::uint8_t* wet, const double* potential, const float* squared,
-                     float* out) const {
-    const int n = grid_.nx;
-    const auto step = static_cast<float>(grid_.dx() / grid_.dy());
-    if (std::isinf(squared[0])) return std::fill(out, out + n, 0.0F);
-    for (int i = 0; i < n; ++i) {
-      const int pixels = static_cast<int>(std::lround(std::sqrt(squared[i]) / step));
-      const int before = wrap(i - pixels, n);
-      out[i] = static_cast<float>(potential[wet[before] ? before : wrap(i + pixels, n)]);
-    }
-  }
-
   double step_;
   const Grid& grid_;
   // Squared distance along the row, and how far a pixel asks, both in steps of a row.
@@ -197,39 +194,43 @@ class WaterDistance {
 // electrostatics.20
 template <class T>
 T excess(const T& t, const T& u, const T& corner) {
-  const T field = t + u * (1.0 - t);
-  return field * field / (t + corner * (1.0 - t)) - t;
+  const T faded = 1.0F - t, field = t + u * faded;
+  return field * field / (t + corner * faded) - t;
 }
 
 // Of the field between the wall and the skin beside it; h, reach, gap, film [m]. Fitted.
 template <class T>
-T corner_share(double h, const T& reach, const T& gap, const T& film) {
+T corner_share(float h, const T& reach, const T& gap, const T& film) {
   const T share = h / reach;
-  return share * (3.3 + 0.8 * gap / (film + 0.14 * share * gap));
+  return share * (3.3F + 0.8F * gap / (film + 0.14F * share * gap));
 }
 
 // The mean over a pixel, from where its side to the water is to where its far side is.
 void add_wall_pull(const WaterDistance& distance, const WallFields& wall, double pixel,
                    double row_step, const std::vector<double>& width, std::vector<double>& factor) {
   // Gauss and Legendre's: places in the pixel, weights.
-  constexpr double kAt[][2] = {{-0.930568155797026, 0.173927422568727},
-                               {-0.669990521792428, 0.326072577431273},
-                               {-0.330009478207572, 0.326072577431273},
-                               {-0.069431844202974, 0.173927422568727}};
-  for_each_pixel(factor.size(), [&](auto at) {
-    const auto phi = at(wall.potential), per_width = 1.0 / at(width);
-    const auto far = row_step * root(at(distance.squared()));
+  constexpr float kAt[][2] = {{-0.930568156F, 0.173927423F},
+                              {-0.669990522F, 0.326072577F},
+                              {-0.330009478F, 0.326072577F},
+                              {-0.069431844F, 0.173927423F}};
+  // Single precision, as the distances.
+  const auto side = static_cast<float>(pixel), step = static_cast<float>(row_step);
+  const auto skin = static_cast<float>(wall.skin);
+  for_each_pixel<float>(factor.size(), [&](auto at) {
+    const auto phi = at(wall.potential), per_width = 1.0F / at(width);
+    const auto far = step * root(at(distance.squared()));
     const auto u = at(distance.potential()) / phi;
-    const auto corner =
-        corner_share(wall.skin, at(wall.reach), kPi / 2 * at(width), at(wall.dielectric));
-    auto sum = 0.0 * far;
+    const auto corner = corner_share(skin, at(wall.reach), static_cast<float>(kPi / 2) * at(width),
+                                     at(wall.dielectric));
+    auto sum = 0.0F * far;
     for (const auto& [place, weight] : kAt) {
-      const auto x = (far + pixel * place) * per_width;
-      const auto t = tanh_square(smaller(x * x, square(kReach)));
+      const auto x = (far + side * place) * per_width;
+      const auto t = tanh_square(smaller(x * x, static_cast<float>(square(kReach))));
       sum = sum + weight * excess(t, u, corner);
     }
-    const auto near = far > 0.0 && (far - pixel) * per_width < kReach && phi > 0.0;
-    at.store(factor, at(factor) + chosen(near, sum, 0.0));
+    const auto near =
+        far > 0.0F && (far - side) * per_width < static_cast<float>(kReach) && phi > 0.0F;
+    at.store(factor, at(factor) + chosen(near, sum, 0.0F));
   });
 }
 
