@@ -297,10 +297,17 @@ std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
         return metric_quantity(c.expression.metric) == &PointQuantities::friction_off ||
                metric_quantity(c.expression.metric) == &PointQuantities::friction_on;
       });
+  const auto with_its_own = [&](const Design& d) {
+    const Surface& s = d.surface;
+    return std::all_of(options.states.begin(), options.states.end(), [&](FingerState state) {
+      return s.shear_strength > 0 ||
+             (state == FingerState::Natural && s.shear_strength_natural > 0) ||
+             (state == FingerState::Wet && s.shear_strength_wet > 0);
+    });
+  };
   std::vector<std::string> without;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (std::any_of(candidates[i].begin(), candidates[i].end(),
-                    [](const Design& d) { return d.surface.shear_strength <= 0; }))
+    if (!std::all_of(candidates[i].begin(), candidates[i].end(), with_its_own))
       without.push_back(i < options.names.size() ? options.names[i] : candidates[i].front().title);
   }
   if (!rubs || without.empty()) return {};

@@ -96,6 +96,7 @@ std::string frequency_not_felt(const Design& design) {
   if (design.drive.waveform == Waveform::Dc) return "the drive is a direct voltage";
   if (design.drive.control == DriveControl::Current) return "";
   const ElectricalLayer& finger = design.finger.electrical;
+  if (finger.skin_exponent != 1) return "";  // disperses at every frequency
   double corner = std::max(finger.corner_frequency, corner_frequency(1, finger.gap_resistivity));
   for (const FilmDielectric& layer : design.surface.dielectric)
     corner = std::max(corner, layer.corner_frequency());

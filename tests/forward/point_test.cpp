@@ -131,7 +131,7 @@ TEST(Point, ByTheLoadLawAreasEndSmoothlyAtThePatch) {
   for (double pull = 1e-7; pull < 1e-2; pull *= 1.3) {
     for (PatchResult& p : c.patches) p.pull = pull;
     const ResponsePoint p = c.point();
-    const double open = 0.02 * std::pow(1.2 + pull / 1e-6, c.fidelity.load_exponent);
+    const double open = 0.02 * std::pow(1.4 + pull / 1e-6, c.fidelity.load_exponent);
     EXPECT_GT(p.area_fraction_on.value, before);
     before = p.area_fraction_on.value;
     EXPECT_LE(before, 1);

@@ -99,6 +99,17 @@ TEST(Rank, FingersOfUnknownOrOtherUncertaintyAreRefused) {
   EXPECT_THROW(ranking_of(designs, options), InputError);
 }
 
+TEST(Rank, ASurfaceThatSaysItsShearStrengthOfTheStateDoesNotRubAsGlassDoes) {
+  std::vector<Design> designs{sample("flat"), sample("a3h350")};
+  for (Design& d : designs) d.surface.shear_strength_natural = 5e6;
+  RankOptions options = by("friction:low");
+  options.max_skins = 4;
+  options.states = {FingerState::Natural};
+  EXPECT_TRUE(ranking_of(designs, options).notes.empty());
+  options.states = {FingerState::Clean};
+  EXPECT_EQ(ranking_of(designs, options).notes.size(), 1u);
+}
+
 TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {
   Finger f;
   f.state = FingerState::Natural;

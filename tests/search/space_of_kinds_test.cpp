@@ -172,6 +172,9 @@ TEST(LimitBorders, AFrequencyIsFeltAboveACornerOfOneHertz) {
   layer.resistivity = 0.99 * rho / 4;
   EXPECT_EQ(frequency_not_felt(design), "");
   layer.resistivity = 0;
+  design.finger.electrical.skin_exponent = 0.9;  // disperses at every frequency
+  EXPECT_EQ(frequency_not_felt(design), "");
+  design.finger.electrical.skin_exponent = 1;
   design.drive.control = DriveControl::Current;  // then the voltage follows the frequency
   EXPECT_EQ(frequency_not_felt(design), "");
   design.drive.waveform = Waveform::Dc;
