@@ -22,7 +22,7 @@ class ForcesOverPressure {
  public:
   ForcesOverPressure(const RidgeGaps& gaps, std::vector<OpenGapForces> forces)
       : forces_(std::move(forces)) {
-    for (const GapDistribution& at : gaps.at) x_.push_back(std::log(at.pressure));
+    for (const double pressure : gaps.pressure) x_.push_back(std::log(pressure));
     slope_.resize(x_.size());
     for (const auto member : kForces) {
       for (std::size_t i = 0; i < x_.size(); ++i) slope_[i].*member = slope(i, member);
@@ -54,16 +54,22 @@ class ForcesOverPressure {
     if (i == 0) return secant(0, member);
     if (i + 1 == x_.size()) return secant(i - 1, member);
     const double a = secant(i - 1, member), b = secant(i, member);
-    return a * b > 0 ? 2 * a * b / (a + b) : 0;
+    if (!(a * b > 0)) return 0;
+    const double most = 3 * std::min(std::abs(a), std::abs(b));
+    return std::clamp(0.5 * (a + b), -most, most);
   }
 
   std::vector<double> x_;  // ln of the pressure
   std::vector<OpenGapForces> forces_, slope_;
 };
 
+// Share of the ridges in patches in contact at which their gaps are said to have closed.
+constexpr double kClosed = 0.9;
+
 struct Rest {
   double pressure = 0, stability = 1;
   bool found = false;
+  bool beyond_fold = false;  // at less drive there is another one, at less pressure
 };
 
 // The least pressure p = nominal + attraction(p) [Pa]. Eq. coupling.10
@@ -71,7 +77,7 @@ template <class Attraction>
 Rest at_rest(double nominal, double lowest, double highest, const Attraction& attraction) {
   constexpr int kSteps = 400;
   const auto excess = [&](double p) { return nominal + attraction(p) - p; };
-  Rest out{nominal, 1, false};
+  Rest out{.pressure = nominal};
   double low = nominal, high = nominal;
   const double first = excess(nominal);
   if (first == 0) {
@@ -81,10 +87,14 @@ Rest at_rest(double nominal, double lowest, double highest, const Attraction& at
     out.found = true;
   } else {
     const double ratio = std::pow(highest / nominal, 1.0 / kSteps);
+    double before = first;
     for (int i = 0; i < kSteps && !out.found; ++i) {
       low = high;
       high *= ratio;
-      out.found = excess(high) <= 0;
+      const double here = excess(high);
+      out.found = here <= 0;
+      out.beyond_fold = out.beyond_fold || here > before;
+      before = here;
     }
   }
   if (!out.found) return out;
@@ -121,9 +131,9 @@ std::vector<OpenGapForces> forces_at(const Scene& scene, double relative_humidit
                         far_water(scene, relative_humidity));
   const SurfaceLevels at_rest = resting(levels, rms, contact);
   std::vector<OpenGapForces> out;
-  for (std::size_t i = 0; i < gaps.at.size(); ++i) {
+  for (std::size_t i = 0; i < gaps.pressure.size(); ++i) {
     OpenGapForces forces;
-    forces.pull = open_gap_pull(gaps.at[i], gaps.q_patch, at_rest, field);
+    forces.pull = open_gap_pull(gaps.open[i], at_rest, field);
     water.add(gaps.hangs[i], forces);
     if (!capillary_off_counts(scene)) forces.capillary = 0;
     for (const auto member : kForces) forces.*member *= scene.finger.macro.far_gaps;
@@ -169,18 +179,21 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
   for (const PressureRing& ring : rings_of(scene.model, finger.macro))
     rings.push_back({ring.over_mean * out.nominal, ring.share});
   std::vector<double> off, on;
+  bool lost = false;  // beyond the pressures of the table
   for (const NominalPressure& ring : rings) {
     const auto rest = [&](double (OpenGapForces::*attraction)() const) {
       return at_rest(ring.pressure, forces.lowest(), forces.highest(),
                      [&](double p) { return (forces.at(p).*attraction)(); });
     };
     const Rest before = rest(&OpenGapForces::off), under = rest(&OpenGapForces::on);
-    out.pull_in = out.pull_in || !before.found || !under.found;
+    lost = lost || !before.found || !under.found;
+    out.pull_in = out.pull_in || under.beyond_fold;
     out.stability = std::min({out.stability, before.stability, under.stability});
     off.push_back(before.pressure);
     on.push_back(under.pressure);
   }
-  if (out.pull_in) {
+  if (lost) {
+    out.pull_in = true;
     for (std::size_t i = 0; i < rings.size(); ++i) off[i] = on[i] = rings[i].pressure;
     out.stability = 0;
   }
@@ -188,7 +201,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
     const double share = rings[i].share;
     out.pressed_off += share * off[i];
     out.pressed_on += share * on[i];
-    if (out.pull_in) continue;
+    if (lost) continue;
     const OpenGapForces before = forces.at(off[i]), under = forces.at(on[i]);
     out.far.capillary += share * before.capillary;
     out.far.retention += share * before.retention;
@@ -204,6 +217,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
   out.shares = {patches.share(), before.share, under.share, before.press, under.press};
   out.touching_off = before.touching;
   out.touching_on = under.touching;
+  out.pull_in = out.pull_in || out.touching_on > kClosed;
   return out;
 }
 

@@ -60,10 +60,10 @@ SurfaceLevels coarse(const SurfaceLevels& levels) {
   constexpr std::size_t kFew = 8;
   if (levels.share.size() <= kFew) return levels;
   SurfaceLevels out;
-  const std::size_t group = levels.share.size() / kFew;
-  for (std::size_t i = 0; i < levels.share.size(); i += group) {
+  for (std::size_t i = 0; i < kFew; ++i) {
     double share = 0, below = 0;
-    for (std::size_t k = i; k < std::min(i + group, levels.share.size()); ++k) {
+    const std::size_t from = i * levels.share.size() / kFew;
+    for (std::size_t k = from; k < (i + 1) * levels.share.size() / kFew; ++k) {
       share += levels.share[k];
       below += levels.share[k] * levels.below[k];
     }
@@ -84,9 +84,8 @@ SurfaceLevels surface_levels(const CoveredSurface& surface, double flat_film) {
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return z[a] < z[b]; });
   const bool has_film = surface.effective.size() == z.size();
-  const std::size_t levels = z[order.front()] == z[order.back()] && !has_film ? 1 : kLevels;
-  for (std::size_t k = 0; k < levels; ++k) {
-    const std::size_t from = k * z.size() / levels, to = (k + 1) * z.size() / levels;
+  for (std::size_t k = 0; k < kLevels; ++k) {
+    const std::size_t from = k * z.size() / kLevels, to = (k + 1) * z.size() / kLevels;
     if (to == from) continue;
     double height = 0, film = 0;
     for (std::size_t i = from; i < to; ++i) {
@@ -94,9 +93,18 @@ SurfaceLevels surface_levels(const CoveredSurface& surface, double flat_film) {
       film += has_film ? surface.effective[order[i]] : flat_film;
     }
     const auto count = static_cast<double>(to - from);
-    out.share.push_back(count / static_cast<double>(z.size()));
-    out.below.push_back(-height / count);
-    out.film.push_back(film / count);
+    const double share = count / static_cast<double>(z.size());
+    height /= count;
+    film /= count;
+    constexpr double kSame = 1e-14;  // [m]
+    if (!out.share.empty() && std::abs(out.below.back() + height) < kSame &&
+        std::abs(out.film.back() - film) < kSame) {
+      out.share.back() += share;
+      continue;
+    }
+    out.share.push_back(share);
+    out.below.push_back(-height);
+    out.film.push_back(film);
   }
   return out;
 }
@@ -111,7 +119,7 @@ SurfaceLevels resting(SurfaceLevels levels, double skin_rms, double contact) {
     return out;
   };
   const auto solve = [](double low, double high, const auto& falls, double wanted) {
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < 60; ++i) {
       const double middle = 0.5 * (low + high);
       (falls(middle) > wanted ? low : high) = middle;
     }
@@ -194,13 +202,14 @@ double HungWater::at(const std::vector<double>& values, double hang) const {
   return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
 }
 
-void HungWater::add(const GapDistribution& hangs, OpenGapForces& out) const {
+void HungWater::add(const GapShares& hangs, OpenGapForces& out) const {
   if (capillary_.empty()) return;
-  const double scale = 10 * step_;
-  const auto mean = [&](const std::vector<double>& values) {
-    return hangs.far_mean([&](double h) { return at(values, h); }, scale, kInfinity);
-  };
-  const double capillary = mean(capillary_), held = mean(retention_) * water_.rest.hysteresis;
+  const std::vector<double>& row = GapShares::gaps();
+  double capillary = 0, held = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    capillary += hangs.share[i] * at(capillary_, row[i]);
+    held += hangs.share[i] * at(retention_, row[i]) * water_.rest.hysteresis;
+  }
   out.capillary += wetting_gain(water_.rest.theta_skin, water_.rest.theta_substrate) * capillary;
   out.capillary_on +=
       wetting_gain(water_.driven.theta_skin, water_.driven.theta_substrate) * capillary;
@@ -208,30 +217,33 @@ void HungWater::add(const GapDistribution& hangs, OpenGapForces& out) const {
   out.retention_on += held;
 }
 
-double open_gap_pull(const GapDistribution& gaps, double q_patch, const SurfaceLevels& levels,
+double open_gap_pull(const GapShares& gaps, const SurfaceLevels& levels,
                      const FieldProblem& field) {
   if (!(field.v_rms > 0)) return 0;
-  const double re = field.skin_layer.real(), im2 = square(field.skin_layer.imag());
+  const double im2 = square(field.skin_layer.imag());
   // Squared field per volt of a column of air [1/m^2], as far as the air holds it. Eq.
   // electrostatics.21
   const double peak = field.v_rms * (field.steady ? 1 : std::sqrt(2.0));
-  const auto held = [&](double air, double film) {
-    const double field2 = 1 / (square(air + film + re) + im2);
+  const auto held = [&](double air, double rest) {
+    const double field2 = 1 / (square(air + rest) + im2);
     if (field.air_limit == AirLimit::None) return field2;
     const double limit = air_field_limit(field.air_limit, air) / (peak * std::sqrt(field2));
     return field2 * clipped_share(limit, field.steady);
   };
-  const auto flat = [&](double u) { return held(u, field.dielectric); };
-  const auto textured = [&](double u) {
+  const std::vector<double>& row = GapShares::gaps();
+  // Eq. coupling.8: levels one by one, all gaps over each.
+  const auto mean = [&](double below, double film) {
+    const double rest = film + field.skin_layer.real();
     double sum = 0;
-    for (std::size_t i = 0; i < levels.share.size(); ++i)
-      sum += levels.share[i] * held(std::abs(u + levels.below[i]), levels.film[i]);
+    for (std::size_t k = 0; k < row.size(); ++k)
+      sum += gaps.share[k] * held(std::abs(row[k] + below), rest);
     return sum;
   };
-  const double length = std::abs(field.dielectric + field.skin_layer);
-  const double mean = levels.share.empty() ? gaps.far_mean(flat, length, q_patch)
-                                           : gaps.far_mean(textured, length, q_patch);
-  return 0.5 * kVacuumPermittivity * square(field.v_rms) * mean;
+  double sum = 0;
+  for (std::size_t i = 0; i < levels.share.size(); ++i)
+    sum += levels.share[i] * mean(levels.below[i], levels.film[i]);
+  if (levels.share.empty()) sum = mean(0, field.dielectric);
+  return 0.5 * kVacuumPermittivity * square(field.v_rms) * sum;
 }
 
 }  // namespace papilla::forward

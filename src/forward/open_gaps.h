@@ -2,14 +2,13 @@
 // film. Equations coupling.8 and coupling.9.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "base/rooms.h"
+#include "forward/ridges.h"
 #include "physics/capillary/water.h"
 #include "physics/electrostatics/electrode.h"
 #include "physics/electrostatics/field.h"
-#include "physics/persson/persson.h"
 
 namespace papilla::forward {
 
@@ -45,8 +44,7 @@ struct FarWater {
 
 // Pull of the ridges' gaps at one pressure over their area [Pa], those of patches in contact left
 // out. Eq. coupling.8
-double open_gap_pull(const GapDistribution& gaps, double q_patch, const SurfaceLevels& levels,
-                     const FieldProblem& field);
+double open_gap_pull(const GapShares& gaps, const SurfaceLevels& levels, const FieldProblem& field);
 
 // Of water between a surface and skin of an rms height [m] at a mean gap [m], per area and per unit
 // of the wetting gain and of the hysteresis: capillary and retention [Pa]. Eq. coupling.9
@@ -69,7 +67,7 @@ class HungWater {
             const FarWater& water);
 
   // hangs: of the ridges above the patch size alone, at one pressure.
-  void add(const GapDistribution& hangs, OpenGapForces& out) const;
+  void add(const GapShares& hangs, OpenGapForces& out) const;
 
  private:
   double at(const std::vector<double>& values, double hang) const;

@@ -14,7 +14,10 @@ constexpr double kPatch = 12e-6;  // where the spectrum of the ridges meets that
 constexpr int kRings = 3;
 // Pressures of the table over the mean one: below the outermost ring, up to gaps that have closed.
 constexpr double kLowest = 0.03, kHighest = 60;
-constexpr int kPressures = 18;
+constexpr int kPressures = 24;
+// Gaps of the common row: in equal ratios of gap + kFinest, to kWidest.
+constexpr std::size_t kGaps = 320;
+constexpr double kFinest = 100e-9, kWidest = 200e-6;
 
 // Spectrum of the ridge above the patch size, then that of the skin within patches.
 PowerSpectrum ridge_and_skin(const Finger& finger, double q_patch) {
@@ -50,22 +53,48 @@ MeanField ridge_field(const Finger& finger, double q_patch, double relative_humi
                     macro.corneum_thickness, macro.tissue_modulus, 0.5});
 }
 
+const std::vector<double>& GapShares::gaps() {
+  static const std::vector<double> row = [] {
+    std::vector<double> out;
+    const double step = std::log1p(kWidest / kFinest) / (kGaps - 1);
+    for (std::size_t i = 0; i < kGaps; ++i)
+      out.push_back(kFinest * std::expm1(step * static_cast<double>(i)));
+    return out;
+  }();
+  return row;
+}
+
+GapShares gap_shares(const GapDistribution& gaps, double q) {
+  const std::vector<double>& row = GapShares::gaps();
+  const double step = std::log1p(kWidest / kFinest) / (kGaps - 1);
+  GapShares out{std::vector<double>(kGaps, 0)};
+  gaps.visit_far(kFinest, q, [&](double u, double share) {
+    const auto last = static_cast<double>(kGaps - 2);
+    const auto i = static_cast<std::size_t>(std::min(std::log1p(u / kFinest) / step, last));
+    const double t = std::clamp((u - row[i]) / (row[i + 1] - row[i]), 0.0, 1.0);
+    out.share[i] += (1 - t) * share;
+    out.share[i + 1] += t * share;
+  });
+  return out;
+}
+
 std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch,
                                             double relative_humidity, double mean_pressure) {
   using Key = std::tuple<double, double, double, MacroContact, Skin>;
   constexpr double kMostBytes = 16e6;
   static Cache<Key, RidgeGaps> cache(64, kMostBytes);
   const Key key{q_patch, relative_humidity, mean_pressure, finger.macro, finger.skin};
-  return cache.get(key, 2 * kPressures * 450 * 4 * sizeof(double), [&] {
+  return cache.get(key, 2 * kPressures * kGaps * sizeof(double), [&] {
     auto out = std::make_shared<RidgeGaps>(
-        RidgeGaps{ridge_field(finger, q_patch, relative_humidity), q_patch, {}, {}});
+        RidgeGaps{ridge_field(finger, q_patch, relative_humidity), q_patch, {}, {}, {}});
     const MeanField ridges(out->field.spectrum().between(out->field.spectrum().lowest(), q_patch),
                            out->field.solid());
     const double step = std::log(kHighest / kLowest) / (kPressures - 1);
     for (int i = 0; i < kPressures; ++i) {
       const double pressure = mean_pressure * kLowest * std::exp(step * i);
-      out->at.push_back(out->field.gaps(pressure));
-      out->hangs.push_back(ridges.gaps(pressure));
+      out->pressure.push_back(pressure);
+      out->open.push_back(gap_shares(out->field.gaps(pressure), q_patch));
+      out->hangs.push_back(gap_shares(ridges.gaps(pressure), kInfinity));
     }
     return std::shared_ptr<const RidgeGaps>(out);
   });

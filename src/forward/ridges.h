@@ -15,13 +15,24 @@ namespace papilla::forward {
 // humidity. Cost 1 ms.
 MeanField ridge_field(const Finger& finger, double q_patch, double relative_humidity);
 
+// Gaps [m] on a common row, and the share of the area at each: a distribution for sums over many
+// surfaces. What lies between two gaps is shared out between them.
+struct GapShares {
+  std::vector<double> share;
+
+  static const std::vector<double>& gaps();  // ascending from 0
+};
+// Of patches that do not touch; of all that do not touch where q is beyond the spectrum.
+GapShares gap_shares(const GapDistribution& gaps, double q);
+
 // All gaps of the ridges at pressures [Pa] about a mean one, ascending in equal ratios.
 struct RidgeGaps {
   MeanField field;
   double q_patch = 0;
-  std::vector<GapDistribution> at;
+  std::vector<double> pressure;
+  std::vector<GapShares> open;  // of patches that do not touch, the skin's roughness included
   // Of the ridges above the patch size alone: how far patches hang over where they just touch.
-  std::vector<GapDistribution> hangs;
+  std::vector<GapShares> hangs;
 };
 // Kept: common to the designs of a search. Cost 50 ms.
 std::shared_ptr<const RidgeGaps> ridge_gaps(const Finger& finger, double q_patch,

@@ -44,7 +44,7 @@ TEST(PatchMembers, OfWaterAreMeansPeaksAndSummedCosts) {
 
 TEST(PatchMembers, OfPatchPressuresAreWeightedByTheirShares) {
   const std::vector<PatchResult> patches{numbered(1, 1), numbered(3, 2)};
-  const PressureShares shares{{0.1, 0.3}, {0.2, 0.6}};
+  const PressureShares shares{{0.1, 0.3}, {0.1, 0.3}, {0.2, 0.6}};
   PatchResult out;
   out.load = 7;
   out.pull = 5;

@@ -418,7 +418,7 @@ TEST(PatchMemberLaws, EveryMemberCombinesByItsRow) {
     EXPECT_EQ(water.*m, std::max(a.*m, b.*m));
   EXPECT_EQ(water.oxide_margin, std::min(a.oxide_margin, b.oxide_margin));
 
-  const PressureShares shares{{0.1, 0.3}, {0.15, 0.45}};
+  const PressureShares shares{{0.1, 0.3}, {0.1, 0.3}, {0.15, 0.45}};
   PatchResult out;
   out.load = 9, out.pull = 4;
   out.status = {Trouble::FarGapPullIn, 0, ""};
@@ -448,7 +448,7 @@ TEST(PatchMemberLaws, EveryMemberCombinesByItsRow) {
   PatchResult none;
   PatchResult still = a;
   still.pull = 0;
-  add_over_pressures({&still, 1}, {{1}, {1}}, none);
+  add_over_pressures({&still, 1}, {{1}, {1}, {1}}, none);
   EXPECT_EQ(none.over_limit_share, 0);
 }
 

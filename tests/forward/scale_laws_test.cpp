@@ -9,6 +9,7 @@
 #include "base/constants.h"
 #include "forward/scale_bridge.h"
 #include "physics/macro/fingertip.h"
+#include "physics/persson/patches.h"
 #include "physics/persson/persson.h"
 
 namespace papilla::tests {

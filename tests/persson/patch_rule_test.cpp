@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 #include "base/check.h"
 #include "base/constants.h"
@@ -52,6 +53,35 @@ TEST(PatchRule, IsExactToTwiceItsNodes) {
       for (std::size_t i = 1; i < patches.pressure().size(); ++i)
         EXPECT_GT(patches.pressure()[i], patches.pressure()[i - 1]);
     }
+  }
+}
+
+// Parts of the area with nominal pressures of their own: the moments are their mean.
+TEST(PatchRule, OfSeveralNominalPressuresIsTheirMean) {
+  const double root = 3e5;
+  const std::vector<NominalPressure> parts{{0.05 * root, 0.3}, {0.4 * root, 0.5}, {2 * root, 0.2}};
+  for (const int nodes : {1, 2, 3}) {
+    const PatchPressures patches(square(root), parts, nodes);
+    for (int k = 0; k < 2 * nodes; ++k) {
+      double sum = 0, mean = 0;
+      for (const NominalPressure& part : parts)
+        mean += part.share * moment(k, part.pressure / root);
+      for (int i = 0; i < nodes; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        sum += patches.share()[at] * std::pow(patches.pressure()[at] / root, k);
+      }
+      EXPECT_LT(relative(sum, mean), 1e-10) << "degree " << k;
+    }
+    // At other pressures of the parts they carry those.
+    const std::vector<double> pressed{0.1 * root, 0.5 * root, 3 * root};
+    const std::vector<double> share = patches.share_at(pressed);
+    EXPECT_LT(
+        relative(std::inner_product(share.begin(), share.end(), patches.pressure().begin(), 0.0),
+                 (0.3 * 0.1 + 0.5 * 0.5 + 0.2 * 3) * root),
+        1e-12);
+    EXPECT_LT(
+        relative(patches.share_at({0.05 * root, 0.4 * root, 2 * root})[0], patches.share()[0]),
+        1e-12);
   }
 }
 

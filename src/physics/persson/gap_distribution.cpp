@@ -13,11 +13,12 @@ double folded_density(double u, double offset, double width) {
   return (std::exp(-0.5 * a * a) + std::exp(-0.5 * b * b)) / (width * std::sqrt(2 * kPi));
 }
 
-// Integral of f(u) over u = |N(offset, width)| above `least`; adds the share kept there to `kept`.
-// scale [m]: length on which f varies near u = 0.
-template <class Function>
-double folded_integral(double offset, double width, double scale, double least, double& kept,
-                       Function&& f) {
+// Nodes u and weights of the rule for integrals over u = |N(offset, width)| above `least`, handed
+// to visit(u, weight); adds the share kept there to `kept`. scale [m]: length on which integrands
+// vary near u = 0.
+template <class Visit>
+void folded_nodes(double offset, double width, double scale, double least, double& kept,
+                  Visit&& visit) {
   static const Quadrature line = gauss_legendre(40);
   static const Quadrature bell = [] {  // narrow: rule in (u - offset) / width
     Quadrature q = gauss_legendre(24, -6.5, 6.5);
@@ -34,24 +35,24 @@ double folded_integral(double offset, double width, double scale, double least, 
                 : (offset >= least ? 1.0 : 0.0);
   }
   kept += share;
-  if (share == 0) return 0;
-  if (!(width > 1e-4 * (offset + scale))) return share * f(offset);
-  double sum = 0;
+  if (share == 0) return;
+  if (!(width > 1e-4 * (offset + scale))) {
+    visit(offset, share);
+    return;
+  }
   if (share == 1 && width * 6.5 < offset) {
-    for (std::size_t k = 0; k < bell.nodes.size(); ++k) {
-      sum += bell.weights[k] * f(offset + width * bell.nodes[k]);
-    }
-    return sum;
+    for (std::size_t k = 0; k < bell.nodes.size(); ++k)
+      visit(offset + width * bell.nodes[k], bell.weights[k]);
+    return;
   }
   // u = scale (e^v - 1) resolves both the pole at -scale and the bell.
   const double bottom = std::log1p(least / scale);
   const double half = 0.5 * (std::log1p((offset + 7 * width) / scale) - bottom);
-  if (half <= 0) return 0;
+  if (half <= 0) return;
   for (std::size_t k = 0; k < line.nodes.size(); ++k) {
     const double u = scale * std::expm1(bottom + half * (1 + line.nodes[k]));
-    sum += line.weights[k] * (u + scale) * folded_density(u, offset, width) * f(u);
+    visit(u, half * line.weights[k] * (u + scale) * folded_density(u, offset, width));
   }
-  return half * sum;
 }
 
 // Mean over bands 0..count of a distribution, their share below `least` spread over the rest.
@@ -59,9 +60,10 @@ template <class Function>
 double band_sum(const GapDistribution& gaps, std::size_t count, double scale, Function&& f) {
   double sum = 0, kept = 0, total = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    double share = 0;
-    sum += gaps.share[i] *
-           folded_integral(gaps.offset[i], gaps.width[i], scale, gaps.smallest_gap, share, f);
+    double share = 0, band = 0;
+    folded_nodes(gaps.offset[i], gaps.width[i], scale, gaps.smallest_gap, share,
+                 [&](double u, double weight) { band += weight * f(u); });
+    sum += gaps.share[i] * band;
     kept += gaps.share[i] * share;
     total += gaps.share[i];
   }
@@ -97,12 +99,18 @@ double GapDistribution::inverse_square(std::complex<double> h0) const {
 
 double GapDistribution::far_inverse_square(std::complex<double> h0, double q) const {
   const double re = h0.real(), im2 = square(h0.imag());
-  return far_mean([&](double u) { return 1 / (square(u + re) + im2); }, std::abs(h0), q);
+  return band_sum(*this, far_bands(q), std::abs(h0),
+                  [&](double u) { return 1 / (square(u + re) + im2); });
 }
 
-double GapDistribution::far_mean(const std::function<double(double)>& of, double scale,
-                                 double q) const {
-  return band_sum(*this, far_bands(q), scale, of);
+void GapDistribution::visit_far(double scale, double q,
+                                const std::function<void(double gap, double share)>& visit) const {
+  const std::size_t count = far_bands(q);
+  for (std::size_t i = 0; i < count; ++i) {
+    double kept = 0;
+    folded_nodes(offset[i], width[i], scale, 0, kept,
+                 [&](double u, double weight) { visit(u, share[i] * weight); });
+  }
 }
 
 std::size_t GapDistribution::far_bands(double q) const {

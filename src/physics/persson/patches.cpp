@@ -27,7 +27,13 @@ PatchPressures::PatchPressures(double stress_measure, std::vector<NominalPressur
   // In units of sqrt(M): density at s about x. Discretised, then Stieltjes' recurrence and the
   // eigenvalues of the Jacobi matrix.
   const double root = std::sqrt(stress_measure);
-  const Quadrature fine = gauss_legendre(400, std::max(0.0, least / root - 7), most / root + 7);
+  static const Quadrature unit = gauss_legendre(400, 0, 1);
+  const double low = std::max(0.0, least / root - 7), width = most / root + 7 - low;
+  Quadrature fine = unit;
+  for (std::size_t i = 0; i < fine.nodes.size(); ++i) {
+    fine.nodes[i] = low + width * unit.nodes[i];
+    fine.weights[i] = width * unit.weights[i];
+  }
   std::vector<double> weight(fine.nodes.size());
   for (std::size_t i = 0; i < weight.size(); ++i) {
     const double s = fine.nodes[i];

@@ -83,9 +83,10 @@ struct GapDistribution {
   double inverse_square(std::complex<double> h0) const;
   double far_inverse_square(std::complex<double> h0, double q) const;
   double inverse(double h0) const;  // mean of 1/(u + h0) [1/m]: capacitance per area over eps0
-  // Mean over the area of `of` in the gaps that far_inverse_square takes. scale [m] > 0: length on
-  // which it varies near gap 0.
-  double far_mean(const std::function<double(double)>& of, double scale, double q) const;
+  // The gaps that far_inverse_square takes, as gaps [m] with their shares of the area: of each band
+  // the nodes of its rule, for what varies over `scale` [m] > 0 near gap 0. Every gap is kept.
+  void visit_far(double scale, double q,
+                 const std::function<void(double gap, double share)>& visit) const;
   std::size_t far_bands(double q) const;  // how many bands those are
 };
 
