@@ -112,15 +112,16 @@ TEST(PredictionsReport, HasEachNumberBesideItsExperiment) {
             "haze                                           haze 12.5 %\n"
             "      glass\n");
   EXPECT_EQ(predictions_csv(two),
-            "experiment,condition,quantity,unit,value,se,values\n"
-            "pull over voltage,flat; 75 to 150 V,exponent,,2.125,0.0625,75 V: 1 mN\n"
-            "haze,glass,haze,%,12.5,0,\n");
+            "experiment,condition,quantity,unit,value,se,model,values\n"
+            "pull over voltage,flat; 75 to 150 V,exponent,,2.125,0.0625,,75 V: 1 mN\n"
+            "haze,glass,haze,%,12.5,0,,\n");
   EXPECT_TRUE(
       predictions_markdown(two, "mine")
           .ends_with(
               "for the finger \"mine\": what no fit has seen, before any comparison. ± is one "
               "standard "
-              "error over skins.\n\n| experiment | condition | quantity | prediction | values |\n"
+              "error over skins; what is not known of finger and model is not in it: the finger "
+              "names no belief.\n\n| experiment | condition | quantity | prediction | values |\n"
               "|---|---|---|---|---|\n"
               "| pull over voltage | flat, 75 to 150 V | exponent | 2.12 ± 0.062 | 75 V: 1 mN |\n"
               "| haze | glass | haze | 12.5 % |  |\n"))
@@ -134,6 +135,7 @@ TEST(PredictionsReport, HasEachNumberBesideItsExperiment) {
                                                      {"unit", ""},
                                                      {"value", 2.125},
                                                      {"se", 0.0625},
+                                                     {"model", nullptr},
                                                      {"beside", "75 V: 1 mN"}},
                                                     {{"id", "haze"},
                                                      {"condition", "glass"},
@@ -141,6 +143,7 @@ TEST(PredictionsReport, HasEachNumberBesideItsExperiment) {
                                                      {"unit", "%"},
                                                      {"value", 12.5},
                                                      {"se", 0},
+                                                     {"model", nullptr},
                                                      {"beside", ""}}}}});
 }
 

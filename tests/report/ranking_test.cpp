@@ -59,8 +59,8 @@ TEST(RankingReport, ForPeopleHasEachNumberUnderItsHead) {
   EXPECT_EQ(lines[0], "finger natural");
   EXPECT_EQ(cells(lines[1]),
             (Cells{"rank", "design", "mean(friction):low mN", "variation(friction):low",
-                   "mean(compliance):high um/MPa", "ahead of the next, %", "model part",
-                   "p(ahead)", "p(best)", "skins"}));
+                   "mean(compliance):high um/MPa", "ahead of the next, %", "model part", "p(ahead)",
+                   "p(best)", "skins"}));
   EXPECT_EQ(cells(lines[2]), (Cells{"1=", "fine", "100 ± 10", "0.250 ± 0.050", "3.0 ± 1.0",
                                     "12.0 [4.0, 20.0]", "±9.8", "0.900", "0.800", "24"}));
   EXPECT_EQ(cells(lines[3]), (Cells{"2", "hard", "200 ± 20", "-0.50 ± 0.10", "1.50 ± 0.50", "-",
@@ -86,9 +86,12 @@ TEST(RankingReport, ForProgramsIsInSi) {
        {"index", 1},
        {"rank", 1},
        {"tied_with_next", true},
-       {"score", {{"value", 0.3}, {"low", 0.2}, {"high", 0.4}, {"parameters", nullptr}}},
-       {"behind_best", {{"value", 0}, {"low", 0}, {"high", 0}, {"parameters", nullptr}}},
-       {"ahead_of_next", {{"value", 0.12}, {"low", 0.04}, {"high", 0.2}, {"parameters", 0.05}}},
+       {"score",
+        {{"value", 0.3}, {"low", 0.2}, {"high", 0.4}, {"parameters", nullptr}, {"model", nullptr}}},
+       {"behind_best",
+        {{"value", 0}, {"low", 0}, {"high", 0}, {"parameters", nullptr}, {"model", nullptr}}},
+       {"ahead_of_next",
+        {{"value", 0.12}, {"low", 0.04}, {"high", 0.2}, {"parameters", 0.05}, {"model", 0.05}}},
        {"p_ahead", 0.9},
        {"p_best", 0.8},
        {"p_best_by",
@@ -97,18 +100,31 @@ TEST(RankingReport, ForProgramsIsInSi) {
        {"title", "Fine coat"},
        {"metrics",
         {{"mean(friction)",
-          {{"value", 0.1}, {"low", 0.09}, {"high", 0.11}, {"parameters", nullptr}}},
+          {{"value", 0.1},
+           {"low", 0.09},
+           {"high", 0.11},
+           {"parameters", nullptr},
+           {"model", nullptr}}},
          {"variation(friction)",
-          {{"value", 0.25}, {"low", 0.2}, {"high", 0.3}, {"parameters", nullptr}}},
+          {{"value", 0.25},
+           {"low", 0.2},
+           {"high", 0.3},
+           {"parameters", nullptr},
+           {"model", nullptr}}},
          {"mean(compliance)",
-          {{"value", 3e-12}, {"low", 2e-12}, {"high", 4e-12}, {"parameters", nullptr}}}}},
+          {{"value", 3e-12},
+           {"low", 2e-12},
+           {"high", 4e-12},
+           {"parameters", nullptr},
+           {"model", nullptr}}}}},
        {"skins", 24}},
       "first");
   EXPECT_EQ(json["states"][0]["state"], "natural");
   EXPECT_EQ(json["states"][0]["skins"], 42);
   EXPECT_EQ(json["states"][0]["equal_skins"], 48);
   EXPECT_EQ(json["states"][0]["candidates"], json["candidates"]);
-  expect_same(json["parameters"], {{"directions", 3}, {"skins", 8}, {"grid", 64}}, "parameters");
+  expect_same(json["parameters"], {{"directions", 3}, {"members", 0}, {"skins", 8}, {"grid", 64}},
+              "parameters");
   expect_same(json["criteria"],
               {{{"metric", "mean(friction)"}, {"better", "low"}, {"unit", "N"}},
                {{"metric", "variation(friction)"}, {"better", "low"}, {"unit", ""}},

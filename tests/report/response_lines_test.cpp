@@ -134,7 +134,7 @@ TEST(ResponseLines, SayWhatWasAskedForBesideTheFriction) {
   EXPECT_EQ(said.substr(said.find("appearance")),
             "appearance: too deep\n"
             "modulation 0.3 at 15 % RH: 100.0 ±7.4 V (±: sampling, method; not in ±: grid, solver, "
-            "field, parameters, water)\n"
+            "field, parameters, model, water)\n"
             "accuracy 5 % asked for, 10 % of mean(friction): not reached: the time limit of the "
             "run left no more (64 pixels, 3 skins, load law)\n"
             "not counted in it: field 4 %\n"
@@ -177,21 +177,24 @@ TEST(ResponseDocuments, HaveTheirPartsOnRequest) {
   Json json = Json::parse(response_json(r));
   const Json parts{{"sampling", 3},         {"grid", nullptr},   {"solver", nullptr},
                    {"humidity", nullptr},   {"method", nullptr}, {"field", nullptr},
-                   {"parameters", nullptr}, {"water", nullptr}};
-  expect_same(json["points"][0]["voltage_for"],
-              Json::array({{{"modulation", 0.5},
-                            {"amplitude", {{"value", 120}, {"se", 3}, {"parts", parts}}},
-                            {"highest_modulation", 0.51},
-                            {"limit", 500},
-                            {"evaluations", 5},
-                            {"status", "ok"}},
-                           {{"modulation", 2},
-                            {"amplitude", nullptr},
-                            {"highest_modulation", 0.75},
-                            {"limit", 300},
-                            {"evaluations", 4},
-                            {"status", text(ends)}}}),
-              "voltages");
+                   {"parameters", nullptr}, {"model", nullptr},  {"water", nullptr}};
+  expect_same(
+      json["points"][0]["voltage_for"],
+      Json::array(
+          {{{"modulation", 0.5},
+            {"amplitude",
+             {{"value", 120}, {"se", 3}, {"numerical", 3}, {"model", nullptr}, {"parts", parts}}},
+            {"highest_modulation", 0.51},
+            {"limit", 500},
+            {"evaluations", 5},
+            {"status", "ok"}},
+           {{"modulation", 2},
+            {"amplitude", nullptr},
+            {"highest_modulation", 0.75},
+            {"limit", 300},
+            {"evaluations", 4},
+            {"status", text(ends)}}}),
+      "voltages");
   EXPECT_FALSE(json["points"][1].contains("voltage_for"));
   EXPECT_EQ(json["points"][0]["source_voltage"], 81);
   expect_same(json["appearance"],

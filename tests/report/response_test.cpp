@@ -140,7 +140,7 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
   for (const std::string& line :
        {std::string(
             "modulation 0.5 at 35 % RH: 123.4 ±5.0 V (±: sampling, grid; not in ±: solver, method, "
-            "field, parameters, water)\n"),
+            "field, parameters, model, water)\n"),
         "modulation 2 at 35 % RH: " + text(ends) + " first (modulation 0.75)\n",
         std::string("accuracy 2 % asked for, 1.5 % of mean(modulation): reached (96 pixels, 5 "
                     "skins, solved areas)\n"),
@@ -175,6 +175,8 @@ TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
     expect_same(p.at(q.key),
                 {{"value", m.value},
                  {"se", m.parts.sampling},
+                 {"numerical", m.parts.sampling},
+                 {"model", nullptr},
                  {"parts",
                   {{"sampling", m.parts.sampling},
                    {"grid", nullptr},
@@ -183,6 +185,7 @@ TEST(ResponseReport, ForProgramsEveryQuantityIsUnderItsName) {
                    {"humidity", nullptr},
                    {"method", nullptr},
                    {"parameters", nullptr},
+                   {"model", nullptr},
                    {"water", nullptr}}}},
                 q.key);
   }

@@ -404,9 +404,9 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
   EXPECT_EQ(
       read_bytes(run.folder + "/pareto.csv"),
       "design" + variables +
-          ",mean(modulation),mean(modulation) se,mean(modulation) parameters,"
+          ",mean(modulation),mean(modulation) se,mean(modulation) model,"
           "mean(modulation) at search level,variation(modulation),variation(modulation) se,"
-          "variation(modulation) parameters,variation(modulation) at search level,worst "
+          "variation(modulation) model,variation(modulation) at search level,worst "
           "modulation,breakdown margin,limit min_hole,limit min_wall,limit aspect_ratio,limit "
           "oxide_breakdown_margin,feasible,on front,status\n"
           "front/01,5,3,300,70,0.5,0.013,,0.52,0.3,0.023,,0.32,0.25,2.5,2.979 um,2 "
@@ -438,8 +438,11 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
                {"surface.contact_angle", 70 * kPi / 180}},
               "variables");
   const auto value = [](double v, double se, bool maximise) {
-    return nlohmann::json{
-        {"value", v}, {"maximise", maximise}, {"se", se}, {"parameters", nullptr}};
+    return nlohmann::json{{"value", v},
+                          {"maximise", maximise},
+                          {"se", se},
+                          {"parameters", nullptr},
+                          {"model", nullptr}};
   };
   expect_same(metrics["objectives"],
               {{"mean(modulation)", value(0.5, 0.013, true)},

@@ -97,7 +97,8 @@ TEST(UndrivenRun, ItsSummaryIsWithoutModulation) {
   EXPECT_EQ(page.find("worst modulation"), std::string::npos);
   run.study.design.accuracy.parameters = false;
   EXPECT_NE(run_summary(run.files())
-                .find("In brackets, of the best design (all: `[accuracy] parameters = true`), what "
+                .find("In brackets, of the best design (all: `[accuracy] parameters = true`), the "
+                      "model part, what "
                       "the fit"),
             std::string::npos);
   run.result.flat.reset();
@@ -206,15 +207,16 @@ TEST(UndrivenRun, ItsTablesHaveTheParametersAndNoModulation) {
                 "1,3,304,70,0.085,0.26,,yes,0.5,ok\n");
   EXPECT_EQ(read_bytes(run.folder + "/pareto.csv"),
             "design" + variables +
-                ",mean(friction),mean(friction) se,mean(friction) parameters,mean(friction) at "
+                ",mean(friction),mean(friction) se,mean(friction) model,mean(friction) at "
                 "search level,variation(friction),variation(friction) se,variation(friction) "
-                "parameters,variation(friction) at search level,worst modulation,breakdown "
+                "model,variation(friction) at search level,worst modulation,breakdown "
                 "margin,feasible,on front,status\n"
                 "front/01,3,304,70,0.08,0.002,0.03,0.085,0.25,0.012,0.02,0.26,,,yes,no,ok\n");
   const auto metrics = nlohmann::json::parse(read_bytes(run.folder + "/best/metrics.json"));
   expect_same(
       metrics["parameters"],
       {{"status", "ok"},
+       {"source", "the fit of the finger"},
        {"of_the_difference_to_flat", {{"mean(friction)", 0.005}, {"variation(friction)", 0.04}}}},
       "parameters");
   EXPECT_TRUE(metrics["worst_modulation"].is_null());
