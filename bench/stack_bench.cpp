@@ -165,7 +165,7 @@ void order(const std::vector<std::string>& a) {
       {"the same, corrected to the 3-D field of a skin", FieldMethod::Spread, Coupling::OnePass,
        Estimator::Load, 64, 1},
       {"3-D field, 128 pixels", FieldMethod::Full},
-      {"self-consistent, 128 pixels", FieldMethod::Spread, Coupling::SelfConsistent}};
+      {"equilibrium, 128 pixels", FieldMethod::Spread, Coupling::Equilibrium}};
   fmt::print(
       "model,processor s a design,objective,pairs,in order,told apart,in order of these,values\n");
   std::vector<Score> truth;

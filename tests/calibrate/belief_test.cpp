@@ -75,7 +75,7 @@ TEST_F(FitBelief, HypothesesAreWeighedByWhatTheyPredict) {
   const Calibration c = read(write("fit.toml", std::string(kGrowth) + R"(
 [[hypothesis]]
 name = "cap"
-set = { "model.breakdown_cap" = true }
+set = { "model.air_limit" = "emission" }
 )"));
   const CalibrationResult r = fit_finger(c, quick());
   ASSERT_EQ(r.belief->hypotheses.size(), 2u);
@@ -83,7 +83,7 @@ set = { "model.breakdown_cap" = true }
   double cap = 0;
   for (const BeliefMember& m : r.belief->belief.members) {
     const MemberScene at = with_member(r.belief->belief, m, r.finger, r.finger.calibrated_for);
-    EXPECT_EQ(at.model.breakdown_cap, m.hypothesis == "cap");
+    EXPECT_EQ(at.model.air_limit == AirLimit::Emission, m.hypothesis == "cap");
     cap += m.hypothesis == "cap" ? m.weight : 0;
   }
   EXPECT_NEAR(cap, r.belief->hypotheses[1].weight, 1e-9);
@@ -102,7 +102,7 @@ TEST_F(FitBelief, MistakesOfItsSectionsAreTold) {
   };
   told("seeds = 3\n", "unknown key `seeds`");
   told("[[hypothesis]]\nname = \"a\"\nset = { \"model.closre\" = \"persson\" }\n", "did you mean");
-  told("[[hypothesis]]\nname = \"as fitted\"\nset = { \"model.breakdown_cap\" = true }\n",
+  told("[[hypothesis]]\nname = \"as fitted\"\nset = { \"model.air_limit\" = \"emission\" }\n",
        "a name of its own");
   told("[[hypothesis]]\nname = \"a\"\nset = { \"macro.area_growth\" = \"50 %\" }\n", "is fitted");
 }

@@ -134,7 +134,7 @@ TEST(BeliefParts, AreInThePlaceOfTheCovariancesWhereBothAreKnown) {
 TEST(BeliefParts, OfOtherModelOptionsAreNotStated) {
   Design d = small_design();
   d.finger.belief = shear_belief();
-  d.model.breakdown_cap = true;
+  d.model.air_limit = AirLimit::Emission;
   const Response r = small_response(d);
   EXPECT_TRUE(r.belief.members.empty());
   EXPECT_FALSE(r.points[0].friction_off.parts.model);
@@ -151,11 +151,11 @@ hypothesis = "no cap"
 [[member]]
 weight = 0.5
 hypothesis = "cap"
-set = { "model.breakdown_cap" = true }
+set = { "model.air_limit" = "emission" }
 )");
   const Response r = small_response(d);
   Design capped = d;
-  capped.model.breakdown_cap = true;
+  capped.model.air_limit = AirLimit::Emission;
   const Fidelity few = belief_fidelity(small_fidelity());
   const auto pull = [&](const Design& of) {
     return respond(scene_of(of), few, solve_patches(scene_of(of), of.texture, few))

@@ -102,7 +102,7 @@ TEST_F(RankedByBelief, OtherBeliefsOrOtherModelOptionsAreRefused) {
   other[1].finger.belief.clear();
   EXPECT_THROW(ranking_of(other, options_), InputError);
   other = designs_;
-  for (Design& d : other) d.model.breakdown_cap = true;
+  for (Design& d : other) d.model.air_limit = AirLimit::Emission;
   EXPECT_THROW(ranking_of(other, options_), InputError);
 }
 

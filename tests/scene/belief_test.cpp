@@ -120,7 +120,7 @@ TEST_F(BeliefFile, OfOtherModelOptionsThanTheFingersIsRefused) {
   write("belief.toml", std::string(kTwo));
   const std::string finger = write(
       "finger.toml",
-      "schema_version = 1\nbelief = \"belief.toml\"\n[calibrated_for]\nbreakdown_cap = true\n");
+      "schema_version = 1\nbelief = \"belief.toml\"\n[calibrated_for]\nair_limit = \"emission\"\n");
   const auto found = problems_of([&] { read_finger(finger); });
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].message.find("other model options"), std::string::npos) << found[0].text();
