@@ -34,7 +34,8 @@ struct EvaluateOptions {
   std::string sweep, out, accuracy;
   int jobs = 0;
   std::vector<double> voltage_for;  // modulations
-  bool force = false, appearance = false, check_field = false, parameters = false, no_model = false;
+  bool force = false, appearance = false, pull_in = false, check_field = false, parameters = false,
+       no_model = false;
 };
 
 // "drive.amplitude=50..200" or "texture.depth=0 nm..1 um:5": a number of the design and its values.
@@ -200,6 +201,7 @@ int evaluate_file(const Context& context, const EvaluateOptions& options) {
                .model = !options.no_model,
                .parameters = options.parameters,
                .appearance = options.appearance,
+               .pull_in = options.pull_in,
                .voltage_for = options.voltage_for,
                .threads = options.jobs});
   for (const std::string& step : response.accuracy.steps) context.note(step);
@@ -257,6 +259,8 @@ void add_evaluate(Command app, Context& context) {
       .type_name("DIR");
   command.add_flag("--appearance", options->appearance,
                    "Also haze, transmittance, gloss and colour");
+  command.add_flag("--pull-in", options->pull_in,
+                   "Also the voltage at which the gap jumps shut, over that of the drive");
   command
       .add_option("--accuracy", options->accuracy,
                   "Wanted standard error of the modulation: grid, samples and estimator follow")

@@ -5,6 +5,7 @@
 #include "estimate/parameters.h"
 #include "estimate/target.h"
 #include "estimate/voltage.h"
+#include "forward/pull_in.h"
 
 namespace papilla::estimate {
 
@@ -23,9 +24,17 @@ Response evaluate_design(const Design& design, const EvaluationOptions& options)
   if ((options.parameters || design.accuracy.parameters) && response.belief.members.empty())
     add_parameter_errors(response, scene, design.texture, response.fidelity);
   if (options.appearance) response.appearance = appearance_of(design);
+  if (options.pull_in) add_pull_in(response, scene, design.texture, fidelity);
   if (!options.voltage_for.empty())
     add_voltages(response, scene, design.texture, fidelity, options.voltage_for);
   return response;
+}
+
+void add_pull_in(Response& response, const Scene& scene, const Texture& texture,
+                 const Fidelity& fidelity) {
+  if (!response.driven) return;
+  for (ResponsePoint& point : response.points)
+    point.pull_in = pull_in(scene, texture, fidelity, point.relative_humidity);
 }
 
 void require_fitted_model(const Design& design, const std::string& file,

@@ -14,11 +14,16 @@ struct EvaluationOptions {
   bool model = true;  // what is not known of finger and model, where the finger names a belief
   bool parameters = false;  // without belief: also the error that the finger's fitted numbers leave
   bool appearance = false;
+  bool pull_in = false;             // also how far the drive is from pull-in
   std::vector<double> voltage_for;  // modulations
   int threads = 0;
 };
 
 Response evaluate_design(const Design& design, const EvaluationOptions& options = {});
+
+// Fills `pull_in` of every point of a driven response.
+void add_pull_in(Response& response, const Scene& scene, const Texture& texture,
+                 const Fidelity& fidelity);
 
 // Throws InputError where model options differ from those that the finger was fitted with: such a
 // change moves the modulation by tens of percent. way_out: "run with --force".

@@ -43,6 +43,17 @@ struct VoltageAnswer {
 // What came first, of an answer that is not reached: "the dielectric breaks down at 500 V".
 std::string text(const VoltageAnswer& answer);
 
+// The branch of equilibria is followed to where it turns, or to so many times the voltage.
+inline constexpr double kFarthestPullIn = 4;
+
+// How far the drive is from the voltage at which the gap jumps shut: `pull_in_margin`.
+struct PullIn {
+  Measured margin{kFarthestPullIn, {}};  // voltage at the fold over that of the drive
+  double folds = 0;  // share of the patches that fold below kFarthestPullIn; the others count as it
+
+  bool operator==(const PullIn&) const = default;
+};
+
 struct ResponsePoint : PointQuantities {
   double relative_humidity = 0;
   double weight = 1;
@@ -61,6 +72,7 @@ struct ResponsePoint : PointQuantities {
   ModelStatus status;
   PatchSamples samples;
   std::vector<VoltageAnswer> voltages;  // one per target asked for
+  std::optional<PullIn> pull_in;        // where it was asked for
 
   // What people are told: a voltage that the dielectric does not hold comes first, as full contact,
   // pull-in and whatever else it leads to never happen.

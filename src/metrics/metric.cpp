@@ -80,6 +80,10 @@ const std::vector<Row>& rows() {
         .better = Better::Higher,
         .needs_drive = true,
         .takes_modulation = true}},
+      {PullInMargin{},
+       {"pull_in_margin", "",
+        "voltage at which the gap jumps shut over that of the drive; 4 where it is farther",
+        Better::Higher, true}},
   };
   return list;
 }
@@ -161,6 +165,9 @@ struct AtPoint {
   std::optional<Measured> operator()(const Felt& m) const {
     return felt(point.modulation, m.modulation);
   }
+  std::optional<Measured> operator()(const PullInMargin&) const {
+    return point.pull_in ? std::optional(point.pull_in->margin) : std::nullopt;
+  }
 };
 
 struct CarryingQuantity {
@@ -173,6 +180,7 @@ struct CarryingQuantity {
   Found operator()(const SourceAmplitude&) const { return std::nullopt; }
   Found operator()(const VoltageFor&) const { return std::nullopt; }
   Found operator()(const Felt&) const { return std::nullopt; }
+  Found operator()(const PullInMargin&) const { return std::nullopt; }
 };
 
 }  // namespace

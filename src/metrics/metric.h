@@ -46,8 +46,12 @@ struct Felt {
   double modulation = 0;
   bool operator==(const Felt&) const = default;
 };
+// How far the drive is from the voltage at which the gap jumps shut.
+struct PullInMargin {
+  bool operator==(const PullInMargin&) const = default;
+};
 using Metric = std::variant<QuantityMetric, Adhesion, Compliance, LookMetric, SourceAmplitude,
-                            VoltageFor, Felt>;
+                            VoltageFor, Felt, PullInMargin>;
 
 inline constexpr QuantityMetric kModulation{&PointQuantities::modulation},
     kFriction{&PointQuantities::friction_off}, kFrictionOn{&PointQuantities::friction_on};

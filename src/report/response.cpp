@@ -174,6 +174,14 @@ std::string field_lines(const Response& response) {
         "physical\n",
         1 / margin, margin);
   }
+  for (const ResponsePoint& p : response.points) {
+    if (!p.pull_in) continue;
+    const Measured& m = p.pull_in->margin;
+    out += fmt::format("pull-in at {:.0f} % RH: {}\n", 100 * p.relative_humidity,
+                       p.pull_in->folds > 0
+                           ? fmt::format("{:.3g} ± {:.2g} times this voltage", m.value, 2 * m.se())
+                           : fmt::format("none up to {:g} times this voltage", kFarthestPullIn));
+  }
   const bool physical = knows_driven(response);
   if (physical && measured) {
     out +=

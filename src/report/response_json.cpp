@@ -138,6 +138,10 @@ Json point_json(const Response& response, std::size_t index) {
   point["field_error"] = p.field_error ? json_number(*p.field_error) : Json();
   point["oxide_margin"] = json_number(p.oxide_margin);
   for (const VoltageAnswer& v : p.voltages) point["voltage_for"].push_back(voltage_json(v));
+  if (p.pull_in) {
+    point["pull_in_margin"] = measured(p.pull_in->margin);
+    point["pull_in_folds"] = json_number(p.pull_in->folds);
+  }
   point["status"] = text(driven ? p.said() : p.status);
   return point;
 }

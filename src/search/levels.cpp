@@ -95,11 +95,14 @@ Plan plan_at(const StudyProblem& problem, const Fidelity& fidelity) {
 // designs/electroadhesive_glass at level draft: 0.87 of an evaluation), with solved areas contacts
 // too (level design: 2.3).
 constexpr double kVoltageByLoads = 0.9, kVoltageByAreas = 2.3;
+// The branch to pull-in, over an evaluation: a few patches in many states.
+constexpr double kPullIn = 1;
 
 double priced(const StudyProblem& problem, const Fidelity& fidelity) {
   const double each = fidelity.estimator == Estimator::Area ? kVoltageByAreas : kVoltageByLoads;
   const auto targets = static_cast<double>(problem.goals().voltage_targets.size());
-  return plan_at(problem, fidelity).seconds() * (1 + each * targets);
+  const double pull_in = problem.goals().pull_in ? kPullIn : 0;
+  return plan_at(problem, fidelity).seconds() * (1 + each * targets + pull_in);
 }
 
 Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {

@@ -99,6 +99,7 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
           fmt::format("objective: {} needs a driven design; the drive is at 0", objective.name));
     }
     goals.looks = goals.looks || std::holds_alternative<LookMetric>(metric);
+    goals.pull_in = goals.pull_in || std::holds_alternative<PullInMargin>(metric);
     list.push_back(std::move(objective));
   };
   for (const MetricExpression& e : study.objective.maximise) add(goals.objectives, wanted(e, true));

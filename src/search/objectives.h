@@ -28,7 +28,8 @@ struct StudyGoals {
   // which has its own. The dielectric has to hold what counts.
   bool own_amplitude = false;
   Risk risk;
-  bool looks = false;  // an objective or a constraint is about the look
+  bool looks = false;    // an objective or a constraint is about the look
+  bool pull_in = false;  // or about pull-in
 
   // The objective is made of its quantity at each humidity, not of a summary over them: its aim or
   // its risk takes those.

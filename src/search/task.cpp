@@ -140,6 +140,7 @@ std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, 
   if (goals.own_amplitude && std::any_of(troubles.begin(), troubles.end(),
                                          [](const PointTrouble& t) { return t.status.pull_in(); }))
     return TaskAnswer::refused(Kind::NoEquilibrium, task + ", " + forward::text(troubles));
+  if (goals.pull_in) add_pull_in(response, scene, d.texture, fidelity);
   if (!goals.voltage_targets.empty())
     add_voltages(response, scene, d.texture, fidelity, goals.voltage_targets);
   return std::nullopt;
