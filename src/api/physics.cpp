@@ -73,7 +73,6 @@ FieldProblem problem_of(double voltage, const FieldOptions& o) {
   p.dielectric = o.thickness / o.permittivity;
   p.edge_radius = o.edge_radius;
   p.skin_layer = o.skin_layer;
-  p.water_skin_layer = o.skin_layer;
   return p;
 }
 

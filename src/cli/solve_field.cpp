@@ -65,7 +65,6 @@ int solve(const FieldCommand& c) {
   const double strength = not_negative(c.strength, "MV/m", "--strength");
   p.edge_radius = not_negative(c.edge_radius, "nm", "--edge-radius");
   p.skin_layer = not_negative(c.skin_layer, "nm", "--skin-layer");
-  p.water_skin_layer = p.skin_layer.real();
   const Gap given{gap.grid, gap.z};
   Wetting dry;
   dry.grid = gap.grid;
