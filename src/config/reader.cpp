@@ -651,8 +651,9 @@ struct Document::State final : public FieldVisitor {
   }
 };
 
-Document::Document(Node root) : state_(std::make_unique<State>()) {
+Document::Document(Node root, std::vector<std::string> roots) : state_(std::make_unique<State>()) {
   state_->root = std::move(root);
+  state_->roots = std::move(roots);
   state_->visited[""] = &state_->root;
 }
 
@@ -712,19 +713,16 @@ Document load_document(const std::string& path, const std::vector<std::string>& 
   const fs::path file = canonical(path);
   Node root = parse_file_text(read_text(path), path);
   BaseFiles bases{file.parent_path(), search_roots, {file}};
-  Document out(with_overrides_and_bases(std::move(root), overrides, &bases));
-  out.state_->roots = search_roots;
-  return out;
+  return Document(with_overrides_and_bases(std::move(root), overrides, &bases), search_roots);
 }
 
 Document parse_document(const std::string& text, const std::string& file,
                         const std::vector<std::string>& overrides,
                         const std::vector<std::string>& search_roots) {
   BaseFiles bases{fs::current_path(), search_roots, {}};
-  Document out(with_overrides_and_bases(parse_file_text(text, file), overrides,
-                                        search_roots.empty() ? nullptr : &bases));
-  out.state_->roots = search_roots;
-  return out;
+  return Document(with_overrides_and_bases(parse_file_text(text, file), overrides,
+                                           search_roots.empty() ? nullptr : &bases),
+                  search_roots);
 }
 
 void Document::set_hints(

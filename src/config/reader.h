@@ -28,7 +28,9 @@ using Origins = std::map<std::string, Place>;
 
 class Document {
  public:
-  explicit Document(Node root);  // throws nothing; see load_document
+  // Throws nothing; see load_document. roots: where files that its values name are looked for that
+  // are not beside them.
+  explicit Document(Node root, std::vector<std::string> roots = {});
   ~Document();
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;
