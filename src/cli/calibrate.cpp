@@ -51,7 +51,9 @@ void add_calibrate(Command app, Context& context) {
       "calibrate", "Fit the finger to measured friction or published numbers, with uncertainties");
   auto options = std::make_shared<CalibrateCommand>();
   command.add_option("file", options->file, "CALIBRATION.toml").required();
-  command.add_option("--out", options->out, "Folder of finger.toml, belief.toml, fit.md, fit.json, report.html")
+  command
+      .add_option("--out", options->out,
+                  "Folder of finger.toml, belief.toml, fit.md, fit.json, report.html")
       .type_name("DIR");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");

@@ -651,10 +651,9 @@ struct Document::State final : public FieldVisitor {
   }
 };
 
-Document::Document(Node root, std::vector<std::string> search_roots)
-    : state_(std::make_unique<State>()) {
+Document::Document(Node root, std::vector<std::string> roots) : state_(std::make_unique<State>()) {
   state_->root = std::move(root);
-  state_->roots = std::move(search_roots);
+  state_->roots = std::move(roots);
   state_->visited[""] = &state_->root;
 }
 

@@ -28,8 +28,9 @@ using Origins = std::map<std::string, Place>;
 
 class Document {
  public:
-  // Throws nothing; see load_document.
-  explicit Document(Node root, std::vector<std::string> search_roots = {});
+  // Throws nothing; see load_document. roots: where files that its values name are looked for that
+  // are not beside them.
+  explicit Document(Node root, std::vector<std::string> roots = {});
   ~Document();
   Document(Document&&) noexcept;
   Document& operator=(Document&&) noexcept;

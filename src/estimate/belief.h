@@ -11,8 +11,8 @@
 
 namespace papilla::estimate {
 
-// What members are run with: the load law, at most 4 skins and 64 pixels. Of the differences
-// between members it knows as much as 8 skins on 128 pixels do (docs/theory/accuracy.md).
+// What members are run with: the load law, at most 4 skins and 64 pixels. Model parts are then
+// good to a fifth (docs/theory/accuracy.md).
 Fidelity belief_fidelity(const Fidelity& fidelity);
 
 // The scene at each member.

@@ -131,7 +131,8 @@ struct BeliefRun {
   std::string hypothesis;
   Resampled run;
 };
-// Eq. accuracy.15: the members of a belief and the scene as it is, on the same few skins, offsets and droplets.
+// Eq. accuracy.15: the members of a belief and the scene as it is, on the same few skins, offsets
+// and droplets.
 struct BeliefRuns {
   std::string file;
   std::vector<BeliefRun> members;  // empty: not asked for, or there is none
