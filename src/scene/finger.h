@@ -46,7 +46,7 @@ struct MacroContact {
   double shear_fall = 0.08;     // what it loses from 15 to 75 % RH, a share, linear
   // For closures "persson" and "balance": the ridges' surface above the patch size, and what it
   // lies on.
-  double ridge_rms = 2.2e-6, ridge_longest = 1e-3;           // rms height, longest wavelength [m]
+  double ridge_rms = 2.2e-6, ridge_longest = 1e-3;  // rms height, longest wavelength [m]
   double ridge_roll_off = 1e-3;  // wavelength [m]; at least ridge_longest: no roll-off
   double ridge_hurst = 0;        // 0: that of the skin
   double corneum_thickness = 200e-6, tissue_modulus = 10e3;  // [m], Young's modulus [Pa]
