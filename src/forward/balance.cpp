@@ -69,7 +69,9 @@ constexpr double kClosed = 0.9;
 struct Rest {
   double pressure = 0, stability = 1;
   bool found = false;
-  bool beyond_fold = false;  // at less drive there is another one, at less pressure
+  // By how much the attraction may grow until it is lost at a fold; below 1: lost already, this one
+  // lies beyond.
+  double to_fold = kInfinity;
 };
 
 // The least pressure p = nominal + attraction(p) [Pa]. Eq. coupling.10
@@ -86,15 +88,19 @@ Rest at_rest(double nominal, double lowest, double highest, const Attraction& at
     low = std::min(lowest, nominal);
     out.found = true;
   } else {
+    // `grown` is the attraction, in its own units, that has its rest at a pressure: it rises along
+    // the branch that begins without attraction, to the fold.
     const double ratio = std::pow(highest / nominal, 1.0 / kSteps);
-    double before = first;
-    for (int i = 0; i < kSteps && !out.found; ++i) {
-      low = high;
-      high *= ratio;
-      const double here = excess(high);
-      out.found = here <= 0;
-      out.beyond_fold = out.beyond_fold || here > before;
-      before = here;
+    double grown = 0;
+    for (double p = nominal * ratio; p <= highest * (1 + 1e-12); p *= ratio) {
+      const double pulls = attraction(p), here = pulls > 0 ? (p - nominal) / pulls : kInfinity;
+      if (!out.found) {
+        low = high;
+        high = p;
+        out.found = here >= 1;
+      }
+      if (here < grown && out.to_fold == kInfinity) out.to_fold = grown;
+      grown = here;
     }
   }
   if (!out.found) return out;
@@ -187,7 +193,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
     };
     const Rest before = rest(&OpenGapForces::off), under = rest(&OpenGapForces::on);
     lost = lost || !before.found || !under.found;
-    out.pull_in = out.pull_in || under.beyond_fold;
+    out.to_fold = std::min(out.to_fold, std::sqrt(under.to_fold));
     out.stability = std::min({out.stability, before.stability, under.stability});
     off.push_back(before.pressure);
     on.push_back(under.pressure);
@@ -195,7 +201,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
   if (lost) {
     out.pull_in = true;
     for (std::size_t i = 0; i < rings.size(); ++i) off[i] = on[i] = rings[i].pressure;
-    out.stability = 0;
+    out.stability = out.to_fold = 0;
   }
   for (std::size_t i = 0; i < rings.size(); ++i) {
     const double share = rings[i].share;
@@ -217,7 +223,7 @@ Balance solve_balance(const Scene& scene, double q_patch, double relative_humidi
   out.shares = {patches.share(), before.share, under.share, before.press, under.press};
   out.touching_off = before.touching;
   out.touching_on = under.touching;
-  out.pull_in = out.pull_in || out.touching_on > kClosed;
+  out.pull_in = out.pull_in || out.to_fold < 1 || out.touching_on > kClosed;
   return out;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/constants.h"
 #include "base/rooms.h"
 #include "forward/open_gaps.h"
 #include "forward/patch_result.h"
@@ -18,9 +19,14 @@ struct Balance {
   double pressed_off = 0, pressed_on = 0;    // with the open gaps' attraction [Pa]
   OpenGapForces far;                         // what the open gaps add
   double touching_off = 0, touching_on = 0;  // shares of the ridges in patches in contact
-  // 1 - d(attraction)/d(pressure), the least of the rings under the drive: 0 at pull-in.
+  // 1 - d(attraction)/d(pressure), the least of the rings under the drive: 0 at a fold.
   double stability = 1;
-  bool pull_in = false;           // no equilibrium below the pressures that were asked for
+  // Of the voltage, by the least of the rings: that at which the equilibrium ends at a fold, over
+  // the one applied; infinite where gaps close without one.
+  double to_fold = kInfinity;
+  // The gaps close: beyond a fold, with nearly all of the ridges in contact, or without any
+  // equilibrium; the open gaps are left out then.
+  bool pull_in = false;
   std::vector<double> pressures;  // of patches to solve [Pa]
   PressureShares shares;
 };

@@ -13,8 +13,8 @@ namespace {
 constexpr double kPatch = 12e-6;  // where the spectrum of the ridges meets that of the skin
 constexpr int kRings = 3;
 // Pressures of the table over the mean one: below the outermost ring, up to gaps that have closed.
-constexpr double kLowest = 0.03, kHighest = 60;
-constexpr int kPressures = 24;
+constexpr double kLowest = 0.03, kHighest = 3000;
+constexpr int kPressures = 34;
 // Gaps of the common row: in equal ratios of gap + kFinest, to kWidest.
 constexpr std::size_t kGaps = 320;
 constexpr double kFinest = 100e-9, kWidest = 200e-6;

@@ -13,8 +13,7 @@ namespace {
 
 Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
   Sample out{evaluate(scene, texture, fidelity), {}};
-  for (const ResponsePoint& p : out.response.points)
-    out.preload.push_back(p.samples.preload);
+  for (const ResponsePoint& p : out.response.points) out.preload.push_back(p.samples.preload);
   if (fidelity.estimator == Estimator::Area) return out;
   for (std::size_t i = 0; i < out.response.points.size(); ++i) {  // areas from loads, of each skin
     PatchSamples& p = out.response.points[i].samples;

@@ -143,6 +143,26 @@ TEST(Balance, MoreVoltagePressesMoreUntilPullIn) {
   EXPECT_EQ(closed.combine(std::vector<PatchResult>(1)).status.trouble, Trouble::FarGapPullIn);
 }
 
+// The pull of open gaps ends as they close: the pressure rises steeply, without a jump or a fold,
+// to where nearly all of the ridges touch, which the status says.
+TEST(Balance, GapsCloseWithoutAJump) {
+  for (const double ridges : {1e-6, 2.2e-6, 10e-6}) {
+    Scene scene = balanced(100);
+    scene.finger.macro.ridge_rms = ridges;
+    Balance before = solved(scene);
+    while (!before.pull_in && scene.drive.amplitude < 2e4) {
+      scene.drive.amplitude *= 1.02;
+      const Balance b = solved(scene);
+      EXPECT_EQ(b.to_fold, kInfinity);
+      EXPECT_GT(b.stability, 0);
+      EXPECT_LT(b.pressed_on, 1.4 * before.pressed_on) << scene.drive.amplitude;
+      before = b;
+    }
+    EXPECT_TRUE(before.pull_in);
+    EXPECT_GT(before.touching_on, 0.9);
+  }
+}
+
 // A relief that is deep beside the gap takes away what it opens.
 TEST(Balance, OverHolesTheOpenGapsPullLess) {
   const double flat = solved(balanced(100), 1, holes(0)).far.pull;
