@@ -7,6 +7,7 @@
 #include "base/constants.h"
 #include "design/families.h"
 #include "estimate/belief.h"
+#include "estimate/evaluation.h"
 #include "estimate/target.h"
 #include "estimate/voltage.h"
 #include "search/levels.h"
