@@ -7,6 +7,7 @@
 #include "base/constants.h"
 #include "design/design.h"
 #include "estimate/belief.h"
+#include "metrics/metrics.h"
 #include "tests/calibrate/files.h"
 
 namespace papilla::tests {
@@ -67,10 +68,10 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
   Design d = read_design(find_design("m3_samples/flat.toml"));
   d.finger = r.finger;
   d.finger.belief = write("belief.toml", belief_text(b.belief));
-  Fidelity f = fidelity_level("draft");
+  Fidelity f = fidelity_level("draft");  // with the control skins that data are corrected by
   f.grid = 32;
   f.skins = 4;
-  f.control_skins = f.field_skins = 0;
+  f.field_skins = 0;
   const auto stated = [&](const Design& design) {
     Response out = evaluate(scene_of(design), design.texture, f);
     add_belief(out, scene_of(design), design.texture, f);
