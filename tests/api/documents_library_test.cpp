@@ -84,7 +84,7 @@ TEST(ResponseOfTheLibrary, IsItsDocumentInNumbers) {
       EXPECT_EQ(point[name]["value"].get<double>(), q->value) << name;
       EXPECT_EQ(point[name]["se"].get<double>(), q->error) << name;
       const Json& parts = point[name]["parts"];
-      EXPECT_EQ(parts.size(), 8u);
+      EXPECT_EQ(parts.size(), 9u);
       EXPECT_EQ(parts["sampling"].get<double>(), q->parts.sampling) << name;
       for (const auto& [origin, part] : {std::pair{"grid", q->parts.grid},
                                          {"solver", q->parts.solver},

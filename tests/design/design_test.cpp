@@ -155,11 +155,12 @@ TEST(Design, AWrittenDesignReadsBackToTheSameDesign) {
 }
 
 TEST(Design, ModelOptionsStartFromWhatTheFingerWasFittedWith) {
-  const std::string head = "schema_version = 1\n[finger.calibrated_for]\nair_limit = \"emission\"\n";
+  const std::string head =
+      "schema_version = 1\n[finger.calibrated_for]\nair_limit = \"emission\"\n";
   EXPECT_EQ(read_design(written("a.toml", head)).model.air_limit, AirLimit::Emission);
-  EXPECT_EQ(read_design(written("b.toml", head + "[model]\nair_limit = \"none\"\n"))
-                .model.air_limit,
-            AirLimit::None);
+  EXPECT_EQ(
+      read_design(written("b.toml", head + "[model]\nair_limit = \"none\"\n")).model.air_limit,
+      AirLimit::None);
 }
 
 TEST(Design, AKindFromTheCommandLineReplacesTheKeysOfTheOtherKind) {

@@ -279,7 +279,7 @@ TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
     scene.model.air_limit = air;
     const Patch patch(scene);
     std::vector<AttractionSample> samples;
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < 15; ++k) {
       const std::vector<double> height = patch.setup.height(patch.setup.skin(k));
       PatchProblem problem = patch.problem;
       problem.height = height;
@@ -290,11 +290,11 @@ TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
           solve_patch(problem, patch.plan, patch.fidelity, states, nullptr, &before);
       samples.push_back({dry, settled_patch(problem, patch.plan, patch.fidelity, before, settled)});
     }
-    const AttractionLaw law = attraction_law(std::span(samples).first(2));
+    const AttractionLaw law = attraction_law(std::span(samples).first(3));
     ASSERT_TRUE(law.status.sound());
     EXPECT_GT(law.pull, 0);
     double by_law = 0, solved = 0, dry = 0;
-    for (const AttractionSample& s : std::span(samples).subspan(2)) {
+    for (const AttractionSample& s : std::span(samples).subspan(3)) {
       PatchResult patch_by_law = s.dry;
       law.apply(patch_by_law);
       by_law += patch_by_law.pull + patch_by_law.capillary_on;

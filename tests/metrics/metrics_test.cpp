@@ -150,7 +150,7 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
   for (const MetricInfo& info : metric_list())
     if (info.needs_drive) driven.insert(info.name);
   EXPECT_EQ(driven, (std::set<std::string>{"modulation", "friction_on", "electrostatic_force",
-                                           "drive.amplitude", "felt"}));
+                                           "drive.amplitude", "felt", "pull_in_margin"}));
 }
 
 TEST(Metrics, WhatHumiditiesShareIsNoErrorOfTheirSpread) {

@@ -39,7 +39,8 @@ TEST(MetricWords, TheListIsWhole) {
             "colour_shift||low look\n"
             "drive.amplitude|V|low driven\n"
             "voltage_for|V|low\n"
-            "felt||high driven\n");
+            "felt||high driven\n"
+            "pull_in_margin||high driven\n");
 }
 
 TEST(MetricWords, ANameIsAMetricAsItIsWritten) {
@@ -97,7 +98,7 @@ TEST(MetricWords, ReadBackToTheSameValue) {
       }
     }
   }
-  EXPECT_EQ(seen, 8 * (17 + 2 * 200));
+  EXPECT_EQ(seen, 8 * (18 + 2 * 200));
 }
 
 TEST(MetricWords, ExpressionsAreReadAndWritten) {
