@@ -83,7 +83,8 @@ def test_an_offset_of_an_array_changes_nothing(process: str) -> None:
               "environment.relative_humidity": ["35 %"]}
     found = [pp.Design.from_heights(z + shift, "6 um", values).evaluate().modulation.value[0]
              for shift in (0, 100e-9, -1e-6, 3e-6)]
-    assert found == pytest.approx([found[0]] * 4, rel=1e-9)
+    # The equilibrium is found to a tolerance, from states that the rounding of the heights begins.
+    assert found == pytest.approx([found[0]] * 4, rel=1e-7)
     holes = pp.Design({**values, "texture": {"type": "hole_array", "period": "6 um", "diameter": "3 um",
                                              "depth": "200 nm"}}).evaluate().modulation.value[0]
     assert found[0] == pytest.approx(holes, rel=0.05)
@@ -173,7 +174,7 @@ def test_numbers_say_unit_range_and_meaning() -> None:
 def test_a_fitted_finger_replaces_that_of_a_design() -> None:
     finger = (ROOT / "designs/fingers/reference.toml").read_text()
     fit = pp.Calibration({"converged": True, "explains_data": True, "warning": "", "parameters": [], "chi2_before": 2.0,
-                          "chi2": 1.0, "degrees_of_freedom": 1, "finger": finger.replace('"256 nm"', '"300 nm"'),
+                          "chi2": 1.0, "degrees_of_freedom": 1, "finger": finger.replace('"207 nm"', '"300 nm"'),
                           "table": "", "json": "{}"})
     d = pp.Design.load("m3_samples/a3h350.toml", {"finger.load": "0.5 N"})
     fitted = fit.apply(d)

@@ -41,7 +41,7 @@ struct Design {
   Finger finger;
   Environment environment;
   Drive drive;
-  ModelOptions model;  // starts from finger.calibrated_for
+  ModelOptions model = Finger{}.calibrated_for;  // starts from finger.calibrated_for
   AccuracySettings accuracy;
 
   bool operator==(const Design&) const = default;

@@ -104,7 +104,7 @@ class TargetRun {
     Fidelity more = fidelity_;
     more.skins = skins;
     more.first_skin = options_.first_skin + patches_.skins();
-    const PatchSet batch = solve_patches(scene_, texture_, more, patches_.field);
+    const PatchSet batch = solve_patches(scene_, texture_, more, patches_.field, patches_.laws);
     const int before = patches_.skins();
     patches_.add(batch);
     return measured("more skins", batch.seconds, before);

@@ -98,22 +98,29 @@ AttractionLaw attraction_law(std::span<const AttractionSample> samples) {
   return law;
 }
 
-std::vector<PatchResult> combined(const ScaleBridge& bridge, bool in_equilibrium,
-                                  std::vector<std::vector<SolvedPatch>>& skins) {
-  std::vector<std::vector<PatchResult>> patches(skins.size());
+LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<SolvedPatch>> skins) {
+  LoadLaws laws;
   for (std::size_t q = 0; q < bridge.pressures().size(); ++q) {
     std::vector<AttractionSample> samples;
-    for (const auto& skin : skins) {
+    for (const std::vector<SolvedPatch>& skin : skins) {
       if (skin[q].sample) samples.push_back(*skin[q].sample);
     }
-    const AttractionLaw law = attraction_law(samples);
-    for (std::size_t k = 0; k < skins.size(); ++k) {
-      if (in_equilibrium) law.apply(skins[k][q].result);
-      patches[k].push_back(skins[k][q].result);
-    }
+    laws.push_back(attraction_law(samples));
   }
-  std::vector<PatchResult> out;
-  for (const std::vector<PatchResult>& skin : patches) out.push_back(bridge.combine(skin));
+  return laws;
+}
+
+std::vector<PatchResult> combined(const ScaleBridge& bridge, const LoadLaws& laws,
+                                  std::span<const std::vector<SolvedPatch>> skins) {
+  std::vector<PatchResult> out, patches;
+  for (const std::vector<SolvedPatch>& skin : skins) {
+    patches.clear();
+    for (std::size_t q = 0; q < skin.size(); ++q) {
+      patches.push_back(skin[q].result);
+      if (!laws.empty()) laws[q].apply(patches.back());
+    }
+    out.push_back(bridge.combine(patches));
+  }
   return out;
 }
 

@@ -39,15 +39,17 @@ int sampled_skins(const PatchSetup& setup, const Plan& plan);
 
 // Ratios of sums over the samples; without any the law changes nothing.
 AttractionLaw attraction_law(std::span<const AttractionSample> samples);
+using LoadLaws = std::vector<AttractionLaw>;  // one per patch pressure
 
 // A skin under one patch pressure at one humidity.
 struct SolvedPatch {
   PatchResult result;
   std::optional<AttractionSample> sample;
 };
-// Of each skin one result: patches by the law of the samples of their pressure, where there are
-// some to be, over the patch pressures.
-std::vector<PatchResult> combined(const ScaleBridge& bridge, bool in_equilibrium,
-                                  std::vector<std::vector<SolvedPatch>>& skins);
+// By the samples among the skins, at each patch pressure of the bridge.
+LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<SolvedPatch>> skins);
+// Of each skin one result over the patch pressures; laws: of them, or none.
+std::vector<PatchResult> combined(const ScaleBridge& bridge, const LoadLaws& laws,
+                                  std::span<const std::vector<SolvedPatch>> skins);
 
 }  // namespace papilla::forward

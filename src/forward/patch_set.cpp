@@ -127,7 +127,7 @@ void PatchSet::add(const PatchSet& other) {
 namespace {
 
 PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-               const FieldRatios& field, KeptPatches* kept) {
+               const FieldRatios& field, const std::vector<LoadLaws>& laws, KeptPatches* kept) {
   const auto begin = std::chrono::steady_clock::now();
   const PatchSetup setup(scene, texture, fidelity);
   const std::vector<double>& humidities = scene.environment.relative_humidity;
@@ -146,7 +146,7 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
   std::vector<std::vector<std::vector<SolvedPatch>>> solved(
       humidities.size(),
       std::vector<std::vector<SolvedPatch>>(static_cast<std::size_t>(fidelity.skins)));
-  const int samples = sampled_skins(setup, set.plan);
+  const int samples = laws.empty() ? sampled_skins(setup, set.plan) : 0;
   if (kept) kept->begin(setup);
   const Watch* const watch = Watch::current();
   parallel_for(
@@ -160,8 +160,12 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
       },
       fidelity.threads);
   if (kept) kept->end();
+  set.laws = laws;
+  for (std::size_t i = 0; i < humidities.size() && samples > 0; ++i)
+    set.laws.push_back(load_laws(set.bridges[i], solved[i]));
   for (std::size_t i = 0; i < humidities.size(); ++i)
-    set.results[i] = combined(set.bridges[i], samples > 0, solved[i]);
+    set.results[i] =
+        combined(set.bridges[i], set.laws.empty() ? LoadLaws{} : set.laws[i], solved[i]);
   set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return set;
 }
@@ -169,12 +173,12 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
 }  // namespace
 
 PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                       const FieldRatios& field) {
-  return solve(scene, texture, fidelity, field, nullptr);
+                       const FieldRatios& field, const std::vector<LoadLaws>& laws) {
+  return solve(scene, texture, fidelity, field, laws, nullptr);
 }
 
 PatchSet KeptPatches::solve(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
-  return forward::solve(scene, texture, fidelity, {}, this);
+  return forward::solve(scene, texture, fidelity, {}, {}, this);
 }
 
 Response respond(const Scene& given, const Fidelity& fidelity, const PatchSet& set) {

@@ -7,6 +7,7 @@
 #include "base/rooms.h"
 #include "forward/coupling.h"
 #include "forward/field_ratio.h"
+#include "forward/load_law.h"
 #include "forward/response.h"
 #include "forward/scale_bridge.h"
 
@@ -26,6 +27,7 @@ struct PatchSet {
   Plan plan;
   std::vector<ScaleBridge> bridges;               // one per humidity
   FieldRatios field;                              // one per humidity
+  std::vector<LoadLaws> laws;                     // one per humidity; empty: of no load law
   std::vector<std::vector<PatchResult>> results;  // [humidity][skin]
   std::vector<MeasuredError> errors;              // of measure_errors, like the next
   ControlRuns controls;
@@ -39,10 +41,10 @@ struct PatchSet {
 };
 
 // Skins first_skin ... first_skin + skins - 1 of the fidelity, at each humidity. Parallel over
-// skins; the same bytes for any number of threads. field: of other patches of the same scene;
+// skins; the same bytes for any number of threads. field, laws: of other patches of the same scene;
 // empty: measured. Cost: skins x humidities x (1 or 3) contact solves, and `field_ratios`.
 PatchSet solve_patches(const Scene& scene, const Texture& texture, const Fidelity& fidelity,
-                       const FieldRatios& field = {});
+                       const FieldRatios& field = {}, const std::vector<LoadLaws>& laws = {});
 
 // Friction, modulation and their causes at each humidity, of all skins and without each.
 Response respond(const Scene& scene, const Fidelity& fidelity, const PatchSet& patches);

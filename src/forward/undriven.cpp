@@ -87,7 +87,8 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
         }
       },
       fidelity.threads);
-  const std::vector<PatchResult> results = combined(bridge, samples > 0, solved);
+  const std::vector<PatchResult> results =
+      combined(bridge, samples > 0 ? load_laws(bridge, solved) : LoadLaws{}, solved);
   ResponsePoint point = response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
   add_field_error(field_.front(), fidelity.load_exponent, point);
   return point;

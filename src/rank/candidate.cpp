@@ -183,9 +183,11 @@ void Candidate::solve(const std::function<void(Scene&)>& move, Fidelity fidelity
     Scene scene = scene_of(region);
     scene.finger.state = scene_.finger.state;
     move(scene);
-    // One region is one scene: what its field rule lacks is measured once.
+    // One region is one scene: what its field rule lacks and how its load law goes is measured
+    // once.
     PatchSet more =
-        solve_patches(scene, region.texture, fidelity, count == 1 ? patches.field : FieldRatios{});
+        solve_patches(scene, region.texture, fidelity, count == 1 ? patches.field : FieldRatios{},
+                      count == 1 ? patches.laws : std::vector<LoadLaws>{});
     if (patches.skins() == 0) {
       patches = std::move(more);
     } else {

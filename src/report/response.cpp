@@ -112,8 +112,8 @@ std::string choices_line(const Response& response, bool water) {
   double share = 0;
   for (const ResponsePoint& p : response.points) share = std::max(share, p.over_limit_share);
   if (share > 0)
-    choices.push_back(
-        fmt::format("a cap where air breaks down, up to {:.2g} % of the pull", 100 * share));
+    choices.push_back(fmt::format(
+        "what air withstands (model.air_limit), where {:.2g} % of the pull stands", 100 * share));
   return choices.empty() ? ""
                          : "not in ±: choices of the model (papilla explain), expected " +
                                join_names(choices) + "\n";

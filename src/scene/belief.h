@@ -35,7 +35,7 @@ struct Belief {
   // Of the finger that the members were found for. Where another finger has another value, a
   // member's number moves it by the same factor; a number that is not here replaces the finger's.
   std::vector<BeliefValue> fitted;
-  ModelOptions calibrated_for;  // of that finger
+  ModelOptions calibrated_for = Finger{}.calibrated_for;  // of that finger
   std::vector<BeliefMember> members;
 
   double effective_members() const;  // 1 / sum of the squared weights

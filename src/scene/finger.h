@@ -13,7 +13,7 @@ namespace papilla::scene {
 struct Skin {
   // Self-affine spectrum: flat from the patch size to the roll-off, then C(q) ~ q^-2(1+H) to the
   // cut-off; rms over a 12 um patch.
-  double rms = 256e-9;
+  double rms = 207e-9;
   double roll_off = 3.7e-6;  // wavelength
   double hurst = 0.8;
   double cutoff = 100e-9;  // wavelength
@@ -21,11 +21,11 @@ struct Skin {
   double map_width = 0;    // its lateral size where the file does not say
 
   double layer_thickness = 1e-6;
-  double layer_modulus = 66e6;  // Young's modulus at 15 % RH
-  double bulk_modulus = 60e6;
+  double layer_modulus = 61.4e6;  // Young's modulus at 15 % RH
+  double bulk_modulus = 59.3e6;
   double layer_poisson = 0.5;
   double bulk_poisson = 0.5;
-  double softening = 1.98;         // E(15 % RH) / E(75 % RH), both moduli, linear in RH
+  double softening = 2.0;          // E(15 % RH) / E(75 % RH), both moduli, linear in RH
   double softening_saturated = 5;  // E(75 % RH) / E(100 % RH), both moduli
   double hardness = 0;             // cap on contact pressure; 0: none
 
@@ -46,17 +46,17 @@ void fields(FieldVisitor& v, Skin& s);
 
 // How a fingertip carries its load.
 struct MacroContact {
-  double area_15 = 45e-6;             // gross contact area at 0.2 N and 15 % RH [m^2]
-  double area_growth = 0.585;         // relative growth from 15 to 75 % RH, linear
-  double load_exponent = 0.52;        // A ~ F_N^n
-  double ridge_share = 0.3;           // share of the gross area on ridges
-  double load_share = 0.0063;         // phi: share of the gross area that carries the load
-  double shear_strength = 9e6;        // tau, interfacial, at 15 % RH [Pa]
-  double shear_fall = 0.08;           // what it loses from 15 to 75 % RH, a share, linear
-  double shear_fall_saturated = 0.4;  // and from 75 % RH to saturation, a share of what is left
+  double area_15 = 45e-6;               // gross contact area at 0.2 N and 15 % RH [m^2]
+  double area_growth = 0.585;           // relative growth from 15 to 75 % RH, linear
+  double load_exponent = 0.52;          // A ~ F_N^n
+  double ridge_share = 0.3;             // share of the gross area on ridges
+  double load_share = 0.00728;          // phi: share of the gross area that carries the load
+  double shear_strength = 9e6;          // tau, interfacial, at 15 % RH [Pa]
+  double shear_fall = 0.095;            // what it loses from 15 to 75 % RH, a share, linear
+  double shear_fall_saturated = 0.385;  // and from 75 % RH to saturation, a share of what is left
   // For closures "persson" and "balance": the ridges' surface above the patch size, and what it
   // lies on.
-  double ridge_rms = 2.2e-6, ridge_longest = 1e-3;  // rms height, longest wavelength [m]
+  double ridge_rms = 0.79e-6, ridge_longest = 1e-3;  // rms height, longest wavelength [m]
   double ridge_roll_off = 1e-3;  // wavelength [m]; at least ridge_longest: no roll-off
   double ridge_hurst = 0;        // 0: that of the skin
   double corneum_thickness = 200e-6, tissue_modulus = 10e3;  // [m], Young's modulus [Pa]
@@ -77,8 +77,8 @@ void fields(FieldVisitor& v, MacroContact& s);
 
 // The stratum corneum as a dielectric: equivalent thickness d2/eps2 in series with the gap.
 struct ElectricalLayer {
-  double thickness_15 = 30e-9;   // h_SC at 15 % RH [m]
-  double thickness_75 = 17e-9;   // at 75 %; linear between
+  double thickness_15 = 34e-9;   // h_SC at 15 % RH [m]
+  double thickness_75 = 44e-9;   // at 75 %; linear between
   double corner_frequency = 60;  // 1/(2 pi eps0 eps rho): below it the layer conducts; 0: never
   // Exponent of its capacitance against frequency, a constant-phase element: 1 a capacitor. Eq.
   // drive.19
@@ -101,8 +101,8 @@ void fields(FieldVisitor& v, ElectricalLayer& s);
 // Sweat in a 12 x 12 um patch against relative humidity, and how water meets the skin.
 struct SkinWater {
   std::vector<double> relative_humidity = {0.15, 0.35, 0.55, 0.75};
-  std::vector<double> volume = {0.07e-18, 0.36e-18, 1.8e-18, 8.8e-18};  // [m^3] per 144 um^2
-  double contact_angle = 1.3962634015954636;                            // 80 deg, on clean skin
+  std::vector<double> volume = {0.07e-18, 0.335e-18, 1.84e-18, 7.1e-18};  // [m^3] per 144 um^2
+  double contact_angle = 1.3962634015954636;                              // 80 deg, on clean skin
   double surface_tension = 0.072126;
   double hysteresis = 0.33;    // cos(theta_r) - cos(theta_a) of the weaker surface
   double drops_per_um3 = 100;  // initial droplets per um^3 of water
@@ -118,7 +118,7 @@ void fields(FieldVisitor& v, SkinWater& s);
 // Saturated angle under voltage from the angle at rest: linear through two anchors, never above the
 // angle at rest.
 struct Saturation {
-  double rest_low = 0.8726646259971648, saturated_low = 0.6457718232379019;    // 50 -> 37 deg
+  double rest_low = 0.8726646259971648, saturated_low = 0.6946410422937431;    // 50 -> 39.8 deg
   double rest_high = 1.9198621771937625, saturated_high = 1.3788101090755203;  // 110 -> 79 deg
 
   double angle(double rest) const;  // [rad] Eq. scene.5
@@ -136,7 +136,9 @@ enum class Coupling { OnePass, Equilibrium };
 enum class AirLimit { None, Emission, Ionisation };
 enum class FieldMethod { Local, Spread, Full };
 
-// Options that move results at first order: fixed before calibration, recorded in the finger file.
+// Options that move results at first order: fixed before calibration, recorded in the finger file,
+// which is where a design's come from. By themselves they are the published model's: one pass, and
+// air that insulates.
 struct ModelOptions {
   Preset preset = Preset::Papilla;
   WaterModel water = WaterModel::Droplets;
@@ -190,9 +192,9 @@ struct Finger {
   ElectricalLayer electrical;
   SkinWater water;
   Saturation saturation;
-  ModelOptions calibrated_for;
+  ModelOptions calibrated_for{.coupling = Coupling::Equilibrium, .air_limit = AirLimit::Ionisation};
   // Ids of the published claims that its fit used, separated by spaces.
-  std::string fitted_to = "M1 M2 M3 M4 M5 M6 M7 M8 M9 M10 M11 M12 M13 M14 M15 M16 M17 M21";
+  std::string fitted_to = "M1 M2 M3 M4 M5 M9 M13 M15 C_gap";
   std::vector<ParameterDeviation> uncertainty;  // of the fitted numbers; empty: not known
   std::string belief;                           // file of weighted members (scene/belief.h), or ""
 

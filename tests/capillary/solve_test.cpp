@@ -75,8 +75,8 @@ TEST(SolveDroplets, TakesGapAndWaterFromADesign) {
   const auto json = nlohmann::json::parse(
       output("droplets --design " + design + " --humidity '55 %' --json", status));
   EXPECT_EQ(status, 0);
-  EXPECT_NEAR(json["volume"].get<double>(), 1.8e-18, 1e-27);
-  EXPECT_EQ(json["initial_droplets"], 180);
+  EXPECT_NEAR(json["volume"].get<double>(), 1.84e-18, 1e-27);
+  EXPECT_EQ(json["initial_droplets"], 184);
   EXPECT_GT(json["bridges"].get<int>(), 3);
   const auto ensemble = nlohmann::json::parse(
       output("droplets --design " + design + " --humidity '75 %' --placements 6 --json", status));

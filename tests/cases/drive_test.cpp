@@ -241,7 +241,7 @@ TEST(DriveFile, TakesTheGapOfADesign) {
   EXPECT_GT(r.network.gap.distance, 50e-9);
   EXPECT_LT(r.network.gap.distance, 1e-6);
   EXPECT_GT(r.carrier.mean_force, 0);
-  EXPECT_NEAR(r.area, 0.0063 * 45e-6 * (1 + 0.585 * 2 / 3), 1e-9);
+  EXPECT_NEAR(r.area, 0.00728 * 45e-6 * (1 + 0.585 * 2 / 3), 1e-9);
   // A deeper, wider array opens the gap.
   const DriveResult deep = solve_drive(
       read_drive_case(kFingertip, {"gap.design=" + kSamples + "a4h600.toml", "gap.skins=1"}));

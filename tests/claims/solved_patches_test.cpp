@@ -8,12 +8,13 @@
 #include <string>
 
 #include "claims/papers.h"
+#include "tests/support/one_pass.h"
 
 namespace papilla::tests {
 namespace {
 
 Judgement judge(const std::string& id, double rms, double water) {
-  Finger finger;
+  Finger finger = one_pass_finger();
   finger.skin.rms = rms;
   for (double& volume : finger.water.volume) volume *= water;
   FingerModel model(finger, Preset::Papilla, 1,

@@ -742,7 +742,7 @@ TEST(Describe, FindsNumbersByPath) {
 TEST(Describe, EveryRowHasUnitRangeDefaultAndSource) {
   const std::string text = reference_markdown(field_rows(Whole{}));
   EXPECT_NE(text.find("| `finger.skin.rms` | rms height over a 12 um patch | a length in nm | 0 to "
-                      "100000 nm | `256 nm` | fit: to M3; AFM anchors 200-350 nm |"),
+                      "100000 nm | `207 nm` | fit: to M3; AFM anchors 200-350 nm |"),
             std::string::npos)
       << text;
 }

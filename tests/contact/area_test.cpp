@@ -12,6 +12,7 @@
 #include "physics/contact/closed_forms.h"
 #include "physics/contact/contact.h"
 #include "scene/finger.h"
+#include "tests/support/one_pass.h"
 
 namespace papilla::tests {
 namespace {
@@ -79,7 +80,7 @@ TEST(Area, IsTheSameWhereverTheGridBegins) {
 // The reference finger's skin: an area on 256^2 lies within the stated error of that on 1024^2, the
 // change of area with the load agrees ten times better.
 TEST(Area, OfRoughSkinAgreesWithAFinerGridWithinItsStatedError) {
-  const Finger finger;
+  const Finger finger = one_pass_finger();
   const Skin& skin = finger.skin;
   const double mean = finger.patch_pressure(0.15);
   double area[2], ratio[2], se[2];

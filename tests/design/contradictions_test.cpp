@@ -232,12 +232,13 @@ TEST(DesignParts, OptionsThatTheFingerWasNotFittedWithAreNamed) {
   d.model.water = WaterModel::Threshold;
   d.model.droplet_step = 300e-9;
   d.finger.calibrated_for.air_limit = AirLimit::Emission;
-  EXPECT_EQ(calibration_mismatch(d),
-            (std::vector<std::string>{
-                "model.water is \"threshold\", the finger \"mine\" was fitted with \"droplets\"",
-                "model.air_limit is \"none\", the finger \"mine\" was fitted with \"emission\"",
-                "model.droplet_step is \"300 nm\", the finger \"mine\" was fitted with \"200 "
-                "nm\""}));
+  EXPECT_EQ(
+      calibration_mismatch(d),
+      (std::vector<std::string>{
+          "model.water is \"threshold\", the finger \"mine\" was fitted with \"droplets\"",
+          "model.air_limit is \"ionisation\", the finger \"mine\" was fitted with \"emission\"",
+          "model.droplet_step is \"300 nm\", the finger \"mine\" was fitted with \"200 "
+          "nm\""}));
 }
 
 // --- studies ---

@@ -49,10 +49,10 @@ TEST(Design, TheReferenceFingerFileIsTheDefaultFinger) {
 TEST(Design, TheRelativesDifferInOneThing) {
   Finger expected = read_finger(kDesigns + "fingers/reference.toml");
   expected.name = "smooth";
-  expected.skin.rms = 128e-9;
+  expected.skin.rms = 104e-9;
   EXPECT_EQ(read_finger(kDesigns + "fingers/smooth.toml"), expected);
-  EXPECT_EQ(read_finger(kDesigns + "fingers/rough.toml").skin.rms, 512e-9);
-  EXPECT_EQ(read_finger(kDesigns + "fingers/moist.toml").water.volume[3], 17.6e-18);
+  EXPECT_EQ(read_finger(kDesigns + "fingers/rough.toml").skin.rms, 414e-9);
+  EXPECT_EQ(read_finger(kDesigns + "fingers/moist.toml").water.volume[3], 14.2e-18);
 }
 
 TEST(Design, ATextureStaysInsideThePlanarFilmThatCarriesIt) {

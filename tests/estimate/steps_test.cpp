@@ -157,8 +157,9 @@ TEST(Evaluation, AModelThatTheFingerWasNotFittedWithIsRefused) {
   } catch (const InputError& e) {
     ASSERT_EQ(e.problems().size(), 3u);
     EXPECT_EQ(e.problems()[0].file, "mine.toml");
-    EXPECT_EQ(e.problems()[0].message,
-              "model.air_limit is \"emission\", the finger \"reference\" was fitted with \"none\"");
+    EXPECT_EQ(
+        e.problems()[0].message,
+        "model.air_limit is \"emission\", the finger \"reference\" was fitted with \"ionisation\"");
     EXPECT_EQ(e.problems()[2].message,
               "such a change moves the modulation by tens of percent; fit the finger again, or run "
               "with --force");

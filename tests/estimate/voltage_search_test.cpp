@@ -6,6 +6,7 @@
 
 #include "estimate/voltage.h"
 #include "forward/undriven.h"
+#include "tests/support/one_pass.h"
 
 namespace papilla::tests {
 namespace {
@@ -53,7 +54,8 @@ TEST(VoltageSearch, OfTheDesignsOwnModulationIsItsAmplitudeAtOnce) {
 // Each target is begun at the voltage of the one before. Where the modulation is nearly a square
 // the first proposal is within percents, the second, by the slope of the two, within a thousandth.
 TEST(VoltageSearch, TakesThreeEvaluationsOfASquare) {
-  const Scene scene = scene_at(40);
+  Scene scene = scene_at(40);
+  scene.finger = one_pass_finger();
   const double m = modulation(scene, 40);
   const std::vector<VoltageAnswer> all = voltages(scene, {m, 1.5 * m, 0.5 * m});
   EXPECT_EQ(all[0].evaluations, 1);

@@ -18,6 +18,7 @@
 #include "geometry/texture.h"
 #include "physics/capillary/droplets.h"
 #include "physics/contact/contact.h"
+#include "tests/support/one_pass.h"
 
 namespace papilla::tests {
 namespace {
@@ -28,6 +29,7 @@ const double kPatchNumber = 2 * kPi / 12e-6;
 
 Scene balanced(double amplitude) {
   Scene scene;
+  scene.finger = one_pass_finger();  // ridges of 2.2 um
   scene.model.closure = Closure::Balance;
   scene.drive.amplitude = amplitude;
   scene.environment.relative_humidity = {kHumidity};

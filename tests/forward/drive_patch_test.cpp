@@ -239,7 +239,8 @@ TEST(DrivePatch, InEquilibriumItIsContactUnderItsOwnFieldAndWater) {
   ASSERT_TRUE(r.status.sound()) << text(r.status);
   const Gap gap{patch.plan.grid, fields.on.gap};
   const FieldSolution field = patch.pull(gap, fields.wetting_on);
-  EXPECT_NEAR(r.pull, 0.8 * field.mean_pressure * patch.area(), 1e-9 * r.pull);
+  // The contact is solved once more, to its last tolerance, after the pull that settled.
+  EXPECT_NEAR(r.pull, 0.8 * field.mean_pressure * patch.area(), 1e-3 * r.pull);
   EXPECT_EQ(r.area_on, measure_area(*patch.kernel, fields.on).near_edge);
   const WaterProperties water = patch.water(driven_contact_angle(patch.setup.scene(), kHumidity));
   std::vector<double> total = capillary_traction(fields.wetting_on, gap, water).value;
@@ -271,7 +272,8 @@ TEST(DrivePatch, AClosedGapEndsTheSearchForAnEquilibrium) {
   EXPECT_EQ(shut.costs.contact_solves, 2);
 }
 
-// Eq. coupling.14: what the load law makes of the dry gap, beside the same patches in equilibrium.
+// Eq. coupling.14: the load law by the first skins of a scene, on the others, beside these in
+// equilibrium themselves; and on those that it was measured on.
 TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
   for (const AirLimit air : {AirLimit::Emission, AirLimit::Ionisation}) {
     Scene scene = driven(150);
@@ -279,7 +281,7 @@ TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
     scene.model.air_limit = air;
     const Patch patch(scene);
     std::vector<AttractionSample> samples;
-    for (int k = 0; k < 15; ++k) {
+    for (int k = 0; k < 24; ++k) {
       const std::vector<double> height = patch.setup.height(patch.setup.skin(k));
       PatchProblem problem = patch.problem;
       problem.height = height;
@@ -290,19 +292,25 @@ TEST(LoadLaw, StandsForTheEquilibriumOfPatchesItWasNotMeasuredOn) {
           solve_patch(problem, patch.plan, patch.fidelity, states, nullptr, &before);
       samples.push_back({dry, settled_patch(problem, patch.plan, patch.fidelity, before, settled)});
     }
-    const AttractionLaw law = attraction_law(std::span(samples).first(3));
-    ASSERT_TRUE(law.status.sound());
-    EXPECT_GT(law.pull, 0);
-    double by_law = 0, solved = 0, dry = 0;
-    for (const AttractionSample& s : std::span(samples).subspan(3)) {
-      PatchResult patch_by_law = s.dry;
-      law.apply(patch_by_law);
-      by_law += patch_by_law.pull + patch_by_law.capillary_on;
-      solved += s.settled.pull + s.settled.capillary_on;
-      dry += s.dry.pull + s.dry.capillary_on;
-    }
-    EXPECT_GT(std::abs(solved / dry - 1), 0.02);
-    EXPECT_LT(std::abs(by_law - solved), 0.3 * std::abs(solved - dry));
+    // How far the law is from the equilibrium of skins, in units of what one pass lacks.
+    const auto missing = [&](const AttractionLaw& law, std::span<const AttractionSample> of) {
+      double by_law = 0, solved = 0, dry = 0;
+      for (const AttractionSample& s : of) {
+        PatchResult by = s.dry;
+        law.apply(by);
+        by_law += by.pull + by.capillary_on;
+        solved += s.settled.pull + s.settled.capillary_on;
+        dry += s.dry.pull + s.dry.capillary_on;
+      }
+      EXPECT_GT(solved, 1.02 * dry);
+      return std::abs(by_law - solved) / (solved - dry);
+    };
+    const std::span<const AttractionSample> all = samples;
+    const AttractionLaw few = attraction_law(all.first(3)), own = attraction_law(all);
+    ASSERT_TRUE(few.status.sound() && own.status.sound());
+    EXPECT_GT(few.pull, 0);
+    EXPECT_LT(missing(few, all.subspan(3)), 0.5) << static_cast<int>(air);
+    EXPECT_LT(missing(own, all), 0.15) << static_cast<int>(air);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "geometry/measured_map.h"
 #include "geometry/roughness.h"
 #include "metrics/metrics.h"
+#include "tests/support/one_pass.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -124,13 +125,14 @@ TEST(Forward, TheLoadLawAgreesWithResolvedAreas) {
   EXPECT_NEAR(x, y, 0.15 * y);
 }
 
-TEST(Forward, TheStartingFingerGivesThePrototypesMagnitudes) {
+TEST(Forward, TheFingerOfOnePassGivesThePrototypesMagnitudes) {
   // Set E, flat, 50 deg, fresh skins: modulation .73/.78/.61/.38; F_off rises 2.33x at a shear
   // strength that does not depend on humidity. There water was at the body's potential: that it
   // floats adds 13 and 15 % where most bridges are.
   Fidelity f = fidelity_level("search");
   f.skins = 16;
   Scene scene = driven_scene();
+  scene.finger = one_pass_finger();
   scene.finger.macro.shear_fall = 0;
   const Response r = evaluate(scene, Texture{}, f);
   const double expected[4] = {0.73, 0.78, 1.13 * 0.61, 1.15 * 0.38};

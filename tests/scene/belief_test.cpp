@@ -65,8 +65,8 @@ TEST_F(BeliefFile, AMemberSetsValuesAndModelOptions) {
   const Belief b = read_belief(write("belief.toml", kTwo));
   const Finger reference;
   const MemberScene first = with_member(b, b.members[0], reference, {});
-  EXPECT_NEAR(first.finger.skin.rms, 128e-9, 1e-18);
-  EXPECT_NEAR(first.finger.water.volume[3], 2 * 8.8e-18, 1e-27);
+  EXPECT_NEAR(first.finger.skin.rms, 103.5e-9, 1e-18);
+  EXPECT_NEAR(first.finger.water.volume[3], 2 * 7.1e-18, 1e-27);
   EXPECT_EQ(first.model, ModelOptions{});
   const MemberScene second = with_member(b, b.members[1], reference, {});
   EXPECT_EQ(second.model.closure, Closure::Persson);

@@ -86,7 +86,7 @@ TEST(Fingers, AreThatOfTheReferenceUnlessTheySayOtherwise) {
   EXPECT_NEAR(f.natural.contact_angle, 60 * kPi / 180, 1e-12);
   EXPECT_NEAR(f.wet.contact_angle, 60 * kPi / 180, 1e-12);
   EXPECT_NEAR(f.saturation.rest_low, 50 * kPi / 180, 1e-12);
-  EXPECT_NEAR(f.saturation.saturated_low, 37 * kPi / 180, 1e-12);
+  EXPECT_NEAR(f.saturation.saturated_low, 39.8 * kPi / 180, 1e-12);
   EXPECT_NEAR(f.saturation.rest_high, 110 * kPi / 180, 1e-12);
   EXPECT_NEAR(f.saturation.saturated_high, 79 * kPi / 180, 1e-12);
   EXPECT_DOUBLE_EQ(f.skin.layer_thickness, 1e-6);

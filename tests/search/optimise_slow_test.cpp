@@ -323,8 +323,9 @@ TEST(Optimise, ATargetIsMetByLeastSquares) {
   EXPECT_EQ(result.method, "least_squares");
   ASSERT_FALSE(result.finalists.empty());
   const StudyProblem problem(study);
-  const Score own =
-      problem.score({evaluate_task(problem, study.design, 0, {fidelity_level("search")})});
+  const TaskAnswer answer = evaluate_task(problem, study.design, 0, {fidelity_level("search")});
+  ASSERT_TRUE(answer.status.ok()) << answer.status.text;
+  const Score own = problem.score({answer});
   EXPECT_LT(result.finalists[0].searched.values[0], own.values[0]);
 }
 

@@ -27,16 +27,16 @@ TEST(Stability, TheFlatSurfaceHasTheHighestMeanUnderEveryVariant) {
   EXPECT_EQ(s.variants.size(), 10u);
   EXPECT_EQ(s.times_on_front[0], 10);
   for (const StabilityVariant& v : s.variants) EXPECT_GT(v.values[0][0], v.values[1][0]) << v.name;
-  // In equilibrium and without a limit of the air the two differ by no more than is known of them.
-  EXPECT_LE(s.times_on_front[1], 1);
+  // The less the pull, the less is the difference known.
+  EXPECT_LE(s.times_on_front[1], 2);
   EXPECT_TRUE(s.stable(0));
   EXPECT_FALSE(s.stable(1));
-  // Air that breaks down takes from the pull, least where 12 V break down nothing; the equilibrium
-  // adds to it.
+  // Air that insulates leaves more of the pull, air that breaks down at any voltage less; one pass
+  // lacks what the closing gap adds.
   const auto flat_mean = [&](std::size_t v) { return s.variants[v].values[0][0]; };
-  EXPECT_LT(flat_mean(7), flat_mean(8));
+  EXPECT_GT(flat_mean(7), flat_mean(0));
   EXPECT_LT(flat_mean(8), flat_mean(0));
-  EXPECT_GT(flat_mean(9), flat_mean(0));
+  EXPECT_LT(flat_mean(9), flat_mean(0));
 }
 
 }  // namespace
