@@ -1,6 +1,9 @@
 #include "forward/kept_patches.h"
 
+#include <algorithm>
+
 #include "base/check.h"
+#include "forward/load_law.h"
 
 namespace papilla::forward {
 namespace {
@@ -31,7 +34,8 @@ void KeptPatches::begin(const PatchSetup& setup) {
   const bool same_contact = whole_ && contact_ && *contact_ == contact;
   const bool same_water = same_contact && water_ && *water_ == water;
   held_ = same_water ? Held::Water : same_contact ? Held::Contact : Held::Nothing;
-  if (!same_contact) skins_.assign(static_cast<std::size_t>(fidelity.skins), {});
+  const int skins = std::max(fidelity.skins, sampled_skins(setup, setup.plan()));
+  if (!same_contact) skins_.assign(static_cast<std::size_t>(skins), {});
   for (Skin& skin : skins_) {
     skin.contact = same_contact;
     skin.water = same_water;

@@ -65,7 +65,7 @@ void AttractionLaw::apply(PatchResult& patch) const {
 int sampled_skins(const PatchSetup& setup, const Plan& plan) {
   const bool closes = setup.scene().model.coupling == Coupling::Equilibrium &&
                       !plan.traction_solves && (plan.water || plan.field);
-  return closes ? std::min(setup.fidelity().equilibrium_skins, setup.fidelity().skins) : 0;
+  return closes ? setup.fidelity().equilibrium_skins : 0;
 }
 
 AttractionLaw attraction_law(std::span<const AttractionSample> samples) {

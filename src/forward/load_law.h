@@ -33,8 +33,9 @@ struct AttractionLaw {
   void apply(PatchResult& patch) const;
 };
 
-// How many skins of a set of patches are solved in equilibrium for it: none where every patch is,
-// or none is.
+// How many skins from the first on are solved in equilibrium for it, whether or not a set of
+// patches has so many: the law of a scene is that of its first skins. None where every patch is in
+// equilibrium by itself, or no patch is.
 int sampled_skins(const PatchSetup& setup, const Plan& plan);
 
 // Ratios of sums over the samples; without any the law changes nothing.

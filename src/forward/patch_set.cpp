@@ -1,5 +1,6 @@
 #include "forward/patch_set.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -143,14 +144,15 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
                              setup.levels());
   }
   set.results.resize(humidities.size());
+  const int samples = laws.empty() ? sampled_skins(setup, set.plan) : 0;
+  const int solved_skins = std::max(fidelity.skins, samples);
   std::vector<std::vector<std::vector<SolvedPatch>>> solved(
       humidities.size(),
-      std::vector<std::vector<SolvedPatch>>(static_cast<std::size_t>(fidelity.skins)));
-  const int samples = laws.empty() ? sampled_skins(setup, set.plan) : 0;
+      std::vector<std::vector<SolvedPatch>>(static_cast<std::size_t>(solved_skins)));
   if (kept) kept->begin(setup);
   const Watch* const watch = Watch::current();
   parallel_for(
-      fidelity.skins,
+      solved_skins,
       [&](int k) {
         SkinRun run(setup, set, kernels, k, kept ? &kept->skin(k) : nullptr);
         for (std::size_t i = 0; i < humidities.size(); ++i) {
@@ -164,8 +166,8 @@ PatchSet solve(const Scene& scene, const Texture& texture, const Fidelity& fidel
   for (std::size_t i = 0; i < humidities.size() && samples > 0; ++i)
     set.laws.push_back(load_laws(set.bridges[i], solved[i]));
   for (std::size_t i = 0; i < humidities.size(); ++i)
-    set.results[i] =
-        combined(set.bridges[i], set.laws.empty() ? LoadLaws{} : set.laws[i], solved[i]);
+    set.results[i] = combined(set.bridges[i], set.laws.empty() ? LoadLaws{} : set.laws[i],
+                              std::span(solved[i]).first(static_cast<std::size_t>(fidelity.skins)));
   set.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return set;
 }

@@ -1,5 +1,8 @@
 #include "forward/undriven.h"
 
+#include <algorithm>
+#include <span>
+
 #include "base/check.h"
 #include "base/parallel.h"
 #include "forward/load_law.h"
@@ -30,10 +33,14 @@ UndrivenPatches::UndrivenPatches(const Scene& scene, const Texture& texture,
   pressures_ =
       ScaleBridge(setup_->scene(), fidelity, grid, humidity(), setup_->body(), setup_->levels())
           .pressures();
-  height_.resize(static_cast<std::size_t>(fidelity.skins));
+  // By the load law the first skins are its samples, even where fewer are asked for.
+  Plan by_load = setup_->plan();
+  by_load.traction_solves = false;
+  const int skins = std::max(fidelity.skins, sampled_skins(*setup_, by_load));
+  height_.resize(static_cast<std::size_t>(skins));
   patches_.resize(height_.size());
   parallel_for(
-      fidelity.skins,
+      skins,
       [&](int k) {
         height_[k] = setup_->height(setup_->skin(k));
         const std::vector<WaterMember> members = setup_->water_members(k);
@@ -63,7 +70,7 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   const int samples = sampled_skins(*setup_, plan);
   std::vector<std::vector<SolvedPatch>> solved(patches_.size());
   parallel_for(
-      fidelity.skins,
+      std::max(fidelity.skins, samples),
       [&](int k) {
         std::vector<PatchResult> of_water;
         std::size_t at = 0;
@@ -87,8 +94,10 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
         }
       },
       fidelity.threads);
+  solved.resize(static_cast<std::size_t>(std::max(fidelity.skins, samples)));
   const std::vector<PatchResult> results =
-      combined(bridge, samples > 0 ? load_laws(bridge, solved) : LoadLaws{}, solved);
+      combined(bridge, samples > 0 ? load_laws(bridge, solved) : LoadLaws{},
+               std::span(solved).first(static_cast<std::size_t>(fidelity.skins)));
   ResponsePoint point = response_point({scene, plan, fidelity}, humidity(), 1, bridge, results);
   add_field_error(field_.front(), fidelity.load_exponent, point);
   return point;

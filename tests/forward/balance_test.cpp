@@ -307,6 +307,7 @@ TEST(Balance, APatchTouchesWithTheHighestOfItsPlaces) {
 // Eq. coupling.6: what gives without end finds no more patches than the ridges have.
 TEST(Balance, ASoftFilmIsCarriedByNoMoreThanTheRidges) {
   Scene scene;
+  scene.finger = one_pass_finger();
   const double most = scene.finger.macro.ridge_share;
   double share = 0;
   for (const double modulus : {1e9, 1e7, 2.6e6, 1e5, 1e3, 1.0}) {

@@ -11,12 +11,15 @@
 #include "forward/scene_terms.h"
 #include "measure/field_accuracy.h"
 #include "physics/electrostatics/full_field.h"
+#include "tests/support/one_pass.h"
 
 namespace papilla::tests {
 namespace {
 
 Design smooth_skin() {
   Design design = read_design(find_design("m3_samples/a3h350.toml"));
+  design.finger = one_pass_finger();
+  design.model = design.finger.calibrated_for;
   design.finger.skin.roll_off = 12e-6;
   design.finger.skin.cutoff = 4e-6;
   return design;

@@ -125,8 +125,7 @@ TEST(Rank, EightCandidatesTakeTwoThirdsOfEqualSamplingAtMost) {
   std::vector<Design> designs;
   for (const char* name : {"hdpe_large_1", "hdpe_small_1", "sparse", "crowded", "hard", "fine",
                            "shallow", "wettable"}) {
-    designs.push_back(read_design(find_design(fmt::format("coatings/{}.toml", name))));
-    designs.back().accuracy.level = AccuracyLevel::Draft;
+    designs.push_back(in_one_pass(read_design(find_design(fmt::format("coatings/{}.toml", name)))));
   }
   RankOptions options = by("friction:low,adhesion:low,compliance:high");
   options.weights = {1, 1, 1};

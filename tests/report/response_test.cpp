@@ -63,8 +63,8 @@ TEST(ResponseReport, TheTableHasEachNumberUnderItsHead) {
       "error of the mean modulation: sampling 4.9 %; parameters not asked for (--parameters); "
       "error "
       "from grid, solver, humidity, method, field, water: unknown\n"
-      "not in ±: choices of the model (papilla explain), expected Kelvin condensation 0.2 %, a cap "
-      "where air breaks down, up to 22 % of the pull\n"
+      "not in ±: choices of the model (papilla explain), expected Kelvin condensation 0.2 %, "
+      "what air withstands (model.air_limit), where 22 % of the pull stands\n"
       "air beyond its breakdown field on up to 2.1 % of the patch, 22 % of the pull; peak field in "
       "the dielectric 230 V/um\n"
       "pull: field rule times 0.94 to 0.94, by the 3-D field; good to 6 %\n"))
