@@ -20,8 +20,9 @@ constexpr double kSteepestChord = 0.95, kFlattestChord = -3;
 // thousandths of the total load: over a shorter way than this share of it they would make the
 // chord.
 constexpr double kShortest = 0.02;
-// A residual that rises over a longer way than this is past the fold.
-constexpr double kPastFold = 0.1;
+// The share of the attraction that is applied rises to 1 at the equilibrium. Where it falls again
+// by this over a way that is longer than that, a fold lies behind.
+constexpr double kFalls = 0.02, kPastFold = 0.1;
 // No step more than doubles the total load.
 constexpr double kLongestStep = 1.0;
 
@@ -38,6 +39,7 @@ EquilibriumSearch::EquilibriumSearch(double load, const Answer& first, double sl
 }
 
 EquilibriumSearch::Next EquilibriumSearch::found(double attraction) {
+  if (!std::isfinite(attraction)) return Next::Jumped;
   const double total = load_ + std::max(attraction, 0.0), moved = applied_ - last_.applied;
   const double excess = attraction - applied_, before = last_.attraction - last_.applied;
   const double straight = (attraction - last_.attraction) / moved;
@@ -47,7 +49,12 @@ EquilibriumSearch::Next EquilibriumSearch::found(double attraction) {
   const double step = excess / (1 - chord);
   residual_ = std::abs(step) / total;
   if (residual_ <= tolerance_) return Next::Settled;
-  if (moved > kPastFold * total && before > 0 && excess > before) return Next::Jumped;
+  const auto applied_share = [](const Answer& answer) {
+    return answer.applied / answer.attraction;
+  };
+  if (moved > kPastFold * total && before > 0 && excess > 0 && last_.applied > 0 &&
+      applied_share({applied_, attraction}) < (1 - kFalls) * applied_share(last_))
+    return Next::Jumped;
   last_ = {applied_, attraction};
   applied_ += std::min(step, kLongestStep * (load_ + std::max(applied_, 0.0)));
   return Next::Ask;

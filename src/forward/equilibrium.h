@@ -17,7 +17,7 @@ class EquilibriumSearch {
   enum class Next {
     Ask,      // solve the state of applied()
     Settled,  // a is the equilibrium to the tolerance
-    Jumped,   // F - a stays positive and rises: no equilibrium before the gap jumps shut
+    Jumped,   // F > a and a/F falls: the voltage of a smaller gap is lower, it jumps shut
   };
 
   struct Answer {

@@ -18,7 +18,7 @@ namespace papilla::forward {
 namespace {
 
 // The total load over the nominal one, from state to state.
-constexpr double kFirstLoad = 1.05, kStep = 1.12, kLastLoad = 40;
+constexpr double kFirstLoad = 1.05, kStep = 1.12;
 
 // The top of a parabola through three points (x, y) with the middle one highest.
 double top(const double (&x)[3], const double (&y)[3]) {
@@ -81,7 +81,7 @@ Fold fold_of(Branch& branch, double pressure) {
   constexpr double kPast = 0.97;  // of the highest voltage: the branch has turned
   std::vector<double> loads, voltages;
   double highest = 0;
-  for (double load = kFirstLoad; load < kLastLoad; load *= kStep) {
+  for (double load = kFirstLoad; load < 1 + kClosingLoad; load *= kStep) {
     const double v = branch.voltage((load - 1) * pressure);
     if (v >= kFarthestPullIn) return {};
     loads.push_back(std::log(load));

@@ -45,11 +45,14 @@ std::string text(const VoltageAnswer& answer);
 
 // The branch of equilibria is followed to where it turns, or to so many times the voltage.
 inline constexpr double kFarthestPullIn = 4;
+inline constexpr double kClosingLoad = 40;
 
 // How far the drive is from the voltage at which the gap jumps shut: `pull_in_margin`.
 struct PullIn {
-  Measured margin{kFarthestPullIn, {}};  // voltage at the fold over that of the drive
-  double folds = 0;  // share of the patches that fold below kFarthestPullIn; the others count as it
+  // Voltage at the fold over that of the drive; without a fold that at which the attraction is
+  // kClosingLoad times the nominal load.
+  Measured margin{kFarthestPullIn, {}};
+  double folds = 0;  // share of the patches that have a fold
 
   bool operator==(const PullIn&) const = default;
 };

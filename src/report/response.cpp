@@ -177,10 +177,15 @@ std::string field_lines(const Response& response) {
   for (const ResponsePoint& p : response.points) {
     if (!p.pull_in) continue;
     const Measured& m = p.pull_in->margin;
-    out += fmt::format("pull-in at {:.0f} % RH: {}\n", 100 * p.relative_humidity,
-                       p.pull_in->folds > 0
-                           ? fmt::format("{:.3g} ± {:.2g} times this voltage", m.value, 2 * m.se())
-                           : fmt::format("none up to {:g} times this voltage", kFarthestPullIn));
+    const double percent = 100 * p.relative_humidity;
+    if (m.value >= kFarthestPullIn) {
+      out += fmt::format("pull-in at {:.0f} % RH: beyond {:g} times this voltage\n", percent,
+                         kFarthestPullIn);
+    } else {
+      out += fmt::format(
+          "pull-in at {:.0f} % RH: {} at {:.3g} ± {:.2g} times this voltage\n", percent,
+          p.pull_in->folds > 0 ? "the gap jumps shut" : "the gap has closed", m.value, 2 * m.se());
+    }
   }
   const bool physical = knows_driven(response);
   if (physical && measured) {

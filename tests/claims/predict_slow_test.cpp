@@ -34,15 +34,20 @@ const Prediction& find(const std::string& id, const std::string& condition) {
   return found == all.end() ? all.front() : *found;
 }
 
-TEST(PredictionsOfOneRun, KnowTheLawsThatHaveNoFreeNumber) {
-  // The pull goes with the square of the voltage, friction without voltage nearly with the load.
-  EXPECT_NEAR(find("pull over voltage", "").value.value, 2, 1e-3);
+TEST(PredictionsOfOneRun, AirThatBreaksDownTakesFromTheSquareOfTheVoltage) {
+  // Where air insulates the pull goes with the square. A field that air holds does not grow, and a
+  // gap that closes adds less than that takes.
+  const double pull = find("pull over voltage", "").value.value;
+  EXPECT_GT(pull, 1.4);
+  EXPECT_LT(pull, 2);
+  // Friction without voltage goes nearly with the load.
   EXPECT_NEAR(find("F_off over load", "").value.value, 1, 0.05);
-  // The area follows the load less than in proportion, so the added friction lags behind the pull.
+  // The area follows the load less than in proportion, so the added friction lags behind the pull;
+  // of friction what bridges hold grows a little besides.
   const double added = find("added friction over voltage", "").value.value;
-  EXPECT_GT(added, 1.5);
-  EXPECT_LT(added, 2);
-  EXPECT_NEAR(find("added contact area over voltage", "").value.value, added, 1e-6);
+  EXPECT_GT(added, 1.2);
+  EXPECT_LT(added, pull);
+  EXPECT_NEAR(find("added contact area over voltage", "").value.value, added, 5e-3);
 }
 
 TEST(PredictionsOfOneRun, ACurrentLosesToLoadWhatAVoltageKeeps) {
