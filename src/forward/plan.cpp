@@ -212,12 +212,12 @@ Entry tractions(const Setting& s) {
   // published samples.
   const char* worst =
       field ? ": within 4 % of F_on/F_off and 12 % of the modulation on 95 % of 180 random scenes, "
-              "10 and 25 % on the worst"
+              "8 and 23 % on the worst"
             : "";
   return PlanSkip{Piece::Tractions,
                   fmt::format("the load law F ~ L^{:g} stands for it (Eq. friction.3){}",
                               s.fidelity.load_exponent, worst),
-                  field ? 0.10 : 0.02};
+                  field ? 0.085 : 0.02};
 }
 
 Entry coupling(const Setting& s) {

@@ -128,8 +128,8 @@ TEST(PlanPieces, OfADrivenSearchWithControls) {
         0}},
       {{"contact with tractions",
         "the load law F ~ L^0.84 stands for it (Eq. friction.3): within 4 % of F_on/F_off and 12 % "
-        "of the modulation on 95 % of 180 random scenes, 10 and 25 % on the worst",
-        0.10},
+        "of the modulation on 95 % of 180 random scenes, 8 and 23 % on the worst",
+        0.085},
        {"equilibrium",
         "one pass: the gap before the attractions gives them; an equilibrium would raise the "
         "modulation by 5 to 50 %",
