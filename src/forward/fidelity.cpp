@@ -13,7 +13,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
     f.field_tolerance = 1e-2;
-    f.coupling_tolerance = 5e-3;
+    f.coupling_tolerance = 1e-3;
     f.equilibrium_skins = 2;
     f.control_skins = 0;
     f.field_skins = 0;
@@ -23,7 +23,7 @@ Fidelity fidelity_level(const std::string& name) {
     f.skins = 16;
     f.estimator = Estimator::Load;
     f.contact_tolerance = 1e-3;
-    f.coupling_tolerance = 5e-3;
+    f.coupling_tolerance = 1e-3;
     f.field_skins = 1;
     f.balance_nodes = 1;
   } else if (name == "reference") {

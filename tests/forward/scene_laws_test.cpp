@@ -281,8 +281,8 @@ TEST(SceneLaws, TheLevelsOfAccuracyAreOneTable) {
     int nodes, controls, field_skins;
   };
   for (const Level& l :
-       {Level{"search", 128, 12, Estimator::Load, 1e-3, 1e-2, 16, 5e-3, 3, 0, 0},
-        Level{"draft", 128, 16, Estimator::Load, 1e-3, 1e-3, 16, 5e-3, 3, 4, 1},
+       {Level{"search", 128, 12, Estimator::Load, 1e-3, 1e-2, 16, 1e-3, 3, 0, 0},
+        Level{"draft", 128, 16, Estimator::Load, 1e-3, 1e-3, 16, 1e-3, 3, 4, 1},
         Level{"design", 256, 40, Estimator::Area, 1e-4, 1e-3, 16, 2e-3, 3, 4, 2},
         Level{"reference", 512, 96, Estimator::Area, 1e-6, 1e-5, 40, 5e-4, 6, 4, 6}}) {
     const Fidelity f = fidelity_level(l.name);

@@ -323,10 +323,13 @@ TEST(Optimise, ATargetIsMetByLeastSquares) {
   EXPECT_EQ(result.method, "least_squares");
   ASSERT_FALSE(result.finalists.empty());
   const StudyProblem problem(study);
-  const TaskAnswer answer = evaluate_task(problem, study.design, 0, {fidelity_level("search")});
-  ASSERT_TRUE(answer.status.ok()) << answer.status.text;
-  const Score own = problem.score({answer});
-  EXPECT_LT(result.finalists[0].searched.values[0], own.values[0]);
+  // A finalist may be a neighbour of what was searched, judged later: both are judged here, alike.
+  const auto distance = [&](const Design& design) {
+    const TaskAnswer answer = evaluate_task(problem, design, 0, {fidelity_level("search")});
+    EXPECT_TRUE(answer.status.ok()) << answer.status.text;
+    return answer.status.ok() ? problem.score({answer}).values.at(0) : kInfinity;
+  };
+  EXPECT_LT(distance(result.finalists[0].design), distance(study.design));
 }
 
 // A relief that nobody feels is no better than none: both are judged on the same skins.
