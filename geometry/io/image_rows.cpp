@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <vector>
@@ -21,25 +20,24 @@
 namespace papilla::geometry {
 namespace {
 
-namespace fs = std::filesystem;
 constexpr int kStripRows = 64;
 
-[[noreturn]] void broken(const std::string& path, const std::string& why) {
-  throw InputError("cannot read " + path + ": " + why);
+[[noreturn]] void broken(const RegularFile& file, std::string why) {
+  for (std::size_t at; (at = why.find(file.name())) != std::string::npos;)
+    why.replace(at, file.name().size(), file.path());  // a library knows that name alone
+  throw InputError("cannot read " + file.path() + ": " + why);
 }
 
 // OpenEXR makes room for what a header claims before it reads it: no attribute may be longer than
 // the file. Throws InputError; what else is wrong with the file is for the library to say.
-void check_exr_header(const std::string& path, bool any_size) {
-  std::ifstream file = open_regular(path);
-  file.seekg(0, std::ios::end);
-  const std::int64_t bytes = file.tellg();
-  file.seekg(0);
+void check_exr_header(const RegularFile& image, bool any_size) {
+  std::ifstream file = image.stream();
+  const auto bytes = static_cast<std::int64_t>(image.bytes());
   std::array<unsigned char, 8> start{};
   file.read(reinterpret_cast<char*>(start.data()), start.size());
   if (!file || start[0] != 0x76 || start[1] != 0x2f || start[2] != 0x31 || start[3] != 0x01)
-    broken(path, "no OpenEXR file");
-  if (start[5] & 0x18) broken(path, "an OpenEXR file of several or deep parts");
+    broken(image, "no OpenEXR file");
+  if (start[5] & 0x18) broken(image, "an OpenEXR file of several or deep parts");
   const auto word = [&] {
     std::array<unsigned char, 4> b{};
     file.read(reinterpret_cast<char*>(b.data()), b.size());
@@ -55,39 +53,36 @@ void check_exr_header(const std::string& path, bool any_size) {
     const std::string type = text();
     const std::int32_t length = word();
     const std::int64_t at = file.tellg();
-    if (!file || length < 0 || length > bytes - at) broken(path, "the header is cut off");
+    if (!file || length < 0 || length > bytes - at) broken(image, "the header is cut off");
     if (!any_size && name == "dataWindow" && type == "box2i" && length == 16) {
       std::array<double, 4> box{};
       for (double& v : box) v = word();
-      check_size(path, box[2] - box[0] + 1, box[3] - box[1] + 1);
+      check_size(image.path(), box[2] - box[0] + 1, box[3] - box[1] + 1);
     }
     file.seekg(at + length);
   }
-  if (!file) broken(path, "the header is cut off");
+  if (!file) broken(image, "the header is cut off");
 }
 
 // The image behind a file, with the reader of its ending alone: others would be tried on a broken
 // file.
-std::unique_ptr<ImageIn> open_image(const std::string& path, bool any_size) {
-  const std::string ending = lower_ending(path);
-  require_regular(path);
-  if (ending == ".exr") check_exr_header(path, any_size);
+std::unique_ptr<ImageIn> open_image(const RegularFile& file, bool any_size) {
+  const std::string ending = lower_ending(file.path());
+  if (ending == ".exr") check_exr_header(file, any_size);
   std::string why;
-  auto in = image_codec().open(path,
+  auto in = image_codec().open(file.name(),
                                ending == ".exr"   ? "openexr"
                                : ending == ".png" ? "png"
                                                   : "tiff",
                                why);
-  if (!in) broken(path, why);
+  if (!in) broken(file, why);
   const ImageSpec& spec = in->spec();
-  if (!any_size) check_size(path, spec.width, spec.height);
+  if (!any_size) check_size(file.path(), spec.width, spec.height);
   if (spec.depth != 1 || spec.channels.empty() || spec.channels.size() > 64)
-    broken(path, "not a plane image of at most 64 channels");
+    broken(file, "not a plane image of at most 64 channels");
   // Deflate packs 1032 to 1 at best: a header that claims much more is not worth its memory.
-  std::error_code error;
   const auto pixel_count = static_cast<double>(spec.width) * spec.height;
-  if (pixel_count > 2000 * static_cast<double>(fs::file_size(path, error)) || error)
-    broken(path, "the data are cut off");
+  if (pixel_count > 2000 * static_cast<double>(file.bytes())) broken(file, "the data are cut off");
   return in;
 }
 
@@ -117,7 +112,7 @@ std::string own_line(const std::string& description) {
 class ImageRows : public HeightRows {
  public:
   ImageRows(const std::string& path, bool any_size)
-      : path_(path), in_(open_image(path, any_size)), spec_(in_->spec()) {
+      : file_(path), in_(open_image(file_, any_size)), spec_(in_->spec()) {
     const auto named = std::find(spec_.channels.rbegin(), spec_.channels.rend(), "Y");
     if (named != spec_.channels.rend())
       channel_ = static_cast<std::size_t>(spec_.channels.rend() - named) - 1;
@@ -128,7 +123,7 @@ class ImageRows : public HeightRows {
     if (const std::string text = own_line(in_->text("ImageDescription")); !text.empty()) {
       read_description(text);
     } else if (whole && !read_gwyddion_heights()) {
-      broken(path_, "an integer image without its height scale; use a float image, .gsf or .npy");
+      broken(file_, "an integer image without its height scale; use a float image, .gsf or .npy");
     }
     if (whole) header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
     read_tags(*in_, header_.tag_x, header_.tag_y);
@@ -141,7 +136,7 @@ class ImageRows : public HeightRows {
       const int end = std::min(row_ + kStripRows, spec_.height);
       strip_.resize(static_cast<std::size_t>(end - row_) * width);
       const std::string why = in_->read_rows(row_, end, Sample::F32, strip_.data());
-      if (!why.empty()) broken(path_, why);
+      if (!why.empty()) broken(file_, why);
     }
     ++row_;
     const float* row = &strip_[static_cast<std::size_t>(in_strip) * width + channel_];
@@ -201,12 +196,12 @@ class ImageRows : public HeightRows {
     }
     if (spec_.sample != Sample::U16) return;
     if (!number("black_m", black) || !number("white_m", white))
-      broken(path_, "an integer image without its height scale");
+      broken(file_, "an integer image without its height scale");
     base_ = black;
     scale_ = white - black;
   }
 
-  std::string path_;
+  RegularFile file_;
   std::unique_ptr<ImageIn> in_;
   ImageSpec spec_;
   std::size_t channel_ = 0;
@@ -217,7 +212,7 @@ class ImageRows : public HeightRows {
 
 class CodecPicture : public PictureRows {
  public:
-  explicit CodecPicture(const std::string& path) : path_(path), in_(open_image(path, true)) {
+  explicit CodecPicture(const std::string& path) : file_(path), in_(open_image(file_, true)) {
     width = in_->spec().width;
     height = in_->spec().height;
     channels = static_cast<int>(in_->spec().channels.size());
@@ -225,12 +220,12 @@ class CodecPicture : public PictureRows {
   }
   void next(std::uint8_t* row) override {
     if (const std::string why = in_->read_rows(row_, row_ + 1, Sample::U8, row); !why.empty())
-      broken(path_, why);
+      broken(file_, why);
     ++row_;
   }
 
  private:
-  std::string path_;
+  RegularFile file_;
   std::unique_ptr<ImageIn> in_;
   int row_ = 0;
 };

@@ -48,11 +48,8 @@ class PlainRows : public HeightRows {
   }
 
  protected:
-  explicit PlainRows(const std::string& path) : path_(path), file_(open_regular(path)) {
-    file_.seekg(0, std::ios::end);
-    size_ = static_cast<std::uint64_t>(file_.tellg());
-    file_.seekg(0);
-  }
+  explicit PlainRows(const RegularFile& file)
+      : path_(file.path()), size_(file.bytes()), file_(file.stream()) {}
   // The first bytes of the file, as many as there are.
   std::string head(std::size_t most) {
     std::string out(std::min<std::uint64_t>(most, size_), '\0');
@@ -113,7 +110,7 @@ std::string trimmed(std::string s) {
 
 class GsfRows : public PlainRows {
  public:
-  explicit GsfRows(const std::string& path) : PlainRows(path) {
+  explicit GsfRows(const std::string& path) : PlainRows(RegularFile(path)) {
     const std::string bytes = head(std::size_t{1} << 20);
     if (!bytes.starts_with("Gwyddion Simple Field 1.0\n"))
       broken(path, "not a Gwyddion Simple Field");
@@ -159,7 +156,7 @@ std::string_view npy_value(const std::string& path, const std::string& header, c
 
 class NpyRows : public PlainRows {
  public:
-  explicit NpyRows(const std::string& path) : PlainRows(path) {
+  explicit NpyRows(const std::string& path) : PlainRows(RegularFile(path)) {
     const std::string bytes = head(std::size_t{1} << 17);
     if (bytes.size() < 12 || !bytes.starts_with("\x93NUMPY")) broken(path, "not a .npy file");
     const bool first = bytes[6] == 1;

@@ -23,13 +23,13 @@ std::string lower_ending(const std::string& path) {
 }
 
 std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size) {
-  require_regular(path);
   const std::string ending = lower_ending(path);
   if (ending == ".npy") return open_npy_rows(path);
   if (ending == ".gsf") return open_gsf_rows(path);
   if (ending == ".x3p") return open_x3p_rows(path);
   if (ending == ".exr" || ending == ".tif" || ending == ".tiff" || ending == ".png")
     return open_image_rows(path, any_size);
+  const RegularFile other(path);  // throws where that is what is wrong
   throw InputError("cannot read " + path + ": use .npy, .gsf, .exr, .tif or .x3p");
 }
 
@@ -45,7 +45,6 @@ Heightmap whole_map(HeightRows& rows, double width) {
 }
 
 Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_numbers) {
-  require_regular(path);
   const std::string ending = lower_ending(path);
   if (ending == ".png")
     throw InputError("cannot read " + path + ": use .npy, .gsf, .exr, .tif or .x3p");

@@ -76,7 +76,7 @@ class Zip {
 // wherever main.xml says.
 class X3pRows : public HeightRows {
  public:
-  explicit X3pRows(const std::string& path) : path_(path), archive_(opened(path)) {
+  explicit X3pRows(const std::string& path) : file_(path), archive_(opened()) {
     const std::string xml = text("main.xml", 1 << 20);
     pugi::xml_document document;
     if (!document.load_buffer(xml.data(), xml.size())) fail("its main.xml is no XML");
@@ -125,12 +125,11 @@ class X3pRows : public HeightRows {
   }
 
   [[noreturn]] void fail(const std::string& why) const {
-    throw InputError("cannot read " + path_ + ": " + why);
+    throw InputError("cannot read " + file_.path() + ": " + why);
   }
-  Archive opened(const std::string& path) const {
-    require_regular(path);
+  Archive opened() const {
     int code = 0;
-    Archive archive(zip_open(path.c_str(), ZIP_RDONLY, &code));
+    Archive archive(zip_open(file_.name().c_str(), ZIP_RDONLY, &code));
     if (archive) return archive;
     zip_error_t error;
     zip_error_init_with_code(&error, code);
@@ -192,7 +191,7 @@ class X3pRows : public HeightRows {
     heights_ = file(name);
   }
 
-  std::string path_;
+  RegularFile file_;
   Archive archive_;
   File heights_;
   std::string heights_sum_;

@@ -28,6 +28,13 @@ Handle opened(const std::string& path) {
   return out;
 }
 
+std::uint64_t regular_size(const Handle& file, const std::string& path) {
+  struct stat there {};
+  if (::fstat(file.get(), &there) != 0) unreadable(path, std::strerror(errno));
+  if (!S_ISREG(there.st_mode)) unreadable(path, "not a file");
+  return static_cast<std::uint64_t>(there.st_size);
+}
+
 }  // namespace
 
 std::string end_of_links(const std::string& path) {
@@ -52,28 +59,21 @@ void write_bytes(const std::string& path, std::string_view bytes) {
   out.commit();
 }
 
-void require_regular(const Handle& file, const std::string& path) {
-  struct stat there {};
-  if (::fstat(file.get(), &there) != 0) unreadable(path, std::strerror(errno));
-  if (!S_ISREG(there.st_mode)) unreadable(path, "not a file");
-}
+void require_regular(const Handle& file, const std::string& path) { regular_size(file, path); }
 
-void require_regular(const std::string& path) { require_regular(opened(path), path); }
+RegularFile::RegularFile(const std::string& path)
+    : path_(path), handle_(opened(path)), bytes_(regular_size(handle_, path)) {}
 
-std::ifstream open_regular(const std::string& path) {
-  const Handle file = opened(path);
-  require_regular(file, path);
-  // The same file, whatever the name means by now.
-  std::ifstream out(fmt::format("/proc/self/fd/{}", file.get()), std::ios::binary);
-  if (!out) unreadable(path, "it does not open");
+std::string RegularFile::name() const { return fmt::format("/proc/self/fd/{}", handle_.get()); }
+
+std::ifstream RegularFile::stream() const {
+  std::ifstream out(name(), std::ios::binary);
+  if (!out) unreadable(path_, "it does not open");
   return out;
 }
 
 std::string read_bytes(const Handle& file, const std::string& path, std::size_t limit) {
-  require_regular(file, path);
-  struct stat there {};
-  if (::fstat(file.get(), &there) != 0) unreadable(path, std::strerror(errno));
-  const auto size = static_cast<std::size_t>(there.st_size);
+  const auto size = static_cast<std::size_t>(regular_size(file, path));
   if (size > limit)
     unreadable(path, fmt::format("{} bytes are more than the limit of {}", size, limit));
   std::string bytes(size, '\0');

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -24,10 +25,24 @@ void write_bytes(const std::string& path, std::string_view bytes);
 // limit.
 std::string read_bytes(const std::string& path, std::size_t limit = std::size_t{1} << 31);
 std::string read_bytes(const Handle& file, const std::string& path, std::size_t limit);
-// To read piece by piece. Throws InputError.
-std::ifstream open_regular(const std::string& path);
-// For who opens by names. Throws InputError.
-void require_regular(const std::string& path);
+// Throws InputError.
 void require_regular(const Handle& file, const std::string& path);
+
+// A regular file that is held open, so that a library which opens by names opens this one, whatever
+// its path means by then. Throws InputError where there is none.
+class RegularFile {
+ public:
+  explicit RegularFile(const std::string& path);
+
+  const std::string& path() const { return path_; }
+  std::string name() const;  // for as long as this lives
+  std::uint64_t bytes() const { return bytes_; }
+  std::ifstream stream() const;  // outlives this; to read piece by piece
+
+ private:
+  std::string path_;
+  Handle handle_;
+  std::uint64_t bytes_ = 0;
+};
 
 }  // namespace papilla::base

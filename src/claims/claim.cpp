@@ -26,6 +26,18 @@ std::string verdict_name(Verdict verdict) {
   return "";
 }
 
+std::string basis_name(Basis basis) {
+  switch (basis) {
+    case Basis::Finger:
+      return "of the finger";
+    case Basis::Input:
+      return "input";
+    case Basis::Identity:
+      return "identity";
+  }
+  return "";
+}
+
 Judgement agrees_if(bool agrees, double value, double se, std::string model, std::string reason) {
   return {agrees ? Verdict::Agrees : Verdict::Differs, value, se, std::move(model),
           std::move(reason)};
@@ -115,7 +127,7 @@ std::vector<Claim> joined(std::vector<std::vector<Claim>> lists) {
 
 Claim m3_claim(const char* id, const char* statement, const char* band,
                std::function<Judgement(FingerModel&)> judge) {
-  return {id, "M3 model (Ma et al. 2025)", statement, band, true, std::move(judge)};
+  return {id, "M3 model (Ma et al. 2025)", statement, band, true, std::move(judge), Basis::Finger};
 }
 
 std::vector<Claim> m3_claims() {

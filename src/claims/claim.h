@@ -38,6 +38,15 @@ struct Judgement {
   std::optional<double> single{};
 };
 
+// Where the number of a claim comes from: what it can prove.
+enum class Basis {
+  Finger,    // the model of the finger
+  Input,     // a number of the finger file as it stands
+  Identity,  // a paper's formulas with the paper's own numbers
+};
+inline constexpr std::array kBases{Basis::Finger, Basis::Input, Basis::Identity};
+std::string basis_name(Basis basis);  // "of the finger", "input", "identity"
+
 struct Claim {
   std::string id;         // "M13"
   std::string source;     // the paper
@@ -45,6 +54,7 @@ struct Claim {
   std::string band;       // when it agrees
   bool both_presets = false;
   std::function<Judgement(FingerModel&)> judge;
+  Basis basis = Basis::Identity;
 };
 
 // All claims, in the order of the papers; ids are unique.

@@ -11,6 +11,7 @@
 #include "forward/scene_terms.h"
 #include "published/samples.h"
 #include "published/targets.h"
+#include "scene/belief.h"
 
 namespace papilla::claims {
 namespace {
@@ -18,6 +19,9 @@ namespace {
 // 5 to 10 um3 at 75 % RH; the volumes at other humidities are in a supplement that is not to be
 // had, so they take the same shares of the mean.
 constexpr double kVolumes[] = {2.0 / 3, 4.0 / 3};
+
+// Of the printed numbers at a member of the belief.
+const SkinSampling kMemberSampling{"draft", 8, 0, 0};
 
 struct Shown {
   std::string figures, sample;
@@ -127,9 +131,9 @@ Estimate variation(FingerModel& model, const char* sample, double angle) {
 std::vector<PublishedTarget> printed_numbers() {
   std::vector<PublishedTarget> out;
   for (PublishedTarget& target : published_targets()) {
-    // Trends have no number of the paper's; the gap is another paper's.
-    const bool words = target.claim == "M9" || target.claim == "M10" || target.claim == kGapTarget;
-    if (!words) out.push_back(std::move(target));
+    // Trends have no number.
+    if (std::isfinite(target.low) && std::isfinite(target.high) && target.claim != "M10")
+      out.push_back(std::move(target));
   }
   out.push_back({"M14", "sd/mean of the modulation over humidity, flat 50°, %", 27.3, 27.3, 5,
                  [](FingerModel& model) { return variation(model, "flat", 0); }});
@@ -138,11 +142,41 @@ std::vector<PublishedTarget> printed_numbers() {
   return out;
 }
 
+// What belief leaves of each number: its spread over the members, on the skins of a draft.
+void add_input_errors(std::vector<PrintedNumber>& printed,
+                      const std::vector<PublishedTarget>& targets, const FigureOptions& options) {
+  if (options.finger.belief.empty()) return;
+  const Belief belief = belief_of(options.finger);
+  const std::size_t count = printed.size();
+  std::vector<double> mean(count, 0), squares(count, 0);
+  for (std::size_t k = 0; k < belief.members.size(); ++k) {
+    if (options.started)
+      options.started(fmt::format("belief, member {} of {}", k + 1, belief.members.size()));
+    const BeliefMember& member = belief.members[k];
+    MemberScene at = with_member(belief, member, options.finger, options.finger.calibrated_for);
+    at.finger.calibrated_for = at.model;
+    FingerModel model(at.finger, Preset::Papilla, options.threads, kMemberSampling);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double value = targets[i].model(model).value;
+      mean[i] += member.weight * value;
+      squares[i] += member.weight * square(value);
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    printed[i].input_sd = std::sqrt(std::max(0.0, squares[i] - square(mean[i])));
+}
+
 }  // namespace
 
 double PrintedNumber::deviation(const Estimate& model) const {
   const double nearest = std::clamp(model.value, low, high);
   return model.value / nearest - 1;
+}
+
+double PrintedNumber::error() const { return papilla.value - std::clamp(papilla.value, low, high); }
+
+double PrintedNumber::validation_sd() const {
+  return std::sqrt(square(papilla.se) + square(input_sd.value_or(0)) + square(published_sd));
 }
 
 FigureTables figure_tables(const FigureOptions& options) {
@@ -159,11 +193,13 @@ FigureTables figure_tables(const FigureOptions& options) {
     add_rows(m3, shown, out.rows);
   }
   if (options.started) options.started("printed numbers");
-  for (const PublishedTarget& target : printed_numbers()) {
-    if (!wanted(target.claim)) continue;
-    out.printed.push_back({target.claim, target.what, target.low, target.high,
+  std::vector<PublishedTarget> targets = printed_numbers();
+  std::erase_if(targets, [&](const PublishedTarget& t) { return !wanted(t.claim); });
+  for (const PublishedTarget& target : targets) {
+    out.printed.push_back({target.claim, target.what, target.low, target.high, target.sd,
                            target.model(papilla), target.model(m3)});
   }
+  add_input_errors(out.printed, targets, options);
   return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,17 @@ struct FigureRow {
   FigureValue contact_area;     // [m^2] of the finger, off
 };
 
-// A number that the paper prints, or the range that it gives.
+// A number that a paper prints, or the range that it gives, and the model's. Eq. accuracy.16
 struct PrintedNumber {
   std::string claim, what;
   double low = 0, high = 0;
-  Estimate papilla, m3;
+  double published_sd = 0;           // u_D: what its words leave
+  Estimate papilla, m3;              // se: u_num, over skins
+  std::optional<double> input_sd{};  // u_input of `papilla` by the finger's belief; nothing: none
 
   double deviation(const Estimate& model) const;  // from the nearest of the range, a share of it
+  double error() const;                           // E of `papilla`, from the nearest of the range
+  double validation_sd() const;                   // u_val; without belief its part is missing
 };
 
 struct FigureTables {
@@ -52,7 +57,8 @@ struct FigureOptions {
   std::function<void(const std::string& sample)> started;
 };
 
-// Both presets. Cost: about three minutes on two cores.
+// Both presets, and the printed numbers at every member of the finger's belief (drafts). Cost:
+// about three minutes on two cores without belief.
 FigureTables figure_tables(const FigureOptions& options);
 
 }  // namespace papilla::claims

@@ -63,9 +63,11 @@ class Series {
     fidelity.threads = options.threads;
     for (const Setting& setting : settings) {
       Design design = read_design(find_design("m3_samples/" + sample + ".toml"), setting.keys);
-      const double load = design.finger.load;
+      const Finger touch = design.finger;
       design.finger = options.finger;
-      design.finger.load = load;
+      design.finger.load = touch.load;
+      design.finger.state = touch.state;
+      design.finger.touch_time = touch.touch_time;
       design.model = options.finger.calibrated_for;
       responses_.push_back(evaluate(scene_of(design), design.texture, fidelity));
     }
@@ -179,13 +181,13 @@ class Predictor {
     started("frequency");
     for (const char* resistivity : {"1e14 ohm m", "1e8 ohm m"}) {
       std::vector<Setting> settings;
-      for (const int hertz : {30, 100, 300, 1000, 5000})
+      for (const int hertz : {10, 30, 100, 300, 1000, 5000, 25000})
         settings.push_back({static_cast<double>(hertz),
                             fmt::format("{} Hz", hertz),
                             {humidity(kHumidity), fmt::format("drive.frequency=\"{} Hz\"", hertz),
                              fmt::format("surface.dielectric.0.resistivity=\"{}\"", resistivity)}});
       const Series series(options_, "flat", settings);
-      add(series.ratio("added friction, 5 kHz over 30 Hz",
+      add(series.ratio("added friction, 25 kHz over 10 Hz",
                        fmt::format("flat glass, 200 V, film of {}, 55 % RH", resistivity), added));
     }
   }
@@ -200,6 +202,54 @@ class Predictor {
       add(series.ratio("friction, 80 % over 40 % RH", std::string(text) + ", 0.2 N, no voltage",
                        friction_off));
     }
+  }
+
+  void over_current() {
+    started("current");
+    std::vector<Setting> settings;
+    for (const int microamperes : {50, 100, 200})
+      settings.push_back(
+          {static_cast<double>(microamperes),
+           fmt::format("{} uA", microamperes),
+           {humidity(kHumidity), "drive.control=\"current\"", "drive.amplitude=\"0 V\"",
+            fmt::format("drive.current=\"{} uA\"", microamperes)}});
+    add(Series(options_, "flat", settings)
+            .exponent("added friction over current",
+                      "flat glass, 50 to 200 uA, 5 kHz, 0.2 N, 55 % RH", added));
+  }
+
+  // Water softens the stratum corneum; how much contact that adds depends on the relief it closes.
+  void wet_over_clean() {
+    started("wet over clean");
+    for (const auto& [sample, text] :
+         {std::pair{"flat", "smooth glass"}, {"screen_rough", "glass etched to 193 nm rms"}}) {
+      for (const char* load : {"0.05 N", "0.2 N", "1 N"}) {
+        std::vector<Setting> settings;
+        for (const char* state : {"clean", "wet"})
+          settings.push_back({0,
+                              state,
+                              {humidity(kHumidity), "drive.amplitude=\"0 V\"",
+                               fmt::format("finger.load=\"{}\"", load),
+                               fmt::format("finger.state=\"{}\"", state)}});
+        add(Series(options_, sample, settings)
+                .ratio("friction, wet over clean",
+                       fmt::format("{}, {}, 55 % RH, no voltage", text, load), friction_off));
+      }
+    }
+  }
+
+  // Glass keeps the sweat in: the stratum corneum below it takes it up.
+  void over_touch_time() {
+    started("touch time");
+    std::vector<Setting> settings;
+    for (const int seconds : {1, 5, 30})
+      settings.push_back({static_cast<double>(seconds),
+                          fmt::format("{} s", seconds),
+                          {humidity(0.35), "drive.amplitude=\"0 V\"",
+                           fmt::format("finger.touch_time=\"{} s\"", seconds)}});
+    add(Series(options_, "flat", settings)
+            .ratio("friction, 30 s over 1 s of touch", "flat glass, 0.2 N, 35 % RH, no voltage",
+                   friction_off));
   }
 
   void adhesion() {
@@ -283,7 +333,10 @@ std::vector<Prediction> predictions(const PredictOptions& options) {
   predictor.over_load();
   predictor.over_voltage();
   predictor.over_frequency();
+  predictor.over_current();
   predictor.over_humidity();
+  predictor.wet_over_clean();
+  predictor.over_touch_time();
   predictor.adhesion();
   predictor.look();
   predictor.felt();

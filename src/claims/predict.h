@@ -34,8 +34,9 @@ struct PredictOptions {
   std::function<void(const std::string& experiment)> started;
 };
 
-// In the order of the experiments: load, voltage, frequency, humidity and roughness, adhesion, look
-// of etched glass, voltages that are felt. Cost: about a minute.
+// In the order of the experiments: load, voltage, frequency, current, humidity and roughness, wet
+// skin, touch time, adhesion, look of etched glass, voltages that are felt. Cost: about two
+// minutes.
 std::vector<Prediction> predictions(const PredictOptions& options);
 
 // Adds what the finger's belief leaves of each: the same experiments at every member, on few skins

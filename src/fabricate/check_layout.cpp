@@ -258,7 +258,7 @@ bool stands(const Triangle& t) {
 // A binary STL, one triangle at a time.
 class Triangles {
  public:
-  explicit Triangles(const std::string& path) : path_(path), file_(open_regular(path)) {
+  explicit Triangles(const std::string& path) : path_(path), file_(RegularFile(path).stream()) {
     std::array<char, 84> head{};
     get(head.data(), head.size());
     std::memcpy(&count, &head[80], 4);

@@ -30,13 +30,21 @@ std::string escaped(std::string text) {  // of a Markdown table
   return text;
 }
 
+// What each kind of claim can prove differs, so they are counted apart.
 std::string counts_text(const std::vector<ClaimResult>& results) {
   std::string out;
-  for (const Verdict verdict : kVerdicts) {
-    const auto count = std::count_if(results.begin(), results.end(), [&](const ClaimResult& r) {
-      return r.papilla.verdict == verdict;
-    });
-    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", count, verdict_name(verdict));
+  for (const Basis basis : kBases) {
+    std::string verdicts;
+    int all = 0;
+    for (const Verdict verdict : kVerdicts) {
+      const auto count = std::count_if(results.begin(), results.end(), [&](const ClaimResult& r) {
+        return r.claim->basis == basis && r.papilla.verdict == verdict;
+      });
+      all += static_cast<int>(count);
+      if (count > 0) verdicts += fmt::format(", {} {}", count, verdict_name(verdict));
+    }
+    if (all > 0)
+      out += fmt::format("{}{} {}{}", out.empty() ? "" : "; ", all, basis_name(basis), verdicts);
   }
   return out;
 }
@@ -69,7 +77,10 @@ std::string claims_text(const std::vector<ClaimResult>& results) {
 std::string claims_markdown(const std::vector<ClaimResult>& results, const std::string& finger) {
   std::string out = fmt::format(
       "# Published claims and the model\n\nWritten by `papilla reproduce --out` for the finger "
-      "\"{}\".\n\n{} claims: {}.\n\n| id | paper says | agrees when | model | verdict | reason | "
+      "\"{}\".\n\n{} claims: {}. An input is a number of the finger file as it stands; an identity "
+      "is a paper's formula "
+      "with the paper's own numbers. Neither says anything for the model of the finger.\n\n| id | "
+      "paper says | agrees when | model | verdict | reason | "
       "single patches | preset m3 |\n|---|---|---|---|---|---|---|---|\n",
       finger, results.size(), counts_text(results));
   for (const ClaimResult& r : results) {
@@ -116,7 +127,8 @@ std::string claims_json(const std::vector<ClaimResult>& results) {
     Json row{{"id", r.claim->id},
              {"source", r.claim->source},
              {"paper", r.claim->statement},
-             {"agrees_when", r.claim->band}};
+             {"agrees_when", r.claim->band},
+             {"basis", basis_name(r.claim->basis)}};
     row.update(judgement(r.papilla));
     if (r.claim->both_presets) row["m3"] = judgement(r.m3);
     row["seconds"] = r.seconds;

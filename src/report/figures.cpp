@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <set>
 
 #include "report/tables.h"
@@ -118,10 +119,22 @@ std::string figures_markdown(const FigureTables& tables, const std::string& fing
       "bars. The paper prints no values of its curves; what its text prints comes first.\n\n"
       "## Printed numbers\n\n",
       finger);
-  out += markdown_head({"claim", "what", "paper", "papilla", "preset m3"});
-  for (const PrintedNumber& p : tables.printed)
-    out += markdown_row(
-        {p.claim, p.what, range_text(p), model_text(p, p.papilla), model_text(p, p.m3)});
+  out += markdown_head({"claim", "what", "paper", "papilla", "preset m3", "E", "u_num", "u_input",
+                        "u_D", "u_val", "\\|E\\|/u_val"});
+  const auto digits = [](double v) { return fmt::format("{:.2g}", v); };
+  for (const PrintedNumber& p : tables.printed) {
+    out +=
+        markdown_row({p.claim, p.what, range_text(p), model_text(p, p.papilla), model_text(p, p.m3),
+                      fmt::format("{:+.2g}", p.error()), digits(p.papilla.se),
+                      p.input_sd ? digits(*p.input_sd) : "no belief", digits(p.published_sd),
+                      digits(p.validation_sd()), digits(std::abs(p.error()) / p.validation_sd())});
+  }
+  out +=
+      "\nE: what the finger \"papilla\" misses the nearest printed value by. Its uncertainty u_val "
+      "(ASME V&V 20; Eq. accuracy.16) is the root of the squares of u_num (sampling of the "
+      "skins), u_input (belief in the finger) and u_D (what the paper's words leave). A claim "
+      "whose "
+      "numbers the finger was fitted to proves nothing by a small E.\n";
   for (const Column& column : columns()) out += quantity_table(tables, column);
   return out;
 }

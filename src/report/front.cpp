@@ -41,7 +41,7 @@ SvgSeries confirmed(const CsvTable& front, const std::string& x, const std::stri
 
 std::string front_svg(const std::string& folder) {
   const Folder root(folder);
-  const CsvTable front = read_csv(root.file("pareto.csv"));
+  const CsvTable front = read_csv(root, "pareto.csv");
   std::vector<std::string> objectives;
   for (const std::string& name : front.header) {
     if (front.has(name + " se")) objectives.push_back(name);
@@ -49,7 +49,7 @@ std::string front_svg(const std::string& folder) {
   if (objectives.size() < 2)
     throw InputError(folder + "/pareto.csv: a picture of a front needs two objectives");
   std::optional<CsvTable> history;
-  if (root.has("history.csv")) history = read_csv(root.file("history.csv"));
+  if (root.has("history.csv")) history = read_csv(root, "history.csv");
   std::vector<SvgPlot> plots;
   for (std::size_t k = 1; k < objectives.size(); ++k) {
     const std::string &x = objectives[k], &y = objectives[0];

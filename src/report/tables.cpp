@@ -37,11 +37,13 @@ std::vector<double> CsvTable::numbers(const std::string& name) const {
   return out;
 }
 
-CsvTable read_csv(const std::string& path) {
+namespace {
+
+CsvTable table_of(const std::string& text, const std::string& path) {
   CsvTable table;
   table.path = path;
   int number = 0;
-  for (const std::string& line : split(read_bytes(path), '\n')) {
+  for (const std::string& line : split(text, '\n')) {
     ++number;
     if (line.empty()) continue;
     if (line.front() == '#') {
@@ -57,6 +59,14 @@ CsvTable read_csv(const std::string& path) {
     }
   }
   return table;
+}
+
+}  // namespace
+
+CsvTable read_csv(const std::string& path) { return table_of(read_bytes(path), path); }
+
+CsvTable read_csv(const Folder& folder, const std::string& name) {
+  return table_of(folder.read(name), folder.path(name));
 }
 
 std::string csv_cell(std::string text) {

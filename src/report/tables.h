@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/folder.h"
 #include "base/rooms.h"
 
 namespace papilla::report {
@@ -21,6 +22,7 @@ struct CsvTable {
 };
 // Throws InputError with the place of a row that is not as long as the header.
 CsvTable read_csv(const std::string& path);
+CsvTable read_csv(const Folder& folder, const std::string& name);
 
 // A text as one cell of such a table: commas become semicolons.
 std::string csv_cell(std::string text);

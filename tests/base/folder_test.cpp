@@ -168,18 +168,28 @@ TEST_F(FolderTest, ReadsRegularFilesAlone) {
     EXPECT_THROW(folder_.open_to_write(name), InputError) << name;
     EXPECT_EQ(refusal([&] { read_bytes(path(name)); }),
               "cannot read " + path(name) + ": not a file");
-    EXPECT_EQ(refusal([&] { base::open_regular(path(name)); }),
-              "cannot read " + path(name) + ": not a file");
-    EXPECT_EQ(refusal([&] { base::require_regular(path(name)); }),
+    EXPECT_EQ(refusal([&] { base::RegularFile(path(name)); }),
               "cannot read " + path(name) + ": not a file");
   }
   ::close(socket);
   for (const char* device : {"/dev/zero", "/dev/null"}) {
     EXPECT_EQ(refusal([&] { read_bytes(device); }),
               std::string("cannot read ") + device + ": not a file");
-    EXPECT_EQ(refusal([&] { base::open_regular(device); }),
+    EXPECT_EQ(refusal([&] { base::RegularFile{device}; }),
               std::string("cannot read ") + device + ": not a file");
   }
+}
+
+TEST_F(FolderTest, AFileThatIsHeldIsReadByNameWhateverItsPathMeansByThen) {
+  folder_.write("map", "heights");
+  const base::RegularFile held(path("map"));
+  EXPECT_EQ(held.bytes(), 7u);
+  folder_.remove("map");
+  ASSERT_EQ(::mkfifo(path("map").c_str(), 0600), 0);
+  for (int k = 0; k < 2; ++k) EXPECT_EQ(read_bytes(held.name()), "heights");
+  std::string first;
+  held.stream() >> first;
+  EXPECT_EQ(first, "heights");
 }
 
 TEST_F(FolderTest, IsLockedByOneProcess) {

@@ -68,8 +68,8 @@ TEST(FiguresOfOneRun, ThePresetsDifferAsThePaperHasIt) {
 }
 
 TEST(FiguresOfOneRun, PrintedNumbersStandBesideTheModels) {
-  EXPECT_EQ(tables().printed.size(), 10u);
-  const PrintedNumber ranged{"M5", "", 22.3, 24.1, {12.05, 1}, {23, 1}};
+  EXPECT_EQ(tables().printed.size(), 11u);
+  const PrintedNumber ranged{"M5", "", 22.3, 24.1, 4, {12.05, 1}, {23, 1}};
   EXPECT_NEAR(ranged.deviation(ranged.papilla), 12.05 / 22.3 - 1, 1e-12);
   EXPECT_EQ(ranged.deviation(ranged.m3), 0);
   for (const PrintedNumber& n : tables().printed) {

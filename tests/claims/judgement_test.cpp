@@ -95,6 +95,22 @@ TEST(Judgement, ADeviationIsFromTheNearestOfAPrintedRange) {
   EXPECT_DOUBLE_EQ(p.deviation({15, 1}), -0.25);
 }
 
+TEST(Judgement, AnErrorStandsBesideAllThatIsUncertainOfIt) {
+  PrintedNumber p;
+  p.low = 20;
+  p.high = 25;
+  p.published_sd = 2;
+  p.papilla = {22, 1};
+  EXPECT_EQ(p.error(), 0);
+  p.papilla = {30, 1};
+  EXPECT_DOUBLE_EQ(p.error(), 5);
+  EXPECT_DOUBLE_EQ(p.validation_sd(), std::sqrt(5.0));
+  p.papilla.value = 15;
+  p.input_sd = 2;
+  EXPECT_DOUBLE_EQ(p.error(), -5);
+  EXPECT_DOUBLE_EQ(p.validation_sd(), 3);
+}
+
 TEST(M3Claims, AreNumberedInOrderAndAskForBothPresets) {
   int before = 0;
   for (const Claim& c : m3_claims()) {

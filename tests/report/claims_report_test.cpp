@@ -12,7 +12,7 @@ namespace papilla::tests {
 namespace {
 
 struct Judged {
-  std::vector<Claim> claims{{"M1", "a, paper", "it rises", "above 2", true, {}},
+  std::vector<Claim> claims{{"M1", "a, paper", "it rises", "above 2", true, {}, Basis::Finger},
                             {"P2", "b", "it \"falls\" | f", "ever", false, {}}};
   std::vector<ClaimResult> results{2};
 

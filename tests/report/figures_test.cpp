@@ -31,8 +31,8 @@ FigureTables made_up() {
             row("4d,e", "screen", Preset::Papilla, 0.75, 20),
             row("4a", "flat", Preset::Papilla, 0.35, 1)};
   t.rows[2].state = t.rows[3].state = "wet";
-  t.printed = {{"M2", "rise", 1.5, 2.5, {2, 0.1}, {3, 0}},
-               {"M7", "share", 0.5, 0.5, {0.4, 0.02}, {1, 0}}};
+  t.printed = {{"M2", "rise", 1.5, 2.5, 0.2, {2, 0.1}, {3, 0}},
+               {"M7", "share", 0.5, 0.5, 0.03, {0.4, 0.02}, {1, 0}, 0.06}};
   return t;
 }
 
@@ -57,11 +57,17 @@ TEST(FiguresReport, ALineHasEachNumberWithItsErrorAndLimitsInItsUnit) {
 TEST(FiguresReport, AQuantityHasARowASurfaceOverHumidity) {
   const std::string page = figures_markdown(made_up(), "mine");
   EXPECT_NE(page.find("for the finger \"mine\""), std::string::npos);
-  EXPECT_NE(page.find("## Printed numbers\n\n| claim | what | paper | papilla | preset m3 |\n"
-                      "|---|---|---|---|---|\n"
-                      "| M2 | rise | 1.5 to 2.5 | 2 ± 0.1 (+0 %) | 3 (+20 %) |\n"
-                      "| M7 | share | 0.5 | 0.4 ± 0.02 (-20 %) | 1 (+100 %) |\n"
-                      "\n## Fig. 2d: capillary force on a patch, off [uN]\n\n"
+  EXPECT_NE(
+      page.find("## Printed numbers\n\n| claim | what | paper | papilla | preset m3 | E | "
+                "u_num | u_input | u_D | u_val | \\|E\\|/u_val |\n"
+                "|---|---|---|---|---|---|---|---|---|---|---|\n"
+                "| M2 | rise | 1.5 to 2.5 | 2 ± 0.1 (+0 %) | 3 (+20 %) | +0 | 0.1 | no belief "
+                "| 0.2 | 0.22 | 0 |\n"
+                "| M7 | share | 0.5 | 0.4 ± 0.02 (-20 %) | 1 (+100 %) | -0.1 | 0.02 | 0.06 | "
+                "0.03 | 0.07 | 1.4 |\n\nE: what"),
+      std::string::npos)
+      << page;
+  EXPECT_NE(page.find("\n## Fig. 2d: capillary force on a patch, off [uN]\n\n"
                       "| sample | finger | preset | 15 % RH | 75 % RH |\n|---|---|---|---|---|\n"
                       "| a, b | clean | m3 | 2 ± 0.2 [1.6, 2.5] | 4 ± 0.4 [3.2, 5] |\n"
                       "| screen | wet | papilla | 20 ± 2 [16, 25] | 40 ± 4 [32, 50] |\n"
