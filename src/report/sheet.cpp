@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "design/families.h"
 #include "metrics/shown.h"
+#include "report/decision.h"
 #include "report/json.h"
 #include "report/remarks.h"
 #include "report/tables.h"
@@ -484,7 +485,7 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Texture:
       break;
   }
-  return worth_building(f) + rounding_text(f) + unstable_text(f);
+  return worth_building(f) + decision_sentence(f) + rounding_text(f) + unstable_text(f);
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {
@@ -568,6 +569,7 @@ std::string run_json(const ResultFiles& f) {
   out["textured"] = facts(built_design(f).texture).relief.present;
   out["stable"] = Json();
   if (const auto place = checked_place(f)) out["stable"] = f.result.stability.stable(*place);
+  out["decision"] = decision_json(f);
   out["finish"] = finish_text(f);
   out["sheet"] = Json::array();
   for (const SheetRow& row : sheet_rows(f)) out["sheet"].push_back(row_json(row));

@@ -80,7 +80,12 @@ FinalDesign finalist(Run& run, const Point& unit) {
   f.unit = unit;
   f.design = run.problem.space().design(unit);
   f.searched = searched_score(run, unit);
-  f.confirmed = run.replay.scores({unit}, Stage::Confirm, false, run.confirm_seconds).front();
+  std::vector<TaskRequest> requests;
+  for (std::size_t t = 0; t < run.problem.tasks().size(); ++t)
+    requests.push_back({Stage::Confirm, t, false, unit, run.confirm_seconds});
+  f.answers = run.replay.answers(requests);
+  f.confirmed = run.problem.score(f.answers);
+  for (TaskAnswer& answer : f.answers) answer.report.clear();
   f.feasible = run.problem.feasible(f.confirmed, f.design);
   return f;
 }
@@ -146,6 +151,13 @@ void judge(Run& run) {
     f.on_front = f.feasible;
     if (!f.feasible && f.confirmed.ok) f.folder = "best";
   }
+  order_finalists(run);
+}
+
+}  // namespace
+
+void order_finalists(Run& run) {
+  OptimiseResult& result = run.result;
   const bool maximise = run.problem.objectives()[0].maximise;
   std::stable_sort(result.finalists.begin(), result.finalists.end(),
                    [&](const FinalDesign& a, const FinalDesign& b) {
@@ -160,8 +172,6 @@ void judge(Run& run) {
     if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
   }
 }
-
-}  // namespace
 
 bool narrow(Run& run) {
   const std::size_t count = narrowings(run.search);
