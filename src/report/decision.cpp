@@ -65,6 +65,11 @@ std::string reversal_text(const ResultFiles& f, const std::string& where, const 
                      where, name_of(f, r.best), percent(best.p_limits));
 }
 
+// "207 nm", three digits.
+std::string in_digits(double si, const std::string& unit) {
+  return significant(si / find_unit(unit)->to_si, 3) + (unit.empty() ? "" : " " + unit);
+}
+
 // "where finger.skin.rms is below 207 nm"
 std::string parameter_text(const ResultFiles& f, const char* word) {
   const HalvesReversal& p = *decision_of(f).parameter;
@@ -72,7 +77,7 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
   const std::vector<NumberField> known = number_fields(finger);
   const NumberField field = find_number_field(known, p.path);
   return fmt::format("where finger.{} is {} {}", p.path, word,
-                     format_quantity(p.edge, field.unit));
+                     in_digits(p.edge, field.unit));
 }
 
 // Each hypothesis and the parameter that another design is better under.

@@ -11,6 +11,7 @@
 #include "report/decision.h"
 #include "report/remarks.h"
 #include "report/sheet.h"
+#include "report/unstable.h"
 
 namespace papilla::report {
 namespace {
@@ -202,6 +203,11 @@ std::string stability_text(const ResultFiles& f) {
   for (std::size_t i = 0; i < judged; ++i) {
     out += fmt::format(" {} of {}{} |", s.times_on_front[i], s.variants.size(),
                        s.stable(i) ? "" : ", **unstable**");
+  }
+  out += "\n";
+  for (std::size_t i = 0; i < judged; ++i) {
+    if (const std::string why = unstable_text(f, i); !why.empty())
+      out += "\n- " + f.result.finalists[i].folder + ":" + why;
   }
   return out + "\n";
 }

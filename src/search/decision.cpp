@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "base/check.h"
 #include "config/describe.h"
@@ -102,17 +101,20 @@ std::vector<MemberNumber> numbers_of(const Belief& belief, const Scene& scene) {
   return all;
 }
 
-MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& front,
-                         const std::function<double(const Score&)>& worth) {
+}  // namespace
+
+MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,
+                         const PickRule& rule, const std::vector<Extent>& extents) {
   MemberWorth out;
   for (const BeliefMember& m : problem.belief()->members) out.weights.push_back(m.weight);
-  for (const FinalDesign& f : front) {
+  for (const FinalDesign& f : designs) {
     std::vector<double>& values = out.worth.emplace_back();
     std::vector<std::vector<bool>>& kept = out.kept.emplace_back(
         problem.study().constraints.size(), std::vector<bool>(f.members.size(), false));
     for (std::size_t m = 0; m < f.members.size(); ++m) {
       const Score& there = f.members[m];
-      values.push_back(there.ok ? worth(there) : std::nan(""));
+      values.push_back(
+          there.ok ? pick_worth(rule, pick_candidate(problem, there), extents) : std::nan(""));
       if (!there.ok) continue;
       const std::vector<LimitValue> limits = problem.constraints().values(f.design, there);
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][m] = limits[k].kept();
@@ -120,8 +122,6 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
   }
   return out;
 }
-
-}  // namespace
 
 PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
   PickCandidate out;
@@ -185,19 +185,16 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
         pick_worth(out.rule, candidates[out.nominal], of_front))
       out.nominal = i;
   }
-  const MemberWorth worth = member_worth(problem, front, [&](const Score& there) {
-    return pick_worth(out.rule, pick_candidate(problem, there), of_front);
-  });
+  const MemberWorth worth = member_worth(problem, front, out.rule, of_front);
   const double limits = problem.study().risk.limits;
   out.designs = prospects(worth, problem.belief_risk());
   out.best = chosen(out.designs, limits);
   out.best_worth = best_worth(worth);
   for (std::size_t k = 0; k < problem.objectives().size(); ++k) {
     std::vector<double>& p = out.p_best_by.emplace_back();
-    const MemberWorth by = member_worth(problem, front, [&](const Score& there) {
-      return -problem.outcome(there).objectives[k];
-    });
-    for (const Prospect& design : prospects(by, {})) p.push_back(design.p_best);
+    const PickRule by{PickRule::Kind::Objective, k};
+    for (const Prospect& design : prospects(member_worth(problem, front, by, of_front), {}))
+      p.push_back(design.p_best);
   }
   out.hypotheses = by_group(worth, problem.belief_risk(), limits, hypotheses_of(belief));
   const Scene scene =

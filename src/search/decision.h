@@ -46,6 +46,10 @@ Score score_at(const StudyProblem& problem, const std::vector<TaskAnswer>& confi
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,
                                      const std::vector<FinalDesign>& finalists);
 
+// What designs are worth to a rule at each member; extents: of the front, for the knee.
+MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,
+                         const PickRule& rule, const std::vector<Extent>& extents);
+
 // Of the designs of the front, which come first of the finalists. rule: of OptimiseOptions::pick.
 Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,
                 const std::string& rule);

@@ -16,8 +16,8 @@ constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came befo
 // Designs that the level between judges: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
-// Steps of the parameters: skins over all fingers, pixels.
-constexpr int kStepSkins = 12, kStepGrid = 64;
+// Steps of the parameters, members of belief: skins over all fingers, pixels.
+constexpr int kStepSkins = 12, kMemberSkins = 8, kStepGrid = 64;
 // Peak of a process, measured at 128, 256, 512 and 1024 pixels per side (53, 62, 104 and 262 MB):
 // heights, gap, pressure, tractions, field and their transforms.
 constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
@@ -144,7 +144,8 @@ std::size_t designs_with_model_part(const StudyProblem& problem) {
 }
 
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
-  confirmed.skins = std::max(2, kStepSkins / static_cast<int>(problem.nominal_tasks()));
+  const int over_all = problem.belief() ? kMemberSkins : kStepSkins;
+  confirmed.skins = std::max(2, over_all / static_cast<int>(problem.nominal_tasks()));
   confirmed.grid = kStepGrid;
   return confirmed;
 }

@@ -20,7 +20,7 @@ Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_se
 // beliefs that are not common to the fingers all of the front, with a common one the flat surface:
 // the others have theirs from the stage before.
 std::size_t designs_with_model_part(const StudyProblem& problem);
-// Steps of the parameters of confirmed designs: fewer skins, shared out over the population.
+// Steps of the parameters of confirmed designs, members of belief: fewer skins, shared out over the population.
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed);
 
 // How many designs the level between search and confirmation judges: where there is a model of the
