@@ -158,6 +158,15 @@ std::vector<bool> on_front_of_belief(const StudyProblem& problem,
   return out;
 }
 
+PickRule decision_rule(const StudyProblem& problem, const std::string& rule) {
+  std::vector<std::string> names;
+  for (const StudyObjective& o : problem.objectives()) names.push_back(o.name);
+  const PickRule asked = read_pick_rule(rule, names, problem.driven());
+  const bool own = rule.empty() || asked.kind == PickRule::Kind::Number;
+  if (own && names.size() == 1) return {PickRule::Kind::Objective, 0};
+  return own ? read_pick_rule("", names, problem.driven()) : asked;
+}
+
 Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,
                 const std::string& rule) {
   Decision out;
@@ -176,9 +185,7 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
   const Belief& belief = *problem.belief();
   out.members = belief.members.size();
   out.effective_members = belief.effective_members();
-  out.rule = read_pick_rule(rule, candidates[0].names, problem.driven());
-  if (out.rule.kind == PickRule::Kind::Number)
-    out.rule = read_pick_rule("", candidates[0].names, problem.driven());
+  out.rule = decision_rule(problem, rule);
   const std::vector<Extent> of_front = extents(candidates);
   for (std::size_t i = 1; i < front.size(); ++i) {
     if (pick_worth(out.rule, candidates[i], of_front) >

@@ -46,6 +46,11 @@ Score score_at(const StudyProblem& problem, const std::vector<TaskAnswer>& confi
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,
                                      const std::vector<FinalDesign>& finalists);
 
+// What the designs are compared in: the rule that picks the best of the front; of one objective that
+// alone, as its front without belief is one design. rule: of OptimiseOptions::pick; that of a number
+// is the usual one. Eq. search.14
+PickRule decision_rule(const StudyProblem& problem, const std::string& rule);
+
 // What designs are worth to a rule at each member; extents: of the front, for the knee.
 MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,
                          const PickRule& rule, const std::vector<Extent>& extents);
