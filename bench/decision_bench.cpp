@@ -1,9 +1,9 @@
 // Planted truths: what recommendations are worth where the finger is one member of a belief that
 // the recommendation does not know; CSV on standard output, a truth a row, then the sums.
 //   decision_bench FILE FRONT MOST MEMBERS TRUTHS
-//                    the designs of the table FRONT, at most MOST, for the first finger of the study
-//                    FILE, at level draft; MEMBERS are drawn about that finger, a fifth with the
-//                    first droplet step 50 nm, a fifth with air by emission; each of the first
+//                    the designs of the table FRONT, at most MOST, for the first finger of the
+//                    study FILE, at level draft; MEMBERS are drawn about that finger, a fifth with
+//                    the first droplet step 50 nm, a fifth with air by emission; each of the first
 //                    TRUTHS is left out of the belief and judged on other skins
 #include <fmt/format.h>
 
@@ -39,9 +39,9 @@ Belief planted(const Finger& finger, int members) {
     BeliefMember member;
     member.weight = 1.0 / members;
     const auto set = [&](const char* path, double value, double spread, const char* unit) {
-      member.set.push_back({path, text_node(fmt::format(
-                                      "{:.6g} {}", value * std::exp(spread * random.normal()),
-                                      unit))});
+      member.set.push_back(
+          {path,
+           text_node(fmt::format("{:.6g} {}", value * std::exp(spread * random.normal()), unit))});
     };
     set("skin.rms", 1e9 * finger.skin.rms, 0.15, "nm");
     set("skin.layer_modulus", 1e-6 * finger.skin.layer_modulus, 0.3, "MPa");
@@ -125,8 +125,8 @@ struct Sums {
   std::vector<double> said, so, scatter;
 };
 
-int planted_truths(const std::string& file, const std::string& front, std::size_t most,
-                   int members, std::size_t truths) {
+int planted_truths(const std::string& file, const std::string& front, std::size_t most, int members,
+                   std::size_t truths) {
   const Study study = study_of(file, members);
   const StudyProblem problem(study);
   const std::vector<FinalDesign> designs = judged(problem, read_front(front, problem, most));
@@ -155,7 +155,8 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
     }
     const std::vector<Prospect> true_one = prospects(truth, {});
     for (std::size_t i = 0; i < designs.size(); ++i) {
-      const std::size_t bin = std::min(kBins - 1, static_cast<std::size_t>(kBins * found[i].p_best));
+      const std::size_t bin =
+          std::min(kBins - 1, static_cast<std::size_t>(kBins * found[i].p_best));
       sums.said[bin] += found[i].p_best;
       sums.scatter[bin] += found[i].p_best * (1 - found[i].p_best);
       sums.so[bin] += true_one[i].p_best;
@@ -180,9 +181,10 @@ int planted_truths(const std::string& file, const std::string& front, std::size_
              best_worth(all));
   fmt::print("# mean regret: by belief {:.4f} (expected {:.4f}), by the fit {:.4f}\n",
              sums.by_belief / n, sums.expected / n, sums.by_fit / n);
-  fmt::print("# differences of two designs at the truth: root mean square {:.4f}, error of few "
-             "skins {:.4f}\n",
-             std::sqrt(sums.spread / sums.differences), std::sqrt(sums.error / sums.differences));
+  fmt::print(
+      "# differences of two designs at the truth: root mean square {:.4f}, error of few "
+      "skins {:.4f}\n",
+      std::sqrt(sums.spread / sums.differences), std::sqrt(sums.error / sums.differences));
   for (std::size_t bin = 0; bin < kBins; ++bin)
     fmt::print("# p(best) {:.2f} to {:.2f}: {:.1f} said, {:.0f} true, binomial error {:.1f}\n",
                static_cast<double>(bin) / kBins, static_cast<double>(bin + 1) / kBins,

@@ -64,8 +64,8 @@ struct Scatter {
   bool operator==(const Scatter&) const = default;
 };
 
-// What is not known of finger and model, where the fingers name a belief. What fingers, scenarios and
-// scatter do is objective.risk.
+// What is not known of finger and model, where the fingers name a belief. What fingers, scenarios
+// and scatter do is objective.risk.
 struct StudyRisk {
   std::string belief = "regret";  // or "mean", "worst 10 %": decides among the finalists
   double limits = 0.9;            // probability to keep every limit with, of what is recommended

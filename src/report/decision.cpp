@@ -59,8 +59,7 @@ std::string reversal_text(const ResultFiles& f, const std::string& where, const 
   const Decision& d = decision_of(f);
   const Prospect& best = d.designs[d.best];
   if (r.loss > 0)
-    return fmt::format("{} {} is better by {}", where, name_of(f, r.best),
-                       worth_text(f, r.loss));
+    return fmt::format("{} {} is better by {}", where, name_of(f, r.best), worth_text(f, r.loss));
   return fmt::format("{} {} is recommended, as it keeps the limits more surely (over all {})",
                      where, name_of(f, r.best), percent(best.p_limits));
 }
@@ -76,8 +75,7 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
   Finger finger = f.problem.tasks().front().finger;
   const std::vector<NumberField> known = number_fields(finger);
   const NumberField field = find_number_field(known, p.path);
-  return fmt::format("where finger.{} is {} {}", p.path, word,
-                     in_digits(p.edge, field.unit));
+  return fmt::format("where finger.{} is {} {}", p.path, word, in_digits(p.edge, field.unit));
 }
 
 // Each hypothesis and the parameter that another design is better under.
@@ -89,10 +87,9 @@ std::vector<std::string> overturned(const ResultFiles& f) {
       out.push_back(reversal_text(f, fmt::format("under hypothesis \"{}\"", r.name), r));
   }
   if (!d.parameter) return out;
-  for (const auto& [half, word] : {std::pair(&d.parameter->low, "below"),
-                                   std::pair(&d.parameter->high, "above")}) {
-    if (half->best != d.best)
-      out.push_back(reversal_text(f, parameter_text(f, word), *half));
+  for (const auto& [half, word] :
+       {std::pair(&d.parameter->low, "below"), std::pair(&d.parameter->high, "above")}) {
+    if (half->best != d.best) out.push_back(reversal_text(f, parameter_text(f, word), *half));
   }
   return out;
 }
@@ -133,14 +130,14 @@ std::string decision_sentence(const ResultFiles& f) {
       " By belief about finger and model it is the best of {} in {} with probability {}, with an "
       "expected regret of {}",
       d.designs.size(), worth_name(f), percent(best.p_best), worth_text(f, best.regret));
-  if (shown != d.best)
-    return out + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f));
+  if (shown != d.best) return out + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f));
   if (d.designs.size() > 1) out += "; " + overturned_text(f);
   out += ".";
   if (d.nominal != d.best)
-    out += fmt::format(" By the numbers of the fit alone it would be {}, with an expected regret "
-                       "of {}.",
-                       name_of(f, d.nominal), worth_text(f, d.designs[d.nominal].regret));
+    out += fmt::format(
+        " By the numbers of the fit alone it would be {}, with an expected regret "
+        "of {}.",
+        name_of(f, d.nominal), worth_text(f, d.designs[d.nominal].regret));
   return out + limits_sentence(f);
 }
 
@@ -148,8 +145,7 @@ std::string decision_text(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (f.result.finalists.empty() || !f.result.has_best()) return {};
   std::string out = "\n## Which of them, by belief\n\n";
-  if (!d.made())
-    return out + fmt::format("By the numbers of the fit alone: {}.\n", d.absent);
+  if (!d.made()) return out + fmt::format("By the numbers of the fit alone: {}.\n", d.absent);
   out += fmt::format(
       "Each design of the front at {} members of belief about finger and model (as good as {:.3g} "
       "equal ones), judged in {}. Regret: what is lost on average against the best design at each "

@@ -144,9 +144,9 @@ std::vector<Part> study_reference() {
 }
 
 // The sections that only a study has, by themselves.
-constexpr std::array kStudySections{"design_space", "objective", "constraints", "population",
-                                    "scenarios",    "scatter",   "risk",        "search",
-                                    "base"};
+constexpr std::array kStudySections{"design_space", "objective", "constraints",
+                                    "population",   "scenarios", "scatter",
+                                    "risk",         "search",    "base"};
 
 // One of them; empty for another name.
 std::vector<Part> study_section(const std::string& section) {

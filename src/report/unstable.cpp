@@ -30,9 +30,8 @@ std::string unstable_text(const ResultFiles& f, std::size_t place) {
     if (!v.on_front[place]) lost.push_back(v.name + ": " + why_lost(f, v, place));
   }
   const auto most = std::max_element(s.times_on_front.begin(), s.times_on_front.end());
-  std::string out =
-      fmt::format(" Its place does not hold: {} of {} checks ({}).", s.times_on_front[place],
-                  s.variants.size(), join_names(lost, "; "));
+  std::string out = fmt::format(" Its place does not hold: {} of {} checks ({}).",
+                                s.times_on_front[place], s.variants.size(), join_names(lost, "; "));
   if (*most > s.times_on_front[place]) {
     const FinalDesign& steady =
         f.result.finalists[static_cast<std::size_t>(most - s.times_on_front.begin())];

@@ -49,7 +49,8 @@ bool keeps_limits(const StudyProblem& problem, const FinalDesign& design, const 
   return problem.feasible(there, design.design);
 }
 
-// Better in every objective, of two that are judged; what breaks a limit beats none that keeps all.
+// Better in every objective and, under a drive, in the worst modulation, of two that are judged;
+// what breaks a limit beats none that keeps all.
 bool beats(const StudyProblem& problem, const FinalDesign& a, const Score& of_a,
            const FinalDesign& b, const Score& of_b) {
   if (!of_a.ok || !of_b.ok) return of_a.ok;
@@ -58,7 +59,7 @@ bool beats(const StudyProblem& problem, const FinalDesign& a, const Score& of_a,
   for (std::size_t k = 0; k < better.objectives.size(); ++k) {
     if (better.objectives[k] >= worse.objectives[k]) return false;
   }
-  return true;
+  return !problem.driven() || of_a.worst > of_b.worst;
 }
 
 bool beats_everywhere(const StudyProblem& problem, const FinalDesign& a, const FinalDesign& b) {
@@ -73,8 +74,8 @@ std::vector<MemberGroup> hypotheses_of(const Belief& belief) {
   std::vector<MemberGroup> out;
   for (std::size_t m = 0; m < belief.members.size(); ++m) {
     const std::string& name = belief.members[m].hypothesis;
-    auto group = std::find_if(out.begin(), out.end(),
-                              [&](const MemberGroup& g) { return g.name == name; });
+    auto group =
+        std::find_if(out.begin(), out.end(), [&](const MemberGroup& g) { return g.name == name; });
     if (group == out.end()) group = out.insert(out.end(), {name, {}});
     group->members.push_back(m);
   }
@@ -113,8 +114,8 @@ MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDes
         problem.study().constraints.size(), std::vector<bool>(f.members.size(), false));
     for (std::size_t m = 0; m < f.members.size(); ++m) {
       const Score& there = f.members[m];
-      values.push_back(
-          there.ok ? pick_worth(rule, pick_candidate(problem, there), extents) : std::nan(""));
+      values.push_back(there.ok ? pick_worth(rule, pick_candidate(problem, there), extents)
+                                : std::nan(""));
       if (!there.ok) continue;
       const std::vector<LimitValue> limits = problem.constraints().values(f.design, there);
       for (std::size_t k = 0; k < kept.size(); ++k) kept[k][m] = limits[k].kept();
@@ -206,8 +207,7 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
   out.hypotheses = by_group(worth, problem.belief_risk(), limits, hypotheses_of(belief));
   const Scene scene =
       scene_of(task_design(problem.study(), problem.study().design, problem.tasks().front()));
-  out.parameter =
-      by_half(worth, problem.belief_risk(), limits, numbers_of(belief, scene));
+  out.parameter = by_half(worth, problem.belief_risk(), limits, numbers_of(belief, scene));
   return out;
 }
 

@@ -64,8 +64,7 @@ void add_rivals(const JudgedDesigns& below, std::vector<std::size_t>& chosen) {
         return apart(e.unit, below.evaluations[c].unit);
       });
       if (!unlike || !e.outcome.feasible()) continue;
-      if (!best ||
-          e.outcome.objectives[0] < below.evaluations[*best].outcome.objectives[0])
+      if (!best || e.outcome.objectives[0] < below.evaluations[*best].outcome.objectives[0])
         best = i;
     }
     if (!best) return;

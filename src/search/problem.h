@@ -8,8 +8,8 @@
 
 #include "base/rooms.h"
 #include "optim/search.h"
-#include "search/constraints.h"
 #include "scene/belief.h"
+#include "search/constraints.h"
 #include "search/objectives.h"
 #include "search/prospects.h"
 #include "search/score.h"

@@ -50,7 +50,7 @@ void add_member(const MemberWorth& d, std::size_t member, double weight,
   double ties = 0;
   for (std::size_t i = 0; i < out.size(); ++i) ties += is_best(i);
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (is_best(i)) out[i].p_best += weight / ties;                                     // Eq. search.15
+    if (is_best(i)) out[i].p_best += weight / ties;                                // Eq. search.15
     out[i].regret += weight * std::max(0.0, best - worth_or_least(d, i, member));  // Eq. search.16
   }
 }
@@ -149,8 +149,7 @@ std::vector<Reversal> by_group(const MemberWorth& designs, const BeliefRisk& ris
                                const std::vector<MemberGroup>& groups) {
   const std::size_t over_all = chosen(prospects(designs, risk), p_limits);
   std::vector<Reversal> out;
-  for (const MemberGroup& g : groups)
-    out.push_back(reversal(designs, risk, p_limits, over_all, g));
+  for (const MemberGroup& g : groups) out.push_back(reversal(designs, risk, p_limits, over_all, g));
   return out;
 }
 

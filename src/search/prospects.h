@@ -1,5 +1,5 @@
-// Which of some designs to build where a model is believed in by weighted members: how probable each
-// is the best, what is lost by it on average, how surely it keeps its limits, and what would
+// Which of some designs to build where a model is believed in by weighted members: how probable
+// each is the best, what is lost by it on average, how surely it keeps its limits, and what would
 // overturn the choice. Eq. search.15-18
 #pragma once
 

@@ -225,7 +225,8 @@ PartSeconds Run::wanted() const {
   if (enough) set(RunPart::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
   set(RunPart::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
   if (problem.belief())
-    set(RunPart::Belief, seconds_of(believed(problem, result) * problem.nominal_tasks(), Stage::Belief));
+    set(RunPart::Belief,
+        seconds_of(believed(problem, result) * problem.nominal_tasks(), Stage::Belief));
   set(RunPart::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
   set(RunPart::Flat, seconds_of_designs(2, Stage::Confirm));
   set(RunPart::Rounding, seconds_of_designs(1, Stage::Rounding));

@@ -194,9 +194,9 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
 namespace {
 
 // What each member of the response's belief says of the goals, last the finger as it is.
-std::vector<TaskAnswer> member_answers(const StudyGoals& goals, const Scene& scene,
-                                       const Design& d, const std::string& task,
-                                       const Response& response, const Fidelity& fidelity) {
+std::vector<TaskAnswer> member_answers(const StudyGoals& goals, const Scene& scene, const Design& d,
+                                       const std::string& task, const Response& response,
+                                       const Fidelity& fidelity) {
   std::vector<Scene> scenes = belief_scenes(belief_of(scene.finger), scene);
   scenes.push_back(scene);
   std::vector<TaskAnswer> out;

@@ -1,5 +1,5 @@
-// A study with a belief of three members, solved: a hypothesis overturns the order, and a run that is
-// killed among the members ends in the same bytes.
+// A study with a belief of three members, solved: a hypothesis overturns the order, and a run that
+// is killed among the members ends in the same bytes.
 #include <gtest/gtest.h>
 
 #include <atomic>

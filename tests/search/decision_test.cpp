@@ -135,8 +135,7 @@ TEST(Decision, TheRiskOfTheStudyDecides) {
 TEST(Decision, WhatIsRecommendedKeepsItsLimitsWithTheProbabilityAskedFor) {
   const TaskFormula weak = [](const TaskRequest& r) {
     TaskAnswer out = overturning(r);
-    if (r.stage == Stage::Belief)
-      out.members[2].oxide_margin = r.unit[0] > 0.3 ? 1 : 10;
+    if (r.stage == Stage::Belief) out.members[2].oxide_margin = r.unit[0] > 0.3 ? 1 : 10;
     return out;
   };
   Study study = believing(0.3);
@@ -213,9 +212,9 @@ TEST(Decision, ItsPriceIsStated) {
 // Interrupted after any answer and continued: nothing is asked twice, and the same is decided.
 TEST(Decision, ARunThatIsContinuedDecidesTheSame) {
   const BelievingRun straight(0.3, "decision_straight");
-  const auto first_belief = std::find_if(
-      straight.asked.begin(), straight.asked.end(),
-      [](const TaskRequest& r) { return r.stage == Stage::Belief; });
+  const auto first_belief =
+      std::find_if(straight.asked.begin(), straight.asked.end(),
+                   [](const TaskRequest& r) { return r.stage == Stage::Belief; });
   const auto begin = static_cast<std::size_t>(first_belief - straight.asked.begin());
   for (const std::size_t after : {begin, begin + 1, begin + 2}) {
     const std::string folder = fresh_folder("decision_continued");
@@ -251,14 +250,12 @@ TEST(Decision, ARunThatIsContinuedWithAnotherRiskAsksNoMemberAgain) {
   study.risk.belief = "worst";
   const MpiSession mpi;
   std::vector<TaskRequest> asked;
-  const OptimiseOptions options{
-      .folder = straight.options.folder, .resume = true, .progress = {}};
+  const OptimiseOptions options{.folder = straight.options.folder, .resume = true, .progress = {}};
   search::Run run(study, options, mpi, std::make_unique<FormulaWorker>(overturning, asked));
   ASSERT_TRUE(search_designs(run) && narrow(run) && confirm(run) && check(run));
   EXPECT_NE(run.result.best, straight.run.result.best);
-  EXPECT_TRUE(std::none_of(asked.begin(), asked.end(), [](const TaskRequest& r) {
-    return r.stage == Stage::Belief;
-  }));
+  EXPECT_TRUE(std::none_of(asked.begin(), asked.end(),
+                           [](const TaskRequest& r) { return r.stage == Stage::Belief; }));
 }
 
 TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {

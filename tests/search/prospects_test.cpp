@@ -81,8 +81,7 @@ TEST(Prospects, WhereNoneIsSureEnoughTheSurestIsChosen) {
 
 TEST(Prospects, ADesignWithoutAnAnswerIsTheLeastOfTheOthersThere) {
   const double none = std::nan("");
-  const std::vector<Prospect> p =
-      prospects(worth_of({0.5, 0.5}, {{3, none}, {1, 2}, {2, 1}}), {});
+  const std::vector<Prospect> p = prospects(worth_of({0.5, 0.5}, {{3, none}, {1, 2}, {2, 1}}), {});
   EXPECT_NEAR(p[0].regret, 0.5 * (2 - 1), 1e-12);
   EXPECT_NEAR(p[0].p_limits, 0.5, 1e-12);
   // A member at which no design has one says nothing.
@@ -116,10 +115,8 @@ TEST(Prospects, AGroupOfMembersMayChooseAnother) {
 
 TEST(Prospects, TheParameterThatTurnsTheChoiceIsTheOneThatCostsMost) {
   // The first number orders the designs, the second has nothing to do with them.
-  const MemberWorth d =
-      worth_of({0.25, 0.25, 0.25, 0.25}, {{4, 4, 1, 1}, {1, 2, 3, 3}});
-  const std::vector<MemberNumber> numbers{{"skin.rms", {1, 2, 3, 4}},
-                                          {"skin.hurst", {1, 3, 2, 4}}};
+  const MemberWorth d = worth_of({0.25, 0.25, 0.25, 0.25}, {{4, 4, 1, 1}, {1, 2, 3, 3}});
+  const std::vector<MemberNumber> numbers{{"skin.rms", {1, 2, 3, 4}}, {"skin.hurst", {1, 3, 2, 4}}};
   const auto found = by_half(d, {}, 0.9, numbers);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->path, "skin.rms");
