@@ -34,7 +34,7 @@ struct Judgement {
 };
 
 struct RunProgress {
-  std::string stage;  // for people: "draft", "search", "narrow", "confirm", "check"
+  std::string stage;  // for people: "draft", "search", "narrow", "confirm", "belief", "check"
   int done = 0, total = 0;
   double seconds_left = 0;  // < 0: not known yet
 };

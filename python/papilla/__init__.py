@@ -15,14 +15,14 @@ from papilla.errors import InputError, Problem, Stopped
 from papilla.physics import (Bridge, Contact, Drive, Droplets, Field, Persson, bridge, contact, drive, droplets, field,
                              haze, persson)
 from papilla.response import Comparison, Difference, Differences, Quantity, Response, Sensitivity
-from papilla.study import FoundDesign, Judgement, Objective, Point, Run, Study, Variable
+from papilla.study import Decision, FoundDesign, Judgement, Objective, Point, Prospect, Run, Study, Variable
 from papilla.trades import (Calibration, Exported, FileVerdict, FittedParameter, FolderVerdict, Ranked, Ranking,
                             calibrate, rank, verify)
 
 __all__ = [
-    "Bridge", "Calibration", "Comparison", "Contact", "Design", "Difference", "Differences", "Drive", "Droplets",
+    "Bridge", "Calibration", "Comparison", "Contact", "Decision", "Design", "Difference", "Differences", "Drive", "Droplets",
     "Exported", "Field", "FileVerdict", "FittedParameter", "FolderVerdict", "FoundDesign", "Heights", "InputError",
-    "Judgement", "Look", "Number", "Objective", "Persson", "Point", "Problem", "Quantity", "Ranked", "Ranking",
+    "Judgement", "Look", "Number", "Objective", "Persson", "Point", "Problem", "Prospect", "Quantity", "Ranked", "Ranking",
     "Response", "Run", "Sensitivity", "Stopped", "Study", "Variable", "__version__", "bridge", "calibrate", "compare",
     "contact", "drive", "droplets", "field", "haze", "persson", "rank", "verify",
 ]

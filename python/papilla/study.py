@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ from papilla.progress import Progress, shown
 from papilla.response import as_array
 from papilla.values import FloatArray, Path
 
-__all__ = ["FoundDesign", "Judgement", "Objective", "Point", "Run", "Study", "Variable"]
+__all__ = ["Decision", "FoundDesign", "Judgement", "Objective", "Point", "Prospect", "Run", "Study", "Variable"]
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,37 @@ class FoundDesign:
         return Design.load(os.path.join(self.folder, "design.toml")) if self.folder else self.point.design
 
 
+@dataclass(frozen=True)
+class Prospect:
+    """A design of the front over the members of belief."""
+
+    p_best: float
+    regret: float
+    """Expected, against the best design at each member, in the unit of ``Decision.worth``."""
+    p_best_by: dict[str, float]
+    """By the name of each objective."""
+    p_every_limit: float
+    p_limits: dict[str, float]
+    """By the name of each limit."""
+
+
+@dataclass(frozen=True)
+class Decision:
+    """Which design of the front to build, where the study's fingers name a belief."""
+
+    best: str
+    """Folder below the run's: "front/03"."""
+    worth: str
+    """What the designs are compared in, for people."""
+    prospects: dict[str, Prospect]
+    """By folder."""
+    hypotheses: dict[str, str]
+    """The folder that is best under each hypothesis of the belief, by its name."""
+    overturned: list[str]
+    """What would change the choice, for people; empty: nothing does."""
+    members: int
+
+
 class Run:
     """A search that came to its end, or was interrupted and can go on."""
 
@@ -136,6 +168,22 @@ class Run:
         if not self.finalists:
             raise LookupError("the search found no design")
         return self.finalists[self._best]
+
+    @property
+    def decision(self) -> Decision:
+        """By belief. Raises LookupError with the reason where there is none."""
+        found: dict[str, Any] = {}
+        if not self.interrupted and self.finalists:
+            with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
+                found = json.load(file).get("decision", {})
+        if found.get("absent", "the run has no design to decide on"):
+            raise LookupError(found.get("absent", "the run has no design to decide on"))
+        return Decision(
+            best=found["best"], worth=found["worth"],
+            prospects={name: Prospect(row["p_best"], row["regret"], row["p_best_by"], row["p_every_limit"],
+                                      row["p_limits"]) for name, row in found["designs"].items()},
+            hypotheses={row["name"]: row["best"] for row in found["hypotheses"]},
+            overturned=found["overturned"], members=found["members"])
 
     def __repr__(self) -> str:
         end = "interrupted after" if self.interrupted else "of"

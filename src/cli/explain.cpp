@@ -28,6 +28,10 @@ std::string study_text(const Study& study) {
       counted(cost.evaluations, "evaluation"), counted(cost.tasks, "task"), cost.narrowed,
       cost.finalists, duration(kLeastOfPrice * cost.seconds), duration(kMostOfPrice * cost.seconds),
       std::ceil(1e-6 * cost.bytes));
+  if (cost.members > 0)
+    out += fmt::format("of that the finalists at {} of belief take up to {}\n",
+                       counted(static_cast<int>(cost.members), "member"),
+                       duration(cost.belief_seconds));
   out += fmt::format("it searches on {0} x {0} pixels along 12 um", cost.pixels);
   if (std::isfinite(cost.feature))
     out += fmt::format(", the smallest feature of its space, {:.3g} nm, is {:.2g} of them wide",

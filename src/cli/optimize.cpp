@@ -213,8 +213,8 @@ int optimize(const OptimizeOptions& options, const Context& context) {
 
   context.note(
       "search: many designs quickly; narrow: the best and their neighbours again, more precisely; "
-      "confirm: the finalists at the study's accuracy; check: without texture, other models, "
-      "tolerances");
+      "confirm: the finalists at the study's accuracy; belief: what is not known of finger and "
+      "model; check: without texture, other models, tolerances");
   if (!run.resume) {
     const StudyProblem problem(study);
     if (const auto wrong = problem.constraints().contradiction(); wrong && wrong->flat_keeps)

@@ -11,6 +11,16 @@
 
 namespace papilla::design {
 
+void fields(FieldVisitor& v, StudyRisk& s) {
+  v.text({"belief",
+          "how belief about finger and model decides among the finalists: \"regret\" (the least "
+          "expected one), \"mean\", \"worst 10 %\""},
+         s.belief);
+  v.number({"limits", "%", 0, 100,
+            "of belief: what is recommended keeps every limit with this probability"},
+           s.limits);
+}
+
 void fields(FieldVisitor& v, Search& s) {
   const std::vector<std::string>& names = searcher_names();
   int method = static_cast<int>(std::find(names.begin(), names.end(), s.method) - names.begin());

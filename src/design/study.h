@@ -64,6 +64,16 @@ struct Scatter {
   bool operator==(const Scatter&) const = default;
 };
 
+// What is not known of finger and model, where the fingers name a belief. What fingers, scenarios
+// and scatter do is objective.risk.
+struct StudyRisk {
+  std::string belief = "regret";  // or "mean", "worst 10 %": decides among the finalists
+  double limits = 0.9;            // probability to keep every limit with, of what is recommended
+
+  bool operator==(const StudyRisk&) const = default;
+};
+void fields(FieldVisitor& v, StudyRisk& s);
+
 struct Search {
   std::string method = "auto";
   int seed = 1;
@@ -85,6 +95,7 @@ struct Study {
   std::vector<Finger> population;  // empty: the design's finger alone
   std::vector<Scenario> scenarios;
   std::vector<Scatter> scatter;
+  StudyRisk risk;
   Search search;
   // Of a base's space and scatter, what goes with its kind of texture: "design_space.texture.rms".
   std::vector<std::string> fallen_away;

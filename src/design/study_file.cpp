@@ -68,9 +68,11 @@ void read_head(Document& document, Design& design) {
 }
 
 void read_search(Document& document, Study& study) {
+  read_section(document, "risk", study.risk);
   read_section(document, "search", study.search);
-  if (study.is_study())
-    study.study_sections.set("search", to_table(study.search, &document.origins(), "search"));
+  if (!study.is_study()) return;
+  study.study_sections.set("risk", to_table(study.risk, &document.origins(), "risk"));
+  study.study_sections.set("search", to_table(study.search, &document.origins(), "search"));
 }
 
 void check_whole(Document& document, const Study& study) {

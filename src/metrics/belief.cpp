@@ -8,13 +8,6 @@
 namespace papilla::metrics {
 namespace {
 
-// Of a quantity that is a size: a member moves it by a factor. The capillary force and what is made
-// of it may push or pull.
-bool keeps_sign(Summary summary, const Metric& metric) {
-  const auto* quantity = std::get_if<QuantityMetric>(&metric);
-  return quantity && !is_spread(summary) && quantity->quantity != &PointQuantities::capillary_force;
-}
-
 // A number of a run, and without each skin.
 struct Readings {
   double all = 0;
@@ -34,6 +27,12 @@ std::optional<Readings> readings(const Resampled& run, const Number& number) {
 }
 
 }  // namespace
+
+// Of a quantity that is a size. The capillary force and what is made of it may push or pull.
+bool moves_by_factor(Summary summary, const Metric& metric) {
+  const auto* quantity = std::get_if<QuantityMetric>(&metric);
+  return quantity && !is_spread(summary) && quantity->quantity != &PointQuantities::capillary_force;
+}
 
 double BeliefValues::quantile(double p) const { return weighted_quantile(values, weights, p); }
 
@@ -77,7 +76,7 @@ std::optional<BeliefValues> belief_values(Summary summary, const Metric& metric,
       [&](const std::vector<ResponsePoint>& points) {
         return summary_of_points(summary, metric, points);
       },
-      value, keeps_sign(summary, metric));
+      value, moves_by_factor(summary, metric));
 }
 
 std::optional<BeliefValues> belief_values_at(std::size_t point, const Metric& metric,
@@ -88,7 +87,7 @@ std::optional<BeliefValues> belief_values_at(std::size_t point, const Metric& me
   };
   const auto value = number(response.points);
   if (!value) return std::nullopt;
-  return belief_values(response.belief, number, value, keeps_sign(Summary::Mean, metric));
+  return belief_values(response.belief, number, value, moves_by_factor(Summary::Mean, metric));
 }
 
 std::optional<BeliefDifference> belief_difference(const BeliefValues& first,

@@ -56,6 +56,8 @@ struct BeliefValues {
   // Of the values: 0.025 and 0.975 are the ends of a 95 % interval.
   double quantile(double p) const;
 };
+// Whether a number that a member moves cannot change its sign: then it is moved by a factor.
+bool moves_by_factor(Summary summary, const Metric& metric);
 using Number = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
 // value: of the response; nothing: of the runs themselves. Nothing where a member has no number.
 std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,

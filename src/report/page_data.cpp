@@ -136,7 +136,7 @@ Json design_json(const Folder& folder, bool with_flat) {
   const Json metrics = Json::parse(folder.read("metrics.json"));
   Json out;
   for (const char* key : {"variables", "objectives", "worst_modulation", "oxide_breakdown_margin",
-                          "feasible", "limits", "stability", "flat", "parameters"}) {
+                          "feasible", "limits", "stability", "belief", "flat", "parameters"}) {
     if (metrics.contains(key)) out[key] = metrics[key];
   }
   out["tasks"] = Json::array();

@@ -138,12 +138,15 @@ std::vector<Part> study_reference() {
       key("constraints.\"METRIC\"",
           "a metric over humidity, limited on its bad side: \"worst(modulation)\" = 0.3 (at "
           "least), \"worst(voltage_for(modulation = 0.5))\" = \"150 V\" (at most)"));
-  return {{"", rows, true}, {"search", field_rows(Search{}, "search")}};
+  return {{"", rows, true},
+          {"risk", field_rows(StudyRisk{}, "risk")},
+          {"search", field_rows(Search{}, "search")}};
 }
 
 // The sections that only a study has, by themselves.
-constexpr std::array kStudySections{"design_space", "objective", "constraints", "population",
-                                    "scenarios",    "scatter",   "search",      "base"};
+constexpr std::array kStudySections{"design_space", "objective", "constraints",
+                                    "population",   "scenarios", "scatter",
+                                    "risk",         "search",    "base"};
 
 // One of them; empty for another name.
 std::vector<Part> study_section(const std::string& section) {

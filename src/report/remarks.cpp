@@ -30,6 +30,9 @@ CutWords words_of(const ClockCut& cut, const Study& study) {
               "a better design may have been passed over for one with lucky skins"};
     case RunPart::Confirm:
       return {of("finalists confirmed"), "those left out may be as good"};
+    case RunPart::Belief:
+      return {"the finalists not judged over belief",
+              "which of them to build is by the numbers of the fit alone"};
     case RunPart::Stability:
       return {"the order under other models not checked",
               "other choices of the model may order the designs otherwise"};

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "config/writer.h"
+#include "report/decision.h"
 #include "report/export.h"
 #include "report/json.h"
 #include "report/page.h"
@@ -15,6 +16,7 @@
 #include "report/sheet.h"
 #include "report/summary.h"
 #include "report/sums.h"
+#include "report/unstable.h"
 
 namespace papilla::report {
 namespace {
@@ -113,6 +115,8 @@ class Writer {
       out += fmt::format(",{0},{0} se,{0} model,{0} at search level", o.name);
     out += ",worst modulation,breakdown margin";
     for (const Constraint& c : f_.study.constraints) out += ",limit " + csv_text(limit_name(c.on));
+    const bool decided = f_.result.decision.made();
+    if (decided) out += ",p(best),expected regret,p(every limit)";
     out += ",feasible,on front,status\n";
     const auto row = [&](const std::string& name, const FinalDesign& d) {
       const Score &c = d.confirmed, &searched = d.searched;
@@ -131,6 +135,7 @@ class Writer {
       for (std::size_t i = 0; i < f_.study.constraints.size(); ++i)
         out += "," + (i < limits.size() ? limit_value_text(limits[i].limit, limits[i].value)
                                         : std::string());
+      if (decided) out += prospect_text(place_of(d));
       out += fmt::format(",{},{},{}\n", d.feasible ? "yes" : "no", d.on_front ? "yes" : "no",
                          c.ok ? "ok" : csv_text(c.reason));
     };
@@ -138,6 +143,13 @@ class Writer {
       row(!d.folder.empty() ? d.folder : d.feasible ? "dominated" : "infeasible", d);
     }
     return out;
+  }
+
+  std::string prospect_text(std::size_t finalist) const {
+    const std::vector<Prospect>& designs = f_.result.decision.designs;
+    if (finalist >= designs.size()) return ",,,";
+    const Prospect& p = designs[finalist];
+    return fmt::format(",{:.4g},{:.3g},{:.4g}", p.p_best, p.regret, p.p_limits);
   }
 
   Json score_json(const Score& score) const {
@@ -189,8 +201,11 @@ class Writer {
     if (stability.judged(index)) {
       out["stability"] = {{"on_front", stability.times_on_front[index]},
                           {"variants", stability.variants.size()},
-                          {"stable", stability.stable(index)}};
+                          {"stable", stability.stable(index)},
+                          {"why", unstable_text(f_, index)}};
     }
+    if (Json prospect = prospect_json(f_, index); !prospect.is_null())
+      out["belief"] = std::move(prospect);
     if (f_.result.flat)
       out["flat"] = {
           {"objectives", score_json(*f_.result.flat)},

@@ -257,6 +257,7 @@ Json study_sections() {
           {"population", std::move(fingers)},
           {"scenarios", {{"type", "array"}, {"items", std::move(scenario)}}},
           {"scatter", by_path(value)},
+          {"risk", object(properties_of(StudyRisk{}))},
           {"search", object(properties_of(Search{}))}};
 }
 

@@ -10,9 +10,11 @@
 #include "base/units.h"
 #include "design/families.h"
 #include "metrics/shown.h"
+#include "report/decision.h"
 #include "report/json.h"
 #include "report/remarks.h"
 #include "report/tables.h"
+#include "report/unstable.h"
 #include "search/rounding.h"
 
 namespace papilla::report {
@@ -80,35 +82,6 @@ std::string surface_text(const ResultFiles& f, const Point& unit) {
   return join_names(out);
 }
 
-// "grooves 1.2 um wide, 5.41 um apart, 349 nm deep".
-std::string shape_text(const Design& design) {
-  Texture texture = design.texture;
-  const TextureFacts of = facts(texture);
-  const auto* array = std::get_if<FeatureArray>(&of.outline);
-  std::string kind =
-      array ? std::string(array->drawn) : std::string(texture_kinds()[texture.kind.index()]);
-  std::replace(kind.begin(), kind.end(), '_', ' ');
-  const Roles role = roles(texture);
-  std::vector<std::string> measures;
-  const std::vector<NumberField> known = number_fields(texture, "texture");
-  const auto add = [&](const double* value, const char* word) {
-    for (const NumberField& field : known) {
-      if (field.value == value)
-        measures.push_back(in_unit(*field.value, field.unit, 4) + " " + word);
-    }
-  };
-  add(role.width, "wide");
-  add(role.period, "apart");
-  add(role.depth, array && !array->deep ? "high" : "deep");
-  return measures.empty() ? kind : kind + " " + join_names(measures);
-}
-
-std::string limit_broken(const LimitValue& v) {
-  return fmt::format("{} is {}, {} your limit of {}", limit_name(v.limit.on),
-                     limit_value_text(v.limit, v.value), v.limit.at_least ? "below" : "above",
-                     limit_value_text(v.limit, v.limit.limit));
-}
-
 std::vector<std::string> broken_texts(const std::vector<LimitValue>& limits) {
   std::vector<std::string> out;
   for (const LimitValue& v : limits) {
@@ -142,40 +115,9 @@ std::optional<std::size_t> checked_place(const ResultFiles& f) {
   return std::nullopt;
 }
 
-// Why a design lost its place in one of the checks.
-std::string why_lost(const ResultFiles& f, const StabilityVariant& v, std::size_t place) {
-  if (v.values[place].empty()) return "it has no value";
-  if (place < v.broken.size() && !v.broken[place].empty())
-    return limit_broken(v.broken[place].front());
-  if (place < v.beaten_by.size() && v.beaten_by[place])
-    return design_name(f.result.finalists[v.beaten_by[place].value()].folder) + " is better";
-  return "another is better";
-}
-
-// Why the place of a design on the front does not hold, and which one's holds more often.
-std::string unstable_text(const ResultFiles& f) {
-  const Stability& s = f.result.stability;
+std::string unstable_recommended(const ResultFiles& f) {
   const auto place = checked_place(f);
-  if (!place || s.stable(*place)) return {};
-  std::vector<std::string> lost;
-  for (const StabilityVariant& v : s.variants) {
-    if (!v.on_front[*place]) lost.push_back(v.name + ": " + why_lost(f, v, *place));
-  }
-  const auto most = std::max_element(s.times_on_front.begin(), s.times_on_front.end());
-  std::string out =
-      fmt::format(" Its place does not hold: {} of {} checks ({}).", s.times_on_front[*place],
-                  s.variants.size(), join_names(lost, "; "));
-  if (*most > s.times_on_front[*place]) {
-    const FinalDesign& steady =
-        f.result.finalists[static_cast<std::size_t>(most - s.times_on_front.begin())];
-    out += fmt::format(
-        " The alternative that holds in {} of {} is {} ({}).", *most, s.variants.size(),
-        design_name(steady.folder),
-        facts(steady.design.texture).relief.present ? shape_text(steady.design) : "flat");
-  } else {
-    out += " No design of the front holds more often.";
-  }
-  return out;
+  return place ? unstable_text(f, *place) : std::string();
 }
 
 // What rounding breaks, where something.
@@ -422,6 +364,34 @@ std::string design_name(const std::string& folder) {
   return "design " + folder.substr(kFront.size());
 }
 
+std::string shape_text(const Design& design) {
+  Texture texture = design.texture;
+  const TextureFacts of = facts(texture);
+  const auto* array = std::get_if<FeatureArray>(&of.outline);
+  std::string kind =
+      array ? std::string(array->drawn) : std::string(texture_kinds()[texture.kind.index()]);
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  const Roles role = roles(texture);
+  std::vector<std::string> measures;
+  const std::vector<NumberField> known = number_fields(texture, "texture");
+  const auto add = [&](const double* value, const char* word) {
+    for (const NumberField& field : known) {
+      if (field.value == value)
+        measures.push_back(in_unit(*field.value, field.unit, 4) + " " + word);
+    }
+  };
+  add(role.width, "wide");
+  add(role.period, "apart");
+  add(role.depth, array && !array->deep ? "high" : "deep");
+  return measures.empty() ? kind : kind + " " + join_names(measures);
+}
+
+std::string limit_broken(const LimitValue& v) {
+  return fmt::format("{} is {}, {} your limit of {}", limit_name(v.limit.on),
+                     limit_value_text(v.limit, v.value), v.limit.at_least ? "below" : "above",
+                     limit_value_text(v.limit, v.limit.limit));
+}
+
 std::string drift_text(const Drift& drift, const std::string& unit) {
   switch (drift.end) {
     case Drift::End::Loss:
@@ -484,7 +454,7 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Texture:
       break;
   }
-  return worth_building(f) + rounding_text(f) + unstable_text(f);
+  return worth_building(f) + decision_sentence(f) + rounding_text(f) + unstable_recommended(f);
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {
@@ -568,6 +538,7 @@ std::string run_json(const ResultFiles& f) {
   out["textured"] = facts(built_design(f).texture).relief.present;
   out["stable"] = Json();
   if (const auto place = checked_place(f)) out["stable"] = f.result.stability.stable(*place);
+  out["decision"] = decision_json(f);
   out["finish"] = finish_text(f);
   out["sheet"] = Json::array();
   for (const SheetRow& row : sheet_rows(f)) out["sheet"].push_back(row_json(row));

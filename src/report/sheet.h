@@ -37,6 +37,10 @@ Design built_design(const ResultFiles& files);
 
 // "design 06" of front/06.
 std::string design_name(const std::string& folder);
+// "grooves 1.2 um wide, 5.41 um apart, 349 nm deep"
+std::string shape_text(const Design& design);
+// "min_wall is 0.3 um, below your limit of 0.4 um"
+std::string limit_broken(const LimitValue& value);
 // The limits of the study and what the design has of them.
 nlohmann::ordered_json limits_json(const std::vector<LimitValue>& limits);
 

@@ -8,8 +8,10 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "metrics/shown.h"
+#include "report/decision.h"
 #include "report/remarks.h"
 #include "report/sheet.h"
+#include "report/unstable.h"
 
 namespace papilla::report {
 namespace {
@@ -29,32 +31,14 @@ std::string heading(const StudyObjective& o) {
   return o.name + (unit.empty() ? "" : " [" + unit + "]");
 }
 
-// "By belief alone the best in mean(modulation) is 02 with 71 %, 01 with 29 %.", an objective each.
-std::string belief_sentences(const StudyProblem& problem, const OptimiseResult& result) {
-  const std::vector<double> weights = problem.belief_weights();
-  std::vector<const Score*> scores;
-  std::vector<std::string> names;
-  for (const FinalDesign& f : result.finalists) {
-    if (!f.on_front || !f.confirmed.ok) continue;
-    scores.push_back(&f.confirmed);
-    names.push_back(design_name(f.folder));
-  }
-  std::string out;
-  for (std::size_t k = 0; scores.size() > 1 && k < problem.objectives().size(); ++k) {
-    const StudyObjective& o = problem.objectives()[k];
-    const std::vector<double> p = best_by_belief(scores, k, o.maximise, weights);
-    std::vector<std::string> told;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      if (p[i] > 0) told.push_back(fmt::format("{} with {:.0f} %", names[i], 100 * p[i]));
-    }
-    if (!told.empty())
-      out += fmt::format("\nBy belief alone the best in {} is {}.\n", o.name, join_names(told));
-  }
-  return out;
-}
-
 // What decides which of the front is the best, in words.
 std::string rule_text(const ResultFiles& f) {
+  const Decision& d = f.result.decision;
+  if (d.made() && f.result.best == d.best) {
+    return f.problem.belief_risk().regret
+               ? "the least expected regret over belief"
+               : "the best over belief by \"" + f.study.risk.belief + "\"";
+  }
   if (!f.pick.empty() && f.pick != "worst") return "picked by \"" + f.pick + "\"";
   return f.problem.driven() ? "the highest worst modulation over fingers and humidity"
                             : "the knee of the front: the least sum of its scaled objectives";
@@ -220,6 +204,11 @@ std::string stability_text(const ResultFiles& f) {
     out += fmt::format(" {} of {}{} |", s.times_on_front[i], s.variants.size(),
                        s.stable(i) ? "" : ", **unstable**");
   }
+  out += "\n";
+  for (std::size_t i = 0; i < judged; ++i) {
+    if (const std::string why = unstable_text(f, i); !why.empty())
+      out += "\n- " + f.result.finalists[i].folder + ":" + why;
+  }
   return out + "\n";
 }
 
@@ -254,6 +243,7 @@ std::string run_summary(const ResultFiles& f) {
   out += target_text(f, best);
   if (best.on_front) out += best_text(f);
   if (r.flat && best.confirmed.ok) out += gain_text(f, best);
+  out += decision_text(f);
   out += stability_text(f);
   out += sensitivity_text(f);
   out += r.has_best()
@@ -327,7 +317,7 @@ std::string result_table(const Study& study, const OptimiseResult& result) {
     out += "; the gain over flat is less uncertain by it than the values in " + join_names(better);
   if (!worse.empty())
     out += "; the gain over flat is as uncertain by it as the values in " + join_names(worse);
-  return out + ".\n" + belief_sentences(problem, result);
+  return out + ".\n";
 }
 
 bool is_shown(const Design& design, const Variable& variable) {

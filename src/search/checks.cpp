@@ -43,19 +43,21 @@ bool check_stability(Run& run, const std::function<void(double)>& step) {
   return true;
 }
 
-// The best of the front by the rule asked for.
+// The best of the front by the rule asked for: over belief where there is one.
 void pick(Run& run) {
   std::vector<PickCandidate> front;  // the first ones; none: the first finalist is best
   for (const FinalDesign& f : run.result.finalists) {
-    if (!f.on_front) continue;
-    PickCandidate c;
-    for (const StudyObjective& o : run.problem.objectives()) c.names.push_back(o.name);
-    c.objectives = run.problem.outcome(f.confirmed).objectives;
-    if (run.problem.driven()) c.worst = f.confirmed.worst;
-    front.push_back(std::move(c));
+    if (f.on_front) front.push_back(pick_candidate(run.problem, f.confirmed));
   }
   run.replay.picked();
   if (front.empty()) return;
+  const bool by_number =
+      read_pick_rule(run.options.pick, front[0].names, run.problem.driven()).kind ==
+      PickRule::Kind::Number;
+  if (run.result.decision.made() && !by_number) {
+    run.result.best = run.result.decision.best;
+    return;
+  }
   try {
     run.result.best = pick_design(run.options.pick, front);
   } catch (const InputError& e) {
@@ -218,6 +220,7 @@ void find_parameters(Run& run, Score& score, const Point& unit, bool flat) {
 bool check(Run& run) {
   OptimiseResult& result = run.result;
   if (result.finalists.empty()) return true;
+  if (!judge_belief(run)) return false;
   int done = 0;
   const int total = kOtherChecks + static_cast<int>(on_front(result));
   // left: of the part that is worked on; next: the parts that follow.
@@ -244,7 +247,7 @@ bool check(Run& run) {
   step(2, 0, RunPart::Parameters);
   find_parameters(run, best.confirmed, best.unit, false);
   if (result.flat) find_parameters(run, *result.flat, best.unit, true);
-  // Few runs a design where the fingers name a belief: all of the front have it.
+  // Few runs a design where the fingers name beliefs: all of the front have it.
   for (FinalDesign& f : result.finalists) {
     if (run.problem.has_belief() && f.on_front && &f != &best && !run.stopped())
       find_parameters(run, f.confirmed, f.unit, false);

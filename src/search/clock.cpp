@@ -7,8 +7,8 @@
 namespace papilla::search {
 namespace {
 
-// Of the limit, part by part: half is the search's.
-constexpr PartSeconds kShares{0.50, 0.12, 0.16, 0.03, 0.06, 0.03, 0.04, 0.02, 0.04};
+// Of the limit, part by part: half is the search's where there is no belief.
+constexpr PartSeconds kShares{0.40, 0.12, 0.16, 0.10, 0.03, 0.06, 0.03, 0.04, 0.02, 0.04};
 
 }  // namespace
 

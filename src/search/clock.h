@@ -15,6 +15,7 @@ enum class RunPart {
   Search,
   Narrow,
   Confirm,
+  Belief,
   Stability,
   Flat,
   Rounding,
@@ -22,7 +23,7 @@ enum class RunPart {
   Parameters,
   Files
 };
-inline constexpr std::size_t kParts = 9;
+inline constexpr std::size_t kParts = 10;
 
 // Expected seconds of each part in full.
 using PartSeconds = std::array<double, kParts>;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "optim/pareto.h"
 #include "search/levels.h"
@@ -13,6 +14,10 @@ namespace {
 // So many designs are confirmed in the confirmation's time, however short; the price of each is cut
 // down to this share of what it is in full.
 constexpr double kFewConfirmed = 3, kLeastConfirmation = 0.02;
+// Where the fingers name a belief so many designs are confirmed at least, if there are as many that
+// differ by this share of some variable's range.
+constexpr std::size_t kLeastBelieved = 4;
+constexpr double kApart = 0.15;
 
 // Which designs of one level to judge at the next.
 std::vector<std::size_t> chosen_of(const SearchProblem& search, const JudgedDesigns& designs,
@@ -41,12 +46,40 @@ std::vector<Evaluation> known_drafts(const std::vector<Evaluation>& history) {
   return out;
 }
 
+bool apart(const Point& a, const Point& b) {
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (std::abs(a[k] - b[k]) > kApart) return true;
+  }
+  return false;
+}
+
+// Of the designs that keep every limit and are unlike the chosen ones, the best in the first
+// objective: where belief decides, one design has no rivals.
+void add_rivals(const JudgedDesigns& below, std::vector<std::size_t>& chosen) {
+  while (chosen.size() < kLeastBelieved) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const Evaluation& e = below.evaluations[i];
+      const bool unlike = std::all_of(chosen.begin(), chosen.end(), [&](std::size_t c) {
+        return apart(e.unit, below.evaluations[c].unit);
+      });
+      if (!unlike || !e.outcome.feasible()) continue;
+      if (!best || e.outcome.objectives[0] < below.evaluations[*best].outcome.objectives[0])
+        best = i;
+    }
+    if (!best) return;
+    chosen.push_back(*best);
+  }
+}
+
 // The finalists, and the surface of the first one by the first objective without its texture: a
 // texture of a nanometre must not pass for a design because its patch has other skins.
 std::vector<Point> to_confirm(const Run& run, const JudgedDesigns& below) {
   std::vector<Point> out;
   const Evaluation* first = nullptr;
-  for (std::size_t i : chosen_of(run.search, below, kFinalists)) {
+  std::vector<std::size_t> chosen = chosen_of(run.search, below, kFinalists);
+  if (run.problem.belief()) add_rivals(below, chosen);
+  for (std::size_t i : chosen) {
     const Evaluation& e = below.evaluations[i];
     out.push_back(e.unit);
     if (e.outcome.ok && (!first || e.outcome.objectives[0] < first->outcome.objectives[0]))
@@ -80,7 +113,12 @@ FinalDesign finalist(Run& run, const Point& unit) {
   f.unit = unit;
   f.design = run.problem.space().design(unit);
   f.searched = searched_score(run, unit);
-  f.confirmed = run.replay.scores({unit}, Stage::Confirm, false, run.confirm_seconds).front();
+  std::vector<TaskRequest> requests;
+  for (std::size_t t = 0; t < run.problem.tasks().size(); ++t)
+    requests.push_back({Stage::Confirm, t, false, unit, run.confirm_seconds});
+  f.answers = run.replay.answers(requests);
+  f.confirmed = run.problem.score(f.answers);
+  for (TaskAnswer& answer : f.answers) answer.report.clear();
   f.feasible = run.problem.feasible(f.confirmed, f.design);
   return f;
 }
@@ -146,6 +184,13 @@ void judge(Run& run) {
     f.on_front = f.feasible;
     if (!f.feasible && f.confirmed.ok) f.folder = "best";
   }
+  order_finalists(run);
+}
+
+}  // namespace
+
+void order_finalists(Run& run) {
+  OptimiseResult& result = run.result;
   const bool maximise = run.problem.objectives()[0].maximise;
   std::stable_sort(result.finalists.begin(), result.finalists.end(),
                    [&](const FinalDesign& a, const FinalDesign& b) {
@@ -160,8 +205,6 @@ void judge(Run& run) {
     if (f.on_front) f.folder = fmt::format("front/{:02d}", ++number);
   }
 }
-
-}  // namespace
 
 bool narrow(Run& run) {
   const std::size_t count = narrowings(run.search);

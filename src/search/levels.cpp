@@ -16,8 +16,8 @@ constexpr int kFreshSkins = 1000;  // the confirmation's: none of what came befo
 // Designs that the level between judges: one for so many evaluations of the search, at most.
 constexpr int kEvaluationsPerNarrowing = 3;
 constexpr int kMostNarrowings = 32;
-// Steps of the parameters: skins over all fingers, pixels.
-constexpr int kStepSkins = 12, kStepGrid = 64;
+// Steps of the parameters, members of belief: skins over all fingers, pixels.
+constexpr int kStepSkins = 12, kMemberSkins = 8, kStepGrid = 64;
 // Peak of a process, measured at 128, 256, 512 and 1024 pixels per side (53, 62, 104 and 262 MB):
 // heights, gap, pressure, tractions, field and their transforms.
 constexpr double kBytesOfProgram = 50e6, kBytesPerPixel = 210;
@@ -117,6 +117,7 @@ Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {
     case Stage::Confirm:
     case Stage::Rounding:
     case Stage::Steps:
+    case Stage::Belief:
       return confirm_fidelity(study, problem.nominal_tasks());
     case Stage::Stability:
     case Stage::Sensitivity:
@@ -138,11 +139,13 @@ Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_se
 }
 
 std::size_t designs_with_model_part(const StudyProblem& problem) {
+  if (problem.belief()) return 1;
   return problem.has_belief() ? kFinalists + 1 : 2;
 }
 
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed) {
-  confirmed.skins = std::max(2, kStepSkins / static_cast<int>(problem.nominal_tasks()));
+  const int over_all = problem.belief() ? kMemberSkins : kStepSkins;
+  confirmed.skins = std::max(2, over_all / static_cast<int>(problem.nominal_tasks()));
   confirmed.grid = kStepGrid;
   return confirmed;
 }
@@ -155,8 +158,9 @@ std::size_t narrowings(const SearchProblem& p) {
 
 double task_price(const StudyProblem& problem, Stage stage, double most_seconds) {
   const Fidelity f = stage_fidelity(problem, stage, most_seconds);
-  if (stage != Stage::Steps) return priced(problem, f);
+  if (stage != Stage::Steps && stage != Stage::Belief) return priced(problem, f);
   const ModelCost cost = model_cost(problem.tasks().front().finger, steps_fidelity(problem, f));
+  if (problem.belief()) return cost.runs * priced(problem, cost.fidelity);
   return cost.runs * plan_at(problem, cost.fidelity).seconds();
 }
 
@@ -180,6 +184,11 @@ StudyCost study_cost(const Study& study) {
                 price((1 + 2 * variables) * tasks, Stage::Sensitivity);
   if (problem.parameters_unknown().empty())
     out.seconds += price(designs_with_model_part(problem) * problem.nominal_tasks(), Stage::Steps);
+  if (problem.belief()) {
+    out.members = problem.belief()->members.size();
+    out.belief_seconds = price(out.finalists * problem.nominal_tasks(), Stage::Belief);
+    out.seconds += out.belief_seconds;
+  }
   out.pixels = stage_fidelity(problem, Stage::Search).grid;
   out.feature = problem.smallest_feature();
   out.feature_pixels = out.feature * out.pixels / kWindow;
@@ -209,6 +218,14 @@ std::string search_plan(const Study& study) {
   }
   out += fmt::format("\nconfirmation of up to {} finalists, fresh skins:\n", kFinalists + 1) +
          level(Stage::Confirm);
+  if (problem.belief()) {
+    const ModelCost cost =
+        model_cost(problem.tasks().front().finger,
+                   steps_fidelity(problem, stage_fidelity(problem, Stage::Belief)));
+    out += fmt::format("\nfinalists at the {} members of {}, for which of them to build:\n",
+                       problem.belief()->members.size(), problem.belief()->file) +
+           plan_at(problem, cost.fidelity).text();
+  }
   return out;
 }
 

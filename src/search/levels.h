@@ -17,9 +17,11 @@ inline constexpr std::size_t kFewNarrowed = 4;
 // 0: anything.
 Fidelity stage_fidelity(const StudyProblem& problem, Stage stage, double most_seconds = 0);
 // Designs whose model part is stated at the end of a run: the best and its flat surface; with
-// belief all of the front.
+// beliefs that are not common to the fingers all of the front, with a common one the flat surface:
+// the others have theirs from the stage before.
 std::size_t designs_with_model_part(const StudyProblem& problem);
-// Steps of the parameters of confirmed designs: fewer skins, shared out over the population.
+// Steps of the parameters of confirmed designs, members of belief: fewer skins, shared out over the
+// population.
 Fidelity steps_fidelity(const StudyProblem& problem, Fidelity confirmed);
 
 // How many designs the level between search and confirmation judges: where there is a model of the
@@ -37,6 +39,8 @@ struct StudyCost {
   int evaluations = 0, tasks = 0;  // of an evaluation
   std::size_t narrowed = 0, finalists = 0;
   double seconds = 0;
+  std::size_t members = 0;                 // of belief, at each of which the finalists are judged
+  double belief_seconds = 0;               // of them
   double bytes = 0;                        // the largest patch of a worker, solved
   int pixels = 0;                          // of the search, along 12 um
   double feature = 0, feature_pixels = 0;  // the smallest of the space [m]; infinite: none

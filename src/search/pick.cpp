@@ -9,59 +9,73 @@
 #include "base/error.h"
 
 namespace papilla::search {
-namespace {
 
-// Index of the largest value; the first among equals.
-template <class F>
-std::size_t largest(std::size_t count, const F& value) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < count; ++i) {
-    if (value(i) > value(best)) best = i;
-  }
-  return best;
-}
-
-// Least sum of the objectives, each scaled to the front's extent.
-std::size_t knee(const std::vector<PickCandidate>& front) {
-  std::vector<double> sum(front.size(), 0);
-  for (std::size_t k = 0; k < front[0].objectives.size(); ++k) {
-    double low = front[0].objectives[k], high = low;
-    for (const PickCandidate& c : front) {
-      low = std::min(low, c.objectives[k]);
-      high = std::max(high, c.objectives[k]);
-    }
-    for (std::size_t i = 0; i < front.size() && high > low; ++i)
-      sum[i] += (front[i].objectives[k] - low) / (high - low);
-  }
-  return largest(front.size(), [&](std::size_t i) { return -sum[i]; });
-}
-
-}  // namespace
-
-std::size_t pick_design(const std::string& rule, const std::vector<PickCandidate>& front) {
-  if (front.empty()) throw InputError("--pick: the front has no design");
-  const bool driven = front[0].worst.has_value();
+PickRule read_pick_rule(const std::string& rule, const std::vector<std::string>& objectives,
+                        bool driven) {
+  using Kind = PickRule::Kind;
   if (rule == "worst" && !driven)
     throw InputError("--pick worst: without a drive there is no modulation; use \"knee\"");
-  if (rule == "knee" || (rule.empty() && !driven)) return knee(front);
-  if (rule.empty() || rule == "worst")
-    return largest(front.size(), [&](std::size_t i) { return front[i].worst.value_or(0); });
+  if (rule == "knee" || (rule.empty() && !driven)) return {Kind::Knee, 0};
+  if (rule.empty() || rule == "worst") return {Kind::Worst, 0};
   std::size_t number = 0;
   const auto [end, error] = std::from_chars(rule.data(), rule.data() + rule.size(), number);
-  if (error == std::errc{} && end == rule.data() + rule.size()) {
-    if (number >= 1 && number <= front.size()) return number - 1;
-    throw InputError(
-        fmt::format("--pick {}: the front has the designs 1 to {}", rule, front.size()));
-  }
+  // 0 is no number of a design, and no index: pick_design refuses what is beyond the front.
+  if (error == std::errc{} && end == rule.data() + rule.size()) return {Kind::Number, number - 1};
   std::string names;
-  for (std::size_t k = 0; k < front[0].names.size(); ++k) {
-    if (front[0].names[k].starts_with(rule))
-      return largest(front.size(), [&](std::size_t i) { return -front[i].objectives[k]; });
-    names += ", \"" + front[0].names[k] + "\"";
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    if (objectives[k].starts_with(rule)) return {Kind::Objective, k};
+    names += ", \"" + objectives[k] + "\"";
   }
   throw InputError(
       fmt::format("--pick: \"{}\" is no rule; use \"worst\", \"knee\"{} or the number of a design",
                   rule, names));
+}
+
+std::vector<Extent> extents(const std::vector<PickCandidate>& front) {
+  std::vector<Extent> out;
+  for (std::size_t k = 0; k < front.front().objectives.size(); ++k) {
+    Extent& e = out.emplace_back(Extent{front[0].objectives[k], front[0].objectives[k]});
+    for (const PickCandidate& c : front) {
+      e.low = std::min(e.low, c.objectives[k]);
+      e.high = std::max(e.high, c.objectives[k]);
+    }
+  }
+  return out;
+}
+
+double pick_worth(const PickRule& rule, const PickCandidate& design,
+                  const std::vector<Extent>& extents) {
+  switch (rule.kind) {
+    case PickRule::Kind::Worst:
+      return design.worst.value_or(0);
+    case PickRule::Kind::Objective:
+      return -design.objectives.at(rule.index);
+    case PickRule::Kind::Knee:
+    case PickRule::Kind::Number:
+      break;
+  }
+  double sum = 0;
+  for (std::size_t k = 0; k < extents.size(); ++k) {
+    const auto [low, high] = extents[k];
+    if (high > low) sum += (design.objectives.at(k) - low) / (high - low);
+  }
+  return -sum;
+}
+
+std::size_t pick_design(const std::string& text, const std::vector<PickCandidate>& front) {
+  if (front.empty()) throw InputError("--pick: the front has no design");
+  const PickRule rule = read_pick_rule(text, front[0].names, front[0].worst.has_value());
+  if (rule.kind == PickRule::Kind::Number) {
+    if (rule.index < front.size()) return rule.index;
+    throw InputError(
+        fmt::format("--pick {}: the front has the designs 1 to {}", text, front.size()));
+  }
+  const std::vector<Extent> of = extents(front);
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < front.size(); ++i) {
+    if (pick_worth(rule, front[i], of) > pick_worth(rule, front[best], of)) best = i;
+  }
+  return best;
 }
 
 std::string picked_design(const Folder& results, const std::string& rule) {

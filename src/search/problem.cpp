@@ -52,7 +52,10 @@ StudyProblem::StudyProblem(const Study& study)
                static_cast<std::size_t>(std::count_if(
                    tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.nominal(); })),
                study.scatter.size(), study.design.environment.weights},
-      smallest_feature_(smallest_feature_of(space_, constraints_)) {}
+      belief_risk_(parse_belief_risk(study.risk.belief)),
+      smallest_feature_(smallest_feature_of(space_, constraints_)) {
+  if (belief_absent().empty()) belief_ = belief_of(tasks_.front().finger);
+}
 
 bool StudyProblem::driven() const {
   return std::any_of(study_.variables.begin(), study_.variables.end(),
@@ -76,15 +79,27 @@ bool StudyProblem::has_belief() const {
   return true;
 }
 
-std::vector<double> StudyProblem::belief_weights() const {
+std::string StudyProblem::belief_absent() const {
   const Finger& first = tasks_.front().finger;
-  if (first.belief.empty()) return {};
   for (std::size_t t = 0; t < nominal_tasks(); ++t) {
-    if (tasks_[t].finger.belief != first.belief) return {};
+    const Scene scene = scene_of(task_design(study_, study_.design, tasks_[t]));
+    if (scene.finger.belief.empty())
+      return fmt::format(
+          "finger \"{}\" names no belief: give its file belief = \"FILE\" (papilla calibrate "
+          "makes one)",
+          scene.finger.name);
+    if (scene.finger.belief != first.belief)
+      return fmt::format(
+          "fingers \"{}\" and \"{}\" name different beliefs, whose members are not common to "
+          "both: name one file in all fingers of the study",
+          first.name, scene.finger.name);
+    if (scene.model != scene.finger.calibrated_for)
+      return fmt::format(
+          "the belief of finger \"{}\" is of other model options than [model]: leave [model] "
+          "out, or calibrate with these options",
+          scene.finger.name);
   }
-  std::vector<double> out;
-  for (const BeliefMember& m : belief_of(first).members) out.push_back(m.weight);
-  return out;
+  return {};
 }
 
 std::string StudyProblem::model_source() const {

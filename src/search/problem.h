@@ -2,13 +2,16 @@
 // of designs as outcomes.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
 #include "optim/search.h"
+#include "scene/belief.h"
 #include "search/constraints.h"
 #include "search/objectives.h"
+#include "search/prospects.h"
 #include "search/score.h"
 #include "search/space.h"
 #include "search/tasks.h"
@@ -38,8 +41,10 @@ class StudyProblem {
   // "belief about finger and model", or "the fit of the finger": whose that part is.
   std::string model_source() const;
   bool has_belief() const;  // all fingers name one
-  // Of its members, where all fingers name the same; else empty.
-  std::vector<double> belief_weights() const;
+  // Its members are common to all tasks; none: belief_absent says why.
+  const std::optional<Belief>& belief() const { return belief_; }
+  std::string belief_absent() const;  // for people; "": there is one
+  const BeliefRisk& belief_risk() const { return belief_risk_; }
 
   // From one answer per task.
   Score score(const std::vector<TaskAnswer>& answers) const { return score_of(scoring_, answers); }
@@ -61,6 +66,8 @@ class StudyProblem {
   StudyGoals goals_;
   StudyConstraints constraints_;
   Scoring scoring_;
+  BeliefRisk belief_risk_;
+  std::optional<Belief> belief_;
   double smallest_feature_;
 };
 

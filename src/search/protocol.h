@@ -14,7 +14,7 @@
 namespace papilla::search {
 
 // Raised when the meaning or the order of what is encoded changes: part of the journal's key.
-constexpr int kProtocol = 6;
+constexpr int kProtocol = 7;
 
 // What a design is asked for, each at its level (levels.h).
 enum class Stage {
@@ -22,6 +22,7 @@ enum class Stage {
   Draft,        // cheap, to steer the search
   Narrow,       // between search and confirmation
   Confirm,      // of the finalists, at the study's accuracy
+  Belief,       // what belief about finger and model leaves open, of what keeps every limit
   Stability,    // one finger or another choice of the model
   Rounding,     // of the best design on the grid of the fab, as the confirmation
   Sensitivity,  // a small step of a variable
@@ -82,6 +83,9 @@ struct TaskAnswer {
   std::vector<std::vector<ErrorSamples>> samples;
   // [objective]; empty: not asked for. An objective's own is empty where a step is not defined.
   std::vector<StepSamples> steps;
+  // At each member of the finger's belief, last as the finger is, on few skins; empty: not asked
+  // for.
+  std::vector<TaskAnswer> members;
   std::string report;  // the response as text, of confirmed tasks
 
   static TaskAnswer refused(TaskStatus::Kind kind, const std::string& text) {

@@ -36,7 +36,10 @@ bool possible(const StudyProblem& problem, Stage stage, const TaskAnswer& a) {
   const std::size_t humidities = problem.study().design.environment.relative_humidity.size();
   if (!a.status.ok()) return true;
   if (!a.steps.empty() && a.steps.size() != count) return false;
-  if (stage == Stage::Steps) return true;
+  if (stage == Stage::Steps || stage == Stage::Belief) {
+    const auto sound = [&](const TaskAnswer& m) { return possible(problem, Stage::Search, m); };
+    return std::all_of(a.members.begin(), a.members.end(), sound);
+  }
   if (a.objectives.size() != count) return false;
   if (a.limited.size() != goals.limited.size() || (goals.looks && !a.look)) return false;
   if (!a.samples.empty() && a.samples.size() != count) return false;
@@ -71,6 +74,7 @@ std::optional<TaskRequest> checked_request(const StudyProblem& problem, const Se
     case Stage::Draft:
     case Stage::Narrow:
     case Stage::Confirm:
+    case Stage::Belief:
     case Stage::Stability:
     case Stage::Rounding:
     case Stage::Sensitivity:

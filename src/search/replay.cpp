@@ -23,19 +23,21 @@ int place(Stage stage, bool flat) {
     case Stage::Narrow:
       return 1;
     case Stage::Confirm:
-      return flat ? 4 : 2;
-    case Stage::Stability:
+      return flat ? 5 : 2;
+    case Stage::Belief:
       return 3;
+    case Stage::Stability:
+      return 4;
     case Stage::Rounding:
-      return 5;
-    case Stage::Sensitivity:
       return 6;
-    case Stage::Steps:
+    case Stage::Sensitivity:
       return 7;
+    case Stage::Steps:
+      return 8;
     case Stage::Done:
       break;
   }
-  return 8;
+  return 9;
 }
 
 Journal open_journal(const StudyProblem& problem, const Folder& folder, bool resume) {

@@ -38,8 +38,10 @@ Risk parse_risk(const std::string& text) {
     if (k < 0) throw InputError("objective.risk: \"" + text + "\": a factor below 0 seeks risk");
     return {Risk::Kind::MeanStd, k};
   }
-  if (compact.starts_with("cvar") && compact.ends_with("%")) {
-    const double share = 0.01 * parse_number(compact.substr(4, compact.size() - 5), text);
+  for (const std::string name : {"cvar", "worst"}) {
+    if (!compact.starts_with(name) || !compact.ends_with("%")) continue;
+    const std::string number = compact.substr(name.size(), compact.size() - name.size() - 1);
+    const double share = 0.01 * parse_number(number, text);
     if (share > 0 && share <= 1) return {Risk::Kind::Cvar, share};
   }
   parse_number("", text);

@@ -122,10 +122,10 @@ void write_files(Run& run, const StageSeconds& at) {
     run.options.writer->write(
         {run.folder.path(), run.study, run.problem, run.history, run.result, rule});
   // What each stage took of its price, so that prices and times left can be held against runs.
-  constexpr std::array kTimed{Stage::Search,   Stage::Narrow,      Stage::Confirm, Stage::Stability,
-                              Stage::Rounding, Stage::Sensitivity, Stage::Steps};
-  constexpr std::array kNames{"search",   "narrow",      "confirm", "stability",
-                              "rounding", "sensitivity", "steps"};
+  constexpr std::array kTimed{Stage::Search,    Stage::Narrow,   Stage::Confirm,     Stage::Belief,
+                              Stage::Stability, Stage::Rounding, Stage::Sensitivity, Stage::Steps};
+  constexpr std::array kNames{"search",    "narrow",   "confirm",     "belief",
+                              "stability", "rounding", "sensitivity", "steps"};
   std::string stages;
   for (std::size_t k = 0; k < kTimed.size(); ++k) {
     const Replay::Spent& spent = run.replay.spent(kTimed[k]);
@@ -224,6 +224,9 @@ PartSeconds Run::wanted() const {
                                               part_share(RunPart::Narrow) * study.search.time;
   if (enough) set(RunPart::Narrow, seconds_of_designs(narrowings(search), Stage::Narrow));
   set(RunPart::Confirm, seconds_of_designs(kFinalists + 1, Stage::Confirm));
+  if (problem.belief())
+    set(RunPart::Belief,
+        seconds_of(believed(problem, result) * problem.nominal_tasks(), Stage::Belief));
   set(RunPart::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
   set(RunPart::Flat, seconds_of_designs(2, Stage::Confirm));
   set(RunPart::Rounding, seconds_of_designs(1, Stage::Rounding));

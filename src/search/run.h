@@ -11,6 +11,7 @@
 #include "base/rooms.h"
 #include "forward/response.h"
 #include "search/clock.h"
+#include "search/decision.h"
 #include "search/findings.h"
 #include "search/problem.h"
 #include "search/protocol.h"
@@ -20,7 +21,7 @@
 namespace papilla::search {
 
 struct Progress {
-  std::string stage;  // "draft", "search", "narrow", "confirm", "check"
+  std::string stage;  // "draft", "search", "narrow", "confirm", "belief", "check"
   int done = 0, total = 0;
   std::string best;         // best values so far, for people
   double seconds_left = 0;  // to the end of the run; < 0: not known yet
@@ -50,6 +51,8 @@ struct FinalDesign {
   bool flat = false;  // the surface without its texture, which `unit` still has
   Design design;
   Score searched, confirmed;
+  std::vector<TaskAnswer> answers;  // behind the confirmed score, without their reports
+  std::vector<Score> members;       // at each member of belief; empty: not asked for
   bool feasible = false, on_front = false;
   // "front/01"; "best" for the least-violating one where none keeps every constraint; empty for the
   // rest.
@@ -81,6 +84,7 @@ struct OptimiseResult {
   std::optional<Score> flat;            // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
   std::optional<BuiltDesign> build;
+  Decision decision;    // by belief
   Stability stability;  // of the order of the finalists on the front, in their order
   std::vector<VariableSensitivity> sensitivity;  // of what is built
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)

@@ -232,30 +232,6 @@ std::optional<double> parameter_error(const Score& score, const Score& other,
   return step_error(difference);
 }
 
-std::vector<double> best_by_belief(const std::vector<const Score*>& designs, std::size_t objective,
-                                   bool maximise, const std::vector<double>& weights) {
-  for (const Score* s : designs) {
-    if (objective >= s->parameter_steps.size() ||
-        s->parameter_steps[objective].size() != weights.size())
-      return {};
-  }
-  if (weights.empty()) return {};
-  std::vector<double> out(designs.size(), 0);
-  for (std::size_t m = 0; m < weights.size(); ++m) {
-    std::vector<double> values;
-    for (const Score* s : designs) {
-      const double move =
-          mean_estimate(s->parameter_steps[objective][m]).value / std::sqrt(weights[m]);
-      values.push_back((maximise ? 1 : -1) * (s->values[objective] + move));
-    }
-    const double best = *std::max_element(values.begin(), values.end());
-    const auto ties = static_cast<double>(std::count(values.begin(), values.end(), best));
-    for (std::size_t i = 0; i < values.size(); ++i)
-      out[i] += values[i] == best ? weights[m] / ties : 0;
-  }
-  return out;
-}
-
 double difference_error(const Score& score, const Score& other, std::size_t objective) {
   if (objective < score.samples.size() && objective < other.samples.size()) {
     if (const auto error = difference_error(score.samples[objective], other.samples[objective]))

@@ -55,12 +55,6 @@ std::optional<double> parameter_error(const Score& score, std::size_t objective)
 std::optional<double> parameter_error(const Score& score, const Score& other,
                                       std::size_t objective);
 
-// Probability of each design to be the best in an objective, by the members of belief alone: the
-// values moved as each member moves them (Eq. accuracy.15), equal ones share a member's weight.
-// Empty where the moves of a design are not known, or weights are none.
-std::vector<double> best_by_belief(const std::vector<const Score*>& designs, std::size_t objective,
-                                   bool maximise, const std::vector<double>& weights);
-
 // Standard error of the difference of two designs in an objective: from their samples on common
 // skins, droplets and grids (Eq. accuracy.14); the larger of both errors where those are not known.
 double difference_error(const Score& score, const Score& other, std::size_t objective);

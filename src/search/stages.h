@@ -74,6 +74,14 @@ bool narrow(Run& run);
 // The finalists at the study's accuracy: these numbers decide the front.
 bool confirm(Run& run);
 
+// Designs whose members of belief are evaluated: the finalists that keep every limit; before there
+// are any, as many as there may be.
+std::size_t believed(const StudyProblem& problem, const OptimiseResult& result);
+// The finalists at every member of belief: which are on the front, and which to build.
+bool judge_belief(Run& run);
+// The front first, each of its designs with its folder, by the first objective.
+void order_finalists(Run& run);
+
 // What is said of the front and the best beside their numbers: whether the order holds under other
 // models, what is the texture's, what the variables and the fit of the finger do.
 bool check(Run& run);

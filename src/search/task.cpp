@@ -191,15 +191,42 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
   return out;
 }
 
+namespace {
+
+// What each member of the response's belief says of the goals, last the finger as it is.
+std::vector<TaskAnswer> member_answers(const StudyGoals& goals, const Scene& scene, const Design& d,
+                                       const std::string& task, const Response& response,
+                                       const Fidelity& fidelity) {
+  std::vector<Scene> scenes = belief_scenes(belief_of(scene.finger), scene);
+  scenes.push_back(scene);
+  std::vector<TaskAnswer> out;
+  for (std::size_t m = 0; m < scenes.size(); ++m) {
+    const bool own = m + 1 == scenes.size();
+    Response there;
+    static_cast<Resampled&>(there) = own ? response.belief.own : response.belief.members[m].run;
+    there.driven = response.driven;
+    auto refused = complete(there, goals, scenes[m], d, task, fidelity);
+    out.push_back(refused ? *std::move(refused) : answer_of(goals, d, task, there));
+  }
+  return out;
+}
+
+}  // namespace
+
 TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
                           const Fidelity& fidelity) {
   const Design d = task_design(problem.study(), design, problem.tasks().at(task));
   Response response;
   response.driven = d.drive.driven();
   if (problem.goals().looks) response.appearance = appearance_of(d);
-  add_model_errors(response, scene_of(d), d.texture, steps_fidelity(problem, fidelity));
+  const Scene scene = scene_of(d);
+  const Fidelity few = steps_fidelity(problem, fidelity);
+  add_model_errors(response, scene, d.texture, few);
   TaskAnswer out;
   out.steps = steps_of(problem.goals(), response);
+  if (!response.belief.members.empty())
+    out.members = member_answers(problem.goals(), scene, d, problem.tasks()[task].name, response,
+                                 belief_fidelity(few));
   return out;
 }
 
@@ -213,6 +240,7 @@ Work work_function(const StudyProblem& problem, int threads, const ResponseText&
     if (request->flat) design.texture = without_relief(design);
     switch (request->stage) {
       case Stage::Steps:
+      case Stage::Belief:
         return encode(evaluate_steps(problem, design, request->task, fidelity));
       case Stage::Stability:
         return encode(evaluate_variant(problem, design, request->task, fidelity));

@@ -36,8 +36,8 @@ TaskAnswer answer_of(const StudyGoals& goals, const Design& design, const std::s
 TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std::size_t task,
                          const TaskWork& work);
 
-// The steps of the parameters alone, for a task as designed whose finger has an `uncertainty`. With
-// [accuracy] parameters a confirmed task has them too.
+// The steps of the parameters alone, for a task as designed whose finger has an `uncertainty`; of a
+// belief its answer at each member too. With [accuracy] parameters a confirmed task has the steps.
 TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std::size_t task,
                           const Fidelity& fidelity);
 

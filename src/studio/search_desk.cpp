@@ -60,6 +60,8 @@ const char* stage_name(Stage stage) {
       return "narrow";
     case Stage::Confirm:
       return "confirm";
+    case Stage::Belief:
+      return "belief";
     default:
       return "check";
   }

@@ -29,10 +29,13 @@ PartSeconds all(double seconds) {
   return out;
 }
 
-TEST(Clock, TheSearchKeepsHalfHoweverMuchTheRestWants) {
-  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Search, all(1e6)), 30);
-  // What the rest does not want is the search's: eight parts of 1 s.
-  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Search, all(1)), 52);
+TEST(Clock, TheSearchKeepsHalfOrWithBeliefFourTenthsHoweverMuchTheRestWants) {
+  PartSeconds fitted = all(1e6);  // without a belief
+  fitted[static_cast<std::size_t>(RunPart::Belief)] = 0;
+  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Search, fitted), 30);
+  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Search, all(1e6)), 24);
+  // What the rest does not want is the search's: nine parts of 1 s.
+  EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Search, all(1)), 51);
   EXPECT_DOUBLE_EQ(part_deadline(60, RunPart::Files, all(1e6)), 60);
 }
 

@@ -94,8 +94,9 @@ function showPareto() {
   });
 }
 function showFinalists() {
-  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' model'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : entry(r[c]);
+  const doubts = ['p(best)', 'expected regret', 'p(every limit)'].filter((c) => heads.includes(c));
+  const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], doubts, ['feasible']);
+  const value = (r, c) => c.startsWith('p(') && r[c] !== '' ? round(100 * r[c], 3) + ' %' : objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' model'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : entry(r[c]);
   // Keys break where people read a break, not inside words.
   const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
@@ -149,8 +150,15 @@ function showSection(box, heading, none) {
   scroll.className = 'scroll';
   scroll.appendChild(t);
   box.append(h, p, scroll);
+  // What follows the table: which designs it is about, and what would change it.
+  lines.filter((l) => l && !l.startsWith('|')).slice(1).forEach((l) => {
+    const note = document.createElement('p');
+    note.className = 'note';
+    note.textContent = l.replace(/^- /, '');
+    box.append(note);
+  });
   const rows = lines.filter((l) => l.startsWith('|') && !l.startsWith('|-')).map((l) => l.slice(1, -1).split('|').map((c) => c.trim().replace(/\*\*/g, '').replace(/ \*$/, '\u00a0*')));
-  table(t, rows[0], rows.slice(1));
+  if (rows.length) table(t, rows[0], rows.slice(1));
 }
 
 function showProgress() {
@@ -212,7 +220,7 @@ function showDesign() {
     Object.keys(d.objectives).map((name) => [called(name), quantity(d.objectives[name], name), flat ? quantity(flat.objectives[name], name) : '–', quantity(lead[name], name)])
       .concat(run.driven ? [['worst modulation', round(d.worst_modulation), flat ? round(flat.worst_modulation) : '–', '']] : [])
       .concat([['oxide breakdown margin', round(d.oxide_breakdown_margin), '', '']])
-      .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.stable ? '' : ': unstable'), '', '']] : []), [1, 2, 3]);
+      .concat(d.stability && Object.values(data.designs).filter((o) => o.stability).length > 2 ? [['place on the front holds', `${d.stability.on_front} of ${d.stability.variants} variants` + (d.stability.why ? ': unstable.' + d.stability.why : ''), '', '']] : []), [1, 2, 3]);
   $('toml').textContent = d.toml;
 }
 
@@ -243,6 +251,7 @@ options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humid
 startSolid();
 select('best');
 showSteps();
+showSection($('decision'), 'Which of them, by belief', '');
 showSection($('stability'), 'Does the order hold?', Object.keys(data.designs).length > 2 ? 'Whether the order holds under other choices of the model was not checked.' : 'One design on the front: there is no order to check.');
 showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;

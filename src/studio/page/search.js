@@ -103,7 +103,7 @@ const open = (point) => ask('search/pick', point.front ? { front: point.front } 
 
 // ---- what it found ----
 const words = { none: '', running: 'running', paused: 'paused', finished: 'finished', failed: 'failed' };
-const stages = { search: 'looks for designs', narrow: 'judges the best again', confirm: 'confirms the finalists', check: 'checks what is said of them' };
+const stages = { search: 'looks for designs', narrow: 'judges the best again', confirm: 'confirms the finalists', belief: 'judges the finalists over belief', check: 'checks what is said of them' };
 const time = (seconds) => seconds < 100 ? `${Math.ceil(seconds)} s` : `${Math.ceil(seconds / 60)} min`;
 export function showSearch(search) {
   state.search = search;

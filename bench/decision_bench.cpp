@@ -1,0 +1,206 @@
+// Planted truths: what recommendations are worth where the finger is one member of a belief that
+// the recommendation does not know; CSV on standard output, a truth a row, then the sums.
+//   decision_bench FILE FRONT MOST MEMBERS TRUTHS
+//                    the designs of the table FRONT, at most MOST, for the first finger of the
+//                    study FILE, at level draft; MEMBERS are drawn about that finger, a fifth with
+//                    the first droplet step 50 nm, a fifth with air by emission; each of the first
+//                    TRUTHS is left out of the belief and judged on other skins
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "bench/front_file.h"
+#include "estimate/belief.h"
+#include "search/levels.h"
+#include "search/run.h"
+#include "search/task.h"
+
+using namespace papilla::tests;
+
+namespace {
+
+constexpr int kTruthSkins = 3000;  // skins of the truths start here
+
+// Numbers of the finger times exp(s normal): skin, load, layer, water.
+Belief planted(const Finger& finger, int members) {
+  Belief out;
+  out.made_of = "drawn by decision_bench";
+  out.calibrated_for = finger.calibrated_for;
+  RandomStream random(1, "planted belief");
+  for (int m = 0; m < members; ++m) {
+    BeliefMember member;
+    member.weight = 1.0 / members;
+    const auto set = [&](const char* path, double value, double spread, const char* unit) {
+      member.set.push_back(
+          {path,
+           text_node(fmt::format("{:.6g} {}", value * std::exp(spread * random.normal()), unit))});
+    };
+    set("skin.rms", 1e9 * finger.skin.rms, 0.15, "nm");
+    set("skin.layer_modulus", 1e-6 * finger.skin.layer_modulus, 0.3, "MPa");
+    set("electrical.thickness_15", 1e9 * finger.electrical.thickness_15, 0.2, "nm");
+    const double load = finger.macro.load_share * std::exp(0.4 * random.normal()),
+                 water = std::exp(0.4 * random.normal());
+    member.set.push_back({"macro.load_share", number_node(load)});
+    member.set.push_back({"water.scale", number_node(water)});
+    member.hypothesis = m % 5 == 3 ? "first droplet step 50 nm" : m % 5 == 4 ? "emission" : "fit";
+    if (m % 5 == 3) member.set.push_back({"model.droplet_step", text_node("50 nm")});
+    if (m % 5 == 4) member.set.push_back({"model.air_limit", text_node("emission")});
+    out.members.push_back(std::move(member));
+  }
+  return out;
+}
+
+Study study_of(const std::string& file, int members) {
+  Study study = read_study(file);
+  if (!study.population.empty()) study.design.finger = study.population.front();
+  study.population.clear();
+  study.design.accuracy.level = AccuracyLevel::Draft;
+  const std::string path =
+      (std::filesystem::temp_directory_path() / "papilla_planted_belief.toml").string();
+  std::ofstream(path) << belief_text(planted(study.design.finger, members));
+  study.design.finger.belief = path;
+  return study;
+}
+
+std::vector<TaskAnswer> confirmed(const StudyProblem& problem, const Design& design) {
+  TaskWork work{stage_fidelity(problem, Stage::Confirm), true};
+  work.fidelity.threads = 1;
+  std::vector<TaskAnswer> out;
+  for (std::size_t t = 0; t < problem.tasks().size(); ++t)
+    out.push_back(evaluate_task(problem, design, t, work));
+  return out;
+}
+
+// A design where the truth is a member: every task at that member's finger and model, on skins that
+// nothing was chosen by.
+Score true_score(const StudyProblem& problem, const Design& design, std::size_t member) {
+  Fidelity fidelity = stage_fidelity(problem, Stage::Confirm);
+  fidelity.first_skin = kTruthSkins;
+  fidelity.threads = 1;
+  std::vector<TaskAnswer> answers;
+  for (const StudyTask& task : problem.tasks()) {
+    const Design d = task_design(problem.study(), design, task);
+    const Scene scene = belief_scenes(*problem.belief(), scene_of(d))[member];
+    Response response = evaluate(scene, d.texture, fidelity);
+    auto refused = complete(response, problem.goals(), scene, d, task.name, fidelity);
+    answers.push_back(refused ? *std::move(refused)
+                              : answer_of(problem.goals(), d, task.name, response));
+  }
+  return problem.score(answers);
+}
+
+std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<Point>& units) {
+  std::vector<FinalDesign> out;
+  for (const Point& unit : units) {
+    FinalDesign f;
+    f.unit = unit;
+    f.design = problem.space().design(unit);
+    f.answers = confirmed(problem, f.design);
+    f.confirmed = problem.score(f.answers);
+    f.feasible = problem.feasible(f.confirmed, f.design);
+    if (!f.feasible) continue;
+    Fidelity few = stage_fidelity(problem, Stage::Belief);
+    few.threads = 1;
+    std::vector<std::vector<TaskAnswer>> members;
+    for (std::size_t t = 0; t < problem.nominal_tasks(); ++t)
+      members.push_back(evaluate_steps(problem, f.design, t, few).members);
+    for (std::size_t m = 0; m < problem.belief()->members.size(); ++m)
+      f.members.push_back(score_at(problem, f.answers, members, m));
+    out.push_back(std::move(f));
+  }
+  return out;
+}
+
+struct Sums {
+  double by_belief = 0, by_fit = 0, expected = 0, error = 0, spread = 0;
+  int differences = 0;
+  std::vector<double> said, so, scatter;
+};
+
+int planted_truths(const std::string& file, const std::string& front, std::size_t most, int members,
+                   std::size_t truths) {
+  const Study study = study_of(file, members);
+  const StudyProblem problem(study);
+  const std::vector<FinalDesign> designs = judged(problem, read_front(front, problem, most));
+  std::vector<PickCandidate> candidates;
+  for (const FinalDesign& f : designs) candidates.push_back(pick_candidate(problem, f.confirmed));
+  if (candidates.size() < 2) throw InputError(front + ": fewer than two designs keep every limit");
+  const PickRule rule = read_pick_rule("", candidates[0].names, problem.driven());
+  const std::vector<Extent> extent = extents(candidates);
+  const MemberWorth all = member_worth(problem, designs, rule, extent);
+  const std::size_t by_fit = pick_design("", candidates);
+  constexpr std::size_t kBins = 4;
+  Sums sums;
+  sums.said = sums.so = sums.scatter = std::vector<double>(kBins, 0);
+  fmt::print("truth,hypothesis,by belief,p(best),expected regret,regret,by the fit,its regret\n");
+  for (std::size_t t = 0; t < std::min(truths, all.weights.size()); ++t) {
+    MemberWorth others = all;
+    others.weights[t] = 0;
+    const std::vector<Prospect> found = prospects(others, problem.belief_risk());
+    const std::size_t choice = chosen(found, study.risk.limits);
+    MemberWorth truth{{1}, {}, {}};
+    for (const FinalDesign& f : designs) {
+      const Score score = true_score(problem, f.design, t);
+      truth.worth.push_back(
+          {score.ok ? pick_worth(rule, pick_candidate(problem, score), extent) : std::nan("")});
+      truth.kept.push_back({{problem.feasible(score, f.design)}});
+    }
+    const std::vector<Prospect> true_one = prospects(truth, {});
+    for (std::size_t i = 0; i < designs.size(); ++i) {
+      const std::size_t bin =
+          std::min(kBins - 1, static_cast<std::size_t>(kBins * found[i].p_best));
+      sums.said[bin] += found[i].p_best;
+      sums.scatter[bin] += found[i].p_best * (1 - found[i].p_best);
+      sums.so[bin] += true_one[i].p_best;
+      // What few skins say of the difference of two designs at this member.
+      const double said = all.worth[i][t] - all.worth[choice][t],
+                   is = truth.worth[i][0] - truth.worth[choice][0];
+      if (i == choice || std::isnan(said - is)) continue;
+      sums.error += square(said - is);
+      sums.spread += square(is);
+      ++sums.differences;
+    }
+    sums.by_belief += true_one[choice].regret;
+    sums.by_fit += true_one[by_fit].regret;
+    sums.expected += found[choice].regret;
+    fmt::print("{},{},{},{:.3f},{:.4f},{:.4f},{},{:.4f}\n", t + 1,
+               problem.belief()->members[t].hypothesis, choice + 1, found[choice].p_best,
+               found[choice].regret, true_one[choice].regret, by_fit + 1, true_one[by_fit].regret);
+    std::fflush(stdout);
+  }
+  const auto n = static_cast<double>(std::min(truths, all.weights.size()));
+  fmt::print("# {} designs, the best at each member is worth {:.4f} on average\n", designs.size(),
+             best_worth(all));
+  fmt::print("# mean regret: by belief {:.4f} (expected {:.4f}), by the fit {:.4f}\n",
+             sums.by_belief / n, sums.expected / n, sums.by_fit / n);
+  fmt::print(
+      "# differences of two designs at the truth: root mean square {:.4f}, error of few "
+      "skins {:.4f}\n",
+      std::sqrt(sums.spread / sums.differences), std::sqrt(sums.error / sums.differences));
+  for (std::size_t bin = 0; bin < kBins; ++bin)
+    fmt::print("# p(best) {:.2f} to {:.2f}: {:.1f} said, {:.0f} true, binomial error {:.1f}\n",
+               static_cast<double>(bin) / kBins, static_cast<double>(bin + 1) / kBins,
+               sums.said[bin], sums.so[bin], std::sqrt(sums.scatter[bin]));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    if (argc != 6) throw InputError("decision_bench FILE FRONT MOST MEMBERS TRUTHS");
+    return planted_truths(argv[1], argv[2], static_cast<std::size_t>(std::atoi(argv[3])),
+                          std::atoi(argv[4]), static_cast<std::size_t>(std::atoi(argv[5])));
+  } catch (const InputError& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return 1;
+  }
+}

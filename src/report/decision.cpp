@@ -1,0 +1,225 @@
+#include "report/decision.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "config/describe.h"
+#include "metrics/shown.h"
+#include "report/json.h"
+#include "report/sheet.h"
+#include "report/tables.h"
+
+namespace papilla::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Decision& decision_of(const ResultFiles& f) { return f.result.decision; }
+
+std::string percent(double share) {
+  // 100 % is said of what all members say.
+  if (share > 0.99 && share < 1 - 1e-9) return "over 99 %";
+  if (share > 1e-9 && share < 0.01) return "under 1 %";
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
+std::string name_of(const ResultFiles& f, std::size_t design) {
+  return design_name(f.result.finalists[design].folder);
+}
+
+// What designs are compared in: "the worst modulation".
+std::string worth_name(const ResultFiles& f) {
+  const PickRule& rule = decision_of(f).rule;
+  if (rule.kind == PickRule::Kind::Worst) return "the worst modulation";
+  if (rule.kind == PickRule::Kind::Objective) return f.problem.objectives()[rule.index].name;
+  return "the sum of the objectives, each a share of the front's extent";
+}
+
+// A difference in it: "0.004 (0.8 %)", "1.2 mN (3 %)".
+std::string worth_text(const ResultFiles& f, double difference) {
+  const Decision& d = decision_of(f);
+  if (d.rule.kind == PickRule::Kind::Knee) return fmt::format("{:.2g}", difference);
+  std::string out = fmt::format("{:.2g}", difference);
+  if (d.rule.kind == PickRule::Kind::Objective) {
+    const MetricExpression& e = f.problem.objectives()[d.rule.index].expression;
+    const ShownUnit shown = shown_unit(e);
+    out = fmt::format("{:.2g}{}", difference * shown.scale,
+                      shown.unit.empty() ? "" : " " + shown.unit);
+  }
+  if (d.best_worth == 0) return out;
+  return out + fmt::format(" ({:.2g} %)", 100 * difference / std::abs(d.best_worth));
+}
+
+// "under hypothesis "emission" design 02 is better by 0.01 (2 %)"
+std::string reversal_text(const ResultFiles& f, const std::string& where, const Reversal& r) {
+  const Decision& d = decision_of(f);
+  const Prospect& best = d.designs[d.best];
+  if (r.loss > 0)
+    return fmt::format("{} {} is better by {}", where, name_of(f, r.best), worth_text(f, r.loss));
+  return fmt::format("{} {} is recommended, as it keeps the limits more surely (over all {})",
+                     where, name_of(f, r.best), percent(best.p_limits));
+}
+
+// "207 nm", three digits.
+std::string in_digits(double si, const std::string& unit) {
+  return significant(si / find_unit(unit)->to_si, 3) + (unit.empty() ? "" : " " + unit);
+}
+
+// "where finger.skin.rms is below 207 nm"
+std::string parameter_text(const ResultFiles& f, const char* word) {
+  const HalvesReversal& p = *decision_of(f).parameter;
+  Finger finger = f.problem.tasks().front().finger;
+  const std::vector<NumberField> known = number_fields(finger);
+  const NumberField field = find_number_field(known, p.path);
+  return fmt::format("where finger.{} is {} {}", p.path, word, in_digits(p.edge, field.unit));
+}
+
+// Each hypothesis and the parameter that another design is better under.
+std::vector<std::string> overturned(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  std::vector<std::string> out;
+  for (const Reversal& r : d.hypotheses) {
+    if (r.best != d.best)
+      out.push_back(reversal_text(f, fmt::format("under hypothesis \"{}\"", r.name), r));
+  }
+  if (!d.parameter) return out;
+  for (const auto& [half, word] :
+       {std::pair(&d.parameter->low, "below"), std::pair(&d.parameter->high, "above")}) {
+    if (half->best != d.best) out.push_back(reversal_text(f, parameter_text(f, word), *half));
+  }
+  return out;
+}
+
+std::string overturned_text(const ResultFiles& f) {
+  const std::vector<std::string> found = overturned(f);
+  if (found.empty()) return "no hypothesis and no half of a parameter's values changes the choice";
+  return join_names(found, "; ") + "; everything else leaves the choice";
+}
+
+// How surely the limits hold: "" where the study has none.
+std::string limits_sentence(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  const double wanted = f.study.risk.limits;
+  if (f.study.constraints.empty()) return {};
+  const std::string has = percent(d.designs[d.best].p_limits);
+  if (d.sure(wanted)) return fmt::format(" It keeps every limit with probability {}.", has);
+  return fmt::format(
+      " It keeps every limit with probability {}, the highest of the front, where the study wants "
+      "{} (risk.limits): loosen a limit or leave more room to it.",
+      has, percent(wanted));
+}
+
+std::string chosen_how(const ResultFiles& f) {
+  return f.problem.belief_risk().regret
+             ? "the least expected regret"
+             : fmt::format("the best by risk.belief = \"{}\"", f.study.risk.belief);
+}
+
+}  // namespace
+
+std::string decision_sentence(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (!d.made()) return {};
+  const std::size_t shown = f.result.best;
+  const Prospect& best = d.designs.at(shown);
+  std::string out = fmt::format(
+      " By belief about finger and model it is the best of {} in {} with probability {}, with an "
+      "expected regret of {}",
+      d.designs.size(), worth_name(f), percent(best.p_best), worth_text(f, best.regret));
+  if (shown != d.best) return out + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f));
+  if (d.designs.size() > 1) out += "; " + overturned_text(f);
+  out += ".";
+  if (d.nominal != d.best)
+    out += fmt::format(
+        " By the numbers of the fit alone it would be {}, with an expected regret "
+        "of {}.",
+        name_of(f, d.nominal), worth_text(f, d.designs[d.nominal].regret));
+  return out + limits_sentence(f);
+}
+
+std::string decision_text(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (f.result.finalists.empty() || !f.result.has_best()) return {};
+  std::string out = "\n## Which of them, by belief\n\n";
+  if (!d.made()) return out + fmt::format("By the numbers of the fit alone: {}.\n", d.absent);
+  out += fmt::format(
+      "Each design of the front at {} members of belief about finger and model (as good as {:.3g} "
+      "equal ones), judged in {}. Regret: what is lost on average against the best design at each "
+      "member. `best/` has {}.\n\n",
+      d.members, d.effective_members, worth_name(f), chosen_how(f));
+  std::vector<std::string> head{"design", "p(best)", "expected regret"};
+  for (const StudyObjective& o : f.problem.objectives()) head.push_back("p(best) in " + o.name);
+  const bool limited = !f.study.constraints.empty();
+  if (limited) head.push_back("p(every limit)");
+  for (const Constraint& c : f.study.constraints) head.push_back("p(" + limit_name(c.on) + ")");
+  out += markdown_head(head);
+  for (std::size_t i = 0; i < d.designs.size(); ++i) {
+    const Prospect& p = d.designs[i];
+    std::vector<std::string> row{f.result.finalists[i].folder, percent(p.p_best),
+                                 worth_text(f, p.regret)};
+    for (const std::vector<double>& by : d.p_best_by) row.push_back(percent(by[i]));
+    if (limited) row.push_back(percent(p.p_limits));
+    for (double one : p.p_limit) row.push_back(percent(one));
+    out += markdown_row(row);
+  }
+  for (const Reversal& r : d.hypotheses)
+    out += fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {} has {}.", r.name,
+                       percent(r.weight), name_of(f, r.best), chosen_how(f));
+  return out + fmt::format("\n\nWhat would overturn it: {}.\n", overturned_text(f));
+}
+
+Json prospect_json(const ResultFiles& f, std::size_t finalist) {
+  const Decision& d = decision_of(f);
+  if (!d.made() || finalist >= d.designs.size()) return nullptr;
+  const Prospect& p = d.designs[finalist];
+  Json by = Json::object(), limits = Json::object();
+  for (std::size_t k = 0; k < d.p_best_by.size(); ++k)
+    by[f.problem.objectives()[k].name] = json_number(d.p_best_by[k][finalist]);
+  for (std::size_t k = 0; k < p.p_limit.size(); ++k)
+    limits[limit_name(f.study.constraints[k].on)] = json_number(p.p_limit[k]);
+  return {{"p_best", json_number(p.p_best)},
+          {"regret", json_number(p.regret)},
+          {"p_best_by", std::move(by)},
+          {"p_every_limit", json_number(p.p_limits)},
+          {"p_limits", std::move(limits)}};
+}
+
+Json decision_json(const ResultFiles& f) {
+  const Decision& d = decision_of(f);
+  if (!d.made()) return {{"absent", d.absent}};
+  const auto folder = [&](std::size_t i) { return f.result.finalists[i].folder; };
+  Json hypotheses = Json::array(), designs = Json::object();
+  const auto reversal = [&](const Reversal& r) {
+    return Json{{"name", r.name},
+                {"weight", json_number(r.weight)},
+                {"best", folder(r.best)},
+                {"loss", json_number(r.loss)}};
+  };
+  for (const Reversal& r : d.hypotheses) hypotheses.push_back(reversal(r));
+  for (std::size_t i = 0; i < d.designs.size(); ++i) designs[folder(i)] = prospect_json(f, i);
+  Json out{{"absent", ""},
+           {"by", f.study.risk.belief},
+           {"worth", worth_name(f)},
+           {"members", d.members},
+           {"effective_members", json_number(d.effective_members)},
+           {"best", folder(d.best)},
+           {"best_worth", json_number(d.best_worth)},
+           {"by_the_fit_alone", folder(d.nominal)},
+           {"keeps_limits_as_wanted", d.sure(f.study.risk.limits)},
+           {"designs", std::move(designs)},
+           {"hypotheses", std::move(hypotheses)},
+           {"parameter", nullptr},
+           {"overturned", overturned(f)}};
+  if (d.parameter)
+    out["parameter"] = {{"path", d.parameter->path},
+                        {"edge", json_number(d.parameter->edge)},
+                        {"low", reversal(d.parameter->low)},
+                        {"high", reversal(d.parameter->high)}};
+  return out;
+}
+
+}  // namespace papilla::report

@@ -1,0 +1,48 @@
+#include "report/unstable.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/text.h"
+#include "report/sheet.h"
+
+namespace papilla::report {
+namespace {
+
+// Why a design lost its place in one of the checks.
+std::string why_lost(const ResultFiles& f, const StabilityVariant& v, std::size_t place) {
+  if (v.values[place].empty()) return "it has no value";
+  if (place < v.broken.size() && !v.broken[place].empty())
+    return limit_broken(v.broken[place].front());
+  if (place < v.beaten_by.size() && v.beaten_by[place])
+    return design_name(f.result.finalists[v.beaten_by[place].value()].folder) + " is better";
+  return "another is better";
+}
+
+}  // namespace
+
+std::string unstable_text(const ResultFiles& f, std::size_t place) {
+  const Stability& s = f.result.stability;
+  if (!s.judged(place) || s.stable(place)) return {};
+  std::vector<std::string> lost;
+  for (const StabilityVariant& v : s.variants) {
+    if (!v.on_front[place]) lost.push_back(v.name + ": " + why_lost(f, v, place));
+  }
+  const auto most = std::max_element(s.times_on_front.begin(), s.times_on_front.end());
+  std::string out = fmt::format(" Its place does not hold: {} of {} checks ({}).",
+                                s.times_on_front[place], s.variants.size(), join_names(lost, "; "));
+  if (*most > s.times_on_front[place]) {
+    const FinalDesign& steady =
+        f.result.finalists[static_cast<std::size_t>(most - s.times_on_front.begin())];
+    out += fmt::format(
+        " The alternative that holds in {} of {} is {} ({}).", *most, s.variants.size(),
+        design_name(steady.folder),
+        facts(steady.design.texture).relief.present ? shape_text(steady.design) : "flat");
+  } else {
+    out += " No design of the front holds more often.";
+  }
+  return out;
+}
+
+}  // namespace papilla::report

@@ -1,0 +1,15 @@
+// Why the place of a design on the front does not hold in the checks of the order, and what does.
+#pragma once
+
+#include <string>
+
+#include "base/rooms.h"
+#include "search/run.h"
+
+namespace papilla::report {
+
+// " Its place does not hold: 5 of 13 checks (equilibrium: design 02 is better). The alternative
+// ..."; "" where it holds, or was not checked. place: among the finalists.
+std::string unstable_text(const ResultFiles& files, std::size_t place);
+
+}  // namespace papilla::report

@@ -1,0 +1,56 @@
+// The finalists at every member of belief: which of them are on the front, and which to build.
+#include "search/levels.h"
+#include "search/stages.h"
+
+namespace papilla::search {
+namespace {
+
+// Nothing where the run was interrupted.
+bool judge_members(Run& run, FinalDesign& f) {
+  std::vector<TaskRequest> requests;
+  for (std::size_t t = 0; t < run.problem.nominal_tasks(); ++t)
+    requests.push_back({Stage::Belief, t, false, f.unit, run.confirm_seconds});
+  if (run.stopped_before_next()) return false;
+  const std::vector<TaskAnswer> answers = run.replay.answers(requests);
+  run.problem.add_steps(f.confirmed, answers);
+  std::vector<std::vector<TaskAnswer>> members;
+  for (const TaskAnswer& a : answers) members.push_back(a.members);
+  for (std::size_t m = 0; m < run.problem.belief()->members.size(); ++m)
+    f.members.push_back(score_at(run.problem, f.answers, members, m));
+  return true;
+}
+
+}  // namespace
+
+std::size_t believed(const StudyProblem& problem, const OptimiseResult& result) {
+  if (!problem.belief()) return 0;
+  if (result.finalists.empty()) return kFinalists + 1;
+  std::size_t out = 0;
+  for (const FinalDesign& f : result.finalists) out += f.feasible;
+  return out;
+}
+
+bool judge_belief(Run& run) {
+  OptimiseResult& result = run.result;
+  const std::size_t count = believed(run.problem, result);
+  const auto seconds = [&](std::size_t designs) {
+    return run.seconds_of(designs * run.problem.nominal_tasks(), Stage::Belief);
+  };
+  if (count > 0 && run.begin(RunPart::Belief, Stage::Belief, false, seconds(count))) {
+    std::size_t done = 0;
+    for (FinalDesign& f : result.finalists) {
+      if (!f.feasible) continue;
+      if (!judge_members(run, f)) return false;
+      ++done;
+      run.progress("belief", static_cast<int>(done), static_cast<int>(count),
+                   seconds(count - done) + run.seconds_from(RunPart::Stability));
+    }
+    const std::vector<bool> on_front = on_front_of_belief(run.problem, result.finalists);
+    for (std::size_t i = 0; i < on_front.size(); ++i) result.finalists[i].on_front = on_front[i];
+    order_finalists(run);
+  }
+  result.decision = decide(run.problem, result.finalists, run.options.pick);
+  return true;
+}
+
+}  // namespace papilla::search

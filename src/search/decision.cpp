@@ -1,0 +1,214 @@
+#include "search/decision.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/check.h"
+#include "config/describe.h"
+#include "search/run.h"
+
+namespace papilla::search {
+namespace {
+
+// Eq. accuracy.15
+double moved(double confirmed, double own, double there, bool by_factor) {
+  if (!std::isfinite(own) || !std::isfinite(there)) return there;  // no field, no film
+  if (by_factor && confirmed > 0 && own > 0 && there > 0) return confirmed * (there / own);
+  return confirmed + there - own;
+}
+
+// A task's confirmed answer at a member.
+TaskAnswer moved(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
+                 const TaskAnswer& there) {
+  if (!own.status.ok()) return own;
+  if (!there.status.ok()) return there;
+  TaskAnswer out = confirmed;
+  out.samples.clear();
+  out.steps.clear();
+  for (std::size_t k = 0; k < goals.objectives.size(); ++k) {
+    const StudyObjective& o = goals.objectives[k];
+    TaskObjective& number = out.objectives[k];
+    const TaskObjective &from = own.objectives[k], &to = there.objectives[k];
+    number.value = moved(number.value, from.value, to.value,
+                         o.aimed || moves_by_factor(o.expression.summary, o.expression.metric));
+    const bool by_factor = moves_by_factor(Summary::Mean, o.expression.metric);
+    for (std::size_t i = 0; i < number.points.size(); ++i)
+      number.points[i] = moved(number.points[i], from.points[i], to.points[i], by_factor);
+  }
+  for (std::size_t j = 0; j < goals.limited.size(); ++j) {
+    const MetricExpression& e = goals.limited[j].expression;
+    out.limited[j] = moved(out.limited[j], own.limited[j], there.limited[j],
+                           moves_by_factor(e.summary, e.metric));
+  }
+  out.worst = moved(out.worst, own.worst, there.worst, true);
+  out.oxide_margin = moved(out.oxide_margin, own.oxide_margin, there.oxide_margin, true);
+  return out;
+}
+
+bool keeps_limits(const StudyProblem& problem, const FinalDesign& design, const Score& there) {
+  return problem.feasible(there, design.design);
+}
+
+// Better in every objective and, under a drive, in the worst modulation, of two that are judged;
+// what breaks a limit beats none that keeps all.
+bool beats(const StudyProblem& problem, const FinalDesign& a, const Score& of_a,
+           const FinalDesign& b, const Score& of_b) {
+  if (!of_a.ok || !of_b.ok) return of_a.ok;
+  if (!keeps_limits(problem, a, of_a) && keeps_limits(problem, b, of_b)) return false;
+  const Outcome better = problem.outcome(of_a), worse = problem.outcome(of_b);
+  for (std::size_t k = 0; k < better.objectives.size(); ++k) {
+    if (better.objectives[k] >= worse.objectives[k]) return false;
+  }
+  return !problem.driven() || of_a.worst > of_b.worst;
+}
+
+bool beats_everywhere(const StudyProblem& problem, const FinalDesign& a, const FinalDesign& b) {
+  if (!beats(problem, a, a.confirmed, b, b.confirmed)) return false;
+  for (std::size_t m = 0; m < a.members.size(); ++m) {
+    if (!beats(problem, a, a.members[m], b, b.members[m])) return false;
+  }
+  return true;
+}
+
+std::vector<MemberGroup> hypotheses_of(const Belief& belief) {
+  std::vector<MemberGroup> out;
+  for (std::size_t m = 0; m < belief.members.size(); ++m) {
+    const std::string& name = belief.members[m].hypothesis;
+    auto group =
+        std::find_if(out.begin(), out.end(), [&](const MemberGroup& g) { return g.name == name; });
+    if (group == out.end()) group = out.insert(out.end(), {name, {}});
+    group->members.push_back(m);
+  }
+  return out.size() > 1 ? out : std::vector<MemberGroup>{};
+}
+
+// Of the finger, those that are not the same in all members; of a list its first that moves.
+std::vector<MemberNumber> numbers_of(const Belief& belief, const Scene& scene) {
+  std::vector<MemberNumber> all;
+  for (const BeliefMember& member : belief.members) {
+    MemberScene moved = with_member(belief, member, scene.finger, scene.model);
+    for (const NumberField& field : number_fields(moved.finger)) {
+      auto known = std::find_if(all.begin(), all.end(),
+                                [&](const MemberNumber& n) { return n.path == field.path; });
+      if (known == all.end()) known = all.insert(all.end(), {field.path, {}});
+      known->values.push_back(*field.value);
+    }
+  }
+  std::erase_if(all, [&](const MemberNumber& n) {
+    return n.values.size() < belief.members.size() ||
+           std::all_of(n.values.begin(), n.values.end(),
+                       [&](double v) { return v == n.values.front(); });
+  });
+  return all;
+}
+
+}  // namespace
+
+MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,
+                         const PickRule& rule, const std::vector<Extent>& extents) {
+  MemberWorth out;
+  for (const BeliefMember& m : problem.belief()->members) out.weights.push_back(m.weight);
+  for (const FinalDesign& f : designs) {
+    std::vector<double>& values = out.worth.emplace_back();
+    std::vector<std::vector<bool>>& kept = out.kept.emplace_back(
+        problem.study().constraints.size(), std::vector<bool>(f.members.size(), false));
+    for (std::size_t m = 0; m < f.members.size(); ++m) {
+      const Score& there = f.members[m];
+      values.push_back(there.ok ? pick_worth(rule, pick_candidate(problem, there), extents)
+                                : std::nan(""));
+      if (!there.ok) continue;
+      const std::vector<LimitValue> limits = problem.constraints().values(f.design, there);
+      for (std::size_t k = 0; k < kept.size(); ++k) kept[k][m] = limits[k].kept();
+    }
+  }
+  return out;
+}
+
+PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
+  PickCandidate out;
+  for (const StudyObjective& o : problem.objectives()) out.names.push_back(o.name);
+  out.objectives = problem.outcome(score).objectives;
+  if (problem.driven()) out.worst = score.worst;
+  return out;
+}
+
+Score score_at(const StudyProblem& problem, const std::vector<TaskAnswer>& confirmed,
+               const std::vector<std::vector<TaskAnswer>>& members, std::size_t member) {
+  const std::size_t nominal = problem.nominal_tasks(), scatter = problem.study().scatter.size();
+  std::vector<TaskAnswer> there;
+  for (std::size_t t = 0; t < confirmed.size(); ++t) {
+    // Scatter of fabrication is moved as what is designed.
+    const std::vector<TaskAnswer>& of = members[t < nominal ? t : (t - nominal) / (2 * scatter)];
+    there.push_back(member + 1 < of.size()
+                        ? moved(problem.goals(), confirmed[t], of.back(), of[member])
+                        : TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no answer"));
+  }
+  return problem.score(there);
+}
+
+std::vector<bool> on_front_of_belief(const StudyProblem& problem,
+                                     const std::vector<FinalDesign>& finalists) {
+  std::vector<bool> out;
+  for (const FinalDesign& f : finalists) {
+    const bool counts = !f.members.empty();
+    out.push_back(counts &&
+                  std::none_of(finalists.begin(), finalists.end(), [&](const FinalDesign& other) {
+                    return !other.members.empty() && beats_everywhere(problem, other, f);
+                  }));
+  }
+  return out;
+}
+
+PickRule decision_rule(const StudyProblem& problem, const std::string& rule) {
+  std::vector<std::string> names;
+  for (const StudyObjective& o : problem.objectives()) names.push_back(o.name);
+  const PickRule asked = read_pick_rule(rule, names, problem.driven());
+  const bool own = rule.empty() || asked.kind == PickRule::Kind::Number;
+  if (own && names.size() == 1) return {PickRule::Kind::Objective, 0};
+  return own ? read_pick_rule("", names, problem.driven()) : asked;
+}
+
+Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,
+                const std::string& rule) {
+  Decision out;
+  out.absent = problem.belief_absent();
+  if (!out.absent.empty()) return out;
+  std::vector<FinalDesign> front;
+  std::vector<PickCandidate> candidates;
+  for (const FinalDesign& f : finalists) {
+    if (!f.on_front) break;
+    front.push_back(f);
+    candidates.push_back(pick_candidate(problem, f.confirmed));
+    if (f.members.empty()) out.absent = "its members were not evaluated in the time";
+  }
+  if (front.empty()) out.absent = "no finalist keeps every limit";
+  if (!out.absent.empty()) return out;
+  const Belief& belief = *problem.belief();
+  out.members = belief.members.size();
+  out.effective_members = belief.effective_members();
+  out.rule = decision_rule(problem, rule);
+  const std::vector<Extent> of_front = extents(candidates);
+  for (std::size_t i = 1; i < front.size(); ++i) {
+    if (pick_worth(out.rule, candidates[i], of_front) >
+        pick_worth(out.rule, candidates[out.nominal], of_front))
+      out.nominal = i;
+  }
+  const MemberWorth worth = member_worth(problem, front, out.rule, of_front);
+  const double limits = problem.study().risk.limits;
+  out.designs = prospects(worth, problem.belief_risk());
+  out.best = chosen(out.designs, limits);
+  out.best_worth = best_worth(worth);
+  for (std::size_t k = 0; k < problem.objectives().size(); ++k) {
+    std::vector<double>& p = out.p_best_by.emplace_back();
+    const PickRule by{PickRule::Kind::Objective, k};
+    for (const Prospect& design : prospects(member_worth(problem, front, by, of_front), {}))
+      p.push_back(design.p_best);
+  }
+  out.hypotheses = by_group(worth, problem.belief_risk(), limits, hypotheses_of(belief));
+  const Scene scene =
+      scene_of(task_design(problem.study(), problem.study().design, problem.tasks().front()));
+  out.parameter = by_half(worth, problem.belief_risk(), limits, numbers_of(belief, scene));
+  return out;
+}
+
+}  // namespace papilla::search

@@ -1,0 +1,65 @@
+// Which finalist to build where the fingers name a belief: the designs of the front at each of its
+// members, by the rule that picks the best. docs/theory/search.md
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "search/pick.h"
+#include "search/problem.h"
+#include "search/prospects.h"
+
+namespace papilla::search {
+
+struct FinalDesign;
+
+struct Decision {
+  std::string absent;  // why there is none, for people; "": there is one
+  PickRule rule;       // what a design is worth
+  std::size_t members = 0;
+  double effective_members = 0;
+  // Of the designs of the front, in their order.
+  std::vector<Prospect> designs;
+  std::vector<std::vector<double>> p_best_by;  // [objective][design]
+  std::size_t best = 0;                        // of them
+  double best_worth = 0;                       // what the best at each member is worth, on average
+  std::size_t nominal = 0;                     // the best by the numbers of the fit
+  std::vector<Reversal> hypotheses;            // one each; empty where all members have the same
+  std::optional<HalvesReversal> parameter;     // of the finger
+
+  bool made() const { return absent.empty() && !designs.empty(); }
+  // The best keeps every limit as surely as the study wants it.
+  bool sure(double p_limits) const { return designs[best].p_limits >= p_limits - 1e-9; }
+};
+
+// What a design has at a member of belief: its confirmed numbers moved as the member moves them on
+// few skins, by the same factor where a number cannot change its sign, else by the same difference.
+// confirmed: its answers, a task each; members: [task][member], last the finger as it is. Not ok
+// where a task has no answer there. Eq. accuracy.15
+Score score_at(const StudyProblem& problem, const std::vector<TaskAnswer>& confirmed,
+               const std::vector<std::vector<TaskAnswer>>& members, std::size_t member);
+
+// Whether no other of the finalists is better in every objective and, under a drive, in the worst
+// modulation by the confirmed numbers and at every member of belief.
+std::vector<bool> on_front_of_belief(const StudyProblem& problem,
+                                     const std::vector<FinalDesign>& finalists);
+
+// What the designs are compared in: the rule that picks the best of the front; of one objective
+// that alone, as its front without belief is one design. rule: of OptimiseOptions::pick; that of a
+// number is the usual one. Eq. search.14
+PickRule decision_rule(const StudyProblem& problem, const std::string& rule);
+
+// What designs are worth to a rule at each member; extents: of the front, for the knee.
+MemberWorth member_worth(const StudyProblem& problem, const std::vector<FinalDesign>& designs,
+                         const PickRule& rule, const std::vector<Extent>& extents);
+
+// Of the designs of the front, which come first of the finalists. rule: of OptimiseOptions::pick.
+Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& finalists,
+                const std::string& rule);
+
+// What a design is worth to the pick rule.
+PickCandidate pick_candidate(const StudyProblem& problem, const Score& score);
+
+}  // namespace papilla::search

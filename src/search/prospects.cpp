@@ -1,0 +1,192 @@
+#include "search/prospects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/check.h"
+#include "base/constants.h"
+#include "base/error.h"
+
+namespace papilla::search {
+namespace {
+
+double total(const std::vector<double>& weights) {
+  return std::accumulate(weights.begin(), weights.end(), 0.0);
+}
+
+// The best that is to be had at a member: of the designs that keep every limit there, else of all
+// that are worth something; NaN where none is.
+double best_worth(const MemberWorth& d, std::size_t member) {
+  double kept = std::nan(""), any = std::nan("");
+  for (std::size_t i = 0; i < d.worth.size(); ++i) {
+    any = std::fmax(any, d.worth[i][member]);
+    if (d.keeps(i, member)) kept = std::fmax(kept, d.worth[i][member]);
+  }
+  return std::isnan(kept) ? any : kept;
+}
+
+// What a design is worth where it has a worth; else the least of the others there.
+double worth_or_least(const MemberWorth& d, std::size_t design, std::size_t member) {
+  double out = d.worth[design][member];
+  if (!std::isnan(out)) return out;
+  for (const std::vector<double>& other : d.worth) out = std::fmin(out, other[member]);
+  return std::isnan(out) ? 0 : out;
+}
+
+void add_member(const MemberWorth& d, std::size_t member, double weight,
+                std::vector<Prospect>& out) {
+  const double best = best_worth(d, member);
+  if (std::isnan(best)) return;  // nothing is known there: no design loses to another
+  const bool any_keeps = [&] {
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      if (d.keeps(i, member)) return true;
+    }
+    return false;
+  }();
+  const auto is_best = [&](std::size_t i) {
+    return d.worth[i][member] == best && (!any_keeps || d.keeps(i, member));
+  };
+  double ties = 0;
+  for (std::size_t i = 0; i < out.size(); ++i) ties += is_best(i);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    if (is_best(i)) out[i].p_best += weight / ties;                                // Eq. search.15
+    out[i].regret += weight * std::max(0.0, best - worth_or_least(d, i, member));  // Eq. search.16
+  }
+}
+
+// Some members of all.
+MemberWorth of_members(const MemberWorth& all, const std::vector<std::size_t>& members) {
+  MemberWorth out = all;
+  const auto picked = [&](auto& of) {
+    auto from = of;
+    of.clear();
+    for (std::size_t m : members) of.push_back(from[m]);
+  };
+  picked(out.weights);
+  for (auto& of : out.worth) picked(of);
+  for (auto& design : out.kept) {
+    for (auto& of : design) picked(of);
+  }
+  return out;
+}
+
+Reversal reversal(const MemberWorth& all, const BeliefRisk& risk, double p_limits,
+                  std::size_t over_all, const MemberGroup& group) {
+  const MemberWorth there = of_members(all, group.members);
+  const std::vector<Prospect> found = prospects(there, risk);
+  Reversal out{group.name, total(there.weights) / total(all.weights), chosen(found, p_limits), 0};
+  out.loss = found[over_all].regret - found[out.best].regret;
+  return out;
+}
+
+}  // namespace
+
+BeliefRisk parse_belief_risk(const std::string& text) {
+  if (text == "regret") return {};
+  try {
+    return {false, parse_risk(text)};
+  } catch (const InputError&) {
+    throw InputError("risk.belief: \"" + text +
+                     "\": expected \"regret\", \"mean\", \"worst 10 %\", \"mean - 2 std\" or "
+                     "\"worst\"");
+  }
+}
+
+bool MemberWorth::keeps(std::size_t design, std::size_t member) const {
+  if (std::isnan(worth[design][member])) return false;
+  return std::all_of(kept[design].begin(), kept[design].end(),
+                     [member](const std::vector<bool>& of) { return of[member]; });
+}
+
+std::vector<Prospect> prospects(const MemberWorth& d, const BeliefRisk& risk) {
+  PAPILLA_CHECK(d.kept.size() == d.worth.size(), "limits of every design");
+  std::vector<Prospect> out(d.worth.size());
+  const double all = total(d.weights);
+  for (std::size_t m = 0; m < d.weights.size(); ++m) add_member(d, m, d.weights[m] / all, out);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    Prospect& p = out[i];
+    std::vector<double> worth;
+    p.p_limits = 0;
+    p.p_limit.assign(d.kept[i].size(), 0);
+    for (std::size_t m = 0; m < d.weights.size(); ++m) {
+      const double w = d.weights[m] / all;
+      worth.push_back(worth_or_least(d, i, m));
+      p.p_limits += d.keeps(i, m) ? w : 0;
+      for (std::size_t k = 0; k < p.p_limit.size(); ++k) p.p_limit[k] += d.kept[i][k][m] ? w : 0;
+    }
+    p.merit = risk.regret ? -p.regret : apply_risk(risk.risk, true, worth, d.weights);
+  }
+  return out;
+}
+
+double best_worth(const MemberWorth& d) {
+  double sum = 0, weight = 0;
+  for (std::size_t m = 0; m < d.weights.size(); ++m) {
+    const double best = best_worth(d, m);
+    if (std::isnan(best)) continue;
+    sum += d.weights[m] * best;
+    weight += d.weights[m];
+  }
+  return weight > 0 ? sum / weight : 0;
+}
+
+std::size_t chosen(const std::vector<Prospect>& prospects, double p_limits) {
+  PAPILLA_CHECK(!prospects.empty(), "a design to choose");
+  double surest = 0;
+  for (const Prospect& p : prospects) surest = std::max(surest, p.p_limits);
+  // Weights are sums of fractions.
+  const double wanted = std::min(p_limits, surest) - 1e-9;
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < prospects.size(); ++i) {
+    if (prospects[i].p_limits < wanted) continue;
+    if (!best || prospects[i].merit > prospects[*best].merit) best = i;
+  }
+  return *best;
+}
+
+std::vector<Reversal> by_group(const MemberWorth& designs, const BeliefRisk& risk, double p_limits,
+                               const std::vector<MemberGroup>& groups) {
+  const std::size_t over_all = chosen(prospects(designs, risk), p_limits);
+  std::vector<Reversal> out;
+  for (const MemberGroup& g : groups) out.push_back(reversal(designs, risk, p_limits, over_all, g));
+  return out;
+}
+
+std::optional<HalvesReversal> by_half(const MemberWorth& designs, const BeliefRisk& risk,
+                                      double p_limits, const std::vector<MemberNumber>& numbers) {
+  const std::size_t over_all = chosen(prospects(designs, risk), p_limits);
+  const double all = total(designs.weights);
+  std::optional<HalvesReversal> out;
+  double most = 0;
+  for (const MemberNumber& number : numbers) {
+    std::vector<std::size_t> order(number.values.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return number.values[a] < number.values[b];
+    });
+    // Eq. search.18: up to the middle of the weight; equal values stay together.
+    MemberGroup low{number.path, {}}, high{number.path, {}};
+    double below = 0;
+    for (std::size_t m : order) {
+      const bool same = !low.members.empty() && high.members.empty() &&
+                        number.values[m] == number.values[low.members.back()];
+      const bool first = below + 0.5 * designs.weights[m] <= 0.5 * all;
+      (first || same ? low : high).members.push_back(m);
+      below += designs.weights[m];
+    }
+    if (low.members.empty() || high.members.empty()) continue;
+    const Reversal at_low = reversal(designs, risk, p_limits, over_all, low),
+                   at_high = reversal(designs, risk, p_limits, over_all, high);
+    if (at_low.best == over_all && at_high.best == over_all) continue;
+    const double loss = at_low.weight * at_low.loss + at_high.weight * at_high.loss;
+    if (out && loss <= most) continue;
+    most = loss;
+    out = {number.path,
+           0.5 * (number.values[low.members.back()] + number.values[high.members.front()]), at_low,
+           at_high};
+  }
+  return out;
+}
+
+}  // namespace papilla::search

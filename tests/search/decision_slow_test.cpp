@@ -1,0 +1,74 @@
+// A study with a belief of three members, solved: a hypothesis overturns the order, and a run that
+// is killed among the members ends in the same bytes.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "base/files.h"
+#include "report/results.h"
+#include "scene/belief.h"
+#include "tests/search/small_study.h"
+
+namespace papilla::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Moist skin as fitted, and skin with next to no water on it.
+std::string moist_or_dry() {
+  const std::string path = temporary("moist_or_dry.toml");
+  const Finger finger = small_study().design.finger;
+  scene::Belief belief;
+  belief.calibrated_for = finger.calibrated_for;
+  for (const auto& [weight, name, water] :
+       {std::tuple(0.4, "moist", 1.0), std::tuple(0.4, "moist", 1.5), std::tuple(0.2, "dry", 0.02)})
+    belief.members.push_back({weight, name, {{"water.scale", config::number_node(water)}}});
+  std::ofstream(path) << belief_text(belief);
+  return path;
+}
+
+Study believing() {
+  Study study = small_study();
+  study.design.finger.belief = moist_or_dry();
+  study.search.evaluations = 8;
+  return study;
+}
+
+const char* const kFiles[] = {"journal",    "pareto.csv", "history.csv",
+                              "summary.md", "run.json",   "best/metrics.json"};
+
+TEST(DecisionSlow, AHypothesisOverturnsTheOrderAndAKilledRunDecidesTheSame) {
+  const Study study = believing();
+  const std::string folder = fresh_folder("decided"), again = fresh_folder("decided_again");
+  ASSERT_FALSE(report::optimise_to_folder(study, {folder, false, {}, nullptr}).interrupted);
+  const auto run = nlohmann::json::parse(read_bytes(folder + "/run.json"));
+  const auto& decision = run.at("decision");
+  ASSERT_EQ(decision.at("absent"), "");
+  EXPECT_EQ(decision.at("members"), 3);
+  double p = 0;
+  for (const auto& [name, design] : decision.at("designs").items())
+    p += design.at("p_best").get<double>();
+  EXPECT_NEAR(p, 1, 1e-9);
+  ASSERT_EQ(decision.at("hypotheses").size(), 2u);
+  EXPECT_EQ(decision["hypotheses"][0].at("best"), decision.at("best"));
+  EXPECT_NE(decision["hypotheses"][1].at("best"), decision.at("best"));
+  EXPECT_NE(decision.at("overturned").dump().find("dry"), std::string::npos);
+
+  // Stopped after the members of a first design, its last record torn.
+  std::atomic<bool> stop{false};
+  const auto among_members = [&](const Progress& at) { stop = at.stage == "belief"; };
+  EXPECT_TRUE(report::optimise_to_folder(study, {again, false, among_members, &stop}).interrupted);
+  fs::resize_file(again + "/journal", fs::file_size(again + "/journal") - 10);
+  Study alone = study;
+  alone.search.jobs = 1;
+  EXPECT_FALSE(report::optimise_to_folder(alone, {again, true, {}, nullptr}).interrupted);
+  for (const char* file : kFiles)
+    EXPECT_EQ(read_bytes(again + "/" + file), read_bytes(folder + "/" + file)) << file;
+}
+
+}  // namespace
+}  // namespace papilla::tests

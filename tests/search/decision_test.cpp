@@ -1,0 +1,280 @@
+// Which finalist a run recommends where its finger names a belief; formulas answer.
+#include "search/decision.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <fstream>
+
+#include "base/error.h"
+#include "report/decision.h"
+#include "report/sheet.h"
+#include "search/levels.h"
+#include "tests/search/formula_run.h"
+
+namespace papilla::tests {
+namespace {
+
+// Three members: the third is another law of the air. weight: its own.
+std::string belief_file(const std::string& name, double weight) {
+  const std::string path = temporary(name);
+  std::ofstream(path) << "schema_version = 1\n[[member]]\nweight = " << 0.5 * (1 - weight)
+                      << "\nhypothesis = \"as fitted\"\n"
+                         "set = { \"macro.shear_strength\" = \"8 MPa\" }\n[[member]]\nweight = "
+                      << 0.5 * (1 - weight)
+                      << "\nhypothesis = \"as fitted\"\n"
+                         "set = { \"macro.shear_strength\" = \"10 MPa\" }\n[[member]]\nweight = "
+                      << weight
+                      << "\nhypothesis = \"emission\"\n"
+                         "set = { \"model.air_limit\" = \"emission\" }\n";
+  return path;
+}
+
+// By depth from flat on, and contact angle.
+Study believing(double weight) {
+  Study study = small_study();
+  study.design.finger.uncertainty.clear();
+  study.design.finger.belief = belief_file("three_members.toml", weight);
+  study.design.model = study.design.finger.calibrated_for = Finger{}.calibrated_for;
+  study.variables = {study.variables[2], study.variables[3]};
+  study.search.method = "nsga2";
+  study.search.evaluations = 12;
+  study.search.jobs = 1;
+  return study;
+}
+
+TaskAnswer at(double depth, double angle, double worst) {
+  TaskAnswer out;
+  const double mean = 0.8 - 0.3 * depth + 0.1 * angle, variation = 0.5 - 0.4 * depth + 0.02 * angle;
+  out.objectives = {{mean, 0.01, {mean, mean}}, {variation, 0.01, {variation, variation}}};
+  out.worst = worst;
+  out.oxide_margin = 10;
+  return out;
+}
+
+// A deep texture has the highest worst modulation; under the third member the flat surface. On the
+// few skins of the members all modulations are half of the confirmed ones.
+TaskAnswer overturning(const TaskRequest& r) {
+  const double depth = r.flat ? 0 : r.unit[0], angle = r.unit[1];
+  if (r.stage != Stage::Belief) return at(depth, angle, 0.2 + 0.1 * depth);
+  TaskAnswer out;
+  out.members = {at(depth, angle, 0.1 + 0.05 * depth), at(depth, angle, 0.1 + 0.05 * depth),
+                 at(depth, angle, 0.1 - 0.05 * depth), at(depth, angle, 0.1 + 0.05 * depth)};
+  return out;
+}
+
+struct BelievingRun : FormulaRun {
+  BelievingRun(double weight, const std::string& folder, const TaskFormula& formula = overturning)
+      : BelievingRun(believing(weight), folder, formula) {}
+  BelievingRun(const Study& of, const std::string& folder, const TaskFormula& formula)
+      : FormulaRun(of, fresh_folder(folder), formula) {
+    EXPECT_TRUE(search_designs(run) && narrow(run) && confirm(run) && check(run));
+  }
+  const Decision& decision() const { return run.result.decision; }
+  const FinalDesign& best() const { return run.result.finalists[run.result.best]; }
+  ResultFiles files() const {
+    static const std::string none;
+    return {options.folder, study, run.problem, run.history, run.result, none};
+  }
+};
+
+TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
+  const BelievingRun a(0.3, "decision_regret");
+  const Decision& d = a.decision();
+  ASSERT_TRUE(d.made()) << d.absent;
+  ASSERT_GE(d.designs.size(), 3u);
+  const auto depth = [&](std::size_t i) { return a.run.result.finalists[i].unit[0]; };
+  for (std::size_t i = 0; i < d.designs.size(); ++i) {
+    EXPECT_LE(depth(i), depth(d.best));
+    EXPECT_EQ(d.designs[i].p_limits, 1);
+  }
+  EXPECT_NEAR(d.designs[d.best].p_best, 0.7, 1e-12);
+  EXPECT_EQ(d.nominal, d.best);
+  EXPECT_EQ(a.run.result.best, d.best);
+  ASSERT_EQ(d.hypotheses.size(), 2u);
+  EXPECT_EQ(d.hypotheses[0].best, d.best);
+  EXPECT_EQ(d.hypotheses[1].name, "emission");
+  EXPECT_NEAR(d.hypotheses[1].weight, 0.3, 1e-12);
+  for (std::size_t i = 0; i < d.designs.size(); ++i)
+    EXPECT_GE(depth(i), depth(d.hypotheses[1].best));
+  // The confirmed .2 + .1 depth times (.1 - .05 depth)/(.1 + .05 depth).
+  const double most = depth(d.best), least = depth(d.hypotheses[1].best);
+  const auto there = [](double x) { return (0.2 + 0.1 * x) * (0.1 - 0.05 * x) / (0.1 + 0.05 * x); };
+  EXPECT_NEAR(d.designs[d.best].regret, 0.3 * (there(least) - there(most)), 1e-12);
+  EXPECT_NEAR(d.hypotheses[1].loss, there(least) - there(most), 1e-12);
+  const std::string said = report::decision_sentence(a.files());
+  EXPECT_NE(said.find("with probability 70 %"), std::string::npos) << said;
+  EXPECT_NE(said.find("under hypothesis \"emission\" " +
+                      report::design_name(a.run.result.finalists[d.hypotheses[1].best].folder) +
+                      " is better by "),
+            std::string::npos)
+      << said;
+}
+
+TEST(Decision, AHypothesisOfEnoughWeightOverturnsTheNumbersOfTheFit) {
+  const BelievingRun a(0.8, "decision_overturned");
+  const Decision& d = a.decision();
+  ASSERT_TRUE(d.made());
+  EXPECT_NE(d.best, d.nominal);
+  EXPECT_EQ(a.run.result.best, d.best);
+  EXPECT_EQ(d.best, d.hypotheses[1].best);
+  EXPECT_GT(d.designs[d.nominal].regret, d.designs[d.best].regret);
+  const std::string said = report::decision_sentence(a.files());
+  EXPECT_NE(said.find("By the numbers of the fit alone it would be"), std::string::npos) << said;
+}
+
+TEST(Decision, TheRiskOfTheStudyDecides) {
+  Study study = believing(0.3);
+  study.risk.belief = "worst 10 %";
+  const BelievingRun a(study, "decision_worst", overturning);
+  EXPECT_EQ(a.decision().best, a.decision().hypotheses[1].best);
+}
+
+// Under the third member the deep textures break the film.
+TEST(Decision, WhatIsRecommendedKeepsItsLimitsWithTheProbabilityAskedFor) {
+  const TaskFormula weak = [](const TaskRequest& r) {
+    TaskAnswer out = overturning(r);
+    if (r.stage == Stage::Belief) out.members[2].oxide_margin = r.unit[0] > 0.3 ? 1 : 10;
+    return out;
+  };
+  Study study = believing(0.3);
+  const BelievingRun sure(study, "decision_sure", weak);
+  EXPECT_LE(sure.best().unit[0], 0.3);
+  EXPECT_TRUE(sure.decision().sure(0.9));
+  study.risk.limits = 0.6;
+  const BelievingRun bold(study, "decision_bold", weak);
+  EXPECT_GT(bold.best().unit[0], 0.3);
+  EXPECT_NEAR(bold.decision().designs[bold.run.result.best].p_limits, 0.7, 1e-12);
+}
+
+// The best of one objective is a front of one design; with belief all that may be the best are.
+TEST(Decision, TheFrontHoldsWhatIsBestSomewhere) {
+  const TaskFormula formula = [](const TaskRequest& r) {
+    TaskAnswer out = overturning(r);
+    if (r.stage == Stage::Belief) {
+      TaskObjective& mean = out.members[2].objectives[0];
+      mean.value += 0.6 * r.unit[0];
+      mean.points = {mean.value, mean.value};
+      for (TaskAnswer& m : out.members) m.objectives.pop_back();
+    } else {
+      out.objectives.pop_back();
+    }
+    return out;
+  };
+  Study study = believing(0.6);
+  study.objective.minimise.clear();
+  study.search.method = "bayesian";
+  const BelievingRun a(study, "decision_one_objective", formula);
+  const Decision& d = a.decision();
+  ASSERT_TRUE(d.made()) << d.absent;
+  ASSERT_GE(d.designs.size(), 2u);
+  EXPECT_EQ(d.nominal, 0u);
+  double p = 0;
+  for (const double one : d.p_best_by[0]) p += one;
+  EXPECT_NEAR(p, 1, 1e-12);
+  EXPECT_TRUE(std::all_of(a.run.result.finalists.begin(), a.run.result.finalists.end(),
+                          [](const FinalDesign& f) { return f.on_front == !f.folder.empty(); }));
+}
+
+TEST(Decision, WithoutABeliefItSaysWhyAndNothingElseChanges) {
+  Study study = believing(0.3);
+  study.design.finger.belief.clear();
+  const BelievingRun a(study, "decision_none", overturning);
+  EXPECT_FALSE(a.decision().made());
+  EXPECT_NE(a.decision().absent.find("names no belief"), std::string::npos);
+  EXPECT_EQ(report::decision_sentence(a.files()), "");
+  EXPECT_EQ(a.units(Stage::Belief).size(), 0u);
+  EXPECT_NE(report::decision_text(a.files()).find("names no belief"), std::string::npos);
+}
+
+TEST(Decision, FingersOfDifferentBeliefsHaveNoneInCommon) {
+  Study study = believing(0.3);
+  Finger first = study.design.finger, second = first;
+  second.name = "other";
+  second.belief = belief_file("three_others.toml", 0.5);
+  study.population = {first, second};
+  const StudyProblem problem(study);
+  EXPECT_FALSE(problem.belief());
+  EXPECT_NE(problem.belief_absent().find("different beliefs"), std::string::npos);
+}
+
+TEST(Decision, ItsPriceIsStated) {
+  Study study = believing(0.3);
+  const StudyCost with = study_cost(study);
+  EXPECT_EQ(with.members, 3u);
+  EXPECT_GT(with.belief_seconds, 0);
+  EXPECT_NE(search_plan(study).find("3 members"), std::string::npos);
+  study.design.finger.belief.clear();
+  EXPECT_EQ(study_cost(study).members, 0u);
+}
+
+// Interrupted after any answer and continued: nothing is asked twice, and the same is decided.
+TEST(Decision, ARunThatIsContinuedDecidesTheSame) {
+  const BelievingRun straight(0.3, "decision_straight");
+  const auto first_belief =
+      std::find_if(straight.asked.begin(), straight.asked.end(),
+                   [](const TaskRequest& r) { return r.stage == Stage::Belief; });
+  const auto begin = static_cast<std::size_t>(first_belief - straight.asked.begin());
+  for (const std::size_t after : {begin, begin + 1, begin + 2}) {
+    const std::string folder = fresh_folder("decision_continued");
+    const Study study = believing(0.3);
+    const MpiSession mpi;
+    std::vector<TaskRequest> asked;
+    std::atomic<bool> stop{false};
+    {
+      const TaskFormula stopping = [&](const TaskRequest& r) {
+        stop = asked.size() >= after;
+        return overturning(r);
+      };
+      const OptimiseOptions options{.folder = folder, .progress = {}, .stop = &stop};
+      search::Run run(study, options, mpi, std::make_unique<FormulaWorker>(stopping, asked));
+      EXPECT_FALSE(search_designs(run) && narrow(run) && confirm(run) && check(run));
+      EXPECT_EQ(asked.size(), after);
+    }
+    const OptimiseOptions options{.folder = folder, .resume = true, .progress = {}};
+    search::Run run(study, options, mpi, std::make_unique<FormulaWorker>(overturning, asked));
+    ASSERT_TRUE(search_designs(run) && narrow(run) && confirm(run) && check(run));
+    EXPECT_EQ(asked, straight.asked);
+    EXPECT_EQ(run.result.best, straight.run.result.best);
+    ASSERT_EQ(run.result.decision.designs.size(), straight.decision().designs.size());
+    for (std::size_t i = 0; i < straight.decision().designs.size(); ++i)
+      EXPECT_EQ(run.result.decision.designs[i].regret, straight.decision().designs[i].regret);
+  }
+}
+
+// Another rule, or another risk, decides by the same answers.
+TEST(Decision, ARunThatIsContinuedWithAnotherRiskAsksNoMemberAgain) {
+  const BelievingRun straight(0.3, "decision_again");
+  Study study = believing(0.3);
+  study.risk.belief = "worst";
+  const MpiSession mpi;
+  std::vector<TaskRequest> asked;
+  const OptimiseOptions options{.folder = straight.options.folder, .resume = true, .progress = {}};
+  search::Run run(study, options, mpi, std::make_unique<FormulaWorker>(overturning, asked));
+  ASSERT_TRUE(search_designs(run) && narrow(run) && confirm(run) && check(run));
+  EXPECT_NE(run.result.best, straight.run.result.best);
+  EXPECT_TRUE(std::none_of(asked.begin(), asked.end(),
+                           [](const TaskRequest& r) { return r.stage == Stage::Belief; }));
+}
+
+TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
+  const Study study = believing(0.3);
+  const StudyProblem problem(study);
+  const TaskAnswer confirmed = at(0, 0, 0.4), own = at(0, 0, 0.2);
+  TaskAnswer there = at(0, 0, 0.3);
+  there.objectives[0].value *= 1.5;
+  for (double& p : there.objectives[0].points) p *= 1.5;
+  there.objectives[1].value += 0.07;
+  const Score score = score_at(problem, {confirmed}, {{there, own}}, 0);
+  ASSERT_TRUE(score.ok);
+  EXPECT_NEAR(score.values[0], 1.5 * 0.8, 1e-12);
+  EXPECT_NEAR(score.values[1], 0.5 + 0.07, 1e-12);
+  EXPECT_NEAR(score.worst, 0.4 * 1.5, 1e-12);
+  EXPECT_FALSE(score_at(problem, {confirmed},
+                        {{TaskAnswer::refused(TaskStatus::Kind::NoEquilibrium, "x"), own}}, 0)
+                   .ok);
+}
+
+}  // namespace
+}  // namespace papilla::tests

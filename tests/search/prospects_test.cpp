@@ -1,0 +1,195 @@
+// Designs over the members of a belief: by hand, and against truths drawn from it.
+#include "search/prospects.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/random.h"
+
+namespace papilla::tests {
+namespace {
+
+using Matrix = std::vector<std::vector<double>>;
+
+// Without limits.
+MemberWorth worth_of(std::vector<double> weights, Matrix worth) {
+  MemberWorth out{std::move(weights), std::move(worth), {}};
+  out.kept.resize(out.worth.size());
+  return out;
+}
+
+TEST(Prospects, AreWeightsOfTheMembersAndWhatIsLostAgainstTheirBest) {
+  const MemberWorth d = worth_of({0.5, 0.3, 0.2}, {{5, 1, 1}, {4, 4, 1}, {0, 3, 3}});
+  const std::vector<Prospect> p = prospects(d, {});
+  EXPECT_NEAR(p[0].p_best, 0.5, 1e-12);
+  EXPECT_NEAR(p[1].p_best, 0.3, 1e-12);
+  EXPECT_NEAR(p[2].p_best, 0.2, 1e-12);
+  EXPECT_NEAR(p[0].regret, 0.3 * 3 + 0.2 * 2, 1e-12);
+  EXPECT_NEAR(p[1].regret, 0.5 * 1 + 0.2 * 2, 1e-12);
+  EXPECT_NEAR(p[2].regret, 0.5 * 5 + 0.3 * 1, 1e-12);
+  // The likeliest best is not the one of least regret.
+  EXPECT_EQ(chosen(p, 0.9), 1u);
+  EXPECT_NEAR(best_worth(d), 0.5 * 5 + 0.3 * 4 + 0.2 * 3, 1e-12);
+}
+
+TEST(Prospects, CountRatiosOfWeightsAndShareTies) {
+  const std::vector<Prospect> p = prospects(worth_of({3, 1}, {{1, 1}, {1, 0}}), {});
+  EXPECT_NEAR(p[0].p_best, 0.375 + 0.25, 1e-12);
+  EXPECT_NEAR(p[1].p_best, 0.375, 1e-12);
+  EXPECT_NEAR(p[1].regret, 0.25, 1e-12);
+}
+
+// What is common to all designs at a member changes nothing.
+TEST(Prospects, CancelWhatMovesAllDesignsAlike) {
+  const MemberWorth d = worth_of({0.6, 0.4}, {{1, 2}, {3, 0}});
+  MemberWorth moved = d;
+  for (auto& design : moved.worth) design[0] += 100, design[1] -= 40;
+  const std::vector<Prospect> p = prospects(d, {}), q = prospects(moved, {});
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    EXPECT_NEAR(p[i].p_best, q[i].p_best, 1e-12);
+    EXPECT_NEAR(p[i].regret, q[i].regret, 1e-12);
+  }
+}
+
+TEST(Prospects, ALimitIsKeptWithTheWeightOfItsMembers) {
+  MemberWorth d = worth_of({0.5, 0.3, 0.2}, {{5, 5, 5}, {1, 1, 2}});
+  d.kept = {{{true, true, false}, {true, false, true}},  // [design][limit][member]
+            {{true, true, true}, {true, true, true}}};
+  const std::vector<Prospect> p = prospects(d, {});
+  EXPECT_NEAR(p[0].p_limit[0], 0.8, 1e-12);
+  EXPECT_NEAR(p[0].p_limit[1], 0.7, 1e-12);
+  EXPECT_NEAR(p[0].p_limits, 0.5, 1e-12);  // both together
+  EXPECT_NEAR(p[1].p_limits, 1, 1e-12);
+  // What breaks a limit is no best, and to have more there is no gain.
+  EXPECT_NEAR(p[0].p_best, 0.5, 1e-12);
+  EXPECT_NEAR(p[1].p_best, 0.5, 1e-12);
+  EXPECT_NEAR(p[0].regret, 0, 1e-12);
+  EXPECT_NEAR(p[1].regret, 0.5 * 4, 1e-12);
+  EXPECT_EQ(chosen(p, 0.9), 1u);
+  EXPECT_EQ(chosen(p, 0.5), 0u);
+}
+
+TEST(Prospects, WhereNoneIsSureEnoughTheSurestIsChosen) {
+  MemberWorth d = worth_of({0.5, 0.3, 0.2}, {{5, 5, 5}, {1, 1, 1}, {2, 2, 2}});
+  d.kept = {{{true, false, false}}, {{true, true, false}}, {{true, true, false}}};
+  EXPECT_EQ(chosen(prospects(d, {}), 0.9), 2u);  // the better of both with 80 %
+}
+
+TEST(Prospects, ADesignWithoutAnAnswerIsTheLeastOfTheOthersThere) {
+  const double none = std::nan("");
+  const std::vector<Prospect> p = prospects(worth_of({0.5, 0.5}, {{3, none}, {1, 2}, {2, 1}}), {});
+  EXPECT_NEAR(p[0].regret, 0.5 * (2 - 1), 1e-12);
+  EXPECT_NEAR(p[0].p_limits, 0.5, 1e-12);
+  // A member at which no design has one says nothing.
+  const std::vector<Prospect> q = prospects(worth_of({0.5, 0.5}, {{3, none}, {1, none}}), {});
+  EXPECT_NEAR(q[0].p_best, 0.5, 1e-12);
+  EXPECT_NEAR(q[1].regret, 1, 1e-12);
+}
+
+TEST(Prospects, TheRiskDecidesWhatIsChosen) {
+  const MemberWorth d = worth_of({0.9, 0.1}, {{4, 0}, {3, 3}});
+  EXPECT_EQ(chosen(prospects(d, parse_belief_risk("regret")), 0.9), 0u);
+  EXPECT_EQ(chosen(prospects(d, parse_belief_risk("mean")), 0.9), 0u);
+  EXPECT_EQ(chosen(prospects(d, parse_belief_risk("worst 10 %")), 0.9), 1u);
+  EXPECT_EQ(chosen(prospects(d, parse_belief_risk("worst")), 0.9), 1u);
+  EXPECT_EQ(prospects(d, parse_belief_risk("worst 10 %"))[0].merit, 0);
+  for (const char* wrong : {"best", "worst 0 %", "worst 120 %", "regrets"})
+    EXPECT_THROW(parse_belief_risk(wrong), InputError) << wrong;
+}
+
+TEST(Prospects, AGroupOfMembersMayChooseAnother) {
+  const MemberWorth d = worth_of({0.4, 0.4, 0.2}, {{3, 3, 1}, {1, 2, 4}});
+  const std::vector<Reversal> found = by_group(d, {}, 0.9, {{"fit", {0, 1}}, {"emission", {2}}});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].best, 0u);
+  EXPECT_NEAR(found[0].weight, 0.8, 1e-12);
+  EXPECT_EQ(found[0].loss, 0);
+  EXPECT_EQ(found[1].best, 1u);
+  EXPECT_NEAR(found[1].weight, 0.2, 1e-12);
+  EXPECT_NEAR(found[1].loss, 3, 1e-12);
+}
+
+TEST(Prospects, TheParameterThatTurnsTheChoiceIsTheOneThatCostsMost) {
+  // The first number orders the designs, the second has nothing to do with them.
+  const MemberWorth d = worth_of({0.25, 0.25, 0.25, 0.25}, {{4, 4, 1, 1}, {1, 2, 3, 3}});
+  const std::vector<MemberNumber> numbers{{"skin.rms", {1, 2, 3, 4}}, {"skin.hurst", {1, 3, 2, 4}}};
+  const auto found = by_half(d, {}, 0.9, numbers);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->path, "skin.rms");
+  EXPECT_NEAR(found->edge, 2.5, 1e-12);
+  EXPECT_EQ(found->low.best, 0u);
+  EXPECT_EQ(found->high.best, 1u);
+  EXPECT_NEAR(found->low.weight, 0.5, 1e-12);
+  EXPECT_NEAR(found->high.loss, 2, 1e-12);
+  EXPECT_FALSE(by_half(d, {}, 0.9, {{"same", {1, 1, 1, 1}}}));
+  EXPECT_FALSE(by_half(worth_of({1, 1}, {{2, 2}, {1, 1}}), {}, 0.9, {{"skin.rms", {1, 2}}}));
+}
+
+// Designs whose worth is a parabola in two numbers of the finger; members and truths are draws of
+// the same Gaussian, so what is said of the members must be so often true.
+struct Drawn {
+  explicit Drawn(RandomStream& random) {
+    for (Parabola& p : designs) {
+      p.at = random.normal();
+      for (double& s : p.slope) s = 0.7 * random.normal();
+      p.bend = 0.6 * std::abs(random.normal());
+    }
+  }
+  // At a draw; what the numbers of the fit say is that at its mean, {0, 0}.
+  std::vector<double> worth(const std::array<double, 2>& x) const {
+    std::vector<double> out;
+    for (const Parabola& p : designs)
+      out.push_back(p.at + p.slope[0] * x[0] + p.slope[1] * x[1] - p.bend * x[0] * x[0]);
+    return out;
+  }
+
+  struct Parabola {
+    double at = 0, bend = 0;
+    std::array<double, 2> slope{};
+  };
+  std::array<Parabola, 6> designs;
+};
+
+std::size_t largest(const std::vector<double>& v) {
+  return static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+}
+
+TEST(Prospects, AreTrueAsOftenAsTheySayOfTruthsDrawnFromBelief) {
+  constexpr int kProblems = 1500, kMembers = 300, kBins = 5;
+  RandomStream random(7, "planted truths");
+  const auto draw = [&] { return std::array<double, 2>{random.normal(), random.normal()}; };
+  std::array<double, kBins> said{}, spread{}, so{};
+  double expected = 0, by_regret = 0, by_fit = 0;
+  for (int k = 0; k < kProblems; ++k) {
+    const Drawn problem(random);
+    MemberWorth d = worth_of(std::vector<double>(kMembers, 1), Matrix(6));
+    for (int m = 0; m < kMembers; ++m) {
+      const std::vector<double> there = problem.worth(draw());
+      for (std::size_t i = 0; i < there.size(); ++i) d.worth[i].push_back(there[i]);
+    }
+    const std::vector<Prospect> p = prospects(d, {});
+    const std::vector<double> truth = problem.worth(draw());
+    const std::size_t best = largest(truth);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      const int bin = std::min(kBins - 1, static_cast<int>(kBins * p[i].p_best));
+      said[bin] += p[i].p_best;
+      spread[bin] += p[i].p_best * (1 - p[i].p_best);
+      so[bin] += i == best;
+    }
+    const std::size_t choice = chosen(p, 0.9);
+    expected += p[choice].regret;
+    by_regret += truth[best] - truth[choice];
+    by_fit += truth[best] - truth[largest(problem.worth({0, 0}))];
+  }
+  for (int bin = 0; bin < kBins; ++bin)
+    EXPECT_NEAR(so[bin], said[bin], 3 * std::sqrt(spread[bin])) << "bin " << bin;
+  EXPECT_LT(by_regret, by_fit);
+  EXPECT_NEAR(by_regret, expected, 0.1 * expected);  // 1500 truths scatter by some per cent
+}
+
+}  // namespace
+}  // namespace papilla::tests
