@@ -13,6 +13,7 @@
 #include "report/json.h"
 #include "report/remarks.h"
 #include "report/tables.h"
+#include "report/yield.h"
 #include "search/rounding.h"
 
 namespace papilla::report {
@@ -127,8 +128,10 @@ std::vector<LimitValue> built_limits(const ResultFiles& f) {
   const FinalDesign& made = f.result.build->made;
   if (made.confirmed.ok) return constraints.values(made.design, made.confirmed);
   std::vector<LimitValue> out = constraints.values(made.design, recommended_of(f).confirmed);
-  std::erase_if(
-      out, [](const LimitValue& v) { return std::holds_alternative<MetricLimit>(v.limit.on); });
+  std::erase_if(out, [](const LimitValue& v) {
+    return std::holds_alternative<MetricLimit>(v.limit.on) ||
+           std::holds_alternative<YieldLimit>(v.limit.on);
+  });
   return out;
 }
 
@@ -542,6 +545,7 @@ std::string sheet_text(const ResultFiles& f) {
       "\nTolerance: how far it may be off before an objective worsens by 5 % or a limit is "
       "reached, one dimension at a time." +
       grid_text(f) + "\n" + limits_table(built_limits(f));
+  if (const std::string yield = yield_text(f); !yield.empty()) out += "\n" + yield + "\n";
   return out;
 }
 
@@ -573,6 +577,7 @@ std::string run_json(const ResultFiles& f) {
   for (const SheetRow& row : sheet_rows(f)) out["sheet"].push_back(row_json(row));
   out["grid"] = f.study.search.rounding;
   out["limits"] = limits_json(built_limits(f));
+  out["yield"] = yield_json(f);
   out["build"] = Json();
   if (r.build) {
     out["build"] = {{"judged", r.build->made.confirmed.ok},

@@ -235,6 +235,7 @@ bool check(Run& run) {
   if (best.confirmed.ok) {
     const FinalDesign recommended = recommended_design(run.problem, result);
     result.build = built_of(run, recommended);
+    result.yield = run.problem.yield(result.build->made.design, result.build->made.confirmed);
     find_sensitivity(run, result.build->made);
     result.at_bound = variables_at_bound(run.problem, recommended.unit, result.sensitivity);
     std::erase_if(result.at_bound, [&](const AtBound& at) {

@@ -168,6 +168,7 @@ StudyCost study_cost(const Study& study) {
   out.tasks = static_cast<int>(problem.tasks().size());
   out.narrowed = narrowings(search);
   out.finalists = kFinalists + 1;
+  if (YieldModel::exists(study)) out.plates = kPlates;
   const auto price = [&](std::size_t tasks, Stage stage) {
     return static_cast<double>(tasks) * task_price(problem, stage);
   };

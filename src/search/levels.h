@@ -37,6 +37,7 @@ struct StudyCost {
   int evaluations = 0, tasks = 0;  // of an evaluation
   std::size_t narrowed = 0, finalists = 0;
   double seconds = 0;
+  std::size_t plates = 0;                  // of the yield of what is built; 0: it has none
   double bytes = 0;                        // the largest patch of a worker, solved
   int pixels = 0;                          // of the search, along 12 um
   double feature = 0, feature_pixels = 0;  // the smallest of the space [m]; infinite: none

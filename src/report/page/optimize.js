@@ -234,6 +234,7 @@ const said = (list, texts) => (texts || []).forEach((text) => { const item = doc
 said($('grounds'), run.grounds);
 said($('remarks'), run.remarks);
 $('grid').textContent = run.build ? run.build.said.replace(/`/g, '') : '';
+$('yield').textContent = run.yield ? run.yield.said : '';
 $('facts').textContent = (run.design === null ? 'The flat surface has ' : 'The best design has ') + Object.keys(best.objectives).map((n) => `${called(n)} ${quantity(best.objectives[n], n)}` + (flat ? ` (flat ${quantity(flat.objectives[n], n)})` : '')).join(', ')
   + (run.driven ? `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity' : '') + '.'
   + (best.feasible ? '' : ' It does not keep every constraint.');
