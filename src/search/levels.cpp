@@ -6,6 +6,7 @@
 
 #include "estimate/belief.h"
 #include "forward/plan.h"
+#include "search/building.h"
 #include "search/stability.h"
 
 namespace papilla::search {
@@ -175,8 +176,8 @@ StudyCost study_cost(const Study& study) {
   const std::size_t tasks = problem.tasks().size(), variables = search.space.size();
   out.seconds = price(static_cast<std::size_t>(search.evaluations) * tasks, Stage::Search) +
                 price(out.narrowed * tasks, Stage::Narrow) +
-                // Finalists, the surface without texture twice, the rounded design.
-                price((out.finalists + 3) * tasks, Stage::Confirm) +
+                // Finalists, the surface without texture twice, designs of the fab's grid.
+                price((out.finalists + 2 + kJudgedOnGrid) * tasks, Stage::Confirm) +
                 price(kFinalists * stability_variants(problem).size(), Stage::Stability) +
                 price((1 + 2 * variables) * tasks, Stage::Sensitivity);
   if (problem.parameters_unknown().empty())

@@ -60,6 +60,9 @@ struct FinalDesign {
 struct BuiltDesign {
   FinalDesign made;      // confirmed: ok where it was judged, at the level of the confirmation
   bool widened = false;  // nearer designs of the grid break a limit
+  bool on_grid = true;   // no: it is as searched, for those of the grid that were judged break one
+  std::size_t judged = 0;                // designs of the grid
+  std::optional<FinalDesign> nearest{};  // of the grid that keeps the limits of the shape, judged
 };
 
 struct OptimiseResult {

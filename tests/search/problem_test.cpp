@@ -246,7 +246,7 @@ TEST(Price, OfAStudyIsThatOfItsStages) {
   const auto price = [&](double count, Stage stage) { return count * task_price(problem, stage); };
   double seconds =
       price(60 * 4, Stage::Search) + price(20 * 4, Stage::Narrow) +
-      price((9 + 3) * 4, Stage::Confirm) +
+      price((9 + 2 + 3) * 4, Stage::Confirm) +
       price(8.0 * static_cast<double>(stability_variants(problem).size()), Stage::Stability) +
       price((1 + 2 * 4) * 4, Stage::Sensitivity);
   if (problem.parameters_unknown().empty()) seconds += price(2 * 4, Stage::Steps);
