@@ -1,6 +1,6 @@
 // The yield from the ends of the tolerances against plates evaluated one by one, of five designs;
 // CSV on standard output.
-//   yield_bench [PLATES]
+//   yield_bench [PLATES [CASE]]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
       "design,yield,se,direct,difference,costliest,gain of half,costliest direct,gain of half "
       "direct,seconds,seconds direct\n");
   for (const YieldCase& of : yield_cases()) {
+    if (argc > 2 && of.name != argv[2]) continue;
     const auto clock = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
     const JudgedYield judged(of);
     const double begun = clock();

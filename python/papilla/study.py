@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -136,6 +137,23 @@ class Run:
         if not self.finalists:
             raise LookupError("the search found no design")
         return self.finalists[self._best]
+
+    @property
+    def plate_yield(self) -> Optional[dict[str, Any]]:
+        """The yield of what is built: its `share` of plates within every limit, the standard error `se`, how often each
+        limit is `broken`, what half of each of the `tolerances` gains, and the `costliest`. None where nothing scatters."""
+        return self._told("yield")
+
+    @property
+    def shared(self) -> Optional[dict[str, Any]]:
+        """What all good designs share: the `ranges` of each number over the designs within 5 % of the front, SI, and a
+        sentence (`said`). None where there are fewer than five."""
+        return self._told("shared")
+
+    def _told(self, key: str) -> Optional[dict[str, Any]]:
+        with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
+            told: Optional[dict[str, Any]] = json.load(file).get(key)
+        return told
 
     def __repr__(self) -> str:
         end = "interrupted after" if self.interrupted else "of"

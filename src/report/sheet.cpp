@@ -12,6 +12,7 @@
 #include "metrics/shown.h"
 #include "report/json.h"
 #include "report/remarks.h"
+#include "report/shared.h"
 #include "report/tables.h"
 #include "report/yield.h"
 #include "search/rounding.h"
@@ -587,6 +588,7 @@ std::string run_json(const ResultFiles& f) {
   out["grid"] = f.study.search.rounding;
   out["limits"] = limits_json(built_limits(f));
   out["yield"] = yield_json(f);
+  out["shared"] = shared_json(f);
   out["build"] = Json();
   if (r.build) {
     out["build"] = {{"judged", r.build->made.confirmed.ok},

@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "metrics/shown.h"
 #include "report/remarks.h"
+#include "report/shared.h"
 #include "report/sheet.h"
 
 namespace papilla::report {
@@ -256,6 +257,7 @@ std::string run_summary(const ResultFiles& f) {
   if (r.flat && best.confirmed.ok) out += gain_text(f, best);
   out += stability_text(f);
   out += sensitivity_text(f);
+  out += shared_text(f);
   out += r.has_best()
              ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
                "history.csv (every evaluation), run.json (how it ended, what to build), front/ and "

@@ -19,6 +19,7 @@ struct YieldCase {
   std::string name;
   std::string toml;          // design, space and scatter
   std::string metric, unit;  // that is limited
+  int grid, skins;           // of the draft
   double below;  // the limit: so many standard deviations on the bad side of the nominal value
 };
 
@@ -29,8 +30,8 @@ class JudgedYield {
             of.toml + "[constraints]\n\"" + of.metric + "\" = \"0 " + of.unit + "\"\n", of.name)) {
     // A draft on fewer pixels and skins, without what only errors need: both sides alike.
     fidelity_ = fidelity_level("draft");
-    fidelity_.grid = 64;
-    fidelity_.skins = 4;
+    fidelity_.grid = of.grid;
+    fidelity_.skins = of.skins;
     fidelity_.control_skins = 0;
     fidelity_.threads = 1;
     const StudyProblem problem(study_);
@@ -104,16 +105,16 @@ inline std::vector<YieldCase> yield_cases() {
            wish +
            "[scatter]\n\"surface.dielectric.0.thickness\" = \"120 nm\"\n\"texture.depth\" = \"60 "
            "nm\"\n\"surface.contact_angle\" = \"4 deg\"\n",
-       "worst(modulation)", "", 0.8},
+       "worst(modulation)", "", 64, 4, 0.8},
       {"pillars.toml",
        head + film("1 um", "60 deg") +
            "[texture]\ntype = \"pillar_array\"\nperiod = \"6 um\"\ndiameter = \"3 um\"\nheight = "
            "\"400 nm\"\n" +
            wish +
-           "[scatter]\n\"texture.diameter\" = { sigma = \"300 nm\" }\n\"texture.height\" = { sigma "
-           "= \"30 nm\" }\n\"surface.contact_angle\" = { sigma = \"6 deg\" }\ncorrelation = [{ "
+           "[scatter]\n\"texture.diameter\" = { sigma = \"60 nm\" }\n\"texture.height\" = { sigma "
+           "= \"60 nm\" }\n\"surface.contact_angle\" = { sigma = \"6 deg\" }\ncorrelation = [{ "
            "between = [\"texture.diameter\", \"texture.height\"], value = 0.5 }]\n",
-       "worst(friction)", "mN", 1.0},
+       "worst(friction)", "mN", 128, 16, 1.0},
       {"grooves.toml",
        head + driven + film("900 nm", "60 deg") +
            "[texture]\ntype = \"grating\"\nperiod = \"6 um\"\nwidth = \"2.5 um\"\ndepth = \"300 "
@@ -121,7 +122,7 @@ inline std::vector<YieldCase> yield_cases() {
            wish +
            "[scatter]\n\"texture.width\" = \"800 nm\"\n\"texture.depth\" = \"60 nm\"\n"
            "\"texture.wall_angle\" = \"10 deg\"\n\"surface.dielectric.0.thickness\" = \"90 nm\"\n",
-       "worst(modulation)", "", 1.0},
+       "worst(modulation)", "", 64, 4, 1.0},
       {"pillars_driven.toml",
        head + driven + film("1 um", "60 deg") +
            "[texture]\ntype = \"pillar_array\"\nperiod = \"5 um\"\ndiameter = \"3 um\"\nheight = "
@@ -131,7 +132,7 @@ inline std::vector<YieldCase> yield_cases() {
            "\"texture.height\" = { sigma = \"60 nm\" }\n\"texture.diameter\" = { sigma = \"250 "
            "nm\" "
            "}\n",
-       "worst(modulation)", "", 1.2},
+       "worst(modulation)", "", 64, 4, 1.2},
       {"shallow_holes.toml",
        head + driven + film("700 nm", "50 deg") +
            "[texture]\ntype = \"hole_array\"\nperiod = \"3 um\"\ndiameter = \"1.8 um\"\ndepth = "
@@ -139,7 +140,7 @@ inline std::vector<YieldCase> yield_cases() {
            wish +
            "[scatter]\n\"texture.depth\" = \"50 nm\"\n\"surface.dielectric.0.thickness\" = \"70 "
            "nm\"\n\"surface.contact_angle\" = { sigma = \"6 deg\" }\n",
-       "worst(friction_on)", "mN", 0.6},
+       "worst(friction_on)", "mN", 64, 4, 0.6},
   };
 }
 
