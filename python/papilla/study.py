@@ -140,14 +140,15 @@ class Run:
 
     @property
     def plate_yield(self) -> Optional[dict[str, Any]]:
-        """The yield of what is built: its `share` of plates within every limit, the standard error `se`, how often each
-        limit is `broken`, what half of each of the `tolerances` gains, and the `costliest`. None where nothing scatters."""
+        """The yield of what is built: the ``share`` of plates within every limit, its standard error ``se``, how often
+        each limit is ``broken``, what half of each of the ``tolerances`` gains, and the ``costliest``. None where
+        nothing scatters."""
         return self._told("yield")
 
     @property
     def shared(self) -> Optional[dict[str, Any]]:
-        """What all good designs share: the `ranges` of each number over the designs within 5 % of the front, SI, and a
-        sentence (`said`). None where there are fewer than five."""
+        """What all good designs share: the ``ranges`` of each number over the designs within 5 % of the front, SI, and
+        a sentence, ``said``. None where there are fewer than five."""
         return self._told("shared")
 
     def _told(self, key: str) -> Optional[dict[str, Any]]:
