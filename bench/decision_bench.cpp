@@ -94,7 +94,7 @@ Score true_score(const StudyProblem& problem, const Design& design, std::size_t 
     answers.push_back(refused ? *std::move(refused)
                               : answer_of(problem.goals(), d, task.name, response));
   }
-  return problem.score(answers);
+  return problem.score(design, answers);
 }
 
 std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<Point>& units) {
@@ -104,7 +104,7 @@ std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<P
     f.unit = unit;
     f.design = problem.space().design(unit);
     f.answers = confirmed(problem, f.design);
-    f.confirmed = problem.score(f.answers);
+    f.confirmed = problem.score(f.design, f.answers);
     f.feasible = problem.feasible(f.confirmed, f.design);
     if (!f.feasible) continue;
     Fidelity few = stage_fidelity(problem, Stage::Belief);
@@ -113,7 +113,7 @@ std::vector<FinalDesign> judged(const StudyProblem& problem, const std::vector<P
     for (std::size_t t = 0; t < problem.nominal_tasks(); ++t)
       members.push_back(evaluate_steps(problem, f.design, t, few).members);
     for (std::size_t m = 0; m < problem.belief()->members.size(); ++m)
-      f.members.push_back(score_at(problem, f.answers, members, m));
+      f.members.push_back(score_at(problem, f.design, f.answers, members, m));
     out.push_back(std::move(f));
   }
   return out;

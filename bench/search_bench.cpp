@@ -256,7 +256,7 @@ class Judge {
       tasks.push_back(evaluate_task(problem_, design, t, {fidelity_}));
     seconds_ += static_cast<double>(std::clock() - from) / CLOCKS_PER_SEC;
     ++count_;
-    return known_[u] = guarded(problem_.outcome(problem_.score(tasks)),
+    return known_[u] = guarded(problem_.outcome(problem_.score(design, tasks)),
                                problem_.objectives().size(), problem_.constraints().evaluated());
   }
   double seconds_each() const { return count_ ? seconds_ / count_ : 0; }

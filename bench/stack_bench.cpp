@@ -35,7 +35,7 @@ Score judged(const StudyProblem& problem, const Design& design, const Fidelity& 
   std::vector<TaskAnswer> answers;
   for (std::size_t t = 0; t < problem.tasks().size(); ++t)
     answers.push_back(evaluate_task(problem, design, t, {fidelity, true}));
-  return problem.score(answers);
+  return problem.score(design, answers);
 }
 
 // Of minimised objectives, from all skins or without one of them.

@@ -172,10 +172,8 @@ class Run:
     @property
     def decision(self) -> Decision:
         """By belief. Raises LookupError with the reason where there is none."""
-        found: dict[str, Any] = {}
-        if not self.interrupted and self.finalists:
-            with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
-                found = json.load(file).get("decision", {})
+        judged = not self.interrupted and bool(self.finalists)
+        found = (self._told("decision") if judged else None) or {}
         if found.get("absent", "the run has no design to decide on"):
             raise LookupError(found.get("absent", "the run has no design to decide on"))
         return Decision(
@@ -184,6 +182,24 @@ class Run:
                                       row["p_limits"]) for name, row in found["designs"].items()},
             hypotheses={row["name"]: row["best"] for row in found["hypotheses"]},
             overturned=found["overturned"], members=found["members"])
+
+    @property
+    def plate_yield(self) -> Optional[dict[str, Any]]:
+        """The yield of what is built: the ``share`` of plates within every limit, its standard error ``se``, how often
+        each limit is ``broken``, what half of each of the ``tolerances`` gains, and the ``costliest``. None where
+        nothing scatters."""
+        return self._told("yield")
+
+    @property
+    def shared(self) -> Optional[dict[str, Any]]:
+        """What all good designs share: the ``ranges`` of each number over the designs within 5 % of the front, SI, and
+        a sentence, ``said``. None where there are fewer than five."""
+        return self._told("shared")
+
+    def _told(self, key: str) -> Optional[dict[str, Any]]:
+        with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
+            told: Optional[dict[str, Any]] = json.load(file).get(key)
+        return told
 
     def __repr__(self) -> str:
         end = "interrupted after" if self.interrupted else "of"

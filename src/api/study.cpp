@@ -44,6 +44,11 @@ Judgement judgement_of(const StudyProblem& problem, const Score& score) {
   return out;
 }
 
+// Of the search the objectives alone are kept.
+Judgement searched_judgement(const Score& score) {
+  return {score.ok, score.reason, score.values, score.errors, {}};
+}
+
 // Throws rooms::InputError for values that are none of the space.
 rooms::Point unit_of(const StudyProblem& problem, const std::vector<double>& values) {
   if (values.size() != problem.space().size()) {
@@ -117,10 +122,11 @@ Judgement Study::judge(const std::vector<double>& values, int threads,
     Watch watch({}, stop);
     TaskWork work{stage_fidelity(problem, Stage::Search)};
     work.fidelity.threads = threads;
+    const rooms::Design design = problem.space().design(unit);
     std::vector<TaskAnswer> answers;
     for (std::size_t task = 0; task < problem.tasks().size(); ++task)
-      answers.push_back(evaluate_task(problem, problem.space().design(unit), task, work));
-    return judgement_of(problem, problem.score(answers));
+      answers.push_back(evaluate_task(problem, design, task, work));
+    return judgement_of(problem, problem.score(design, answers));
   });
 }
 
@@ -146,7 +152,7 @@ RunResult Study::run(const std::string& folder, const RunOptions& options) const
     out.any_feasible = result.any_feasible;
     out.evaluations = result.evaluations;
     for (const FinalDesign& f : result.finalists)
-      out.finalists.push_back({problem.space().value(f.unit), judgement_of(problem, f.searched),
+      out.finalists.push_back({problem.space().value(f.unit), searched_judgement(f.searched),
                                judgement_of(problem, f.confirmed), f.folder});
     out.best = result.best;
     if (!result.interrupted) out.table = result_table(inside_->study, result);

@@ -37,6 +37,12 @@ std::string study_text(const Study& study) {
     out += fmt::format(", the smallest feature of its space, {:.3g} nm, is {:.2g} of them wide",
                        1e9 * cost.feature, cost.feature_pixels);
   out += '\n';
+  if (cost.plates > 0)
+    out += fmt::format(
+        "the yield of what is built is that of {} plates within the tolerances of [scatter], by "
+        "the "
+        "evaluations of the design and of both ends of each tolerance: no other is made\n",
+        cost.plates);
   if (study.search.time > 0)
     out += fmt::format("search.time ends it after {}: what follows the search shrinks first\n",
                        duration(study.search.time));

@@ -141,12 +141,76 @@ void read_settings(StudyFile& file, const std::string& where, const Node& set,
   }
 }
 
+// "20 nm", anywhere within; { sigma = "20 nm" }, normal.
+void read_tolerance(StudyFile& file, const std::string& path, const Node& node) {
+  const NumberField* field = file.numbers.find(path, node, "scatter");
+  if (!field) return;
+  const std::string where = "scatter." + path;
+  Scatter scatter{path};
+  const Node* sigma = node.is_table() ? node.find("sigma") : nullptr;
+  if (sigma) {
+    scatter.kind = Scatter::Kind::Normal;
+    file.only(node, where, {"sigma"});
+  }
+  const Node& value = sigma ? *sigma : node;
+  if (!file.document.number(value, where, {path.c_str(), field->unit, 0, 1e9, ""},
+                            scatter.tolerance))
+    return;
+  if (scatter.tolerance > 0) {
+    file.study.scatter.push_back(std::move(scatter));
+  } else {
+    file.document.problem(value.place, where, "expected a tolerance above 0");
+  }
+}
+
+// [{ between = ["texture.depth", "texture.diameter"], value = 0.6 }]
+void read_correlations(StudyFile& file, const Node& list) {
+  const char* where = "scatter.correlation";
+  const char* expected =
+      "expected a list of { between = [\"PATH\", \"PATH\"], value = NUMBER } with two paths of "
+      "[scatter]";
+  if (!list.is_array()) {
+    file.document.problem(list.place, where, fmt::format("{}, got {}", expected, describe(list)));
+    return;
+  }
+  for (const Node& item : list.children) {
+    const Node* between = item.is_table() ? item.find("between") : nullptr;
+    const Node* value = item.is_table() ? item.find("value") : nullptr;
+    if (!between || !value || !between->is_array() || between->children.size() != 2 ||
+        !between->children[0].is_text() || !between->children[1].is_text()) {
+      file.document.problem(item.place, where, fmt::format("{}, got {}", expected, describe(item)));
+      continue;
+    }
+    file.only(item, where, {"between", "value"});
+    ScatterCorrelation c{between->children[0].text, between->children[1].text};
+    if (file.document.number(*value, where, {"value", "", -1, 1, ""}, c.value))
+      file.study.correlations.push_back(std::move(c));
+  }
+}
+
+// Correlations of what goes with another kind of texture go too.
+void drop_fallen_away(Study& study) {
+  const auto fell = [&](const std::string& path) {
+    return std::count(study.fallen_away.begin(), study.fallen_away.end(), "scatter." + path) > 0;
+  };
+  std::erase_if(study.correlations,
+                [&](const ScatterCorrelation& c) { return fell(c.first) || fell(c.second); });
+  Node* kept = study.study_sections.find("scatter");
+  Node* list = kept ? kept->find("correlation") : nullptr;
+  if (!list) return;
+  std::erase_if(list->children, [&](const Node& item) {
+    const Node* between = item.find("between");
+    return between && std::any_of(between->children.begin(), between->children.end(),
+                                  [&](const Node& path) { return fell(path.text); });
+  });
+}
+
 }  // namespace
 
 void read_design_space(StudyFile& file) {
   const Node* space = file.section("design_space");
   if (!space) return;
-  const PathMembers members = members_by_path(*space, true);
+  const PathMembers members = members_by_path(*space, {"choice", "range"});
   read_kinds(file, members);
   for (const auto& [path, node] : members) {
     if (path != "texture.type" && path != "texture.levels" &&
@@ -158,20 +222,20 @@ void read_design_space(StudyFile& file) {
 void read_scatter(StudyFile& file) {
   const Node* section = file.section("scatter");
   if (!section) return;
-  const PathMembers members = members_by_path(*section);
+  const PathMembers members = members_by_path(*section, {"sigma"});
   for (const auto& [path, node] : members) {
-    if (file.falls_away("scatter", path, *node)) continue;
-    const NumberField* field = file.numbers.find(path, *node, "scatter");
-    if (!field) continue;
-    const std::string where = "scatter." + path;
-    double tolerance = 0;
-    if (!file.document.number(*node, where, {path.c_str(), field->unit, 0, 1e9, ""}, tolerance))
-      continue;
-    if (tolerance > 0) {
-      file.study.scatter.push_back({path, tolerance});
-    } else {
-      file.document.problem(node->place, where, "expected a tolerance above 0");
+    if (path == "correlation") {
+      read_correlations(file, *node);
+    } else if (!file.falls_away("scatter", path, *node)) {
+      read_tolerance(file, path, *node);
     }
+  }
+  drop_fallen_away(file.study);
+  try {
+    ScatterLaw(file.study.scatter, file.study.correlations);
+  } catch (const InputError& error) {
+    if (file.document.problems().empty())
+      file.document.problem(section->place, "scatter", error.problems().front().message);
   }
 }
 

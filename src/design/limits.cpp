@@ -77,6 +77,9 @@ const std::vector<ConstraintKind>& constraint_kinds() {
        "specular reflection at 60 deg over that of flat glass"},
       {LookLimit{&Look::colour_shift}, "colour_shift", "", false,
        "CIE 1976 u'v' distance of the undeviated light"},
+      {YieldLimit{}, "yield", "%", true,
+       "share of the plates that keep every other limit within the tolerances of [scatter]; the "
+       "other limits are then asked of the design as drawn"},
   };
   return kinds;
 }

@@ -33,7 +33,11 @@ struct MetricLimit {
   MetricExpression expression;
   bool operator==(const MetricLimit&) const = default;
 };
-using Limited = std::variant<ShapeLimit, FilmLimit, LookLimit, MetricLimit>;
+// Share of the plates that keep all other limits within the scatter, known with an evaluation.
+struct YieldLimit {
+  bool operator==(const YieldLimit&) const = default;
+};
+using Limited = std::variant<ShapeLimit, FilmLimit, LookLimit, MetricLimit, YieldLimit>;
 
 struct Constraint {
   Limited on;

@@ -57,6 +57,25 @@ std::optional<Metric> target_metric(StudyFile& file, const Node& item) {
   return std::nullopt;
 }
 
+// A yield is of something: plates that differ, and limits that they keep or break.
+void check_yield(StudyFile& file, const Node& section) {
+  const Node* yield = section.find("yield");
+  if (!yield) return;
+  if (file.study.scatter.empty() && file.document.problems().empty())
+    file.document.problem(yield->key_place, "constraints.yield",
+                          "no tolerance is stated; name what scatters under [scatter], e.g. "
+                          "\"texture.depth\" = \"20 nm\"");
+  for (const Constraint& c : file.study.constraints) {
+    if (!std::holds_alternative<YieldLimit>(c.on)) continue;
+    if (file.study.constraints.size() == 1)
+      file.document.problem(yield->key_place, "constraints.yield",
+                            "there is no other limit that plates could break; set one, e.g. "
+                            "min_wall = \"0.4 um\"");
+    if (c.limit > 1)
+      file.document.problem(yield->place, "constraints.yield", "expected at most 100 %");
+  }
+}
+
 void read_targets(StudyFile& file, const Node& section) {
   if (!section.is_table()) {
     file.document.problem(
@@ -108,6 +127,7 @@ void read_constraints(StudyFile& file) {
     }
   }
   file.only(*section, "constraints", keys);
+  check_yield(file, *section);
 }
 
 }  // namespace papilla::design

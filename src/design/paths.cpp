@@ -10,15 +10,18 @@
 namespace papilla::design {
 namespace {
 
-void flatten(const Node& table, const std::string& path, bool stop_at_choice, PathMembers& out) {
+void flatten(const Node& table, const std::string& path, const std::vector<std::string>& whole,
+             PathMembers& out) {
   for (const Node& child : table.children) {
     const std::string full = path.empty() ? child.key : path + "." + child.key;
     const bool leaf =
-        !child.is_table() || (stop_at_choice && (child.find("choice") || child.find("range")));
+        !child.is_table() || std::any_of(whole.begin(), whole.end(), [&](const std::string& key) {
+          return child.find(key) != nullptr;
+        });
     if (leaf) {
       out.emplace_back(full, &child);
     } else {
-      flatten(child, full, stop_at_choice, out);
+      flatten(child, full, whole, out);
     }
   }
 }
@@ -35,9 +38,9 @@ Design with_settings(Design design, const std::vector<Setting>& settings) {
   return design;
 }
 
-PathMembers members_by_path(const Node& section, bool stop_at_choice) {
+PathMembers members_by_path(const Node& section, const std::vector<std::string>& whole) {
   PathMembers out;
-  flatten(section, "", stop_at_choice, out);
+  flatten(section, "", whole, out);
   return out;
 }
 

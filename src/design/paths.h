@@ -24,9 +24,9 @@ struct Setting {
 Design with_settings(Design design, const std::vector<Setting>& settings);
 
 // The members of a section by their full path: "texture.diameter" = ... and texture.diameter = ...
-// mean the same. stop_at_choice: a section with a `choice` or a `range` is one member.
+// mean the same. A section with one of the keys of `whole` is one member.
 using PathMembers = std::vector<std::pair<std::string, const Node*>>;
-PathMembers members_by_path(const Node& section, bool stop_at_choice = false);
+PathMembers members_by_path(const Node& section, const std::vector<std::string>& whole = {});
 
 // Takes a member away, by its full path.
 void erase_member(Node& section, const std::string& path);

@@ -11,6 +11,7 @@
 #include "design/design.h"
 #include "design/limits.h"
 #include "design/paths.h"
+#include "design/scatter.h"
 #include "optim/problem.h"
 
 namespace papilla::design {
@@ -56,14 +57,6 @@ struct Scenario {
   bool operator==(const Scenario&) const = default;
 };
 
-// How far fabrication may miss a number of the design: anywhere within +- tolerance.
-struct Scatter {
-  std::string path;
-  double tolerance = 0;  // SI
-
-  bool operator==(const Scatter&) const = default;
-};
-
 // What is not known of finger and model, where the fingers name a belief. What fingers, scenarios
 // and scatter do is objective.risk.
 struct StudyRisk {
@@ -96,6 +89,7 @@ struct Study {
   std::vector<Scenario> scenarios;
   std::vector<Scatter> scatter;
   StudyRisk risk;
+  std::vector<ScatterCorrelation> correlations;  // of the scatter
   Search search;
   // Of a base's space and scatter, what goes with its kind of texture: "design_space.texture.rms".
   std::vector<std::string> fallen_away;

@@ -124,6 +124,10 @@ std::vector<Part> study_reference() {
           "\"cvar 20 %\", \"worst\""),
       key("scatter.\"PATH\"",
           "fabrication misses this number by up to so much either way; two more evaluations each"),
+      key("scatter.\"PATH\" = { sigma = ... }", "the same, normal with this standard deviation"),
+      key("scatter.correlation",
+          "of two of them: [{ between = [\"PATH\", \"PATH\"], value = 0.6 }]; the others are "
+          "independent"),
       key("population.fingers",
           "finger files; load and state of the study's [finger] hold for all"),
       key("scenarios",

@@ -226,6 +226,20 @@ Json constraints_schema() {
   return out;
 }
 
+// By path a tolerance, of normal ones its standard deviation; and what goes together.
+Json scatter_schema(const Json& value) {
+  Json sigma = object({{"sigma", value}});
+  sigma["required"] = {"sigma"};
+  const Json paths{
+      {"type", "array"}, {"items", {{"type", "string"}}}, {"minItems", 2}, {"maxItems", 2}};
+  Json pair = object({{"between", paths}, {"value", quantity("", -1, 1)}});
+  pair["required"] = {"between", "value"};
+  Json out = by_path({{"anyOf", {value, sigma}}});
+  out["properties"] = {{"correlation", {{"type", "array"}, {"items", std::move(pair)}}}};
+  out["propertyNames"] = {{"anyOf", {out["propertyNames"], {{"const", "correlation"}}}}};
+  return out;
+}
+
 // The sections that only a study has.
 Json study_sections() {
   const Json value{{"type", {"string", "number"}}};
@@ -256,7 +270,7 @@ Json study_sections() {
           {"constraints", constraints_schema()},
           {"population", std::move(fingers)},
           {"scenarios", {{"type", "array"}, {"items", std::move(scenario)}}},
-          {"scatter", by_path(value)},
+          {"scatter", scatter_schema(value)},
           {"risk", object(properties_of(StudyRisk{}))},
           {"search", object(properties_of(Search{}))}};
 }

@@ -13,8 +13,10 @@
 #include "report/decision.h"
 #include "report/json.h"
 #include "report/remarks.h"
+#include "report/shared.h"
 #include "report/tables.h"
 #include "report/unstable.h"
+#include "report/yield.h"
 #include "search/rounding.h"
 
 namespace papilla::report {
@@ -100,8 +102,10 @@ std::vector<LimitValue> built_limits(const ResultFiles& f) {
   const FinalDesign& made = f.result.build->made;
   if (made.confirmed.ok) return constraints.values(made.design, made.confirmed);
   std::vector<LimitValue> out = constraints.values(made.design, recommended_of(f).confirmed);
-  std::erase_if(
-      out, [](const LimitValue& v) { return std::holds_alternative<MetricLimit>(v.limit.on); });
+  std::erase_if(out, [](const LimitValue& v) {
+    return std::holds_alternative<MetricLimit>(v.limit.on) ||
+           std::holds_alternative<YieldLimit>(v.limit.on);
+  });
   return out;
 }
 
@@ -120,17 +124,17 @@ std::string unstable_recommended(const ResultFiles& f) {
   return place ? unstable_text(f, *place) : std::string();
 }
 
-// What rounding breaks, where something.
+// What rounding would break, where it is not on the grid for that.
 std::string rounding_text(const ResultFiles& f) {
-  if (!f.result.build || !f.result.build->made.confirmed.ok || f.result.build->made.feasible ||
-      !recommended_of(f).feasible)
-    return {};
-  const std::vector<std::string> broken = broken_texts(built_limits(f));
-  return broken.empty() ? ""
-                        : fmt::format(
-                              " On the grid of the fab {}; no design beside it on the grid "
-                              "keeps every limit: use a finer `search.rounding`.",
-                              join_names(broken));
+  if (!f.result.build || f.result.build->on_grid) return {};
+  const FinalDesign& nearest = f.result.build->nearest.value();
+  std::vector<std::string> broken;
+  if (nearest.confirmed.ok)
+    broken = broken_texts(f.problem.constraints().values(nearest.design, nearest.confirmed));
+  return fmt::format(
+      " Its numbers are as searched, off the grid of the fab: of {} designs of the grid that were "
+      "judged none keeps every limit{}; use a finer `search.rounding`.",
+      f.result.build->judged, broken.empty() ? "" : " (of the nearest " + join_names(broken) + ")");
 }
 
 std::string worth_building(const ResultFiles& f) {
@@ -306,6 +310,13 @@ Json values_json(const ResultFiles& f, const Score& score) {
   return out;
 }
 
+// The nearest design of the grid, where another is built.
+Json nearest_json(const ResultFiles& f, const BuiltDesign& build) {
+  if (!build.nearest || build.nearest->unit == build.made.unit) return {};
+  return {{"objectives", values_json(f, build.nearest->confirmed)},
+          {"keeps_every_limit", build.nearest->feasible}};
+}
+
 const char* advice_name(Advice advice) {
   switch (advice) {
     case Advice::Nothing:
@@ -332,9 +343,11 @@ std::string grid_text(const ResultFiles& f) {
       " Lengths of {} and more are on a grid of {} (`search.rounding`), shorter ones on a finer "
       "one (`best/build.toml`)",
       format_quantity(finer_grid_below(grid), "nm"), format_quantity(grid, "nm"));
-  if (build.widened)
-    out += "; nearer values of the grid break a limit, these are the nearest that keep all";
+  if (!build.on_grid) return {};
+  if (build.widened) out += "; nearer values of the grid break a limit";
   if (!build.made.confirmed.ok) return out + "; it was not judged again so.";
+  if (build.judged > 1)
+    out += fmt::format("; the best of {} designs of the grid that were judged", build.judged);
   if (build.made.unit == searched.unit) return out + ".";
   std::vector<std::string> values;
   for (std::size_t k = 0; k < f.problem.objectives().size(); ++k) {
@@ -512,6 +525,7 @@ std::string sheet_text(const ResultFiles& f) {
       "\nTolerance: how far it may be off before an objective worsens by 5 % or a limit is "
       "reached, one dimension at a time." +
       grid_text(f) + "\n" + limits_table(built_limits(f));
+  if (const std::string yield = yield_text(f); !yield.empty()) out += "\n" + yield + "\n";
   return out;
 }
 
@@ -544,11 +558,17 @@ std::string run_json(const ResultFiles& f) {
   for (const SheetRow& row : sheet_rows(f)) out["sheet"].push_back(row_json(row));
   out["grid"] = f.study.search.rounding;
   out["limits"] = limits_json(built_limits(f));
+  out["yield"] = yield_json(f);
+  out["shared"] = shared_json(f);
   out["build"] = Json();
   if (r.build) {
     out["build"] = {{"judged", r.build->made.confirmed.ok},
                     {"keeps_every_limit", r.build->made.feasible},
                     {"widened", r.build->widened},
+                    {"on_grid", r.build->on_grid},
+                    {"designs_judged", r.build->judged},
+                    {"objectives", values_json(f, r.build->made.confirmed)},
+                    {"nearest", nearest_json(f, *r.build)},
                     {"said", grid_text(f)}};
   }
   Json steps = Json::array();

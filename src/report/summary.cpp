@@ -10,6 +10,7 @@
 #include "metrics/shown.h"
 #include "report/decision.h"
 #include "report/remarks.h"
+#include "report/shared.h"
 #include "report/sheet.h"
 #include "report/unstable.h"
 
@@ -246,6 +247,7 @@ std::string run_summary(const ResultFiles& f) {
   out += decision_text(f);
   out += stability_text(f);
   out += sensitivity_text(f);
+  out += shared_text(f);
   out += r.has_best()
              ? "\nFiles: report.html (all of this with charts), pareto.csv (finalists), "
                "history.csv (every evaluation), run.json (how it ended, what to build), front/ and "

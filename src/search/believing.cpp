@@ -16,7 +16,7 @@ bool judge_members(Run& run, FinalDesign& f) {
   std::vector<std::vector<TaskAnswer>> members;
   for (const TaskAnswer& a : answers) members.push_back(a.members);
   for (std::size_t m = 0; m < run.problem.belief()->members.size(); ++m)
-    f.members.push_back(score_at(run.problem, f.answers, members, m));
+    f.members.push_back(score_at(run.problem, f.design, f.answers, members, m));
   return true;
 }
 

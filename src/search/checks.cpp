@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "search/advice.h"
+#include "search/building.h"
 #include "search/levels.h"
 #include "search/pick.h"
-#include "search/rounding.h"
 #include "search/stages.h"
 
 namespace papilla::search {
@@ -90,104 +90,6 @@ void compare_with_flat(Run& run) {
     run.cut(RunPart::Flat, 1, 2);
 }
 
-// Looks for the nearest design on the grid of the fab that keeps every limit.
-class Rounding {
- public:
-  Rounding(Run& run, const FinalDesign& recommended)
-      : run_(run),
-        recommended_(recommended),
-        designs_(run.problem, recommended.unit, recommended.flat) {
-    note_film(recommended);
-  }
-
-  BuiltDesign find() {
-    constexpr int kMostSought = 4000, kMostJudged = 6;
-    std::optional<BuiltDesign> nearest;  // that was judged and keeps not every limit
-    std::optional<BuiltDesign> first;    // of the grid
-    int judged = 0;
-    for (int k = 0; k < kMostSought && judged < kMostJudged; ++k) {
-      const auto on_grid = designs_.next();
-      if (!on_grid) break;
-      BuiltDesign build{made_of(*on_grid), first.has_value()};
-      if (!first) first = build;
-      // What breaks a limit as it was searched cannot be held to it.
-      if (recommended_.feasible && !keeps_before_evaluation(build.made.design)) continue;
-      if (!judge(build.made)) return build;
-      ++judged;
-      if (build.made.feasible || !recommended_.feasible) return build;
-      note_film(build.made);
-      if (!nearest) nearest = std::move(build);
-    }
-    if (nearest) return *std::move(nearest);
-    if (first) judge(first->made);
-    return first ? *std::move(first) : BuiltDesign{recommended_, false};
-  }
-
- private:
-  FinalDesign made_of(const GridDesign& on_grid) const {
-    FinalDesign out;
-    out.unit = on_grid.unit;
-    out.flat = recommended_.flat;
-    out.design = run_.problem.space().design_of(on_grid.value);
-    if (out.flat) out.design.texture = Texture{};
-    return out;
-  }
-
-  // Shape, film and look. The film's margin as much below what is left of the film as it was found
-  // to be by the evaluations so far.
-  bool keeps_before_evaluation(const Design& design) const {
-    const StudyConstraints& constraints = run_.problem.constraints();
-    const auto kept = [](const std::vector<double>& v) {
-      return std::all_of(v.begin(), v.end(), [](double one) { return one <= 0; });
-    };
-    if (!kept(constraints.geometry(design)) || !kept(constraints.look(design))) return false;
-    const double film = film_share_ * constraints.film_margin(design);
-    const std::vector<Constraint>& limits = run_.problem.study().constraints;
-    return std::all_of(limits.begin(), limits.end(), [&](const Constraint& limit) {
-      return !std::holds_alternative<FilmLimit>(limit.on) || keeps(limit, film);
-    });
-  }
-
-  void note_film(const FinalDesign& judged) {
-    const double left = run_.problem.constraints().film_margin(judged.design);
-    if (judged.confirmed.ok && std::isfinite(left) && left > 0)
-      film_share_ = std::min(film_share_, judged.confirmed.oxide_margin / left);
-  }
-
-  // At the level of the confirmation; false: there is no time for it.
-  bool judge(FinalDesign& made) {
-    if (made.unit == recommended_.unit) {
-      made.confirmed = recommended_.confirmed;
-    } else {
-      const double seconds = run_.seconds_of_designs(1, Stage::Rounding);
-      const auto next = run_.replay.next();
-      const bool recorded = next && next->stage == Stage::Rounding && next->flat == made.flat;
-      const bool goes_on =
-          begun_ ? recorded ||
-                       (!run_.replay.finished(Stage::Rounding, made.flat) && run_.fits(seconds))
-                 : run_.begin(RunPart::Rounding, Stage::Rounding, made.flat, seconds);
-      if (!goes_on) return false;
-      begun_ = true;
-      made.confirmed =
-          run_.replay.scores({made.unit}, Stage::Rounding, made.flat, run_.confirm_seconds).front();
-    }
-    made.feasible = run_.problem.feasible(made.confirmed, made.design);
-    return true;
-  }
-
-  Run& run_;
-  const FinalDesign& recommended_;
-  GridDesigns designs_;
-  double film_share_ = 1;
-  bool begun_ = false;
-};
-
-// The recommended design as the fab draws it.
-BuiltDesign built_of(Run& run, const FinalDesign& recommended) {
-  return run.study.search.rounding > 0 ? Rounding(run, recommended).find()
-                                       : BuiltDesign{recommended, false};
-}
-
 // What is built, moved by a step along each continuous variable.
 void find_sensitivity(Run& run, const FinalDesign& made) {
   const MovedDesign centre{made.unit, made.flat};
@@ -238,6 +140,7 @@ bool check(Run& run) {
   if (best.confirmed.ok) {
     const FinalDesign recommended = recommended_design(run.problem, result);
     result.build = built_of(run, recommended);
+    result.yield = run.problem.yield(result.build->made.design, result.build->made.confirmed);
     find_sensitivity(run, result.build->made);
     result.at_bound = variables_at_bound(run.problem, recommended.unit, result.sensitivity);
     std::erase_if(result.at_bound, [&](const AtBound& at) {

@@ -48,6 +48,10 @@ double most_beyond(const std::vector<double>& geometry, const Judged& judged,
   return most;
 }
 
+LimitedNumbers numbers_of(const Score& score) {
+  return {score.oxide_margin, score.look, score.limited, {}};
+}
+
 // When the value of a limit is known.
 struct Known {
   bool with_shape = false, with_look = false, with_evaluation = false;
@@ -61,6 +65,7 @@ struct KnownWhen {
     return slow_look ? Known{.with_evaluation = true} : Known{.with_look = true};
   }
   Known operator()(const MetricLimit&) const { return {.with_evaluation = true}; }
+  Known operator()(const YieldLimit&) const { return {.with_evaluation = true}; }
 };
 
 }  // namespace
@@ -118,27 +123,38 @@ std::optional<double> StudyConstraints::value_before(const Constraint& limit,
       return appearance_of(design).*l.number;
     }
     std::optional<double> operator()(const MetricLimit&) const { return std::nullopt; }
+    std::optional<double> operator()(const YieldLimit&) const { return std::nullopt; }
   };
   return std::visit(Of{*this, design}, limit.on);
 }
 
 // Nothing of what an evaluation does not say: of a look, where it was not asked for one.
 std::optional<double> StudyConstraints::value_with(const Constraint& limit,
-                                                   const Score& score) const {
+                                                   const LimitedNumbers& numbers) const {
   struct Of {
     const StudyGoals& goals;
-    const Score& score;
+    const LimitedNumbers& numbers;
 
     std::optional<double> operator()(const ShapeLimit&) const { return std::nullopt; }
-    std::optional<double> operator()(const FilmLimit&) const { return score.oxide_margin; }
+    std::optional<double> operator()(const FilmLimit&) const { return numbers.oxide_margin; }
     std::optional<double> operator()(const LookLimit& l) const {
-      return score.look ? std::optional((*score.look).*l.number) : std::nullopt;
+      return numbers.look ? std::optional((*numbers.look).*l.number) : std::nullopt;
     }
     std::optional<double> operator()(const MetricLimit& l) const {
-      return score.limited.at(goals.place_of(l));
+      return numbers.limited.at(goals.place_of(l));
     }
+    std::optional<double> operator()(const YieldLimit&) const { return std::nullopt; }
   };
-  return std::visit(Of{goals_, score}, limit.on);
+  return std::visit(Of{goals_, numbers}, limit.on);
+}
+
+double StudyConstraints::value(const Constraint& limit, const Design& design,
+                               const LimitedNumbers& numbers) const {
+  std::optional<double> out = value_with(limit, numbers);
+  if (!out) out = value_before(limit, design);
+  // Of a film the evaluation knows the field, the design what a bridge leaves.
+  if (std::holds_alternative<FilmLimit>(limit.on)) out = std::min(*out, film_margin(design));
+  return out.value();
 }
 
 std::vector<double> StudyConstraints::geometry(const Design& d) const {
@@ -181,20 +197,25 @@ std::string StudyConstraints::geometry_reason(const Point& unit) const {
 }
 
 std::vector<double> StudyConstraints::violations(const Score& score) const {
+  const LimitedNumbers numbers = numbers_of(score);
   std::vector<double> out;
-  for (const Constraint* limit : evaluated_)
-    out.push_back(violation(*limit, value_with(*limit, score).value()));
+  for (const Constraint* limit : evaluated_) {
+    const bool of_yield = std::holds_alternative<YieldLimit>(limit->on);
+    out.push_back(violation(
+        *limit, of_yield ? score.yield.value().share : value_with(*limit, numbers).value()));
+  }
   return out;
 }
 
 std::vector<LimitValue> StudyConstraints::values(const Design& design, const Score& score) const {
+  const LimitedNumbers numbers = numbers_of(score);
   std::vector<LimitValue> out;
   for (const Constraint& limit : study_.constraints) {
-    std::optional<double> value = value_with(limit, score);
-    if (!value) value = value_before(limit, design);
-    // Of a film the evaluation knows the field, the design what a bridge leaves.
-    if (std::holds_alternative<FilmLimit>(limit.on)) value = std::min(*value, film_margin(design));
-    out.push_back({limit, value.value()});
+    if (!std::holds_alternative<YieldLimit>(limit.on)) {
+      out.push_back({limit, value(limit, design, numbers)});
+    } else if (score.yield) {
+      out.push_back({limit, score.yield->share});
+    }
   }
   return out;
 }

@@ -64,7 +64,10 @@ class StudyConstraints {
   // infinite where the evaluation says it: a current source, a wish with a voltage of its own.
   double film_margin(const Design& design) const;
 
-  // Of each limit of the study, in its order. The score: of an evaluation that has not failed.
+  // Of a limit that is not on the yield; the numbers: of an evaluation of the design.
+  double value(const Constraint& limit, const Design& design, const LimitedNumbers& numbers) const;
+  // Of each limit of the study, in its order; of the yield where it was asked for. The score: of an
+  // evaluation that has not failed.
   std::vector<LimitValue> values(const Design& design, const Score& score) const;
   bool kept(const Design& design, const Score& score) const;
 
@@ -77,7 +80,7 @@ class StudyConstraints {
 
  private:
   std::optional<double> value_before(const Constraint& limit, const Design& design) const;
-  std::optional<double> value_with(const Constraint& limit, const Score& score) const;
+  std::optional<double> value_with(const Constraint& limit, const LimitedNumbers& numbers) const;
   std::string refusal(const Design& design) const;
 
   const Study& study_;

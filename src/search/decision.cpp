@@ -132,7 +132,8 @@ PickCandidate pick_candidate(const StudyProblem& problem, const Score& score) {
   return out;
 }
 
-Score score_at(const StudyProblem& problem, const std::vector<TaskAnswer>& confirmed,
+Score score_at(const StudyProblem& problem, const Design& design,
+               const std::vector<TaskAnswer>& confirmed,
                const std::vector<std::vector<TaskAnswer>>& members, std::size_t member) {
   const std::size_t nominal = problem.nominal_tasks(), scatter = problem.study().scatter.size();
   std::vector<TaskAnswer> there;
@@ -143,7 +144,7 @@ Score score_at(const StudyProblem& problem, const std::vector<TaskAnswer>& confi
                         ? moved(problem.goals(), confirmed[t], of.back(), of[member])
                         : TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no answer"));
   }
-  return problem.score(there);
+  return problem.score(design, there);
 }
 
 std::vector<bool> on_front_of_belief(const StudyProblem& problem,

@@ -38,7 +38,8 @@ struct Decision {
 // few skins, by the same factor where a number cannot change its sign, else by the same difference.
 // confirmed: its answers, a task each; members: [task][member], last the finger as it is. Not ok
 // where a task has no answer there. Eq. accuracy.15
-Score score_at(const StudyProblem& problem, const std::vector<TaskAnswer>& confirmed,
+Score score_at(const StudyProblem& problem, const Design& design,
+               const std::vector<TaskAnswer>& confirmed,
                const std::vector<std::vector<TaskAnswer>>& members, std::size_t member);
 
 // Whether no other of the finalists is better in every objective and, under a drive, in the worst

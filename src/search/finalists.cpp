@@ -117,7 +117,7 @@ FinalDesign finalist(Run& run, const Point& unit) {
   for (std::size_t t = 0; t < run.problem.tasks().size(); ++t)
     requests.push_back({Stage::Confirm, t, false, unit, run.confirm_seconds});
   f.answers = run.replay.answers(requests);
-  f.confirmed = run.problem.score(f.answers);
+  f.confirmed = run.problem.score(f.design, f.answers);
   for (TaskAnswer& answer : f.answers) answer.report.clear();
   f.feasible = run.problem.feasible(f.confirmed, f.design);
   return f;

@@ -6,6 +6,7 @@
 
 #include "estimate/belief.h"
 #include "forward/plan.h"
+#include "search/building.h"
 #include "search/stability.h"
 
 namespace papilla::search {
@@ -172,14 +173,15 @@ StudyCost study_cost(const Study& study) {
   out.tasks = static_cast<int>(problem.tasks().size());
   out.narrowed = narrowings(search);
   out.finalists = kFinalists + 1;
+  if (YieldModel::exists(study)) out.plates = kPlates;
   const auto price = [&](std::size_t tasks, Stage stage) {
     return static_cast<double>(tasks) * task_price(problem, stage);
   };
   const std::size_t tasks = problem.tasks().size(), variables = search.space.size();
   out.seconds = price(static_cast<std::size_t>(search.evaluations) * tasks, Stage::Search) +
                 price(out.narrowed * tasks, Stage::Narrow) +
-                // Finalists, the surface without texture twice, the rounded design.
-                price((out.finalists + 3) * tasks, Stage::Confirm) +
+                // Finalists, the surface without texture twice, designs of the fab's grid.
+                price((out.finalists + 2 + kJudgedOnGrid) * tasks, Stage::Confirm) +
                 price(kFinalists * stability_variants(problem).size(), Stage::Stability) +
                 price((1 + 2 * variables) * tasks, Stage::Sensitivity);
   if (problem.parameters_unknown().empty())

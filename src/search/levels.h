@@ -41,6 +41,7 @@ struct StudyCost {
   double seconds = 0;
   std::size_t members = 0;                 // of belief, at each of which the finalists are judged
   double belief_seconds = 0;               // of them
+  std::size_t plates = 0;                  // of the yield of what is built; 0: it has none
   double bytes = 0;                        // the largest patch of a worker, solved
   int pixels = 0;                          // of the search, along 12 um
   double feature = 0, feature_pixels = 0;  // the smallest of the space [m]; infinite: none

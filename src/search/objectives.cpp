@@ -110,6 +110,7 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
     if (const auto* metric = std::get_if<MetricLimit>(&c.on))
       add(goals.limited, wanted(metric->expression, c.at_least));
     goals.looks = goals.looks || std::holds_alternative<LookLimit>(c.on);
+    goals.yield = goals.yield || std::holds_alternative<YieldLimit>(c.on);
   }
   if (goals.objectives.empty() || goals.objectives.size() > 3) {
     throw InputError(fmt::format("objective: one to three objectives are possible, got {}",

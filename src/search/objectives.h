@@ -30,6 +30,8 @@ struct StudyGoals {
   Risk risk;
   bool looks = false;    // an objective or a constraint is about the look
   bool pull_in = false;  // or about pull-in
+  // A limit is on the yield: the others are then asked of the design as drawn.
+  bool yield = false;
 
   // The objective is made of its quantity at each humidity, not of a summary over them: its aim or
   // its risk takes those.

@@ -51,7 +51,7 @@ StudyProblem::StudyProblem(const Study& study)
       scoring_{goals_, tasks_,
                static_cast<std::size_t>(std::count_if(
                    tasks_.begin(), tasks_.end(), [](const StudyTask& t) { return t.nominal(); })),
-               study.scatter.size(), study.design.environment.weights},
+               ScatterLaw(study.scatter, study.correlations), study.design.environment.weights},
       belief_risk_(parse_belief_risk(study.risk.belief)),
       smallest_feature_(smallest_feature_of(space_, constraints_)) {
   if (belief_absent().empty()) belief_ = belief_of(tasks_.front().finger);
@@ -63,6 +63,20 @@ bool StudyProblem::driven() const {
          std::any_of(tasks_.begin(), tasks_.end(), [&](const StudyTask& t) {
            return task_design(study_, study_.design, t).drive.driven();
          });
+}
+
+Score StudyProblem::score(const Design& design, const std::vector<TaskAnswer>& answers) const {
+  Score out = score_of(scoring_, answers);
+  if (!out.ok || !goals_.yield) return out;
+  const bool confirmed = !out.samples.empty();
+  out.yield = YieldModel(study_, constraints_, scoring_)
+                  .share(design, out, confirmed ? kPlates : kPlatesOfASearch);
+  return out;
+}
+
+std::optional<Yield> StudyProblem::yield(const Design& design, const Score& score) const {
+  if (!score.ok || !YieldModel::exists(study_)) return std::nullopt;
+  return YieldModel(study_, constraints_, scoring_).yield(design, score, kPlates);
 }
 
 std::string StudyProblem::parameters_unknown() const {
@@ -140,7 +154,12 @@ std::string StudyProblem::identity() const {
   }
   for (const StudyObjective& o : goals_.objectives)
     out += (o.maximise ? "max " : "min ") + o.name + "\n";
-  for (const Scatter& s : study_.scatter) out += fmt::format("{} +- {:a}\n", s.path, s.tolerance);
+  for (const Scatter& s : study_.scatter) {
+    const char* kind = s.kind == Scatter::Kind::Normal ? "sigma" : "+-";
+    out += fmt::format("{} {} {:a}\n", s.path, kind, s.tolerance);
+  }
+  for (const ScatterCorrelation& c : study_.correlations)
+    out += fmt::format("{} with {} {:a}\n", c.first, c.second, c.value);
   out += study_.objective.risk + "\n";
   for (const Constraint& c : study_.constraints)
     out += fmt::format("{} {:a}\n", limit_name(c.on), c.limit);

@@ -15,6 +15,7 @@
 #include "search/score.h"
 #include "search/space.h"
 #include "search/tasks.h"
+#include "search/yield.h"
 
 namespace papilla::search {
 
@@ -46,8 +47,10 @@ class StudyProblem {
   std::string belief_absent() const;  // for people; "": there is one
   const BeliefRisk& belief_risk() const { return belief_risk_; }
 
-  // From one answer per task.
-  Score score(const std::vector<TaskAnswer>& answers) const { return score_of(scoring_, answers); }
+  // From one answer per task, of this design; with its yield where a limit is on that.
+  Score score(const Design& design, const std::vector<TaskAnswer>& answers) const;
+  // Where numbers scatter and a limit may be broken by it; of a score that is ok.
+  std::optional<Yield> yield(const Design& design, const Score& score) const;
   void add_steps(Score& score, const std::vector<TaskAnswer>& answers) const {
     search::add_steps(score, scoring_, answers);
   }

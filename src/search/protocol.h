@@ -75,10 +75,11 @@ struct TaskObjective {
 struct TaskAnswer {
   TaskStatus status;  // the members below where it is Ok
   std::vector<TaskObjective> objectives;
-  double worst = 0;                 // lowest modulation over humidity; 0: undriven
-  double oxide_margin = kInfinity;  // smallest over humidity; infinite without a field
-  std::optional<Look> look;         // where the study asks for it
-  std::vector<double> limited;      // of each constraint on a metric
+  double worst = 0;                    // lowest modulation over humidity; 0: undriven
+  double oxide_margin = kInfinity;     // smallest over humidity; infinite without a field
+  std::optional<Look> look;            // where the study asks for it
+  std::vector<double> limited;         // of each constraint on a metric
+  std::vector<double> limited_errors;  // one standard error of each, without the parameters
   // [objective][number that it is made of]; only of confirmed tasks.
   std::vector<std::vector<ErrorSamples>> samples;
   // [objective]; empty: not asked for. An objective's own is empty where a step is not defined.

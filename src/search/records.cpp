@@ -41,6 +41,7 @@ bool possible(const StudyProblem& problem, Stage stage, const TaskAnswer& a) {
     return std::all_of(a.members.begin(), a.members.end(), sound);
   }
   if (a.objectives.size() != count) return false;
+  if (a.limited_errors.size() != goals.limited.size()) return false;
   if (a.limited.size() != goals.limited.size() || (goals.looks && !a.look)) return false;
   if (!a.samples.empty() && a.samples.size() != count) return false;
   for (std::size_t k = 0; k < count; ++k) {

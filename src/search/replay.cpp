@@ -149,11 +149,17 @@ std::vector<TaskAnswer> Replay::ask(const std::vector<TaskRequest>& requests) {
   return out;
 }
 
-std::vector<Score> Replay::scores_of(const std::vector<TaskAnswer>& answers) const {
+std::vector<Score> Replay::scores_of(const std::vector<Point>& units, bool flat,
+                                     const std::vector<TaskAnswer>& answers) const {
   const auto tasks = static_cast<std::ptrdiff_t>(problem_.tasks().size());
   std::vector<Score> out;
-  for (auto first = answers.begin(); first != answers.end(); first += tasks)
-    out.push_back(problem_.score({first, first + tasks}));
+  auto first = answers.begin();
+  for (const Point& unit : units) {
+    Design design = problem_.space().design(unit);
+    if (flat) design.texture = Texture{};
+    out.push_back(problem_.score(design, {first, first + tasks}));
+    first += tasks;
+  }
   return out;
 }
 
@@ -179,7 +185,8 @@ std::vector<Judgement> Replay::searched(const std::vector<Point>& units) {
   std::vector<Point> fresh;
   std::copy_if(remaining.begin(), remaining.end(), std::back_inserter(fresh),
                [&](const Point& u) { return search_.feasible_before_evaluation(u); });
-  const std::vector<Score> scores = scores_of(ask(requests_of(fresh, Stage::Search, false, 0)));
+  const std::vector<Score> scores =
+      scores_of(fresh, false, ask(requests_of(fresh, Stage::Search, false, 0)));
   std::size_t next = 0;
   for (const Point& unit : remaining) {
     out.push_back(search_.feasible_before_evaluation(unit) ? judgement(scores[next++])
@@ -215,7 +222,7 @@ std::vector<TaskAnswer> Replay::answers(const std::vector<TaskRequest>& requests
 
 std::vector<Score> Replay::scores(const std::vector<Point>& units, Stage stage, bool flat,
                                   double most_seconds) {
-  return scores_of(answers(requests_of(units, stage, flat, most_seconds)));
+  return scores_of(units, flat, answers(requests_of(units, stage, flat, most_seconds)));
 }
 
 JudgedDesigns Replay::judged(const std::vector<Point>& units, Stage stage) {

@@ -75,7 +75,8 @@ class Replay {
   std::vector<TaskRequest> requests_of(const std::vector<Point>& units, Stage stage, bool flat,
                                        double most_seconds) const;
   std::vector<TaskAnswer> ask(const std::vector<TaskRequest>& requests);
-  std::vector<Score> scores_of(const std::vector<TaskAnswer>& answers) const;
+  std::vector<Score> scores_of(const std::vector<Point>& units, bool flat,
+                               const std::vector<TaskAnswer>& answers) const;
   Judgement judgement(const Score& score) const;
   Judgement refusal(const Point& unit) const;
   // The earlier run's payload for a question; refused where it asked another.

@@ -8,7 +8,6 @@
 #include "base/check.h"
 #include "base/constants.h"
 #include "base/error.h"
-#include "optim/problem.h"
 
 namespace papilla::search {
 namespace {
@@ -93,22 +92,36 @@ double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<dou
   return sign * mean;
 }
 
-std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, double nominal,
-                                     const std::vector<double>& lower,
-                                     const std::vector<double>& upper) {
+ScatterQuadratic::ScatterQuadratic(double at_nominal, const std::vector<double>& lower,
+                                   const std::vector<double>& upper)
+    : nominal(at_nominal) {
   PAPILLA_CHECK(lower.size() == upper.size(), "both ends of each scatter");
-  if (lower.empty()) return {nominal};
-  // nominal + sum of a u + b u^2, u uniform in [-1, 1].
-  std::vector<double> a, b;
-  double mean = nominal, variance = 0, worst = nominal;
   for (std::size_t k = 0; k < lower.size(); ++k) {
     a.push_back(0.5 * (upper[k] - lower[k]));
     b.push_back(0.5 * (upper[k] + lower[k]) - nominal);
-    mean += b[k] / 3;
-    variance += square(a[k]) / 3 + 4 * square(b[k]) / 45;
+  }
+}
+
+double ScatterQuadratic::at(const std::vector<double>& u) const {
+  double out = nominal;
+  for (std::size_t k = 0; k < a.size(); ++k) out += a[k] * u[k] + b[k] * u[k] * u[k];
+  return out;
+}
+
+std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, double nominal,
+                                     const std::vector<double>& lower,
+                                     const std::vector<double>& upper, const ScatterLaw& law) {
+  PAPILLA_CHECK(lower.size() == law.size(), "both ends of each scatter");
+  if (lower.empty()) return {nominal};
+  const ScatterQuadratic q(nominal, lower, upper);
+  double mean = nominal, variance = 0, worst = nominal;
+  for (std::size_t k = 0; k < lower.size(); ++k) {
+    const double a = q.a[k], b = q.b[k];
+    mean += b / 3;
+    variance += square(a) / 3 + law.variance_of_square(k) * square(b);
     double least = 0;
-    for (double u : {-1.0, 1.0, b[k] != 0 ? std::clamp(-0.5 * a[k] / b[k], -1.0, 1.0) : 0.0}) {
-      const double change = a[k] * u + b[k] * u * u;
+    for (double u : {-1.0, 1.0, b != 0 ? std::clamp(-0.5 * a / b, -1.0, 1.0) : 0.0}) {
+      const double change = a * u + b * u * u;
       least = higher_is_better ? std::min(least, change) : std::max(least, change);
     }
     worst += least;
@@ -119,19 +132,14 @@ std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, do
     case Risk::Kind::Worst:
       return {worst};
     case Risk::Kind::MeanStd:
-      return {mean - std::sqrt(variance), mean + std::sqrt(variance)};
+      if (!law.correlated()) return {mean - std::sqrt(variance), mean + std::sqrt(variance)};
+      break;
     case Risk::Kind::Cvar:
       break;
   }
-  constexpr int kSample = 128;
-  std::vector<double> out(kSample, nominal);
-  for (int i = 0; i < kSample; ++i) {
-    const Point u = low_discrepancy(a.size(), 1, static_cast<std::uint64_t>(i));
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      const double x = 2 * u[k] - 1;
-      out[static_cast<std::size_t>(i)] += a[k] * x + b[k] * x * x;
-    }
-  }
+  constexpr std::uint64_t kSample = 128;
+  std::vector<double> out;
+  for (std::uint64_t i = 0; i < kSample; ++i) out.push_back(q.at(law.plate(1, i)));
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/rooms.h"
+#include "design/scatter.h"
 
 namespace papilla::search {
 
@@ -20,12 +21,23 @@ Risk parse_risk(const std::string& text);  // "" is the mean; throws InputError
 double apply_risk(const Risk& risk, bool higher_is_better, const std::vector<double>& values,
                   const std::vector<double>& weights);
 
-// Eq. search.10: a quantity over independent scatter, uniform within the tolerances, from its
-// nominal value and those with one number at the lower and upper end: values of equal weight that
-// have the exact mean (Risk::Mean), mean and variance (MeanStd), the worst (Worst) or a
-// low-discrepancy sample (Cvar) of the additive quadratic model through them.
+// Eq. search.10: a quantity over the scatter, from its nominal value and those with one number at
+// the lower and upper end (Scatter::end): values of equal weight that have the exact mean
+// (Risk::Mean), mean and variance (MeanStd of independent numbers), the worst between the ends
+// (Worst) or are a low-discrepancy sample (else) of the additive quadratic model through them.
 std::vector<double> scattered_values(const Risk& risk, bool higher_is_better, double nominal,
                                      const std::vector<double>& lower,
-                                     const std::vector<double>& upper);
+                                     const std::vector<double>& upper, const ScatterLaw& law);
+
+// One quantity over the scatter: nominal + sum of a u + b u^2, u the deviation of a number in units
+// of its end. Eq. search.10
+struct ScatterQuadratic {
+  ScatterQuadratic(double nominal, const std::vector<double>& lower,
+                   const std::vector<double>& upper);
+  double at(const std::vector<double>& deviation) const;
+
+  double nominal;
+  std::vector<double> a, b;
+};
 
 }  // namespace papilla::search

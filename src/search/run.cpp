@@ -14,6 +14,7 @@
 #include "geometry/io/files.h"
 #include "metrics/shown.h"
 #include "optim/pareto.h"
+#include "search/building.h"
 #include "search/levels.h"
 #include "search/pick.h"
 #include "search/stages.h"
@@ -229,7 +230,7 @@ PartSeconds Run::wanted() const {
         seconds_of(believed(problem, result) * problem.nominal_tasks(), Stage::Belief));
   set(RunPart::Stability, seconds_of(front * stability_variants(problem).size(), Stage::Stability));
   set(RunPart::Flat, seconds_of_designs(2, Stage::Confirm));
-  set(RunPart::Rounding, seconds_of_designs(1, Stage::Rounding));
+  set(RunPart::Rounding, seconds_of_designs(kJudgedOnGrid, Stage::Rounding));
   set(RunPart::Sensitivity, seconds_of_designs(1 + 2 * search.space.size(), Stage::Sensitivity));
   if (problem.parameters_unknown().empty())
     set(RunPart::Parameters,

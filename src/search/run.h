@@ -63,6 +63,9 @@ struct FinalDesign {
 struct BuiltDesign {
   FinalDesign made;      // confirmed: ok where it was judged, at the level of the confirmation
   bool widened = false;  // nearer designs of the grid break a limit
+  bool on_grid = true;   // no: it is as searched, for those of the grid that were judged break one
+  std::size_t judged = 0;                // designs of the grid
+  std::optional<FinalDesign> nearest{};  // of the grid that keeps the limits of the shape, judged
 };
 
 struct OptimiseResult {
@@ -85,7 +88,8 @@ struct OptimiseResult {
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
   std::optional<BuiltDesign> build;
   Decision decision;    // by belief
-  Stability stability;  // of the order of the finalists on the front, in their order
+  std::optional<Yield> yield;  // of what is built, where it was judged and numbers scatter
+  Stability stability;         // of the order of the finalists on the front, in their order
   std::vector<VariableSensitivity> sensitivity;  // of what is built
   std::vector<double> hypervolumes;              // after each evaluation (two objectives or more)
 

@@ -18,14 +18,6 @@ using Numbers = std::vector<std::vector<double>>;  // [task][number that an obje
 constexpr std::array kSampleLists{&ErrorSamples::sampling, &ErrorSamples::grid,
                                   &ErrorSamples::method};
 
-// The lowest of these members over the tasks counts.
-struct Lowest {
-  double TaskAnswer::*of_task;
-  double Score::*of_design;
-};
-constexpr std::array kLowest{Lowest{&TaskAnswer::worst, &Score::worst},
-                             Lowest{&TaskAnswer::oxide_margin, &Score::oxide_margin}};
-
 Numbers numbers_of(const StudyGoals& goals, std::size_t k, const std::vector<TaskAnswer>& answers) {
   Numbers out;
   for (const TaskAnswer& a : answers) {
@@ -54,12 +46,13 @@ double combined(const Scoring& s, std::size_t k, const Numbers& numbers,
         return o.aimed ? square(numbers[task][i] - o.target) : numbers[task][i];
       };
       std::vector<double> lower, upper;
-      for (std::size_t j = 0; j < s.scatter; ++j) {
-        const std::size_t low = s.nominal + 2 * (t * s.scatter + j);
+      for (std::size_t j = 0; j < s.law.size(); ++j) {
+        const std::size_t low = s.nominal + 2 * (t * s.law.size() + j);
         lower.push_back(value(low));
         upper.push_back(value(low + 1));
       }
-      const std::vector<double> all = scattered_values(risk, o.maximise, value(t), lower, upper);
+      const std::vector<double> all =
+          scattered_values(risk, o.maximise, value(t), lower, upper, s.law);
       for (double v : all) {
         values.push_back(v);
         weights.push_back(weight_of(s, k, t, i) / static_cast<double>(all.size()));
@@ -143,26 +136,51 @@ void add_objectives(Score& score, const Scoring& s, const std::vector<TaskAnswer
   }
 }
 
-// What constraints are about: the bad side over tasks.
+LimitedNumbers limited_numbers(const TaskAnswer& a) {
+  return {a.oxide_margin, a.look, a.limited, a.limited_errors};
+}
+
+// What constraints are about: the bad side over tasks. With a limit on the yield the ends of the
+// scatter are the yield's.
 void add_extremes(Score& score, const Scoring& s, const std::vector<TaskAnswer>& answers) {
-  for (const Lowest& member : kLowest) score.*member.of_design = kInfinity;
-  for (const StudyObjective& o : s.goals.limited)
-    score.limited.push_back(o.maximise ? kInfinity : -kInfinity);
+  std::vector<LimitedNumbers> all;
+  score.worst = kInfinity;
   for (std::size_t t = 0; t < answers.size(); ++t) {
-    if (s.tasks[t].weight <= 0) continue;
-    const TaskAnswer& a = answers[t];
-    for (const Lowest& member : kLowest)
-      score.*member.of_design = std::min(score.*member.of_design, a.*member.of_task);
-    for (std::size_t j = 0; j < s.goals.limited.size(); ++j) {
-      double& bad = score.limited[j];
-      bad = s.goals.limited[j].maximise ? std::min(bad, a.limited[j]) : std::max(bad, a.limited[j]);
-    }
-    // The same for every finger; a scenario may look otherwise: the worst.
-    if (a.look && (!score.look || a.look->haze > score.look->haze)) score.look = a.look;
+    all.push_back(limited_numbers(answers[t]));
+    if (s.tasks[t].weight > 0) score.worst = std::min(score.worst, answers[t].worst);
   }
+  if (s.law.size() > 0) score.by_task = all;
+  if (s.goals.yield) all.resize(s.nominal);
+  LimitedNumbers bad = bad_side(s, all);
+  score.oxide_margin = bad.oxide_margin;
+  score.look = bad.look;
+  score.limited = std::move(bad.limited);
 }
 
 }  // namespace
+
+LimitedNumbers bad_side(const Scoring& s, const std::vector<LimitedNumbers>& of_tasks) {
+  LimitedNumbers out;
+  out.oxide_margin = kInfinity;
+  for (const StudyObjective& o : s.goals.limited)
+    out.limited.push_back(o.maximise ? kInfinity : -kInfinity);
+  out.limited_errors.assign(out.limited.size(), 0);
+  for (std::size_t t = 0; t < of_tasks.size(); ++t) {
+    if (s.tasks[t].weight <= 0) continue;
+    const LimitedNumbers& a = of_tasks[t];
+    out.oxide_margin = std::min(out.oxide_margin, a.oxide_margin);
+    for (std::size_t j = 0; j < out.limited.size(); ++j) {
+      const bool worse = s.goals.limited[j].maximise ? a.limited[j] < out.limited[j]
+                                                     : a.limited[j] > out.limited[j];
+      if (!worse) continue;
+      out.limited[j] = a.limited[j];
+      out.limited_errors[j] = j < a.limited_errors.size() ? a.limited_errors[j] : 0;
+    }
+    // The same for every finger; a scenario may look otherwise: the worst.
+    if (a.look && (!out.look || a.look->haze > out.look->haze)) out.look = a.look;
+  }
+  return out;
+}
 
 Score score_of(const Scoring& scoring, const std::vector<TaskAnswer>& answers) {
   PAPILLA_CHECK(answers.size() == scoring.tasks.size(), "one answer per task");

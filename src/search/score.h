@@ -11,6 +11,20 @@
 
 namespace papilla::search {
 
+// What limits are about, of one task or the bad side of several.
+struct LimitedNumbers {
+  double oxide_margin = 0;             // infinite without a field
+  std::optional<Look> look;            // that of the highest haze, where the study asks for it
+  std::vector<double> limited;         // of each constraint on a metric
+  std::vector<double> limited_errors;  // one standard error of each
+};
+
+// Share of the plates that keep every limit. Eq. search.20
+struct YieldShare {
+  double share = 0,
+         error = 0;  // one standard error: of the plates drawn and of the limited metrics
+};
+
 // A design judged: objectives in the user's sign, over all tasks.
 struct Score {
   bool ok = false;
@@ -27,11 +41,13 @@ struct Score {
   std::vector<ErrorSamples> samples;
   std::vector<double> residuals;  // of targets: weighted distances, one per task and humidity
   // Over tasks of some weight:
-  double worst = 0;                    // the lowest modulation; 0: undriven
-  double oxide_margin = 0;             // the smallest; infinite without a field
-  std::optional<Look> look;            // that of the highest haze, where the study asks for it
-  std::vector<double> limited;         // the bad side of each constraint on a metric
-  std::vector<std::string> reports{};  // of each task as designed; empty where not confirmed
+  double worst = 0;                     // the lowest modulation; 0: undriven
+  double oxide_margin = 0;              // the smallest; infinite without a field
+  std::optional<Look> look;             // that of the highest haze, where the study asks for it
+  std::vector<double> limited;          // the bad side of each constraint on a metric
+  std::vector<LimitedNumbers> by_task;  // of every task, where numbers scatter
+  std::optional<YieldShare> yield;      // where a limit is on it
+  std::vector<std::string> reports{};   // of each task as designed; empty where not confirmed
 };
 
 // What scores are made with, of a study.
@@ -39,11 +55,14 @@ struct Scoring {
   const StudyGoals& goals;
   const std::vector<StudyTask>& tasks;
   std::size_t nominal = 0;                      // the first tasks are as designed
-  std::size_t scatter = 0;                      // numbers that scatter
+  ScatterLaw law{};                             // of the numbers that scatter
   const std::vector<double>& humidity_weights;  // empty: all alike
 };
 
-// From one answer per task.
+// The bad side of each number over tasks of some weight, among the first ones.
+LimitedNumbers bad_side(const Scoring& scoring, const std::vector<LimitedNumbers>& of_tasks);
+
+// From one answer per task; the yield is asked for besides.
 Score score_of(const Scoring& scoring, const std::vector<TaskAnswer>& answers);
 // From the steps of every task as designed, where all have them. Fingers of one uncertainty move
 // together, others on their own; all share their skins.

@@ -6,14 +6,6 @@
 #include "design/families.h"
 
 namespace papilla::search {
-namespace {
-
-// Shallower relief is none: polished glass is as rough, and no process holds such a depth [m].
-// Else a search finds textures of a nanometre whose patch has the luckier skins.
-constexpr double kLeastDepth = 2e-9;
-
-}  // namespace
-
 DesignSpace::DesignSpace(const Study& study) : study_(study) {
   for (const Variable& v : study.variables) {
     Dimension d{v.low, v.high, v.choices, !v.is_kind(), v.excluded};

@@ -12,6 +12,10 @@
 
 namespace papilla::search {
 
+// Shallower relief is none: polished glass is as rough, and no process holds such a depth [m].
+// Else a search finds textures of a nanometre whose patch has the luckier skins.
+inline constexpr double kLeastDepth = 2e-9;
+
 class DesignSpace {
  public:
   explicit DesignSpace(const Study& study);

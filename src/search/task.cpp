@@ -96,13 +96,18 @@ std::optional<SummaryValue> defined(const StudyObjective& o, const std::string& 
   return std::nullopt;
 }
 
+// Without the parameters of the finger.
+double own_error(const SummaryValue& value) {
+  ErrorParts own = value.parts;
+  own.parameters.reset();
+  return own.total();
+}
+
 TaskObjective objective_of(const StudyObjective& o, const SummaryValue& value,
                            const Response& response) {
   TaskObjective out;
   out.value = o.aimed ? distance(o, response) : value.value;
-  ErrorParts own = value.parts;
-  own.parameters.reset();
-  out.error = own.total();
+  out.error = own_error(value);
   const auto mean = summarise(Summary::Mean, o.expression.metric, response);
   for (const ResponsePoint& p : response.points) {
     const auto there = metric_at(o.expression.metric, p);
@@ -159,6 +164,7 @@ TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string
     const auto value = defined(o, task, response, out);
     if (!value) return out;
     out.limited.push_back(value->value);
+    out.limited_errors.push_back(own_error(*value));
   }
   if (const auto w = summarise(Summary::Worst, kModulation, response)) out.worst = w->value;
   out.look = response.appearance;

@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 #include "design/families.h"
+#include "search/space.h"
 
 namespace papilla::search {
 namespace {
@@ -28,6 +29,13 @@ void check_frequency(const Study& study, const std::vector<StudyTask>& tasks) {
                        "; leave the variable out, or give film, gap or finger what it conducts");
     }
   }
+}
+
+// A measure of a texture that is not there: nobody makes it, so that nobody misses it.
+bool has_no_relief(const Design& design, const std::string& path) {
+  if (!path.starts_with("texture.")) return false;
+  const Relief relief = facts(part_at(design.texture, path)).relief;
+  return !relief.present || (relief.planes && *relief.height() < kLeastDepth);
 }
 
 }  // namespace
@@ -66,15 +74,32 @@ Design task_design(const Study& study, Design d, const StudyTask& task) {
   d.finger = task.finger;
   d = with_settings(std::move(d), task.settings);  // a scenario may change the finger too
   if (task.nominal()) return d;
-  const Scatter& scatter = study.scatter[static_cast<std::size_t>(task.scattered)];
-  const std::vector<NumberField> known = number_fields(d);
-  const std::string path = path_in(known, scatter.path);
-  if (path.empty()) return d;  // this kind of texture does not have it
-  const NumberField field = find_number_field(known, path);
-  const double unit = find_unit(field.unit)->to_si;
-  *field.value =
-      std::clamp(*field.value + task.sign * scatter.tolerance, field.low * unit, field.high * unit);
-  return d;
+  std::vector<double> deviation(study.scatter.size(), 0.0);
+  deviation[static_cast<std::size_t>(task.scattered)] = task.sign;
+  return Plates(study, d).plate(deviation);
+}
+
+Plates::Plates(const Study& study, const Design& design) : design_(design) {
+  const std::vector<NumberField> known = number_fields(design_);
+  for (const Scatter& scatter : study.scatter) {
+    const std::string path = path_in(known, scatter.path);
+    if (path.empty() || has_no_relief(design_, path)) {
+      numbers_.push_back({});
+      continue;
+    }
+    const NumberField field = find_number_field(known, path);
+    const double unit = find_unit(field.unit)->to_si;
+    numbers_.push_back(
+        {field.value, *field.value, scatter.end(), field.low * unit, field.high * unit});
+  }
+}
+
+const Design& Plates::plate(const std::vector<double>& deviation) {
+  for (std::size_t k = 0; k < numbers_.size(); ++k) {
+    const Number& n = numbers_[k];
+    if (n.value) *n.value = std::clamp(n.nominal + deviation[k] * n.end, n.low, n.high);
+  }
+  return design_;
 }
 
 std::string shape_trouble(const Study& study, const std::vector<StudyTask>& tasks,

@@ -30,6 +30,25 @@ std::vector<StudyTask> study_tasks(const Study& study);
 // number may have at all.
 Design task_design(const Study& study, Design design, const StudyTask& task);
 
+// Plates of a design: all numbers that scatter set together.
+class Plates {
+ public:
+  Plates(const Study& study, const Design& design);
+  Plates(const Plates&) = delete;
+  Plates& operator=(const Plates&) = delete;
+
+  // deviation: of each scatter of the study, in units of its end. Valid until the next call.
+  const Design& plate(const std::vector<double>& deviation);
+
+ private:
+  struct Number {
+    double* value;                   // of design_; null: this design does not have it
+    double nominal, end, low, high;  // SI
+  };
+  Design design_;
+  std::vector<Number> numbers_;
+};
+
 // What is wrong with the shape, as designed or within its scatter; empty: nothing.
 std::string shape_trouble(const Study& study, const std::vector<StudyTask>& tasks,
                           const Design& design);

@@ -151,6 +151,34 @@ SearchWish search_wish(const Json& json) {
 
 namespace {
 
+// Without tolerances of numbers that are no part of the design any more, which would be refused;
+// correlations of them go too.
+void keep_scatter(Node& sections, const Study& study) {
+  Node* scatter = sections.find("scatter");
+  if (!scatter) return;
+  Design design = study.design;
+  const std::vector<NumberField> known = number_fields(design);
+  const auto has = [&](const std::string& path) {
+    return std::any_of(known.begin(), known.end(),
+                       [&](const NumberField& field) { return field.path == path; });
+  };
+  const std::vector<Scatter>& all = study.scatter;
+  for (const Scatter& s : all) {
+    if (!has(s.path)) erase_member(*scatter, s.path);
+  }
+  Node* correlations = scatter->find("correlation");
+  if (correlations) {
+    std::erase_if(correlations->children, [&](const Node& item) {
+      const Node* between = item.find("between");
+      return between && !std::all_of(between->children.begin(), between->children.end(),
+                                     [&](const Node& path) { return has(path.text); });
+    });
+  }
+  const bool any =
+      std::any_of(all.begin(), all.end(), [&](const Scatter& s) { return has(s.path); });
+  if (!any) std::erase_if(sections.children, [](const Node& n) { return n.key == "scatter"; });
+}
+
 std::vector<std::string> metric_texts(const std::vector<MetricExpression>& expressions) {
   std::vector<std::string> out;
   for (const MetricExpression& e : expressions) out.push_back(metric_text(e));
@@ -215,8 +243,7 @@ std::string study_text(const Study& study, const SearchWish& wish) {
   Node search = sections.find("search") ? *sections.find("search") : table_node();
   if (wish.evaluations > 0) search.set("evaluations", integer_node(wish.evaluations));
   sections.set("search", std::move(search));
-  // A scatter of a number that is no part of the texture any more would be refused.
-  std::erase_if(sections.children, [](const Node& n) { return n.key == "scatter"; });
+  keep_scatter(sections, out);
   return resolved_toml(out);
 }
 

@@ -35,9 +35,9 @@ Node table(std::vector<std::pair<std::string, Node>> members) {
   return out;
 }
 
-std::string paths(const Node& section, bool stop_at_choice) {
+std::string paths(const Node& section, const std::vector<std::string>& whole) {
   std::string out;
-  for (const auto& [path, node] : members_by_path(section, stop_at_choice)) out += path + " ";
+  for (const auto& [path, node] : members_by_path(section, whole)) out += path + " ";
   return out;
 }
 
@@ -50,16 +50,16 @@ TEST(Members, AreFoundByTheirPathsAndErasedByThem) {
                         {"b", table({{"c", integer_node(2)}, {"d", choices}})},
                         {"b.c", integer_node(3)},
                         {"be", table({{"c", range}})}});
-  EXPECT_EQ(paths(section, false), "a b.c b.d.choice b.c be.c.range ");
-  EXPECT_EQ(paths(section, true), "a b.c b.d b.c be.c ");
+  EXPECT_EQ(paths(section, {}), "a b.c b.d.choice b.c be.c.range ");
+  EXPECT_EQ(paths(section, {"choice", "range"}), "a b.c b.d b.c be.c ");
   erase_member(section, "be.c");
-  EXPECT_EQ(paths(section, true), "a b.c b.d b.c ");
+  EXPECT_EQ(paths(section, {"choice", "range"}), "a b.c b.d b.c ");
   erase_member(section, "b.c");  // in both its writings
-  EXPECT_EQ(paths(section, true), "a b.d ");
+  EXPECT_EQ(paths(section, {"choice", "range"}), "a b.d ");
   erase_member(section, "b.x");
-  EXPECT_EQ(paths(section, true), "a b.d ");
+  EXPECT_EQ(paths(section, {"choice", "range"}), "a b.d ");
   erase_member(section, "b");
-  EXPECT_EQ(paths(section, true), "a ");
+  EXPECT_EQ(paths(section, {"choice", "range"}), "a ");
 }
 
 }  // namespace

@@ -70,12 +70,15 @@ TEST(Reference, OfASectionOfStudiesHasItsKeysAlone) {
   EXPECT_EQ(scatter,
             "scatter: How far fabrication may miss.\n\n"
             "scatter.\"PATH\"                       fabrication misses this number by up to so "
-            "much either way; two more evaluations each\n");
+            "much either way; two more evaluations each\n"
+            "scatter.\"PATH\" = { sigma = ... }     the same, normal with this standard deviation\n"
+            "scatter.correlation                  of two of them: [{ between = [\"PATH\", "
+            "\"PATH\"], value = 0.6 }]; the others are independent\n");
   EXPECT_TRUE(reference_section("scenarios", ReferenceFormat::Text)
                   .starts_with("scenarios: States of the product that count beside each other.\n\n"
                                "scenarios  "));
   for (const auto& [section, keys] :
-       {std::pair("design_space", 5), {"objective", 3}, {"constraints", 9}, {"search", 7}}) {
+       {std::pair("design_space", 5), {"objective", 3}, {"constraints", 10}, {"search", 7}}) {
     const std::string text = reference_section(section, ReferenceFormat::Markdown);
     int count = 0;
     const std::string mark = std::string("\n| `") + section + ".";

@@ -161,9 +161,16 @@ TEST(JsonSchema, PathsAreThoseOfNumbersAndTheirBeginnings) {
   const Json any_of_them{{"anyOf", Json::array({interval, choice, gapped})}};
   const Json section{{"type", "object"}};
   EXPECT_EQ(space["additionalProperties"], (Json{{"anyOf", Json::array({any_of_them, section})}}));
-  EXPECT_EQ(schema()["properties"]["scatter"]["additionalProperties"],
-            (Json{{"anyOf", Json::array({value, section})}}));
-  EXPECT_EQ(schema()["properties"]["scatter"]["propertyNames"], space["propertyNames"]);
+  const Json& scatter = schema()["properties"]["scatter"];
+  const Json sigma{{"type", "object"},
+                   {"properties", {{"sigma", value}}},
+                   {"additionalProperties", false},
+                   {"required", {"sigma"}}};
+  const Json tolerance{{"anyOf", Json::array({value, sigma})}};
+  EXPECT_EQ(scatter["additionalProperties"], (Json{{"anyOf", Json::array({tolerance, section})}}));
+  EXPECT_EQ(scatter["propertyNames"],
+            (Json{{"anyOf", Json::array({space["propertyNames"], {{"const", "correlation"}}})}}));
+  EXPECT_EQ(scatter["properties"]["correlation"]["items"]["required"], (Json{"between", "value"}));
 }
 
 TEST(JsonSchema, WishesAreMetricsOverHumidity) {
@@ -215,7 +222,9 @@ TEST(JsonSchema, FingersAndScenariosAreLists) {
   EXPECT_EQ(one["properties"]["name"], (Json{{"type", "string"}}));
   EXPECT_EQ(one["properties"]["weight"]["anyOf"][0],
             (Json{{"type", "number"}, {"minimum", 0.0}, {"maximum", 1e6}}));
-  EXPECT_EQ(one["properties"]["set"], schema()["properties"]["scatter"]);
+  const Json& set = one["properties"]["set"];
+  EXPECT_EQ(set["propertyNames"], schema()["properties"]["design_space"]["propertyNames"]);
+  EXPECT_EQ(set["additionalProperties"]["anyOf"][0], (Json{{"type", {"string", "number"}}}));
 }
 
 }  // namespace

@@ -316,18 +316,17 @@ TEST(BuildSheet, ComparesWithTheBestFlatSurfaceOfTheRunToo) {
 // A rounded design that keeps not every limit says which, by how much.
 TEST(BuildSheet, SaysWhatRoundingBreaks) {
   Searched run;
-  BuiltDesign build{run.result.finalists[0], false};
-  build.made.confirmed.oxide_margin = 1.995;
-  build.made.feasible = false;
+  BuiltDesign build{run.result.finalists[0], true, false, 6, run.result.finalists[0]};
+  build.nearest->confirmed.oxide_margin = 1.995;
+  build.nearest->feasible = false;
   run.result.build = build;
   EXPECT_NE(recommendation(run.files())
-                .find("On the grid of the fab oxide_breakdown_margin is 1.995, below your limit of "
-                      "2; no design beside it on the grid keeps every limit"),
+                .find("Its numbers are as searched, off the grid of the fab: of 6 designs of the "
+                      "grid that were judged none keeps every limit (of the nearest "
+                      "oxide_breakdown_margin is 1.995, below your limit of 2)"),
             std::string::npos)
       << recommendation(run.files());
-  EXPECT_NE(
-      sheet_text(run.files()).find("| oxide_breakdown_margin | at least 2 | 1.995, **broken** |\n"),
-      std::string::npos);
+  EXPECT_EQ(sheet_text(run.files()).find("**broken**"), std::string::npos);
 }
 
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {

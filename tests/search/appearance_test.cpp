@@ -31,7 +31,7 @@ TEST(AppearanceInStudies, HazeIsAnObjectiveBesideFriction) {
   fidelity.skins = 2;
   const TaskAnswer task = confirmed(problem, fidelity);
   ASSERT_TRUE(task.status.ok()) << task.status.text;
-  const Score score = problem.score({task});
+  const Score score = problem.score(problem.study().design, {task});
   EXPECT_EQ(score.values[2], appearance_of(study.design).haze);
   EXPECT_GT(score.values[2], 0.01);
   EXPECT_EQ(score.errors[2], 0);

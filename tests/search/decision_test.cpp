@@ -266,12 +266,12 @@ TEST(Decision, AMemberMovesSizesByAFactorAndSpreadsByADifference) {
   there.objectives[0].value *= 1.5;
   for (double& p : there.objectives[0].points) p *= 1.5;
   there.objectives[1].value += 0.07;
-  const Score score = score_at(problem, {confirmed}, {{there, own}}, 0);
+  const Score score = score_at(problem, problem.study().design, {confirmed}, {{there, own}}, 0);
   ASSERT_TRUE(score.ok);
   EXPECT_NEAR(score.values[0], 1.5 * 0.8, 1e-12);
   EXPECT_NEAR(score.values[1], 0.5 + 0.07, 1e-12);
   EXPECT_NEAR(score.worst, 0.4 * 1.5, 1e-12);
-  EXPECT_FALSE(score_at(problem, {confirmed},
+  EXPECT_FALSE(score_at(problem, problem.study().design, {confirmed},
                         {{TaskAnswer::refused(TaskStatus::Kind::NoEquilibrium, "x"), own}}, 0)
                    .ok);
 }

@@ -85,7 +85,7 @@ TEST(FieldStudy, VoltageForIsAnObjectiveAndAConstraint) {
   EXPECT_EQ(problem.constraints().evaluated(), 2u);
   const TaskAnswer task = evaluate_task(problem, study.design, 0, {small()});
   ASSERT_TRUE(task.status.ok()) << task.status.text;
-  const Score score = problem.score({task});
+  const Score score = problem.score(problem.study().design, {task});
   ASSERT_EQ(score.limited.size(), 2u);
   EXPECT_LT(score.limited[0], score.values[0]);  // a quarter takes less than a half
   const Outcome outcome = problem.outcome(score);

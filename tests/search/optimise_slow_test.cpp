@@ -327,7 +327,8 @@ TEST(Optimise, ATargetIsMetByLeastSquares) {
   const auto distance = [&](const Design& design) {
     const TaskAnswer answer = evaluate_task(problem, design, 0, {fidelity_level("search")});
     EXPECT_TRUE(answer.status.ok()) << answer.status.text;
-    return answer.status.ok() ? problem.score({answer}).values.at(0) : kInfinity;
+    return answer.status.ok() ? problem.score(problem.study().design, {answer}).values.at(0)
+                              : kInfinity;
   };
   EXPECT_LT(distance(result.finalists[0].design), distance(study.design));
 }

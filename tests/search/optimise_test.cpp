@@ -107,7 +107,7 @@ TEST(StudyProblem, FingersOfOneUncertaintyMoveTogether) {
     std::vector<TaskAnswer> tasks;
     for (std::size_t t = 0; t < problem.tasks().size(); ++t)
       tasks.push_back(evaluate_task(problem, design, t, {f, true, response_text}));
-    return problem.score(tasks);
+    return problem.score(problem.study().design, tasks);
   };
   const Score same = score();
   ASSERT_TRUE(same.ok) << same.reason;

@@ -246,7 +246,7 @@ TEST(Price, OfAStudyIsThatOfItsStages) {
   const auto price = [&](double count, Stage stage) { return count * task_price(problem, stage); };
   double seconds =
       price(60 * 4, Stage::Search) + price(20 * 4, Stage::Narrow) +
-      price((9 + 3) * 4, Stage::Confirm) +
+      price((9 + 2 + 3) * 4, Stage::Confirm) +
       price(8.0 * static_cast<double>(stability_variants(problem).size()), Stage::Stability) +
       price((1 + 2 * 4) * 4, Stage::Sensitivity);
   if (problem.parameters_unknown().empty()) seconds += price(2 * 4, Stage::Steps);
@@ -396,7 +396,7 @@ TEST(Samples, OfAMeanOverTasksAreTheirMeans) {
       answers[t].samples.push_back({{sampling[t], grid[t], method[t]}});
     }
   }
-  const Score score = problem.score(answers);
+  const Score score = problem.score(problem.study().design, answers);
   ASSERT_TRUE(score.ok) << score.reason;
   ASSERT_EQ(score.samples.size(), 2u);
   const auto expect_means = [](const std::vector<double>& found,
@@ -442,7 +442,7 @@ TEST(Samples, OfTheWorstHumidityAreItsOwn) {
   TaskAnswer answer;
   answer.objectives = {{0.65, 0.01, {0.9, 0.4}}};
   answer.samples = {{dry, moist}};
-  const Score score = problem.score({answer});
+  const Score score = problem.score(problem.study().design, {answer});
   ASSERT_TRUE(score.ok) << score.reason;
   EXPECT_NEAR(score.values[0], 0.4, 1e-12);
   ASSERT_EQ(score.samples.size(), 1u);
@@ -458,7 +458,7 @@ TEST(Samples, OfTheWorstHumidityAreItsOwn) {
   EXPECT_NEAR(score.errors[0], std::sqrt(sampling + grid + method), 1e-12);
   // Tasks of unlike numbers of skins have none in common.
   answer.samples[0][0].sampling.pop_back();
-  const Score unlike = problem.score({answer});
+  const Score unlike = problem.score(problem.study().design, {answer});
   EXPECT_TRUE(unlike.samples[0].sampling.empty());
   EXPECT_NEAR(unlike.errors[0], 0.01, 1e-12);
 }

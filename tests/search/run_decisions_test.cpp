@@ -219,12 +219,15 @@ TEST(RunDecisions, ATailIsThatOfItsOwnScatter) {
   const double values[] = {0.5, 0.3, 0.62, 0.45, 0.51};  // own, both ends of the first, the second
   for (std::size_t t = 0; t < 5; ++t) answers[t].objectives = {{values[t], 0.01, {values[t]}}};
   const Risk risk = parse_risk("cvar 20 %");
-  const std::vector<double> sample = scattered_values(risk, true, 0.5, {0.3, 0.45}, {0.62, 0.51});
-  const Score score = problem.score(answers);
+  const ScatterLaw law(study.scatter, {});
+  const std::vector<double> sample =
+      scattered_values(risk, true, 0.5, {0.3, 0.45}, {0.62, 0.51}, law);
+  const Score score = problem.score(problem.study().design, answers);
   ASSERT_TRUE(score.ok) << score.reason;
   EXPECT_NEAR(score.values[0],
               apply_risk(risk, true, sample, std::vector<double>(sample.size(), 1.0)), 1e-12);
-  const std::vector<double> turned = scattered_values(risk, true, 0.5, {0.62, 0.51}, {0.3, 0.45});
+  const std::vector<double> turned =
+      scattered_values(risk, true, 0.5, {0.62, 0.51}, {0.3, 0.45}, law);
   EXPECT_GT(std::abs(apply_risk(risk, true, turned, std::vector<double>(turned.size(), 1.0)) -
                      score.values[0]),
             1e-9);

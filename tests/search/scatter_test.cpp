@@ -23,6 +23,11 @@ Study small_study(const std::vector<std::string>& more) {
   return read_study(kStudy, overrides);
 }
 
+// So many numbers, uniform and independent.
+ScatterLaw uniform(std::size_t numbers) {
+  return {std::vector<Scatter>(numbers, Scatter{"texture.depth", 1}), {}};
+}
+
 double mean_of(const std::vector<double>& v) {
   return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
 }
@@ -58,7 +63,7 @@ struct Quadratic {
     return out;
   }
   std::vector<double> values(const char* risk, bool higher) const {
-    return scattered_values(parse_risk(risk), higher, 3, ends(-1), ends(1));
+    return scattered_values(parse_risk(risk), higher, 3, ends(-1), ends(1), uniform(a.size()));
   }
 };
 
@@ -93,7 +98,7 @@ TEST(Scatter, TheCvarIsThatOfALargeSample) {
 }
 
 TEST(Scatter, WithoutScatterTheNominalValueStays) {
-  EXPECT_EQ(scattered_values(parse_risk("cvar 20 %"), true, 7, {}, {}), std::vector<double>{7});
+  EXPECT_EQ(scattered_values(parse_risk("cvar 20 %"), true, 7, {}, {}, {}), std::vector<double>{7});
 }
 
 TEST(Scatter, AStudyJudgesTheDesignWithinItsTolerances) {
@@ -113,7 +118,7 @@ TEST(Scatter, AStudyJudgesTheDesignWithinItsTolerances) {
     EXPECT_NEAR(evaluate_task(problem, moved, 0, {f}).objectives[0].value,
                 value(static_cast<std::size_t>(t)), 1e-12);
   }
-  const Score worst = problem.score(tasks);
+  const Score worst = problem.score(problem.study().design, tasks);
   ASSERT_TRUE(worst.ok) << worst.reason;
   EXPECT_LE(worst.values[0], std::min({value(0), value(1), value(2)}) + 1e-12);
   EXPECT_LT(worst.values[0], value(0));
@@ -149,14 +154,15 @@ TEST(Target, TheDistanceIsTheRootMeanSquareOverHumidityAndFingers) {
   ASSERT_TRUE(task.status.ok()) << task.status.text;
   const std::vector<double>& points = task.objectives[0].points;
   const double a = points[0] - 0.8, b = points[1] - 0.8;
-  EXPECT_NEAR(problem.score({task}).values[0], std::sqrt((a * a + b * b) / 2), 1e-12);
+  EXPECT_NEAR(problem.score(problem.study().design, {task}).values[0],
+              std::sqrt((a * a + b * b) / 2), 1e-12);
   EXPECT_THROW(small_study({"objective={ target = { modulatoin = 0.8 } }"}), InputError);
 }
 
 // Over all of the scatter the tail is the mean, nominal + sum of b/3; a slope alone is even.
 TEST(Scatter, TheSampleOfATailLiesOnTheQuadratic) {
   const auto sample = [](double a, double b) {
-    return scattered_values(parse_risk("cvar 20 %"), true, 2, {2 - a + b}, {2 + a + b});
+    return scattered_values(parse_risk("cvar 20 %"), true, 2, {2 - a + b}, {2 + a + b}, uniform(1));
   };
   for (const auto& [a, b] : {std::pair{0.0, 0.6}, {0.0, -0.6}, {0.3, 0.0}, {0.3, 0.6}}) {
     const std::vector<double> values = sample(a, b);

@@ -40,7 +40,8 @@ TaskAnswer answer(const StudyProblem& problem, const std::vector<double>& points
 TEST(Scores, WeighTasksAndAddTheirErrorsByWeight) {
   const Study study = weighted_study();
   const StudyProblem problem(study);
-  const Score score = problem.score({answer(problem, {0.2, 0.4}), answer(problem, {0.5, 0.9})});
+  const Score score = problem.score(problem.study().design,
+                                    {answer(problem, {0.2, 0.4}), answer(problem, {0.5, 0.9})});
   ASSERT_TRUE(score.ok) << score.reason;
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_NEAR(score.values[k], (3 * 0.3 + 0.7) / 4, 1e-12);
@@ -74,7 +75,8 @@ TEST(Scores, ResidualsOfATargetSumToItsSquaredDistance) {
   study.objective.targets = {{kModulation, 0.5}};
   const StudyProblem problem(study);
   const std::vector<std::vector<double>> points{{0.2, 0.4}, {0.5, 0.9}};
-  const Score score = problem.score({answer(problem, points[0]), answer(problem, points[1])});
+  const Score score = problem.score(problem.study().design,
+                                    {answer(problem, points[0]), answer(problem, points[1])});
   ASSERT_TRUE(score.ok) << score.reason;
   ASSERT_EQ(score.residuals.size(), 4u);
   EXPECT_EQ(problem.residuals(), 4u);
@@ -107,7 +109,7 @@ TEST(Scores, LimitsTakeTheWorstTaskThatCounts) {
     answers[t].limited = limited[t];
     answers[t].look = Look{t == 1 ? 0.1 : 0.02, 0.9, 0.5, 0};
   }
-  const Score score = problem.score(answers);
+  const Score score = problem.score(problem.study().design, answers);
   EXPECT_EQ(score.worst, 0.2);
   EXPECT_EQ(score.oxide_margin, 2);
   EXPECT_EQ(score.limited, (std::vector<double>{0.06, 0.2}));

@@ -28,6 +28,11 @@
 namespace papilla::tests {
 namespace {
 
+// So many numbers, uniform and independent.
+ScatterLaw uniform(std::size_t numbers) {
+  return {std::vector<Scatter>(numbers, Scatter{"texture.depth", 1}), {}};
+}
+
 Study holes() {
   Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   study.population.clear();
@@ -76,7 +81,7 @@ TEST(SmallDecisions, ARiskWeighsItsValues) {
 TEST(SmallDecisions, TheWorstOfAScatterLiesInsideOrAtAnEnd) {
   const auto worst = [](double a, double b, bool higher) {
     const std::vector<double> all =
-        scattered_values(parse_risk("worst"), higher, 5, {5 - a + b}, {5 + a + b});
+        scattered_values(parse_risk("worst"), higher, 5, {5 - a + b}, {5 + a + b}, uniform(1));
     EXPECT_EQ(all.size(), 1u);
     return all[0];
   };
@@ -96,13 +101,14 @@ TEST(SmallDecisions, TheWorstOfAScatterLiesInsideOrAtAnEnd) {
   // Mean and variance of two numbers: b / 3 and a^2 / 3 + 4 b^2 / 45 each.
   const std::vector<double> moments =
       scattered_values(parse_risk("mean - std"), true, 5, {5 - 0.3 + 0.6, 5 + 0.2 - 0.3},
-                       {5 + 0.3 + 0.6, 5 - 0.2 - 0.3});
+                       {5 + 0.3 + 0.6, 5 - 0.2 - 0.3}, uniform(2));
   ASSERT_EQ(moments.size(), 2u);
   EXPECT_NEAR((moments[0] + moments[1]) / 2, 5.1, 1e-12);
   EXPECT_NEAR((moments[1] - moments[0]) / 2, std::sqrt((0.09 + 0.04) / 3 + 4 * (0.36 + 0.09) / 45),
               1e-12);
-  EXPECT_EQ(scattered_values(parse_risk("mean"), true, 5, {5.3}, {5.9}).size(), 1u);
-  EXPECT_NEAR(scattered_values(parse_risk("mean"), true, 5, {5.3}, {5.9})[0], 5.2, 1e-12);
+  EXPECT_EQ(scattered_values(parse_risk("mean"), true, 5, {5.3}, {5.9}, uniform(1)).size(), 1u);
+  EXPECT_NEAR(scattered_values(parse_risk("mean"), true, 5, {5.3}, {5.9}, uniform(1))[0], 5.2,
+              1e-12);
 }
 
 // A step is at most a fiftieth of a length; of other numbers it keeps three digits.

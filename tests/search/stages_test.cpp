@@ -10,6 +10,8 @@
 #include <memory>
 #include <tuple>
 
+#include "search/advice.h"
+#include "search/building.h"
 #include "search/levels.h"
 #include "tests/search/formula_run.h"
 #include "tests/search/small_study.h"
@@ -230,7 +232,60 @@ TEST(Stages, TheChecksSayWhatTheTextureAndTheFinishDo) {
   const double depth = made.flat ? 0 : made.unit[0];
   EXPECT_NEAR(made.confirmed.values[0], 0.8 - 0.3 * depth + 0.1 * made.unit[1], 1e-12);
   EXPECT_TRUE(made.feasible);
-  EXPECT_EQ(a.count(Stage::Rounding, made.flat), 1);
+  // A flat surface has no model of its neighbourhood, but neighbours.
+  EXPECT_EQ(a.count(Stage::Rounding, made.flat), static_cast<int>(result.build->judged));
+  EXPECT_LE(result.build->judged, kJudgedOnGrid);
+  EXPECT_TRUE(result.build->on_grid);
+}
+
+// Both objectives are best in the middle of the space, on no place of the grid.
+TaskAnswer bowl(const TaskRequest& r) {
+  const double depth = r.flat ? 0 : r.unit[0], angle = r.unit[1];
+  const double off = square(depth - 0.5372) + 0.3 * square(angle - 0.6131);
+  TaskAnswer out;
+  const double mean = 0.8 - off, variation = 0.3 + off;
+  out.objectives = {{mean, 0.001, {mean, mean}}, {variation, 0.001, {variation, variation}}};
+  out.worst = mean;
+  out.oxide_margin = 10;
+  return out;
+}
+
+// Of the nearest design of the grid and the best ones by the model the best is built.
+TEST(Stages, TheBestOfTheGridIsBuiltNotTheNearest) {
+  AnsweredRun a(evolved(), fresh_folder("stages_best_of_grid"), bowl);
+  ASSERT_TRUE(a.whole());
+  const BuiltDesign& build = *a.run.result.build;
+  const FinalDesign searched = recommended_design(a.run.problem, a.run.result);
+  ASSERT_TRUE(build.nearest);
+  ASSERT_FALSE(searched.flat);
+  const auto gain = [&](const FinalDesign& of) {
+    const std::vector<double>&before = searched.confirmed.values, &here = of.confirmed.values;
+    return std::min((here[0] - before[0]) / before[0], (before[1] - here[1]) / before[1]);
+  };
+  EXPECT_GT(gain(build.made), gain(*build.nearest));
+  EXPECT_EQ(build.judged, kJudgedOnGrid);
+  EXPECT_NE(build.made.unit, build.nearest->unit);
+}
+
+// No design of the grid keeps the limit that the searched one keeps by a hair: it is built as
+// searched.
+TEST(Stages, WhatTheGridWouldBreakIsBuiltAsSearched) {
+  Study study = evolved();
+  study.constraints = {read_constraint("worst(modulation)", 0.2)};
+  AnsweredRun a(study, fresh_folder("stages_off_grid"), [](const TaskRequest& r) {
+    TaskAnswer out = bowl(r);
+    out.limited = {r.stage == Stage::Rounding ? 0.19 : 0.21};
+    out.limited_errors = {0};
+    return out;
+  });
+  ASSERT_TRUE(a.whole());
+  const BuiltDesign& build = *a.run.result.build;
+  EXPECT_FALSE(build.on_grid);
+  EXPECT_TRUE(build.made.feasible);
+  EXPECT_EQ(build.made.unit, recommended_design(a.run.problem, a.run.result).unit);
+  EXPECT_EQ(build.judged, kMostJudgedOnGrid);
+  ASSERT_TRUE(build.nearest);
+  EXPECT_FALSE(build.nearest->feasible);
 }
 
 // Interrupted anywhere, and continued: the same answers to the same questions, none asked twice.
@@ -410,7 +465,7 @@ TEST(Stages, TimesAreThoseOfTheTasksThatWereDone) {
   EXPECT_DOUBLE_EQ(part(RunPart::Stability),
                    run.seconds_of(8 * stability_variants(run.problem).size(), Stage::Stability));
   EXPECT_DOUBLE_EQ(part(RunPart::Flat), run.seconds_of(2, Stage::Confirm));
-  EXPECT_DOUBLE_EQ(part(RunPart::Rounding), run.seconds_of(1, Stage::Confirm));
+  EXPECT_DOUBLE_EQ(part(RunPart::Rounding), run.seconds_of(kJudgedOnGrid, Stage::Confirm));
   EXPECT_DOUBLE_EQ(part(RunPart::Sensitivity), run.seconds_of(5, Stage::Sensitivity));
   EXPECT_EQ(part(RunPart::Parameters), 0);
   EXPECT_DOUBLE_EQ(part(RunPart::Files), 1 + run.seconds_of(1, Stage::Confirm) / 8);

@@ -114,6 +114,25 @@ function showFinalists() {
   table($('kept'), ['design'].concat(limits.map(heading)), finalists.map((r) => ['design'].concat(limits).map((c) => r[c])), limits.map((c, i) => i + 1));
 }
 
+// The range of each number over all good designs, within what it may be.
+function showShared() {
+  const shared = run.shared;
+  $('shared').hidden = !shared;
+  if (!shared) return;
+  $('sharedsaid').textContent = shared.said;
+  const bars = shared.ranges.filter((r) => r.to > r.from), part = (r, v) => (v - r.from) / (r.to - r.from);
+  draw('ranges', {
+    type: 'bar',
+    data: { labels: bars.map((r) => r.name), datasets: [{ data: bars.map((r) => [part(r, r.low), part(r, r.high)]), minBarLength: 3, barPercentage: 0.5, backgroundColor: colours[0] }] },
+    options: {
+      indexAxis: 'y',
+      scales: { x: axis('share of what it may be', { min: 0, max: 1 }), y: { ticks: { autoSkip: false } } },
+      plugins: { legend: { display: false }, tooltip: { callbacks: { label: (item) => `${bars[item.dataIndex].text} of ${bars[item.dataIndex].possible}` } } },
+    },
+  });
+  table($('sharedtable'), ['Number', 'Good designs', 'Possible', 'Designs'], shared.ranges.map((r) => [r.name, r.text, r.possible || '', r.designs]), [3]);
+}
+
 function showBudget() {
   const tasks = data.designs[state.design].tasks, task = tasks[state.finger === 'mean' ? 0 : +state.finger] || tasks[0];
   const points = task.points.filter((p) => p.modulation);
@@ -242,6 +261,7 @@ const said = (list, texts) => (texts || []).forEach((text) => { const item = doc
 said($('grounds'), run.grounds);
 said($('remarks'), run.remarks);
 $('grid').textContent = run.build ? run.build.said.replace(/`/g, '') : '';
+$('yield').textContent = run.yield ? run.yield.said : '';
 $('facts').textContent = (run.design === null ? 'The flat surface has ' : 'The best design has ') + Object.keys(best.objectives).map((n) => `${called(n)} ${quantity(best.objectives[n], n)}` + (flat ? ` (flat ${quantity(flat.objectives[n], n)})` : '')).join(', ')
   + (run.driven ? `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity' : '') + '.'
   + (best.feasible ? '' : ' It does not keep every constraint.');
@@ -252,6 +272,7 @@ startSolid();
 select('best');
 showSteps();
 showSection($('decision'), 'Which of them, by belief', '');
+showShared();
 showSection($('stability'), 'Does the order hold?', Object.keys(data.designs).length > 2 ? 'Whether the order holds under other choices of the model was not checked.' : 'One design on the front: there is no order to check.');
 showSection($('sensitivity'), 'What the best design is sensitive to', '');
 const known = best.parameters;

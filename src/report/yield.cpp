@@ -1,0 +1,111 @@
+#include "report/yield.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "base/text.h"
+#include "base/units.h"
+#include "config/describe.h"
+#include "report/json.h"
+
+namespace papilla::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// For people: the unit of the number, as keys have it.
+std::string unit_of(const Study& study, const std::string& path) {
+  Design copy = study.design;
+  for (const NumberField& field : number_fields(copy)) {
+    if (field.path == path) return field.unit;
+  }
+  for (const Variable& v : study.variables) {
+    if (v.path == path) return v.unit;
+  }
+  return "";
+}
+
+// In per cent; of more than .1 % to a tenth.
+std::string tenths_percent(double share) {
+  return share > 0 && share < 0.001 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * share);
+}
+
+std::string points(const YieldShare& gain) {
+  return fmt::format("{:.1f} ± {:.1f} points", 100 * gain.share, 100 * gain.error);
+}
+
+// "min_wall (4.1 %)", the most often broken first.
+std::string broken_text(const Study& study, const Yield& yield) {
+  std::vector<std::pair<double, std::string>> all;
+  if (yield.not_makeable > 0) all.emplace_back(yield.not_makeable, "the shape cannot be made");
+  for (std::size_t i = 0; i < yield.broken.size(); ++i) {
+    if (yield.broken[i] > 0) all.emplace_back(yield.broken[i], limit_name(study.constraints[i].on));
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> out;
+  for (const auto& [share, name] : all)
+    out.push_back(fmt::format("{} ({})", name, tenths_percent(share)));
+  return out.empty() ? "" : " Broken by plates: " + join_names(out) + ".";
+}
+
+std::string gain_text(const Study& study, const Yield& yield) {
+  const auto most = yield.costliest();
+  if (!most) {
+    return yield.now.share < 1 ? " Halving one tolerance alone gains no more than the error." : "";
+  }
+  return fmt::format(" {} costs most: tightening it from {} to {} gains {}.",
+                     study.scatter[*most].path, tolerance_text(study, *most),
+                     tolerance_text(study, *most, 0.5), points(yield.halved[*most]));
+}
+
+}  // namespace
+
+std::string tolerance_text(const Study& study, std::size_t scatter, double share) {
+  const Scatter& s = study.scatter[scatter];
+  const std::string unit = unit_of(study, s.path);
+  const double shown = share * s.tolerance / find_unit(unit)->to_si;
+  return fmt::format("{} {}{}", s.kind == Scatter::Kind::Normal ? "sigma" : "±",
+                     significant(shown, 3), unit.empty() ? "" : " " + unit);
+}
+
+std::string yield_text(const ResultFiles& f) {
+  if (!f.result.yield) return {};
+  const Yield& yield = *f.result.yield;
+  std::vector<std::string> tolerances;
+  for (std::size_t k = 0; k < f.study.scatter.size(); ++k)
+    tolerances.push_back(f.study.scatter[k].path + " " + tolerance_text(f.study, k));
+  return fmt::format("Yield: {:.1f} ± {:.1f} % of the plates keep every limit ({}{}).{}{}",
+                     100 * yield.now.share, 100 * yield.now.error, join_names(tolerances),
+                     f.study.correlations.empty() ? "" : ", correlated as stated",
+                     broken_text(f.study, yield), gain_text(f.study, yield));
+}
+
+Json yield_json(const ResultFiles& f) {
+  if (!f.result.yield) return {};
+  const Yield& yield = *f.result.yield;
+  Json out{{"share", yield.now.share}, {"se", yield.now.error},
+           {"plates", yield.plates},   {"not_makeable", yield.not_makeable},
+           {"broken", Json::object()}, {"tolerances", Json::array()}};
+  for (std::size_t i = 0; i < yield.broken.size(); ++i) {
+    const Limited& on = f.study.constraints[i].on;
+    if (!std::holds_alternative<YieldLimit>(on)) out["broken"][limit_name(on)] = yield.broken[i];
+  }
+  for (std::size_t k = 0; k < yield.halved.size(); ++k) {
+    const Scatter& s = f.study.scatter[k];
+    out["tolerances"].push_back(
+        {{"name", s.path},
+         {"distribution", s.kind == Scatter::Kind::Normal ? "normal" : "uniform"},
+         {"tolerance", s.tolerance},
+         {"gain_of_half", {{"value", yield.halved[k].share}, {"se", yield.halved[k].error}}},
+         {"text", tolerance_text(f.study, k)}});
+  }
+  const auto most = yield.costliest();
+  out["costliest"] = most ? Json(f.study.scatter[*most].path) : Json();
+  out["said"] = yield_text(f);
+  return out;
+}
+
+}  // namespace papilla::report
