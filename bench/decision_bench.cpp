@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -22,6 +21,7 @@
 #include "search/levels.h"
 #include "search/run.h"
 #include "search/task.h"
+#include "tests/temporary.h"
 
 using namespace papilla::tests;
 
@@ -63,8 +63,7 @@ Study study_of(const std::string& file, int members) {
   if (!study.population.empty()) study.design.finger = study.population.front();
   study.population.clear();
   study.design.accuracy.level = AccuracyLevel::Draft;
-  const std::string path =
-      (std::filesystem::temp_directory_path() / "papilla_planted_belief.toml").string();
+  const std::string path = temporary("planted_belief.toml");
   std::ofstream(path) << belief_text(planted(study.design.finger, members));
   study.design.finger.belief = path;
   return study;

@@ -143,7 +143,7 @@ std::string decision_sentence(const ResultFiles& f) {
 
 std::string decision_text(const ResultFiles& f) {
   const Decision& d = decision_of(f);
-  if (f.result.finalists.empty() || !f.result.has_best()) return {};
+  if (!f.result.has_best() || (!d.made() && d.absent.empty())) return {};
   std::string out = "\n## Which of them, by belief\n\n";
   if (!d.made()) return out + fmt::format("By the numbers of the fit alone: {}.\n", d.absent);
   out += fmt::format(

@@ -208,7 +208,7 @@ std::string stability_text(const ResultFiles& f) {
   out += "\n";
   for (std::size_t i = 0; i < judged; ++i) {
     if (const std::string why = unstable_text(f, i); !why.empty())
-      out += "\n- " + f.result.finalists[i].folder + ":" + why;
+      out += "\n- " + design_name(f.result.finalists[i].folder) + ":" + why;
   }
   return out + "\n";
 }

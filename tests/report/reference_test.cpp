@@ -146,7 +146,7 @@ TEST(Reference, AWordOfTheFieldLeadsToItsKey) {
   EXPECT_EQ(refusal("qqqqqqqqqqqq"),
             "no section `qqqqqqqqqqqq`; known: texture, surface, view, finger, environment, drive, "
             "model, accuracy, study, metrics, persson, circuit, export, design_space, objective, "
-            "constraints, population, scenarios, scatter, search, base");
+            "constraints, population, scenarios, scatter, risk, search, base");
   EXPECT_EQ(refusal("texture.depht"), "no key `texture.depht`, did you mean `texture.depth`?");
   // A word of its own section before others: the surface is stiff, and so is the skin.
   EXPECT_EQ(refusal("surface.stiffness"),

@@ -45,7 +45,7 @@ TEST(JsonSchema, HasEverySectionAndNoOther) {
   }
   EXPECT_EQ(sections,
             (Texts{"accuracy", "base", "constraints", "design_space", "drive", "environment",
-                   "finger", "model", "objective", "population", "scatter", "scenarios",
+                   "finger", "model", "objective", "population", "risk", "scatter", "scenarios",
                    "schema_version", "search", "surface", "texture", "title", "view"}));
   frame.erase("properties"), frame.erase("$defs");
   EXPECT_EQ(frame, (Json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},

@@ -54,9 +54,12 @@ TEST(DecisionSlow, AHypothesisOverturnsTheOrderAndAKilledRunDecidesTheSame) {
     p += design.at("p_best").get<double>();
   EXPECT_NEAR(p, 1, 1e-9);
   ASSERT_EQ(decision.at("hypotheses").size(), 2u);
-  EXPECT_EQ(decision["hypotheses"][0].at("best"), decision.at("best"));
-  EXPECT_NE(decision["hypotheses"][1].at("best"), decision.at("best"));
-  EXPECT_NE(decision.at("overturned").dump().find("dry"), std::string::npos);
+  // On a dry skin it is another design than on a moist one, and what is said names the skin under
+  // which the choice is not the best.
+  const auto &moist = decision["hypotheses"][0], &dry = decision["hypotheses"][1];
+  EXPECT_NE(moist.at("best"), dry.at("best"));
+  const bool for_dry = dry.at("best") == decision.at("best");
+  EXPECT_NE(decision.at("overturned").dump().find(for_dry ? "moist" : "dry"), std::string::npos);
 
   // Stopped after the members of a first design, its last record torn.
   std::atomic<bool> stop{false};
