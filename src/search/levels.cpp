@@ -169,7 +169,7 @@ StudyCost study_cost(const Study& study) {
   out.tasks = static_cast<int>(problem.tasks().size());
   out.narrowed = narrowings(search);
   out.finalists = kFinalists + 1;
-  if (YieldModel::exists(study)) out.plates = kPlates;
+  if (YieldModel::exists(study)) out.plates = plates_of(study, true);
   const auto price = [&](std::size_t tasks, Stage stage) {
     return static_cast<double>(tasks) * task_price(problem, stage);
   };
@@ -182,6 +182,8 @@ StudyCost study_cost(const Study& study) {
                 price((1 + 2 * variables) * tasks, Stage::Sensitivity);
   if (problem.parameters_unknown().empty())
     out.seconds += price(designs_with_model_part(problem) * problem.nominal_tasks(), Stage::Steps);
+  out.seconds += yield_price(study, static_cast<std::size_t>(search.evaluations) + out.narrowed,
+                             out.finalists + 2 + kJudgedOnGrid);
   out.pixels = stage_fidelity(problem, Stage::Search).grid;
   out.feature = problem.smallest_feature();
   out.feature_pixels = out.feature * out.pixels / kWindow;
