@@ -173,7 +173,7 @@ StudyCost study_cost(const Study& study) {
   out.tasks = static_cast<int>(problem.tasks().size());
   out.narrowed = narrowings(search);
   out.finalists = kFinalists + 1;
-  if (YieldModel::exists(study)) out.plates = kPlates;
+  if (YieldModel::exists(study)) out.plates = plates_of(study, true);
   const auto price = [&](std::size_t tasks, Stage stage) {
     return static_cast<double>(tasks) * task_price(problem, stage);
   };
@@ -191,6 +191,8 @@ StudyCost study_cost(const Study& study) {
     out.belief_seconds = price(out.finalists * problem.nominal_tasks(), Stage::Belief);
     out.seconds += out.belief_seconds;
   }
+  out.seconds += yield_price(study, static_cast<std::size_t>(search.evaluations) + out.narrowed,
+                             out.finalists + 2 + kJudgedOnGrid);
   out.pixels = stage_fidelity(problem, Stage::Search).grid;
   out.feature = problem.smallest_feature();
   out.feature_pixels = out.feature * out.pixels / kWindow;

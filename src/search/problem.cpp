@@ -69,14 +69,14 @@ Score StudyProblem::score(const Design& design, const std::vector<TaskAnswer>& a
   Score out = score_of(scoring_, answers);
   if (!out.ok || !goals_.yield) return out;
   const bool confirmed = !out.samples.empty();
-  out.yield = YieldModel(study_, constraints_, scoring_)
-                  .share(design, out, confirmed ? kPlates : kPlatesOfASearch);
+  out.yield =
+      YieldModel(study_, constraints_, scoring_).share(design, out, plates_of(study_, confirmed));
   return out;
 }
 
 std::optional<Yield> StudyProblem::yield(const Design& design, const Score& score) const {
   if (!score.ok || !YieldModel::exists(study_)) return std::nullopt;
-  return YieldModel(study_, constraints_, scoring_).yield(design, score, kPlates);
+  return YieldModel(study_, constraints_, scoring_).yield(design, score, plates_of(study_, true));
 }
 
 std::string StudyProblem::parameters_unknown() const {

@@ -145,6 +145,11 @@ class PlateJudge {
   LimitedOverScatter over_scatter_;
 };
 
+bool limits_look(const Study& study) {
+  return std::any_of(study.constraints.begin(), study.constraints.end(),
+                     [](const Constraint& c) { return std::holds_alternative<LookLimit>(c.on); });
+}
+
 // Every sequence in turn.
 Deviations deviations_of(const Study& study, const ScatterLaw& law, std::size_t plates) {
   const auto first = kSequences * static_cast<std::uint64_t>(study.search.seed);
@@ -175,6 +180,21 @@ YieldShare share_of(const Verdicts& v) {
 }
 
 }  // namespace
+
+std::size_t plates_of(const Study& study, bool confirmed) {
+  return confirmed && !limits_look(study) ? kPlates : kFewPlates;
+}
+
+double yield_price(const Study& study, std::size_t searched, std::size_t confirmed) {
+  constexpr double kPlate = 1e-5, kLook = 1e-3;  // [s]
+  if (!YieldModel::exists(study)) return 0;
+  const bool limited =
+      std::any_of(study.constraints.begin(), study.constraints.end(),
+                  [](const Constraint& c) { return std::holds_alternative<YieldLimit>(c.on); });
+  std::size_t plates = plates_of(study, true) * (1 + study.scatter.size());  // of what is built
+  if (limited) plates += searched * kFewPlates + confirmed * plates_of(study, true);
+  return static_cast<double>(plates) * (limits_look(study) ? kLook : kPlate);
+}
 
 std::optional<std::size_t> Yield::costliest() const {
   const auto most =

@@ -11,8 +11,13 @@
 
 namespace papilla::search {
 
-// Plates of what is recommended, and of each design where a limit is on the yield.
-inline constexpr std::size_t kPlates = 10000, kPlatesOfASearch = 1000;
+inline constexpr std::size_t kPlates = 10000, kFewPlates = 1000;
+// Plates of a design: few below the confirmation, and where a limit is on the look, which takes a
+// millisecond a plate.
+std::size_t plates_of(const Study& study, bool confirmed);
+// Processor time of the yields of a study [s], of so many designs below the confirmation and
+// confirmed ones.
+double yield_price(const Study& study, std::size_t searched, std::size_t confirmed);
 
 struct Yield {
   YieldShare now;

@@ -173,6 +173,19 @@ TEST(Yield, AsALimitIsJudgedBesideTheDesignAsDrawn) {
   EXPECT_FALSE(without.feasible(linear(without, 0.54, {0.1}), strict.design));
 }
 
+// What is announced for a study has its plates; a look takes a millisecond, so that they are few.
+TEST(Yield, IsPricedByItsPlates) {
+  const std::string scatter = "[scatter]\n\"texture.depth\" = \"20 nm\"\n";
+  const Study none = study_with(kLimit), own = study_with(scatter + kLimit),
+              limited = study_with(scatter + kLimit + "yield = \"90 %\"\n"),
+              looks = study_with(scatter + "[constraints]\nhaze = \"10 %\"\n");
+  EXPECT_EQ(yield_price(none, 50, 9), 0);
+  EXPECT_DOUBLE_EQ(yield_price(own, 50, 9), 1e-5 * 2 * kPlates);
+  EXPECT_DOUBLE_EQ(yield_price(limited, 50, 9), 1e-5 * (11 * kPlates + 50 * kFewPlates));
+  EXPECT_DOUBLE_EQ(yield_price(looks, 50, 9), 1e-3 * 2 * kFewPlates);
+  EXPECT_EQ(plates_of(looks, true), kFewPlates);
+}
+
 // Nobody misses the depth of a texture that is not there.
 TEST(Yield, OfAFlatSurfaceDoesNotHangOnItsTexture) {
   const Study study = study_with("[scatter]\n\"texture.depth\" = \"20 nm\"\n" + kLimit);
