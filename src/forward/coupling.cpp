@@ -468,7 +468,10 @@ PatchResult settled_patch(const PatchProblem& problem, const Plan& given, const 
                           const UndrivenPatch& undriven, PatchStates& start) {
   Plan plan = given;
   plan.traction_solves = true;
-  const PatchSolver solver(problem, plan, fidelity);
+  // Its attractions count and not its area.
+  Fidelity loose = fidelity;
+  loose.contact_tolerance = std::max(fidelity.contact_tolerance, kBranchTolerance);
+  const PatchSolver solver(problem, plan, loose);
   UndrivenPatch closed = undriven;
   closed.result = undriven.dry_gap;
   closed.result.costs = {};
