@@ -2,7 +2,8 @@
 // thread at the level design, for the published samples, random scenes of every kind, and near
 // pull-in, where the voltage is a share of that at which the gap jumps shut; then the median of the
 // ratios. Run by hand:
-// ninja -C build equilibrium_bench && build/bench/equilibrium_bench 20 > results/bench/equilibrium.csv
+// ninja -C build equilibrium_bench && build/bench/equilibrium_bench 20 >
+// results/bench/equilibrium.csv
 #include <fmt/format.h>
 
 #include <cstdlib>

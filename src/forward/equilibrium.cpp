@@ -25,10 +25,18 @@ constexpr double kFalls = 0.02, kPastFold = 0.1;
 // States that are mixed; what they differ by counts where newer ones leave so much of its square.
 constexpr std::size_t kStates = 4;
 constexpr double kLeastNew = 1e-6;
+// What a step counts whose places cancel in the mean.
+constexpr double kOfMoves = 0.5;
 // What the mean counts beside the places: it closes the gap everywhere.
 constexpr double kMeanWeight = 100;
 
 double mean(const std::vector<double>& v) { return sum(v) / static_cast<double>(v.size()); }
+
+double mean_size(const std::vector<double>& v) {
+  double sizes = 0;
+  for (const double x : v) sizes += std::abs(x);
+  return sizes / static_cast<double>(v.size());
+}
 
 double product(const std::vector<double>& a, const std::vector<double>& b) {
   return dot(a, b) / static_cast<double>(a.size()) + kMeanWeight * mean(a) * mean(b);
@@ -46,10 +54,9 @@ std::vector<double> difference(std::vector<double> a, const std::vector<double>&
 }  // namespace
 
 std::vector<double> with_mean(std::vector<double> traction, double wanted) {
-  double sizes = 0;
-  for (const double t : traction) sizes += std::abs(t);
-  if (sizes == 0) return traction;
-  const double more = (wanted - mean(traction)) * static_cast<double>(traction.size()) / sizes;
+  const double size = mean_size(traction);
+  if (size == 0) return traction;
+  const double more = (wanted - mean(traction)) / size;
   for (double& t : traction) t += more * std::abs(t);
   return traction;
 }
@@ -103,7 +110,9 @@ EquilibriumSearch::Next EquilibriumSearch::found(std::vector<double> attraction)
   if (states_.size() > kStates) states_.erase(states_.begin());
   applied_ = mixed();
   const double step = mean(applied_) - a;
-  residual_ = std::abs(step) / total;
+  // The mean alone may pause while the shape is on its way.
+  const double moves = mean_size(difference(applied_, last().applied));
+  residual_ = std::max(std::abs(step), kOfMoves * moves) / total;
   if (residual_ <= tolerance_) return Next::Settled;
   if (moved > kPastFold * total && f_before > a_before && excess > 0 && a_before > 0 &&
       a / f < (1 - kFalls) * a_before / f_before)
