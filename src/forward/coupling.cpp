@@ -140,7 +140,9 @@ class PatchSolver {
                           fidelity_.contact_tolerance, out);
     } else {
       Closed closed = close(
-          {0, attraction(gap, patch.water, water, nullptr, out)}, expected, start.slope_off,
+          {std::vector<double>(plan_.grid.size()),
+           attraction(gap, patch.water, water, nullptr, out)},
+          expected, start.slope_off,
           [&](const Gap& at) {
             return attraction(at, rewet_timed(patch.water, at, water, out), water, nullptr, out);
           },
@@ -166,15 +168,7 @@ class PatchSolver {
   // What the gap of a state attracts with under the drive of the scene [Pa].
   std::vector<double> attracted(const UndrivenPatch& dry, const ContactSolution& state,
                                 PatchResult& out) const {
-    const Scene& scene = *problem_.scene;
-    const Gap gap{plan_.grid, state.gap};
-    const FieldProblem field = field_problem(scene, problem_.relative_humidity);
-    const WaterProperties driven =
-        water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
-    return attraction(gap,
-                      dry.result.volume > 0 ? rewet_timed(dry.water, gap, driven, out) : Wetting(),
-                      driven, &field, out)
-        .traction;
+    return driven(dry, drive_terms(), {plan_.grid, state.gap}, out).traction;
   }
 
   // start: in: of a nearby humidity; out: with the driven state of this one.
@@ -193,25 +187,22 @@ class PatchSolver {
       const ContactSolution& before = closes ? undriven.off : undriven.dry;
       if (before.gap.empty()) return out;
       const Gap gap{plan_.grid, before.gap};
-      const FieldProblem field = field_problem(scene, problem_.relative_humidity);
-      const WaterProperties driven =
-          water_properties(scene, driven_contact_angle(scene, problem_.relative_humidity));
-      const auto at = [&](const Gap& here) {
-        const bool wet = out.volume > 0;
-        return attraction(here, wet ? rewet_timed(undriven.water, here, driven, out) : Wetting(),
-                          driven, &field, out);
-      };
+      const DriveTerms terms = drive_terms();
+      const auto at = [&](const Gap& here) { return driven(undriven, terms, here, out); };
       Attraction found = at(gap);
       const ContactSolution expected = carried(undriven.off, start.off, start.on);
       if (closes) {
-        const double applied = mean(undriven.off.pressure) / softness_ - problem_.pressure;
-        Closed closed = close({applied, std::move(found)}, expected, start.slope_on, at, out);
+        const WaterProperties water = water_properties(scene, scene.surface.contact_angle);
+        Closed closed =
+            close({capillary_traction(undriven.water_off, gap, water).value, std::move(found)},
+                  expected, start.slope_on, at, out);
         on_state = std::move(closed.state);
         found = std::move(closed.last);
         start.slope_on = closed.slope;
       } else if (plan_.traction_solves) {
         on_state = contact(found.traction, &expected, fidelity_.contact_tolerance, out);
-        if (!on_state.gap.empty()) note_pull_in(gap, on_state, found.water, field, found.pull, out);
+        if (!on_state.gap.empty())
+          note_pull_in(gap, on_state, found.water, terms.field, found.pull, out);
       }
       if (out.volume > 0) {
         out.capillary_on = found.water.capillary_force;
@@ -301,23 +292,33 @@ class PatchSolver {
     return all;
   }
 
+  // The field of the drive, and water at the angle that it drives it to.
+  struct DriveTerms {
+    FieldProblem field;
+    WaterProperties water;
+  };
+  DriveTerms drive_terms() const {
+    const Scene& scene = *problem_.scene;
+    const double humidity = problem_.relative_humidity;
+    return {field_problem(scene, humidity),
+            water_properties(scene, driven_contact_angle(scene, humidity))};
+  }
+
+  // What a gap attracts with under the drive: the water is that of the dry gap.
+  Attraction driven(const UndrivenPatch& dry, const DriveTerms& terms, const Gap& gap,
+                    PatchResult& out) const {
+    return attraction(
+        gap, dry.result.volume > 0 ? rewet_timed(dry.water, gap, terms.water, out) : Wetting(),
+        terms.water, &terms.field, out);
+  }
+
   static double mean(const std::vector<double>& v) {
     return v.empty() ? 0 : sum(v) / static_cast<double>(v.size());
   }
 
-  // Tractions of this shape with another mean.
-  static std::vector<double> with_mean(std::vector<double> traction, double wanted) {
-    double sizes = 0;
-    for (const double t : traction) sizes += std::abs(t);
-    if (sizes == 0) return traction;
-    const double more = (wanted - mean(traction)) / (sizes / static_cast<double>(traction.size()));
-    for (double& t : traction) t += more * std::abs(t);
-    return traction;
-  }
-
   // A patch whose gap is closed by what it attracts with.
   struct Known {
-    double applied;  // mean attraction that closed the gap [Pa]
+    std::vector<double> applied;  // tractions that closed the gap [Pa]
     Attraction attraction;
   };
   struct Closed {
@@ -327,25 +328,22 @@ class PatchSolver {
   };
 
   // Eq. coupling.2: contact under attractions, gap, water and field until they attract with what
-  // presses. The tractions have the shape of the gap before, their mean is the search's. Early
-  // states are solved loosely.
+  // presses. Early states are solved loosely.
   template <class At>
   Closed close(Known first, const ContactSolution& expected, double slope, const At& at,
                PatchResult& out) const {
     constexpr double kFirst = 1e-2, kLater = 3e-3;  // tolerances of states that are not the last
     constexpr double kShortWay = 0.05;              // of the load: the first state is near the last
     constexpr double kFull = 0.9;
-    const double wanted = fidelity_.contact_tolerance;
-    EquilibriumSearch search(problem_.pressure, {first.applied, mean(first.attraction.traction)},
-                             slope, fidelity_.coupling_tolerance);
-    const bool near = std::abs(search.applied() - first.applied) < kShortWay * problem_.pressure;
+    const double wanted = fidelity_.contact_tolerance, before = mean(first.applied);
+    EquilibriumSearch search(problem_.pressure,
+                             {std::move(first.applied), first.attraction.traction}, slope,
+                             fidelity_.coupling_tolerance);
+    const bool near = std::abs(mean(search.applied()) - before) < kShortWay * problem_.pressure;
     double tolerance = near ? wanted : std::max(wanted, kFirst);
     Closed now{expected, std::move(first.attraction), slope};
-    TractionShape shape;
     for (int pass = 0; pass < fidelity_.coupling_passes; ++pass) {
-      const std::vector<double> traction =
-          with_mean(shape.expected(now.last.traction), search.applied());
-      now.state = contact(traction, &now.state, tolerance, out);
+      now.state = contact(search.applied(), &now.state, tolerance, out);
       if (now.state.gap.empty()) return now;
       const auto touching = std::count_if(now.state.pressure.begin(), now.state.pressure.end(),
                                           [](double p) { return p > 0; });
@@ -354,11 +352,11 @@ class PatchSolver {
         return now;
       }
       now.last = at(Gap{plan_.grid, now.state.gap});
-      const auto next = search.found(mean(now.last.traction));
+      const auto next = search.found(now.last.traction);
       now.slope = search.slope();
       if (next == EquilibriumSearch::Next::Settled) {
         out.coupling_residual = std::max(out.coupling_residual, search.residual());
-        if (tolerance > wanted) now.state = contact(traction, &now.state, wanted, out);
+        if (tolerance > wanted) now.state = contact(search.last().applied, &now.state, wanted, out);
         return now;
       }
       if (next == EquilibriumSearch::Next::Jumped) {
@@ -373,8 +371,7 @@ class PatchSolver {
     out.coupling_residual = std::max(out.coupling_residual, search.residual());
     if (search.residual() > kHeldByDroplets)
       out.status.note({Trouble::PassesUsedUp, static_cast<double>(fidelity_.coupling_passes), ""});
-    if (tolerance > wanted)
-      now.state = contact(with_mean(now.last.traction, search.applied()), &now.state, wanted, out);
+    if (tolerance > wanted) now.state = contact(search.applied(), &now.state, wanted, out);
     return now;
   }
 
@@ -471,7 +468,10 @@ PatchResult settled_patch(const PatchProblem& problem, const Plan& given, const 
                           const UndrivenPatch& undriven, PatchStates& start) {
   Plan plan = given;
   plan.traction_solves = true;
-  const PatchSolver solver(problem, plan, fidelity);
+  // Its attractions count and not its area.
+  Fidelity loose = fidelity;
+  loose.contact_tolerance = std::max(fidelity.contact_tolerance, kBranchTolerance);
+  const PatchSolver solver(problem, plan, loose);
   UndrivenPatch closed = undriven;
   closed.result = undriven.dry_gap;
   closed.result.costs = {};

@@ -8,47 +8,43 @@
 
 namespace papilla::forward {
 
-// Seeks the mean attraction a that the gap which it closes attracts with: F(a) = a, on the branch
-// that rises from a = 0. F is known where it is asked for: each state is a contact under a, whose
-// gap gives F. A secant on the residual F - a, which stays below the root where F bends upwards,
-// as it does for a closing gap.
+// Tractions of this shape with another mean; all of them 0: no shape.
+std::vector<double> with_mean(std::vector<double> traction, double wanted);
+
+// Seeks the tractions t that the gap which they close attracts with: T(t) = t, on the branch that
+// rises from t = 0. T is known where it is asked for: each state is a contact under t, whose gap
+// gives T. What the states found so far would attract with where their residuals T - t cancel best
+// is asked for next (Anderson), with bounds on the mean. Eq. coupling.15
 class EquilibriumSearch {
  public:
   enum class Next {
     Ask,      // solve the state of applied()
-    Settled,  // a is the equilibrium to the tolerance
-    Jumped,   // F > a and a/F falls: the voltage of a smaller gap is lower, it jumps shut
+    Settled,  // t is the equilibrium to the tolerance
+    Jumped,   // the mean T > t and t/T falls: the voltage of a smaller gap is lower, it jumps shut
   };
 
-  struct Answer {
-    double applied = 0, attraction = 0;  // a, F(a)
+  struct State {
+    std::vector<double> applied, attraction;  // t, T(t) [Pa], as many as there are places
   };
-  // load: what presses without attraction, > 0; first: a state that is known, below the
-  // equilibrium; slope: dF/da as far as it is known of a neighbour (0: unknown); tolerance: of a,
-  // relative to load + a.
-  EquilibriumSearch(double load, const Answer& first, double slope, double tolerance);
+  // load: what presses without attraction, > 0 [Pa]; first: a state that is known, below the
+  // equilibrium; slope: dT/dt of the means as far as it is known of a neighbour (0: unknown);
+  // tolerance: of t, relative to load + T.
+  EquilibriumSearch(double load, State first, double slope, double tolerance);
 
-  double applied() const { return applied_; }  // the next to be asked for
-  Next found(double attraction);               // F(applied())
+  const std::vector<double>& applied() const { return applied_; }  // the next to be asked for
+  Next found(std::vector<double> attraction);                      // T(applied())
+  const State& last() const { return states_.back(); }             // the last that was found
 
-  // Distance to the equilibrium after the last answer, relative to load + a.
+  // Distance to the equilibrium after the last answer, relative to load + T.
   double residual() const { return residual_; }
-  double slope() const { return slope_; }  // dF/da of the last two answers
+  double slope() const { return slope_; }  // dT/dt of the means of the last two answers
 
  private:
-  double load_, tolerance_, applied_, slope_, residual_ = 1;
-  Answer last_;
-};
+  std::vector<double> mixed() const;
 
-// Where the shape of the tractions is going from state to state: spots beside contact close over
-// several of them, each time by about the same share of the way before (Aitken). Eq. coupling.15
-class TractionShape {
- public:
-  // The newest tractions [Pa] at the end of their way; nowhere more than twice as strong.
-  std::vector<double> expected(const std::vector<double>& traction);
-
- private:
-  std::vector<double> last_, step_;  // tractions over their mean, and how they moved
+  double load_, tolerance_, slope_, residual_ = 1;
+  std::vector<State> states_;  // the newest last
+  std::vector<double> applied_;
 };
 
 }  // namespace papilla::forward

@@ -136,6 +136,9 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
     double missing = kOtherToLimit, scatter = 0;
     if (to_limit) missing *= kUnknownShare;
     if (quantity == GridLaw::Pull) missing = kPullToLimit;
+    // In equilibrium the pull falls by about as much with every octave of the skin.
+    if (quantity == GridLaw::Pull || quantity == GridLaw::Modulation)
+      missing *= std::max(runs.octaves, 1.0);
     if (quantity == GridLaw::Area) {
       const double step = grid_error(out.halving);
       const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));

@@ -98,6 +98,26 @@ AttractionLaw attraction_law(std::span<const AttractionSample> samples) {
   return law;
 }
 
+SolvedPatch over_members(std::span<const WaterMember> members, const Plan& plan,
+                         const Fidelity& fidelity, PatchStates* start,
+                         const std::function<PatchProblem(const WaterMember&)>& problem,
+                         const std::function<DrivenPatch(const PatchProblem&)>& drive) {
+  SolvedPatch out;
+  std::vector<PatchResult> of_water;
+  for (const WaterMember& member : members) {
+    const PatchProblem of_member = problem(member);
+    const DrivenPatch driven = drive(of_member);
+    of_water.push_back(driven.result);
+    if (start && of_water.size() == 1 && driven.before && !driven.before->dry.gap.empty()) {
+      out.sample = AttractionSample{
+          driven.result, settled_patch(of_member, plan, fidelity, *driven.before, *start)};
+    }
+  }
+  out.result = over_water(of_water);
+  if (out.sample) out.result.costs += out.sample->settled.costs;
+  return out;
+}
+
 LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<SolvedPatch>> skins) {
   LoadLaws laws;
   for (std::size_t q = 0; q < bridge.pressures().size(); ++q) {

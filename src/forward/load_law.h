@@ -2,6 +2,7 @@
 // patch grow as they close its gap, measured on a few patches of the same scene.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -47,6 +48,17 @@ struct SolvedPatch {
   PatchResult result;
   std::optional<AttractionSample> sample;
 };
+// A patch under its drive, and what it was before; null: nothing to settle.
+struct DrivenPatch {
+  PatchResult result;
+  const UndrivenPatch* before = nullptr;
+};
+// Over the water of the skin. start: given where the first water is to be a sample: states of a
+// nearby humidity, as of `settled_patch`.
+SolvedPatch over_members(std::span<const WaterMember> members, const Plan& plan,
+                         const Fidelity& fidelity, PatchStates* start,
+                         const std::function<PatchProblem(const WaterMember&)>& problem,
+                         const std::function<DrivenPatch(const PatchProblem&)>& drive);
 // By the samples among the skins, at each patch pressure of the bridge.
 LoadLaws load_laws(const ScaleBridge& bridge, std::span<const std::vector<SolvedPatch>> skins);
 // Of each skin one result over the patch pressures; laws: of them, or none.

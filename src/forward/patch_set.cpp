@@ -38,36 +38,27 @@ class SkinRun {
   std::vector<SolvedPatch> at(std::size_t i, bool sample) {
     const double humidity = setup_.scene().environment.relative_humidity[i];
     std::vector<SolvedPatch> patches;
-    std::vector<PatchResult> of_water;
     for (const double pressure : set_.bridges[i].pressures()) {
-      SolvedPatch& patch = patches.emplace_back();
-      of_water.clear();
-      for (const WaterMember& member : members_) {
-        PatchProblem problem = setup_.problem(height_, *kernels_[i], humidity, pressure, member);
-        problem.field_correction = set_.field[i].correction;
-        Starts& start = start_[patches.size() - 1];
-        const bool settles = sample && of_water.empty();
-        UndrivenPatch before_drive;
-        of_water.push_back(kept_
-                               ? solve_kept(problem, start.given, before_drive)
-                               : solve_patch(problem, setup_.plan(), setup_.fidelity(), start.given,
-                                             nullptr, settles ? &before_drive : nullptr));
-        if (settles && !before_drive.dry.gap.empty()) {
-          patch.sample = AttractionSample{of_water.back(),
-                                          settled_patch(problem, setup_.plan(), setup_.fidelity(),
-                                                        before_drive, start.settled)};
-        }
-      }
-      patch.result = over_water(of_water);
-      if (patch.sample) patch.result.costs += patch.sample->settled.costs;
+      Starts& start = start_[patches.size()];
+      patches.push_back(over_members(
+          members_, setup_.plan(), setup_.fidelity(), sample ? &start.settled : nullptr,
+          [&](const WaterMember& member) {
+            PatchProblem problem =
+                setup_.problem(height_, *kernels_[i], humidity, pressure, member);
+            problem.field_correction = set_.field[i].correction;
+            return problem;
+          },
+          [&](const PatchProblem& problem) {
+            return kept_ ? solve_kept(problem, start.given)
+                         : solve_new(problem, start.given, sample);
+          }));
     }
     return patches;
   }
 
  private:
   // The patch that comes next in the order of the run, from what is kept of it.
-  PatchResult solve_kept(const PatchProblem& problem, PatchStates& start,
-                         UndrivenPatch& before_drive) {
+  DrivenPatch solve_kept(const PatchProblem& problem, PatchStates& start) {
     const bool is_new = next_ == kept_->patches.size();
     if (is_new) kept_->patches.emplace_back();
     UndrivenPatch& patch = kept_->patches[next_++];
@@ -79,8 +70,14 @@ class SkinRun {
       patch.dry_gap.costs = {};  // of the run before
     }
     start.dry = patch.dry.gap.empty() ? ContactSolution() : patch.dry;
-    before_drive = patch;
-    return drive_patch(problem, setup_.plan(), setup_.fidelity(), patch);
+    return {drive_patch(problem, setup_.plan(), setup_.fidelity(), patch), &patch};
+  }
+
+  // samples: what it was before the drive is asked for.
+  DrivenPatch solve_new(const PatchProblem& problem, PatchStates& start, bool samples) {
+    return {solve_patch(problem, setup_.plan(), setup_.fidelity(), start, nullptr,
+                        samples ? &before_ : nullptr),
+            samples ? &before_ : nullptr};
   }
 
   const PatchSetup& setup_;
@@ -94,6 +91,7 @@ class SkinRun {
     PatchStates given, settled;
   };
   std::vector<Starts> start_;  // one per patch pressure
+  UndrivenPatch before_;       // of the last patch
 };
 
 // What grid and method add to the last point, which is that of all skins.

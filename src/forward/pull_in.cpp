@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "forward/coupling.h"
 #include "forward/electric_path.h"
+#include "forward/field_ratio.h"
 #include "forward/patch_setup.h"
 #include "forward/scale_bridge.h"
 #include "forward/scene_terms.h"
@@ -114,15 +115,20 @@ PullIn pull_in(const Scene& scene, const Texture& texture, const Fidelity& given
                               .mean_pressure();
   PAPILLA_CHECK(scene.drive.driven(), "a driven scene");
   if (!(pressure > 0)) return {{0, {}}, 1};
+  Scene here = scene;
+  here.environment.relative_humidity = {relative_humidity};
+  here.environment.weights.clear();
+  const FieldRatio field = field_ratios(here, texture, given).front();
   const int skins = std::min(std::max(fidelity.equilibrium_skins, 1), fidelity.skins);
   std::vector<Fold> folds(static_cast<std::size_t>(skins));
   parallel_for(
       skins,
       [&](int k) {
         const std::vector<double> height = setup.height(setup.skin(k));
-        Branch branch(setup.problem(height, *kernel, relative_humidity, pressure,
-                                    {1, water_stream(fidelity.first_skin + k, 0)}),
-                      setup.plan(), fidelity);
+        PatchProblem problem = setup.problem(height, *kernel, relative_humidity, pressure,
+                                             {1, water_stream(fidelity.first_skin + k, 0)});
+        problem.field_correction = field.correction;
+        Branch branch(problem, setup.plan(), fidelity);
         folds[static_cast<std::size_t>(k)] = fold_of(branch, pressure);
       },
       fidelity.threads);
@@ -134,6 +140,8 @@ PullIn pull_in(const Scene& scene, const Texture& texture, const Fidelity& given
   }
   const Estimate mean = mean_estimate(margins);
   out.margin = {mean.value, {.sampling = skins > 1 ? mean.se : 0}};
+  // The pull goes with the square of the voltage.
+  if (field.error) out.margin.parts.field = 0.5 * *field.error * mean.value;
   return out;
 }
 

@@ -72,25 +72,22 @@ ResponsePoint UndrivenPatches::drive(double amplitude, Estimator estimator) cons
   parallel_for(
       std::max(fidelity.skins, samples),
       [&](int k) {
-        std::vector<PatchResult> of_water;
-        std::size_t at = 0;
+        auto before = patches_[k].begin();
         for (const double pressure : pressures_) {
-          SolvedPatch& patch = solved[k].emplace_back();
-          of_water.clear();
-          for (const WaterMember& member : setup_->water_members(k)) {
-            PatchProblem problem =
-                setup_->problem(height_[k], *kernel_, humidity(), pressure, member);
-            problem.scene = &scene;
-            problem.field_correction = field_.front().correction;
-            const UndrivenPatch& before = patches_[k][at++];
-            of_water.push_back(drive_patch(problem, plan, fidelity, before));
-            if (k < samples && of_water.size() == 1 && !before.dry.gap.empty()) {
-              PatchStates start;
-              patch.sample = AttractionSample{
-                  of_water.back(), settled_patch(problem, plan, fidelity, before, start)};
-            }
-          }
-          patch.result = over_water(of_water);
+          PatchStates start;
+          solved[k].push_back(over_members(
+              setup_->water_members(k), plan, fidelity, k < samples ? &start : nullptr,
+              [&](const WaterMember& member) {
+                PatchProblem problem =
+                    setup_->problem(height_[k], *kernel_, humidity(), pressure, member);
+                problem.scene = &scene;
+                problem.field_correction = field_.front().correction;
+                return problem;
+              },
+              [&](const PatchProblem& problem) {
+                const UndrivenPatch& patch = *before++;
+                return DrivenPatch{drive_patch(problem, plan, fidelity, patch), &patch};
+              }));
         }
       },
       fidelity.threads);

@@ -21,11 +21,11 @@ struct Found {
 };
 Found sought(double load, const std::function<double(double)>& law, double slope = 0,
              double tolerance = 1e-3) {
-  EquilibriumSearch search(load, {0, law(0)}, slope, tolerance);
+  EquilibriumSearch search(load, {{0}, {law(0)}}, slope, tolerance);
   Found out;
   for (out.asked = 1; out.asked <= 60; ++out.asked) {
-    out.applied = search.applied();
-    out.end = search.found(law(out.applied));
+    out.applied = search.applied().front();
+    out.end = search.found({law(out.applied)});
     if (out.end != Next::Ask) break;
   }
   return out;

@@ -27,8 +27,10 @@ Fidelity small() {
   return f;
 }
 
+// In one pass, as the bounds are.
 Scene scene_at(int index, Texture& texture) {
   Scene scene = random_scene(index, texture);
+  scene.model.coupling = Coupling::OnePass;
   scene.environment.relative_humidity.resize(1);
   return scene;
 }

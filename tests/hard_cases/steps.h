@@ -40,11 +40,7 @@ inline std::optional<Numbers> numbers(const Line& line, double t, const Fidelity
   const std::optional<Design> design = line.at(t);
   if (!design || !problems(design->texture).empty()) return std::nullopt;
   try {
-    // In one pass: an equilibrium adds what droplets do that bridge the closed gap of the two skins
-    // of its load law, steps of up to 2.4 % (docs/measured/hard_cases.md), which are no rule's.
-    Scene scene = scene_of(*design);
-    scene.model.coupling = Coupling::OnePass;
-    const Response r = evaluate(scene, design->texture, fidelity);
+    const Response r = evaluate(scene_of(*design), design->texture, fidelity);
     for (const ResponsePoint& p : r.points)
       if (p.oxide_margin < 1) return std::nullopt;  // breaks down: a film nearly cut through
     const auto of = [&](Summary summary, const Metric& metric) {

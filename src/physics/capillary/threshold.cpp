@@ -11,44 +11,54 @@
 namespace papilla::capillary {
 namespace {
 
-// The smallest gaps that hold `wanted` (sum of gaps); the last pixel counts as a fraction.
-struct Level {
-  double height;  // gap of the last pixel taken
-  double pixels;  // how many are wet, with the fraction
-};
+// Water that fills the smallest gaps: how many it takes for a volume.
+class Filling {
+ public:
+  // One pass sorts into bins by height; only bins in which a level lies are sorted.
+  explicit Filling(const std::vector<double>& gaps) : gaps_(gaps), sum_(kBins), count_(kBins) {
+    scale_ = kBins / *std::max_element(gaps.begin(), gaps.end());
+    for (double h : gaps) {
+      const int b = bin_of(h);
+      sum_[b] += h;
+      ++count_[b];
+    }
+  }
 
-Level find_level(const std::vector<double>& gaps, double wanted) {
-  // One pass sorts into bins by height; only the bin in which the level lies is sorted.
-  constexpr int kBins = 4096;
-  const double top = *std::max_element(gaps.begin(), gaps.end());
-  const double scale = kBins / top;
-  const auto bin_of = [&](double h) { return std::min(static_cast<int>(h * scale), kBins - 1); };
-  std::vector<double> sum(kBins, 0.0);
-  std::vector<int> count(kBins, 0);
-  for (double h : gaps) {
-    const int b = bin_of(h);
-    sum[b] += h;
-    ++count[b];
+  struct Level {
+    double height = 0;  // gap of the last pixel taken
+    double pixels = 0;  // how many are wet; the last one counts as a fraction
+  };
+  // volume: sum of gaps, below that of all.
+  Level level(double volume) const {
+    double below = 0, pixels = 0;
+    int bin = 0;
+    while (bin + 1 < kBins && below + sum_[bin] <= volume) {
+      below += sum_[bin];
+      pixels += count_[bin];
+      ++bin;
+    }
+    std::vector<double> inside;
+    for (double h : gaps_) {
+      if (bin_of(h) == bin) inside.push_back(h);
+    }
+    std::sort(inside.begin(), inside.end());
+    for (double h : inside) {
+      if (below + h > volume) return {h, pixels + (volume - below) / h};
+      below += h;
+      pixels += 1;
+    }
+    return {inside.empty() ? kBins / scale_ : inside.back(), pixels};  // rounding: all of it
   }
-  double below = 0, pixels = 0;
-  int bin = 0;
-  while (bin + 1 < kBins && below + sum[bin] <= wanted) {
-    below += sum[bin];
-    pixels += count[bin];
-    ++bin;
-  }
-  std::vector<double> inside;
-  for (double h : gaps) {
-    if (bin_of(h) == bin) inside.push_back(h);
-  }
-  std::sort(inside.begin(), inside.end());
-  for (double h : inside) {
-    if (below + h > wanted) return {h, pixels + (wanted - below) / h};
-    below += h;
-    pixels += 1;
-  }
-  return {inside.empty() ? top : inside.back(), pixels};  // rounding: all of it
-}
+
+ private:
+  static constexpr int kBins = 4096;
+  int bin_of(double h) const { return std::min(static_cast<int>(h * scale_), kBins - 1); }
+
+  const std::vector<double>& gaps_;
+  std::vector<double> sum_;
+  std::vector<int> count_;
+  double scale_ = 0;
+};
 
 }  // namespace
 
@@ -69,9 +79,14 @@ Wetting fill_threshold(const Gap& gap, double bridge_volume, const WaterProperti
     out.bridges = 1;
     return out;
   }
-  const Level level = find_level(gap.value, wanted);
+  const Filling filling(gap.value);
+  const Filling::Level level = filling.level(wanted);
+  // The pull of the film closes the gap inside its edge and not outside: on the pixels of a grid no
+  // gap lies between, and the gap of the last pixel taken would step from one side to the other.
+  constexpr double kWindow = 0.1;  // of the volume, either way
+  const double less = (1 - kWindow) * wanted, more = std::min((1 + kWindow) * wanted, total);
   Film film;
-  film.height = level.height;
+  film.height = (more - less) / (filling.level(more).pixels - filling.level(less).pixels);
   film.area = level.pixels * g.pixel_area();
   film.wet.resize(g.size());
   for (std::size_t i = 0; i < g.size(); ++i) film.wet[i] = gap.value[i] <= level.height ? 1 : 0;
