@@ -127,8 +127,9 @@ Estimate variation(FingerModel& model, const char* sample, double angle) {
 std::vector<PublishedTarget> printed_numbers() {
   std::vector<PublishedTarget> out;
   for (PublishedTarget& target : published_targets()) {
-    // Trends have no number of the paper's; the gap is another paper's.
-    const bool words = target.claim == "M9" || target.claim == "M10" || target.claim == kGapTarget;
+    // Trends have no number of the paper's; gap and friction are of other papers.
+    const bool words = target.claim == "M9" || target.claim == "M10" ||
+                       target.claim == kGapTarget || target.claim == kFrictionTarget;
     if (!words) out.push_back(std::move(target));
   }
   out.push_back({"M14", "sd/mean of the modulation over humidity, flat 50°, %", 27.3, 27.3, 5,

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "base/constants.h"
 #include "base/random.h"
@@ -156,6 +157,38 @@ TEST(Posterior, IntervalsHoldPlantedTruths) {
   EXPECT_LE(by_members, 0.99 * all);
 }
 
+// Thirteen numbers and a curved valley: draws that are thinned by the quadratics of what was
+// answered are worth a third of their number, where those of the bells alone are worth a twentieth.
+TEST(Posterior, OfManyNumbersFewSamplesAreWorthMany) {
+  constexpr int kNumbers = 13;
+  std::vector<FitParameter> parameters;
+  for (int i = 0; i < kNumbers; ++i) {
+    parameters.push_back({.name = "p" + std::to_string(i),
+                          .start = 0,
+                          .low = -10,
+                          .high = 10,
+                          .prior = 0,
+                          .prior_sd = 1,
+                          .step = 1e-3});
+  }
+  const auto misses = [](std::span<const double> p, std::span<double> r) {
+    for (std::size_t i = 0; i < 6; ++i)
+      r[i] = 2 * (p[i] + p[i + 1] + 0.25 * square(p[i + 2])) - 0.3 * static_cast<double>(i);
+    return true;
+  };
+  const Posterior p = sample_posterior(parameters, 6, misses, known(120));
+  EXPECT_GT(p.effective, 40);
+  // A number that no datum depends on keeps its prior.
+  const std::vector<double> values = values_of(p, 12), weights = weights_of(p);
+  double mean = 0, squares = 0;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    mean += weights[k] * values[k];
+    squares += weights[k] * square(values[k]);
+  }
+  EXPECT_NEAR(mean, 0, 4 / std::sqrt(p.effective));
+  EXPECT_NEAR(squares, 1, 4 * std::sqrt(2 / p.effective));
+}
+
 TEST(Posterior, IsTheSameTwiceAndMovesWithItsSeed) {
   const Linear model(3);
   const auto of = [&](std::uint64_t seed) {
@@ -190,7 +223,7 @@ TEST(Posterior, OfNoDataIsTheRange) {
 // The rows 0 and 1 of a linear model, left out together: a normal density in closed form.
 TEST(Posterior, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
   const Linear model(5);
-  const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(20000));
+  const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(60000));
   const LeftOut left = leave_out(p.samples, 1, {{0, 1}, {2, 3, 4, 5}}, {0, 0});
   const Eigen::MatrixXd others = model.a.bottomRows(4), own = model.a.topRows(2);
   const Eigen::MatrixXd c =
