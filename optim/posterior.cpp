@@ -28,8 +28,10 @@ constexpr double kFlatPrecision = 0.25;
 constexpr double kSameValley = 1;
 // Draws outside of the bounds, and those that are thinned out, are drawn again, so often at most.
 constexpr int kMostRedraws = 1000000;
-// Of the samples: each is thinned by all that was answered before it.
-constexpr int kStages = 4;
+// Samples of a stage, which are thinned by all that was answered before them: at least, and as a
+// share of those before. More samples so begin with the same ones.
+constexpr int kStage = 12;
+constexpr double kStageShare = 1.0 / 3;
 // Draws that the thinning of a stage is set by; the share of the guess's weight that its cap
 // leaves; the share of samples that no guess has thinned.
 constexpr int kPilot = 20000;
@@ -295,12 +297,12 @@ class Sampler {
   }
 
   void draw() {
-    for (int stage = 0; stage < kStages; ++stage) {
-      const int begin = options_.samples * stage / kStages,
-                end = options_.samples * (stage + 1) / kStages;
-      if (begin == end) continue;
+    for (int stage = 0, begin = 0; begin < options_.samples; ++stage) {
+      const int most = std::max(kStage, static_cast<int>(begin * kStageShare));
+      const int end = std::min(begin + most, options_.samples);
       stages_.push_back({end - begin, thinning(stage)});
       for (int k = begin; k < end; ++k) draw(k, stages_.back().second);
+      begin = end;
     }
     weigh();
   }
