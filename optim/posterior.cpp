@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/check.h"
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/random.h"
+#include "optim/row_quadratics.h"
 #include "optim/trust_region.h"
 
 namespace papilla::optim {
@@ -24,8 +26,18 @@ constexpr int kFreedom = 7;
 constexpr double kFlatPrecision = 0.25;
 // Minima closer than this, squared in standard deviations of the better one, are one valley.
 constexpr double kSameValley = 1;
-// Draws outside of the bounds are drawn again, so often at most.
-constexpr int kMostRedraws = 1000;
+// Draws outside of the bounds, and those that are thinned out, are drawn again, so often at most.
+constexpr int kMostRedraws = 1000000;
+// Samples of a stage, which are thinned by all that was answered before them: at least, and as a
+// share of those before. More samples so begin with the same ones.
+constexpr int kStage = 12;
+constexpr double kStageShare = 1.0 / 3;
+// Draws that the thinning of a stage is set by; the share of the guess's weight that its cap
+// leaves; the share of samples that no guess has thinned.
+constexpr int kPilot = 20000;
+constexpr double kUncapped = 0.9, kUnthinned = 0.15;
+// Sums of squares above the least one, in variance factors, that double the noise of a trial.
+constexpr double kFarTrial = 20;
 
 // A Student distribution around a minimum, in the coordinates of the fit.
 struct Bell {
@@ -51,23 +63,29 @@ struct Bell {
   }
 };
 
-double sum_exp(const std::vector<double>& logarithms, double& largest) {
-  largest = -kInfinity;
-  for (const double v : logarithms) largest = std::max(largest, v);
-  double sum = 0;
-  for (const double v : logarithms) sum += std::exp(v - largest);
-  return sum;
-}
+// How the draws of a stage are thinned.
+struct Thinning {
+  RowQuadratics guess;
+  double log_cap = 0;  // of guessed posterior over proposal: kept for certain from here on
+  double floor = 0;    // least probability that a draw is kept
+  double mean = 1;     // probability that a draw is kept
+};
 
 class Sampler {
  public:
   Sampler(const std::vector<FitParameter>& parameters, int residuals,
-          const ResidualFunction& function, const PosteriorOptions& options)
+          const ResidualFunction& function, const PosteriorOptions& options,
+          std::vector<PosteriorTrial> trials)
       : parameters_(parameters),
         coordinates_(parameters),
         residuals_(residuals),
-        function_(function),
-        options_(options) {}
+        options_(options),
+        trials_(std::move(trials)),
+        function_([this, &function](std::span<const double> p, std::span<double> r) {
+          if (!function(p, r)) return false;
+          trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
+          return true;
+        }) {}
 
   Posterior run(const LeastSquaresFit* first) {
     find_minima(first);
@@ -175,9 +193,8 @@ class Sampler {
     }
     std::vector<double> logs;
     for (const Bell& b : bells_) logs.push_back(b.log_weight);
-    double largest = 0;
-    const double sum = sum_exp(logs, largest);
-    for (Bell& b : bells_) b.log_weight -= largest + std::log(sum);
+    const double all = log_sum(logs);
+    for (Bell& b : bells_) b.log_weight -= all;
   }
 
   bool inside(const Eigen::VectorXd& x) const {
@@ -189,55 +206,156 @@ class Sampler {
     return true;
   }
 
-  void draw() {
-    for (int k = 0; k < options_.samples; ++k) {
-      RandomStream random(options_.seed, "posterior sample", static_cast<std::uint64_t>(k));
-      Eigen::VectorXd x;
-      int tries = 0;
-      do {
-        double left = random.uniform();
-        std::size_t b = 0;
-        while (b + 1 < bells_.size() && left >= std::exp(bells_[b].log_weight))
-          left -= std::exp(bells_[b++].log_weight);
-        x = bells_[b].draw(random);
-      } while (!inside(x) && ++tries < kMostRedraws);
-      if (!inside(x)) continue;
-      add(x);
-      if ((k + 1) % 10 == 0) note(fmt::format("sample {} of {}", k + 1, options_.samples));
-    }
-  }
-
-  // Posterior over proposal. Eq. calibration.8
-  void add(const Eigen::VectorXd& x) {
-    PosteriorSample s;
+  double log_prior(const Eigen::VectorXd& x) const {
     double sum = 0;
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
-      const double v = x(static_cast<Eigen::Index>(i));
-      s.values.push_back(coordinates_.from(i, v));
-      if (coordinates_.has_prior(i)) sum += square(coordinates_.prior_residual(i, v));
+      if (coordinates_.has_prior(i))
+        sum += square(coordinates_.prior_residual(i, x(static_cast<Eigen::Index>(i))));
     }
+    return -sum / (2 * out_.variance_factor);
+  }
+
+  // Where a point lies from the best minimum, in standard deviations by its bell.
+  Eigen::VectorXd from_best(const Eigen::VectorXd& x) const {
+    return bells_.front().root.transpose() * (x - bells_.front().middle);
+  }
+
+  std::vector<double> log_proposals(const Eigen::VectorXd& x) const {
+    std::vector<double> out;
+    for (const Bell& b : bells_) out.push_back(b.log_weight + b.log_density(x));
+    return out;
+  }
+
+  double log_proposal(const Eigen::VectorXd& x) const { return log_sum(log_proposals(x)); }
+
+  Eigen::VectorXd propose(RandomStream& random) const {
+    double left = random.uniform();
+    std::size_t b = 0;
+    while (b + 1 < bells_.size() && left >= std::exp(bells_[b].log_weight))
+      left -= std::exp(bells_[b++].log_weight);
+    return bells_[b].draw(random);
+  }
+
+  // The model's answers so far as quadratics. Eq. calibration.11
+  std::optional<RowQuadratics> guess() const {
+    std::vector<Eigen::VectorXd> points;
+    std::vector<std::vector<double>> residuals;
+    std::vector<double> sums;
+    double least = kInfinity;
+    for (const PosteriorTrial& trial : trials_) {
+      const Eigen::VectorXd x = coordinates(trial.values);
+      double sum = -2 * out_.variance_factor * log_prior(x);
+      for (const double r : trial.residuals) sum += square(r);
+      if (!std::isfinite(sum)) continue;
+      points.push_back(from_best(x));
+      residuals.push_back(trial.residuals);
+      sums.push_back(sum);
+      least = std::min(least, sum);
+    }
+    if (points.empty()) return {};
+    for (double& sum : sums) sum = 1 + (sum - least) / (kFarTrial * out_.variance_factor);
+    return RowQuadratics(points, residuals, sums);
+  }
+
+  // Guessed posterior over proposal.
+  double log_guess(const RowQuadratics& guess, const Eigen::VectorXd& x) const {
+    return guess.log_likelihood(from_best(x), out_.variance_factor) + log_prior(x) -
+           log_proposal(x);
+  }
+
+  double kept(const Thinning& t, const Eigen::VectorXd& x) const {
+    return std::max(t.floor, std::exp(std::min(0.0, log_guess(t.guess, x) - t.log_cap)));
+  }
+
+  std::optional<Thinning> thinning(int stage) const {
+    std::optional<RowQuadratics> by = guess();
+    if (!by) return {};
+    RandomStream random(options_.seed, "posterior pilot", static_cast<std::uint64_t>(stage));
+    std::vector<double> logs;
+    for (int k = 0; k < kPilot; ++k) {
+      const Eigen::VectorXd x = propose(random);
+      if (inside(x)) logs.push_back(log_guess(*by, x));
+    }
+    if (logs.empty()) return {};
+    std::sort(logs.begin(), logs.end(), std::greater<>());
+    // The cap whose draws above it lose a share of all weight.
+    const double largest = logs.front(), all = std::exp(log_sum(logs) - largest);
+    double above = 0;
+    std::size_t cut = 0;
+    for (; cut + 1 < logs.size(); ++cut) {
+      above += std::exp(logs[cut] - largest);
+      const double lost = above - static_cast<double>(cut + 1) * std::exp(logs[cut + 1] - largest);
+      if (lost > (1 - kUncapped) * all) break;
+    }
+    Thinning out{std::move(*by), logs[cut], 0, 0};
+    const auto count = static_cast<double>(logs.size());
+    for (const double v : logs) out.floor += std::exp(std::min(0.0, v - out.log_cap)) / count;
+    out.floor *= kUnthinned;
+    for (const double v : logs)
+      out.mean += std::max(out.floor, std::exp(std::min(0.0, v - out.log_cap))) / count;
+    return out;
+  }
+
+  void draw() {
+    for (int stage = 0, begin = 0; begin < options_.samples; ++stage) {
+      const int most = std::max(kStage, static_cast<int>(begin * kStageShare));
+      const int end = std::min(begin + most, options_.samples);
+      stages_.push_back({end - begin, thinning(stage)});
+      for (int k = begin; k < end; ++k) draw(k, stages_.back().second);
+      begin = end;
+    }
+    weigh();
+  }
+
+  void draw(int k, const std::optional<Thinning>& thinned) {
+    RandomStream random(options_.seed, "posterior sample", static_cast<std::uint64_t>(k));
+    for (int tries = 0; tries < kMostRedraws; ++tries) {
+      const Eigen::VectorXd x = propose(random);
+      if (!inside(x) || (thinned && random.uniform() >= kept(*thinned, x))) continue;
+      add(x);
+      break;
+    }
+    if ((k + 1) % 10 == 0) note(fmt::format("sample {} of {}", k + 1, options_.samples));
+  }
+
+  void add(const Eigen::VectorXd& x) {
+    PosteriorSample s;
+    for (std::size_t i = 0; i < parameters_.size(); ++i)
+      s.values.push_back(coordinates_.from(i, x(static_cast<Eigen::Index>(i))));
     s.residuals.resize(static_cast<std::size_t>(residuals_));
     ++out_.evaluations;
     if (!function_(s.values, s.residuals)) return;
-    for (const double r : s.residuals) sum += square(r);
-    if (!std::isfinite(sum)) return;
-    std::vector<double> logs;
-    for (const Bell& b : bells_) logs.push_back(b.log_weight + b.log_density(x));
-    double largest = 0;
-    const double all = sum_exp(logs, largest);
-    s.log_ratio = -sum / (2 * out_.variance_factor) - largest - std::log(all);
-    s.sum = sum;
-    for (const double v : logs) s.from.push_back(std::exp(v - largest) / all);
+    s.sum = -2 * out_.variance_factor * log_prior(x);
+    for (const double r : s.residuals) s.sum += square(r);
+    if (!std::isfinite(s.sum)) return;
     out_.samples.push_back(std::move(s));
+    points_.push_back(x);
+  }
+
+  // Posterior over the proposals of all stages. Eq. calibration.8
+  void weigh() {
+    for (std::size_t k = 0; k < out_.samples.size(); ++k) {
+      PosteriorSample& s = out_.samples[k];
+      const Eigen::VectorXd& x = points_[k];
+      const std::vector<double> logs = log_proposals(x);
+      const double all = log_sum(logs);
+      double thinned = 0;
+      for (const double v : logs) s.from.push_back(std::exp(v - all));
+      for (const auto& [count, by] : stages_) thinned += count * (by ? kept(*by, x) / by->mean : 1);
+      s.log_ratio = -s.sum / (2 * out_.variance_factor) - all - std::log(thinned);
+    }
   }
 
   const std::vector<FitParameter>& parameters_;
   FitCoordinates coordinates_;
   int residuals_;
-  const ResidualFunction& function_;
   const PosteriorOptions& options_;
+  std::vector<PosteriorTrial> trials_;
+  ResidualFunction function_;  // keeps what it is answered
   std::vector<LeastSquaresFit> fits_;
   std::vector<Bell> bells_;
+  std::vector<std::pair<int, std::optional<Thinning>>> stages_;  // samples of each
+  std::vector<Eigen::VectorXd> points_;                          // of the samples
   Posterior out_;
 };
 
@@ -245,9 +363,10 @@ class Sampler {
 
 Posterior sample_posterior(const std::vector<FitParameter>& parameters, int residuals,
                            const ResidualFunction& function, const PosteriorOptions& options,
-                           const LeastSquaresFit* first) {
+                           const LeastSquaresFit* first, std::vector<PosteriorTrial> trials) {
   PAPILLA_CHECK(options.starts > 0 && options.samples > 0, "a posterior has starts and samples");
-  return Sampler(parameters, residuals, function, options).run(first);
+  PAPILLA_CHECK(options.fit.threads == 1, "trials are kept in one order");
+  return Sampler(parameters, residuals, function, options, std::move(trials)).run(first);
 }
 
 void reweigh(Posterior& posterior, double variance_factor) {
@@ -266,72 +385,6 @@ void reweigh(Posterior& posterior, double variance_factor) {
   }
   posterior.effective = effective_number(weights);
   posterior.variance_factor = variance_factor;
-}
-
-std::vector<double> normalised(const std::vector<double>& logarithms) {
-  double largest = 0;
-  const double sum = sum_exp(logarithms, largest);
-  std::vector<double> out;
-  for (const double v : logarithms) out.push_back(std::exp(v - largest) / sum);
-  return out;
-}
-
-double effective_number(const std::vector<double>& weights) {
-  double sum = 0, squares = 0;
-  for (const double w : weights) {
-    sum += w;
-    squares += w * w;
-  }
-  return squares > 0 ? sum * sum / squares : 0;
-}
-
-LeftOut leave_out(const std::vector<PosteriorSample>& samples, double variance_factor,
-                  const std::vector<std::vector<std::size_t>>& groups,
-                  const std::vector<double>& log_sd) {
-  LeftOut out;
-  out.least_effective = static_cast<double>(samples.size());
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    std::vector<double> with, without;
-    for (const PosteriorSample& s : samples) {
-      double sum = 0;
-      for (const std::size_t row : groups[g]) sum += square(s.residuals[row]);
-      with.push_back(s.log_ratio);
-      without.push_back(s.log_ratio + sum / (2 * variance_factor));
-    }
-    double largest_with = 0, largest_without = 0;
-    const double all = sum_exp(with, largest_with), others = sum_exp(without, largest_without);
-    const double size = static_cast<double>(groups[g].size()) / 2;
-    out.scores.push_back(largest_with + std::log(all) - largest_without - std::log(others) -
-                         log_sd[g] - size * std::log(2 * kPi * variance_factor));
-    out.least_effective = std::min(out.least_effective, effective_number(normalised(without)));
-  }
-  return out;
-}
-
-std::vector<double> hypothesis_weights(const std::vector<std::vector<double>>& scores,
-                                       std::uint64_t seed) {
-  constexpr int kResamplings = 2000;
-  std::vector<double> out(scores.size(), 0);
-  const std::size_t groups = scores.front().size();
-  RandomStream random(seed, "hypothesis weights");
-  for (int k = 0; k < kResamplings; ++k) {
-    std::vector<double> share;  // of the groups: Dirichlet(1, ..., 1)
-    double sum = 0;
-    for (std::size_t g = 0; g < groups; ++g) {
-      share.push_back(-std::log(1 - random.uniform()));
-      sum += share.back();
-    }
-    std::vector<double> totals;
-    for (const std::vector<double>& s : scores) {
-      double total = 0;
-      for (std::size_t g = 0; g < groups; ++g)
-        total += static_cast<double>(groups) * share[g] / sum * s[g];
-      totals.push_back(total);
-    }
-    const std::vector<double> w = normalised(totals);
-    for (std::size_t h = 0; h < w.size(); ++h) out[h] += w[h] / kResamplings;
-  }
-  return out;
 }
 
 }  // namespace papilla::optim

@@ -30,6 +30,12 @@ struct Valley {
   double share = 0;            // of the weight of all samples
 };
 
+// What the model has answered.
+struct PosteriorTrial {
+  std::vector<double> values;
+  std::vector<double> residuals;
+};
+
 struct PosteriorSample {
   std::vector<double> values;
   std::vector<double> residuals;
@@ -49,17 +55,21 @@ struct Posterior {
 };
 
 // Draws of a mixture of Student distributions, one per valley, whose covariance is that of
-// Eq. calibration.2, weighted by importance (Eq. calibration.7, calibration.8). first: a fit from
-// the parameters' own start where one is at hand. The function is called in one order, so the
-// result does not depend on its threads. Throws InputError where no start has a minimum.
+// Eq. calibration.2, thinned by what the model has answered before and weighted by importance
+// (Eq. calibration.7, calibration.8, calibration.11). first: a fit from the parameters' own start
+// where one is at hand, with its trials. The function is called in one order, so the result does
+// not depend on its threads. Throws InputError where no start has a minimum.
 Posterior sample_posterior(const std::vector<FitParameter>& parameters, int residuals,
                            const ResidualFunction& function, const PosteriorOptions& options,
-                           const LeastSquaresFit* first = nullptr);
+                           const LeastSquaresFit* first = nullptr,
+                           std::vector<PosteriorTrial> trials = {});
 
 // The same samples with the sum of squares divided by another factor.
 void reweigh(Posterior& posterior, double variance_factor);
 
-// Weights that sum to 1 from logarithms; their effective number.
+// The logarithm of the sum of what has these logarithms; weights that sum to 1 from them, and the
+// effective number of weights.
+double log_sum(const std::vector<double>& logarithms);
 std::vector<double> normalised(const std::vector<double>& logarithms);
 double effective_number(const std::vector<double>& weights);
 

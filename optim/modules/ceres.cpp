@@ -44,6 +44,9 @@ class CeresDescent final : public Descent {
     ceres::Solver::Options o;
     o.linear_solver_type = ceres::DENSE_QR;
     o.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+    // Within bounds a step that fails is shortened along itself, by values alone: slopes there
+    // would take as many evaluations as an iteration.
+    o.line_search_interpolation_type = ceres::QUADRATIC;
     o.initial_trust_region_radius = options.region;
     o.max_num_iterations = options.iterations;
     o.function_tolerance = options.tolerance;

@@ -19,12 +19,14 @@ constexpr int kSaid = 10;  // evaluations between two notes
 class BeliefMaker {
  public:
   BeliefMaker(const Calibration& calibration, Residuals& residuals, const LeastSquaresFit& fit,
-              const Finger& finger, const std::function<void(const std::string&)>& note)
+              const Finger& finger, const std::vector<PosteriorTrial>& trials,
+              const std::function<void(const std::string&)>& note)
       : calibration_(calibration),
         settings_(*calibration.belief),
         residuals_(residuals),
         fit_(fit),
         finger_(finger),
+        trials_(trials),
         note_(note) {
     for (const CalibrationParameter& p : calibration.parameters) parameters_.push_back(p.fit);
     sources_ = residuals.sources();
@@ -36,7 +38,7 @@ class BeliefMaker {
 
   BeliefFit make() {
     const std::vector<FitRow> rows = residuals_.rows();
-    sample({settings_.name, {}}, true);
+    sample({settings_.name, {}, {}}, true);
     for (const Hypothesis& h : calibration_.hypotheses) sample(h, false);
     residuals_.rows() = rows;
     weigh();
@@ -59,7 +61,7 @@ class BeliefMaker {
       options.starts = settings_.starts;
       options.samples = settings_.samples;
       options.seed = static_cast<std::uint64_t>(settings_.seed);
-      options.fit.iterations = calibration.iterations;
+      options.fit.iterations = settings_.iterations;
       options.fit.noise = 1e-6;  // as the fit's own
       options.fit.tolerance = 1e-4;
       options.fit.profile_iterations = 0;
@@ -75,8 +77,11 @@ class BeliefMaker {
         for (const Estimate& e : model) kept.push_back(e.value);
         return residuals_.residuals(model, r);
       };
+      std::vector<FitParameter> parameters;
+      for (const CalibrationParameter& p : calibration.parameters) parameters.push_back(p.fit);
       out.posterior =
-          sample_posterior(parameters_, residuals_.size(), misses, options, own ? &fit_ : nullptr);
+          own ? sample_posterior(parameters, residuals_.size(), misses, options, &fit_, trials_)
+              : sample_posterior(parameters, residuals_.size(), misses, options);
       out_.evaluations += out.posterior.evaluations;
       std::vector<double> log_sd(out_.groups.size(), 0);
       for (std::size_t i = 0; i < sources_.size(); ++i)
@@ -94,7 +99,7 @@ class BeliefMaker {
   // The model's own sampling error, at the hypothesis' start.
   void weigh_rows(const Calibration& calibration) {
     std::vector<double> start;
-    for (const FitParameter& p : parameters_) start.push_back(p.start);
+    for (const CalibrationParameter& p : calibration.parameters) start.push_back(p.fit.start);
     const Finger finger = with_parameters(calibration, start);
     residuals_.correct(finger);
     const std::vector<Estimate> model = residuals_.model(finger);
@@ -130,7 +135,11 @@ class BeliefMaker {
         hypothesis_weights(scores, static_cast<std::uint64_t>(settings_.seed));
     std::size_t next = 0;
     for (HypothesisFit& h : out_.hypotheses) {
-      if (h.failed.empty()) h.weight = weights[next++];
+      if (!h.failed.empty()) continue;
+      h.weight = weights[next++];
+      note(fmt::format("{}: weight {:.3f}, log predictive score {:.2f}, worth {:.1f} of {} samples",
+                       h.name, h.weight, h.score, h.posterior.effective,
+                       h.posterior.samples.size()));
     }
   }
 
@@ -195,6 +204,7 @@ class BeliefMaker {
   Residuals& residuals_;
   const LeastSquaresFit& fit_;
   const Finger& finger_;
+  const std::vector<PosteriorTrial>& trials_;
   std::function<void(const std::string&)> note_;
   std::vector<FitParameter> parameters_;
   std::vector<std::string> sources_;                                        // of each row
@@ -207,8 +217,9 @@ class BeliefMaker {
 
 BeliefFit make_belief(const Calibration& calibration, Residuals& residuals,
                       const LeastSquaresFit& fit, const Finger& finger,
+                      const std::vector<PosteriorTrial>& trials,
                       const std::function<void(const std::string&)>& note) {
-  return BeliefMaker(calibration, residuals, fit, finger, note).make();
+  return BeliefMaker(calibration, residuals, fit, finger, trials, note).make();
 }
 
 }  // namespace papilla::calibrate

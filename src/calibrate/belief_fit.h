@@ -35,10 +35,11 @@ struct BeliefFit {
 };
 
 // Every hypothesis is fitted from some starts and sampled by itself; weights by what each predicts
-// of groups of rows left out. fit, finger: of the finger's own model options. The rows of the
-// residuals are left as they are.
+// of groups of rows left out. fit, finger, trials: of the finger's own model options. The rows of
+// the residuals are left as they are.
 BeliefFit make_belief(const Calibration& calibration, Residuals& residuals,
                       const LeastSquaresFit& fit, const Finger& finger,
+                      const std::vector<PosteriorTrial>& trials,
                       const std::function<void(const std::string&)>& note);
 
 }  // namespace papilla::calibrate

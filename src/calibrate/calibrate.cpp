@@ -87,7 +87,8 @@ class Fit {
     descend();
     finish();
     if (calibration_.belief) {
-      out_.belief = make_belief(calibration_, residuals_, out_.fit, out_.finger, options_.note);
+      out_.belief =
+          make_belief(calibration_, residuals_, out_.fit, out_.finger, trials_, options_.note);
       out_.evaluations += out_.belief->evaluations;
     }
     residuals_.kept().remove();
@@ -145,6 +146,7 @@ class Fit {
       const bool ok =
           timed([&] { return residuals_.residuals(with_parameters(calibration_, p), r); });
       Watch::look();
+      if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
       if (++evaluations_ % 10 == 0) {
         const int left = std::max(0, an_iteration() * calibration_.iterations - in_round_);
         note(fmt::format("evaluation {}: chi2 {:.4g}; {} at most to the last iteration",
@@ -156,6 +158,7 @@ class Fit {
     const LeastSquaresOptions options = fit_options(calibration_, options_);
     for (int round = 0; round < kMostRounds; ++round) {
       in_round_ = 0;
+      trials_.clear();  // of other corrections
       out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
       const std::vector<double> found = out_.fit.values();
       if (residuals_.correct(with_parameters(calibration_, found)) < kSmallCorrection) break;
@@ -187,6 +190,7 @@ class Fit {
   Residuals residuals_;
   std::vector<FitParameter> parameters_;
   CalibrationResult out_;
+  std::vector<PosteriorTrial> trials_;
   int evaluations_ = 0, in_round_ = 0;
   double seconds_ = 0;  // of an evaluation
 };

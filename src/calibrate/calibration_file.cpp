@@ -19,7 +19,6 @@
 namespace papilla::calibrate {
 namespace {
 
-constexpr const char* kWaterScale = "water.scale";
 // Step of the differences, relative: residuals jump a little where droplets merge or not, and the
 // step has to stand above that (docs/theory/calibration.md).
 constexpr double kStep = 0.04;
@@ -225,12 +224,14 @@ class CalibrationReader {
     for (const Node& child : node.children) {
       if (child.key == "name" && child.is_text()) {
         out.name = child.text;
-      } else if (child.key == "set" && child.is_table()) {
-        for (const auto& [path, value] : members_by_path(child)) out.set.push_back({path, *value});
+      } else if ((child.key == "set" || child.key == "start") && child.is_table()) {
+        std::vector<BeliefValue>& values = child.key == "set" ? out.set : out.start;
+        for (const auto& [path, value] : members_by_path(child)) values.push_back({path, *value});
       } else {
-        document_.problem(
-            child.key_place, "hypothesis",
-            fmt::format("`{}`: expected `name`, a text, and `set`, paths and values", child.key));
+        document_.problem(child.key_place, "hypothesis",
+                          fmt::format("`{}`: expected `name`, a text, `set` and `start`, paths and "
+                                      "values",
+                                      child.key));
       }
     }
     if (document_.problems().size() > before) return;
@@ -243,11 +244,16 @@ class CalibrationReader {
                         "expected a name of its own and what it sets: \"model.closure\" = "
                         "\"persson\"");
     for (const BeliefValue& v : out.set) {
-      for (const CalibrationParameter& p : out_.parameters) {
-        if (p.path == v.path)
-          document_.problem(v.value.key_place, "hypothesis." + v.path, "is fitted: not to be set");
-      }
+      if (is_fitted(v.path))
+        document_.problem(v.value.key_place, "hypothesis." + v.path,
+                          "is fitted: not to be set; `start` says where its fit begins");
     }
+    for (const BeliefValue& v : out.start) {
+      if (!is_fitted(v.path))
+        document_.problem(v.value.key_place, "hypothesis." + v.path,
+                          "is not fitted: `set` sets it");
+    }
+    if (document_.problems().size() > before) return;
     try {
       under(out_, out);
     } catch (const InputError& error) {
@@ -255,6 +261,11 @@ class CalibrationReader {
         document_.problem({p.file, p.line, p.column}, p.key, p.message);
     }
     out_.hypotheses.push_back(std::move(out));
+  }
+
+  bool is_fitted(const std::string& path) const {
+    return std::any_of(out_.parameters.begin(), out_.parameters.end(),
+                       [&](const CalibrationParameter& p) { return p.path == path; });
   }
 
   // A parameter is a table with `low`; everything above it is a dotted path.
@@ -370,33 +381,12 @@ void fields(FieldVisitor& v, BeliefSettings& s) {
   v.text({"name", "of the hypothesis that the finger's own model options are"}, s.name);
   v.integer({"starts", "fits of each hypothesis, from the finger and then drawn from the priors"},
             1, 1000, s.starts);
+  v.integer({"iterations", "of each of these fits; a few where `start` is near a minimum"}, 1, 1000,
+            s.iterations);
   v.integer({"samples", "draws of each hypothesis, evaluated with the model"}, 10, 1000000,
             s.samples);
   v.integer({"members", "chosen of all draws"}, 2, 1000, s.members);
   v.integer({"seed", "of starts, draws and choice"}, 0, 1 << 30, s.seed);
-}
-
-Calibration under(const Calibration& calibration, const Hypothesis& hypothesis) {
-  Calibration out = calibration;
-  const MemberScene at = with_member({}, {1, hypothesis.name, hypothesis.set}, calibration.finger,
-                                     calibration.finger.calibrated_for);
-  out.finger = at.finger;
-  out.finger.calibrated_for = at.model;
-  return out;
-}
-
-Finger with_parameters(const Calibration& calibration, std::span<const double> values) {
-  Finger finger = calibration.finger;
-  const std::vector<NumberField> numbers = number_fields(finger);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string& path = calibration.parameters[i].path;
-    if (path == kWaterScale) {
-      for (double& v : finger.water.volume) v *= values[i];
-    } else {
-      *find_number_field(numbers, path).value = values[i];
-    }
-  }
-  return finger;
 }
 
 }  // namespace papilla::calibrate

@@ -15,8 +15,10 @@
 
 namespace papilla::calibrate {
 
+inline constexpr const char* kWaterScale = "water.scale";  // multiplies every volume
+
 struct CalibrationParameter {
-  std::string path;  // into the finger: "skin.rms"; "water.scale" multiplies every volume
+  std::string path;  // into the finger: "skin.rms"; kWaterScale
   std::string unit;
   FitParameter fit;  // SI
 };
@@ -25,6 +27,7 @@ struct CalibrationParameter {
 struct BeliefSettings {
   std::string name = "as fitted";  // of the finger's own model options
   int starts = 3;                  // fits of each hypothesis
+  int iterations = 15;             // of each of these fits
   int samples = 200;               // evaluated of each
   int members = 32;
   int seed = 1;
@@ -36,7 +39,8 @@ void fields(FieldVisitor& v, BeliefSettings& s);
 // A choice of the model beside the finger's own: an item of [[hypothesis]].
 struct Hypothesis {
   std::string name;
-  std::vector<BeliefValue> set;  // "model.closure"; a value of the finger that no fit moves
+  std::vector<BeliefValue> set;    // "model.closure"; a value of the finger that no fit moves
+  std::vector<BeliefValue> start;  // of fitted parameters: where its fit begins, else the finger's
 };
 
 struct Calibration {

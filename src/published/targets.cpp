@@ -73,6 +73,14 @@ Estimate retention_share(FingerModel& model) {
           100 * p.retention_force.se() / p.friction_off.value};
 }
 
+Estimate room_friction(FingerModel& model) {
+  const Sample& s = flat(model);
+  const double load = read_case(m3_case("flat")).finger.load;
+  return jackknife(s, [&](Skins over) {
+    return (friction_off(s, kDamp, over) + friction_off(s, kMoist, over)) / (2 * load);
+  });
+}
+
 Estimate gap_in_um(FingerModel& model) { return {1e6 * capacitance_gap(model.finger()), 0}; }
 
 }  // namespace
@@ -97,6 +105,7 @@ std::vector<PublishedTarget> published_targets() {
       {"M17", "retention at 75 %, flat, % of F_off", 5, 5, 2, retention_share},
       {kGapTarget, "gap of a sliding finger by its capacitance, um", 1e6 * kPublishedGap,
        1e6 * kPublishedGap, 0.1, gap_in_um},
+      {kFrictionTarget, "friction coefficient, flat, 35 and 55 %", 0.2, 0.4, 0.1, room_friction},
   };
 }
 

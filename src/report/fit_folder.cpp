@@ -19,7 +19,7 @@ JudgedFit judged(const Calibration& calibration, const CalibrationResult& result
   ReproduceOptions options;
   for (const auto* list : {&calibration.fit, &calibration.hold_out}) {
     for (const std::string& id : *list) {
-      if (id != kGapTarget) options.ids.push_back(id);
+      if (id != kGapTarget && id != kFrictionTarget) options.ids.push_back(id);
     }
   }
   if (options.ids.empty()) return {};

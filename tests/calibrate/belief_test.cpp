@@ -105,6 +105,31 @@ TEST_F(FitBelief, MistakesOfItsSectionsAreTold) {
   told("[[hypothesis]]\nname = \"as fitted\"\nset = { \"model.air_limit\" = \"emission\" }\n",
        "a name of its own");
   told("[[hypothesis]]\nname = \"a\"\nset = { \"macro.area_growth\" = \"50 %\" }\n", "is fitted");
+  told(
+      "[[hypothesis]]\nname = \"a\"\nset = { \"model.air_limit\" = \"emission\" }\nstart = { "
+      "\"macro.load_share\" = 0.01 }\n",
+      "is not fitted");
+  told(
+      "[[hypothesis]]\nname = \"a\"\nset = { \"model.air_limit\" = \"emission\" }\nstart = { "
+      "\"macro.area_growth\" = \"10 %\" }\n",
+      "outside the parameter's bounds");
+}
+
+TEST_F(FitBelief, AHypothesisBeginsWhereItsFileSays) {
+  write("finger.toml", "schema_version = 1\n");
+  const Calibration c = read(write("fit.toml", std::string(kGrowth) + R"(
+[[hypothesis]]
+name = "cap"
+set = { "model.air_limit" = "emission" }
+start = { "macro.area_growth" = "70 %" }
+)"));
+  const Calibration cap = under(c, c.hypotheses[0]);
+  EXPECT_DOUBLE_EQ(cap.parameters[0].fit.start, 0.7);
+  EXPECT_DOUBLE_EQ(c.parameters[0].fit.start, 0.56);
+  EXPECT_EQ(cap.finger.calibrated_for.air_limit, AirLimit::Emission);
+  // Wherever it begins, its posterior is that of the data.
+  const CalibrationResult r = fit_finger(c, quick());
+  EXPECT_NEAR(r.belief->hypotheses[1].score, r.belief->hypotheses[0].score, 0.1);
 }
 
 // What is stopped goes on to the same belief, and the folder has it beside the finger that names

@@ -4,75 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 #include "base/constants.h"
 #include "base/random.h"
 #include "numerics/statistics.h"
+#include "tests/optim/linear_posterior.h"
 
 namespace papilla::tests {
 namespace {
-
-// y = A p + noise of 1, priors of 2 around 0.5: a posterior in closed form.
-struct Linear {
-  Eigen::MatrixXd a = Eigen::MatrixXd(6, 3);
-  Eigen::VectorXd y = Eigen::VectorXd(6);
-  std::vector<FitParameter> parameters;
-
-  explicit Linear(std::uint64_t seed) {
-    a << 1, 0.5, -0.2, 0.3, 2, 0.1, -0.4, 0.2, 1.5, 1, 1, 1, 0.2, -1, 0.7, 2, 0, -1;
-    RandomStream random(seed, "planted");
-    truth = Eigen::VectorXd(3);
-    for (Eigen::Index i = 0; i < 3; ++i) truth(i) = 0.5 + 2 * random.normal();
-    y = a * truth;
-    for (Eigen::Index i = 0; i < y.size(); ++i) y(i) += random.normal();
-    for (const char* name : {"a", "b", "c"}) {
-      parameters.push_back({.name = name,
-                            .start = 0.5,
-                            .low = -30,
-                            .high = 30,
-                            .prior = 0.5,
-                            .prior_sd = 2,
-                            .step = 1e-3});
-    }
-  }
-
-  ResidualFunction misses() const {
-    return [this](std::span<const double> p, std::span<double> r) {
-      const Eigen::VectorXd miss = a * Eigen::Map<const Eigen::VectorXd>(p.data(), 3) - y;
-      std::copy(miss.begin(), miss.end(), r.begin());
-      return true;
-    };
-  }
-  Eigen::MatrixXd covariance() const {
-    return (a.transpose() * a + Eigen::MatrixXd::Identity(3, 3) / 4).inverse();
-  }
-  Eigen::VectorXd mean() const {
-    return covariance() * (a.transpose() * y + Eigen::VectorXd::Constant(3, 0.5 / 4));
-  }
-
-  Eigen::VectorXd truth;
-};
-
-PosteriorOptions known(int samples, int starts = 1) {
-  PosteriorOptions out;
-  out.starts = starts;
-  out.samples = samples;
-  out.variance_factor = 1;
-  return out;
-}
-
-std::vector<double> values_of(const Posterior& posterior, std::size_t i) {
-  std::vector<double> out;
-  for (const PosteriorSample& s : posterior.samples) out.push_back(s.values[i]);
-  return out;
-}
-std::vector<double> weights_of(const Posterior& posterior) {
-  std::vector<double> out;
-  for (const PosteriorSample& s : posterior.samples) out.push_back(s.weight);
-  return out;
-}
 
 TEST(Posterior, OfALinearModelMeanAndCovarianceAreTheClosedForm) {
   const Linear model(1);
@@ -126,34 +69,40 @@ TEST(Posterior, OfTwoValleysBothAreKeptWithTheirShares) {
   EXPECT_NEAR(p.valleys[0].share + p.valleys[1].share, 1, 1e-9);
 }
 
-// A hundred truths of three numbers each, planted: 95 % intervals hold nine or more of ten, those
-// of 32 chosen members too.
-TEST(Posterior, IntervalsHoldPlantedTruths) {
-  int held = 0, by_members = 0, all = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const Linear model(seed);
-    const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(400));
-    std::vector<std::vector<double>> features;
-    for (const PosteriorSample& s : p.samples) features.push_back(s.values);
-    const std::vector<double> weights = weights_of(p);
-    const ChosenPoints members =
-        choose_points(features, weights, std::vector<int>(weights.size(), 0), 32, seed);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double truth = model.truth(static_cast<Eigen::Index>(i));
-      const std::vector<double> values = values_of(p, i);
-      std::vector<double> few;
-      for (const std::size_t k : members.index) few.push_back(values[k]);
-      ++all;
-      held += weighted_quantile(values, weights, 0.025) <= truth &&
-              truth <= weighted_quantile(values, weights, 0.975);
-      by_members += weighted_quantile(few, members.weight, 0.025) <= truth &&
-                    truth <= weighted_quantile(few, members.weight, 0.975);
-    }
+// Thirteen numbers and curved rows: thinned by the quadratics of what was answered, 120 draws are
+// worth 31 to 47 over five seeds; those of the bells alone were worth 4 to 24.
+TEST(Posterior, OfManyNumbersFewSamplesAreWorthMany) {
+  constexpr int kNumbers = 13;
+  std::vector<FitParameter> parameters;
+  for (int i = 0; i < kNumbers; ++i) {
+    parameters.push_back({.name = "p" + std::to_string(i),
+                          .start = 0,
+                          .low = -10,
+                          .high = 10,
+                          .prior = 0,
+                          .prior_sd = 1,
+                          .step = 1e-3});
   }
-  EXPECT_GE(held, 0.90 * all);
-  EXPECT_LE(held, 0.99 * all);
-  EXPECT_GE(by_members, 0.90 * all);
-  EXPECT_LE(by_members, 0.99 * all);
+  const auto misses = [](std::span<const double> p, std::span<double> r) {
+    for (std::size_t i = 0; i < 6; ++i)
+      r[i] = 2 * (p[i] + p[i + 1] + square(p[i + 2])) - 0.3 * static_cast<double>(i);
+    return true;
+  };
+  std::vector<double> worth;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    PosteriorOptions options = known(120);
+    options.seed = seed;
+    const Posterior p = sample_posterior(parameters, 6, misses, options);
+    worth.push_back(p.effective);
+    // A number that no datum depends on keeps its prior.
+    const std::vector<double> values = values_of(p, 12), weights = weights_of(p);
+    double mean = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) mean += weights[k] * values[k];
+    EXPECT_NEAR(mean, 0, 4 / std::sqrt(p.effective));
+  }
+  std::sort(worth.begin(), worth.end());
+  EXPECT_GT(worth[0], 25);
+  EXPECT_GT(worth[2], 35);
 }
 
 TEST(Posterior, IsTheSameTwiceAndMovesWithItsSeed) {
@@ -185,36 +134,6 @@ TEST(Posterior, OfNoDataIsTheRange) {
   }
   EXPECT_NEAR(mean, 0, 4 * std::sqrt(1.0 / 3 / p.effective));
   EXPECT_NEAR(squares, 1.0 / 3, 4 * std::sqrt(4.0 / 45 / p.effective));
-}
-
-// The rows 0 and 1 of a linear model, left out together: a normal density in closed form.
-TEST(Posterior, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
-  const Linear model(5);
-  const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(20000));
-  const LeftOut left = leave_out(p.samples, 1, {{0, 1}, {2, 3, 4, 5}}, {0, 0});
-  const Eigen::MatrixXd others = model.a.bottomRows(4), own = model.a.topRows(2);
-  const Eigen::MatrixXd c =
-      (others.transpose() * others + Eigen::MatrixXd::Identity(3, 3) / 4).inverse();
-  const Eigen::VectorXd mean =
-      c * (others.transpose() * model.y.tail(4) + Eigen::VectorXd::Constant(3, 0.5 / 4));
-  const Eigen::MatrixXd spread = own * c * own.transpose() + Eigen::MatrixXd::Identity(2, 2);
-  const Eigen::VectorXd miss = model.y.head(2) - own * mean;
-  const double expected = -0.5 * miss.dot(spread.inverse() * miss) -
-                          0.5 * std::log(spread.determinant()) - std::log(2 * kPi);
-  EXPECT_NEAR(left.scores[0], expected, 0.1);
-  EXPECT_LT(left.least_effective, p.effective);
-}
-
-TEST(Posterior, AnotherVarianceFactorIsAnotherPosteriorOfTheSameSamples) {
-  const Linear model(2);
-  Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(20000));
-  reweigh(p, 2);  // chi squared of data and priors halved: twice the covariance
-  const std::vector<double> values = values_of(p, 0), weights = weights_of(p);
-  double mean = 0, variance = 0;
-  for (std::size_t k = 0; k < values.size(); ++k) mean += weights[k] * values[k];
-  for (std::size_t k = 0; k < values.size(); ++k) variance += weights[k] * square(values[k] - mean);
-  const double expected = 2 * model.covariance()(0, 0);
-  EXPECT_NEAR(variance, expected, 4 * expected * std::sqrt(2 / p.effective));
 }
 
 TEST(HypothesisWeights, AreTheScoresWhereGroupsSayTheSameAndNeverCertainWhereTheyDoNot) {

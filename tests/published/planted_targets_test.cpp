@@ -38,7 +38,7 @@ class PlantedTargets : public ::testing::Test {
 };
 
 // The numbers of the papers with the widths that their words leave.
-TEST_F(PlantedTargets, AreThirteenNumbersWithTheirBandsAndWidths) {
+TEST_F(PlantedTargets, AreFourteenNumbersWithTheirBandsAndWidths) {
   struct Row {
     const char *claim, *what;
     double low, high, sd;
@@ -56,7 +56,8 @@ TEST_F(PlantedTargets, AreThirteenNumbersWithTheirBandsAndWidths) {
       {"M13", "110° against 50°, flat at 75 %, %", 130, 130, 20},
       {"M15", "largest modulation at 110° without water", 1.38, 1.38, 0.1},
       {"M17", "retention at 75 %, flat, % of F_off", 5, 5, 2},
-      {"C_gap", "gap of a sliding finger by its capacitance, um", 1.06, 1.06, 0.1}};
+      {"C_gap", "gap of a sliding finger by its capacitance, um", 1.06, 1.06, 0.1},
+      {"friction", "friction coefficient, flat, 35 and 55 %", 0.2, 0.4, 0.1}};
   const std::vector<PublishedTarget> targets = published_targets();
   ASSERT_EQ(targets.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -80,6 +81,7 @@ TEST_F(PlantedTargets, FrictionAndAreaGrowFromDryToWet) {
   expect("F_on(75 %)", 3.4375, 0.3125);
   expect("real area", 40, 20);
   expect("by capillaries", 40, 20);
+  expect("friction coefficient", (9 * 9 + 8 * 8) / (2 * 0.2), 0);  // at 35 and 55 %, of 0.2 N
 }
 
 TEST_F(PlantedTargets, TheGrossAreaGrowsByWhatItsFingerSays) {

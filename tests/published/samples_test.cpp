@@ -169,6 +169,8 @@ TEST(PublishedTargets, AreTheNumbersThatTheyName) {
   const Estimate retained = value("M17", "");
   EXPECT_NEAR(retained.value, 100 * wet.retention_force.value / wet.friction_off.value, 1e-9);
   EXPECT_NEAR(retained.se, 100 * wet.retention_force.se() / wet.friction_off.value, 1e-9);
+  const double both = friction_off(own, kDamp, all) + friction_off(own, kMoist, all);
+  expect(value(kFrictionTarget, ""), both / (2 * read_case(m3_case("flat")).finger.load), 0.3);
   EXPECT_NEAR(value(kGapTarget, "").value, 1e6 * capacitance_gap(model.finger()), 1e-9);
   for (const PublishedTarget& t : targets) {
     EXPECT_LE(t.low, t.high) << t.what;

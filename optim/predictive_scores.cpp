@@ -1,0 +1,82 @@
+// Weights of samples and of hypotheses, by what is left out. Eq. calibration.8-9
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "base/random.h"
+#include "numerics/statistics.h"
+#include "optim/posterior.h"
+
+namespace papilla::optim {
+
+double log_sum(const std::vector<double>& logarithms) {
+  const double largest = *std::max_element(logarithms.begin(), logarithms.end());
+  double sum = 0;
+  for (const double v : logarithms) sum += std::exp(v - largest);
+  return largest + std::log(sum);
+}
+
+std::vector<double> normalised(const std::vector<double>& logarithms) {
+  const double all = log_sum(logarithms);
+  std::vector<double> out;
+  for (const double v : logarithms) out.push_back(std::exp(v - all));
+  return out;
+}
+
+double effective_number(const std::vector<double>& weights) {
+  double sum = 0, squares = 0;
+  for (const double w : weights) {
+    sum += w;
+    squares += w * w;
+  }
+  return squares > 0 ? sum * sum / squares : 0;
+}
+
+LeftOut leave_out(const std::vector<PosteriorSample>& samples, double variance_factor,
+                  const std::vector<std::vector<std::size_t>>& groups,
+                  const std::vector<double>& log_sd) {
+  LeftOut out;
+  out.least_effective = static_cast<double>(samples.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    std::vector<double> with, without;
+    for (const PosteriorSample& s : samples) {
+      double sum = 0;
+      for (const std::size_t row : groups[g]) sum += square(s.residuals[row]);
+      with.push_back(s.log_ratio);
+      without.push_back(s.log_ratio + sum / (2 * variance_factor));
+    }
+    const double size = static_cast<double>(groups[g].size()) / 2;
+    out.scores.push_back(log_sum(with) - log_sum(without) - log_sd[g] -
+                         size * std::log(2 * kPi * variance_factor));
+    out.least_effective = std::min(out.least_effective, effective_number(normalised(without)));
+  }
+  return out;
+}
+
+std::vector<double> hypothesis_weights(const std::vector<std::vector<double>>& scores,
+                                       std::uint64_t seed) {
+  constexpr int kResamplings = 2000;
+  std::vector<double> out(scores.size(), 0);
+  const std::size_t groups = scores.front().size();
+  RandomStream random(seed, "hypothesis weights");
+  for (int k = 0; k < kResamplings; ++k) {
+    std::vector<double> share;  // of the groups: Dirichlet(1, ..., 1)
+    double sum = 0;
+    for (std::size_t g = 0; g < groups; ++g) {
+      share.push_back(-std::log(1 - random.uniform()));
+      sum += share.back();
+    }
+    std::vector<double> totals;
+    for (const std::vector<double>& s : scores) {
+      double total = 0;
+      for (std::size_t g = 0; g < groups; ++g)
+        total += static_cast<double>(groups) * share[g] / sum * s[g];
+      totals.push_back(total);
+    }
+    const std::vector<double> w = normalised(totals);
+    for (std::size_t h = 0; h < w.size(); ++h) out[h] += w[h] / kResamplings;
+  }
+  return out;
+}
+
+}  // namespace papilla::optim
