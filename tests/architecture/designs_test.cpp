@@ -3,8 +3,10 @@
 #include "base/error.h"
 #include "calibrate/calibrate.h"
 #include "claims/claim.h"
+#include "design/design.h"
 #include "design/study.h"
 #include "report/reference.h"
+#include "scene/belief.h"
 #include "tests/architecture/source_tree.h"
 
 namespace papilla::tests {
@@ -19,6 +21,8 @@ TEST(Designs, AllRead) {
         continue;  // cases of `papilla solve`, read by their own tests
       } else if (file.ends_with(".calibration.toml")) {
         read_calibration(path, m3_claim_ids());
+      } else if (file.ends_with("/belief.toml")) {
+        read_belief(path, read_finger(find_design("fingers/reference.toml")));
       } else if (file.starts_with("designs/fingers/")) {
         read_finger(path);
       } else {
