@@ -87,7 +87,7 @@ struct OptimiseResult {
   std::optional<Score> flat;            // the best surface without its texture, confirmed
   std::optional<Score> flat_before;  // the study's own, where the best has another finish or drive
   std::optional<BuiltDesign> build;
-  Decision decision;    // by belief
+  Decision decision;           // by belief
   std::optional<Yield> yield;  // of what is built, where it was judged and numbers scatter
   Stability stability;         // of the order of the finalists on the front, in their order
   std::vector<VariableSensitivity> sensitivity;  // of what is built
