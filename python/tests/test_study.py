@@ -118,8 +118,8 @@ def test_a_search_runs_to_its_end_and_goes_on_after_ctrl_c(tmp_path: pathlib.Pat
 
     def interrupt(stage: str, done: int, total: int, left: float) -> None:
         if stage == "search" and done >= 5 and stage not in seen:
-            threading.Timer(0, os.kill, (os.getpid(), signal.SIGINT)).start()
             seen.append(stage)
+            threading.Timer(0, os.kill, (os.getpid(), signal.SIGINT)).start()
 
     with pytest.raises(KeyboardInterrupt):
         study.optimize(tmp_path / "run", progress=interrupt)
