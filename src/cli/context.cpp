@@ -74,10 +74,11 @@ void add_set_option(Command command, std::vector<std::string>& overrides) {
 
 void add_pick_option(Command command, std::string& rule) {
   command
-      .add_option("--pick", rule,
-                  "Which design of the front: worst (highest worst modulation; default under a "
-                  "drive), knee (default without), an objective (its best), or a number; judged over "
-                  "the belief that the fingers name")
+      .add_option(
+          "--pick", rule,
+          "Which design of the front: worst (highest worst modulation; default under a "
+          "drive), knee (default without), an objective (its best), or a number; judged over "
+          "the belief that the fingers name")
       .type_name("RULE");
 }
 
