@@ -26,7 +26,7 @@ constexpr double kFalls = 0.02, kPastFold = 0.1;
 constexpr std::size_t kStates = 4;
 constexpr double kLeastNew = 1e-6;
 // What a step counts whose places cancel in the mean.
-constexpr double kOfMoves = 0.5;
+constexpr double kOfMoves = 0.25;
 // What the mean counts beside the places: it closes the gap everywhere.
 constexpr double kMeanWeight = 100;
 

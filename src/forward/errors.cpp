@@ -17,7 +17,7 @@ constexpr double kPullToLimit = 0.7, kOtherToLimit = 0.55;
 constexpr double kFewestOctaves = 0.6;
 // What they are too large by through octaves that are left out is taken off; so much of it, one
 // standard deviation, is not known.
-constexpr double kNotKnown = 0.12;
+constexpr double kNotKnown = 0.14;
 // Features of so many pixels are resolved, of so many not at all: the last halving of the pixel
 // then says what is missing, whole (lands and holes are off by a share of a pixel: first order).
 constexpr double kResolvedFeature = 24, kCoarseFeature = 12;

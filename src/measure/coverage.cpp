@@ -162,6 +162,7 @@ Scene random_scene(int index, Texture& texture) {
   }
   Scene scene;
   Finger& finger = scene.finger;
+  scene.model = finger.calibrated_for;
   finger.skin.rms = random.uniform(150e-9, 350e-9);
   const double stiff = log_uniform(0.6, 1.6);
   finger.skin.layer_modulus *= stiff;

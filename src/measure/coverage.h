@@ -30,7 +30,7 @@ struct CoverageOptions {
   std::function<void(const std::string&)> note;
 };
 // A driven scene drawn from the range of the designs: texture (eight kinds in turn), film (four,
-// each for eight scenes in turn), skin, sweat, angle, voltage.
+// each for eight scenes in turn), skin, sweat, angle, voltage; by the model of its finger.
 Scene random_scene(int index, Texture& texture);
 // The error bars of both estimators on a small grid, of the levels of searches and drafts and of a
 // target of 5 %; or of what is tight.
