@@ -135,10 +135,10 @@ ControlledChange controlled_change(const ControlRuns& runs, GridLaw quantity, co
     out.halving = samples_of(fine.without.size(), [&](int k) { return halving(k, fine); });
     double missing = kOtherToLimit, scatter = 0;
     if (to_limit) missing *= kUnknownShare;
-    if (quantity == GridLaw::Pull) missing = kPullToLimit;
-    // In equilibrium the pull falls by about as much with every octave of the skin.
-    if (quantity == GridLaw::Pull || quantity == GridLaw::Modulation)
-      missing *= std::max(runs.octaves, 1.0);
+    // In equilibrium the pull falls by as much with every octave of the skin, and a modulation with
+    // it.
+    if (quantity == GridLaw::Pull) missing = std::max(kPullToLimit, runs.octaves);
+    if (quantity == GridLaw::Modulation) missing *= std::max(runs.octaves, 1.0);
     if (quantity == GridLaw::Area) {
       const double step = grid_error(out.halving);
       const double all = left_out_of(step, std::max(runs.octaves, kFewestOctaves));

@@ -105,6 +105,21 @@ TEST(StatedErrors, AStepBetweenGridsGivesItsRestToTheLimit) {
   }
 }
 
+// An octave of the skin that the grid leaves out moves the pull as far as the last one that it
+// resolves did.
+TEST(StatedErrors, OctavesThatTheGridLeavesOutMoveThePullAsTheLastOneDid) {
+  const Member pull = &ResponsePoint::electrostatic_force;
+  ControlRuns runs;
+  runs.own = steady(pull, 2.0);
+  runs.coarse = steady(pull, 2.2);
+  for (double octaves : {1.0, 2.0, 3.5}) {
+    runs.octaves = octaves;
+    EXPECT_NEAR(grid_part(runs, pull), octaves * 0.1, 1e-9) << octaves;
+  }
+  runs.octaves = 0.5;
+  EXPECT_NEAR(grid_part(runs, pull), 0.07, 1e-9);
+}
+
 // Areas fall by one factor an octave: n octaves that the grid leaves out take 1 - 1.1^-n. It is
 // taken off, a seventh of it stays unknown.
 TEST(StatedErrors, OctavesThatTheGridLeavesOutAreTakenOffTheAreas) {
