@@ -133,9 +133,12 @@ class Fit {
       const double most = seconds_ * an_iteration() * calibration_.iterations;
       note(fmt::format(
           "price: {} an evaluation, {} of them an iteration; {} iterations and {} at most, again "
-          "(up to {} times) where the finger moves far. Ctrl-C keeps what is done",
+          "(up to {} times) where the finger moves far{}. Ctrl-C keeps what is done",
           duration(seconds_), an_iteration(), calibration_.iterations, duration(most),
-          kMostRounds - 1));
+          kMostRounds - 1,
+          calibration_.data.empty()
+              ? ""
+              : fmt::format(", each after {} more at the level of the checks", an_iteration())));
     }
   }
 
