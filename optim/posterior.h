@@ -90,13 +90,14 @@ std::vector<double> hypothesis_weights(const std::vector<std::vector<double>>& s
                                        std::uint64_t seed);
 
 // A few of many weighted points with weights of their own, whose weighted means and standard
-// deviations of every feature are those of all. Strata: points of one never stand for another; each
+// deviations of every feature are those of all, the deviations widened for the effective number of
+// these. Strata: points of one never stand for another; each
 // keeps its weight. Eq. calibration.10
 struct ChosenPoints {
   std::vector<std::size_t> index;
   std::vector<double> weight;  // of all 1
   double largest_mean = 0;     // difference of a mean, in standard deviations of all
-  double least_spread = 1, largest_spread = 1;  // standard deviation over that of all
+  double least_spread = 1, largest_spread = 1;  // standard deviation over the widened one
 };
 ChosenPoints choose_points(const std::vector<std::vector<double>>& features,
                            const std::vector<double>& weights, const std::vector<int>& stratum,

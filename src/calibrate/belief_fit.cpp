@@ -27,8 +27,8 @@ class BeliefMaker {
         fit_(fit),
         finger_(finger),
         trials_(trials),
-        note_(note) {
-    for (const CalibrationParameter& p : calibration.parameters) parameters_.push_back(p.fit);
+        note_(note),
+        parameters_(fit_parameters(calibration)) {
     sources_ = residuals.sources();
     for (const std::string& source : sources_) {
       if (std::find(out_.groups.begin(), out_.groups.end(), source) == out_.groups.end())
@@ -69,7 +69,7 @@ class BeliefMaker {
       if (!own) weigh_rows(calibration);
       int said = 0;
       const auto misses = [&](std::span<const double> p, std::span<double> r) {
-        const std::vector<Estimate> model = residuals_.model(with_parameters(calibration, p));
+        const std::vector<Estimate> model = residuals_.model(calibration, p);
         Watch::look();
         if (++said % kSaid == 0) note(fmt::format("{}: evaluation {}", hypothesis.name, said));
         std::vector<double>& kept = values_.back()[{p.begin(), p.end()}];
@@ -77,8 +77,7 @@ class BeliefMaker {
         for (const Estimate& e : model) kept.push_back(e.value);
         return residuals_.residuals(model, r);
       };
-      std::vector<FitParameter> parameters;
-      for (const CalibrationParameter& p : calibration.parameters) parameters.push_back(p.fit);
+      const std::vector<FitParameter> parameters = fit_parameters(calibration);
       out.posterior =
           own ? sample_posterior(parameters, residuals_.size(), misses, options, &fit_, trials_)
               : sample_posterior(parameters, residuals_.size(), misses, options);
@@ -100,9 +99,9 @@ class BeliefMaker {
   void weigh_rows(const Calibration& calibration) {
     std::vector<double> start;
     for (const CalibrationParameter& p : calibration.parameters) start.push_back(p.fit.start);
-    const Finger finger = with_parameters(calibration, start);
-    residuals_.correct(finger);
-    const std::vector<Estimate> model = residuals_.model(finger);
+    residuals_.correct(calibration, start);
+    residuals_.follow(calibration, start);
+    const std::vector<Estimate> model = residuals_.model(calibration, start);
     for (std::size_t i = 0; i < model.size(); ++i) residuals_.rows()[i].sampling_sd = model[i].se;
   }
 

@@ -75,9 +75,8 @@ class Fit {
   Fit(const Calibration& calibration, const CalibrationOptions& options)
       : calibration_(calibration),
         options_(options),
-        residuals_(calibration, options.threads, options.folder) {
-    for (const CalibrationParameter& p : calibration.parameters) parameters_.push_back(p.fit);
-  }
+        residuals_(calibration, options.threads, options.folder),
+        parameters_(fit_parameters(calibration)) {}
 
   CalibrationResult run() {
     if (const int known = residuals_.kept().known(); known > 0)
@@ -116,15 +115,17 @@ class Fit {
     std::vector<double> values;
     for (const FitParameter& p : parameters_) values.push_back(p.start);
     out_.start = with_parameters(calibration_, values);
-    residuals_.correct(out_.start);
+    residuals_.correct(calibration_, values);
+    residuals_.follow(calibration_, values);
     std::vector<FitRow>& rows = residuals_.rows();
-    const std::vector<Estimate> before = timed([&] { return residuals_.model(out_.start); });
+    const std::vector<Estimate> before =
+        timed([&] { return residuals_.model(calibration_, values); });
     for (std::size_t i = 0; i < rows.size(); ++i) {
       rows[i].before = before[i].value;
       rows[i].sampling_sd = before[i].se;
     }
     std::vector<double> r(rows.size());
-    residuals_.residuals(out_.start, r);
+    residuals_.residuals(calibration_, values, r);
     out_.chi2_before = sum_of_squares(r);
     note(fmt::format("{} residuals, {} parameters, chi2 {:.4g} at the start", rows.size(),
                      parameters_.size(), out_.chi2_before));
@@ -132,9 +133,12 @@ class Fit {
       const double most = seconds_ * an_iteration() * calibration_.iterations;
       note(fmt::format(
           "price: {} an evaluation, {} of them an iteration; {} iterations and {} at most, again "
-          "(up to {} times) where the finger moves far. Ctrl-C keeps what is done",
+          "(up to {} times) where the finger moves far{}. Ctrl-C keeps what is done",
           duration(seconds_), an_iteration(), calibration_.iterations, duration(most),
-          kMostRounds - 1));
+          kMostRounds - 1,
+          calibration_.data.empty()
+              ? ""
+              : fmt::format(", each after {} more at the level of the checks", an_iteration())));
     }
   }
 
@@ -143,8 +147,7 @@ class Fit {
   // Where the fitted finger is far from the start the correction is another: again from there.
   void descend() {
     const auto misses = [this](std::span<const double> p, std::span<double> r) {
-      const bool ok =
-          timed([&] { return residuals_.residuals(with_parameters(calibration_, p), r); });
+      const bool ok = timed([&] { return residuals_.residuals(calibration_, p, r); });
       Watch::look();
       if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
       if (++evaluations_ % 10 == 0) {
@@ -161,7 +164,8 @@ class Fit {
       trials_.clear();  // of other corrections
       out_.fit = least_squares(parameters_, residuals_.size(), misses, options);
       const std::vector<double> found = out_.fit.values();
-      if (residuals_.correct(with_parameters(calibration_, found)) < kSmallCorrection) break;
+      if (residuals_.correct(calibration_, found) < kSmallCorrection) break;
+      residuals_.follow(calibration_, found);
       note("frictions of the fine level have moved: fitted again from here");
       for (std::size_t i = 0; i < found.size(); ++i) parameters_[i].start = found[i];
     }
@@ -174,7 +178,7 @@ class Fit {
       out_.finger.fitted_to += (out_.finger.fitted_to.empty() ? "" : " ") + id;
     out_.finger.uncertainty = deviations(out_.fit);
     out_.rows = residuals_.rows();
-    const std::vector<Estimate> after = residuals_.model(out_.finger);
+    const std::vector<Estimate> after = residuals_.model(calibration_, out_.fit.values());
     for (std::size_t i = 0; i < after.size(); ++i) out_.rows[i].after = after[i].value;
     out_.evaluations = evaluations_ + 2;  // the start, and the fitted finger
     out_.gap_before = capacitance_gap(out_.start);

@@ -66,6 +66,8 @@ Calibration read_calibration(const std::string& path, const std::vector<std::str
 // InputError for a value that belief cannot set.
 Calibration under(const Calibration& calibration, const Hypothesis& hypothesis);
 
+std::vector<FitParameter> fit_parameters(const Calibration& calibration);
+
 // The starting finger with parameters set: the order of `calibration.parameters`.
 Finger with_parameters(const Calibration& calibration, std::span<const double> values);
 

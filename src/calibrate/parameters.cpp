@@ -43,6 +43,12 @@ Calibration under(const Calibration& calibration, const Hypothesis& hypothesis) 
   return out;
 }
 
+std::vector<FitParameter> fit_parameters(const Calibration& calibration) {
+  std::vector<FitParameter> out;
+  for (const CalibrationParameter& p : calibration.parameters) out.push_back(p.fit);
+  return out;
+}
+
 Finger with_parameters(const Calibration& calibration, std::span<const double> values) {
   Finger finger = calibration.finger;
   const std::vector<NumberField> numbers = number_fields(finger);

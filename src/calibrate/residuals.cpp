@@ -12,10 +12,15 @@
 #include "base/files.h"
 #include "config/writer.h"
 #include "forward/forward.h"
+#include "optim/trust_region.h"
 
 namespace papilla::calibrate {
 
 namespace {
+
+// Steps that the correction is followed by, in prior widths: as far as a fit moves in its last
+// rounds, and the ripples of a friction are small beside what it changes.
+constexpr double kFollowedStep = 0.25;
 
 std::string as_text(const SkinSampling& s) {
   return fmt::format("{} {} {} {}", s.level, s.skins, s.first_skin, s.grid);
@@ -59,7 +64,8 @@ void Residuals::add_rows(const FrictionDatum& d) {
   if (d.on_sd > 0) add("F_on", d.on, d.on_sd);
 }
 
-std::vector<Estimate> Residuals::model(const Finger& finger) {
+std::vector<Estimate> Residuals::model(const Calibration& from, std::span<const double> values) {
+  const Finger finger = with_parameters(from, values);
   std::vector<Estimate> out =
       kept_.get("targets " + as_text(calibration_.sampling) + write_toml(to_table(finger)),
                 targets_.size(), [&] {
@@ -71,37 +77,92 @@ std::vector<Estimate> Residuals::model(const Finger& finger) {
                   return answers;
                 });
   const std::vector<Friction> friction = frictions(finger, calibration_.sampling, false);
+  const std::vector<Factor> factor = followed(from, values);
   for (std::size_t i = 0; i < friction.size(); ++i) {
-    const auto add = [&](const Estimate& force, double factor) {
-      out.push_back({1e3 * factor * force.value, 1e3 * factor * force.se});
+    const auto add = [&](const Estimate& force, double log_factor) {
+      const double by = 1e3 * std::exp(log_factor);
+      out.push_back({by * force.value, by * force.se});
     };
-    add(friction[i].off, factors_[i].off);
-    if (calibration_.data[i].on_sd > 0) add(friction[i].on, factors_[i].on);
+    add(friction[i].off, factor[i].off);
+    if (calibration_.data[i].on_sd > 0) add(friction[i].on, factor[i].on);
   }
   return out;
 }
 
-double Residuals::correct(const Finger& finger) {
+std::vector<Residuals::Factor> Residuals::factors(const Finger& finger) {
   SkinSampling fine = calibration_.sampling;
   fine.level = calibration_.check.level;
   fine.grid = calibration_.check.grid;
-  const SkinSampling& coarse = calibration_.sampling;
-  if (calibration_.data.empty()) return 0;
   const std::vector<Friction> good = frictions(finger, fine, true),
-                              fast = frictions(finger, coarse, false);
+                              fast = frictions(finger, calibration_.sampling, false);
+  const auto of = [](const Estimate& from, const Estimate& to) {
+    return from.value > 0 && to.value > 0 ? std::log(to.value / from.value) : 0;
+  };
+  std::vector<Factor> out;
+  for (std::size_t i = 0; i < good.size(); ++i)
+    out.push_back({of(fast[i].off, good[i].off), of(fast[i].on, good[i].on)});
+  return out;
+}
+
+// Eq. calibration.6
+std::vector<Residuals::Factor> Residuals::followed(const Calibration& from,
+                                                   std::span<const double> values) const {
+  std::vector<Factor> out = factors_;
+  if (slopes_.empty()) return out;
+  const std::vector<FitParameter> parameters = fit_parameters(from);
+  const FitCoordinates coordinates(parameters);
+  for (std::size_t k = 0; k < slopes_.size(); ++k) {
+    const double moved = coordinates.to(k, values[k]) - corrected_at_[k];
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      out[i].off += slopes_[k][i].off * moved;
+      out[i].on += slopes_[k][i].on * moved;
+    }
+  }
+  return out;
+}
+
+double Residuals::correct(const Calibration& from, std::span<const double> values) {
+  if (calibration_.data.empty()) return 0;
+  const Finger finger = with_parameters(from, values);
+  const std::vector<Factor> before = followed(from, values);
+  const std::vector<Friction> fast = frictions(finger, calibration_.sampling, false);
+  factors_ = factors(finger);
+  const std::vector<FitParameter> parameters = fit_parameters(from);
+  const FitCoordinates coordinates(parameters);
+  corrected_at_.clear();
+  for (std::size_t k = 0; k < values.size(); ++k)
+    corrected_at_.push_back(coordinates.to(k, values[k]));
   double largest = 0;
-  for (std::size_t i = 0; i < good.size(); ++i) {
+  for (std::size_t i = 0; i < fast.size(); ++i) {
     const FrictionDatum& d = calibration_.data[i];
-    const auto update = [&](double& factor, const Estimate& from, const Estimate& to, double sd) {
-      if (!(from.value > 0) || !(to.value > 0)) return;
-      const double now = to.value / from.value;
-      largest = std::max(largest, std::abs(now - factor) * from.value / sd);
-      factor = now;
+    const auto look = [&](double old, double now, const Estimate& force, double sd) {
+      largest = std::max(largest, std::abs(std::exp(now) - std::exp(old)) * force.value / sd);
     };
-    update(factors_[i].off, fast[i].off, good[i].off, d.off_sd);
-    if (d.on_sd > 0) update(factors_[i].on, fast[i].on, good[i].on, d.on_sd);
+    look(before[i].off, factors_[i].off, fast[i].off, d.off_sd);
+    if (d.on_sd > 0) look(before[i].on, factors_[i].on, fast[i].on, d.on_sd);
   }
   return largest;
+}
+
+void Residuals::follow(const Calibration& from, std::span<const double> values) {
+  slopes_.clear();
+  if (calibration_.data.empty()) return;
+  const std::vector<FitParameter> parameters = fit_parameters(from);
+  const FitCoordinates coordinates(parameters);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto at = [&](double x) {
+      std::vector<double> moved(values.begin(), values.end());
+      moved[k] = coordinates.from(k, x);
+      return std::pair(coordinates.to(k, moved[k]), factors(with_parameters(from, moved)));
+    };
+    const double here = coordinates.to(k, values[k]);
+    const auto [low, below] = at(here - kFollowedStep);
+    const auto [high, above] = at(here + kFollowedStep);
+    std::vector<Factor>& slope = slopes_.emplace_back();
+    for (std::size_t i = 0; i < below.size(); ++i)
+      slope.push_back({(above[i].off - below[i].off) / (high - low),
+                       (above[i].on - below[i].on) / (high - low)});
+  }
 }
 
 std::vector<std::string> Residuals::sources() const {
@@ -115,8 +176,9 @@ std::vector<std::string> Residuals::sources() const {
   return out;
 }
 
-bool Residuals::residuals(const Finger& finger, std::span<double> r) {
-  return residuals(model(finger), r);
+bool Residuals::residuals(const Calibration& from, std::span<const double> values,
+                          std::span<double> r) {
+  return residuals(model(from, values), r);
 }
 
 bool Residuals::residuals(const std::vector<Estimate>& values, std::span<double> r) const {

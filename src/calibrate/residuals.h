@@ -44,27 +44,36 @@ class Residuals {
   // What each row is of, left out together: its claim, or its design.
   std::vector<std::string> sources() const;
 
-  // The model at every row, with the error of its sampling.
-  std::vector<Estimate> model(const Finger& finger);
+  // The model at every row, with the error of its sampling. `from`: the calibration, or what it is
+  // under a hypothesis; values: of its parameters.
+  std::vector<Estimate> model(const Calibration& from, std::span<const double> values);
 
-  // What a coarse level gets wrong in a friction, a factor: taken at this finger from the level of
-  // the checks on the same skins. Returns the largest change of a friction in standard deviations
-  // of its datum. Eq. calibration.6
-  double correct(const Finger& finger);
+  // What a coarse level gets wrong in a friction, a factor: taken at these values from the level of
+  // the checks on the same skins. Returns the largest change of a friction there in standard
+  // deviations of its datum. Eq. calibration.6
+  double correct(const Calibration& from, std::span<const double> values);
+  // How that factor moves with the parameters: two evaluations of both levels for each.
+  // Eq. calibration.6
+  void follow(const Calibration& from, std::span<const double> values);
 
   // Distance from the band in standard deviations: the data's and the model's sampling error,
   // which stays what it was at the start. false: the model has no answer. Eq. calibration.5
-  bool residuals(const Finger& finger, std::span<double> r);
+  bool residuals(const Calibration& from, std::span<const double> values, std::span<double> r);
   bool residuals(const std::vector<Estimate>& model, std::span<double> r) const;
 
  private:
   struct Friction {
     Estimate off, on;  // [N], with the error of the skins
   };
+  // Logarithms of the factors of off and on.
   struct Factor {
-    double off = 1, on = 1;
+    double off = 0, on = 0;
   };
 
+  // Of every datum; 0 where a friction is none.
+  std::vector<Factor> factors(const Finger& finger);
+  // At these values by what was taken at others.
+  std::vector<Factor> followed(const Calibration& from, std::span<const double> values) const;
   void group_data();
   void add_rows(const FrictionDatum& datum);
   // At every datum.
@@ -79,7 +88,9 @@ class Residuals {
   KeptAnswers kept_;
   std::vector<PublishedTarget> targets_;
   std::vector<MeasuredGroup> groups_;
-  std::vector<Factor> factors_;  // of each datum
+  std::vector<Factor> factors_;              // of each datum, at corrected_at_
+  std::vector<double> corrected_at_;         // coordinates of the fit; empty: never corrected
+  std::vector<std::vector<Factor>> slopes_;  // [parameter][datum] per unit of its coordinate
   std::vector<FitRow> rows_;
 };
 

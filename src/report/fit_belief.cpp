@@ -48,7 +48,8 @@ std::string belief_section(const Calibration& calibration, const BeliefFit& fit)
   out += fmt::format(
       "\n`belief.toml` has {} members of {:.0f} samples (worth {:.1f}; the members {:.1f} equal "
       "ones). In every row and parameter ({} and {}) their weighted mean is within {:.2f} standard "
-      "deviations of the samples' and their standard deviation {:.2f} to {:.2f} times it.\n",
+      "deviations of the samples' and their standard deviation {:.2f} to {:.2f} times it, "
+      "widened for what they are worth.\n",
       b.members.size(), b.samples, b.effective_samples, b.effective_members(),
       fit.hypotheses.front().posterior.samples.front().residuals.size(),
       calibration.parameters.size(), fit.largest_mean, fit.least_spread, fit.largest_spread);

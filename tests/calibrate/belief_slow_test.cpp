@@ -49,13 +49,12 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
     return read(write("fit.toml", kFit));
   };
   const Calibration blank = table({0.1, 0.1, 0.1});
-  Finger truth = blank.finger;
-  truth.macro.shear_strength = 11e6;
-  truth.skin.layer_modulus = 90e6;
+  const std::vector<double> values{11e6, 90e6};
+  const Finger truth = with_parameters(blank, values);
   Residuals residuals(blank, 2);
-  residuals.correct(truth);
+  residuals.correct(blank, values);
   std::vector<double> forces;
-  for (const Estimate& e : residuals.model(truth)) forces.push_back(1e-3 * e.value);
+  for (const Estimate& e : residuals.model(blank, values)) forces.push_back(1e-3 * e.value);
   const Calibration calibration = table(forces);
   CalibrationOptions options;
   options.threads = 2;

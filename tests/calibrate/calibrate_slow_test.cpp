@@ -84,9 +84,8 @@ TEST_F(Planted, PlantedParametersAreFoundWithinTheirIntervals) {
   const CalibrationResult r = fit_finger(calibration, options);
   EXPECT_TRUE(r.fit.converged) << r.fit.message;
   EXPECT_GT(r.chi2_before, 100);
-  // Not zero as at the planted values (below): droplets jump from hollow to hollow, so that the sum
-  // of squares has ripples of a few tenths of a per cent of friction, and the descent ends in one;
-  // what areas are corrected by has them too. 0.16 % of friction, root mean square.
+  // Not zero as at the planted values (below): the factor that areas are corrected by is followed
+  // to first order. 0.16 % of friction, root mean square.
   EXPECT_LT(r.fit.chi2, 0.1);
   const std::vector<double> planted{0.009, 7.5e6, 2.3};
   for (std::size_t i = 0; i < planted.size(); ++i) {

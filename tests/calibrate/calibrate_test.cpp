@@ -222,13 +222,18 @@ skins = 4
   EXPECT_TRUE(correlated);
   // Before and after: the model of the finger at the start and of the fitted one.
   Residuals residuals(calibration, 1);
-  residuals.correct(r.start);
+  std::vector<double> start;
+  for (const CalibrationParameter& p : calibration.parameters) start.push_back(p.fit.start);
+  const std::vector<double> found = r.fit.values();
+  residuals.correct(calibration, start);
   ASSERT_EQ(r.rows.size(), 1u);
-  EXPECT_NEAR(r.rows[0].before, residuals.model(r.start)[0].value, 1e-9 * r.rows[0].before);
+  EXPECT_NEAR(r.rows[0].before, residuals.model(calibration, start)[0].value,
+              1e-9 * r.rows[0].before);
   EXPECT_NEAR(r.chi2_before,
               square((r.rows[0].before - 100) / std::hypot(100, r.rows[0].sampling_sd)), 1e-9);
-  residuals.correct(r.finger);
-  EXPECT_NEAR(r.rows[0].after, residuals.model(r.finger)[0].value, 1e-9 * r.rows[0].after);
+  residuals.correct(calibration, found);
+  EXPECT_NEAR(r.rows[0].after, residuals.model(calibration, found)[0].value,
+              1e-9 * r.rows[0].after);
   EXPECT_EQ(r.finger.fitted_to, "");
   EXPECT_TRUE(explains_data(r));
 }

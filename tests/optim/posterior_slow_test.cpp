@@ -42,6 +42,34 @@ TEST(PosteriorSlow, IntervalsHoldPlantedTruths) {
   EXPECT_LE(by_members, 0.99 * all);
 }
 
+// Two hundred truths, each by 24 draws: few that are worth few hold as many.
+TEST(PosteriorSlow, FewSamplesHoldPlantedTruths) {
+  int held = 0, all = 0;
+  double worth = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Linear model(seed);
+    const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(24));
+    worth += p.effective / 200;
+    std::vector<std::vector<double>> features;
+    for (const PosteriorSample& s : p.samples) features.push_back(s.values);
+    const ChosenPoints members =
+        choose_points(features, weights_of(p), std::vector<int>(features.size(), 0), 24, seed);
+    for (std::size_t i = 0; i < 3; ++i) {
+      double mean = 0, variance = 0;
+      for (std::size_t k = 0; k < members.index.size(); ++k)
+        mean += members.weight[k] * features[members.index[k]][i];
+      for (std::size_t k = 0; k < members.index.size(); ++k)
+        variance += members.weight[k] * square(features[members.index[k]][i] - mean);
+      ++all;
+      held += std::abs(model.truth(static_cast<Eigen::Index>(i)) - mean) <
+              normal_quantile(0.975) * std::sqrt(variance);
+    }
+  }
+  EXPECT_LT(worth, 24);
+  EXPECT_GE(held, 0.90 * all);
+  EXPECT_LE(held, 0.99 * all);
+}
+
 // The rows 0 and 1 of a linear model, left out together: a normal density in closed form.
 TEST(PosteriorSlow, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
   const Linear model(5);

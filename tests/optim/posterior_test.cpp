@@ -181,6 +181,28 @@ TEST(ChosenPoints, HaveTheMeansAndSpreadsOfAll) {
   EXPECT_NEAR(own, second, 1e-12);
 }
 
+// Eight draws know their own mean and deviation by themselves alone: 1.96 of their deviation would
+// hold 87 % of what else is drawn.
+TEST(ChosenPoints, OfFewDrawsHoldWhatElseIsDrawn) {
+  constexpr int kTruths = 1000;
+  int held = 0;
+  for (std::uint64_t seed = 1; seed <= kTruths; ++seed) {
+    RandomStream random(seed, "few draws");
+    std::vector<std::vector<double>> draws;
+    for (int k = 0; k < 8; ++k) draws.push_back({random.normal()});
+    const ChosenPoints chosen =
+        choose_points(draws, std::vector<double>(8, 0.125), std::vector<int>(8, 0), 12, seed);
+    double mean = 0, variance = 0;
+    for (std::size_t k = 0; k < chosen.index.size(); ++k)
+      mean += chosen.weight[k] * draws[chosen.index[k]][0];
+    for (std::size_t k = 0; k < chosen.index.size(); ++k)
+      variance += chosen.weight[k] * square(draws[chosen.index[k]][0] - mean);
+    held += std::abs(random.normal() - mean) < normal_quantile(0.975) * std::sqrt(variance);
+  }
+  EXPECT_GE(held, 0.93 * kTruths);
+  EXPECT_LE(held, 0.97 * kTruths);
+}
+
 TEST(ChosenPoints, OfOnePointAreThatPoint) {
   const ChosenPoints chosen = choose_points({{1, 2}}, {1}, {0}, 8, 1);
   ASSERT_EQ(chosen.index.size(), 1u);
