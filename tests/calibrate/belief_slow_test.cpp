@@ -53,6 +53,7 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
   const Finger truth = with_parameters(blank, values);
   Residuals residuals(blank, 2);
   residuals.correct(blank, values);
+  residuals.follow(blank, values);
   std::vector<double> forces;
   for (const Estimate& e : residuals.model(blank, values)) forces.push_back(1e-3 * e.value);
   const Calibration calibration = table(forces);
@@ -63,7 +64,26 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
   const BeliefFit& b = *r.belief;
   EXPECT_GT(b.belief.effective_samples, 30);
   EXPECT_LT(b.largest_mean, 0.2);
-  // Members through the file, on the design of the fit and on another one.
+  // Three rows of 5 %: by what was measured members know each better than its datum.
+  std::vector<double> mean(forces.size(), 0), squares(forces.size(), 0);
+  for (const BeliefMember& member : b.belief.members) {
+    const Finger at = with_member(b.belief, member, r.finger, r.finger.calibrated_for).finger;
+    const std::vector<double> there{at.macro.shear_strength, at.skin.layer_modulus};
+    const std::vector<Estimate> rows = residuals.model(blank, there);
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const double share = 1e-3 * rows[k].value / forces[k];
+      mean[k] += member.weight * share;
+      squares[k] += member.weight * share * share;
+    }
+  }
+  for (std::size_t k = 0; k < forces.size(); ++k) {
+    const double deviation = std::sqrt(squares[k] - mean[k] * mean[k]);
+    EXPECT_GT(deviation, 0.01) << k;
+    EXPECT_LT(deviation, 0.06) << k;
+  }
+  // Members through the file, on the design of the fit and on another one. They run without the
+  // correction for what so few pixels leave out, which moves with the modulus: their bars are wider
+  // than the rows' (docs/measured/validation.md), and hold the truth.
   Design d = read_design(find_design("m3_samples/flat.toml"));
   d.finger = r.finger;
   d.finger.belief = write("belief.toml", belief_text(b.belief));
@@ -89,7 +109,6 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
     const BeliefValues over = stated(other);
     const double share = over.deviation() / of_truth(other);
     EXPECT_GT(share, 0.01) << name;
-    EXPECT_LT(share, 0.06) << name;  // three rows of 5 %: known better than each, never worse
     EXPECT_LE(over.quantile(0.025), of_truth(other)) << name;
     EXPECT_GE(over.quantile(0.975), of_truth(other)) << name;
   }
