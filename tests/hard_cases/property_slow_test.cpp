@@ -44,24 +44,34 @@ Scene stiffer(Scene s) {
   return s;
 }
 
+void expect_finite(const ResponsePoint& p, int scene) {
+  for (const PointQuantity& q : kPointQuantities) {
+    const Measured& m = p.*q.value;
+    ASSERT_TRUE(std::isfinite(m.value) && std::isfinite(m.se()) && m.se() >= 0) << scene;
+  }
+  ASSERT_GE(p.friction_off.value, 0) << scene;
+  ASSERT_GE(p.electrostatic_force.value, 0) << scene;
+  ASSERT_GE(p.mean_gap.value, 0) << scene;
+  ASSERT_TRUE(p.wetted_fraction.value >= 0 && p.wetted_fraction.value <= 1 + 1e-12) << scene;
+}
+
 TEST(Property, EverySceneIsFiniteAndHomogeneousAndMonotone) {
   int scaled = 0, voltages = 0, loads = 0, changed = 0;
   for (int i = 0; i < kScenes; ++i) {
     Texture texture;
     Scene scene = random_scene(i, texture);
-    // An equilibrium is found to a tolerance, far above rounding, and has none beyond pull-in.
-    scene.model.coupling = Coupling::OnePass;
-    const Response r = run(scene, texture);
-    for (const ResponsePoint& p : r.points) {
-      for (const PointQuantity& q : kPointQuantities) {
-        const Measured& m = p.*q.value;
-        ASSERT_TRUE(std::isfinite(m.value) && std::isfinite(m.se()) && m.se() >= 0) << i;
+    if (i % 10 == 0) {
+      const Response settled = run(scene, texture);
+      for (const ResponsePoint& p : settled.points) {
+        if (p.status.sound()) expect_finite(p, i);
       }
-      ASSERT_GE(p.friction_off.value, 0) << i;
-      ASSERT_GE(p.electrostatic_force.value, 0) << i;
-      ASSERT_GE(p.mean_gap.value, 0) << i;
-      ASSERT_TRUE(p.wetted_fraction.value >= 0 && p.wetted_fraction.value <= 1 + 1e-12) << i;
     }
+    // An equilibrium is found to a tolerance, far above rounding, and has none beyond pull-in; the
+    // air breaks down at fields of its own.
+    scene.model.coupling = Coupling::OnePass;
+    scene.model.air_limit = AirLimit::None;
+    const Response r = run(scene, texture);
+    for (const ResponsePoint& p : r.points) expect_finite(p, i);
     if (i % 3 == 0) {
       const Response s = run(stiffer(scene), texture);
       for (std::size_t k = 0; k < r.points.size(); ++k) {
