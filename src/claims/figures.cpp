@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "claims/members.h"
 #include "claims/papers.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
 #include "published/samples.h"
 #include "published/targets.h"
-#include "scene/belief.h"
 
 namespace papilla::claims {
 namespace {
@@ -147,23 +147,17 @@ void add_input_errors(std::vector<PrintedNumber>& printed,
                       const std::vector<PublishedTarget>& targets, const FigureOptions& options) {
   if (options.finger.belief.empty()) return;
   const Belief belief = belief_of(options.finger);
-  const std::size_t count = printed.size();
-  std::vector<double> mean(count, 0), squares(count, 0);
+  std::vector<std::vector<double>> values(printed.size());
   for (std::size_t k = 0; k < belief.members.size(); ++k) {
     if (options.started)
       options.started(fmt::format("belief, member {} of {}", k + 1, belief.members.size()));
-    const BeliefMember& member = belief.members[k];
-    MemberScene at = with_member(belief, member, options.finger, options.finger.calibrated_for);
-    at.finger.calibrated_for = at.model;
-    FingerModel model(at.finger, Preset::Papilla, options.threads, kMemberSampling);
-    for (std::size_t i = 0; i < count; ++i) {
-      const double value = targets[i].model(model).value;
-      mean[i] += member.weight * value;
-      squares[i] += member.weight * square(value);
-    }
+    FingerModel model(member_finger(belief, belief.members[k], options.finger), Preset::Papilla,
+                      options.threads, kMemberSampling);
+    for (std::size_t i = 0; i < printed.size(); ++i)
+      values[i].push_back(targets[i].model(model).value);
   }
-  for (std::size_t i = 0; i < count; ++i)
-    printed[i].input_sd = std::sqrt(std::max(0.0, squares[i] - square(mean[i])));
+  for (std::size_t i = 0; i < printed.size(); ++i)
+    printed[i].input_sd = deviation_over(belief, values[i]);
 }
 
 }  // namespace

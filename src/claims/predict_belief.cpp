@@ -1,10 +1,8 @@
 // What belief leaves of the predictions.
 #include <algorithm>
-#include <cmath>
 
-#include "base/constants.h"
+#include "claims/members.h"
 #include "claims/predict.h"
-#include "scene/belief.h"
 
 namespace papilla::claims {
 namespace {
@@ -36,22 +34,14 @@ void add_model_parts(std::vector<Prediction>& predictions, const PredictOptions&
   std::vector<std::vector<Prediction>> members;
   for (const BeliefMember& m : belief.members) {
     if (options.started) options.started("belief, a member of " + m.hypothesis);
-    const MemberScene at = with_member(belief, m, options.finger, options.finger.calibrated_for);
-    Finger finger = at.finger;
-    finger.calibrated_for = at.model;
-    members.push_back(few_predictions(options, finger));
+    members.push_back(few_predictions(options, member_finger(belief, m, options.finger)));
   }
   for (Prediction& p : predictions) {
-    double mean = 0, squares = 0;
-    bool known = true;
-    for (std::size_t k = 0; k < members.size(); ++k) {
-      const Prediction* there = same(members[k], p);
-      known = known && there;
-      if (!there) break;
-      mean += belief.members[k].weight * there->value.value;
-      squares += belief.members[k].weight * square(there->value.value);
+    std::vector<double> values;
+    for (const std::vector<Prediction>& member : members) {
+      if (const Prediction* there = same(member, p)) values.push_back(there->value.value);
     }
-    if (known) p.model = std::sqrt(std::max(0.0, squares - square(mean)));
+    if (values.size() == members.size()) p.model = deviation_over(belief, values);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "claims/figures.h"
+#include "claims/members.h"
 #include "claims/papers.h"
 #include "claims/predict.h"
 #include "claims/reproduce.h"
@@ -84,6 +85,13 @@ TEST(Judgement, EveryVerdictHasAWordOfItsOwn) {
   for (const Verdict v : kVerdicts) words.insert(verdict_name(v));
   EXPECT_EQ(words, (std::set<std::string>{"agrees", "fitted", "differs", "paper inconsistent",
                                           "not testable"}));
+}
+
+TEST(Judgement, WhatBeliefLeavesIsTheSpreadOverItsWeightedMembers) {
+  Belief belief;
+  belief.members = {{0.5, "", {}}, {0.25, "", {}}, {0.25, "", {}}};
+  EXPECT_DOUBLE_EQ(deviation_over(belief, std::vector<double>{1, 3, 5}), std::sqrt(2.75));
+  EXPECT_EQ(deviation_over(belief, std::vector<double>{2, 2, 2}), 0);
 }
 
 TEST(Judgement, ADeviationIsFromTheNearestOfAPrintedRange) {
