@@ -10,6 +10,7 @@
 #include "papilla/files.h"
 #include "papilla/physics.h"
 #include "papilla/rank.h"
+#include "papilla/scan.h"
 #include "papilla/study.h"
 #include "papilla/units.h"
 

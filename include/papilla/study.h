@@ -15,9 +15,10 @@ namespace papilla::api {
 
 // A number that the search may change; of "texture.type" the place in the list of kinds.
 struct Variable {
-  std::string path, unit;       // the unit for people
-  double low = 0, high = 0;     // SI
-  std::vector<double> choices;  // SI; not empty: one of these
+  std::string path, unit;          // the unit for people
+  double low = 0, high = 0;        // SI
+  std::vector<double> choices;     // SI; not empty: one of these
+  std::vector<std::string> names;  // of the choices, where they are words: the kinds
 };
 
 struct Objective {

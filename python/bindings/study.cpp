@@ -8,7 +8,7 @@ namespace {
 using namespace py::literals;
 
 py::tuple variable_row(const Variable& v) {
-  return py::make_tuple(v.path, v.unit, v.low, v.high, v.choices);
+  return py::make_tuple(v.path, v.unit, v.low, v.high, v.choices, v.names);
 }
 
 py::tuple judgement_row(const Judgement& j) {
@@ -20,17 +20,6 @@ Judgement judgement_of(const py::tuple& row) {
           row[3].cast<std::vector<double>>(), row[4].cast<std::vector<double>>()};
 }
 
-py::dict run_row(const RunResult& r) {
-  py::list finalists;
-  for (const FoundDesign& f : r.finalists) {
-    finalists.append(
-        py::make_tuple(f.values, judgement_row(f.searched), judgement_row(f.confirmed), f.folder));
-  }
-  return py::dict("interrupted"_a = r.interrupted, "any_feasible"_a = r.any_feasible,
-                  "evaluations"_a = r.evaluations, "finalists"_a = finalists, "best"_a = r.best,
-                  "table"_a = r.table);
-}
-
 RunOptions watched(RunOptions options, Job& job) {
   options.stop = job.stop();
   options.progress = [&job](const RunProgress& p) {
@@ -40,8 +29,9 @@ RunOptions watched(RunOptions options, Job& job) {
   return options;
 }
 
-py::dict run_study(const Study& study, const std::string& folder, bool resume, bool finish,
-                   const std::string& pick, const py::object& progress) {
+// What it found is in the folder.
+void run_study(const Study& study, const std::string& folder, bool resume, bool finish,
+               const std::string& pick, const py::object& progress) {
   if (!all_jobs_ended()) {
     throw InputError({{"", 0, 0, "optimize",
                        "a search works in processes forked from this one: let the evaluations of "
@@ -51,9 +41,8 @@ py::dict run_study(const Study& study, const std::string& folder, bool resume, b
   options.resume = resume;
   options.finish = finish;
   options.pick = pick;
-  return run_row(run_job(
-      [study, folder, options](Job& job) { return study.run(folder, watched(options, job)); },
-      progress));
+  run_job([study, folder, options](Job& job) { return study.run(folder, watched(options, job)); },
+          progress);
 }
 
 }  // namespace

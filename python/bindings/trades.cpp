@@ -1,4 +1,4 @@
-// papilla/rank.h, papilla/calibrate.h and papilla/files.h
+// papilla/rank.h, papilla/calibrate.h, papilla/files.h and papilla/scan.h
 #include "convert.h"
 #include "job.h"
 
@@ -42,6 +42,10 @@ py::tuple verdict_row(const FolderVerdict& v) {
                       "design"_a = v.verdict.design, "file"_a = v.verdict.file,
                       "loss"_a = v.verdict.loss, "faults"_a = v.verdict.faults);
   return py::make_tuple(v.folder, v.sound(), files, v.felt ? py::object(felt) : py::none());
+}
+
+py::tuple scan_row(const Scan& scan) {
+  return py::make_tuple(scan.heights, scan.changes, scan.json);
 }
 
 }  // namespace
@@ -96,6 +100,19 @@ void bind_trades(py::module_& module) {
         return out;
       },
       py::arg("path"), py::arg("geometry"), py::arg("tolerance"));
+  module.def(
+      "read_scan",
+      [](const std::string& file, double width, bool fill, bool as_is, double tip) {
+        return scan_row(run_job([=](Job&) { return read_scan(file, {width, fill, as_is, tip}); }));
+      },
+      py::arg("file"), py::arg("width"), py::arg("fill"), py::arg("as_is"), py::arg("tip"));
+  module.def(
+      "measured",
+      [](const Array& z, double dx, double dy, double tip) {
+        return scan_row(
+            run_job([h = heights_of(z, dx, dy), tip](Job&) { return measured(h, tip); }));
+      },
+      py::arg("z"), py::arg("dx"), py::arg("dy"), py::arg("tip"));
 }
 
 }  // namespace papilla::python

@@ -12,9 +12,10 @@ import textwrap
 from collections.abc import Iterator
 
 import papilla as pp
-from papilla import design, errors, physics, response, study, trades
+from papilla import design, errors, physics, quantity, response, scans, study, sweeps, trades
 
-SECTIONS = [("Designs", design), ("What an evaluation answers", response), ("Single pieces of the physics", physics),
+SECTIONS = [("Designs", design), ("What an evaluation answers", response), ("Numbers with errors", quantity),
+            ("Many evaluations", sweeps), ("Single pieces of the physics", physics), ("Measured maps", scans),
             ("Studies", study), ("Ranking, fitting, files", trades), ("Errors", errors)]
 HEAD = """# Python: every class and function
 

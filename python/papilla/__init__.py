@@ -14,8 +14,11 @@ from papilla.design import Design, Heights, Look, Number, compare
 from papilla.errors import InputError, Problem, Stopped
 from papilla.physics import (Bridge, Contact, Drive, Droplets, Field, Persson, bridge, contact, drive, droplets, field,
                              haze, persson)
-from papilla.response import Comparison, Difference, Differences, Quantity, Response, Sensitivity
+from papilla.quantity import Quantity
+from papilla.response import Comparison, Difference, Differences, Response, Sensitivity
+from papilla.scans import Scan, Spectrum, read_scan, roughness, spectrum
 from papilla.study import Decision, FoundDesign, Judgement, Objective, Point, Prospect, Run, Study, Variable
+from papilla.sweeps import Sweep, sweep
 from papilla.trades import (Calibration, Exported, FileVerdict, FittedParameter, FolderVerdict, Ranked, Ranking,
                             calibrate, rank, verify)
 
@@ -23,6 +26,7 @@ __all__ = [
     "Bridge", "Calibration", "Comparison", "Contact", "Decision", "Design", "Difference", "Differences", "Drive", "Droplets",
     "Exported", "Field", "FileVerdict", "FittedParameter", "FolderVerdict", "FoundDesign", "Heights", "InputError",
     "Judgement", "Look", "Number", "Objective", "Persson", "Point", "Problem", "Prospect", "Quantity", "Ranked", "Ranking",
-    "Response", "Run", "Sensitivity", "Stopped", "Study", "Variable", "__version__", "bridge", "calibrate", "compare",
-    "contact", "drive", "droplets", "field", "haze", "persson", "rank", "verify",
+    "Response", "Run", "Scan", "Sensitivity", "Spectrum", "Stopped", "Study", "Sweep", "Variable", "__version__", "bridge", "calibrate", "compare",
+    "contact", "drive", "droplets", "field", "haze", "persson", "rank", "read_scan", "roughness",
+    "spectrum", "sweep", "verify",
 ]

@@ -58,26 +58,22 @@ class Look:
 class Heights:
     """Heights of a patch [m]: high touches first, holes are below zero.
 
-    ``z`` has the shape (ny, nx), float64, and is the memory of the library itself, without a copy.
+    ``z`` has the shape (ny, nx), float64; of ``Design.heights`` it is the memory of the library itself, without a copy.
+    Pickles and copies hold the heights.
     """
 
-    def __init__(self, native: _native.Heights) -> None:
-        self._inside = native
+    z: FloatArray
+    """Shape (ny, nx) [m]; z[j, i] lies at ((i + 1/2) dx, (j + 1/2) dy)."""
+    dx: float
+    """Width of a pixel [m]."""
+    dy: float
+    """Height of a pixel [m]."""
 
-    @property
-    def z(self) -> FloatArray:
-        """Shape (ny, nx) [m]; z[j, i] lies at ((i + 1/2) dx, (j + 1/2) dy)."""
-        return self._inside.z
+    def __init__(self, z: FloatArray, dx: float, dy: float) -> None:
+        self.z, self.dx, self.dy = z, dx, dy
 
-    @property
-    def dx(self) -> float:
-        """Width of a pixel [m]."""
-        return self._inside.dx
-
-    @property
-    def dy(self) -> float:
-        """Height of a pixel [m]."""
-        return self._inside.dy
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Heights, (np.array(self.z), self.dx, self.dy)
 
     @property
     def size(self) -> tuple[float, float]:
@@ -200,7 +196,8 @@ class Design:
         A design from an array gives z - z.max() to the last bit where ``pixels`` is its width, an even number.
         Raises InputError.
         """
-        return Heights(self._inside.heights(v.whole(pixels, "pixels", 8, 65536)))
+        made = self._inside.heights(v.whole(pixels, "pixels", 8, 65536))
+        return Heights(made.z, made.dx, made.dy)
 
     def look(self) -> Look:
         """Haze, transmittance, gloss and colour on glass. Takes a second at most."""
@@ -220,6 +217,8 @@ class Design:
 
         Other threads run meanwhile; Ctrl-C ends it within a fifth of a second. Raises InputError, KeyboardInterrupt.
         """
+        if level and target:
+            raise wrong("target", "give a level or a target, not both: a target finds its own level")
         how = _how(level, target, threads, model, parameters, look, voltage_for, force)
         return Response(_native.evaluate(self._inside, how, shown(progress, "evaluate")))
 
@@ -261,7 +260,8 @@ class Design:
             return bool(np.array_equal(mine.z, theirs.z)) and self.to_dict() == other.to_dict()
         return _values_alone(self) == _values_alone(other)
 
-    __hash__ = None  # type: ignore[assignment]
+    def __hash__(self) -> int:
+        return hash(frozenset(self.to_dict().items()))
 
     def __reduce__(self) -> tuple[Any, ...]:
         drawn = self._inside.drawn()

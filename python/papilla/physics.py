@@ -22,7 +22,7 @@ Size = Union[Quantified, Sequence[Quantified]]
 Map = Union[npt.ArrayLike, Heights]
 
 
-def _map(z: Map, size: Size | None, key: str) -> tuple[FloatArray, float, float]:
+def map_of(z: Map, size: Size | None, key: str) -> tuple[FloatArray, float, float]:
     if isinstance(z, Heights):
         if size is not None:
             raise wrong("size", "is known of Heights; leave it out")
@@ -33,8 +33,8 @@ def _map(z: Map, size: Size | None, key: str) -> tuple[FloatArray, float, float]
     return (heights, *v.pixel_size(heights.shape, size))
 
 
-@dataclass(frozen=True)
-class Contact:
+@dataclass(frozen=True, repr=False)
+class Contact(v.Brief):
     """A rough surface pressed on an elastic solid."""
 
     converged: bool
@@ -70,7 +70,7 @@ def contact(z: Map, size: Size | None = None, *, pressure: Quantified, modulus: 
 
     Raises InputError naming the argument. Source: docs/theory/contact.md (Polonsky and Keer 1999 with certificates).
     """
-    heights, dx, dy = _map(z, size, "z")
+    heights, dx, dy = map_of(z, size, "z")
     if (modulus is None) == (layer_modulus is None):
         raise wrong("modulus", "give modulus (E* of a half-space), or layer_modulus with bulk_modulus")
     if modulus is not None:
@@ -93,8 +93,8 @@ def _poisson(value: float, key: str) -> float:
     return number
 
 
-@dataclass(frozen=True)
-class Bridge:
+@dataclass(frozen=True, repr=False)
+class Bridge(v.Brief):
     """A liquid bridge between two plates."""
 
     exists: bool
@@ -131,8 +131,8 @@ def _angle(value: Quantified, key: str) -> float:
     return number
 
 
-@dataclass(frozen=True)
-class Droplets:
+@dataclass(frozen=True, repr=False)
+class Droplets(v.Brief):
     """Sweat in a gap, settled where its energy is lowest."""
 
     converged: bool
@@ -178,7 +178,7 @@ def droplets(gap: Map, size: Size | None = None, *, volume: Quantified, theta_sk
 
     Raises InputError naming the argument. Source: docs/theory/capillary.md, Eqs. capillary.4 to 10.
     """
-    heights, dx, dy = _map(gap, size, "gap")
+    heights, dx, dy = map_of(gap, size, "gap")
     return Droplets(**_native.droplets(
         heights, dx, dy, v.si(volume, "m3", "volume"), v.positive(surface_tension, "N/m", "surface_tension"),
         _angle(theta_skin, "theta_skin"), _angle(theta_substrate, "theta_substrate"),
@@ -187,8 +187,8 @@ def droplets(gap: Map, size: Size | None = None, *, volume: Quantified, theta_sk
         v.flag(threshold, "threshold")))
 
 
-@dataclass(frozen=True)
-class Field:
+@dataclass(frozen=True, repr=False)
+class Field(v.Brief):
     """The electrostatic pull over a gap."""
 
     converged: bool
@@ -217,7 +217,7 @@ def field(gap: Map, size: Size | None = None, *, voltage: Quantified, thickness:
 
     Raises InputError naming the argument. Source: docs/theory/electrostatics.md.
     """
-    heights, dx, dy = _map(gap, size, "gap")
+    heights, dx, dy = map_of(gap, size, "gap")
     below = None if surface is None else v.height_map(surface, "surface")
     if below is not None and below.shape != heights.shape:
         raise wrong("surface", f"expected the shape of the gap, {heights.shape}, got {below.shape}")
@@ -324,6 +324,6 @@ def haze(z: Map, size: Size | None = None, *, index: float = 1.46, fill_index: f
     index: of the glass. fill_index: of what fills the texture, 1: air. angles: of the light from the normal [rad],
     up to 70 degrees; the answer is their mean. Raises InputError. Source: docs/theory/optics.md.
     """
-    heights, dx, dy = _map(z, size, "z")
+    heights, dx, dy = map_of(z, size, "z")
     return Look(**_native.look(heights, dx, dy, v.si(index, "", "index"), v.si(fill_index, "", "fill_index"),
                                [_angle(angle, "angles") for angle in v.items(angles, "angles")]))

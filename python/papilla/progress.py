@@ -55,4 +55,6 @@ def _words(state: tuple[object, ...]) -> str:
     if len(state) == 4:
         stage, done, total, _ = state
         return f"{stage} {done} of {total}"
+    if len(state) == 2:
+        return f"{state[0]} of {state[1]}"
     return f"{state[0]} skin patches" if isinstance(state[0], int) else str(state[0])

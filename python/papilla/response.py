@@ -11,42 +11,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from papilla import _native
+from papilla.quantity import Quantity
 from papilla.values import FloatArray
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
+    import xarray
 
-__all__ = ["Comparison", "Difference", "Differences", "Quantity", "Response", "Sensitivity"]
-
-
-@dataclass(frozen=True)
-class Quantity:
-    """A number at each humidity, SI, with one standard error.
-
-    The error is the root of the sum of squares of its parts but ``model`` and ``water``, which are common to all designs:
-    what the finger's belief leaves open, and half a band of the droplets. NaN in a part: it was not
-    measured. Source: docs/theory/accuracy.md.
-    """
-
-    value: FloatArray
-    """Shape (humidities,)."""
-    error: FloatArray
-    """Shape (humidities,): one standard error."""
-    parts: Mapping[str, FloatArray]
-    """By origin, each of shape (humidities,): sampling, grid, solver, humidity, method, field, parameters, model, water."""
-    numerical: FloatArray
-    """Shape (humidities,): one standard error of skins, grids and methods, in squares."""
-    model: FloatArray
-    """Shape (humidities,): one standard deviation over what is not known of finger and model, the members of the
-    finger's belief, else the part ``parameters``; NaN: not stated."""
-
-    def __len__(self) -> int:
-        return len(self.value)
-
-    def __repr__(self) -> str:
-        pairs = ", ".join(f"{v:.4g} ± {e:.2g}" for v, e in zip(self.value, self.error))
-        return f"Quantity({pairs})"
+__all__ = ["Comparison", "Difference", "Differences", "Response", "Sensitivity"]
 
 
 class Response:
@@ -69,6 +42,7 @@ class Response:
 
     def __init__(self, columns: dict[str, Any]) -> None:
         self._columns = columns
+        self._quantities = {name: Quantity(**row, unit=_UNITS[name]) for name, row in columns["quantities"].items()}
         self.humidity = columns["relative_humidity"]
         self.sound = tuple(columns["sound"])
         self.status = tuple(columns["status"])
@@ -85,15 +59,37 @@ class Response:
         return document
 
     def to_dataframe(self) -> pandas.DataFrame:
-        """One row per humidity, a column per quantity and one, ``..._error``, per error. Needs pandas."""
+        """One row per humidity, a column per quantity and one, ``..._error``, per error; their SI units are
+        ``frame.attrs["units"]``. Needs pandas."""
         import pandas
 
         columns: dict[str, Any] = {"humidity": self.humidity}
-        for name, quantity in self._columns["quantities"].items():
-            columns[name] = quantity["value"]
-            columns[name + "_error"] = quantity["error"]
+        for name, quantity in self._quantities.items():
+            columns[name] = quantity.value
+            columns[name + "_error"] = quantity.error
         columns["sound"] = list(self.sound)
-        return pandas.DataFrame(columns)
+        frame = pandas.DataFrame(columns)
+        frame.attrs["units"] = {name: _UNITS[name.removesuffix("_error")] for name in columns
+                                if name.removesuffix("_error") in self._quantities}
+        return frame
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Over ``humidity``: each quantity and its ``..._error``, ``..._numerical`` and ``..._model``, with attributes
+        ``units`` (SI) and ``long_name``; ``sound`` and ``status``. Needs xarray."""
+        import xarray
+
+        def row(name: str, values: FloatArray, suffix: str) -> tuple[str, FloatArray, dict[str, str]]:
+            return "humidity", values, {"units": _UNITS[name] or "1", "long_name": _MEANINGS[name] + suffix}
+
+        data: dict[str, Any] = {}
+        for name, quantity in self._quantities.items():
+            data[name] = row(name, quantity.value, "")
+            data[name + "_error"] = row(name, quantity.error, ": standard error")
+            data[name + "_numerical"] = row(name, quantity.numerical, ": standard error, numerical part")
+            data[name + "_model"] = row(name, quantity.model, ": standard deviation over what is not known of the model")
+        data["sound"] = ("humidity", np.array(self.sound))
+        data["status"] = ("humidity", np.array(self.status))
+        return xarray.Dataset(data, {"humidity": ("humidity", self.humidity, {"units": "1", "long_name": "relative humidity"})})
 
     def plot(self, ax: matplotlib.axes.Axes | None = None, quantity: str | None = None) -> matplotlib.axes.Axes:
         """A quantity over humidity with a band of two standard errors; returns the axes. Needs matplotlib.
@@ -122,7 +118,8 @@ class Response:
 
     def __repr__(self) -> str:
         name = "modulation" if self.driven else "friction_off"
-        return f"<papilla.Response at {len(self.humidity)} humidities, {name} {getattr(self, name)!r}>"
+        shown = repr(getattr(self, name)).removeprefix("Quantity(").removesuffix(")")
+        return f"<papilla.Response at {len(self.humidity)} humidities, {name} {shown}>"
 
     def _repr_svg_(self) -> str:
         svg: str = self._columns["svg"]
@@ -150,10 +147,9 @@ def _quantity(name: str, unit: str, driven: bool, meaning: str) -> property:
     """The member of a response that holds a quantity of the library's list."""
 
     def found(self: Response) -> Quantity:
-        quantities = self._columns["quantities"]
-        if name not in quantities:
+        if name not in self._quantities:
             raise AttributeError(f"{name}: the design has no drive; give drive.amplitude")
-        return Quantity(**quantities[name])
+        return self._quantities[name]
 
     found.__doc__ = meaning[0].upper() + meaning[1:] + (f" [{unit}]" if unit else "") + "."
     if driven:
@@ -161,6 +157,8 @@ def _quantity(name: str, unit: str, driven: bool, meaning: str) -> property:
     return property(found)
 
 
+_UNITS = {name: unit for name, unit, _, _ in _native.quantities()}
+_MEANINGS = {name: meaning for name, _, _, meaning in _native.quantities()}
 for _name, _unit, _driven, _meaning in _native.quantities():
     setattr(Response, _name, _quantity(_name, _unit, _driven, _meaning))
 

@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,9 @@ from papilla.progress import Progress, shown
 from papilla.response import as_array
 from papilla.values import FloatArray, Path
 
+if TYPE_CHECKING:
+    import pandas
+
 __all__ = ["Decision", "FoundDesign", "Judgement", "Objective", "Point", "Prospect", "Run", "Study", "Variable"]
 
 
@@ -26,13 +29,27 @@ class Variable:
     """A number that a search may change."""
 
     path: str
-    """The key: "texture.depth"; of "texture.type" the number is the place in the list of kinds."""
+    """The key: "texture.depth"."""
     unit: str
     """For people; the numbers below are SI."""
     low: float
     high: float
     choices: tuple[float, ...]
     """Not empty: one of these."""
+    names: tuple[str, ...] = ()
+    """Of the choices, where they are words and no numbers: the kinds of "texture.type"."""
+
+    def shown(self, value: float) -> Union[float, str]:
+        """The value as a person gives it: the name of a choice that has one, else the number."""
+        return self.names[self.choices.index(value)] if self.names else value
+
+    def number(self, value: Any) -> float:
+        """The number of a name, of a text with a unit, or of a number. Raises InputError that names the key."""
+        if not self.names or not isinstance(value, str):
+            return v.si(value, self.unit, self.path)
+        if value not in self.names:
+            raise wrong(self.path, f"expected one of {', '.join(self.names)}, got {value!r}")
+        return self.choices[self.names.index(value)]
 
 
 @dataclass(frozen=True)
@@ -57,17 +74,17 @@ class Judgement:
     """One per constraint that needs an evaluation; above 0: broken, relative to its limit."""
 
 
-class Point(Mapping[str, float]):
-    """Values of a study's variables by their path, SI."""
+class Point(Mapping[str, Any]):
+    """Values of a study's variables by their path, numbers in SI; of "texture.type" its name."""
 
     def __init__(self, study: Study, values: Sequence[float]) -> None:
         self._study = study
         self._values = [float(value) for value in values]
 
-    def __getitem__(self, path: str) -> float:
+    def __getitem__(self, path: str) -> Any:
         for variable, value in zip(self._study.variables, self._values):
             if variable.path == path:
-                return value
+                return variable.shown(value)
         raise KeyError(path)
 
     def __iter__(self) -> Iterator[str]:
@@ -78,16 +95,16 @@ class Point(Mapping[str, float]):
 
     @property
     def values_si(self) -> FloatArray:
-        """In the order of the study's variables, shape (variables,)."""
+        """In the order of the study's variables, shape (variables,); a name stands as the number of its choice."""
         return as_array(self._values)
 
     @property
     def design(self) -> Design:
         """The design that these values make."""
-        return self._study.design(self)
+        return self._study.design(self.values_si)
 
     def __repr__(self) -> str:
-        shown = (f"{x.path}={_native.quantity_text(float(f'{value:.4g}'), x.unit)}"
+        shown = (f"{x.path}={x.shown(value) if x.names else _native.quantity_text(float(f'{value:.4g}'), x.unit)}"
                  for x, value in zip(self._study.variables, self._values))
         return f"Point({', '.join(shown)})"
 
@@ -142,20 +159,53 @@ class Decision:
 class Run:
     """A search that came to its end, or was interrupted and can go on."""
 
-    def __init__(self, study: Study, folder: str, row: dict[str, Any]) -> None:
+    def __init__(self, study: Study, folder: str) -> None:
+        self.study = study
         self.folder = folder
-        self.interrupted: bool = row["interrupted"]
-        self.any_feasible: bool = row["any_feasible"]
+        told = self._told()
+        self.interrupted: bool = told["interrupted"]
+        self.any_feasible: bool = told["feasible"]
         """Whether a design keeps every constraint."""
-        self.evaluations: int = row["evaluations"]
-        self.table: str = row["table"]
-        """For people, Markdown."""
+        self.evaluations: int = told["evaluations"]
         self.finalists: list[FoundDesign] = [
-            FoundDesign(Point(study, values), _judgement(searched), _judgement(confirmed),
-                        os.path.join(folder, below) if below else "")
-            for values, searched, confirmed, below in row["finalists"]]
+            FoundDesign(Point(study, row["values"]), _told_judgement(row["searched"]), _told_judgement(row["confirmed"]),
+                        os.path.join(folder, row["folder"]) if row["folder"] else "") for row in told["finalists"]]
         """By the first objective, best first."""
-        self._best: int = row["best"]
+        self._best: int = told["best"]
+
+    @classmethod
+    def open(cls, folder: Path) -> Run:
+        """A run that ended, or was interrupted, from its folder: of ``Study.optimize``, ``papilla optimize`` or the studio.
+
+        Nothing is evaluated nor written. Raises InputError for a folder that is none of a run.
+        """
+        name = v.path(folder, "folder")
+        if not os.path.isfile(os.path.join(name, "run.json")):
+            raise wrong("folder", f"{name} holds no run.json: expected the folder of a run that came to an end")
+        return cls(Study.load(os.path.join(name, "resolved.toml")), name)
+
+    @property
+    def table(self) -> str:
+        """For people, Markdown: the run's summary.md."""
+        with open(os.path.join(self.folder, "summary.md"), encoding="utf-8") as file:
+            return file.read()
+
+    def to_dataframe(self) -> pandas.DataFrame:
+        """A row for each finalist: its variables, each objective as confirmed and its ``..._error``, ``on_front``, ``ok``
+        and ``folder``. Needs pandas."""
+        import pandas
+
+        rows = []
+        for found in self.finalists:
+            row: dict[str, Any] = dict(found.point)
+            for i, objective in enumerate(self.study.objectives):
+                known = found.confirmed.ok
+                row[objective.name] = found.confirmed.values[i] if known else float("nan")
+                row[objective.name + "_error"] = found.confirmed.errors[i] if known else float("nan")
+            rows.append({**row, "on_front": bool(found.folder), "ok": found.confirmed.ok, "folder": found.folder})
+        frame = pandas.DataFrame(rows)
+        frame.attrs["units"] = {variable.path: variable.unit for variable in self.study.variables}
+        return frame
 
     @property
     def front(self) -> list[FoundDesign]:
@@ -173,7 +223,7 @@ class Run:
     def decision(self) -> Decision:
         """By belief. Raises LookupError with the reason where there is none."""
         judged = not self.interrupted and bool(self.finalists)
-        found = (self._told("decision") if judged else None) or {}
+        found = (self._told().get("decision") if judged else None) or {}
         if found.get("absent", "the run has no design to decide on"):
             raise LookupError(found.get("absent", "the run has no design to decide on"))
         return Decision(
@@ -188,17 +238,20 @@ class Run:
         """The yield of what is built: the ``share`` of plates within every limit, its standard error ``se``, how often
         each limit is ``broken``, what half of each of the ``tolerances`` gains, and the ``costliest``. None where
         nothing scatters."""
-        return self._told("yield")
+        return self._told().get("yield")
 
     @property
     def shared(self) -> Optional[dict[str, Any]]:
         """What all good designs share: the ``ranges`` of each number over the designs within 5 % of the front, SI, and
         a sentence, ``said``. None where there are fewer than five."""
-        return self._told("shared")
+        return self._told().get("shared")
 
-    def _told(self, key: str) -> Optional[dict[str, Any]]:
+    def _told(self) -> dict[str, Any]:
+        """run.json, as it stands in the folder now."""
         with open(os.path.join(self.folder, "run.json"), encoding="utf-8") as file:
-            told: Optional[dict[str, Any]] = json.load(file).get(key)
+            told: dict[str, Any] = json.load(file)
+        if "finalists" not in told:
+            raise wrong("folder", f"{self.folder} was written by an older version: run its resolved.toml again")
         return told
 
     def __repr__(self) -> str:
@@ -208,7 +261,7 @@ class Run:
 
 _Row = tuple[bool, str, list[float], list[float], list[float]]
 """Of a judgement: ok, reason, values, errors, violations."""
-Values = Union[Mapping[str, float], Sequence[float], FloatArray]
+Values = Union[Mapping[str, Any], Sequence[Any], FloatArray]
 Told = Optional[Union[float, Sequence[float], FloatArray]]
 
 
@@ -228,10 +281,12 @@ class Study:
         file, toml, changes = self._source
         self._inside = _native.Study.read(file, changes) if file else _native.Study.parse(toml, changes)
         self._search: _native.Search | None = None
+        self._waiting: list[Point] = []  # of the searcher's batch, not asked for yet
         self._asked: list[Point] = []
+        self._answers: list[_Row] = []  # to the batch, so far
         self._told: list[list[_Row]] = []
         self.variables: list[Variable] = [
-            Variable(*row[:4], tuple(row[4])) for row in self._inside.variables()]
+            Variable(*row[:4], tuple(row[4]), tuple(row[5])) for row in self._inside.variables()]
         self.objectives: list[Objective] = [Objective(*row) for row in self._inside.objectives()]
 
     @classmethod
@@ -242,11 +297,15 @@ class Study:
         return study
 
     @classmethod
-    def _again(cls, source: tuple[str, str, list[tuple[str, str]]], told: list[list[_Row]], asking: bool) -> Study:
+    def _again(cls, source: tuple[str, str, list[tuple[str, str]]], told: list[list[_Row]], answers: list[_Row],
+               asked: int) -> Study:
         study = cls._of(source)
         study._told = list(told)
-        if asking:
-            study.ask()
+        if answers or asked:
+            study._waiting = study._next_batch()[len(answers):]
+            study._answers = list(answers)
+        if asked:
+            study.ask(asked)
         return study
 
     @classmethod
@@ -275,19 +334,28 @@ class Study:
     def judge(self, values: Values, *, threads: int = 0) -> Judgement:
         """The model on every finger and scenario, as accurately as a search: a second or less.
 
-        A shape that breaks a limit is refused at once: ``ok`` is False. Raises InputError, KeyboardInterrupt.
+        values: by path (variables that are left out have the study's own values), or all in their order. A shape that breaks a limit is refused at once: ``ok`` is False. Raises InputError, KeyboardInterrupt.
         """
         return _judgement(self._inside.judge(self._numbers(values), v.whole(threads, "threads", 0, 4096)))
 
-    def ask(self) -> list[Point]:
+    def ask(self, n: int = 0) -> list[Point]:
         """The next designs that the study's method wants to know; empty: nothing more to try.
 
-        They depend on the study (its method and seed) and on what was told, never on time.
+        n: at most so many; 0: all that the method wants at once. It learns from a batch when the whole of it is told, so
+        the designs are the same for any n. They depend on the study (its method and seed) and on what was told, never on
+        time. Raises InputError.
         """
+        count = v.whole(n, "n", 0, 1000000)
         if self._asked:
             raise wrong("ask", f"tell() first what the {len(self._asked)} designs of the last ask() are worth")
-        self._asked = [Point(self, values) for values in self._searcher().ask()]
+        if not self._waiting:
+            self._waiting = self._next_batch()
+        count = count or len(self._waiting)
+        self._asked, self._waiting = self._waiting[:count], self._waiting[count:]
         return list(self._asked)
+
+    def _next_batch(self) -> list[Point]:
+        return [Point(self, values) for values in self._searcher().ask()]
 
     def _searcher(self) -> _native.Search:
         """Which knows all that was told: a copy learns it again, and asks for the same from there on."""
@@ -323,9 +391,12 @@ class Study:
             if min(error) < 0:
                 raise wrong("errors", "must not be negative")
             rows.append((True, "", told, error, self._broken(violations, i, len(points))))
-        self._searcher().tell(rows)
-        self._told.append(rows)
         self._asked = []
+        self._answers += rows
+        if not self._waiting:
+            self._searcher().tell(self._answers)
+            self._told.append(self._answers)
+            self._answers = []
 
     @property
     def constraints(self) -> int:
@@ -343,9 +414,9 @@ class Study:
         Raises InputError, KeyboardInterrupt.
         """
         folder = v.path(out, "out")
-        row = self._inside.run(folder, v.flag(resume, "resume"), v.flag(finish, "finish"), v.text(pick, "pick"),
-                               shown(progress, "optimize"))
-        return Run(self, folder, row)
+        self._inside.run(folder, v.flag(resume, "resume"), v.flag(finish, "finish"), v.text(pick, "pick"),
+                         shown(progress, "optimize"))
+        return Run(self, folder)
 
     def _numbers(self, values: Values) -> list[float]:
         if isinstance(values, Mapping):
@@ -353,14 +424,12 @@ class Study:
             for path in values:
                 if path not in known:
                     raise wrong(str(path), f"is no variable of the study; its variables: {', '.join(known)}")
-            for path in known:
-                if path not in values:
-                    raise wrong(path, "missing")
-            return [v.si(values[x.path], x.unit, x.path) for x in self.variables]
+            own = dict(zip(known, self._inside.own_values())) if len(values) < len(known) else {}
+            return [x.number(values[x.path]) if x.path in values else own[x.path] for x in self.variables]
         numbers = v.items(values, "values")
         if len(numbers) != len(self.variables):
             raise wrong("values", f"expected one for each of {len(self.variables)} variables, got {len(numbers)}")
-        return [v.si(value, x.unit, x.path) for value, x in zip(numbers, self.variables)]
+        return [x.number(value) for value, x in zip(numbers, self.variables)]
 
     def _require_asked(self, points: Sequence[Point]) -> None:
         if not self._asked:
@@ -388,11 +457,14 @@ class Study:
         return [v.si(number, "", "violations") for number in violations[i]]
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """The study, what it was told, and whether it waits for an answer."""
-        return Study._again, (self._source, self._told, bool(self._asked))
+        """The study, what it was told, and for how many designs it waits for an answer."""
+        return Study._again, self._state()
+
+    def _state(self) -> tuple[tuple[str, str, list[tuple[str, str]]], list[list[_Row]], list[_Row], int]:
+        return self._source, self._told, self._answers, len(self._asked)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Study:
-        return self._again(self._source, self._told, bool(self._asked))
+        return self._again(*self._state())
 
     def __copy__(self) -> Study:
         return self.__deepcopy__({})
@@ -405,3 +477,11 @@ class Study:
 def _judgement(row: _Row) -> Judgement:
     ok, reason, values, errors, violations = row
     return Judgement(ok, reason, as_array(values), as_array(errors), as_array(violations))
+
+
+def _told_judgement(row: dict[str, Any]) -> Judgement:
+    def numbers(key: str) -> list[float]:
+        return [float("nan") if number is None else number for number in row[key]]
+
+    return Judgement(row["ok"], row["reason"], as_array(numbers("values")), as_array(numbers("errors")),
+                     as_array(numbers("violations")))

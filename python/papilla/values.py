@@ -22,6 +22,24 @@ Path = Union[str, "os.PathLike[str]"]
 Quantified = Union[str, float]
 """A number with its unit, "350 nm", or a number in the SI unit, 350e-9."""
 
+class Brief:
+    """A dataclass whose representation tells the shapes of its arrays, and the ends of long texts, in place of all of them."""
+
+    def __repr__(self) -> str:
+        shown = (f"{name}={_brief(value)}" for name, value in vars(self).items() if not name.startswith("_"))
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def _brief(value: Any) -> str:
+    if isinstance(value, np.ndarray) and value.size > 6:
+        return f"<{' x '.join(map(str, value.shape))} {value.dtype}>"
+    if isinstance(value, str) and len(value) > 60:
+        return repr(value[:57] + "...")
+    if isinstance(value, (list, tuple, dict)) and len(value) > 6:
+        return f"<{len(value)} items>"
+    return repr(value)
+
+
 # Sections of a study: their numbers are written with units, as in its file.
 STUDY_SECTIONS = {"design_space", "objective", "constraints", "population", "scenarios", "scatter",
                   "search"}

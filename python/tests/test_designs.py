@@ -12,7 +12,7 @@ import pytest
 
 import kinds
 import papilla as pp
-from conftest import QUICK, ROOT
+from conftest import QUICK, ROOT, command_json
 
 
 def drawn(n: int = 96) -> np.ndarray:
@@ -181,3 +181,57 @@ def test_a_fitted_finger_replaces_that_of_a_design() -> None:
     assert fitted["texture.depth"] == d["texture.depth"]
     with pytest.raises(pp.InputError, match="expected a Design"):
         fit.apply("a3h350.toml")  # type: ignore[arg-type]
+
+
+def test_designs_are_keys_of_dicts() -> None:
+    d = pp.Design.load("m3_samples/a3h350.toml")
+    again = pickle.loads(pickle.dumps(d))
+    assert {d: "first"}[again] == "first" and hash(d) != hash(d.with_({"texture.depth": "351 nm"}))
+    z = drawn()
+    one, other = pp.Design.from_heights(z, "6 um"), pp.Design.from_heights(z, "6 um")
+    assert one == other and hash(one) == hash(other)
+
+
+def test_heights_survive_pickle_and_copy() -> None:
+    h = pp.Design.load("m3_samples/a3h350.toml").heights(64)
+    for other in (pickle.loads(pickle.dumps(h)), copy.copy(h), copy.deepcopy(h)):
+        assert np.array_equal(other.z, h.z) and (other.dx, other.dy) == (h.dx, h.dy) and other.size == h.size
+    assert pp.contact(pickle.loads(pickle.dumps(h)), pressure="20 kPa", modulus="1 MPa").converged
+
+
+def test_representations_are_short() -> None:
+    h = pp.Design.load("m3_samples/a3h350.toml").heights(64)
+    shown = repr(pp.contact(h, pressure="20 kPa", modulus="1 MPa"))
+    assert "pressure=<64 x 64 float64>" in shown and len(shown) < 400
+
+
+def test_a_level_and_a_target_are_not_given_together() -> None:
+    with pytest.raises(pp.InputError, match="target: give a level or a target, not both"):
+        pp.Design.load("m3_samples/a3h350.toml").evaluate("draft", target=0.05)
+
+
+def test_a_scan_is_what_the_command_shows(tmp_path: pathlib.Path) -> None:
+    file = ROOT / "designs/measured_surface/scan.gsf"
+    scan = pp.read_scan(file, tip="20 nm")
+    assert scan.to_dict() == command_json("surface", str(file), "--tip", "20 nm")
+    assert scan.changes.startswith(str(file)) and scan.roughness["Sq"] == scan.to_dict()["areal"]["Sq"]
+    assert np.array_equal(pickle.loads(pickle.dumps(scan)).heights.z, scan.heights.z)
+    assert scan.design({"base": "m3_samples/common.toml"}).heights(64).z.shape == (64, 64)
+    with pytest.raises(pp.InputError, match="nowhere.gsf"):
+        pp.read_scan(tmp_path / "nowhere.gsf")
+    with pytest.raises(pp.InputError, match="tip"):
+        pp.read_scan(file, tip=-1e-9)
+
+
+def test_a_wave_has_its_roughness_and_its_line_in_the_spectrum() -> None:
+    n, waves, height = 256, 16, 80e-9
+    z = np.broadcast_to(height * np.sin(2 * np.pi * waves * (np.arange(n) + 0.5) / n), (n, n))
+    told = pp.roughness(z + 5e-9, "32 um")
+    assert told["Sq"] == pytest.approx(height / np.sqrt(2), rel=1e-9) and told["Sz"] == pytest.approx(2 * height, rel=0.02)
+    assert told["Ssk"] == pytest.approx(0, abs=1e-9) and told["Sku"] == pytest.approx(1.5, rel=1e-9)
+    s = pp.spectrum(z, "32 um")
+    assert s.wavelength[np.argmax(s.density)] == pytest.approx(2e-6, rel=0.13), "a tenth of a decade wide"
+    assert s.longest == pytest.approx(8e-6) and not s.by_tip and s.known[np.argmax(s.density)] and not s.known[0]
+    assert pp.spectrum(z, "32 um", tip="100 um").by_tip
+    with pytest.raises(pp.InputError, match="heights: .*no surface is so steep"):
+        pp.roughness(z * 1e9, "32 um")

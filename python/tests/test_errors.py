@@ -100,7 +100,7 @@ def cases(count: int) -> list[Case]:
     def studies() -> Case:
         return r.choice([
             ("values", lambda: study.judge([1e-7, 2e-7])), ("texture.depth", lambda: study.judge([1.0])),
-            ("texture.depth", lambda: study.judge({})), ("texture.width", lambda: study.judge({"texture.width": 1})),
+            ("texture.depth", lambda: study.judge({"texture.depth": "3 V"})), ("texture.width", lambda: study.judge({"texture.width": 1})),
             ("points", lambda: study.tell([], [])), ("threads", lambda: study.judge([2e-7], threads=-2)),
             ("design_space", lambda: pp.Study({**STUDY, "design_space": {"texture.depth": [1e-7, 5e-7]}})),
             ("design_space", lambda: pp.Study(HOLES)), ("objective", lambda: pp.Study({**STUDY, "objective": {}})),

@@ -132,3 +132,64 @@ def test_a_search_runs_to_its_end_and_goes_on_after_ctrl_c(tmp_path: pathlib.Pat
     whole = study.optimize(tmp_path / "whole")
     assert [f.point.values_si.tolist() for f in whole.finalists] == [f.point.values_si.tolist() for f in run.finalists]
     assert pp.verify(tmp_path / "run/best", geometry=True)[0].sound
+
+
+KINDS = {**STUDY, "design_space": {**STUDY["design_space"], "texture.type": {"choice": ["hole_array", "pillar_array"]}},
+         "search": {"method": "nsga2", "evaluations": 40, "seed": 3}}
+
+
+def test_kinds_have_their_names() -> None:
+    study = pp.Study(KINDS)
+    kind = next(variable for variable in study.variables if variable.path == "texture.type")
+    assert kind.names == ("hole_array", "pillar_array") and kind.number("pillar_array") == kind.choices[1]
+    point = study.point({"texture.type": "pillar_array"})
+    assert point["texture.type"] == "pillar_array" and "texture.type=pillar_array" in repr(point)
+    assert point["texture.depth"] == study.own["texture.depth"], "what is left out is the study's own"
+    assert 'type = "pillar_array"' in point.design.to_toml()
+    assert {asked["texture.type"] for asked in study.ask()} <= {"hole_array", "pillar_array"}
+    with pytest.raises(pp.InputError, match="expected one of hole_array, pillar_array, got 'waves'"):
+        study.point({"texture.type": "waves"})
+
+
+def test_designs_are_asked_for_a_few_at_a_time() -> None:
+    whole, few = pp.Study(STUDY), pp.Study(STUDY)
+
+    def worth(points: list[pp.Point]) -> list[float]:
+        return [p["texture.depth"] * 1e6 for p in points]
+
+    for _ in range(2):
+        batch = whole.ask()
+        whole.tell(batch, worth(batch))
+        asked: list[pp.Point] = []
+        while len(asked) < len(batch):
+            points = few.ask(3)
+            assert 1 <= len(points) <= 3
+            few = pickle.loads(pickle.dumps(few))  # waits for the same answers
+            few.tell(points, worth(points))
+            few = copy.deepcopy(few)  # and asks for the rest of the batch
+            asked += points
+        assert [list(p.values()) for p in asked] == [list(p.values()) for p in batch]
+    with pytest.raises(pp.InputError, match="n: "):
+        few.ask(-1)
+
+
+@pytest.mark.slow
+def test_a_run_is_opened_again_from_its_folder(tmp_path: pathlib.Path) -> None:
+    run = pp.Study({**KINDS, "search": {"evaluations": 16, "seed": 3}}).optimize(tmp_path / "run")
+    before = {path: path.stat().st_mtime_ns for path in (tmp_path / "run").rglob("*")}
+    again = pp.Run.open(tmp_path / "run")
+    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "run").rglob("*")} == before, "nothing is written"
+    assert again.evaluations == run.evaluations == 16 and again.any_feasible and not again.interrupted
+    for mine, theirs in zip(again.finalists, run.finalists, strict=True):
+        assert mine.folder == theirs.folder and dict(mine.point) == dict(theirs.point)
+        assert np.array_equal(mine.confirmed.values, theirs.confirmed.values)
+    assert again.best.load() == run.best.load() and again.table == run.table
+    frame = again.to_dataframe()
+    assert list(frame["mean(modulation)"]) == [f.confirmed.values[0] for f in run.finalists]
+    assert set(frame["texture.type"]) <= {"hole_array", "pillar_array"} and frame["on_front"].any()
+    judged = run.study.judge(dict(run.best.point))
+    assert judged.values == pytest.approx(run.best.searched.values), "a search judges its designs so"
+    (tmp_path / "empty").mkdir()
+    for folder in (tmp_path / "empty", tmp_path / "nowhere", 3):
+        with pytest.raises(pp.InputError, match="folder"):
+            pp.Run.open(folder)  # type: ignore[arg-type]

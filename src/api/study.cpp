@@ -31,8 +31,12 @@ std::shared_ptr<const Study::Inside> judged_by(const rooms::Study& study) {
   auto inside = std::make_shared<Study::Inside>();
   inside->study = study;
   inside->problem.emplace(inside->study);
-  for (const rooms::Variable& v : inside->study.variables)
-    inside->variables.push_back({v.path, v.unit, v.low, v.high, v.choices});
+  for (const rooms::Variable& v : inside->study.variables) {
+    Variable out{v.path, v.unit, v.low, v.high, v.choices, {}};
+    if (v.is_kind())
+      for (const double choice : v.choices) out.names.push_back(variable_text(v, choice));
+    inside->variables.push_back(std::move(out));
+  }
   for (const StudyObjective& o : inside->problem->objectives())
     inside->objectives.push_back({o.name, o.maximise});
   return inside;

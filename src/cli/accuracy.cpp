@@ -102,6 +102,13 @@ void add_accuracy(Command app, Context& context) {
   command.add_option("--render", c->render, "Instead: the page of the tables in that folder")
       .type_name("DIR");
   command.add_option("--jobs", c->jobs, "Threads; 0: all processors").range(0, 4096);
+  command.document(
+      {"Sweeps each choice of fidelity on one design and tells error against processor time; with "
+       "--scenes holds the stated error bars against finer references on random scenes.",
+       {{"papilla accuracy --no-levels --out results/sweeps", "the sweeps without the slow level"},
+        {"papilla accuracy --scenes 20 --first-scene 5000",
+         "do bars hold on scenes that nobody has seen"}},
+       {{"DIR/*.csv, *.svg", "with --out: tables and plots"}}});
   command.on_chosen([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
 }
 

@@ -60,6 +60,12 @@ void add_bench(Command app, Context& context) {
       .range(1, 100000);
   command.add_option("--first", c->first, "Of the random designs").range(0, 1000000);
   command.add_option("--out", c->out, "Also write the table as CSV").type_name("FILE");
+  command.document(
+      {"Measures the performance targets on this machine: transforms a contact, times of levels, "
+       "memory, "
+       "scaling. With --prices how well `papilla explain` announces times.",
+       {{"papilla bench", "the table"},
+        {"papilla bench --prices 40 --first 1000", "announced prices of random designs"}}});
   command.on_chosen([&context, c] { context.action = [&context, c] { return run(context, *c); }; });
 }
 

@@ -57,6 +57,16 @@ void add_calibrate(Command app, Context& context) {
       .type_name("DIR");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.document(
+      {"Fits numbers of the finger to measured frictions (a CSV) or to published numbers, with "
+       "priors: "
+       "values, intervals, correlations, what the data cannot tell apart and, with a section "
+       "[belief], a "
+       "weighted set of fingers that every answer carries on. Ctrl-C keeps what is computed.",
+       {{"papilla calibrate fingers/reference.calibration.toml --out results/fit",
+         "the fit of the shipped finger"}},
+       {{"DIR/finger.toml, belief.toml", "the fitted finger; what the data leave open of it"},
+        {"DIR/fit.md, fit.json, report.html", "how well it explains the data"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return run(context, *options); };
   });

@@ -84,6 +84,8 @@ void add_completion(Command app, Context& context) {
   command.add_option("shell", *shell, "bash, zsh or fish: source <(papilla completion bash)")
       .required()
       .one_of({"bash", "zsh", "fish"});
+  command.document({"Prints the script that completes commands and options in a shell.",
+                    {{"papilla completion bash", "to source: source <(papilla completion bash)"}}});
   command.on_chosen([app, &context, shell] {
     context.action = [app, shell] {
       if (*shell == "zsh") std::cout << "autoload -U +X bashcompinit && bashcompinit\n";

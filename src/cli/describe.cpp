@@ -69,6 +69,13 @@ void add_describe(Command app, Context& context) {
                    "The JSON Schema of design and study files, for editors");
   command.add_option("--manuals", options->manuals, "Write the manual pages into this folder")
       .type_name("DIR");
+  command.document(
+      {"Prints the reference of every key of design and study files: unit, range, default, meaning "
+       "and "
+       "source, and the metrics that studies may name.",
+       {{"papilla describe texture.depth", "one key"},
+        {"papilla describe metrics", "what can be wanted"},
+        {"papilla describe --json-schema", "for editors"}}});
   command.on_chosen([&context, options, app] {
     context.action = [options, app] { return describe(*options, app); };
   });

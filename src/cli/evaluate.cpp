@@ -274,6 +274,27 @@ void add_evaluate(Command app, Context& context) {
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--force", options->force,
                    "Run with model options that the finger was not fitted with");
+  command.document(
+      {"Computes how a finger rubs on a design at each humidity: contact of the layered, rough "
+       "skin, "
+       "bridges of sweat, the field and its pull, in equilibrium, averaged over patches of skin. "
+       "Each "
+       "number has a standard error of skins, grids and methods and, where the finger names a "
+       "belief, "
+       "one of what is not known of finger and model. Points that cannot be trusted say why and "
+       "end "
+       "with status 1.",
+       {{"papilla evaluate m3_samples/a3h600.toml",
+         "friction and modulation of a published sample"},
+        {"papilla evaluate m3_samples/flat.toml --set drive.amplitude=150V --accuracy \"3 %\"",
+         "another voltage, as accurate as asked"},
+        {"papilla evaluate m3_samples/a3h600.toml --sweep texture.depth=100nm..600nm:6",
+         "over a number of the design"},
+        {"papilla evaluate m3_samples/flat.toml --voltage-for 0.5",
+         "the voltage that a modulation takes"}},
+       {{"DIR/response.json, response.svg",
+         "with --out: the numbers, and friction and modulation over humidity"},
+        {"DIR/*.png", "with --out: gap, pressure, water and pull of one patch"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return evaluate_file(context, *options); };
   });

@@ -95,6 +95,14 @@ void add_explain(Command app, Context& context) {
   auto measure = std::make_shared<bool>(false);
   command.add_flag("--measure", *measure,
                    "Bounds of what is skipped from patches of this scene (seconds)");
+  command.document(
+      {"Prints the plan of an evaluation: which pieces of physics are modelled and by which "
+       "method, "
+       "which are skipped and how much that can move the result, the grid, the expected time and "
+       "error. "
+       "Of a study also what the search costs.",
+       {{"papilla explain m3_samples/a3h600.toml", "the plan of a design"},
+        {"papilla explain electroadhesive_glass/study.toml", "what a search takes"}}});
   command.on_chosen([&context, options, measure] {
     context.action = [&context, options, measure] { return explain(context, *options, *measure); };
   });

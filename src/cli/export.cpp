@@ -191,6 +191,20 @@ void add_export(Command app, Context& context) {
   command.add_flag("--unrounded", options->unrounded,
                    "Of a folder of results the design as the search left it; without it the one on "
                    "the grid of the fab that the build sheet has");
+  command.document(
+      {"Writes a design as heightmaps, masks and layouts, in whole periods, and holds every file "
+       "against the design again. TIFF and masks need a polarity, since a wrong one inverts the "
+       "plate.",
+       {{"papilla export m3_samples/a3h600.toml --format exr --format gds",
+         "a heightmap and a layout"},
+        {"papilla export m3_samples/a3h600.toml --format mask --polarity white-deep --size \"1 "
+         "mm\" --pixels 4096",
+         "a mask of a square millimetre"},
+        {"papilla export m3_samples/a3h600.toml --verify", "simulate what was written, too"}},
+       {{"heightmap.exr, .tif, .gsf, .x3p, .npy, .png, .stl", "heights"},
+        {"layout.gds, layout.oas, mask.tif, dose.png", "for makers"},
+        {"export.json",
+         "where each file comes from and what is in it: `papilla verify` reads it"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return export_files(context, *options); };
   });

@@ -56,6 +56,14 @@ std::string option_list(const Command& command) {
   return out;
 }
 
+// "DESCRIPTION", "EXAMPLES", "FILES": a line each, what it does below it.
+std::string line_section(const std::string& title, const std::vector<Manual::Line>& lines) {
+  std::string out = lines.empty() ? "" : ".SH " + title + "\n";
+  for (const Manual::Line& line : lines)
+    out += ".TP\n" + bold(line.what) + "\n" + man_text(line.meaning) + "\n";
+  return out;
+}
+
 std::string ends() {
   return ".SH EXIT STATUS\n0: success; 1: the work failed; 2: wrong input; 128 + N: ended by "
          "signal "
@@ -69,13 +77,16 @@ ManualPage command_page(const Command& command, const std::string& version) {
   const std::string name = fmt::format("papilla-{}", command.name()),
                     called = fmt::format("papilla {}", command.name());
   std::string text = head(name, version) + name_section(name, command.meaning()) +
-                     ".SH SYNOPSIS\n" + synopsis(called, command) + ".SH OPTIONS\n" +
+                     ".SH SYNOPSIS\n" + synopsis(called, command) + ".SH DESCRIPTION\n" +
+                     man_text(command.manual().description) + "\n.SH OPTIONS\n" +
                      option_list(command);
   for (const Command& piece : command.commands()) {
     text += fmt::format(".SH {}\n{}\n.PP\n", man_text(called + " " + piece.name()),
                         man_text(piece.meaning())) +
             synopsis(called + " " + piece.name(), piece) + option_list(piece);
   }
+  text += line_section("EXAMPLES", command.manual().examples) +
+          line_section("FILES", command.manual().files);
   return {name, text + ends() + ".SH SEE ALSO\n.BR papilla (1)\n"};
 }
 

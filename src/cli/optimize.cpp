@@ -296,6 +296,27 @@ void add_optimize(Command app, Context& context) {
   add_pick_option(command, options->pick);
   add_set_option(command, options->overrides);
   command.add_flag("--json", options->json, "The result as one JSON object on standard output");
+  command.document(
+      {"A study is a design with a section [design_space]: which numbers, kinds and fingers may "
+       "change, what is wanted and what has to hold. The search evaluates designs, confirms the "
+       "best "
+       "on skins that it has not seen, checks whether their order holds under other fingers, airs "
+       "and "
+       "choices of the model, and recommends one, rounded to the grid of the fab. Ctrl-C keeps "
+       "what "
+       "is evaluated; --resume goes on. Under mpirun the ranks share the work.",
+       {{"papilla optimize electroadhesive_glass/study.toml",
+         "kind, slopes, film and finish of an electroadhesive screen"},
+        {"papilla optimize m3_glass/study.toml --time \"2 min\" --seed 7",
+         "another search, ended by the clock"},
+        {"papilla optimize m3_glass/study.toml --resume --finish",
+         "judge what an interrupted run found and report it"}},
+       {{"results/STUDY/summary.md, report.html",
+         "what to build, how sure that is, the front, what was checked"},
+        {"results/STUDY/best, front/NN", "designs with numbers, heightmaps and masks"},
+        {"results/STUDY/pareto.csv, history.csv, run.json",
+         "every finalist, every evaluation, the recommendation"},
+        {"results/STUDY/journal", "what a run that is resumed goes on from"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return optimize(*options, context); };
   });

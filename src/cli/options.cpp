@@ -2,8 +2,27 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
+#include <utility>
 
 namespace papilla::cli {
+namespace {
+
+// A command with its manual, which the parser has no place for.
+struct DocumentedApp : CLI::App {
+  DocumentedApp(const std::string& meaning, const std::string& name, CLI::App* parent)
+      : CLI::App(meaning, name, parent) {}
+  std::optional<Manual> manual;
+};
+
+std::string examples_text(const Manual& manual) {
+  std::string out = manual.examples.empty() ? "" : "Examples:\n";
+  for (const Manual::Line& line : manual.examples)
+    out += "  " + line.what + "\n      " + line.meaning + "\n";
+  return out;
+}
+
+}  // namespace
 
 Option Option::required() const { return Option(option_->required()); }
 
@@ -34,7 +53,20 @@ template Option Option::range(long, long) const;
 template Option Option::range(double, double) const;
 
 Command Command::add_command(const std::string& name, const std::string& meaning) const {
-  return Command(app_->add_subcommand(name, meaning));
+  return Command(app_->add_subcommand(std::make_shared<DocumentedApp>(meaning, name, app_)));
+}
+
+Command Command::document(Manual manual) const {
+  auto& documented = dynamic_cast<DocumentedApp&>(*app_);
+  documented.footer(examples_text(manual));
+  documented.manual = std::move(manual);
+  return *this;
+}
+
+const Manual& Command::manual() const {
+  const auto* documented = dynamic_cast<const DocumentedApp*>(app_);
+  if (!documented || !documented->manual) throw std::logic_error(name() + " has no manual");
+  return *documented->manual;
 }
 
 template <typename T>

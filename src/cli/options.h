@@ -40,6 +40,16 @@ class Option {
   CLI::Option* option_;
 };
 
+// What people are told of a command beside its options: in its manual, the examples also by --help.
+struct Manual {
+  struct Line {
+    std::string what, meaning;
+  };
+  std::string description;       // sentences
+  std::vector<Line> examples;    // command lines, below the folder `designs` of the sources
+  std::vector<Line> files = {};  // read or written: names, what they hold
+};
+
 // A handle of one (sub)command, copied freely; it lives as long as its CommandLine.
 class Command {
  public:
@@ -63,6 +73,8 @@ class Command {
   // Exactly one of the options that are added to it must be given.
   Command add_alternatives(const std::string& name) const;
   void require_command() const;
+  Command document(Manual manual) const;
+  const Manual& manual() const;  // throws std::logic_error for a command without one
   // Called after the command line is read, where this command was chosen.
   void on_chosen(const std::function<void()>& callback) const;
 

@@ -54,6 +54,11 @@ void add_predict(Command app, Context& context) {
       .type_name("DIR");
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.document(
+      {"Says what the finger predicts of experiments that no fit has seen, with both parts of the "
+       "errors, for laboratories that want to test the model.",
+       {{"papilla predict --out results/predictions", "the table as CSV and Markdown"}},
+       {{"DIR/predictions.csv, predictions.md", "with --out"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return run(context, *options); };
   });

@@ -154,6 +154,19 @@ void add_rank(Command app, Context& context) {
   command.add_option("--jobs", options->jobs, "Threads; 0: all processors").range(0, 4096);
   add_set_option(command, options->overrides);
   command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.document(
+      {"Evaluates candidates on common skins and orders them by paired differences, until the "
+       "order "
+       "is told apart or the largest number of skins is reached. Says the probability of being "
+       "best, "
+       "ties as ties, and of several criteria without weights which designs no other beats in all.",
+       {{"papilla rank coatings/hdpe_small_1.toml coatings/hdpe_large_1.toml --by friction:low "
+         "--state clean,natural",
+         "two coatings, two states of the finger"},
+        {"papilla rank m3_samples/a3h350.toml m3_samples/a3h600.toml --weights 1 --by "
+         "modulation:high",
+         "one score"}},
+       {{"DIR/ranking.csv, ranking.json, report.html", "with --out"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return run(context, *options); };
   });

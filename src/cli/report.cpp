@@ -55,6 +55,15 @@ void add_report(Command app, Context& context) {
       .type_name("FILE");
   command.add_flag("--json", options->json, "One JSON object on standard output");
   add_pick_option(command, options->pick);
+  command.document(
+      {"Writes one HTML page of a finished run, ranking or fit: the recommendation, the front, "
+       "curves "
+       "with bands, pictures, tables. It opens anywhere, without a network.",
+       {{"papilla report results/study", "results/study/report.html"},
+        {"papilla report results/study --pick knee --out knee.html",
+         "with another design of the front as the best"},
+        {"papilla report results/study --svg front.svg", "the picture of the front alone"}},
+       {{"RESULT_DIR/report.html", "the page"}}});
   command.on_chosen(
       [&context, options] { context.action = [options] { return report(*options); }; });
 }

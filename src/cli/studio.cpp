@@ -79,6 +79,17 @@ void add_studio(Command app, Context& context) {
                   "the file")
       .type_name("DIR");
   command.add_flag("--no-open", options->no_open, "Print the address and open no browser");
+  command.document(
+      {"Serves one page on this computer: sliders of a design, its friction over humidity with "
+       "error "
+       "bands while they move, pinned designs beside each other, a search to watch and to steer, "
+       "masks. "
+       "Nothing leaves the computer, and nothing outside the folder is read or written.",
+       {{"papilla studio m3_samples/a3h600.toml", "begin with a published sample"},
+        {"papilla studio electroadhesive_glass/study.toml --no-open --port 8080",
+         "a study; print the address alone"}},
+       {{"FOLDER/.studio", "the session: draft, pins, searches"},
+        {"FOLDER/searches/NNN", "folders of results as of `papilla optimize`"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return serve(context, *options); };
   });

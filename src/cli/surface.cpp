@@ -54,6 +54,15 @@ void add_surface(Command app, Context& context) {
                   "The map as it is taken, levelled and mended: .gsf or .npy")
       .type_name("FILE");
   command.add_flag("--json", options->json, "One JSON object, SI units");
+  command.document(
+      {"Shows a measured map as every command takes it: the plane that is taken away, the pixels "
+       "that "
+       "are replaced or filled, parameters of ISO 25178, the spectrum with the band that the "
+       "instrument "
+       "can know, heights, a section. Nothing is changed in silence.",
+       {{"papilla surface measured_surface/scan.gsf --tip \"10 nm\"", "a scan by a tip of 10 nm"},
+        {"papilla surface heights.npy --size \"50 um\" --as-is --json", "a map as it is, as JSON"}},
+       {{"FILE.gsf, FILE.npy", "with --out: the map as it is taken"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return show(context, *options); };
   });

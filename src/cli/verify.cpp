@@ -50,6 +50,15 @@ void add_verify(Command app, Context& context) {
   command.add_option("--tolerance", options->tolerance, "Largest loss of merit of the heights")
       .show_default();
   command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.document(
+      {"Measures every exported file against its design: size, depth, widths of holes and walls, "
+       "polarity, polygons, heights to the rounding of the format, and the friction of what was "
+       "written. "
+       "A file that differs is named, and the exit status is 1.",
+       {{"papilla verify results/study/best", "all files of the design that a run recommends"},
+        {"papilla verify results/study/best/heightmap.exr --geometry",
+         "one file, without simulating it"}},
+       {{"export.json", "beside the files: the design that each was made from"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return verify_path(context, *options); };
   });

@@ -529,14 +529,52 @@ std::string sheet_text(const ResultFiles& f) {
   return out;
 }
 
+namespace {
+
+Json numbers_json(const std::vector<double>& numbers) {
+  Json out = Json::array();
+  for (const double number : numbers) out.push_back(json_number(number));
+  return out;
+}
+
+// As a study judges: larger values are better where they are maximised; violations above 0 are
+// broken limits.
+Json judgement_json(const ResultFiles& f, const Score& score, bool confirmed) {
+  const std::vector<double> none;
+  return {{"ok", score.ok},
+          {"reason", score.reason},
+          {"values", numbers_json(score.values)},
+          {"errors", numbers_json(score.errors)},
+          {"violations",
+           numbers_json(confirmed && score.ok ? f.problem.constraints().violations(score) : none)}};
+}
+
+// To the last digit, SI, in the order of the variables and objectives of resolved.toml.
+Json finalists_json(const ResultFiles& f) {
+  Json out = Json::array();
+  for (const FinalDesign& d : f.result.finalists) {
+    out.push_back({{"folder", d.folder},
+                   {"values", numbers_json(f.problem.space().value(d.unit))},
+                   {"searched", judgement_json(f, d.searched, false)},
+                   {"confirmed", judgement_json(f, d.confirmed, true)}});
+  }
+  return out;
+}
+
+}  // namespace
+
 std::string run_json(const ResultFiles& f) {
   const OptimiseResult& r = f.result;
   Json out{{"schema", 1},
+           {"interrupted", r.interrupted},
+           {"feasible", r.any_feasible},
            {"evaluations", r.evaluations},
            {"asked", r.asked},
            {"stopped_by_the_clock", !r.cuts.empty()},
            {"driven", f.problem.driven()},
            {"remarks", run_remarks(f.study, f.problem, r)},
+           {"finalists", finalists_json(f)},
+           {"best", r.best},
            {"shown", Json::object()}};
   for (const StudyObjective& o : f.problem.objectives()) {
     const ShownUnit shown = shown_unit(o.expression);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "base/constants.h"
 #include "base/text.h"
@@ -134,7 +135,11 @@ Json areal_json(const ArealParameters& a) {
 }  // namespace
 
 SurfaceView view_of(const ScanSource& source, double tip) {
-  SurfaceView out{source.file, read_scan(source), {}, {}, {}, tip};
+  return view_of(source.file, read_scan(source), tip);
+}
+
+SurfaceView view_of(const std::string& file, Scan scan, double tip) {
+  SurfaceView out{file, std::move(scan), {}, {}, {}, tip};
   out.areal = areal_parameters(out.scan.map);
   out.spectrum = radial_spectrum(out.scan.map);
   out.band = known_band(out.scan.map, out.spectrum, tip);

@@ -20,6 +20,7 @@ struct SurfaceView {
   double tip = 0;  // radius that the band counts with [m]; 0: none
 };
 
+SurfaceView view_of(const std::string& file, Scan scan, double tip);
 SurfaceView view_of(const ScanSource& source, double tip);
 
 std::string surface_text(const SurfaceView& view);
