@@ -135,7 +135,7 @@ def test_a_search_runs_to_its_end_and_goes_on_after_ctrl_c(tmp_path: pathlib.Pat
 
 
 KINDS = {**STUDY, "design_space": {**STUDY["design_space"], "texture.type": {"choice": ["hole_array", "pillar_array"]}},
-         "search": {"method": "nsga2", "evaluations": 40, "seed": 3}}
+         "search": {"method": "bayesian", "evaluations": 30, "seed": 3}}
 
 
 def test_kinds_have_their_names() -> None:

@@ -8,7 +8,7 @@ namespace papilla::studio {
 
 // The files of src/studio/page, embedded at build time.
 extern const std::string_view kStudioHtml, kStudioStyle, kStudioModule, kFormModule, kSceneModule,
-    kAnswerModule, kSearchModule, kFilesModule, kServerModule;
+    kAnswerModule, kSearchModule, kFilesModule, kServerModule, kTakeModule;
 
 namespace {
 
@@ -32,6 +32,7 @@ const std::array kFiles{
     Entry{"/page/search.js", kScript, &kSearchModule},
     Entry{"/page/files.js", kScript, &kFilesModule},
     Entry{"/page/server.js", kScript, &kServerModule},
+    Entry{"/page/take.js", kScript, &kTakeModule},
     Entry{"/plots/look.js", kScript, &kLookModule},
     Entry{"/plots/numbers.js", kScript, &kNumbersModule},
     Entry{"/plots/tables.js", kScript, &kTablesModule},

@@ -386,6 +386,8 @@ Json SearchDesk::json() const {
   out["progress"] =
       state_ == SearchState::Running ? progress_of(folder_, in_place(kProgressFile)) : Json();
   out["variables"] = variables;
+  out["fingers"] = Json::array();
+  for (const auto& task : problem.tasks()) out["fingers"].push_back(task.name);
   out["objectives"] = objectives;
   out["points"] = points;
   out["front"] = pareto_front(tried);

@@ -32,14 +32,16 @@ struct LimitWish {
 };
 struct SearchWish {
   std::vector<VariableWish> variables;
-  std::vector<std::string> kinds;  // of texture that compete; fewer than two: the one at hand
+  std::vector<std::string> kinds;    // of texture that compete; fewer than two: the one at hand
+  std::vector<std::string> fingers;  // of the study's people, by name; empty: all of them
   std::vector<std::string> maximise, minimise;
   std::vector<LimitWish> limits;
   int evaluations = 0;  // 0: as many as the method takes
 };
 SearchWish search_wish(const nlohmann::ordered_json& json);  // throws InputError
-// What the page proposes for a study: its own, or what a design without one could vary.
-nlohmann::ordered_json proposed_wish(const Study& study);
+// What the page proposes for a study: its own, or what a design without one could vary; with what
+// a page wrote over it (text of JSON; empty: nothing).
+nlohmann::ordered_json proposed_wish(const Study& study, const std::string& kept = "");
 
 // The study file of a wish on a design; a whole file of its own.
 std::string study_text(const Study& study, const SearchWish& wish);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -72,6 +73,32 @@ Node space_node(const SearchWish& wish) {
   return space;
 }
 
+// Files of the study's people, as it names them.
+std::vector<std::string> finger_files(const Study& study) {
+  std::vector<std::string> out;
+  const Node* population = study.study_sections.find("population");
+  const Node* fingers = population ? population->find("fingers") : nullptr;
+  if (!fingers) return out;
+  for (const Node& finger : fingers->children) {
+    if (finger.is_text()) out.push_back(finger.text);
+  }
+  return out;
+}
+
+std::string finger_name(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
+}
+
+void keep_fingers(Node& sections, const std::vector<std::string>& names) {
+  Node* population = sections.find("population");
+  Node* fingers = population ? population->find("fingers") : nullptr;
+  if (!fingers || names.empty()) return;
+  std::erase_if(fingers->children, [&](const Node& finger) {
+    return finger.is_text() &&
+           std::find(names.begin(), names.end(), finger_name(finger.text)) == names.end();
+  });
+}
+
 std::string quantity(double si, const std::string& unit) {
   return unit.empty() ? format_number(si) : format_quantity(si, unit);
 }
@@ -140,6 +167,7 @@ SearchWish search_wish(const Json& json) {
         out.limits.push_back({v.at("name").get<std::string>(), v.at("limit").get<std::string>()});
     }
     out.kinds = texts("kinds");
+    out.fingers = texts("fingers");
     out.maximise = texts("maximise");
     out.minimise = texts("minimise");
     out.evaluations = json.value("evaluations", 0);
@@ -187,7 +215,26 @@ std::vector<std::string> metric_texts(const std::vector<MetricExpression>& expre
 
 }  // namespace
 
-Json proposed_wish(const Study& study) {
+namespace {
+
+// The page's own words over what is proposed; of variables that both know.
+void write_over(Json& proposed, const Json& kept) {
+  for (const char* key : {"kinds", "fingers", "maximise", "minimise", "limits", "evaluations"}) {
+    if (kept.contains(key)) proposed[key] = kept.at(key);
+  }
+  for (Json& variable : proposed["variables"]) {
+    for (const Json& own : kept.value("variables", Json::array())) {
+      if (own.value("path", "") != variable["path"]) continue;
+      for (const char* key : {"low", "high", "excluding", "vary"}) {
+        if (own.contains(key)) variable[key] = own.at(key);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Json proposed_wish(const Study& study, const std::string& kept) {
   Json limits = Json::array(), kinds = Json::array(), known = Json::array(),
        metrics = Json::array();
   for (const Constraint& c : study.constraints) {
@@ -205,6 +252,11 @@ Json proposed_wish(const Study& study) {
     if (!v.is_kind()) continue;
     for (const double choice : v.choices) kinds.push_back(variable_text(v, choice));
   }
+  Json known_kinds = Json::array(), fingers = Json::array();
+  for (std::size_t k = 0; k < texture_kinds().size(); ++k) {
+    if (numbers_alone(k)) known_kinds.push_back(texture_kinds()[k]);
+  }
+  for (const std::string& file : finger_files(study)) fingers.push_back(finger_name(file));
   const Objective& own = study.objective;
   std::vector<MetricExpression> maximise = own.maximise, minimise = own.minimise;
   if (maximise.empty() && minimise.empty()) {
@@ -212,14 +264,20 @@ Json proposed_wish(const Study& study) {
     maximise = {{Summary::Mean, driven ? kModulation : kFriction}};
     if (driven) minimise = {{Summary::Variation, kModulation}};
   }
-  return {{"variables", proposed_variables(study)},
-          {"kinds", kinds},
-          {"maximise", metric_texts(maximise)},
-          {"minimise", metric_texts(minimise)},
-          {"limits", limits},
-          {"known_limits", known},
-          {"metrics", metrics},
-          {"evaluations", study.search.evaluations}};
+  Json out{{"variables", proposed_variables(study)},
+           {"kinds", kinds},
+           {"known_kinds", known_kinds},
+           {"fingers", fingers},
+           {"known_fingers", fingers},
+           {"maximise", metric_texts(maximise)},
+           {"minimise", metric_texts(minimise)},
+           {"limits", limits},
+           {"known_limits", known},
+           {"metrics", metrics},
+           {"evaluations", study.search.evaluations}};
+  const Json page = Json::parse(kept, nullptr, false);
+  if (page.is_object()) write_over(out, page);
+  return out;
 }
 
 std::string study_text(const Study& study, const SearchWish& wish) {
@@ -243,6 +301,7 @@ std::string study_text(const Study& study, const SearchWish& wish) {
   Node search = sections.find("search") ? *sections.find("search") : table_node();
   if (wish.evaluations > 0) search.set("evaluations", integer_node(wish.evaluations));
   sections.set("search", std::move(search));
+  keep_fingers(sections, wish.fingers);
   keep_scatter(sections, out);
   return resolved_toml(out);
 }

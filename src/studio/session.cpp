@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
 #include "design/families.h"
 #include "geometry/texture.h"
 
@@ -17,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kSessionFile = "session.json";
 constexpr std::size_t kMostSteps = 200, kMostPins = 8;
+constexpr std::size_t kMostOthers = 20;  // files whose drafts are kept
 
 Json draft_json(const Draft& draft) {
   Json changes = Json::array();
@@ -36,6 +41,25 @@ Json drafts_json(const std::vector<Draft>& drafts) {
   for (const Draft& d : drafts) out.push_back(draft_json(d));
   return out;
 }
+
+std::vector<Draft> drafts_from(const Json& json) {
+  std::vector<Draft> out;
+  for (const Json& d : json) out.push_back(draft_from(d));
+  return out;
+}
+
+Json workspace_json(const Workspace& w) {
+  return {{"draft", draft_json(w.draft)},
+          {"past", drafts_json(w.past)},
+          {"future", drafts_json(w.future)}};
+}
+
+Workspace workspace_from(const Json& json) {
+  return {draft_from(json.at("draft")), drafts_from(json.at("past")),
+          drafts_from(json.at("future"))};
+}
+
+bool is_of_texture(const Change& change) { return change.path.starts_with("texture."); }
 
 // The draft with one more change. One of the texture's kind takes all others of the texture away.
 Draft with_change(Draft draft, const Change& change) {
@@ -62,14 +86,13 @@ Session::Session(const fs::path& folder, const std::string& file)
   keep();
 }
 
-// A state that cannot be read any more, or of another file, is left behind.
+// A state that cannot be read any more is left behind.
 void Session::restore(const std::string& file) {
   adopt({file, {}});
   if (!kept_.has(kSessionFile)) return;
   try {
     constexpr std::size_t kMost = std::size_t{1} << 24;
     const Json kept = Json::parse(kept_.read(kSessionFile, kMost));
-    const Draft draft = draft_from(kept.at("draft"));
     for (const Json& p : kept.at("pins")) {
       Pin pin{p.at("number").get<int>(), p.at("name").get<std::string>(),
               draft_from(p.at("draft"))};
@@ -77,10 +100,18 @@ void Session::restore(const std::string& file) {
       last_pin_ = std::max(last_pin_, pin.number);
       pins_.push_back(std::move(pin));
     }
-    if (draft.file != file) return;
-    adopt(draft);
-    for (const Json& d : kept.at("past")) past_.push_back(draft_from(d));
-    for (const Json& d : kept.at("future")) future_.push_back(draft_from(d));
+    wish_ = kept.value("wish", "");
+    wish_of_ = kept.value("wish_of", "");
+    for (const Json& w : kept.value("others", Json::array())) others_.push_back(workspace_from(w));
+    others_.push_back(workspace_from(kept));
+    const auto mine = std::find_if(others_.begin(), others_.end(),
+                                   [&](const Workspace& w) { return w.draft.file == file; });
+    if (mine == others_.end()) return;
+    const Workspace found = *mine;
+    others_.erase(mine);
+    adopt(found.draft);
+    past_ = found.past;
+    future_ = found.future;
   } catch (const std::exception&) {
     past_.clear();
     future_.clear();
@@ -88,15 +119,16 @@ void Session::restore(const std::string& file) {
 }
 
 void Session::keep() const {
-  Json pins = Json::array();
+  Json pins = Json::array(), others = Json::array();
   for (const Pin& p : pins_)
     pins.push_back({{"number", p.number}, {"name", p.name}, {"draft", draft_json(p.draft)}});
-  kept_.write(kSessionFile, Json{{"schema", 1},
-                                 {"draft", draft_json(draft_)},
-                                 {"past", drafts_json(past_)},
-                                 {"future", drafts_json(future_)},
-                                 {"pins", pins}}
-                                .dump(1));
+  for (std::size_t i = others_.size() > kMostOthers ? others_.size() - kMostOthers : 0;
+       i < others_.size(); ++i)
+    others.push_back(workspace_json(others_[i]));
+  Json out = workspace_json({draft_, past_, future_});
+  out.update(
+      {{"schema", 1}, {"pins", pins}, {"others", others}, {"wish", wish_}, {"wish_of", wish_of_}});
+  kept_.write(kSessionFile, out.dump(1, ' ', false, Json::error_handler_t::replace));
 }
 
 void Session::adopt(Draft draft) {
@@ -105,6 +137,8 @@ void Session::adopt(Draft draft) {
     opened_ = study.design;
   else if (draft.file != draft_.file)
     opened_ = study_of({draft.file, {}}).design;
+  if (draft.file != draft_.file || !(study.design.texture == study_.design.texture))
+    left_kinds_.clear();
   draft_ = std::move(draft);
   study_ = std::move(study);
   ++revision_;
@@ -133,19 +167,63 @@ std::uint64_t Session::set(const std::string& path, const std::string& text, std
   return replace(with_change(draft_, checked_change(form_keys(study_.design), path, text)), step);
 }
 
+std::uint64_t Session::set_toward(const std::string& path, const std::string& text,
+                                  std::uint64_t step) {
+  constexpr int kHalvings = 12;  // to a four-thousandth of the way
+  const std::lock_guard lock(mutex_);
+  const std::vector<FormKey> keys = form_keys(study_.design);
+  const auto key =
+      std::find_if(keys.begin(), keys.end(), [&](const FormKey& k) { return k.path == path; });
+  if (key == keys.end() || key->type != KeyType::Number)
+    return replace(with_change(draft_, checked_change(keys, path, text)), step);
+  const double to_si = find_unit(key->unit)->to_si;
+  const double wanted = parse_si(text, key->unit) / to_si;
+  std::optional<Draft> furthest;
+  double low = 0, high = 1;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double share = 0.5 * (low + high);
+    try {
+      const std::string value = significant(key->shown + share * (wanted - key->shown), 4);
+      Draft next = with_change(
+          draft_, checked_change(keys, path, value + (key->unit.empty() ? "" : " " + key->unit)));
+      study_of(next);
+      furthest = std::move(next);
+      low = share;
+    } catch (const InputError&) {
+      high = share;
+    }
+  }
+  if (!furthest) throw InputError({Problem{"", 0, 0, path, "the design goes no further"}});
+  return replace(*std::move(furthest), step);
+}
+
+std::string Session::kind() const { return texture_name(study_.design.texture); }
+
 std::uint64_t Session::set_kind(const std::string& kind) {
   const std::lock_guard lock(mutex_);
   const auto& kinds = texture_kinds();
   const auto at = std::find(kinds.begin(), kinds.end(), kind);
   if (at == kinds.end() || !numbers_alone(static_cast<std::size_t>(at - kinds.begin())))
     throw InputError({Problem{"", 0, 0, "texture.type", "expected a kind that numbers describe"}});
+  if (kind == this->kind()) return revision_;
+  std::vector<Change> own;
+  std::copy_if(draft_.changes.begin(), draft_.changes.end(), std::back_inserter(own),
+               is_of_texture);
   Draft next = draft_;
-  std::erase_if(next.changes, [](const Change& c) { return c.path.starts_with("texture."); });
-  Design wanted = study_.design;
-  wanted.texture = of_kind(wanted.texture, kind);
-  for (const Change& change : changes_between(study_of(next).design, wanted))
-    next = with_change(std::move(next), change);
-  return replace(std::move(next), 0);
+  std::erase_if(next.changes, is_of_texture);
+  if (const auto left = left_kinds_.find(kind); left != left_kinds_.end()) {
+    next.changes.insert(next.changes.end(), left->second.begin(), left->second.end());
+  } else {
+    Design wanted = study_.design;
+    wanted.texture = of_kind(wanted.texture, kind);
+    for (const Change& change : changes_between(study_of(next).design, wanted))
+      next = with_change(std::move(next), change);
+  }
+  auto left = left_kinds_;
+  left[this->kind()] = std::move(own);
+  const std::uint64_t revision = replace(std::move(next), 0);
+  left_kinds_ = std::move(left);
+  return revision;
 }
 
 std::uint64_t Session::become(const Draft& draft) {
@@ -217,6 +295,26 @@ void Session::unpin(int number) {
   const std::lock_guard lock(mutex_);
   std::erase_if(pins_, [&](const Pin& p) { return p.number == number; });
   keep();
+}
+
+void Session::set_wish(std::string wish) {
+  constexpr std::size_t kLongest = 100000;
+  if (wish.size() > kLongest) throw InputError("the wish is too long");
+  const std::lock_guard lock(mutex_);
+  wish_ = std::move(wish);
+  wish_of_ = draft_.file + " " + kind();
+  keep();
+}
+
+void Session::forget_wish() {
+  const std::lock_guard lock(mutex_);
+  wish_.clear();
+  keep();
+}
+
+std::string Session::wish() const {
+  const std::lock_guard lock(mutex_);
+  return wish_of_ == draft_.file + " " + kind() ? wish_ : "";
 }
 
 std::uint64_t Session::take(int number) {

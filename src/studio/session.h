@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -27,6 +28,12 @@ struct Draft {
   bool operator==(const Draft&) const = default;
 };
 
+// A draft with the way back and forth.
+struct Workspace {
+  Draft draft;
+  std::vector<Draft> past, future;
+};
+
 struct Pin {
   int number = 0;
   std::string name;
@@ -45,8 +52,8 @@ struct SessionView {
 
 class Session {
  public:
-  // folder: whose .studio/session.json the state is kept in; an earlier one of the same file goes
-  // on. Throws InputError for a file that is no design.
+  // folder: whose .studio/session.json the state is kept in. A file that was at hand before goes on
+  // as it was left, whatever was opened since. Throws InputError for a file that is no design.
   Session(const std::filesystem::path& folder, const std::string& file);
 
   SessionView view() const;
@@ -55,9 +62,14 @@ class Session {
   // of undo; 0: a step of its own. Throws InputError where the design would be none; it is then as
   // before. Returns the new revision.
   std::uint64_t set(const std::string& path, const std::string& text, std::uint64_t step);
-  std::uint64_t set_kind(const std::string& kind);  // with the measures that it shares
-  std::uint64_t become(const Draft& draft);         // another design, file or both
-  std::uint64_t reset(const std::string& path);     // as the file has it
+  // A number is moved toward what a slider was drawn to, as far as the design goes. Throws what
+  // set() would where it does not move, and of what is no number.
+  std::uint64_t set_toward(const std::string& path, const std::string& text, std::uint64_t step);
+  // As it was when the kind was left and only kinds were looked at since; else with the measures
+  // that it shares.
+  std::uint64_t set_kind(const std::string& kind);
+  std::uint64_t become(const Draft& draft);      // another design, file or both
+  std::uint64_t reset(const std::string& path);  // as the file has it
   // The design at hand is written to a file, by `write`, and goes on as that one.
   std::uint64_t save_as(const std::string& file,
                         const std::function<void(const Draft&, const Study&)>& write);
@@ -68,14 +80,24 @@ class Session {
   void unpin(int number);
   std::uint64_t take(int number);  // the pinned design becomes the one at hand
 
+  // What a page wrote into the form of searches, JSON; kept until it is of another file or kind.
+  void set_wish(std::string wish);
+  void forget_wish();
+  std::string wish() const;  // empty: none
+
  private:
   std::uint64_t replace(Draft next, std::uint64_t step);  // with the lock held
   std::uint64_t step_to(std::vector<Draft>& from, std::vector<Draft>& to);
   void adopt(Draft draft);  // reads it
+  std::string kind() const;
   void restore(const std::string& file);
   void keep() const;
 
   Folder kept_;
+  std::vector<Workspace> others_;  // of other files, the one that was left last at the end
+  // The texture's changes under each kind that was left, until a texture changes otherwise.
+  std::map<std::string, std::vector<Change>> left_kinds_;
+  std::string wish_, wish_of_;  // and the file and kind that it is of
   mutable std::mutex mutex_;
   Draft draft_;
   Study study_;

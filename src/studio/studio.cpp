@@ -217,7 +217,7 @@ std::string Studio::state() const {
   return fmt::format(
       R"({{"version":"{}","kinds":{},"files":{},"session":{},"wish":{},"search":{}}})",
       PAPILLA_VERSION, kinds, files_.list().dump(), session_json(),
-      proposed_wish(session_.view().study).dump(), desk_->json().dump());
+      proposed_wish(session_.view().study, session_.wish()).dump(), desk_->json().dump());
 }
 
 void Studio::add_routes() {
@@ -228,9 +228,18 @@ void Studio::add_routes() {
 }
 
 void Studio::add_design_routes() {
+  // A slider ends where the design ends: what it was drawn to beyond is answered with the reason.
   routes_["POST /set"] = [this](const Asked& a) {
-    return changed(
-        session_.set(a.text("path"), a.text("value"), a.body.value("step", std::uint64_t{0})));
+    const std::string path = a.text("path"), value = a.text("value");
+    const auto step = a.body.value("step", std::uint64_t{0});
+    try {
+      return changed(session_.set(path, value, step));
+    } catch (const InputError& error) {
+      if (!a.flag("slider")) throw;
+      const std::uint64_t revision = session_.set_toward(path, value, step);
+      design_changed();
+      return Json{{"revision", revision}, {"ends", error.problems().front().message}}.dump();
+    }
   };
   routes_["POST /kind"] = [this](const Asked& a) {
     return changed(session_.set_kind(a.text("kind")));
@@ -311,6 +320,14 @@ void Studio::add_search_routes() {
     return told();
   };
   routes_["POST /search/propose"] = [this](const Asked&) {
+    return proposed_wish(session_.view().study, session_.wish()).dump();
+  };
+  routes_["POST /search/wish"] = [this](const Asked& a) {
+    session_.set_wish(a.body.dump());
+    return Json::object().dump();
+  };
+  routes_["POST /search/forget"] = [this](const Asked&) {
+    session_.forget_wish();
     return proposed_wish(session_.view().study).dump();
   };
   routes_["POST /search/pause"] = [this, told](const Asked&) {

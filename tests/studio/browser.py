@@ -92,7 +92,7 @@ return [...document.querySelectorAll('canvas:not([aria-label]):not([aria-hidden]
 def looks(browser, studio):
     for scheme in ["dark", "light"]:
         browser.scheme(scheme)
-        for width in [380, 1440]:
+        for width in [380, 1024, 1440, 2560]:
             browser.metrics(width, 900)
             go(browser, studio)
             until(browser, "document.documentElement.dataset.shape", 30, "the shape")
@@ -146,8 +146,39 @@ def smoke(browser, folder):
         until(browser, "papilla.session().kind === 'hole_array'", 10, "holes again")
         # What is refused is said, and changes nothing.
         browser.run("const i = document.getElementById('k-texture-diameter'); i.value = '7 um'; i.dispatchEvent(new Event('change'))")
-        until(browser, "!document.getElementById('notice').hidden", 10, "a refusal")
+        until(browser, "!document.getElementById('k-texture-diameter-said').hidden", 10, "a refusal at its field")
+        # A slider ends where the design ends, and says why.
+        slide(browser, "texture.diameter", 1)
+        until(browser, "/^ends here: /.test(document.getElementById('k-texture-diameter-said').textContent)", 10, "the end of a slider")
+        until(browser, "parseFloat(document.getElementById('k-texture-diameter').value) < 6", 10, "the value that the design has")
+        ended = float(browser.run("return papilla.session().keys.find(k => k.path === 'texture.diameter').shown"))
+        check(5.9 < ended < 6.0, f"holes of {ended} um end in a period of 6 um")
+        # A kind that is left and come back to has its values.
+        browser.run("document.querySelector('[data-kind=pillar_array]').click()")
+        until(browser, "papilla.session().kind === 'pillar_array'", 10, "pillars")
+        browser.run("document.querySelector('[data-kind=hole_array]').click()")
+        until(browser, "papilla.session().kind === 'hole_array'", 10, "holes once more")
+        check(float(browser.run("return papilla.session().keys.find(k => k.path === 'texture.diameter').shown")) == ended, "the kind forgot its values")
+        for _ in range(3):
+            browser.run("document.getElementById('undo').click()")
+        # Keys are found by a word; a comma is a decimal one.
+        browser.run("const f = document.getElementById('filter'); f.value = 'resistivity'; f.dispatchEvent(new Event('input'))")
+        found = browser.run("return [...document.querySelectorAll('.key.match label')].map(l => l.textContent)")
+        check(found and all("resistivity" in text for text in found), f"keys of a word: {found}")
+        browser.run("const f = document.getElementById('filter'); f.value = ''; f.dispatchEvent(new Event('input'))")
+        browser.run("const i = document.getElementById('k-texture-period'); i.value = '6,5 µm'; i.dispatchEvent(new Event('change'))")
+        until(browser, "papilla.session().keys.find(k => k.path === 'texture.period').value === '6.5 um'", 10, "a decimal comma")
         browser.run("document.getElementById('undo').click()")
+        # What was written into the form of searches is there after a reload; the file's own comes back on demand.
+        browser.run("const k = document.querySelector('#wishkinds input[value=pillar_array]'); k.click(); const e = document.getElementById('evaluations'); e.value = 37; e.dispatchEvent(new Event('input', {bubbles: true}))")
+        time.sleep(1)
+        go(browser, studio)
+        until(browser, "document.getElementById('evaluations').value === '37' && document.querySelector('#wishkinds input[value=pillar_array]').checked", 10, "the wish after a reload")
+        browser.run("document.getElementById('proposed').click()")
+        until(browser, "document.getElementById('evaluations').value === '' && !document.querySelector('#wishkinds input[value=pillar_array]').checked", 10, "the file's own wish")
+        # A mistake of the wish is said below it.
+        browser.run("document.querySelectorAll('#variables [type=checkbox]').forEach(b => { if (b.checked) b.click(); }); document.getElementById('start').click()")
+        until(browser, "/needs a variable/.test(document.getElementById('wishnotice').textContent)", 10, "the mistake at the form")
         browser.run("document.getElementById('inside').open = true")
         until(browser, "document.querySelectorAll('#maps canvas').length >= 4", 60, "maps of the contact")
         browser.picture(PICTURES, "smoke.png")

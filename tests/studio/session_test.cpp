@@ -252,21 +252,75 @@ TEST(Session, KeepsTwoHundredStepsTheNewest) {
 }
 
 // Pins stay, the draft and its way back do not.
-TEST(Session, OfAnotherFileKeepsThePinsAlone) {
+TEST(Session, KeepsTheDraftOfEachFileThatWasOpened) {
   const TemporaryFolder place;
+  const std::string flat = PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml";
   {
     Session session(place.path(), kHoles);
     session.set("texture.depth", "350 nm", 0);
-    session.pin("holes");
+    session.pin("mine");
   }
-  const std::string flat = PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml";
-  Session session(place.path(), flat);
-  EXPECT_EQ(session.view().draft, (Draft{flat, {}}));
-  EXPECT_FALSE(session.view().can_undo);
-  ASSERT_EQ(session.view().pins.size(), 1u);
-  session.take(1);
-  EXPECT_DOUBLE_EQ(depth(session), 350e-9);
-  EXPECT_DOUBLE_EQ(get_number(session.view().opened, "texture.depth"), 600e-9);
+  {
+    Session session(place.path(), flat);
+    EXPECT_EQ(session.view().draft, (Draft{flat, {}}));
+    EXPECT_EQ(session.view().pins.size(), 1u);
+    EXPECT_FALSE(session.view().can_undo);
+    session.set("drive.amplitude", "120 V", 0);
+  }
+  Session again(place.path(), kHoles);
+  EXPECT_DOUBLE_EQ(depth(again), 350e-9);
+  again.undo();
+  EXPECT_DOUBLE_EQ(depth(again), 600e-9);
+  const Session other(place.path(), flat);
+  EXPECT_DOUBLE_EQ(get_number(other.view().study.design, "drive.amplitude"), 120);
+}
+
+TEST(Session, AKindThatIsOnlyLookedAtLosesNothing) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  session.set("texture.diameter", "2.2 um", 0);
+  const Design before = session.view().study.design;
+  session.set_kind("waves");  // has no diameter
+  session.set_kind("grating");
+  session.set_kind("hole_array");
+  EXPECT_EQ(session.view().study.design, before);
+  session.set_kind("waves");
+  session.set("texture.period", "5 um", 0);  // a measure that is shared goes along
+  session.set_kind("hole_array");
+  EXPECT_DOUBLE_EQ(get_number(session.view().study.design, "texture.period"), 5e-6);
+}
+
+TEST(Session, ASliderEndsWhereTheDesignEnds) {
+  const TemporaryFolder place;
+  Session session(place.path(), kHoles);
+  EXPECT_THROW(session.set("texture.diameter", "9 um", 3), InputError);  // period 6 um
+  session.set_toward("texture.diameter", "9 um", 3);
+  const double end = get_number(session.view().study.design, "texture.diameter");
+  EXPECT_GT(end, 5.98e-6);
+  EXPECT_LT(end, 6e-6);
+  session.undo();
+  EXPECT_DOUBLE_EQ(get_number(session.view().study.design, "texture.diameter"), 3e-6);
+  EXPECT_THROW(session.set_toward("texture.lattice", "round", 0), InputError);
+  EXPECT_THROW(session.set_toward("texture.nothing", "1", 0), InputError);
+  EXPECT_THROW(session.set_toward("texture.diameter", "wide", 0), InputError);
+}
+
+TEST(Session, KeepsTheWishOfItsFileAndKind) {
+  const TemporaryFolder place;
+  {
+    Session session(place.path(), kHoles);
+    EXPECT_EQ(session.wish(), "");
+    session.set_wish(R"({"evaluations":37})");
+  }
+  Session again(place.path(), kHoles);
+  EXPECT_EQ(again.wish(), R"({"evaluations":37})");
+  again.set_kind("waves");
+  EXPECT_EQ(again.wish(), "");
+  again.set_kind("hole_array");
+  EXPECT_EQ(again.wish(), R"({"evaluations":37})");
+  EXPECT_THROW(again.set_wish(std::string(200000, ' ')), InputError);
+  again.forget_wish();
+  EXPECT_EQ(again.wish(), "");
 }
 
 TEST(Session, StaysAsItWasWhereItsFileCannotBeSaved) {

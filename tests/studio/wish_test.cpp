@@ -81,6 +81,40 @@ TEST(SearchWish, OffersTheMeasuresOfADesignWithoutAStudy) {
   EXPECT_EQ(proposed["maximise"], Json({"mean(modulation)"}));
 }
 
+TEST(SearchWish, LetsTheChosenKindsAndFingersCompete) {
+  const Study study = read_study(PAPILLA_DESIGNS_DIR "/electroadhesive_glass/study.toml");
+  const Json proposed = proposed_wish(study);
+  EXPECT_EQ(proposed["known_fingers"], (Json{"reference", "smooth", "rough", "moist"}));
+  EXPECT_EQ(proposed["fingers"], proposed["known_fingers"]);
+  EXPECT_EQ(proposed["kinds"].size(), 5u);
+  EXPECT_GT(proposed["known_kinds"].size(), 5u);
+  SearchWish wish = depth_wish();
+  wish.kinds = {"hole_array", "waves"};
+  wish.fingers = {"smooth", "moist"};
+  const Study made = reread(study_text(study, wish));
+  ASSERT_EQ(made.population.size(), 2u);
+  ASSERT_EQ(made.variables.size(), 2u);
+  const auto kind = std::find_if(made.variables.begin(), made.variables.end(),
+                                 [](const Variable& v) { return v.is_kind(); });
+  ASSERT_NE(kind, made.variables.end());
+  EXPECT_EQ(kind->choices.size(), 2u);
+}
+
+TEST(SearchWish, IsShownAsThePageLeftIt) {
+  const Study study = read_study(kHoles);
+  const Json shown = proposed_wish(study, R"({"kinds":["waves"],"evaluations":37,"variables":[
+      {"path":"texture.depth","low":"1 nm","high":"2 nm","vary":false},{"path":"texture.nothing","low":"1"}]})");
+  EXPECT_EQ(shown["evaluations"], 37);
+  EXPECT_EQ(shown["kinds"], Json{"waves"});
+  EXPECT_EQ(shown["variables"].size(), proposed_wish(study)["variables"].size());
+  for (const Json& v : shown["variables"]) {
+    if (v["path"] != "texture.depth") continue;
+    EXPECT_EQ(v["low"], "1 nm");
+    EXPECT_EQ(v["vary"], false);
+  }
+  EXPECT_EQ(proposed_wish(study, "damaged"), proposed_wish(study));
+}
+
 TEST(SearchWish, LeavesOutWhatIsExcluded) {
   SearchWish wish = depth_wish();
   wish.variables.front().excluding = "300 to 400 nm, 0.6 um to 650 nm";

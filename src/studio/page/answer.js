@@ -8,7 +8,9 @@ import { ask } from './server.js';
 
 const levels = { first: 'first answer', draft: 'draft', design: 'design level' };
 const state = { session: null, answer: null };
+// Eight pins, eight lines: four colours, each once dashed and once dotted.
 const tint = (i) => colours[2 + i % 4];
+const dash = (i) => i < 4 ? [6, 4] : [2, 3];
 
 function show(id, config) {
   const chart = charts[id];
@@ -23,7 +25,7 @@ export function showAnswer(answer) {
   const r = answer.response, sets = r.points.some((p) => p.modulation) ? curve('this design', r.points, colours[0]) : [];
   pins().forEach((pin, i) => {
     const pinned = answer.pinned[pin.number];
-    if (pinned) sets.push(...curve(pin.name, pinned.points, tint(i), [6, 4]));
+    if (pinned) sets.push(...curve(pin.name, pinned.points, tint(i), dash(i)));
   });
   $('modulationbox').hidden = !sets.length;
   if (sets.length) show('modulation', overHumidity(sets, 'modulation ΔF/F_off', { min: 0 }));
@@ -70,6 +72,21 @@ function sentence(c) {
   if (better) span.className = d * better > 0 ? 'better' : 'worse';
   return span;
 }
+// This design and the pinned ones side by side.
+const compared = [['modulation, mean', 'mean_modulation', 1, ''], ['worst', 'worst', 1, ''], ['variation over humidity', 'variation', 1, ''], ['friction, drive off', 'mean_friction', 1e3, ' mN']];
+function pinTable() {
+  const known = state.answer ? pins().filter((pin) => state.answer.pinned[pin.number]) : [];
+  if (!known.length) return [];
+  const all = [state.answer.response, ...known.map((pin) => state.answer.pinned[pin.number])], frame = document.createElement('div'), body = document.createElement('table');
+  frame.className = 'scroll';
+  frame.tabIndex = 0;
+  frame.setAttribute('role', 'region');
+  frame.setAttribute('aria-label', 'Pinned designs side by side');
+  frame.append(body);
+  const rows = compared.filter(([, key]) => all.some((r) => r.summary[key])).map(([name, key, scale, unit]) => [name, ...all.map((r) => of(r.summary[key], scale, unit))]);
+  table(body, ['', 'this design', ...known.map((pin) => pin.name)], rows, all.map((_, i) => i + 1));
+  return [frame];
+}
 function showPins() {
   const box = $('pins');
   const focused = document.activeElement && document.activeElement.dataset && document.activeElement.dataset.pin;
@@ -81,6 +98,7 @@ function showPins() {
     tools.className = 'tools';
     swatch.className = 'swatch';
     swatch.style.borderColor = tint(i);
+    swatch.style.borderTopStyle = i < 4 ? 'dashed' : 'dotted';
     name.textContent = pin.name;
     [['Open', 'take'], ['Unpin', 'unpin']].forEach(([text, what]) => {
       const b = document.createElement('button');
@@ -100,6 +118,7 @@ function showPins() {
     row.append(top, line);
     box.append(row);
   });
+  box.append(...pinTable());
   if (focused) {
     const again = box.querySelector(`[data-pin="${focused}"]`);
     if (again) again.focus();

@@ -7,10 +7,11 @@ import { ask, notice, post } from './server.js';
 // What people try first; everything else is one step away.
 const first = (k) => k.path.startsWith('texture.') || ['surface.contact_angle', 'surface.dielectric.0.thickness', 'surface.process', 'drive.amplitude', 'drive.frequency', 'drive.waveform', 'finger.load', 'finger.state'].includes(k.path);
 const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finger: 'Finger', environment: 'Air', view: 'Look', model: 'Model', accuracy: 'Accuracy' };
-const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
+export const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
 // As people write it: their letters, and no more than five digits of what a search found.
-export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
-const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg');
+export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/^([\d.e+-]+) rad$/, (all, n) => `${round(180 / Math.PI * n, 5)} deg`).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
+// A comma between digits of a single number is a decimal one.
+const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').replace(/^(\s*-?\d+),(\d+)(?=\s*[a-zA-Z%]*\s*$)/, '$1.$2');
 
 const rows = {};
 let gesture = 1, shape = '';
@@ -20,14 +21,21 @@ const wait = { busy: false, next: null, timer: 0 };
 export const latency = { events: [], done: [] };
 let asked = [];  // { revision, times } that wait to be drawn
 
-function send(path, value, time) {
+function send(path, value, time, slider = false) {
   if (wait.busy) {
     const times = wait.next && wait.next.path === path ? wait.next.times : [];
     if (wait.next && wait.next.path !== path) deliver(wait.next);
-    wait.next = { path, value, step: gesture, times: times.concat(time) };
+    wait.next = { path, value, slider, step: gesture, times: times.concat(time) };
     return;
   }
-  deliver({ path, value, step: gesture, times: [time] });
+  deliver({ path, value, slider, step: gesture, times: [time] });
+}
+// What the server says of a value stands at its row.
+function say(row, text) {
+  if (!row) return;
+  row.said.textContent = text;
+  row.said.hidden = !text;
+  row.box.classList.toggle('wrong', Boolean(text));
 }
 async function deliver(change) {
   wait.busy = true;
@@ -35,14 +43,19 @@ async function deliver(change) {
   wait.timer = setTimeout(release, 1500);
   const row = rows[change.path];
   try {
-    const { revision } = await post('set', { path: change.path, value: change.value, step: change.step });
+    const { revision, ends } = await post('set', { path: change.path, value: change.value, step: change.step, slider: change.slider });
     notice('');
-    if (row) row.box.classList.remove('wrong');
+    say(row, ends ? `ends here: ${ends}` : '');
+    if (ends && row) {  // the slider goes back to where the design ends
+      row.held = false;
+      row.touched = 0;
+      update(row.key);
+    }
     asked.push({ revision, times: change.times });
     if (latest >= revision) drawn(latest);
   } catch (error) {
-    notice(`${called(change.path)}: ${error.message}`);
-    if (row) row.box.classList.add('wrong');
+    if (row) say(row, error.message);
+    else notice(`${called(change.path)}: ${error.message}`);
     release();
   }
 }
@@ -105,7 +118,7 @@ function slider(k, row) {
     row.field.value = people(value);
     range.setAttribute('aria-valuetext', row.field.value);
     row.touched = performance.now();
-    send(k.path, value, row.touched);
+    send(k.path, value, row.touched, true);
   });
   return range;
 }
@@ -118,7 +131,11 @@ function build(k) {
   row.field.id = id;
   row.about = element('p', 'about');
   row.about.id = id + '-about';
-  row.field.setAttribute('aria-describedby', row.about.id);
+  row.said = element('p', 'said');
+  row.said.id = id + '-said';
+  row.said.hidden = true;
+  row.said.setAttribute('role', 'alert');
+  row.field.setAttribute('aria-describedby', `${row.about.id} ${row.said.id}`);
   top.append(label);
   box.append(top);
   (k.type === 'numbers' || k.type === 'path' || k.type === 'text' ? box : top).append(row.field);
@@ -126,7 +143,7 @@ function build(k) {
     row.range = slider(k, row);
     box.append(row.range);
   }
-  box.append(row.about);
+  box.append(row.said, row.about);
   rows[k.path] = row;
   return box;
 }
@@ -137,7 +154,6 @@ function update(k) {
   row.drawn = now;
   if (kept) return;
   row.box.classList.toggle('changed', k.changed);
-  row.box.classList.remove('wrong');
   row.about.textContent = `${k.doc}. ${k.type === 'number' || k.type === 'integer' ? `${round(k.low, 4)} to ${round(k.high, 4)} ${people(k.unit)}. ` : ''}${k.place}`;
   if (k.changed) {
     const back = element('button', '', 'as the file has it');
@@ -152,6 +168,20 @@ function update(k) {
     row.range.value = Math.round(row.range.max * position(k, k.shown));
     row.range.setAttribute('aria-valuetext', people(k.value));
   }
+}
+
+// Rows whose key or meaning has the word.
+export function startFilter() {
+  const box = $('keys'), filter = $('filter');
+  const show = () => {
+    const word = filter.value.trim().toLowerCase();
+    box.classList.toggle('filtered', Boolean(word));
+    Object.values(rows).forEach((row) => row.box.classList.toggle('match', Boolean(word) && `${row.key.path.replace(/[._]/g, ' ')} ${row.key.doc}`.toLowerCase().includes(word)));
+    const more = box.querySelector('details');
+    if (more && word) more.open = Boolean(more.querySelector('.match'));
+  };
+  filter.addEventListener('input', show);
+  filter.addEventListener('keydown', (e) => { if (e.key === 'Escape') { filter.value = ''; show(); } });
 }
 
 // Other rows: another kind of texture, another file.

@@ -4,11 +4,10 @@ import { charts, draw, errorBars } from '../plots/charts.js';
 import { found, foundChart, foundTable } from '../plots/found.js';
 import { round } from '../plots/numbers.js';
 import { table } from '../plots/tables.js';
-import { people } from './form.js';
-import { ask } from './server.js';
+import { called, people } from './form.js';
+import { ask, post } from './server.js';
 
 const state = { wish: null, search: null };
-const called = (path) => path.replace(/^[a-z]+\./, '').replace(/[._]/g, ' ');
 const make = (tag, more = {}) => Object.assign(document.createElement(tag), more);
 const machine = (text) => text.replace(/µm|μm/g, 'um').replace(/°/g, 'deg').trim();
 const summaries = ['mean', 'worst', 'variation', 'range', 'std', 'best', 'first', 'last'];
@@ -39,6 +38,24 @@ export function showWish(wish) {
   wish.limits.forEach((l) => limits.append(limit(l)));
   limits.append(adder('Add a limit', () => limit({ name: wish.known_limits[0].name, limit: '' })));
   $('evaluations').value = wish.evaluations || '';
+  const own = document.querySelector('#kinds [aria-checked=true]');
+  boxes('wishkinds', wish.known_kinds, wish.kinds.length ? wish.kinds : own ? [own.dataset.kind] : []);
+  boxes('wishfingers', wish.known_fingers, wish.fingers);
+  said('');
+}
+function boxes(id, names, chosen) {
+  $(id).hidden = !names.length;
+  $(id).querySelector('.boxes').replaceChildren(...names.map((name) => {
+    const label = make('label'), box = make('input', { type: 'checkbox', value: name, checked: chosen.includes(name) });
+    label.append(box, name.replace(/_/g, ' '));
+    return label;
+  }));
+}
+const checked = (id) => [...$(id).querySelectorAll('input:checked')].map((box) => box.value);
+// What the server says of the wish stands below it.
+function said(text) {
+  $('wishnotice').textContent = text;
+  $('wishnotice').hidden = !text;
 }
 function adder(text, line) {
   const button = make('button', { type: 'button', className: 'add', textContent: text });
@@ -81,14 +98,31 @@ function wishNow() {
       const [low, high, excluding] = [...r.querySelectorAll('[type=text]')].map((t) => machine(t.value));
       return { path: r.dataset.path, low, high, excluding };
     }),
-    kinds: state.wish.kinds,
+    kinds: checked('wishkinds'),
+    fingers: checked('wishfingers'),
     maximise: of('maximise'),
     minimise: of('minimise'),
     limits: [...document.querySelectorAll('.limit')].map((l) => ({ name: l.querySelector('select').value, limit: machine(l.querySelector('input').value) })).filter((l) => l.limit),
     evaluations: +$('evaluations').value || 0,
   };
 }
+// The form as it stands, pinned variables too: kept by the server, so that a page that is loaded again has it.
+function formNow() {
+  const varied = wishNow();
+  varied.variables = [...$('variables').tBodies[0].rows].map((r) => {
+    const [low, high, excluding] = [...r.querySelectorAll('[type=text]')].map((t) => machine(t.value));
+    return { path: r.dataset.path, low, high, excluding, vary: r.querySelector('[type=checkbox]').checked };
+  });
+  return varied;
+}
+let keeping = 0;
+function keep() {
+  clearTimeout(keeping);
+  keeping = setTimeout(() => post('search/wish', formNow()).catch((error) => said(error.message)), 300);
+}
 export function startSearch() {
+  ['input', 'change', 'click'].forEach((what) => $('wish').addEventListener(what, (e) => { if (what !== 'click' || e.target.matches('.add, .wishline button')) keep(); }));
+  $('proposed').addEventListener('click', async () => { clearTimeout(keeping); const wish = await ask('search/forget'); if (wish) showWish(wish); });
   $('wish').addEventListener('submit', (e) => { e.preventDefault(); run('search/start', wishNow()); });
   $('steer').addEventListener('click', () => run('search/start', Object.assign(wishNow(), { steer: true })));
   $('pause').addEventListener('click', () => run('search/pause'));
@@ -96,8 +130,12 @@ export function startSearch() {
   $('stop').addEventListener('click', () => run('search/stop'));
 }
 async function run(path, body) {
-  const answer = await ask(path, body);
-  if (answer) showSearch(answer);
+  try {
+    showSearch(await post(path, body));
+    said('');
+  } catch (error) {
+    said((error.problems || []).map((p) => (p.key ? `${p.key}: ` : '') + p.message).join('; ') || error.message);
+  }
 }
 const open = (point) => ask('search/pick', point.front ? { front: point.front } : { evaluation: point.evaluation });
 
@@ -117,6 +155,8 @@ export function showSearch(search) {
   $('report').hidden = !search.folder;
   if (search.folder) { $('report').href = `report/${search.folder}`; $('report').textContent = search.state === 'finished' ? 'Report' : 'Report so far'; }
   $('progress').hidden = $('frontbox').hidden = !search.folder;
+  const fingers = search.fingers || [];
+  $('felt').textContent = fingers.length > 1 ? `Of the finger at hand; the search below judges by ${fingers.join(', ')}.` : '';
   if (!search.folder) return;
   // A search that runs says how far the whole of it is, its confirmation and checks included.
   const told = search.progress, share = told ? told.share : search.state === 'finished' ? 1 : search.total ? Math.min(1, search.done / search.total) : 0;

@@ -22,7 +22,13 @@ async function read(answer) {
   let data = {};
   try { data = JSON.parse(text); } catch (e) { data = { error: text }; }
   if (answer.ok && !data.error) return data;
-  throw new Error(data.problems && data.problems.length ? data.problems.map((p) => p.message).join('; ') : data.error || `refused (${answer.status})`);
+  throw refused(data, answer.status);
+}
+
+// The server's words; `key`: of the first mistake.
+function refused(data, status) {
+  const told = data.problems && data.problems.length ? data.problems : [{ key: '', message: data.error || `refused (${status})` }];
+  return Object.assign(new Error(told.map((p) => p.message).join('; ')), { key: told[0].key, problems: told });
 }
 
 // A change that the server may refuse: its words are shown, the page stays as it was.

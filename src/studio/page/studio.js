@@ -1,12 +1,13 @@
 // The studio: what the server tells goes to the parts of the page, what the hand does goes back.
 import { $ } from '../plots/look.js';
 import { charts } from '../plots/charts.js';
-import { drawn, latency, showForm, showKinds } from './form.js';
+import { drawn, latency, showForm, showKinds, startFilter } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
 import { exportDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
 import { showSearch, showWish, startSearch } from './search.js';
 import { ask, listen, notice, post } from './server.js';
+import { takeable } from './take.js';
 
 let session = null, file = '', kind = '';
 
@@ -60,7 +61,9 @@ async function begin() {
   startScene();
   startSearch();
   startFiles();
+  startFilter();
   toolbar();
+  [['modulation', 'modulation'], ['friction', 'friction'], ['section', 'section'], ['pareto', 'designs']].forEach(([id, name]) => takeable(id, name));
   const all = await state();
   $('version').textContent = all.version;
   showKinds(all.kinds);
