@@ -292,9 +292,10 @@ void add_evaluate(Command app, Context& context) {
          "over a number of the design"},
         {"papilla evaluate m3_samples/flat.toml --voltage-for 0.5",
          "the voltage that a modulation takes"}},
-       {{"DIR/response.json, response.svg",
+       {{"DIR/response.json, response.txt, humidity.svg",
          "with --out: the numbers, and friction and modulation over humidity"},
-        {"DIR/*.png", "with --out: gap, pressure, water and pull of one patch"}}});
+        {"DIR/gap_50.png, gap_50.npy, ...",
+         "with --out: gap, pressure, water and pull of one patch at each humidity"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return evaluate_file(context, *options); };
   });

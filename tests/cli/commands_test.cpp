@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "tests/cli/program.h"
 
@@ -105,6 +109,53 @@ TEST(Program, ManualPagesAreOfTheCommandsThemselves) {
             std::string::npos);
   EXPECT_NE(file_text(place.path() / "man/papilla-solve.1").find("papilla solve haze"),
             std::string::npos);
+}
+
+// Words of the lines in bold of a section of a manual page.
+std::vector<std::vector<std::string>> bold_lines(const std::string& page,
+                                                 const std::string& section) {
+  std::vector<std::vector<std::string>> out;
+  const std::size_t begin = page.find(".SH " + section + "\n");
+  if (begin == std::string::npos) return out;
+  std::istringstream lines(page.substr(begin, page.find("\n.SH ", begin + 1) - begin));
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.starts_with("\\fB")) continue;
+    for (const char* mark : {"\\fB", "\\fR", "\\fI", "\\"}) {
+      for (std::size_t at; (at = line.find(mark)) != std::string::npos;)
+        line.erase(at, std::string(mark).size());
+    }
+    std::istringstream words(line);
+    out.emplace_back(std::istream_iterator<std::string>(words),
+                     std::istream_iterator<std::string>());
+  }
+  return out;
+}
+
+TEST(Program, ManualPagesDescribeEveryCommandWithExamplesThatItTakes) {
+  const Workplace place;
+  ASSERT_EQ(place.run("describe --manuals man").status, 0);
+  int pages = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(place.path() / "man")) {
+    const std::string name = entry.path().stem().string(), page = file_text(entry.path());
+    if (name == "papilla") continue;
+    ++pages;
+    EXPECT_NE(page.find(".SH DESCRIPTION\n"), std::string::npos) << name;
+    const auto examples = bold_lines(page, "EXAMPLES");
+    EXPECT_FALSE(examples.empty()) << name;
+    for (const auto& words : examples) {
+      EXPECT_EQ("papilla-" + words.at(1), name);
+      for (const std::string& word : words) {
+        if (word.starts_with("--")) {
+          const std::string bold = "\\fB" + std::regex_replace(word, std::regex("-"), "\\-");
+          EXPECT_NE(page.find(bold + "\\fR"), std::string::npos) << name << ' ' << word;
+        } else if (word.ends_with(".toml") || word.ends_with(".gsf")) {
+          EXPECT_TRUE(std::filesystem::exists(PAPILLA_DESIGNS_DIR "/" + word))
+              << name << ' ' << word;
+        }
+      }
+    }
+  }
+  EXPECT_GE(pages, 17);
 }
 
 TEST(Describe, KnowsTheSectionsOfStudiesAndTheWordsOfTheField) {

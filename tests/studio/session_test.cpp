@@ -226,7 +226,10 @@ TEST(Session, KeepsTwoHundredStepsTheNewest) {
                             {"draft", {{"file", kHoles}, {"changes", nlohmann::json::array()}}},
                             {"past", nlohmann::json::array()},
                             {"future", nlohmann::json::array()},
-                            {"pins", nlohmann::json::array()}}));
+                            {"pins", nlohmann::json::array()},
+                            {"others", nlohmann::json::array()},
+                            {"wish", ""},
+                            {"wish_of", ""}}));
   const auto step = [](int nm) {
     const nlohmann::json change = {"texture.depth", std::to_string(nm) + " nm"};
     return nlohmann::json{{"file", kHoles}, {"changes", nlohmann::json::array({change})}};
@@ -251,7 +254,6 @@ TEST(Session, KeepsTwoHundredStepsTheNewest) {
   EXPECT_EQ(kept["future"], nlohmann::json::array({step(301)}));
 }
 
-// Pins stay, the draft and its way back do not.
 TEST(Session, KeepsTheDraftOfEachFileThatWasOpened) {
   const TemporaryFolder place;
   const std::string flat = PAPILLA_DESIGNS_DIR "/m3_samples/flat.toml";
@@ -271,8 +273,11 @@ TEST(Session, KeepsTheDraftOfEachFileThatWasOpened) {
   EXPECT_DOUBLE_EQ(depth(again), 350e-9);
   again.undo();
   EXPECT_DOUBLE_EQ(depth(again), 600e-9);
-  const Session other(place.path(), flat);
+  Session other(place.path(), flat);
   EXPECT_DOUBLE_EQ(get_number(other.view().study.design, "drive.amplitude"), 120);
+  other.take(1);
+  EXPECT_DOUBLE_EQ(depth(other), 350e-9);
+  EXPECT_DOUBLE_EQ(get_number(other.view().opened, "texture.depth"), 600e-9);
 }
 
 TEST(Session, AKindThatIsOnlyLookedAtLosesNothing) {

@@ -346,7 +346,7 @@ TEST_F(LeftSearch, ShowsWhatWasFound) {
   left.erase("points");
   EXPECT_EQ(left, Json::parse(R"json({"state":"paused","number":3,"folder":"searches/003",
       "stage":"search","done":4,"total":12,"trouble":"","progress":null,
-      "variables":[{"path":"texture.depth","unit":"nm"}],
+      "variables":[{"path":"texture.depth","unit":"nm"}],"fingers":["reference"],
       "objectives":[{"name":"mean(modulation)","maximise":true}],"front":[3],"confirmed":[]})json"));
 }
 
