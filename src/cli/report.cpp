@@ -3,9 +3,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "base/files.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "report/comparison.h"
 #include "report/front.h"
 #include "report/page.h"
 #include "report/sums.h"
@@ -14,11 +16,30 @@ namespace papilla::cli {
 namespace {
 
 struct ReportOptions {
-  std::string folder, out, pick, svg;
+  std::string folder, other, out, pick, svg;
   bool json = false;
 };
 
+// Tables for a terminal, a page where one is asked for.
+int compare(const ReportOptions& options) {
+  if (!options.pick.empty() || !options.svg.empty())
+    throw InputError("--pick and --svg are of one run, not of two");
+  if (!options.out.empty())
+    write_bytes(end_of_links(options.out), comparison_page(options.folder, options.other));
+  const std::string text = comparison_markdown(options.folder, options.other);
+  if (options.json) {
+    std::cout << nlohmann::ordered_json{{"schema", 1}, {"file", options.out}, {"text", text}}.dump(
+                     2)
+              << '\n';
+  } else {
+    std::cout << text;
+    if (!options.out.empty()) std::cout << '\n' << visible(options.out) << '\n';
+  }
+  return kSuccess;
+}
+
 int report(const ReportOptions& options) {
+  if (!options.other.empty()) return compare(options);
   const bool picture = !options.svg.empty();
   const std::string path = picture               ? options.svg
                            : options.out.empty() ? options.folder + "/report.html"
@@ -50,6 +71,11 @@ void add_report(Command app, Context& context) {
                   "Folder that `papilla optimize`, `rank --out` or `calibrate` wrote")
       .required()
       .type_name("RESULT_DIR");
+  command
+      .add_option("other", options->other,
+                  "Another run of `papilla optimize`: both are compared, on the terminal and, with "
+                  "--out, as a page")
+      .type_name("RESULT_DIR");
   command.add_option("--out", options->out, "Default: RESULT_DIR/report.html").type_name("FILE");
   command.add_option("--svg", options->svg, "The picture of the front alone, to this file")
       .type_name("FILE");
@@ -62,7 +88,9 @@ void add_report(Command app, Context& context) {
        {{"papilla report results/study", "results/study/report.html"},
         {"papilla report results/study --pick knee --out knee.html",
          "with another design of the front as the best"},
-        {"papilla report results/study --svg front.svg", "the picture of the front alone"}},
+        {"papilla report results/study --svg front.svg", "the picture of the front alone"},
+        {"papilla report results/first results/second --out both.html",
+         "two runs beside each other"}},
        {{"RESULT_DIR/report.html", "the page"}}});
   command.on_chosen(
       [&context, options] { context.action = [options] { return report(*options); }; });
