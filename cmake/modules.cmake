@@ -20,7 +20,7 @@ set(PAPILLA_TALKING_OPTIONS $<$<CONFIG:Release>:-O1>)
 # Loops over pixels run there, over arrays of their own: asserting each index costs a search a seventh of its time. Whoever
 # reads what others wrote keeps the assertions.
 set(PAPILLA_ROOMS_OF_LOOPS src/numerics geometry geometry/textures src/fields src/physics/contact src/physics/capillary src/physics/electrostatics
-    src/physics/optics src/physics/macro src/physics/drive src/physics/persson src/forward)
+    src/physics/optics src/physics/optics/lattice src/physics/macro src/physics/drive src/physics/persson src/forward)
 
 # papilla_library(NAME FOLDER... LIBS target...): every .cpp of the folders, one library. Other programs see its public
 # headers alone; our own program and tests link papilla_inside, which adds the internal headers and what those include.

@@ -134,6 +134,7 @@ TextureFacts array_facts(FeatureArray array, const WallSection& wall) {
           .rim_radius = relief ? std::optional(wall.edge_radius) : std::nullopt,
           .outline = array,
           .scans = kNoScans,
+          .rough = kNoRoughness,
           .directional = relief && array.shape == FeatureArray::Shape::Line,
           .quick_look = true};
 }

@@ -110,6 +110,14 @@ using Outline = std::variant<FeatureArray, Contours, NoOutline>;
 
 inline const std::vector<ScanSource> kNoScans{};
 
+// One scale of Gaussian heights: their autocorrelation is exp(-r^2/length^2). Eq. geometry.10
+struct RoughScale {
+  double rms, correlation_length;  // [m], over an endless surface
+
+  bool operator==(const RoughScale&) const = default;
+};
+inline const std::vector<RoughScale> kNoRoughness{};
+
 struct TextureFacts {
   Stated<Relief> relief;
   Stated<std::optional<UnitCell>> cell;  // none: aperiodic or flat
@@ -119,6 +127,7 @@ struct TextureFacts {
   Stated<std::optional<double>> rim_radius;  // least radius of convex rims [m]; none: no rims
   Stated<Outline> outline;                   // of what is deep, at any depth of it
   Stated<std::vector<ScanSource>> scans;     // the measured maps that it is made of
+  Stated<std::vector<RoughScale>> rough;  // all of its heights, where they are Gaussian; else none
   Stated<bool> directional;  // made along one direction: grooves, crests; of a scan not judged
   Stated<bool> quick_look;   // optics take a millisecond, whatever the numbers of this kind are
 

@@ -16,6 +16,7 @@ TextureFacts gradual_facts(const GradualProfile& p) {
           .rim_radius = relief ? std::optional<double>(p.rim_radius) : std::nullopt,
           .outline = Contours{},
           .scans = kNoScans,
+          .rough = kNoRoughness,
           .directional = relief && p.directional,
           .quick_look = false};
 }

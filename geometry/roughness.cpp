@@ -39,21 +39,27 @@ double plateau(const Spectrum& s) {
 // Amplitudes of the modes on the half spectrum of Fft2d: root of their variance [m]; 0: none.
 using Amplitudes = std::vector<double>;
 
-Amplitudes mode_amplitudes(const Spectrum& s, const Grid& grid) {
+// variance(q): of a mode of wave number q [m^2].
+template <class Variance>
+Amplitudes amplitudes_on(const Grid& grid, const Variance& variance) {
   const int half = grid.nx / 2 + 1;
   Amplitudes out(static_cast<std::size_t>(half) * grid.ny);
   const double dqx = 2 * kPi / grid.lx, dqy = 2 * kPi / grid.ly;
-  const double c0 = plateau(s) * dqx * dqy;
   for (int iy = 0; iy < grid.ny; ++iy) {
     const int ky = signed_mode(iy, grid.ny);
     if (2 * std::abs(ky) >= grid.ny) continue;
     for (int kx = 0; kx < half; ++kx) {
       if (2 * kx >= grid.nx || (kx == 0 && ky == 0)) continue;
       out[static_cast<std::size_t>(iy) * half + kx] =
-          std::sqrt(c0 * shape(s, std::hypot(kx * dqx, ky * dqy)));
+          std::sqrt(variance(std::hypot(kx * dqx, ky * dqy)));
     }
   }
   return out;
+}
+
+Amplitudes mode_amplitudes(const Spectrum& s, const Grid& grid) {
+  const double c0 = plateau(s) * (2 * kPi / grid.lx) * (2 * kPi / grid.ly);
+  return amplitudes_on(grid, [&](double q) { return c0 * shape(s, q); });
 }
 
 // The same for every skin of a finger.
@@ -72,22 +78,18 @@ double mode_phase(std::uint64_t key, int kx, int ky) {
   return 2 * kPi * hash_uniform(key, a, b);
 }
 
-}  // namespace
-
-Heightmap random_surface(const Spectrum& s, const Grid& grid, std::uint64_t seed,
-                         std::uint64_t index, double offset_x, double offset_y) {
-  Heightmap out{grid, std::vector<double>(grid.size(), 0)};
-  if (s.rms <= 0) return out;
+// The surface of these amplitudes, moved by the offset.
+Heightmap with_random_phases(const Amplitudes& amplitudes, const Grid& grid, std::uint64_t key,
+                             double offset_x, double offset_y) {
+  Heightmap out{grid, {}};
   const auto fft = Fft2d::shared(grid.nx, grid.ny);
   SpectrumArray spectrum(fft->spectrum_size());
   const double dqx = 2 * kPi / grid.lx, dqy = 2 * kPi / grid.ly;
-  const std::shared_ptr<const Amplitudes> amplitudes = known_amplitudes(s, grid);
-  const std::uint64_t key = RandomStream(seed, "skin", index).bits();
   for (int iy = 0; iy < grid.ny; ++iy) {
     const int ky = signed_mode(iy, grid.ny);
     for (int kx = 0; kx < fft->half(); ++kx) {
       const std::size_t mode = static_cast<std::size_t>(iy) * fft->half() + kx;
-      if ((*amplitudes)[mode] <= 0) continue;
+      if (amplitudes[mode] <= 0) continue;
       // Real field: the modes k and -k carry conjugate values; each has variance c.
       const bool upper = kx > 0 || ky > 0;
       const double phase = upper ? mode_phase(key, kx, ky) : -mode_phase(key, -kx, -ky);
@@ -95,13 +97,42 @@ Heightmap random_surface(const Spectrum& s, const Grid& grid, std::uint64_t seed
       // Pixel centres sit half a pixel in.
       const double centre =
           kPi * (static_cast<double>(kx) / grid.nx + static_cast<double>(ky) / grid.ny);
-      spectrum[mode] = std::polar((*amplitudes)[mode], phase - shift + centre);
+      spectrum[mode] = std::polar(amplitudes[mode], phase - shift + centre);
     }
   }
   RealArray z(grid.size());
   fft->inverse(spectrum.data(), z.data());
   out.z.assign(z.begin(), z.end());
   return out;
+}
+
+}  // namespace
+
+Heightmap random_surface(const Spectrum& s, const Grid& grid, std::uint64_t seed,
+                         std::uint64_t index, double offset_x, double offset_y) {
+  if (s.rms <= 0) return {grid, std::vector<double>(grid.size(), 0)};
+  return with_random_phases(*known_amplitudes(s, grid), grid,
+                            RandomStream(seed, "skin", index).bits(), offset_x, offset_y);
+}
+
+RoughScale endless_scale(double rms, double correlation_length, double side) {
+  // Mean of exp(-(x - x')^2/l^2) over pairs of places on a line of this side.
+  const double a = side / correlation_length;
+  const double line = (std::sqrt(kPi) * a * std::erf(a) + std::expm1(-a * a)) / (a * a);
+  return {rms / std::sqrt(1 - line * line), correlation_length};
+}
+
+Heightmap random_surface(const std::vector<RoughScale>& scales, const Grid& grid,
+                         std::uint64_t seed) {
+  const double dqx = 2 * kPi / grid.lx, dqy = 2 * kPi / grid.ly;
+  const Amplitudes amplitudes = amplitudes_on(grid, [&](double q) {
+    double density = 0;  // spectrum over (2 pi)^2 [m^4]
+    for (const RoughScale& s : scales)
+      density += square(s.rms * s.correlation_length) / (4 * kPi) *
+                 std::exp(-0.25 * square(q * s.correlation_length));
+    return density * dqx * dqy;
+  });
+  return with_random_phases(amplitudes, grid, RandomStream(seed, "etch", 0).bits(), 0, 0);
 }
 
 RoughnessParameters roughness_parameters(const Heightmap& h) {

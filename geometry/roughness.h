@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "base/rooms.h"
+#include "geometry/facts.h"
 #include "geometry/heightmap.h"
 
 namespace papilla::geometry {
@@ -23,6 +25,14 @@ struct Spectrum {
 // [m] moves the surface. Cost: one inverse FFT.
 Heightmap random_surface(const Spectrum& spectrum, const Grid& grid, std::uint64_t seed,
                          std::uint64_t index, double offset_x = 0, double offset_y = 0);
+
+// The scale of a surface whose rms height over squares of this side is known. Eq. geometry.10
+RoughScale endless_scale(double rms, double correlation_length, double side);
+
+// A periodic surface of such scales, as above: amplitudes are those of their spectra, phases random
+// and keyed by the integer mode; waves longer than the grid have no place on it.
+Heightmap random_surface(const std::vector<RoughScale>& scales, const Grid& grid,
+                         std::uint64_t seed);
 
 // ISO 25178-2 height and slope parameters; heights about the mean. Slopes by forward differences.
 struct RoughnessParameters {

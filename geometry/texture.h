@@ -9,6 +9,7 @@
 #include "base/rooms.h"
 #include "geometry/facts.h"
 #include "geometry/textures/cap_array.h"
+#include "geometry/textures/etched_glass.h"
 #include "geometry/textures/flat.h"
 #include "geometry/textures/grating.h"
 #include "geometry/textures/hole_array.h"
@@ -25,7 +26,7 @@ namespace papilla::geometry {
 // The one list of kinds. The first has no relief: searches take it as the flat end of the list.
 struct Texture {
   std::variant<Flat, HoleArray, PillarArray, Grating, VGrooves, Waves, CapArray, RandomRough,
-               ParticleFilm, Measured3d, Stack>
+               ParticleFilm, Measured3d, Stack, EtchedGlass>
       kind;
 
   bool operator==(const Texture&) const = default;

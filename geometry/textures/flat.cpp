@@ -19,6 +19,7 @@ TextureFacts facts(const Flat&) {
           .rim_radius = std::nullopt,
           .outline = NoOutline{"the surface is flat, there are no outlines to write"},
           .scans = kNoScans,
+          .rough = kNoRoughness,
           .directional = false,
           .quick_look = true};
 }

@@ -47,6 +47,7 @@ TextureFacts facts(const Measured3d& t) {
           .rim_radius = std::nullopt,
           .outline = Contours{},
           .scans = std::vector{source_of(t)},
+          .rough = kNoRoughness,
           .directional = false,
           .quick_look = false};
 }

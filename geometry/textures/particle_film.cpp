@@ -176,6 +176,7 @@ TextureFacts facts(const ParticleFilm& t) {
           .outline = NoOutline{"a film of particles has no outline: its caps rise gradually from "
                                "the film, and nothing is etched"},
           .scans = kNoScans,
+          .rough = kNoRoughness,
           .directional = false,
           .quick_look = false};
 }

@@ -34,6 +34,7 @@ TextureFacts facts(const RandomRough& t) {
           .outline = NoOutline{"a random rough surface has no outline: its heights vary gradually, "
                                "none of them parts deep from high"},
           .scans = kNoScans,
+          .rough = kNoRoughness,
           .directional = false,
           .quick_look = false};
 }

@@ -142,6 +142,7 @@ TextureFacts facts(const Stack& t) {
           .rim_radius = rim_of(parts),
           .outline = outline_of(parts),
           .scans = scans_of(parts),
+          .rough = kNoRoughness,
           .directional = std::any_of(parts.begin(), parts.end(),
                                      [](const TextureFacts& part) { return part.directional; }),
           .quick_look = false};

@@ -30,10 +30,15 @@ struct Number {
 
 // How a texture looks on glass: photopic means; docs/theory/optics.md.
 struct Look {
-  double haze = 0, transmittance = 1, gloss = 1;  // shares
-  double colour_shift = 0;                        // distance in CIE 1976 u'v'
-  std::string
-      regime;  // which theory answered: "flat", "phase screen", "effective medium", "refused"
+  double haze = 0, transmittance = 1;  // shares; the undeviated light through the plate
+  double total_transmittance = 1;      // share: all light through the plate
+  double gloss = 0;                    // gloss units at 60 deg (ISO 2813)
+  double gloss_20 = 0, gloss_85 = 0;   // at 20 and 85 deg
+  double distinctness = 1;             // of the reflected image at 20 deg, share
+  double sparkle = 0;                  // of the subpixels of view.panel, share; 0 without one
+  double colour_shift = 0;             // distance in CIE 1976 u'v'
+  // Which theory answered: "flat", "phase screen", "effective medium", "rigorous", "refused".
+  std::string regime;
   std::string warning;  // empty: inside the theory's validity
 };
 

@@ -20,8 +20,11 @@ py::tuple number_row(const Number& n) {
 py::dict look_row(const Look& look) {
   using namespace py::literals;
   return py::dict("haze"_a = look.haze, "transmittance"_a = look.transmittance,
-                  "gloss"_a = look.gloss, "colour_shift"_a = look.colour_shift,
-                  "regime"_a = look.regime, "warning"_a = look.warning);
+                  "total_transmittance"_a = look.total_transmittance, "gloss"_a = look.gloss,
+                  "gloss_20"_a = look.gloss_20, "gloss_85"_a = look.gloss_85,
+                  "distinctness"_a = look.distinctness, "sparkle"_a = look.sparkle,
+                  "colour_shift"_a = look.colour_shift, "regime"_a = look.regime,
+                  "warning"_a = look.warning);
 }
 
 }  // namespace

@@ -44,13 +44,23 @@ class Look:
     """How a texture looks on glass: photopic means. Source: docs/theory/optics.md."""
 
     haze: float
-    """Share of the transmitted light beyond 2.5 degrees."""
+    """Share of the transmitted light beyond the cone of the view, 2.5 degrees."""
     transmittance: float
+    """Share of the light that passes undeviated."""
+    total_transmittance: float
+    """Share of the light that passes at all."""
     gloss: float
+    """Gloss units at 60 degrees (ISO 2813)."""
+    gloss_20: float
+    gloss_85: float
+    distinctness: float
+    """Of the reflected image at 20 degrees, share."""
+    sparkle: float
+    """Of the subpixels of ``view.panel``, share; 0 without a panel."""
     colour_shift: float
     """Distance in CIE 1976 u'v'."""
     regime: str
-    """Which theory answered: "flat", "phase screen", "effective medium"; "refused": none can."""
+    """Which theory answered: "flat", "phase screen", "effective medium", "rigorous"; "refused": none can."""
     warning: str
     """Empty inside the validity of the theory."""
 

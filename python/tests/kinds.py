@@ -8,7 +8,7 @@ from typing import Any
 from conftest import ROOT
 
 KINDS = ["flat", "hole_array", "pillar_array", "grating", "v_grooves", "waves", "cap_array", "random_rough",
-         "particle_film", "measured", "stack"]
+         "particle_film", "measured", "stack", "etched_glass"]
 _SCAN = str(ROOT / "designs/measured_surface/scan.gsf")
 
 
@@ -36,6 +36,7 @@ def texture(kind: str, r: random.Random) -> dict[str, Any]:
         "measured": {"file": _SCAN, "patch": "10 um"},
         "stack": {"parts": [{"type": "hole_array", "period": "6 um", "diameter": width, "depth": depth},
                             {"type": "random_rough", "rms": _nm(r, 2, 20)}]},
+        "etched_glass": {"rms": _nm(r, 50, 200), "correlation_length": _um(r, 2, 10), "seed": r.randint(1, 1000)},
     }
     return {"type": kind, **of_kind[kind]}
 

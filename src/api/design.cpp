@@ -31,7 +31,17 @@ std::vector<std::string> overrides(const Design::Values& values) {
 }
 
 Look look_of(const Optics& o) {
-  return {o.haze, o.transmittance, o.gloss, o.colour_shift, text(o.regime), o.warning};
+  return {.haze = o.haze,
+          .transmittance = o.transmittance,
+          .total_transmittance = o.total_transmittance,
+          .gloss = o.gloss,
+          .gloss_20 = o.gloss_20,
+          .gloss_85 = o.gloss_85,
+          .distinctness = o.distinctness,
+          .sparkle = o.sparkle,
+          .colour_shift = o.colour_shift,
+          .regime = text(o.regime),
+          .warning = o.warning};
 }
 
 std::string shipped(const std::string& file) {

@@ -270,12 +270,11 @@ class Predictor {
     for (const int rms : {20, 50, 100, 200}) {
       const Design design = read_design(find_design("m3_samples/screen_rough.toml"),
                                         {fmt::format("texture.rms=\"{} nm\"", rms)});
-      const Optics seen =
-          forward::appearance(design.texture, design.surface.refractive_index, design.view);
+      const Optics seen = forward::appearance(design.texture, design.surface, design.view);
       if (seen.refused()) continue;
       const std::string glass = fmt::format("etched glass, {} nm rms, roll-off 3 um", rms);
       out_.push_back({"haze", glass, "haze", "%", {100 * seen.haze, 0}, seen.warning});
-      out_.push_back({"gloss at 60 deg", glass, "gloss", "%", {100 * seen.gloss, 0}, seen.warning});
+      out_.push_back({"gloss at 60 deg", glass, "gloss", "GU", {seen.gloss, 0}, seen.warning});
     }
   }
 

@@ -235,7 +235,7 @@ Fidelity fidelity_of(const Design& design) {
 }
 
 Optics appearance_of(const Design& design) {
-  return appearance(design.texture, design.surface.refractive_index, design.view);
+  return appearance(design.texture, design.surface, design.view);
 }
 
 std::vector<std::string> calibration_mismatch(const Design& design) {

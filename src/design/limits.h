@@ -26,6 +26,7 @@ struct FilmLimit {
 // How the texture looks, known by an optical calculation.
 struct LookLimit {
   double Look::*number = &Look::haze;
+  bool bad_side = true;  // of the metric; else the other: glass that must not shine
   bool operator==(const LookLimit&) const = default;
 };
 // A metric over humidity, known with an evaluation.

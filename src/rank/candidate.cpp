@@ -43,14 +43,11 @@ bool looked_at(const RankOptions& options) {
 // The mean over regions; of one that has no numbers, that.
 Optics mean_look(const std::vector<Optics>& regions) {
   Optics out = regions.front();
-  out.haze = out.transmittance = out.gloss = out.colour_shift = 0;
+  for (double Look::*number : kLookNumbers) out.*number = 0;
   const double share = 1 / static_cast<double>(regions.size());
   for (const Optics& region : regions) {
     if (region.refused()) return region;
-    out.haze += share * region.haze;
-    out.transmittance += share * region.transmittance;
-    out.gloss += share * region.gloss;
-    out.colour_shift += share * region.colour_shift;
+    for (double Look::*number : kLookNumbers) out.*number += share * region.*number;
   }
   return out;
 }
@@ -63,6 +60,14 @@ Candidate::Candidate(const Regions& regions, FingerState state, const RankOption
       options_(options),
       scene_(scene_of(design_)),
       fidelity_(fidelity_of(design_)) {
+  for (const Criterion& c : options.criteria) {
+    const auto* look = std::get_if<LookMetric>(&c.expression.metric);
+    if (look && look->number == &Look::sparkle && !design_.view.panel.present()) {
+      throw InputError(
+          "sparkle needs the subpixels of a panel: view.panel.subpixel_width and "
+          "view.panel.subpixel_height");
+    }
+  }
   scene_.finger.state = state;
   fidelity_.threads = options.threads;
   fidelity_.skins = options.batch;

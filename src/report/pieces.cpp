@@ -183,13 +183,19 @@ std::string optics_text(const Optics& look) {
   std::string out = fmt::format("regime         {}\n", text(look.regime));
   if (!look.refused()) {
     out += fmt::format(
-        "haze           {:.3g} %\ntransmittance  {:.2f} %\ngloss          {:.3g} % of flat\n"
-        "colour shift   {:.4f} (u'v')\n\n{:>8} {:>8} {:>8} {:>8} {:>8}\n",
-        100 * look.haze, 100 * look.transmittance, 100 * look.gloss, look.colour_shift, "deg", "nm",
-        "haze %", "trans. %", "gloss %");
+        "haze           {:.3g} %  (ASTM D1003, ISO 14782)\n"
+        "transmittance  {:.2f} %  undeviated; {:.2f} % in all (ISO 13468)\n"
+        "gloss          {:.1f} GU at 60 deg, {:.1f} at 20, {:.1f} at 85 (ISO 2813)\n"
+        "distinctness   {:.1f} %  of the reflected image at 20 deg (after ASTM D5767)\n",
+        100 * look.haze, 100 * look.transmittance, 100 * look.total_transmittance, look.gloss,
+        look.gloss_20, look.gloss_85, 100 * look.distinctness);
+    if (look.sparkle > 0)
+      out += fmt::format("sparkle        {:.2f} %  of the panel's subpixels\n", 100 * look.sparkle);
+    out += fmt::format("colour shift   {:.4f} (u'v')\n\n{:>8} {:>8} {:>8} {:>8} {:>8}\n",
+                       look.colour_shift, "deg", "nm", "haze %", "trans. %", "total %");
     for (const SpectrumPoint& p : look.spectrum) {
       out += fmt::format("{:>8.0f} {:>8.0f} {:>8.2f} {:>8.2f} {:>8.2f}\n", p.angle * 180 / kPi,
-                         1e9 * p.wavelength, 100 * p.haze, 100 * p.transmitted, 100 * p.gloss);
+                         1e9 * p.wavelength, 100 * p.haze, 100 * p.transmitted, 100 * p.total);
     }
   }
   return look.warning.empty() ? out : out + "note: " + look.warning + '\n';
@@ -207,14 +213,20 @@ std::string optics_json(const Optics& look) {
                         {"specular", p.specular},
                         {"haze", p.haze},
                         {"transmitted", p.transmitted},
-                        {"gloss", p.gloss}});
+                        {"total", p.total},
+                        {"mirror", p.mirror}});
   }
   return Json{{"schema", 1},
               {"regime", text(look.regime)},
               {"warning", look.warning},
               {"haze", number(look.haze)},
               {"transmittance", number(look.transmittance)},
+              {"total_transmittance", number(look.total_transmittance)},
               {"gloss", number(look.gloss)},
+              {"gloss_20", number(look.gloss_20)},
+              {"gloss_85", number(look.gloss_85)},
+              {"distinctness", number(look.distinctness)},
+              {"sparkle", number(look.sparkle)},
               {"colour_shift", number(look.colour_shift)},
               {"spectrum", spectrum}}
       .dump(2);

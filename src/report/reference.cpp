@@ -38,7 +38,9 @@ FieldRow key(std::string path, std::string doc) {
 const char* about(const std::string& section) {
   if (section == "texture") return "The shape of the surface: `type` chooses the kind.";
   if (section == "surface") return "The finish: wetting, dielectric layers, optics, stiffness.";
-  if (section == "view") return "How the texture is looked at: haze, transmittance, gloss, colour.";
+  if (section == "view")
+    return "How the texture is looked at: haze, transmittance, gloss, distinctness of image, "
+           "sparkle, colour.";
   if (section == "finger") return "The finger; usually `base = \"../fingers/reference.toml\"`.";
   if (section == "environment") return "The humidities at which a design is judged.";
   if (section == "drive") return "The electrical drive; without an amplitude nothing is driven.";

@@ -231,9 +231,12 @@ std::string appearance_line(const Optics& look) {
     return "appearance: " + look.warning + "\n";
   }
   return fmt::format(
-      "haze {:.2f} %  transmittance {:.1f} %  gloss {:.1f} %  colour shift {:.4f}  ({}{}{})\n",
-      100 * look.haze, 100 * look.transmittance, 100 * look.gloss, look.colour_shift,
-      text(look.regime), look.warning.empty() ? "" : ": ", look.warning);
+      "haze {:.2f} %  transmittance {:.1f} %, {:.1f} % in all  gloss {:.1f} GU  distinctness of "
+      "image {:.1f} %{}  colour shift {:.4f}  ({}{}{})\n",
+      100 * look.haze, 100 * look.transmittance, 100 * look.total_transmittance, look.gloss,
+      100 * look.distinctness,
+      look.sparkle > 0 ? fmt::format("  sparkle {:.2f} %", 100 * look.sparkle) : "",
+      look.colour_shift, text(look.regime), look.warning.empty() ? "" : ": ", look.warning);
 }
 
 std::string voltage_lines(const Response& response) {

@@ -150,9 +150,17 @@ Json point_json(const Response& response, std::size_t index) {
 Json appearance_json(const Optics& look) {
   const bool refused = look.refused();
   const auto value = [&](double v) { return refused ? Json(nullptr) : json_number(v); };
-  return {{"regime", text(look.regime)}, {"warning", look.warning},
-          {"haze", value(look.haze)},    {"transmittance", value(look.transmittance)},
-          {"gloss", value(look.gloss)},  {"colour_shift", value(look.colour_shift)}};
+  return {{"regime", text(look.regime)},
+          {"warning", look.warning},
+          {"haze", value(look.haze)},
+          {"transmittance", value(look.transmittance)},
+          {"gloss", value(look.gloss)},
+          {"colour_shift", value(look.colour_shift)},
+          {"total_transmittance", value(look.total_transmittance)},
+          {"gloss_20", value(look.gloss_20)},
+          {"gloss_85", value(look.gloss_85)},
+          {"distinctness", value(look.distinctness)},
+          {"sparkle", value(look.sparkle)}};
 }
 
 Json steps_json(const ParameterSteps& p) {

@@ -36,6 +36,12 @@ void fields(FieldVisitor& v, FilmDielectric& s) {
   fields(v, static_cast<Dielectric&>(s));
   v.choice({"process", "how this layer was made; surface: as surface.process says"},
            {"surface", "conformal", "directional", "planar"}, s.process);
+  v.number({"refractive_index", "", 0, 5,
+            "refractive index (optics only): an anti-reflective stack, a hard coat; 0: "
+            "surface.refractive_index"},
+           s.refractive_index);
+  v.number({"extinction", "", 0, 5, "extinction coefficient k of n + i k (optics only)"},
+           s.extinction);
 }
 
 FilmProcess FilmDielectric::made_by(FilmProcess of_surface) const {

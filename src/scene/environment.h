@@ -49,6 +49,8 @@ void fields(FieldVisitor& v, Dielectric& s);
 // A layer below a texture.
 struct FilmDielectric : Dielectric {
   LayerProcess process = LayerProcess::Surface;
+  double refractive_index = 0;  // 0: that of the surface
+  double extinction = 0;
 
   FilmProcess made_by(FilmProcess of_surface) const;
 

@@ -14,9 +14,7 @@
 namespace papilla::search {
 namespace {
 
-std::string look_refusal(const Design& d) {
-  return optics_refusal(d.texture, d.surface.refractive_index, d.view);
-}
+std::string look_refusal(const Design& d) { return optics_refusal(d.texture, d.surface, d.view); }
 
 // A look that is not calculated in a millisecond, of some kind of texture.
 bool slow_look(const Study& study) {

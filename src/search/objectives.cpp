@@ -41,6 +41,18 @@ bool feels_drive(const StudyObjective& o) {
   return info_of(o.expression.metric).needs_drive && !is_amplitude(o);
 }
 
+bool asks_for_sparkle(const Study& study, const StudyGoals& goals) {
+  const auto is = [](const StudyObjective& o) {
+    const auto* look = std::get_if<LookMetric>(&o.expression.metric);
+    return look && look->number == &Look::sparkle;
+  };
+  return std::any_of(goals.objectives.begin(), goals.objectives.end(), is) ||
+         std::any_of(study.constraints.begin(), study.constraints.end(), [](const Constraint& c) {
+           const auto* limit = std::get_if<LookLimit>(&c.on);
+           return limit && limit->number == &Look::sparkle;
+         });
+}
+
 // The amplitude as a wish has to differ between designs, and something has to ask for it.
 void check_amplitude(const Study& study, const StudyGoals& goals) {
   const bool searched = std::any_of(study.variables.begin(), study.variables.end(),
@@ -111,6 +123,11 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
       add(goals.limited, wanted(metric->expression, c.at_least));
     goals.looks = goals.looks || std::holds_alternative<LookLimit>(c.on);
     goals.yield = goals.yield || std::holds_alternative<YieldLimit>(c.on);
+  }
+  if (asks_for_sparkle(study, goals) && !study.design.view.panel.present()) {
+    throw InputError(
+        "objective: sparkle needs the subpixels of a panel; give view.panel.subpixel_width and "
+        "view.panel.subpixel_height");
   }
   if (goals.objectives.empty() || goals.objectives.size() > 3) {
     throw InputError(fmt::format("objective: one to three objectives are possible, got {}",

@@ -30,7 +30,8 @@ void members(Codec& c, TaskObjective& o) {
 }
 template <class Codec>
 void members(Codec& c, Look& l) {
-  code_all(c, l.haze, l.transmittance, l.gloss, l.colour_shift);
+  code_all(c, l.haze, l.transmittance, l.gloss, l.colour_shift, l.total_transmittance, l.gloss_20,
+           l.gloss_85, l.distinctness, l.sparkle);
 }
 template <class Codec>
 void members(Codec& c, ErrorSamples& s) {

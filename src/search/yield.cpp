@@ -40,7 +40,7 @@ class LimitedOverScatter {
       for (std::size_t j = 0; j < drawn.limited.size(); ++j)
         task.limited.push_back(quadratic([j](const LimitedNumbers& n) { return n.limited[j]; }));
       task.errors = drawn.limited_errors;
-      for (double Look::*number : kLook) {
+      for (double Look::*number : kLookNumbers) {
         if (looks && drawn.look)
           task.look.push_back(
               quadratic([number](const LimitedNumbers& n) { return (*n.look).*number; }));
@@ -60,15 +60,13 @@ class LimitedOverScatter {
       n.limited_errors = task.errors;
       if (task.look.empty()) continue;
       n.look.emplace();
-      for (std::size_t i = 0; i < kLook.size(); ++i)
-        (*n.look).*kLook[i] = task.look[i].at(deviation);
+      for (std::size_t i = 0; i < kLookNumbers.size(); ++i)
+        (*n.look).*kLookNumbers[i] = task.look[i].at(deviation);
     }
     return bad_side(scoring_, all);
   }
 
  private:
-  static constexpr std::array kLook{&Look::haze, &Look::transmittance, &Look::gloss,
-                                    &Look::colour_shift};
   struct Task {
     ScatterQuadratic field;  // over the strength of the dielectric: 0 without a field
     std::vector<ScatterQuadratic> limited, look;

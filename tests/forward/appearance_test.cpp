@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/constants.h"
+#include "tests/support/glass.h"
 
 namespace papilla::tests {
 namespace {
@@ -34,7 +35,7 @@ TEST(Appearance, OfAFineArrayIsThatOfItsLayer) {
   for (const auto& [texture, features] : {std::pair{Texture{holes}, Features::Holes},
                                           {Texture{pillars}, Features::Pillars},
                                           {Texture{grooves}, Features::Lines}}) {
-    const Optics seen = appearance(texture, kIndex, view);
+    const Optics seen = appearance(texture, glass_of(kIndex), view);
     EXPECT_EQ(seen.regime, OpticsRegime::EffectiveMedium);
     expect_look(seen,
                 effective_medium(facts(texture).open_share.value(), 90e-9, features, {kIndex, 1},
@@ -50,7 +51,7 @@ TEST(Appearance, OfACoarseArrayIsThatOfItsOutlines) {
   const View view{.angles = {0, 0.5}};
   const Optics whole = array_screen(std::get<FeatureArray>(facts(texture).outline), {kIndex, 1},
                                     {visible_wavelengths(), view.angles});
-  const Optics seen = appearance(texture, kIndex, view);
+  const Optics seen = appearance(texture, glass_of(kIndex), view);
   EXPECT_EQ(seen.haze, whole.haze);
   EXPECT_EQ(seen.transmittance, whole.transmittance);
   EXPECT_EQ(seen.warning, "");
@@ -61,7 +62,7 @@ TEST(Appearance, BetweenBothItIsRefusedWithTheBand) {
   holes.diameter = 100e-9, holes.depth = 50e-9;
   const auto refusal = [&](double period, const View& view = {}) {
     holes.period = period;
-    return optics_refusal(Texture{holes}, 1.5, view);
+    return optics_refusal(Texture{holes}, glass_of(1.5), view);
   };
   EXPECT_EQ(refusal(600e-9),
             "period 600 nm is neither below 267 nm (effective medium) nor above 1440 nm (phase "
@@ -78,13 +79,13 @@ TEST(Appearance, WarnsWhereTheScreenIsRough) {
   const auto warning = [](double diameter, double depth) {
     HoleArray holes;
     holes.period = 2.5 * diameter, holes.diameter = diameter, holes.depth = depth;
-    return appearance(Texture{holes}, kIndex, {}).warning;
+    return appearance(Texture{holes}, glass_of(kIndex), {}).warning;
   };
   EXPECT_EQ(warning(2.1e-6, 0.5e-6), "");
   EXPECT_NE(warning(1.9e-6, 0.5e-6).find("features of 1.9 um are few wavelengths"),
             std::string::npos);
   EXPECT_NE(warning(2.1e-6, 1.1e-6).find("deep against its width"), std::string::npos);
-  EXPECT_NE(appearance(Texture{RandomRough{.rms = 300e-9, .roll_off = 1e-6}}, kIndex, {})
+  EXPECT_NE(appearance(Texture{RandomRough{.rms = 300e-9, .roll_off = 1e-6}}, glass_of(kIndex), {})
                 .warning.find("too steep for a thin screen"),
             std::string::npos);
 }

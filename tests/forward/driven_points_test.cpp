@@ -13,6 +13,7 @@
 #include "forward/appearance.h"
 #include "forward/forward.h"
 #include "forward/patch_setup.h"
+#include "tests/support/glass.h"
 
 namespace papilla::tests {
 namespace {
@@ -154,7 +155,7 @@ TEST(LooksLaws, WarningsAreSaidInWholeAndJoined) {
     HoleArray holes;
     holes.period = 2.5 * diameter, holes.diameter = diameter, holes.depth = depth;
     holes.wall_angle = kPi / 2;
-    return appearance(Texture{holes}, 1.46, {.fill_index = fill}).warning;
+    return appearance(Texture{holes}, glass_of(1.46), {.fill_index = fill}).warning;
   };
   const std::string narrow = "features of 1.8 um are few wavelengths: scalar theory is rough",
                     deep = "deep against its width: a thin screen is rough",
@@ -168,18 +169,19 @@ TEST(LooksLaws, WarningsAreSaidInWholeAndJoined) {
 
 // A flat plate is seen by the screen's law: 0.96/1.04 of light at the normal, in either medium.
 TEST(LooksLaws, OfNoReliefIsAFlatPlate) {
-  const Optics bare = appearance(Texture{}, 1.5, {});
+  const Optics bare = appearance(Texture{}, glass_of(1.5), {});
   EXPECT_EQ(bare.regime, OpticsRegime::Flat);
   EXPECT_NEAR(bare.transmittance, 0.96 / 1.04, 1e-12);
-  EXPECT_NEAR(bare.gloss, 1, 1e-12);
+  // Fresnel at 60 deg: of 1.5 over that of the black glass, 1.567.
+  EXPECT_NEAR(bare.gloss, 100 * 0.08918671 / 0.10005603, 1e-4);
   EXPECT_NEAR(bare.haze, 0, 1e-12);
   EXPECT_EQ(bare.warning, "");
   ASSERT_EQ(bare.spectrum.size(), 17u);
   // Under 1.2 of fill: (0.3/2.7)^2 at one face, 0.04 at the other.
   const double r = square(0.3 / 2.7);
-  const Optics filled = appearance(Texture{}, 1.5, {.fill_index = 1.2});
+  const Optics filled = appearance(Texture{}, glass_of(1.5), {.fill_index = 1.2});
   EXPECT_NEAR(filled.transmittance, (1 - r) * 0.96 / (1 - 0.04 * r), 1e-12);
-  EXPECT_EQ(appearance(Texture{}, 1.5, {.angles = {0, 0.5, 1}}).spectrum.size(), 51u);
+  EXPECT_EQ(appearance(Texture{}, glass_of(1.5), {.angles = {0, 0.5, 1}}).spectrum.size(), 51u);
 }
 
 }  // namespace

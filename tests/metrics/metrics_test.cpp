@@ -133,8 +133,17 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
   EXPECT_EQ(metric_at(QuantityMetric{&PointQuantities::capillary_force}, p)->value, -1);
   Optics look;
   look.haze = 0.1, look.transmittance = 0.2, look.gloss = 0.3, look.colour_shift = 0.4;
-  for (const auto& [name, value] :
-       {std::pair{"haze", 0.1}, {"transmittance", 0.2}, {"gloss", 0.3}, {"colour_shift", 0.4}})
+  look.total_transmittance = 0.5, look.gloss_20 = 0.6, look.gloss_85 = 0.7;
+  look.distinctness = 0.8, look.sparkle = 0.9;
+  for (const auto& [name, value] : {std::pair{"haze", 0.1},
+                                    {"transmittance", 0.2},
+                                    {"gloss", 0.3},
+                                    {"colour_shift", 0.4},
+                                    {"total_transmittance", 0.5},
+                                    {"gloss_20", 0.6},
+                                    {"gloss_85", 0.7},
+                                    {"distinctness", 0.8},
+                                    {"sparkle", 0.9}})
     EXPECT_EQ(look.*std::get<LookMetric>(*find_metric(name)).number, value) << name;
   for (const auto& [name, better] : {std::pair{"modulation", Better::Higher},
                                      {"friction", Better::Lower},
@@ -143,7 +152,12 @@ TEST(Metrics, EveryNameIsTheQuantityThatItSays) {
                                      {"compliance", Better::Neither},
                                      {"haze", Better::Lower},
                                      {"transmittance", Better::Higher},
+                                     {"total_transmittance", Better::Higher},
                                      {"gloss", Better::Higher},
+                                     {"gloss_20", Better::Higher},
+                                     {"gloss_85", Better::Higher},
+                                     {"distinctness", Better::Higher},
+                                     {"sparkle", Better::Lower},
                                      {"colour_shift", Better::Lower}})
     EXPECT_EQ(info_of(*find_metric(name)).better, better) << name;
   std::set<std::string> driven;

@@ -7,6 +7,7 @@
 #include "forward/appearance.h"
 #include "geometry/io/files.h"
 #include "geometry/roughness.h"
+#include "tests/support/glass.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -15,7 +16,7 @@ namespace {
 // What a design shows is what its exported map shows.
 TEST(Appearance, OfRoughGlassIsThatOfItsMap) {
   const Texture rough{RandomRough{.rms = 60e-9}};
-  const Optics own = appearance(rough, 1.46, {});
+  const Optics own = appearance(rough, glass_of(1.46), {});
   EXPECT_EQ(own.regime, OpticsRegime::PhaseScreen);
   for (const double side : {48e-6, 100e-6}) {
     const Heightmap map = generate(rough, patch_grid(rough, 1024, side));
@@ -30,7 +31,8 @@ TEST(Appearance, OfRoughGlassIsThatOfItsMap) {
     EXPECT_NEAR(p.specular, std::exp(-square(2 * kPi * 0.46 * rms / p.wavelength)),
                 0.01 * p.specular);
   }
-  EXPECT_EQ(appearance(Texture{RandomRough{.rms = 0}}, 1.46, {}).regime, OpticsRegime::Flat);
+  EXPECT_EQ(appearance(Texture{RandomRough{.rms = 0}}, glass_of(1.46), {}).regime,
+            OpticsRegime::Flat);
 }
 
 TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
@@ -44,11 +46,13 @@ TEST(Appearance, OfAMeasuredSurfaceAndOfAStackIsThatOfTheirMaps) {
   Stack stack;
   stack.parts = {Texture{}, rough};
   const double whole = phase_screen(map, {1.46, 1}).haze;
-  EXPECT_NEAR(appearance(Texture{measured}, 1.46, {}).haze, whole, 0.1 * whole);
-  EXPECT_EQ(appearance(Texture{measured}, 1.46, {}).warning, "");
-  EXPECT_EQ(appearance(Texture{stack}, 1.46, {}).haze, appearance(rough, 1.46, {}).haze);
+  EXPECT_NEAR(appearance(Texture{measured}, glass_of(1.46), {}).haze, whole, 0.1 * whole);
+  EXPECT_EQ(appearance(Texture{measured}, glass_of(1.46), {}).warning, "");
+  EXPECT_EQ(appearance(Texture{stack}, glass_of(1.46), {}).haze,
+            appearance(rough, glass_of(1.46), {}).haze);
   measured.patch = 12e-6;
-  EXPECT_NE(appearance(Texture{measured}, 1.46, {}).warning.find("is short"), std::string::npos);
+  EXPECT_NE(appearance(Texture{measured}, glass_of(1.46), {}).warning.find("is short"),
+            std::string::npos);
 }
 
 }  // namespace

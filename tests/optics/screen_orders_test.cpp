@@ -96,7 +96,7 @@ TEST(ScreenOrders, OfAnyHeightmapAreItsFourierCoefficients) {
       EXPECT_NEAR(p.specular, power(through, 0, 0), 1e-9) << k;
       EXPECT_NEAR(p.haze, 1 - cone(through, p.wavelength, p.angle), 1e-9) << k;
       EXPECT_NEAR(p.transmitted, power(through, 0, 0) * faces(fill, glass, p.angle), 1e-9) << k;
-      EXPECT_NEAR(p.gloss, power(back, 0, 0), 1e-9) << k;
+      EXPECT_NEAR(p.mirror, power(back, 0, 0), 1e-9) << k;
     }
   }
 }
@@ -133,7 +133,7 @@ TEST(ScreenOrders, MeansAreThoseOfTheObserver) {
   for (int nm = 405; nm < 720; nm += 11) {
     const Light light{{1e-9 * nm, 548e-9}, {0.0, 0.9}};
     const Optics o = phase_screen(h, {1.5, 1}, light);
-    double haze = 0, transmittance = 0, gloss = 0, shift = 0;
+    double haze = 0, transmittance = 0, total = 0, shift = 0;
     for (std::size_t a = 0; a < 2; ++a) {
       double weights = 0;
       std::array<double, 3> seen{}, source{};
@@ -142,11 +142,11 @@ TEST(ScreenOrders, MeansAreThoseOfTheObserver) {
         const SpectrumPoint& p = o.spectrum[2 * a + k];
         const std::array<double, 3> eye = observer(1e9 * p.wavelength);
         weights += eye[1];
-        sum[0] += eye[1] * p.haze, sum[1] += eye[1] * p.transmitted, sum[2] += eye[1] * p.gloss;
+        sum[0] += eye[1] * p.haze, sum[1] += eye[1] * p.transmitted, sum[2] += eye[1] * p.total;
         for (std::size_t c = 0; c < 3; ++c) seen[c] += eye[c] * p.transmitted, source[c] += eye[c];
       }
       haze += sum[0] / weights / 2, transmittance += sum[1] / weights / 2;
-      gloss += sum[2] / weights / 2;
+      total += sum[2] / weights / 2;
       // u' = 4X/(X + 15Y + 3Z), v' = 9Y/(X + 15Y + 3Z).
       const auto uv = [](const std::array<double, 3>& c) {
         const double all = c[0] + 15 * c[1] + 3 * c[2];
@@ -157,7 +157,7 @@ TEST(ScreenOrders, MeansAreThoseOfTheObserver) {
     }
     EXPECT_NEAR(o.haze, haze, 1e-9) << nm;
     EXPECT_NEAR(o.transmittance, transmittance, 1e-9) << nm;
-    EXPECT_NEAR(o.gloss, gloss, 1e-9) << nm;
+    EXPECT_NEAR(o.total_transmittance, total, 1e-9) << nm;
     EXPECT_NEAR(o.colour_shift, shift, 1e-9) << nm;
     EXPECT_TRUE(shift > 1e-4 || nm == 548 || nm > 690) << nm;
   }

@@ -146,7 +146,9 @@ TEST(SolvedPieces, AFieldAgainstTheStrengthOfItsLayer) {
 
 TEST(SolvedPieces, ALookInPercentAndDegrees) {
   Optics look;
-  look.haze = 0.0123, look.transmittance = 0.917, look.gloss = 0.85, look.colour_shift = 0.0021;
+  look.haze = 0.0123, look.transmittance = 0.917, look.gloss = 85, look.colour_shift = 0.0021;
+  look.total_transmittance = 0.92, look.gloss_20 = 70, look.gloss_85 = 95;
+  look.distinctness = 0.75, look.sparkle = 0.03;
   look.regime = OpticsRegime::PhaseScreen;
   look.warning = "deep";
   look.spectrum = {{.wavelength = 550e-9,
@@ -154,22 +156,30 @@ TEST(SolvedPieces, ALookInPercentAndDegrees) {
                     .specular = 0.97,
                     .haze = 0.02,
                     .transmitted = 0.9,
-                    .gloss = 0.8}};
+                    .total = 0.91,
+                    .mirror = 0.8}};
   EXPECT_EQ(optics_text(look),
             "regime         phase screen\n"
-            "haze           1.23 %\n"
-            "transmittance  91.70 %\n"
-            "gloss          85 % of flat\n"
+            "haze           1.23 %  (ASTM D1003, ISO 14782)\n"
+            "transmittance  91.70 %  undeviated; 92.00 % in all (ISO 13468)\n"
+            "gloss          85.0 GU at 60 deg, 70.0 at 20, 95.0 at 85 (ISO 2813)\n"
+            "distinctness   75.0 %  of the reflected image at 20 deg (after ASTM D5767)\n"
+            "sparkle        3.00 %  of the panel's subpixels\n"
             "colour shift   0.0021 (u'v')\n\n"
-            "     deg       nm   haze % trans. %  gloss %\n"
-            "      30      550     2.00    90.00    80.00\n"
+            "     deg       nm   haze % trans. %  total %\n"
+            "      30      550     2.00    90.00    91.00\n"
             "note: deep\n");
   nlohmann::json expected{{"schema", 1},
                           {"regime", "phase screen"},
                           {"warning", "deep"},
                           {"haze", 0.0123},
                           {"transmittance", 0.917},
-                          {"gloss", 0.85},
+                          {"total_transmittance", 0.92},
+                          {"gloss", 85},
+                          {"gloss_20", 70},
+                          {"gloss_85", 95},
+                          {"distinctness", 0.75},
+                          {"sparkle", 0.03},
                           {"colour_shift", 0.0021},
                           {"spectrum",
                            {{{"wavelength", 550e-9},
@@ -177,14 +187,16 @@ TEST(SolvedPieces, ALookInPercentAndDegrees) {
                              {"specular", 0.97},
                              {"haze", 0.02},
                              {"transmitted", 0.9},
-                             {"gloss", 0.8}}}}};
+                             {"total", 0.91},
+                             {"mirror", 0.8}}}}};
   expect_document(optics_json(look), expected);
   look.regime = OpticsRegime::Refused;
   look.spectrum.clear();
   EXPECT_EQ(optics_text(look), "regime         refused\nnote: deep\n");
   expected["regime"] = "refused";
   expected["spectrum"] = nlohmann::json::array();
-  for (const char* key : {"haze", "transmittance", "gloss", "colour_shift"})
+  for (const char* key : {"haze", "transmittance", "total_transmittance", "gloss", "gloss_20",
+                          "gloss_85", "distinctness", "sparkle", "colour_shift"})
     expected[key] = nullptr;
   expect_document(optics_json(look), expected);
 }

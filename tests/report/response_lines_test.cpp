@@ -141,9 +141,10 @@ TEST(ResponseLines, SayWhatWasAskedForBesideTheFriction) {
             "warning: one\nwarning: two\nnote: " +
                 text(r.troubles()) + "\n");
   r.appearance->regime = OpticsRegime::PhaseScreen;
-  r.appearance->haze = 0.5, r.appearance->transmittance = 0.25, r.appearance->gloss = 0.125;
+  r.appearance->haze = 0.5, r.appearance->transmittance = 0.25, r.appearance->gloss = 12.5;
   r.appearance->colour_shift = 0.0625;
-  EXPECT_NE(below(r).find("\nhaze 50.00 %  transmittance 25.0 %  gloss 12.5 %  colour shift 0.0625 "
+  EXPECT_NE(below(r).find("\nhaze 50.00 %  transmittance 25.0 %, 100.0 % in all  gloss 12.5 GU  "
+                          "distinctness of image 100.0 %  colour shift 0.0625 "
                           " (phase screen: too deep)\n"),
             std::string::npos)
       << below(r);
@@ -167,7 +168,7 @@ TEST(ResponseDocuments, HaveTheirPartsOnRequest) {
   ends.end = VoltageEnd::Breakdown;
   r.points[0].voltages = {reached, ends};
   r.appearance = Optics{};
-  r.appearance->haze = 0.01, r.appearance->transmittance = 0.9, r.appearance->gloss = 0.8;
+  r.appearance->haze = 0.01, r.appearance->transmittance = 0.9, r.appearance->gloss = 80;
   r.appearance->colour_shift = 0.002, r.appearance->warning = "shallow";
   const Resampled same = r;
   r.parameters.steps.assign(2, {same, same});
@@ -202,7 +203,12 @@ TEST(ResponseDocuments, HaveTheirPartsOnRequest) {
                {"warning", "shallow"},
                {"haze", 0.01},
                {"transmittance", 0.9},
-               {"gloss", 0.8},
+               {"gloss", 80},
+               {"total_transmittance", 1},
+               {"gloss_20", 0},
+               {"gloss_85", 0},
+               {"distinctness", 1},
+               {"sparkle", 0},
                {"colour_shift", 0.002}},
               "appearance");
   expect_same(json["parameters"],

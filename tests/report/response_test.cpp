@@ -134,7 +134,7 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
   r.points[0].voltages = {reached, ends};
   r.accuracy.target = 0.02, r.accuracy.reached = 0.015, r.accuracy.quantity = "mean(modulation)";
   r.appearance = Optics{};
-  r.appearance->haze = 0.0123, r.appearance->transmittance = 0.912, r.appearance->gloss = 0.87;
+  r.appearance->haze = 0.0123, r.appearance->transmittance = 0.912, r.appearance->gloss = 87;
   r.appearance->colour_shift = 0.0021;
   const std::string table = response_table(r);
   for (const std::string& line :
@@ -145,7 +145,8 @@ TEST(ResponseReport, VoltagesTargetAndLookHaveALineEach) {
         std::string("accuracy 2 % asked for, 1.5 % of mean(modulation): reached (96 pixels, 5 "
                     "skins, solved areas)\n"),
         std::string(
-            "haze 1.23 %  transmittance 91.2 %  gloss 87.0 %  colour shift 0.0021  (flat)\n")})
+            "haze 1.23 %  transmittance 91.2 %, 100.0 % in all  gloss 87.0 GU  distinctness of "
+            "image 100.0 %  colour shift 0.0021  (flat)\n")})
     EXPECT_NE(table.find(line), std::string::npos) << line << table;
 }
 

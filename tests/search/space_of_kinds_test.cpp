@@ -122,20 +122,28 @@ TEST(LimitBorders, ALimitOfNothingIsKeptFromBelowAlone) {
 TEST(LimitBorders, EachLookHasItsLimit) {
   Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
   study.population.clear();
-  study.constraints = {read_constraint("haze", 0.02), read_constraint("transmittance", 0.9),
-                       read_constraint("gloss", 0.8), read_constraint("colour_shift", 0.01)};
+  study.constraints = {read_constraint("haze", 0.02),
+                       read_constraint("transmittance", 0.9),
+                       read_constraint("gloss", 70),
+                       read_constraint("colour_shift", 0.01),
+                       read_constraint("most_gloss", 70),
+                       read_constraint("distinctness", 0.9),
+                       read_constraint("total_transmittance", 0.95)};
   const StudyProblem problem(study);
   ASSERT_EQ(problem.constraints().evaluated(), 0u);
   const Point unit = problem.space().unit_of_study();
   const Optics look = appearance_of(problem.space().design(unit));
   ASSERT_FALSE(look.refused());
   const std::vector<double> v = problem.constraints().look(unit);
-  ASSERT_EQ(v.size(), 4u);
+  ASSERT_EQ(v.size(), 7u);
   const auto bounded = [](double x) { return std::max(-1.0, x > 10 ? 11 - 10 / x : x); };
   EXPECT_NEAR(v[0], bounded(look.haze / 0.02 - 1), 1e-12);
   EXPECT_NEAR(v[1], bounded(0.9 / look.transmittance - 1), 1e-12);
-  EXPECT_NEAR(v[2], bounded(0.8 / look.gloss - 1), 1e-12);
+  EXPECT_NEAR(v[2], bounded(70 / look.gloss - 1), 1e-12);
   EXPECT_NEAR(v[3], bounded(look.colour_shift / 0.01 - 1), 1e-12);
+  EXPECT_NEAR(v[4], bounded(look.gloss / 70 - 1), 1e-12);
+  EXPECT_NEAR(v[5], bounded(0.9 / look.distinctness - 1), 1e-12);
+  EXPECT_NEAR(v[6], bounded(0.95 / look.total_transmittance - 1), 1e-12);
   // Said with its unit.
   study.constraints = {read_constraint("transmittance", 0.999)};
   const StudyProblem clear(study);

@@ -1,49 +1,58 @@
-// How a texture looks on glass: haze, transmittance, gloss and colour, scalar theory, one textured
-// interface. docs/theory/optics.md.
+// How a texture looks on glass: haze, transmittance, gloss, distinctness of image, sparkle and
+// colour; one textured face, films, a plate. docs/theory/optics.md.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "base/rooms.h"
 #include "geometry/facts.h"
 #include "geometry/heightmap.h"
+#include "physics/optics/colour.h"
+#include "physics/optics/column.h"
+#include "physics/optics/meters.h"
 #include "physics/optics/regime.h"
 
 namespace papilla::optics {
-
-inline constexpr double kHazeAngle = 0.04363323129985824;  // 2.5 deg: light beyond it is haze
-
-struct OpticalMedia {
-  double index = 1.46;  // of the glass
-  double fill = 1;      // of what fills the texture: 1 air, up to `index` for a matched over-coat
-};
-
-// 400 to 720 nm in steps of 20 nm.
-const std::vector<double>& visible_wavelengths();
 
 // What the texture is looked at with: every wavelength from every direction.
 struct Light {
   std::vector<double> wavelengths = visible_wavelengths();  // [m], in vacuum
   std::vector<double> angles{0};  // between the light in air and the normal [rad], below 80 deg
+  Meters meters{};
 };
 
 struct SpectrumPoint {
   double wavelength = 0;   // [m], in vacuum
   double angle = 0;        // [rad], in air
   double specular = 1;     // share of the transmitted light in the undeviated order
-  double haze = 0;         // share of the transmitted light beyond 2.5 deg
+  double haze = 0;         // share of the transmitted light beyond the cone
   double transmitted = 1;  // undeviated share of the incident light, both faces of the plate
-  double gloss = 1;        // specular reflection at 60 deg over that of the flat glass
+  double total = 1;        // all of the transmitted light over the incident
+  double mirror = 1;       // undeviated reflection of the face at 60 deg over that of flat glass
 };
 
-// Photopic means, over the angles.
+// Photopic means, over the angles. Gloss in gloss units, all else shares.
 struct Look {
-  double haze = 0, transmittance = 1, gloss = 1;
+  double haze = 0, transmittance = 1, gloss = 0;
   double colour_shift = 0;  // CIE 1976 u'v' distance of the undeviated light from the source
+  double total_transmittance = 1;
+  double gloss_20 = 0, gloss_85 = 0;
+  double distinctness = 1;  // of image, at 20 deg
+  double sparkle = 0;       // 0 without a panel
 
   bool operator==(const Look&) const = default;
 };
+inline constexpr std::array kLookNumbers{&Look::haze,
+                                         &Look::transmittance,
+                                         &Look::gloss,
+                                         &Look::colour_shift,
+                                         &Look::total_transmittance,
+                                         &Look::gloss_20,
+                                         &Look::gloss_85,
+                                         &Look::distinctness,
+                                         &Look::sparkle};
 
 struct Optics : Look {
   std::vector<SpectrumPoint> spectrum;
@@ -62,15 +71,19 @@ struct Disorder {
 };
 
 // Thin phase screen of one period (or a patch of 100 um and more for random textures).
-// Eq. optics.1-4, 8. Oblique light: mean over the planes of incidence x and y. Cost: pixels x
-// wavelengths x angles x orders inside the cone.
+// Eq. optics.1-4, 8. Oblique light: mean over the planes of incidence x and y. Cost: a transform of
+// the pixels for each wavelength and angle.
 Optics phase_screen(const Heightmap& h, const OpticalMedia& media, const Light& light = {});
 
 // The same of an array by the closed forms of its discs and lines, terrace by terrace: no pixels.
 // The outlines must not reach those of their neighbours (`has_closed_form`). Cost: terraces x
-// orders inside the cone x (1 + wavelengths x angles / 10); a millisecond.
+// orders inside the cones x wavelengths x angles; some milliseconds.
 bool has_closed_form(const FeatureArray& array);
 Optics array_screen(const FeatureArray& array, const OpticalMedia& media, const Light& light = {});
+
+// The same of Gaussian heights, by their statistics alone. Eq. optics.12. Milliseconds.
+Optics rough_look(const std::vector<RoughScale>& scales, const OpticalMedia& media,
+                  const Light& light = {});
 
 // A layer finer than the wavelength: a share `open` of it is the fill, the rest glass. Eq.
 // optics.5. Lines: grooves (mean over polarisations and planes of incidence), else round holes or
@@ -79,5 +92,8 @@ Optics array_screen(const FeatureArray& array, const OpticalMedia& media, const 
 enum class Features { Holes, Pillars, Lines };
 Optics effective_medium(double open, double depth, Features features, const OpticalMedia& media,
                         const Disorder& disorder = {}, const Light& light = {});
+
+// Photopic means of the spectrum of an answer: its haze, transmittances and colour. Eq. optics.6
+void photopic_means(Optics& o, const Light& light);
 
 }  // namespace papilla::optics

@@ -12,6 +12,8 @@ const char* text(OpticsRegime regime) {
       return "phase screen";
     case OpticsRegime::EffectiveMedium:
       return "effective medium";
+    case OpticsRegime::Rigorous:
+      return "rigorous";
     case OpticsRegime::Refused:
       return "refused";
   }

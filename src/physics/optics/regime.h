@@ -5,9 +5,10 @@
 
 namespace papilla::optics {
 
-enum class OpticsRegime { Flat, PhaseScreen, EffectiveMedium, Refused };  // Refused: no numbers
+// Refused: no numbers.
+enum class OpticsRegime { Flat, PhaseScreen, EffectiveMedium, Rigorous, Refused };
 
-// "flat", "phase screen", "effective medium", "refused"
+// "flat", "phase screen", "effective medium", "rigorous", "refused"
 const char* text(OpticsRegime regime);
 
 }  // namespace papilla::optics

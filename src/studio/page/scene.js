@@ -91,8 +91,10 @@ export function showLook(look) {
   const share = (v) => v === null ? '–' : round(100 * v, 3) + ' %';
   facts($('look'), [
     ['haze', share(look.haze)],
-    ['transmittance', share(look.transmittance)],
-    ['gloss', share(look.gloss)],
+    ['transmittance', share(look.transmittance) + ', ' + share(look.total_transmittance) + ' in all'],
+    ['gloss 60°', look.gloss === null ? '–' : round(look.gloss, 3) + ' GU'],
+    ['distinctness of image', share(look.distinctness)],
+    look.sparkle ? ['sparkle', share(look.sparkle)] : null,
     look.colour_shift === null ? null : ['colour shift', round(look.colour_shift, 2)],
     look.min_hole === null ? null : ['smallest hole', micrometres(look.min_hole)],
     look.min_wall === null ? null : ['smallest wall', micrometres(look.min_wall)],

@@ -1,0 +1,167 @@
+#include "physics/optics/lattice/look.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/constants.h"
+#include "physics/optics/lattice/lattice.h"
+#include "physics/optics/screen.h"
+
+namespace papilla::optics {
+namespace {
+
+Complex permittivity(double index, double extinction = 0) {
+  const Complex n(index, extinction);
+  return n * n;
+}
+
+// Width of the outline at a height: of the last terrace that reaches it from the surroundings.
+double width_at(const FeatureArray& array, double height) {
+  double around = 0, width = array.terraces.front().width;
+  for (const Terrace& t : array.terraces) {
+    width = t.width;
+    if ((around - height) * (t.height - height) <= 0) return std::max(0.0, width);
+    around = t.height;
+  }
+  return std::max(0.0, width);
+}
+
+// Planes between which the walls count as upright, from the lowest up.
+std::vector<double> planes_of(const FeatureArray& array) {
+  constexpr double kStep = 40e-9, kMost = 16;
+  const double end = array.terraces.back().height;
+  const int slices =
+      array.terraces.size() == 1
+          ? 1
+          : static_cast<int>(std::clamp(std::ceil(std::abs(end) / kStep), 4.0, kMost));
+  std::vector<double> out;
+  for (int k = 0; k <= slices; ++k) out.push_back(std::min(end, 0.0) + std::abs(end) * k / slices);
+  return out;
+}
+
+LatticeSlice flat_slice(Complex epsilon, double thickness) {
+  return {thickness, 0, 0, epsilon, epsilon};
+}
+
+// The same with x and y exchanged: the other plane of incidence.
+LatticeStack turned(LatticeStack stack) {
+  std::swap(stack.cell.lx, stack.cell.ly);
+  for (LatticeSlice& s : stack.slices) std::swap(s.width_x, s.width_y);
+  return stack;
+}
+
+// Of light that falls in from the fill.
+LatticeStack reversed(LatticeStack stack) {
+  std::reverse(stack.slices.begin(), stack.slices.end());
+  std::swap(stack.from, stack.to);
+  return stack;
+}
+
+class LatticeFace {
+ public:
+  LatticeFace(const FeatureArray& array, const OpticalMedia& media, const Meters& meters,
+              int beyond)
+      : stack_(lattice_stack(array, media)),
+        media_(media),
+        meters_(meters),
+        beyond_(beyond),
+        lines_(array.shape == FeatureArray::Shape::Line) {}
+
+  SpectrumPoint along_normal(double wavelength) const {
+    SpectrumPoint out;
+    out.wavelength = wavelength;
+    out.transmitted = out.total = out.specular = 0;
+    double cone = 0, all = 0;
+    const double back =
+        boundary_reflection(plain(media_.back), plain(media_.glass()), Polarisation::S, 0);
+    // Round features on a square or hexagonal lattice look alike to both.
+    const auto polarisations = lines_ ? 2u : 1u;
+    for (unsigned k = 0; k < polarisations; ++k) {
+      const Diffracted d = diffract(stack_, {wavelength, 0, kPolarisations[1 - k]}, beyond_);
+      const double rest = (1 - back) / (1 - d.mirrored() * back) / polarisations;
+      out.transmitted += (1 - meters_.inner_haze) * d.straight() * rest;
+      out.total += d.transmission() * rest;
+      for (const LatticeOrder& o : d.transmitted) {
+        all += o.power;
+        if (std::hypot(o.sx, o.sy) <= media_.fill * std::sin(meters_.cone)) cone += o.power;
+        if (o.m == 0 && o.n == 0) out.specular += o.power;
+      }
+    }
+    out.specular /= all;
+    out.haze = 1 - (1 - meters_.inner_haze) * std::min(1.0, cone / all);
+    return out;
+  }
+
+  double gloss_units(int degrees) const {
+    const Receptor& receptor = gloss_meter(degrees);
+    const double sine = std::sin(receptor.angle);
+    std::vector<LatticeStack> planes{reversed(stack_)};
+    if (lines_) planes.push_back(turned(planes.front()));
+    double sum = 0;
+    for (const PhotopicNode& node : photopic_nodes()) {
+      for (const LatticeStack& plane : planes) {
+        for (const Polarisation p : kPolarisations) {
+          const Diffracted d = diffract(plane, {node.wavelength, sine, p}, kBeyondOblique);
+          for (const LatticeOrder& o : d.reflected) {
+            sum += 0.5 * node.weight / static_cast<double>(planes.size()) * o.power *
+                   receptor.accepts(o.sx - sine, o.sy);
+          }
+        }
+      }
+    }
+    return 100 * sum / face_reflection(kGlossStandard, sine);
+  }
+
+ private:
+  // Oblique light has half the symmetry: fewer orders, to a gloss unit.
+  static constexpr int kBeyondOblique = 2;
+
+  LatticeStack stack_;
+  OpticalMedia media_;
+  Meters meters_;
+  int beyond_;
+  bool lines_;
+};
+
+}  // namespace
+
+LatticeStack lattice_stack(const FeatureArray& array, const OpticalMedia& media) {
+  LatticeStack out;
+  out.from = media.glass(), out.to = media.fill;
+  const bool line = array.shape == FeatureArray::Shape::Line;
+  const bool hexagonal = !line && array.lattice == Lattice::Hexagonal;
+  out.cell = {line ? LatticeCell::Shape::Box : LatticeCell::Shape::Disc, array.period,
+              hexagonal ? std::sqrt(3.0) * array.period : array.period, hexagonal};
+  for (const Film& f : media.films)
+    out.slices.push_back(flat_slice(permittivity(f.index, f.extinction), f.thickness));
+  std::reverse(out.slices.begin(), out.slices.end());
+  const Complex medium = permittivity(media.index, media.extinction),
+                fill = permittivity(media.fill);
+  const std::vector<double> planes = planes_of(array);
+  if (media.cut_into_film())
+    out.slices.push_back(flat_slice(medium, std::max(0.0, media.thickness + planes.front())));
+  for (std::size_t k = 0; k + 1 < planes.size(); ++k) {
+    const double width = width_at(array, 0.5 * (planes[k] + planes[k + 1]));
+    out.slices.push_back({planes[k + 1] - planes[k], width, line ? array.period : width,
+                          array.deep ? fill : medium, array.deep ? medium : fill});
+  }
+  return out;
+}
+
+Optics lattice_look(const FeatureArray& array, const OpticalMedia& media, const Meters& meters,
+                    int beyond) {
+  const LatticeFace face(array, media, meters, beyond);
+  Optics out;
+  out.regime = OpticsRegime::Rigorous;
+  for (const double wavelength : visible_wavelengths())
+    out.spectrum.push_back(face.along_normal(wavelength));
+  photopic_means(out, {});
+  out.gloss_20 = face.gloss_units(20);
+  out.gloss = face.gloss_units(60);
+  out.gloss_85 = face.gloss_units(85);
+  if (meters.panel)
+    out.sparkle = array_screen_of(array)->sparkle(media.index - media.fill, *meters.panel);
+  return out;
+}
+
+}  // namespace papilla::optics
