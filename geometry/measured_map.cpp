@@ -13,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "geometry/io/files.h"
 #include "geometry/plane.h"
 
 namespace papilla::geometry {
@@ -37,8 +38,9 @@ std::shared_ptr<const Scan> scan_of(const ScanSource& source) {
   static std::mutex mutex;
   static std::map<Key, std::shared_ptr<const Scan>> cache;
   std::error_code ignored;  // reading says what is wrong
-  const auto time = std::filesystem::last_write_time(source.file, ignored);
-  const auto size = std::filesystem::file_size(source.file, ignored);
+  const std::string file = map_name(source.file).file;
+  const auto time = std::filesystem::last_write_time(file, ignored);
+  const auto size = std::filesystem::file_size(file, ignored);
   std::lock_guard lock(mutex);
   auto& known = cache[{source, time, size}];
   if (!known) known = std::make_shared<const Scan>(read_scan(source));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/constants.h"
@@ -72,10 +73,11 @@ bool borders_meet(const Heightmap& h) {
 }
 
 // To a mean of 0 in any case: bands that are blended keep their variance about it.
-void level(Heightmap& h, const Sound& sound, ScanChanges& changes) {
+void level(Heightmap& h, const Sound& sound, bool asked, ScanChanges& changes) {
   const Grid& g = h.grid;
-  changes.repeats = borders_meet(h);
-  const Plane plane = changes.repeats
+  changes.repeats = !asked && borders_meet(h);
+  changes.made = !asked && changes.made;
+  const Plane plane = changes.repeats || changes.made
                           ? Plane{mean_of(h)}
                           : plane_of(h, 0, 0, g.lx, g.ly, changes.filled > 0 ? &sound : nullptr);
   for (int iy = 0; iy < g.ny; ++iy) {
@@ -174,11 +176,12 @@ std::string impossible(const Heightmap& h) {
 double ScanChanges::tilt() const { return std::atan(std::hypot(slope_x, slope_y)); }
 
 Scan read_scan(const ScanSource& source) {
-  Scan out{read_heightmap(source.file, source.width,
-                          source.fill ? NotNumbers::Kept : NotNumbers::Refused),
-           {}};
+  MapAnswer read =
+      read_map(source.file, source.width, source.fill ? NotNumbers::Kept : NotNumbers::Refused);
+  Scan out{std::move(read.map), {}};
   Heightmap& h = out.map;
   ScanChanges& changes = out.changes;
+  changes.made = read.made;
   changes.as_is = source.as_is;
   changes.width = h.grid.lx;
   changes.height = h.grid.ly;
@@ -193,7 +196,7 @@ Scan read_scan(const ScanSource& source) {
   }
   double median = 0;
   if (!source.as_is) {
-    level(h, sound, changes);
+    level(h, sound, source.level, changes);
     median = mark_outliers(h, sound, changes);
   }
   if (count_unsound(sound) > 0) mend(h, sound, median);
@@ -209,8 +212,10 @@ std::string text(const std::string& file, const ScanChanges& c) {
   if (c.as_is) {
     out += "taken as it is, neither levelled nor mended";
   } else {
-    out += c.repeats
-               ? "its borders meet, it repeats by itself: no plane was taken away; "
+    out += c.repeats ? "its borders meet, it repeats by itself: no plane was taken away; "
+           : c.made
+               ? "a made map, no instrument's: no plane was taken away (--level, texture.level: it "
+                 "is); "
                : fmt::format("a plane of {:.3g} deg ({:.4g} nm over the map) was taken away; ",
                              c.tilt() * 180 / kPi, 1e9 * c.rise);
     out += c.replaced == 0

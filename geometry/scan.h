@@ -11,10 +11,11 @@
 namespace papilla::geometry {
 
 struct ScanSource {
-  std::string file;    // .npy .gsf .exr .tif .x3p
+  std::string file;    // as read_map takes it: "scan.gwy", "scan.gwy::Height"
   double width = 0;    // where the file does not say [m]
   bool fill = false;   // heights that are no numbers get those around them; else they are refused
   bool as_is = false;  // neither levelled nor mended: a surface that is known and repeats
+  bool level = false;  // the plane is taken away of made and periodic maps too
 
   auto operator<=>(const ScanSource&) const = default;
 };
@@ -28,6 +29,7 @@ struct ScanPlace {
 struct ScanChanges {
   bool as_is = false;
   bool repeats = false;             // its borders meet: a plane taken away would part them
+  bool made = false;                // an array or an export: its plane belongs to it
   double width = 0, height = 0;     // sides of the map [m]
   double slope_x = 0, slope_y = 0;  // of the plane that was taken away
   double rise = 0;                  // its highest less its lowest place over the map [m]

@@ -44,12 +44,26 @@ void write_mask_tiff(const std::string& path, const Heightmap& h, Polarity polar
 // Preview with a colour scale from low (dark) to high (bright) and a scale bar.
 void write_png(const std::string& path, const Heightmap& h);
 
-// Reads .npy (float64 or float32, C order, metres), .gsf, .exr (channel Y, um with Gwy keys), .tif
-// (float: um; 16-bit: needs our JSON), .x3p of doubles. width: lateral size in x [m] where the
-// file does not say; 0: the file must say; one that contradicts it is refused. Refuses more than
-// 2^28 pixels, sides out of 1 pm to 1 km, broken files, and heights that are no finite numbers
-// unless they are to be kept.
+// Reads .npy (float64 or float32, either order, metres), .gsf, .exr (channel Y, um with Gwy keys),
+// .tif (float: um; 16-bit: needs our JSON), .x3p, .gwy, .sur, .sdf, and what Gwyddion reads of
+// other instruments where it is installed. width: lateral size in x [m] where the file does not
+// say; 0: the file must say; one that contradicts it is refused. Refuses more than 2^28 pixels,
+// sides out of 1 pm to 1 km, broken files, and heights that are no finite numbers unless they are
+// to be kept.
 enum class NotNumbers { Refused, Kept };
+struct MapAnswer {
+  Heightmap map;
+  bool made = false;    // not measured: an array, or an export of this program
+  std::string channel;  // "": the file names none
+};
+MapAnswer read_map(const std::string& name, double width = 0,
+                   NotNumbers not_numbers = NotNumbers::Refused);
+// The file of a map and its channel, by name or number: "scan.gwy::Height" is that channel of
+// scan.gwy. Without one the channel that holds heights is read; of several one must be named.
+struct MapName {
+  std::string file, channel;
+};
+MapName map_name(const std::string& name);
 Heightmap read_heightmap(const std::string& path, double width = 0,
                          NotNumbers not_numbers = NotNumbers::Refused);
 

@@ -19,6 +19,8 @@ struct MapHeader {
   double step = 0;                     // between neighbouring levels of grey [m]; 0: real numbers
   std::optional<Polarity> polarity;    // where the file names one
   std::optional<double> tag_x, tag_y;  // sides by the file's pixels per length [m]
+  bool made = false;                   // not measured: an array, or an export of this program
+  std::string channel;                 // of a file that names what it holds
 };
 
 class HeightRows {
@@ -36,10 +38,16 @@ class HeightRows {
 std::unique_ptr<HeightRows> open_image_rows(const std::string& path, bool any_size = false);
 std::unique_ptr<HeightRows> open_gsf_rows(const std::string& path);
 std::unique_ptr<HeightRows> open_npy_rows(const std::string& path);
-// X3P of doubles, compressed or not; the sum of its heights is checked once the last row is read.
+// X3P, compressed or not, of doubles, floats or whole numbers; the sum of its heights is checked
+// once the last row is read.
 std::unique_ptr<HeightRows> open_x3p_rows(const std::string& path);
-// By the ending: .exr .tif .tiff .png .gsf .npy .x3p
-std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size = false);
+// Files that may hold several channels; none asked for: the one that holds heights.
+std::unique_ptr<HeightRows> open_gwy_rows(const std::string& path, const std::string& channel);
+std::unique_ptr<HeightRows> open_sur_rows(const std::string& path, const std::string& channel);
+std::unique_ptr<HeightRows> open_sdf_rows(const std::string& path);
+// By the ending: .exr .tif .tiff .png .gsf .npy .x3p .gwy .sur .sdf; others by Gwyddion.
+std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size = false,
+                                             const std::string& channel = "");
 
 // All rows; width [m]: where the file does not say.
 Heightmap whole_map(HeightRows& rows, double width);

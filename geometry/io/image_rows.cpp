@@ -127,6 +127,7 @@ class ImageRows : public HeightRows {
     }
     if (whole) header_.step = std::abs(scale_) / (spec_.sample == Sample::U16 ? 65535 : 255);
     read_tags(*in_, header_.tag_x, header_.tag_y);
+    header_.made = in_->text("Software").starts_with("papilla ");
   }
 
   void next(double* heights) override {

@@ -41,6 +41,9 @@ double real_value(const std::string& path, const std::map<std::string, std::stri
   return value;
 }
 
+// The line of a GSF that an export of a design has, and no instrument.
+constexpr const char* kDesignKey = "PapillaDesign";
+
 class PlainRows : public HeightRows {
  public:
   void next(double* heights) override {
@@ -142,6 +145,7 @@ class GsfRows : public PlainRows {
     header_.ny = static_cast<int>(ny);
     header_.lx = xy * real_value(path, header, "XReal");
     header_.ly = xy * real_value(path, header, "YReal");
+    header_.made = header.count(kDesignKey) > 0;
     begin((end / 4 + 1) * 4);
   }
 };
@@ -183,6 +187,7 @@ class NpyRows : public PlainRows {
     header_.nx = static_cast<int>(columns);
     header_.ny = static_cast<int>(rows);
     header_.top_first = false;
+    header_.made = true;
     begin(at + length);
   }
 
@@ -224,6 +229,7 @@ void write_gsf(const std::string& path, const Heightmap& h, const FileInfo& info
   header += fmt::format(
       "XRes = {}\nYRes = {}\nXReal = {}\nYReal = {}\nXYUnits = m\nZUnits = m\nTitle = {}\n",
       h.grid.nx, h.grid.ny, h.grid.lx, h.grid.ly, info.title);
+  if (!info.comment.empty()) header += fmt::format("{} = {}\n", kDesignKey, info.comment);
   header.append(4 - header.size() % 4, '\0');
   FileWriter out(path);
   out.append(header);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "geometry/io/files.h"
+#include "geometry/io/gwy.h"
 #include "geometry/io/height_rows.h"
 #include "geometry/io/raw.h"
 
@@ -22,15 +23,18 @@ std::string lower_ending(const std::string& path) {
   return ending;
 }
 
-std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size) {
+std::unique_ptr<HeightRows> open_height_rows(const std::string& path, bool any_size,
+                                             const std::string& channel) {
   const std::string ending = lower_ending(path);
+  if (ending == ".gwy") return open_gwy_rows(path, channel);
+  if (ending == ".sur") return open_sur_rows(path, channel);
   if (ending == ".npy") return open_npy_rows(path);
   if (ending == ".gsf") return open_gsf_rows(path);
   if (ending == ".x3p") return open_x3p_rows(path);
+  if (ending == ".sdf") return open_sdf_rows(path);
   if (ending == ".exr" || ending == ".tif" || ending == ".tiff" || ending == ".png")
     return open_image_rows(path, any_size);
-  const RegularFile other(path);  // throws where that is what is wrong
-  throw InputError("cannot read " + path + ": use .npy, .gsf, .exr, .tif or .x3p");
+  return open_by_gwyddion(path, channel);
 }
 
 Heightmap whole_map(HeightRows& rows, double width) {
@@ -44,11 +48,21 @@ Heightmap whole_map(HeightRows& rows, double width) {
   return h;
 }
 
-Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_numbers) {
+MapName map_name(const std::string& name) {
+  const std::size_t colons = name.rfind("::");
+  std::error_code missing;
+  if (colons == std::string::npos || colons == 0 || fs::exists(name, missing)) return {name, ""};
+  return {name.substr(0, colons), name.substr(colons + 2)};
+}
+
+MapAnswer read_map(const std::string& name, double width, NotNumbers not_numbers) {
+  const auto [path, channel] = map_name(name);
   const std::string ending = lower_ending(path);
   if (ending == ".png")
-    throw InputError("cannot read " + path + ": use .npy, .gsf, .exr, .tif or .x3p");
-  const auto rows = open_height_rows(path);
+    throw InputError("cannot read " + path +
+                     ": a picture holds no heights; use .npy, .gsf, .exr, .tif, .x3p, .gwy, .sur "
+                     "or .sdf");
+  const auto rows = open_height_rows(path, false, channel);
   if (ending == ".npy" && !(width > 0)) {
     throw InputError("cannot read " + path +
                      ": the file holds no lateral size; give it (texture.width of a measured "
@@ -62,7 +76,8 @@ Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_n
         "a size",
         path, 1e6 * said, 1e6 * width));
   }
-  const Heightmap h = whole_map(*rows, width);
+  MapAnswer out{whole_map(*rows, width), rows->header().made, rows->header().channel};
+  const Heightmap& h = out.map;
   if (!(h.grid.lx > 0 && h.grid.ly > 0 && std::isfinite(h.grid.lx) && std::isfinite(h.grid.ly))) {
     throw InputError(
         "cannot read " + path +
@@ -74,7 +89,7 @@ Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_n
         fmt::format("cannot read {}: a lateral size of {:.3g} x {:.3g} m; expected 1 pm to 1 km",
                     path, h.grid.lx, h.grid.ly));
   }
-  if (not_numbers == NotNumbers::Kept) return h;
+  if (not_numbers == NotNumbers::Kept) return out;
   const auto broken = [](double z) { return !std::isfinite(z); };
   if (const auto first = std::find_if(h.z.begin(), h.z.end(), broken); first != h.z.end()) {
     const auto at = static_cast<std::size_t>(first - h.z.begin());
@@ -85,7 +100,11 @@ Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_n
         "measured texture, --fill of a command, or papilla surface FILE --fill --out FILLED.gsf",
         path, std::count_if(h.z.begin(), h.z.end(), broken), h.z.size(), at % nx, at / nx));
   }
-  return h;
+  return out;
+}
+
+Heightmap read_heightmap(const std::string& path, double width, NotNumbers not_numbers) {
+  return read_map(path, width, not_numbers).map;
 }
 
 }  // namespace papilla::geometry

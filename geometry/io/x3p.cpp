@@ -4,9 +4,12 @@
 #include <zip.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <pugixml.hpp>
@@ -91,20 +94,28 @@ class X3pRows : public HeightRows {
     header_.lx = nx * number(axes.child("CX"), "Increment");
     header_.ly = ny * number(axes.child("CY"), "Increment");
     const pugi::xml_node z = axes.child("CZ");
-    if (z.child_value("AxisType") != std::string("A") ||
-        z.child_value("DataType") != std::string("D"))
-      fail("its heights are no doubles");
-    scale_ = number(z, "Increment");
+    if (z.child_value("AxisType") != std::string("A")) fail("its heights are steps, not heights");
+    set_type(z.child_value("DataType"));
+    // ISO 25178-72: of an absolute axis only whole numbers need one.
+    scale_ = *z.child_value("Increment") == '\0' ? 1 : number(z, "Increment");
+    if (const char* layers = matrix.child_value("SizeZ");
+        *layers != '\0' && number(matrix, "SizeZ") != 1)
+      fail("several layers of heights");
+    header_.made =
+        std::string_view(root.child("Record2").child_value("Creator")).starts_with("papilla ");
     heights_sum_ = lower(link.child_value("MD5ChecksumPointData"));
     check_xml_sum(xml, root.child("Record4").child_value("ChecksumFile"));
     open_heights(link.child_value("PointDataLink"));
+    read_valid(link.child_value("ValidPointsLink"));
   }
 
   void next(double* heights) override {
-    const std::size_t bytes = static_cast<std::size_t>(header_.nx) * sizeof(double);
-    if (read(heights_.get(), heights, bytes) != bytes) fail("the data are cut off");
-    sum_.add(heights, bytes);
-    for (int ix = 0; ix < header_.nx; ++ix) heights[ix] *= scale_;
+    stored_.resize(static_cast<std::size_t>(header_.nx) * item_);
+    if (read(heights_.get(), stored_.data(), stored_.size()) != stored_.size())
+      fail("the data are cut off");
+    sum_.add(stored_.data(), stored_.size());
+    for (int ix = 0; ix < header_.nx; ++ix)
+      heights[ix] = is_valid(ix) ? scale_ * height(ix) : std::nan("");
     if (++row_ < header_.ny) return;
     if (sum_.finish() != heights_sum_) fail("the sum of its heights is another");
     char more = 0;
@@ -112,6 +123,45 @@ class X3pRows : public HeightRows {
   }
 
  private:
+  void set_type(const std::string& type) {
+    if (type == "D") item_ = sizeof(double);
+    if (type == "F" || type == "L") item_ = sizeof(float);
+    if (type == "I") item_ = sizeof(std::int16_t);
+    if (item_ == 0) fail("its heights are of a type that ISO 25178-72 does not state");
+    type_ = type[0];
+  }
+  template <class T>
+  double stored(int ix) const {
+    T out{};
+    std::memcpy(&out, stored_.data() + static_cast<std::size_t>(ix) * sizeof out, sizeof out);
+    return static_cast<double>(out);
+  }
+  double height(int ix) const {
+    switch (type_) {
+      case 'F':
+        return stored<float>(ix);
+      case 'L':
+        return stored<std::int32_t>(ix);
+      case 'I':
+        return stored<std::int16_t>(ix);
+      default:
+        return stored<double>(ix);
+    }
+  }
+  // A bit a point, the lowest first; not there: all are.
+  void read_valid(const std::string& name) {
+    if (name.empty()) return;
+    const std::size_t pixels =
+        static_cast<std::size_t>(header_.nx) * static_cast<std::size_t>(header_.ny);
+    valid_ = text(name, (pixels + 7) / 8);
+    if (valid_.size() != (pixels + 7) / 8) fail("not as many valid points as pixels are due");
+  }
+  bool is_valid(int ix) const {
+    if (valid_.empty()) return true;
+    const std::size_t at = static_cast<std::size_t>(row_) * static_cast<std::size_t>(header_.nx) +
+                           static_cast<std::size_t>(ix);
+    return (static_cast<unsigned char>(valid_[at / 8]) >> (at % 8) & 1) != 0;
+  }
   struct Close {
     void operator()(zip_t* archive) const { zip_discard(archive); }
     void operator()(zip_file_t* file) const { zip_fclose(file); }
@@ -172,7 +222,8 @@ class X3pRows : public HeightRows {
     return out;
   }
   double number(const pugi::xml_node& parent, const char* name) const {
-    const std::string_view value = parent.child_value(name);
+    std::string_view value = parent.child_value(name);
+    value.remove_prefix(std::min(value.find_first_not_of(" \t\r\n+"), value.size()));
     double out = 0;
     if (std::from_chars(value.data(), value.data() + value.size(), out).ec != std::errc{})
       fail(fmt::format("no number {} in main.xml", name));
@@ -187,7 +238,7 @@ class X3pRows : public HeightRows {
   }
   void open_heights(const std::string& name) {
     const auto pixels = static_cast<std::uint64_t>(header_.nx) * static_cast<unsigned>(header_.ny);
-    if (size_of(name) != sizeof(double) * pixels) fail("not as many heights as pixels are due");
+    if (size_of(name) != item_ * pixels) fail("not as many heights as pixels are due");
     heights_ = file(name);
   }
 
@@ -195,6 +246,9 @@ class X3pRows : public HeightRows {
   Archive archive_;
   File heights_;
   std::string heights_sum_;
+  std::string stored_, valid_;
+  char type_ = 'D';
+  std::size_t item_ = 0;
   double scale_ = 1;
   int row_ = 0;
   Md5 sum_;

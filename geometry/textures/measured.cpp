@@ -5,13 +5,15 @@
 namespace papilla::geometry {
 namespace {
 
-ScanSource source_of(const Measured3d& t) { return {t.file, t.width, t.fill, t.as_is}; }
+ScanSource source_of(const Measured3d& t) { return {t.file, t.width, t.fill, t.as_is, t.level}; }
 
 }  // namespace
 
 void fields(FieldVisitor& v, Measured3d& t) {
-  v.path({"file", "heightmap to import (.npy .gsf .exr .tif .x3p)", Source::Choice, "",
-          Presence::Required},
+  v.path({"file",
+          "heightmap to import (.npy .gsf .exr .tif .x3p .gwy .sur .sdf; others where Gwyddion is "
+          "installed); of several channels \"scan.gwy::Height\"",
+          Source::Choice, "", Presence::Required},
          t.file);
   v.number({"width", "um", 0, 1e6, "lateral size of the map where the file does not say"}, t.width);
   v.flag({"fill", "heights that are no numbers get the mean of those around them; else refused"},
@@ -19,6 +21,10 @@ void fields(FieldVisitor& v, Measured3d& t) {
   v.flag({"as_is",
           "neither levelled, mended nor blended: a surface that is known and repeats by itself"},
          t.as_is);
+  v.flag({"level",
+          "the plane is taken away of made maps (arrays, exports) and periodic ones too, whose "
+          "plane stays without a word"},
+         t.level);
   v.number({"top", "nm", -1e5, 1e5,
             "height of the map's highest place over the untouched land, where a planar film is as "
             "thick as said; 0: holes cut into it, above 0: pillars that stand on it"},

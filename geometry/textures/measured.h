@@ -10,10 +10,11 @@ struct Measured3d {
   static constexpr std::string_view kName = "measured";
   static constexpr bool kNumbersAlone = false;
 
-  std::string file;      // .npy .gsf .exr .tif .x3p
+  std::string file;      // as read_map takes it: "scan.gwy", "scan.gwy::Height"
   double width = 0;      // lateral size where the file does not say [m]
   bool fill = false;     // heights that are no numbers get those around them
   bool as_is = false;    // neither levelled nor mended
+  bool level = false;    // also where it is made or periodic
   double top = 0;        // of its highest place over the untouched land, z = 0 [m]
   double patch = 12e-6;  // side of the square that is simulated, cut from the middle
 

@@ -15,6 +15,7 @@ void add_rank(Command app, Context& context);
 void add_explain(Command app, Context& context);
 void add_export(Command app, Context& context);
 void add_verify(Command app, Context& context);
+void add_wafer(Command app, Context& context);
 void add_report(Command app, Context& context);
 void add_surface(Command app, Context& context);
 void add_solve(Command app, Context& context);
@@ -45,6 +46,7 @@ inline constexpr std::array kCommands{
     add_explain,
     add_export,
     add_verify,
+    add_wafer,
     add_report,
     add_surface,
     add_solve,

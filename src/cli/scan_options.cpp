@@ -16,7 +16,7 @@ ScanSource ScanOptions::source() const {
   const double width = size.empty() ? 0 : parse_si(size, "um");
   if (width < 0 || (!size.empty() && width == 0))
     throw InputError(fmt::format("--size must be positive, got \"{}\"", size));
-  return {file, width, fill, as_is};
+  return {file, width, fill, as_is, level};
 }
 
 void add_scan_options(Command command, ScanOptions& options) {
@@ -27,6 +27,8 @@ void add_scan_options(Command command, ScanOptions& options) {
   command.add_flag(
       "--as-is", options.as_is,
       "Take no plane away and replace no pixel: a surface that is known, not measured");
+  command.add_flag("--level", options.level,
+                   "Take the plane away of made maps (arrays, exports) and periodic ones too");
 }
 
 void say_scan(const std::string& file, const ScanChanges& changes) {

@@ -13,12 +13,12 @@ namespace papilla::cli {
 
 struct ScanOptions {
   std::string file, size;
-  bool fill = false, as_is = false;
+  bool fill = false, as_is = false, level = false;
 
   ScanSource source() const;  // throws InputError
 };
 
-// --size, --fill and --as-is.
+// --size, --fill, --as-is and --level.
 void add_scan_options(Command command, ScanOptions& options);
 
 // What was changed of a map, on standard error: it is no progress, --quiet keeps it.

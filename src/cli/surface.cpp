@@ -4,6 +4,8 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -16,16 +18,42 @@ namespace {
 
 struct SurfaceCommand {
   ScanOptions scan;
+  std::vector<std::string> files;
   std::string tip, out;
   bool json = false;
 };
+
+// Several maps of one surface; every mistake of theirs at once.
+int show_together(const Context& context, const SurfaceCommand& command, double tip) {
+  if (!command.out.empty()) throw InputError("--out: of one map alone; several are named");
+  std::vector<SurfaceView> maps;
+  Mistakes mistakes;
+  for (const std::string& file : command.files) {
+    mistakes.of([&] {
+      ScanSource source = command.scan.source();
+      source.file = file;
+      maps.push_back(view_of(source, tip));
+    });
+  }
+  mistakes.tell();
+  const SurfacesView view = joint_view(std::move(maps));
+  if (command.json) {
+    std::cout << surfaces_json(view) << '\n';
+  } else {
+    context.print(surfaces_text(view));
+  }
+  return kSuccess;
+}
 
 int show(const Context& context, const SurfaceCommand& command) {
   const double tip = command.tip.empty() ? 0 : parse_si(command.tip, "nm");
   if (tip < 0) throw InputError("--tip must be positive, got \"" + command.tip + "\"");
   if (!command.out.empty() && !command.out.ends_with(".gsf") && !command.out.ends_with(".npy"))
     throw InputError("--out: expected a name that ends with .gsf or .npy, got " + command.out);
-  const SurfaceView view = view_of(command.scan.source(), tip);
+  if (command.files.size() > 1) return show_together(context, command, tip);
+  ScanSource source = command.scan.source();
+  source.file = command.files.front();
+  const SurfaceView view = view_of(source, tip);
   if (command.out.ends_with(".gsf")) write_gsf(command.out, view.scan.map, {});
   if (command.out.ends_with(".npy")) write_npy(command.out, view.scan.map);
   if (command.json) {
@@ -41,9 +69,12 @@ int show(const Context& context, const SurfaceCommand& command) {
 
 void add_surface(Command app, Context& context) {
   Command command = app.add_command(
-      "surface", "A measured map: what is changed of it, ISO 25178, spectrum, heights, a section");
+      "surface", "A measured map, or several: what is changed, ISO 25178, spectrum, a section");
   auto options = std::make_shared<SurfaceCommand>();
-  command.add_option("file", options->scan.file, "Heightmap: .npy .gsf .exr .tif .x3p")
+  command
+      .add_option("file", options->files,
+                  "Heightmap: .npy .gsf .exr .tif .x3p .gwy .sur .sdf, other instruments' where "
+                  "Gwyddion is installed; several of one surface: their spectrum together")
       .required()
       .type_name("FILE");
   add_scan_options(command, options->scan);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/file_work.h"
 #include "report/verdict.h"
+#include "report/wafer.h"
 
 namespace papilla::cli {
 namespace {
@@ -20,7 +22,19 @@ struct VerifyCommand {
   bool geometry = false, json = false;
 };
 
+int verify_test_wafer(const Context& context, const VerifyCommand& command) {
+  FileWork work(context, "checking");
+  const WaferVerdict verdict = verify_wafer(command.path, work.progress());
+  std::cout << (command.json ? wafer_verdict_json(command.path, verdict) + '\n'
+                             : visible(wafer_verdict_text(verdict)));
+  const std::vector<std::string> left = left_lines(verdict.made);
+  for (const std::string& line : left) std::cerr << "not as wanted: " << visible(line) << '\n';
+  const int status = verdict_status({verdict.files, std::nullopt});
+  return status == kSuccess && !left.empty() ? kWorkFailed : status;
+}
+
 int verify_path(const Context& context, const VerifyCommand& command) {
+  if (holds_wafer(command.path)) return verify_test_wafer(context, command);
   std::vector<std::pair<std::string, ExportVerdict>> verdicts;
   int status = kSuccess;
   const JudgeOptions how{command.geometry, parse_si(command.tolerance, "%")};
@@ -42,7 +56,8 @@ void add_verify(Command app, Context& context) {
   auto options = std::make_shared<VerifyCommand>();
   command
       .add_option("path", options->path,
-                  "Folder that `papilla export` or `optimize` wrote, or one file of it")
+                  "Folder that `papilla export`, `wafer` or `optimize` wrote, or one file of an "
+                  "export")
       .required()
       .type_name("FOLDER|FILE");
   command.add_flag("--geometry", options->geometry,

@@ -51,8 +51,8 @@ const Node* find_path(const Node& root, const std::string& path) {
   return node;
 }
 
-constexpr std::array<std::string_view, 6> kMapEndings{".gsf", ".npy",  ".exr",
-                                                      ".tif", ".tiff", ".x3p"};
+constexpr std::array<std::string_view, 9> kMapEndings{".gsf", ".npy", ".exr", ".tif", ".tiff",
+                                                      ".x3p", ".gwy", ".sur", ".sdf"};
 
 std::string read_text(const std::string& path) {
   constexpr std::uintmax_t kLargest = 16 << 20;
@@ -508,13 +508,17 @@ struct Document::State final : public FieldVisitor {
     const std::string key = join_path(frame().path, spec.key);
     if (!node->is_text()) {
       problem(node->place, key, "expected the name of a file in quotes, got " + describe(*node));
-    } else if (node->text.empty()) {
-      out.clear();
-    } else if (const std::string found = find_beside(node->text, node->place.file, roots);
-               found.empty()) {
+      return;
+    }
+    out.clear();
+    if (node->text.empty()) return;
+    // "scan.gwy::Height": a part of a file.
+    const std::size_t part = std::min(node->text.find("::"), node->text.size());
+    const std::string found = find_beside(node->text.substr(0, part), node->place.file, roots);
+    if (found.empty()) {
       problem(node->place, key, "no such file: " + describe(*node));
     } else {
-      out = canonical(found).string();
+      out = canonical(found).string() + node->text.substr(part);
     }
   }
 

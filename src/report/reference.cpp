@@ -14,6 +14,7 @@
 #include "design/study.h"
 #include "design/words.h"
 #include "fabricate/formats.h"
+#include "fabricate/wafer.h"
 #include "metrics/metrics.h"
 
 namespace papilla::report {
@@ -65,6 +66,11 @@ const char* about(const std::string& section) {
   if (section == "scenarios") return "States of the product that count beside each other.";
   if (section == "scatter") return "How far fabrication may miss.";
   if (section == "base") return "Another file below this one.";
+  if (section == "wafer") {
+    return "A list of designs for `papilla wafer`, LIST.toml; of a study or of results every key "
+           "by "
+           "`--set wafer.repeats=5`.";
+  }
   if (section == "export") {
     return "The files of `papilla export`, by the names that `--format` takes. Without it: those "
            "that need nothing that is missing.";
@@ -198,6 +204,19 @@ std::vector<Part> export_reference() {
   return {{"", rows, true}};
 }
 
+std::vector<Part> wafer_reference() {
+  std::vector<FieldRow> head{
+      key("schema_version", "of this file: 1"),
+      key("designs_of",
+          "folder of results, whose front is taken, or a study: its design as it is "
+          "written and with each number of its design space at either end")};
+  return {{"", head, true},
+          {"wafer", field_rows(WaferShape{}, "wafer")},
+          {"conditions", field_rows(WaferConditions{}, "conditions")},
+          {"process", field_rows(Process{}, "process")},
+          {"design: a list, [[design]]", field_rows(WaferDesign{}, "design")}};
+}
+
 std::vector<Part> parts_of(const std::string& section);
 
 // "texture.depth" for "depth": the first key that ends so; empty: none does.
@@ -227,6 +246,7 @@ std::vector<Part> parts_of(const std::string& section) {
   if (section == "metrics") return metrics_reference();
   if (section == "study") return study_reference();
   if (section == "export") return export_reference();
+  if (section == "wafer") return wafer_reference();
   if (auto parts = study_section(section); !parts.empty()) return parts;
   std::vector<std::string> known = reference_sections();
   for (const char* name : kStudySections) known.emplace_back(name);
@@ -261,8 +281,8 @@ std::vector<Part> parts_of_key(const std::string& key) {
 }  // namespace
 
 std::vector<std::string> reference_sections() {
-  return {"texture",  "surface", "view",    "finger",  "environment", "drive", "model",
-          "accuracy", "study",   "metrics", "persson", "circuit",     "export"};
+  return {"texture",  "surface", "view",    "finger",  "environment", "drive",  "model",
+          "accuracy", "study",   "metrics", "persson", "circuit",     "export", "wafer"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {

@@ -10,7 +10,7 @@
 namespace papilla::report {
 
 // "texture", "surface", "finger", "environment", "drive", "model", "accuracy", "study", "metrics",
-// "persson", "circuit", "export".
+// "persson", "circuit", "export", "wafer".
 std::vector<std::string> reference_sections();
 
 enum class ReferenceFormat { Text, Markdown };

@@ -96,19 +96,11 @@ std::string spectrum_table(const SurfaceView& view) {
 Json scan_json(const std::string& file, const ScanChanges& c) {
   Json where;
   if (c.replaced > 0) where = {{"x", {c.where.x0, c.where.x1}}, {"y", {c.where.y0, c.where.y1}}};
-  return {{"file", file},
-          {"as_is", c.as_is},
-          {"repeats", c.repeats},
-          {"tilt", c.tilt()},
-          {"slope", {c.slope_x, c.slope_y}},
-          {"rise", c.rise},
-          {"pixels", c.pixels},
-          {"replaced", c.replaced},
-          {"furthest", c.furthest},
-          {"where", where},
-          {"filled", c.filled},
-          {"highest", c.highest},
-          {"rms", c.rms}};
+  return {{"file", file},           {"as_is", c.as_is},   {"repeats", c.repeats},
+          {"made", c.made},         {"tilt", c.tilt()},   {"slope", {c.slope_x, c.slope_y}},
+          {"rise", c.rise},         {"pixels", c.pixels}, {"replaced", c.replaced},
+          {"furthest", c.furthest}, {"where", where},     {"filled", c.filled},
+          {"highest", c.highest},   {"rms", c.rms}};
 }
 
 Json areal_json(const ArealParameters& a) {
@@ -184,6 +176,65 @@ std::string surface_json(const SurfaceView& view) {
       {"histogram", {{"lowest", *low}, {"highest", *high}, {"shares", height_histogram(h, kBins)}}},
       {"section", {{"y", g.y(g.ny / 2)}, {"heights", middle_row(h)}}}}
       .dump(2);
+}
+
+SurfacesView joint_view(std::vector<SurfaceView> maps) {
+  SurfacesView out{std::move(maps), {}, 0};
+  std::vector<MapSpectrum> spectra;
+  for (const SurfaceView& view : out.maps)
+    spectra.push_back({line_spectrum(view.scan.map), view.band});
+  out.joint = joint_spectrum(spectra);
+  out.rms = joint_rms(out.joint);
+  return out;
+}
+
+std::string surfaces_text(const SurfacesView& view) {
+  std::string out;
+  for (const SurfaceView& map : view.maps) out += text(map.file, map.scan.changes) + '\n';
+  std::vector<std::vector<std::string>> rows{
+      {"map", "um wide", "pixel nm", "Sq nm", "Sdq", "knows um", "to nm", "ended by"}};
+  for (const SurfaceView& map : view.maps) {
+    const Grid& g = map.scan.map.grid;
+    rows.push_back(
+        {map.file, fmt::format("{:.4g}", 1e6 * g.lx), fmt::format("{:.4g}", 1e9 * g.dx()),
+         fmt::format("{:.4g}", 1e9 * map.areal.sq), fmt::format("{:.3g}", map.areal.sdq),
+         fmt::format("{:.4g}", 1e6 * map.band.longest),
+         fmt::format("{:.4g}", 1e9 * map.band.shortest), map.band.by_tip ? "tip" : "pixels"});
+  }
+  out += '\n' + aligned_table(rows, 1);
+  if (view.joint.empty()) return out + "\nno wavelength is known by any of the maps\n";
+  out += fmt::format(
+      "\nspectrum along a line, of the maps that know a wavelength; x/: a standard deviation "
+      "between "
+      "them; STC: medians of the\nSurface-Topography Challenge's smoother and rougher surface "
+      "(Pradhan et al. 2025). rms from {:.4g} um to {:.4g} nm: {:.4g} nm\n",
+      1e6 * view.joint.front().wavelength, 1e9 * view.joint.back().wavelength, 1e9 * view.rms);
+  std::vector<std::vector<std::string>> lines{
+      {"um", "maps", "C(q) m^3", "x/", "STC smoother", "STC rougher"}};
+  const auto consensus = [](double v) { return v > 0 ? fmt::format("{:.2e}", v) : "-"; };
+  for (const JointRing& ring : view.joint) {
+    const Consensus c = consensus_at(ring.wavelength);
+    lines.push_back({fmt::format("{:.4g}", 1e6 * ring.wavelength), fmt::format("{}", ring.maps),
+                     fmt::format("{:.3e}", ring.density),
+                     ring.maps > 1 ? fmt::format("{:.2f}", ring.scatter) : "-",
+                     consensus(c.smoother), consensus(c.rougher)});
+  }
+  return out + aligned_table(lines, 0);
+}
+
+std::string surfaces_json(const SurfacesView& view) {
+  Json maps = Json::array(), rings = Json::array();
+  for (const SurfaceView& map : view.maps) maps.push_back(Json::parse(surface_json(map)));
+  for (const JointRing& ring : view.joint) {
+    const Consensus c = consensus_at(ring.wavelength);
+    rings.push_back({{"wavelength", ring.wavelength},
+                     {"density", ring.density},
+                     {"scatter", ring.maps > 1 ? Json(ring.scatter) : Json(nullptr)},
+                     {"maps", ring.maps},
+                     {"consensus_smoother", c.smoother > 0 ? Json(c.smoother) : Json(nullptr)},
+                     {"consensus_rougher", c.rougher > 0 ? Json(c.rougher) : Json(nullptr)}});
+  }
+  return Json{{"schema", 1}, {"maps", maps}, {"joint", rings}, {"rms", view.rms}}.dump(2);
 }
 
 std::string with_scan(const std::string& document, const std::string& file,

@@ -19,6 +19,7 @@
 #include "geometry/io/height_rows.h"
 #include "geometry/io/layout.h"
 #include "geometry/texture.h"
+#include "tests/io/instrument_bytes.h"
 
 namespace papilla::tests {
 
@@ -74,7 +75,7 @@ inline std::vector<FuzzTarget> file_targets(const std::string& folder) {
   write_gsf(folder + "/good.gsf", h, {});
   write_exr(folder + "/good.exr", h, {});
   write_tiff16(folder + "/good.tif", h, Polarity::WhiteHigh, {});
-  for (const auto& [ending, share] : {std::pair("npy", 0.12), std::pair("gsf", 0.12),
+  for (const auto& [ending, share] : {std::pair("npy", 0.09), std::pair("gsf", 0.09),
                                       std::pair("exr", 0.015), std::pair("tif", 0.015)}) {
     out.push_back({ending,
                    share,
@@ -99,6 +100,18 @@ inline std::vector<FuzzTarget> file_targets(const std::string& folder) {
                    0.02,
                    {read_bytes(folder + "/good." + ending)},
                    from_file(folder + "/bad." + ending, read)});
+  }
+  const std::vector<std::pair<const char*, std::vector<std::string>>> instruments{
+      {"gwy", {gwy_bytes({{"Height", "m", &h}, {"Phase", "deg", &h}})}},
+      {"sur", {sur_bytes(h, {32, false}), sur_bytes(h, {32, true, true})}},
+      {"sdf", {sdf_text(h), sdf_binary(h)}}};
+  for (const auto& [ending, seeds] : instruments) {
+    out.push_back(
+        {ending, 0.02, seeds, from_file(folder + "/bad." + ending, [](const std::string& path) {
+           const Heightmap back = read_heightmap(path);
+           if (back.z.size() != back.grid.size()) throw NotFinite{"the size of the map"};
+           for (double z : back.z) require_finite(z, "a height");
+         })});
   }
   return out;
 }

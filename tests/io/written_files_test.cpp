@@ -45,7 +45,7 @@ TEST(WrittenFiles, AGsfIsItsHeaderAndItsRowsFromTheTop) {
     std::string header =
         "Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 2\nXReal = 6e-06\nYReal = 5e-06\n"
         "XYUnits = m\nZUnits = m\nTitle = " +
-        title + "\n";
+        title + "\nPapillaDesign = nothing\n";
     header += std::string(4 - header.size() % 4, '\0');
     EXPECT_EQ(read_bytes(path), header + bytes_of<float>({3e-9, 4e-9, 5e-9, 0, 1e-9, 2e-9}));
   }

@@ -1,0 +1,69 @@
+// papilla wafer LIST.toml|STUDY.toml|RESULTS: a test wafer with its masks and its manifest.
+#include "report/wafer.h"
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/files.h"
+#include "base/text.h"
+#include "cli/commands.h"
+#include "cli/file_work.h"
+
+namespace papilla::cli {
+namespace {
+
+struct WaferCommand {
+  std::string path, out = "results/wafer";
+  std::vector<std::string> overrides;
+  bool no_expected = false, no_model = false, json = false;
+};
+
+int make_wafer(const Context& context, const WaferCommand& command) {
+  const WaferPlan plan = plan_wafer(command.path, command.overrides);
+  const WaferDrawing drawing = draw_wafer(plan);
+  std::vector<std::string> files;
+  std::vector<WaferMade> made;
+  {
+    FileWork work(context, "working out");
+    const Expectations expected =
+        command.no_expected ? Expectations{} : expect(plan, !command.no_model, work.progress());
+    files = write_wafer(plan, drawing, expected, command.out);
+    files.push_back(command.out + "/wafer.svg");
+    write_bytes(files.back(), wafer_svg(plan));
+    work.progress()("what the process makes of " + command.out, 0);
+    made = made_of_wafer(drawing, drawing.layout, plan.list.process);
+  }
+  for (const std::string& left : left_lines(made))
+    std::cerr << "warning: " << visible(left) << '\n';
+  std::cout << (command.json ? wafer_json(plan, drawing, files, made) + '\n'
+                             : visible(wafer_text(plan, drawing, files, made)));
+  return kSuccess;
+}
+
+}  // namespace
+
+void add_wafer(Command app, Context& context) {
+  Command command = app.add_command(
+      "wafer", "A test wafer: fields of designs, controls, labels, masks, what to measure where");
+  auto options = std::make_shared<WaferCommand>();
+  command
+      .add_option("path", options->path,
+                  "List of designs, a study (its design and its variables at their ends), or a "
+                  "folder of results (its front)")
+      .required()
+      .type_name("LIST|STUDY|RESULTS");
+  add_set_option(command, options->overrides);
+  command.add_option("--out", options->out, "Folder of the wafer").show_default().type_name("DIR");
+  command.add_flag("--no-expected", options->no_expected,
+                   "Evaluate no design: the manifest does not say what is expected");
+  command.add_flag("--no-model", options->no_model,
+                   "Errors of what is expected without what is not known of the finger");
+  command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.on_chosen([&context, options] {
+    context.action = [&context, options] { return make_wafer(context, *options); };
+  });
+}
+
+}  // namespace papilla::cli

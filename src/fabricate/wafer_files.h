@@ -1,0 +1,54 @@
+// A wafer as a folder: layouts, the designs, what to measure where; and whether they are right.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "fabricate/made.h"
+#include "fabricate/verify.h"
+#include "fabricate/wafer_drawing.h"
+
+namespace papilla::fabricate {
+
+inline constexpr const char* kWaferRecord = "wafer.toml";
+inline constexpr const char* kManifest = "manifest.csv";
+
+// What the model says of a design under one condition; NaN where it says nothing.
+struct Expected {
+  double modulation = 0, modulation_error = 0;  // of undriven conditions nothing
+  double friction_off = 0, friction_error = 0;  // [N]
+};
+// [treatment][condition], in the order of conditions_of. Draft level; each design once per load,
+// state, voltage and frequency. model: the errors hold what is not known of finger and model.
+using Expectations = std::vector<std::vector<Expected>>;
+Expectations expect(const WaferPlan& plan, bool model, const FileProgress& progress = {});
+
+// Writes wafer.gds, wafer.oas, manifest.csv, wafer.toml and designs/NAME.toml into a folder, which
+// is made. Without expectations the manifest has no columns of them. Paths of what was written.
+std::vector<std::string> write_wafer(const WaferPlan& plan, const WaferDrawing& drawing,
+                                     const Expectations& expected, const std::string& folder);
+
+// Whether a folder holds a wafer.
+bool holds_wafer(const std::string& folder);
+
+// What comes out of a drawn array.
+struct WaferMade {
+  std::string design, cell;
+  MadeArray made;
+};
+
+struct WaferVerdict {
+  std::vector<FileVerdict> files;
+  std::vector<WaferMade> made;  // of the polygons in wafer.gds
+};
+// Every file of a wafer's folder against what its record makes, and the surfaces that the process
+// makes of its polygons. Throws InputError where it has no record.
+WaferVerdict verify_wafer(const std::string& folder, const FileProgress& progress = {});
+
+// The surfaces that the process makes of a drawing.
+std::vector<WaferMade> made_of_wafer(const WaferDrawing& drawing, const Layout& layout,
+                                     const Process& process);
+
+}  // namespace papilla::fabricate

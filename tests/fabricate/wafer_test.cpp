@@ -1,0 +1,226 @@
+// Test wafers: what stands where, what is drawn, what is to be measured.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "fabricate/wafer_files.h"
+#include "tests/fabricate/wafer_list.h"
+#include "tests/support/refusal.h"
+
+namespace papilla::tests {
+namespace {
+
+class Wafer {
+ public:
+  explicit Wafer(const std::string& sections) {
+    write_wafer_list(place, sections);
+    plan = plan_wafer(path("list.toml"));
+    drawing = draw_wafer(plan);
+  }
+  std::string path(const std::string& name) const { return (place.path() / name).string(); }
+  std::string write() const {
+    write_wafer(plan, drawing, {}, path("out"));
+    return path("out");
+  }
+
+  Workplace place;
+  WaferPlan plan;
+  WaferDrawing drawing;
+};
+
+TEST(Wafer, HoldsEveryDesignOnceInEachBlockAndItsControls) {
+  const Wafer wafer(
+      "[wafer]\nrepeats = 3\nflats = 2\nreferences = 1\nreference = \"H2\"\n"
+      "columns = 7\nrows = 3\n");
+  std::map<int, std::multiset<std::string>> blocks;
+  std::set<std::string> ids;
+  for (const WaferField& f : wafer.plan.fields) {
+    blocks[f.block].insert(wafer.plan.treatments[f.treatment].name);
+    ids.insert(f.id);
+    EXPECT_EQ(f.kind == FieldKind::Flat, wafer.plan.treatments[f.treatment].name == "FLAT");
+  }
+  ASSERT_EQ(blocks.size(), 3u);
+  const std::multiset<std::string> whole{"FLAT", "FLAT", "H1", "H2", "H2", "H3", "P1"};
+  for (const auto& [block, names] : blocks) EXPECT_EQ(names, whole) << block;
+  EXPECT_EQ(ids.size(), 21u);
+  EXPECT_EQ(wafer.plan.fields.front().id, "A1");
+  EXPECT_EQ(wafer.plan.fields.back().id, "C7");
+}
+
+TEST(Wafer, IsTheSameForASeedAndAnotherForAnother) {
+  const auto order = [](int seed) {
+    const Wafer wafer("[wafer]\nseed = " + std::to_string(seed) + "\n");
+    std::string out;
+    for (const WaferField& f : wafer.plan.fields) out += std::to_string(f.treatment);
+    return out;
+  };
+  EXPECT_EQ(order(1), order(1));
+  EXPECT_NE(order(1), order(2));
+}
+
+// A gradient of one unit from border to border: treatments' means of the arrangement hold less of
+// it than those of fields that stand in the order of their designs.
+TEST(Wafer, GradientsMoveTheMeansOfDesignsLittle) {
+  const Wafer wafer("[wafer]\nrepeats = 6\ncolumns = 6\nrows = 6\n");
+  const auto spread = [&](const auto& gradient) {
+    std::map<std::size_t, std::pair<double, int>> sums;
+    for (const WaferField& f : wafer.plan.fields) {
+      auto& [sum, n] = sums[f.treatment];
+      sum += gradient(f), ++n;
+    }
+    double low = kInfinity, high = -kInfinity;
+    for (const auto& [treatment, s] : sums) {
+      const double mean = s.first / s.second;
+      low = std::min(low, mean), high = std::max(high, mean);
+    }
+    return high - low;
+  };
+  const double side = 5 * wafer.plan.pitch_x;
+  EXPECT_LT(spread([&](const WaferField& f) { return f.x / side; }), 0.2);
+  EXPECT_LT(spread([&](const WaferField& f) { return f.y / side; }), 0.2);
+  EXPECT_LT(spread([&](const WaferField& f) { return std::hypot(f.x, f.y) / side; }), 0.2);
+}
+
+TEST(Wafer, FieldsOfARoundOneLieWithinItsEdge) {
+  const Wafer wafer("[wafer]\ndiameter = \"125 mm\"\nedge = \"4 mm\"\n");
+  EXPECT_GT(wafer.plan.fields.size(), 16u);
+  for (const WaferField& f : wafer.plan.fields)
+    EXPECT_LE(std::hypot(std::abs(f.x) + 6e-3, std::abs(f.y) + 6e-3), 58.5e-3) << f.id;
+}
+
+TEST(Wafer, HasAMaskForEachDepthOfWhichAllPolygonsAreDeep) {
+  const Wafer wafer("");
+  ASSERT_EQ(wafer.drawing.levels.size(), 2u);
+  EXPECT_NEAR(wafer.drawing.levels[0].etch, 600e-9, 1e-15);
+  EXPECT_EQ(wafer.drawing.levels[0].designs, std::vector<std::string>{"H3"});
+  EXPECT_NEAR(wafer.drawing.levels[1].etch, 350e-9, 1e-15);
+  EXPECT_EQ(wafer.drawing.levels[1].designs, (std::vector<std::string>{"H1", "H2", "P1"}));
+  // Of pillars the area around them: the hexagon of the lattice less the disc.
+  for (const LayoutCell& cell : wafer.drawing.layout.cells) {
+    if (cell.name != "DESIGN_P1_CELL") continue;
+    double area = 0;
+    for (const LayoutPolygon& p : cell.polygons) {
+      EXPECT_EQ(p.layer, 2);
+      for (std::size_t i = 0; i < p.outline.x.size(); ++i) {
+        const std::size_t j = (i + 1) % p.outline.x.size();
+        area += 0.5e-6 *
+                (1.0 * p.outline.x[i] * p.outline.y[j] - 1.0 * p.outline.x[j] * p.outline.y[i]);
+      }
+    }
+    const double hexagon = 0.5 * std::sqrt(3.0) * 25, disc = kPi / 4 * 2.5 * 2.5;
+    EXPECT_NEAR(area, hexagon - disc, 0.002 * hexagon);  // [um^2]; it overlaps by nanometres
+  }
+}
+
+TEST(Wafer, AStackOfArraysTakesAMaskForEachOfThem) {
+  const Workplace place;
+  place.write("two.toml",
+              "schema_version = 1\n[texture]\ntype = \"stack\"\n[[texture.parts]]\ntype = "
+              "\"hole_array\"\nperiod = \"12 um\"\ndiameter = \"6 um\"\ndepth = \"300 nm\"\n"
+              "[[texture.parts]]\ntype = \"hole_array\"\nperiod = \"3 um\"\ndiameter = \"1 um\"\n"
+              "depth = \"100 nm\"\n[finger]\nbase = \"fingers/reference.toml\"\n");
+  place.write("list.toml", "schema_version = 1\n[[design]]\nname = \"T\"\nfile = \"two.toml\"\n");
+  const WaferDrawing drawing = draw_wafer(plan_wafer((place.path() / "list.toml").string()));
+  ASSERT_EQ(drawing.levels.size(), 2u);
+  EXPECT_NEAR(drawing.levels[0].etch, 300e-9, 1e-15);
+  EXPECT_NEAR(drawing.levels[1].etch, 100e-9, 1e-15);
+}
+
+TEST(Wafer, TheManifestHasALineForEachFieldAndCondition) {
+  const Wafer wafer(
+      "[wafer]\nrepeats = 1\n[conditions]\nload = [\"0.2 N\", \"0.5 N\"]\nhumidity = "
+      "[\"15 %\", \"55 %\"]\nvoltage = [\"0 V\", \"150 V\"]\nfrequency = [\"1 kHz\", "
+      "\"5 kHz\"]\nstates = \"clean, natural\"\n");
+  const std::string folder = wafer.write();
+  std::vector<std::string> lines = split(read_bytes(folder + "/manifest.csv"), '\n');
+  lines.pop_back();
+  const std::vector<std::string> head = split(lines.front(), ',');
+  // Undriven once, driven at two frequencies.
+  EXPECT_EQ(lines.size() - 1, wafer.plan.fields.size() * 2 * 2 * 2 * (1 + 2));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    std::map<std::string, std::string> row;
+    const std::vector<std::string> cells = split(lines[i], ',');
+    ASSERT_EQ(cells.size(), head.size());
+    for (std::size_t k = 0; k < head.size(); ++k) row[head[k]] = cells[k];
+    for (const char* due : {"field", "row", "column", "design", "repeat", "load_N",
+                            "humidity_percent", "voltage_V", "frequency_Hz", "state"})
+      EXPECT_TRUE(row.count(due)) << due;
+    EXPECT_TRUE(std::filesystem::exists(folder + "/" + row["design"]));
+    EXPECT_TRUE(row["humidity_percent"] == "15" || row["humidity_percent"] == "55");
+    EXPECT_EQ(row["voltage_V"] == "0", row["frequency_Hz"] == "0");
+  }
+}
+
+TEST(Wafer, IsMadeAgainFromItsRecordToTheLastByte) {
+  const Wafer wafer("[process]\nresist_bias = \"20 nm\"\n");
+  const std::string folder = wafer.write();
+  const WaferPlan again = plan_wafer(folder + "/wafer.toml");
+  write_wafer(again, draw_wafer(again), {}, wafer.path("again"));
+  for (const char* file : {"wafer.gds", "wafer.oas", "manifest.csv", "wafer.toml"})
+    EXPECT_EQ(read_bytes(folder + "/" + file), read_bytes(wafer.path("again/") + file)) << file;
+}
+
+TEST(WaferVerify, NamesWhatWasChangedInEachFile) {
+  const Wafer wafer("");
+  const std::string folder = wafer.write();
+  const auto state_of = [&](const std::string& file) {
+    for (const FileVerdict& v : verify_wafer(folder).files) {
+      if (v.path == folder + "/" + file) return v.state;
+    }
+    return FileState::Missing;
+  };
+  const std::vector<std::string> files{"wafer.gds", "wafer.oas", "manifest.csv", "designs/P1.toml"};
+  for (const std::string& file : files) EXPECT_EQ(state_of(file), FileState::Sound) << file;
+  // A hole 4 nm wider.
+  Layout layout = wafer.drawing.layout;
+  layout.cells.front().polygons.front().outline.x.front() += 4;
+  write_gds(folder + "/wafer.gds", layout);
+  const FileVerdict gds = verify_wafer(folder).files.front();
+  EXPECT_EQ(gds.state, FileState::Differs);
+  EXPECT_EQ(gds.faults.front(), "cell DESIGN_H1_CELL: its corners are up to 4 nm off");
+  // Two fields exchanged.
+  layout = wafer.drawing.layout;
+  std::swap(layout.cells.back().references[0].cell, layout.cells.back().references[1].cell);
+  write_oasis(folder + "/wafer.oas", layout);
+  EXPECT_EQ(state_of("wafer.oas"), FileState::Differs);
+  // Another load in one line.
+  std::string manifest = read_bytes(folder + "/manifest.csv");
+  manifest.replace(manifest.find(",0.2,"), 5, ",0.3,");
+  write_bytes(folder + "/manifest.csv", manifest);
+  EXPECT_EQ(state_of("manifest.csv"), FileState::Differs);
+  std::filesystem::remove(folder + "/wafer.oas");
+  EXPECT_EQ(state_of("wafer.oas"), FileState::Missing);
+}
+
+TEST(Wafer, RefusesWhatHasNoMaskWithTheWayOut) {
+  const auto refused = [](const std::string& design, const std::string& sections) {
+    const Workplace place;
+    place.write("d.toml", design);
+    place.write("list.toml", "schema_version = 1\n" + sections + "[[design]]\nfile = \"d.toml\"\n");
+    return refusal_of([&] { draw_wafer(plan_wafer((place.path() / "list.toml").string())); });
+  };
+  const auto says = [](const std::string& text, const char* part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  const std::string holes = array_design("hole_array", "depth = \"350 nm\"\n");
+  says(refused(array_design("random_rough", ""), ""), "no outline");
+  says(refused(array_design("waves", ""), ""), "wafer.levels = 3");
+  EXPECT_EQ(refused(array_design("waves", ""), "[wafer]\nlevels = 3\n"), "");
+  says(refused(holes, "[process]\nundercut = \"200 %\"\nresist_bias = \"2000 nm\"\n"),
+       "no mask makes it");
+  says(refused(holes, "[wafer]\nlabel = \"2 mm\"\n"), "wafer.label");
+  says(refused(holes, "[wafer]\nreference = \"X\"\n"), "wafer.reference: no design \"X\"");
+  says(refused(holes, "[wafer]\ncolumns = 1\nrows = 2\n"), "fewer repeats");
+  says(refused(holes, "[wafer]\nrepeat = 2\n"), "repeats");
+  says(refused(holes, "[conditions]\nload = [\"-1 N\"]\n"), "load");
+}
+
+}  // namespace
+}  // namespace papilla::tests
