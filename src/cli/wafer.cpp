@@ -61,6 +61,19 @@ void add_wafer(Command app, Context& context) {
   command.add_flag("--no-model", options->no_model,
                    "Errors of what is expected without what is not known of the finger");
   command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.document(
+      {"Draws a test wafer or die: fields of designs with labels for a microscope, flat and "
+       "repeated "
+       "controls, repeats in randomised blocks, marks; one mask for each depth, drawn so that the "
+       "process of [process] makes the wanted surface. The manifest says which design stands "
+       "where, "
+       "what is to be measured on it and what is expected.",
+       {{"papilla wafer m3_glass/study.toml --set wafer.repeats=3 --no-expected",
+         "the study's design and each end of its design space"},
+        {"papilla wafer results/study --out results/wafer", "the front that a search found"}},
+       {{"DIR/wafer.gds, wafer.oas", "the same polygons, by hierarchy"},
+        {"DIR/manifest.csv, designs/*.toml", "fields, conditions to measure, what is expected"},
+        {"DIR/wafer.svg, wafer.toml", "a map; the file that makes the folder again"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return make_wafer(context, *options); };
   });
