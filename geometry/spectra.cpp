@@ -133,13 +133,18 @@ std::vector<JointRing> joint_spectrum(const std::vector<MapSpectrum>& maps) {
 }
 
 double joint_rms(const std::vector<JointRing>& rings) {
-  const double half = std::pow(10.0, 0.5 / kRingsPerDecade);
   double sum = 0;
-  for (const JointRing& ring : rings) {
-    const double q = 2 * kPi / ring.wavelength;
-    sum += ring.density * (q * half - q / half) / kPi;
+  for (std::size_t i = 1; i < rings.size(); ++i) {
+    const JointRing &low = rings[i - 1], &high = rings[i];
+    const double from = 2 * kPi / low.wavelength, to = 2 * kPi / high.wavelength;
+    // A power of q between two centres, p; of p = -1 the logarithm.
+    const double power = std::log(high.density / low.density) / std::log(to / from);
+    constexpr double kLogarithm = 1e-6;
+    sum += std::abs(power + 1) < kLogarithm
+               ? low.density * from * std::log(to / from)
+               : (high.density * to - low.density * from) / (power + 1);
   }
-  return std::sqrt(sum);
+  return std::sqrt(sum / kPi);
 }
 
 Consensus consensus_at(double wavelength) {

@@ -32,7 +32,7 @@ struct JointRing {
   std::size_t maps = 0;
 };
 std::vector<JointRing> joint_spectrum(const std::vector<MapSpectrum>& maps);
-// rms height of the wavelengths that the maps know [m].
+// rms height of the wavelengths from the first ring to the last [m].
 double joint_rms(const std::vector<JointRing>& rings);
 
 // Medians of what 64 groups measured of two surfaces: 12 points of each curve of Figure 9 in

@@ -36,7 +36,7 @@ constexpr std::size_t kMostRead = (std::size_t{1} << 31) - 1;
 class Scratch {
  public:
   Scratch() {
-    path_ = (fs::temp_directory_path() / "papilla-gwyddion-XXXXXX").string();
+    path_ = (fs::temp_directory_path() / ("papilla-gwyddion-" + std::string(6, 'X'))).string();
     if (::mkdtemp(path_.data()) == nullptr)
       throw InputError("cannot make a temporary folder " + path_);
   }

@@ -1,5 +1,6 @@
 // papilla verify FOLDER|FILE: exported files held against the design that they were made from.
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -22,10 +23,19 @@ struct VerifyCommand {
   bool geometry = false, json = false;
 };
 
-int verify_test_wafer(const Context& context, const VerifyCommand& command) {
+// One file of a wafer is judged with all of them.
+std::string folder_of_wafer(const std::string& path) {
+  const std::filesystem::path beside = std::filesystem::path(path).parent_path();
+  const std::string folder =
+      std::filesystem::is_regular_file(path) ? (beside.empty() ? "." : beside.string()) : path;
+  return holds_wafer(folder) ? folder : "";
+}
+
+int verify_test_wafer(const Context& context, const VerifyCommand& command,
+                      const std::string& folder) {
   FileWork work(context, "checking");
-  const WaferVerdict verdict = verify_wafer(command.path, work.progress());
-  std::cout << (command.json ? wafer_verdict_json(command.path, verdict) + '\n'
+  const WaferVerdict verdict = verify_wafer(folder, work.progress());
+  std::cout << (command.json ? wafer_verdict_json(folder, verdict) + '\n'
                              : visible(wafer_verdict_text(verdict)));
   const std::vector<std::string> left = left_lines(verdict.made);
   for (const std::string& line : left) std::cerr << "not as wanted: " << visible(line) << '\n';
@@ -34,7 +44,8 @@ int verify_test_wafer(const Context& context, const VerifyCommand& command) {
 }
 
 int verify_path(const Context& context, const VerifyCommand& command) {
-  if (holds_wafer(command.path)) return verify_test_wafer(context, command);
+  if (const std::string wafer = folder_of_wafer(command.path); !wafer.empty())
+    return verify_test_wafer(context, command, wafer);
   std::vector<std::pair<std::string, ExportVerdict>> verdicts;
   int status = kSuccess;
   const JudgeOptions how{command.geometry, parse_si(command.tolerance, "%")};
@@ -56,8 +67,7 @@ void add_verify(Command app, Context& context) {
   auto options = std::make_shared<VerifyCommand>();
   command
       .add_option("path", options->path,
-                  "Folder that `papilla export`, `wafer` or `optimize` wrote, or one file of an "
-                  "export")
+                  "Folder that `papilla export`, `wafer` or `optimize` wrote, or one file of it")
       .required()
       .type_name("FOLDER|FILE");
   command.add_flag("--geometry", options->geometry,

@@ -39,7 +39,8 @@ std::vector<Treatment> of_study(const Study& study, std::vector<std::string>& no
   std::vector<Treatment> out{{"D01", study.design, 0}};
   std::string left_out;
   for (const Variable& variable : study.variables) {
-    if (variable.is_kind() || variable.is_levels()) {
+    // One wafer has one finish, one finger and one drive: textures alone differ between fields.
+    if (variable.is_kind() || variable.is_levels() || !variable.path.starts_with("texture.")) {
       left_out += (left_out.empty() ? "" : ", ") + variable.path;
       continue;
     }
@@ -112,6 +113,12 @@ std::vector<Treatment> treatments_of(const WaferList& list, std::vector<std::str
   for (Treatment& t : out) {
     check_name(t.name, taken);
     if (t.repeats == 0) t.repeats = list.wafer.repeats;
+    if (t.design.surface == out.front().design.surface) continue;
+    notes.push_back(
+        fmt::format("{} has another finish ([surface]) than {}: one wafer has one, what is "
+                    "expected of it is of "
+                    "its own",
+                    t.name, out.front().name));
   }
   return out;
 }
@@ -290,6 +297,21 @@ std::size_t reference_of(const WaferPlan& plan) {
       fmt::format("wafer.reference: no design \"{}\"; there are {}", name, join_names(known)));
 }
 
+// What is written below a pad ends before the next one's begins.
+void check_labels(const WaferPlan& plan) {
+  const WaferShape& shape = plan.list.wafer;
+  for (const WaferField& f : plan.fields) {
+    const std::size_t letters = f.id.size() + 1 + plan.treatments[f.treatment].name.size();
+    const double width = static_cast<double>(letters) * kGlyphAdvance * shape.label / kGlyphRows;
+    if (width <= shape.pad_width + 0.5 * shape.gap) continue;
+    throw InputError(
+        fmt::format("wafer.label: \"{} {}\" is {:.4g} um wide, more than its pad of {:.4g} um; "
+                    "smaller letters, "
+                    "shorter names or wider pads",
+                    f.id, plan.treatments[f.treatment].name, 1e6 * width, 1e6 * shape.pad_width));
+  }
+}
+
 // Letters stand below the pads, and marks between their corners.
 void check_shape(const WaferShape& shape) {
   if (shape.label > shape.gap / 4) {
@@ -414,6 +436,7 @@ WaferPlan plan_wafer(const std::string& path, const std::vector<std::string>& ov
   control.design.title = "flat control";
   plan.treatments.push_back(std::move(control));
   place_fields(plan, flat, reference);
+  check_labels(plan);
   return plan;
 }
 

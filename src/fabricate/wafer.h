@@ -96,8 +96,8 @@ struct WaferPlan {
 };
 
 // path: LIST.toml with a section [wafer] or designs of its own, a study or design (itself, and each
-// variable of its space at both ends), or a folder of results (best and front). Throws InputError
-// with every mistake.
+// number of its texture that varies at both ends), or a folder of results (best and front). Throws
+// InputError with every mistake.
 WaferPlan plan_wafer(const std::string& path, const std::vector<std::string>& overrides = {});
 
 // A condition that a field is measured under.

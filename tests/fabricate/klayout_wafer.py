@@ -12,13 +12,11 @@ def own(layout, cell, layer):
 
 
 def placed(layout, cell):
-    """Every copy of every instance's origin, at most its four corners of an array."""
+    """Where every instance stands, and the steps of those that are repeated."""
     out = []
     for i in cell.each_inst():
-        na, nb = max(1, i.na), max(1, i.nb)
-        step_x = max(i.a.x, i.b.x) if max(na, nb) > 1 else 0
-        step_y = max(i.a.y, i.b.y) if max(na, nb) > 1 else 0
-        out.append((i.cell.name, i.trans.disp.x, i.trans.disp.y, na * nb, step_x, step_y))
+        steps = sorted((v.x, v.y, n) for v, n in ((i.a, i.na), (i.b, i.nb)) if n > 1)
+        out.append((i.cell.name, i.trans.disp.x, i.trans.disp.y, steps))
     return sorted(out)
 
 

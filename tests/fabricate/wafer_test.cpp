@@ -119,6 +119,20 @@ TEST(Wafer, HasAMaskForEachDepthOfWhichAllPolygonsAreDeep) {
   }
 }
 
+TEST(Wafer, AStudyGivesItsDesignAndTheEndsOfItsTexture) {
+  const WaferPlan plan = plan_wafer(PAPILLA_DESIGNS_DIR "/m3_glass/conformal.toml");
+  std::set<double> depths;
+  for (const Treatment& t : plan.treatments) {
+    if (const auto* holes = std::get_if<HoleArray>(&t.design.texture.kind))
+      depths.insert(holes->depth);
+    EXPECT_EQ(t.design.surface, plan.treatments[0].design.surface) << t.name;
+  }
+  // As written, and both ends: 0 to 1 um.
+  EXPECT_EQ(depths.size(), 3u);
+  EXPECT_EQ(*depths.begin(), 0);
+  EXPECT_NEAR(*depths.rbegin(), 1e-6, 1e-15);
+}
+
 TEST(Wafer, AStackOfArraysTakesAMaskForEachOfThem) {
   const Workplace place;
   place.write("two.toml",
@@ -216,6 +230,7 @@ TEST(Wafer, RefusesWhatHasNoMaskWithTheWayOut) {
   says(refused(holes, "[process]\nundercut = \"200 %\"\nresist_bias = \"2000 nm\"\n"),
        "no mask makes it");
   says(refused(holes, "[wafer]\nlabel = \"2 mm\"\n"), "wafer.label");
+  says(refused(holes, "[wafer]\npad_width = \"500 um\"\n"), "wider pads");
   says(refused(holes, "[wafer]\nreference = \"X\"\n"), "wafer.reference: no design \"X\"");
   says(refused(holes, "[wafer]\ncolumns = 1\nrows = 2\n"), "fewer repeats");
   says(refused(holes, "[wafer]\nrepeat = 2\n"), "repeats");

@@ -7,7 +7,9 @@
 
 #include "base/constants.h"
 #include "base/random.h"
-#include "geometry/roughness.h"
+#include "geometry/io/files.h"
+#include "report/surface.h"
+#include "tests/temporary.h"
 
 namespace papilla::tests {
 namespace {
@@ -54,6 +56,28 @@ TEST(JointSpectrum, CountsAMapWhereItKnowsAndScattersAsTheMapsDo) {
     }
   }
   EXPECT_GE(both, 4);
+}
+
+TEST(Surfaces, OfOneSurfaceAreShownTogetherWithTheConsensusBesideThem) {
+  std::vector<SurfaceView> maps;
+  for (const std::uint64_t seed : {5u, 6u, 7u}) {
+    const std::string file = temporary("scan" + std::to_string(seed) + ".gsf");
+    write_gsf(file, noise(seed, 3e-9, {128, 128, 4e-6, 4e-6}), {});
+    maps.push_back(view_of({file, 0}, 0));
+  }
+  const SurfacesView view = joint_view(maps);
+  // The maps know from a quarter of their side to two pixels: 1 um to 62.5 nm.
+  ASSERT_FALSE(view.joint.empty());
+  EXPECT_NEAR(view.joint.front().wavelength, 1e-6, 1e-12);
+  for (const JointRing& ring : view.joint) {
+    EXPECT_EQ(ring.maps, 3u);
+    EXPECT_LT(ring.scatter, 1.3);
+  }
+  EXPECT_LT(view.rms, 3e-9);
+  const std::string text = surfaces_text(view), json = surfaces_json(view);
+  EXPECT_NE(text.find("STC smoother"), std::string::npos);
+  EXPECT_NE(text.find("scan6.gsf"), std::string::npos);
+  EXPECT_NE(json.find("\"consensus_rougher\""), std::string::npos);
 }
 
 // The figure's own numbers: C of the smoother surface at 1.26e7 and 1.36e8 1/m.
