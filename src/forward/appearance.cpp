@@ -282,10 +282,11 @@ std::optional<FeatureArray> sections(const Texture& texture) {
   const Heightmap row = generate(texture, {kPixels, 2, period, period});
   // From the land in the corner of the cell down to its middle.
   const int half = kPixels / 2;
+  const double rounding = 1e-9 * (known.relief.planes->high - known.relief.planes->low);
   for (int ix = 1; ix < half; ++ix) {
-    if (row(ix, 0) > row(ix - 1, 0) + 1e-15 ||
-        row(kPixels - ix, 0) > row(kPixels - 1 - ix, 0) + 1e-15)
-      return std::nullopt;
+    const double rise =
+        std::max(row(ix, 0) - row(ix - 1, 0), row(kPixels - 1 - ix, 0) - row(kPixels - ix, 0));
+    if (rise > rounding) return std::nullopt;
   }
   FeatureArray out{.shape = FeatureArray::Shape::Line,
                    .deep = true,

@@ -24,8 +24,8 @@ void expect_look(const Optics& a, const Optics& b) {
 // Finer than the wavelength: a layer of the open share and the depth, with the disorder of the
 // view.
 TEST(Appearance, OfAFineArrayIsThatOfItsLayer) {
-  const View view{
-      .angles = {0, 0.3}, .fill_index = 1, .displacement = 4e-9, .diameter_scatter = 0.03};
+  View view = view_from({0, 0.3});
+  view.displacement = 4e-9, view.diameter_scatter = 0.03;
   HoleArray holes;
   holes.period = 200e-9, holes.diameter = 120e-9, holes.depth = 90e-9;
   PillarArray pillars;
@@ -48,7 +48,7 @@ TEST(Appearance, OfACoarseArrayIsThatOfItsOutlines) {
   HoleArray holes;
   holes.period = 6e-6, holes.diameter = 3e-6, holes.depth = 150e-9, holes.wall_angle = kPi / 2;
   const Texture texture{holes};
-  const View view{.angles = {0, 0.5}};
+  const View view = view_from({0, 0.5});
   const Optics whole = array_screen(std::get<FeatureArray>(facts(texture).outline), {kIndex, 1},
                                     {visible_wavelengths(), view.angles});
   const Optics seen = appearance(texture, glass_of(kIndex), view);
@@ -57,22 +57,36 @@ TEST(Appearance, OfACoarseArrayIsThatOfItsOutlines) {
   EXPECT_EQ(seen.warning, "");
 }
 
-TEST(Appearance, BetweenBothItIsRefusedWithTheBand) {
+// Between, along the normal, the rigorous theory answers; asked for scalar theories alone, or seen
+// obliquely, such a period is refused with its band.
+TEST(Appearance, BetweenBothItIsRigorousOrRefusedWithTheBand) {
   HoleArray holes;
-  holes.diameter = 100e-9, holes.depth = 50e-9;
-  const auto refusal = [&](double period, const View& view = {}) {
+  holes.diameter = 100e-9, holes.depth = 50e-9, holes.edge_radius = 0;
+  View scalar;
+  scalar.lattices = LatticeTheory::Scalar;
+  const auto refusal = [&](double period, const View& view) {
     holes.period = period;
     return optics_refusal(Texture{holes}, glass_of(1.5), view);
   };
-  EXPECT_EQ(refusal(600e-9),
+  EXPECT_EQ(refusal(600e-9, scalar),
             "period 600 nm is neither below 267 nm (effective medium) nor above 1440 nm (phase "
-            "screen)");
-  EXPECT_EQ(refusal(266e-9), "");  // 400 nm in glass
-  EXPECT_NE(refusal(268e-9), "");
-  EXPECT_NE(refusal(1439e-9), "");
-  EXPECT_EQ(refusal(1441e-9), "");                           // twice 720 nm
-  EXPECT_NE(refusal(266e-9, {.angles = {0, kPi / 6}}), "");  // 400 nm / (1.5 + 0.5)
-  EXPECT_EQ(refusal(199e-9, {.angles = {0, kPi / 6}}), "");
+            "screen), and view.lattices is \"scalar\"");
+  EXPECT_EQ(refusal(600e-9, {}), "");
+  EXPECT_EQ(refusal(266e-9, scalar), "");  // 400 nm in glass
+  EXPECT_NE(refusal(268e-9, scalar), "");
+  EXPECT_NE(refusal(1439e-9, scalar), "");
+  EXPECT_EQ(refusal(1441e-9, scalar), "");                  // twice 720 nm
+  EXPECT_NE(refusal(266e-9, view_from({0, kPi / 6})), "");  // 400 nm / (1.5 + 0.5)
+  EXPECT_EQ(refusal(199e-9, view_from({0, kPi / 6})), "");
+  EXPECT_NE(refusal(600e-9, view_from({0, 0.1})).find("along the normal alone"), std::string::npos);
+  // Films that follow a fine texture, and kinds without outlines.
+  Surface coated = glass_of(1.5);
+  coated.dielectric[0].refractive_index = 1.38;
+  EXPECT_NE(optics_refusal(Texture{holes}, coated, {}).find("flat films alone"), std::string::npos);
+  CapArray caps;
+  caps.period = 600e-9, caps.diameter = 300e-9, caps.depth = 50e-9;
+  EXPECT_NE(optics_refusal(Texture{caps}, glass_of(1.5), {}).find("holes, pillars and lines alone"),
+            std::string::npos);
 }
 
 TEST(Appearance, WarnsWhereTheScreenIsRough) {

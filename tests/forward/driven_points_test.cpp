@@ -155,7 +155,7 @@ TEST(LooksLaws, WarningsAreSaidInWholeAndJoined) {
     HoleArray holes;
     holes.period = 2.5 * diameter, holes.diameter = diameter, holes.depth = depth;
     holes.wall_angle = kPi / 2;
-    return appearance(Texture{holes}, glass_of(1.46), {.fill_index = fill}).warning;
+    return appearance(Texture{holes}, glass_of(1.46), filled_with(fill)).warning;
   };
   const std::string narrow = "features of 1.8 um are few wavelengths: scalar theory is rough",
                     deep = "deep against its width: a thin screen is rough",
@@ -179,9 +179,9 @@ TEST(LooksLaws, OfNoReliefIsAFlatPlate) {
   ASSERT_EQ(bare.spectrum.size(), 17u);
   // Under 1.2 of fill: (0.3/2.7)^2 at one face, 0.04 at the other.
   const double r = square(0.3 / 2.7);
-  const Optics filled = appearance(Texture{}, glass_of(1.5), {.fill_index = 1.2});
+  const Optics filled = appearance(Texture{}, glass_of(1.5), filled_with(1.2));
   EXPECT_NEAR(filled.transmittance, (1 - r) * 0.96 / (1 - 0.04 * r), 1e-12);
-  EXPECT_EQ(appearance(Texture{}, glass_of(1.5), {.angles = {0, 0.5, 1}}).spectrum.size(), 51u);
+  EXPECT_EQ(appearance(Texture{}, glass_of(1.5), view_from({0, 0.5, 1})).spectrum.size(), 51u);
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ TEST(Films, ATextureCutIntoAFilmHasTheAmplitudesOfItsLevels) {
   EXPECT_NEAR(o.haze, 1 - straight / all, 1e-9);
   // The same of its map, whose amplitudes are tabulated.
   const Optics map =
-      phase_screen(generate(Texture{t}, patch_grid(Texture{t}, 256, 6e-6)), m, {{550e-9}});
+      phase_screen(generate(Texture{t}, patch_grid(Texture{t}, 512, 6e-6)), m, {{550e-9}});
   EXPECT_NEAR(map.haze, o.haze, 0.01 * o.haze);
 }
 

@@ -110,20 +110,20 @@ TEST(PhaseScreen, AFlatPlateLosesHalfThePolarisationAtBrewstersAngle) {
 TEST(Appearance, IsTheMeanOverTheAnglesOfView) {
   const Texture texture = holes(6e-6, 4.5e-6, 100e-9);
   const auto haze = [&](std::vector<double> angles) {
-    return appearance(texture, glass_of(1.5), {.angles = std::move(angles)}).haze;
+    return appearance(texture, glass_of(1.5), view_from(std::move(angles))).haze;
   };
   EXPECT_NEAR(haze({0.0, 1.0}), 0.5 * (haze({0.0}) + haze({1.0})), 1e-12);
   EXPECT_GT(haze({1.0}), haze({0.0}));  // the path through the glass grows
   // Oblique light is diffracted by finer arrays.
   EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), glass_of(1.5), {}).regime,
             OpticsRegime::EffectiveMedium);
-  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), glass_of(1.5), {.angles = {1.0}}).regime,
+  EXPECT_EQ(appearance(holes(0.25e-6, 0.1e-6, 0.1e-6), glass_of(1.5), view_from({1.0})).regime,
             OpticsRegime::Refused);
 }
 
 TEST(PhaseScreen, MatchedFillRemovesHaze) {
   const Texture texture = holes(6e-6, 4.5e-6, 500e-9);
-  const Optics o = appearance(texture, glass_of(1.5), {.fill_index = 1.5});
+  const Optics o = appearance(texture, glass_of(1.5), filled_with(1.5));
   EXPECT_NEAR(o.haze, 0, 1e-12);
   EXPECT_NEAR(o.transmittance, 0.96, 1e-9);  // one face is left
 }
@@ -247,7 +247,9 @@ TEST(Appearance, ChoosesTheTheoryByThePeriod) {
             OpticsRegime::EffectiveMedium);
   const Texture between = holes(0.6e-6, 0.3e-6, 0.1e-6);
   EXPECT_EQ(appearance(between, glass, {}).regime, OpticsRegime::Rigorous);
-  for (const View& view : {View{.lattices = LatticeTheory::Scalar}, View{.angles = {0, 0.5}}}) {
+  View scalar;
+  scalar.lattices = LatticeTheory::Scalar;
+  for (const View& view : {scalar, view_from({0, 0.5})}) {
     EXPECT_EQ(appearance(between, glass, view).regime, OpticsRegime::Refused);
     EXPECT_FALSE(appearance(between, glass, view).warning.empty());
   }

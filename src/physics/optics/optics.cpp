@@ -40,7 +40,9 @@ SpectrumPoint seen_at(const Screen& screen, const OpticalMedia& media, double wa
   }
   if (sine == 0) out.transmitted *= 2, out.total *= 2;
   out.specular = straight / total;
-  out.haze = 1 - clear * std::min(1.0, cone / total);
+  constexpr double kRounding = 1e-12;  // a flat face scatters nothing
+  const double scattered = 1 - cone / total;
+  out.haze = 1 - clear * (scattered > kRounding ? 1 - scattered : 1);
   return out;
 }
 
