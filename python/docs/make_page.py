@@ -12,10 +12,11 @@ import textwrap
 from collections.abc import Iterator
 
 import papilla as pp
-from papilla import design, errors, physics, response, study, trades
+from papilla import design, errors, lab, physics, response, study, trades
 
 SECTIONS = [("Designs", design), ("What an evaluation answers", response), ("Single pieces of the physics", physics),
-            ("Studies", study), ("Ranking, fitting, files", trades), ("Errors", errors)]
+            ("Studies", study), ("Ranking, fitting, files", trades),
+            ("The lab", lab), ("Errors", errors)]
 HEAD = """# Python: every class and function
 
 Made from the docstrings of `python/papilla` by `python3 python/docs/make_page.py`; `help(pp.Design)` says the same. Guide:
