@@ -8,6 +8,7 @@
 #include "papilla/error.h"
 #include "papilla/evaluate.h"
 #include "papilla/files.h"
+#include "papilla/lab.h"
 #include "papilla/physics.h"
 #include "papilla/rank.h"
 #include "papilla/scan.h"

@@ -54,5 +54,6 @@ void bind_physics(py::module_& module);
 void bind_cases(py::module_& module);
 void bind_study(py::module_& module);
 void bind_trades(py::module_& module);
+void bind_lab(py::module_& module);
 
 }  // namespace papilla::python

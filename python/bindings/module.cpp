@@ -39,4 +39,5 @@ PYBIND11_MODULE(_native, module) {
   papilla::python::bind_cases(module);
   papilla::python::bind_study(module);
   papilla::python::bind_trades(module);
+  papilla::python::bind_lab(module);
 }

@@ -12,11 +12,12 @@ import textwrap
 from collections.abc import Iterator
 
 import papilla as pp
-from papilla import design, errors, physics, quantity, response, scans, study, sweeps, trades
+from papilla import design, errors, lab, physics, quantity, response, scans, study, sweeps, trades
 
 SECTIONS = [("Designs", design), ("What an evaluation answers", response), ("Numbers with errors", quantity),
             ("Many evaluations", sweeps), ("Single pieces of the physics", physics), ("Measured maps", scans),
-            ("Studies", study), ("Ranking, fitting, files", trades), ("Errors", errors)]
+            ("Studies", study), ("Ranking, fitting, files", trades),
+            ("The lab", lab), ("Errors", errors)]
 HEAD = """# Python: every class and function
 
 Made from the docstrings of `python/papilla` by `python3 python/docs/make_page.py`; `help(pp.Design)` says the same. Guide:

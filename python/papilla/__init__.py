@@ -12,6 +12,7 @@ releases the interpreter's lock and ends on Ctrl-C. Guide: docs/how_to/python.md
 from papilla._native import __version__
 from papilla.design import Design, Heights, Look, Number, compare
 from papilla.errors import InputError, Problem, Stopped
+from papilla.lab import Batch, Experiment, Lab, Told
 from papilla.physics import (Bridge, Contact, Drive, Droplets, Field, Persson, bridge, contact, drive, droplets, field,
                              haze, persson)
 from papilla.quantity import Quantity
@@ -23,10 +24,10 @@ from papilla.trades import (Calibration, Exported, FileVerdict, FittedParameter,
                             calibrate, rank, verify)
 
 __all__ = [
-    "Bridge", "Calibration", "Comparison", "Contact", "Decision", "Design", "Difference", "Differences", "Drive", "Droplets",
-    "Exported", "Field", "FileVerdict", "FittedParameter", "FolderVerdict", "FoundDesign", "Heights", "InputError",
-    "Judgement", "Look", "Number", "Objective", "Persson", "Point", "Problem", "Prospect", "Quantity", "Ranked", "Ranking",
-    "Response", "Run", "Scan", "Sensitivity", "Spectrum", "Stopped", "Study", "Sweep", "Variable", "__version__", "bridge", "calibrate", "compare",
-    "contact", "drive", "droplets", "field", "haze", "persson", "rank", "read_scan", "roughness",
-    "spectrum", "sweep", "verify",
+    "Batch", "Bridge", "Calibration", "Comparison", "Contact", "Decision", "Design", "Difference", "Differences",
+    "Drive", "Droplets", "Experiment", "Exported", "Field", "FileVerdict", "FittedParameter", "FolderVerdict",
+    "FoundDesign", "Heights", "InputError", "Judgement", "Lab", "Look", "Number", "Objective", "Persson", "Point",
+    "Problem", "Prospect", "Quantity", "Ranked", "Ranking", "Response", "Run", "Scan", "Sensitivity", "Spectrum",
+    "Stopped", "Study", "Sweep", "Told", "Variable", "__version__", "bridge", "calibrate", "compare", "contact",
+    "drive", "droplets", "field", "haze", "persson", "rank", "read_scan", "roughness", "spectrum", "sweep", "verify",
 ]

@@ -74,7 +74,7 @@ using namespace design;
 namespace published {
 using namespace estimate;
 }
-// Side by side.
+// Side by side, but the lab: it stands on the search, whose decisions it settles.
 namespace search {
 using namespace published;
 }
@@ -96,8 +96,11 @@ using namespace published;
 namespace cases {
 using namespace published;
 }
-namespace report {
+namespace lab {
 using namespace search;
+}
+namespace report {
+using namespace lab;
 using namespace rank;
 using namespace calibrate;
 using namespace claims;

@@ -22,6 +22,8 @@ void add_solve(Command app, Context& context);
 void add_reproduce(Command app, Context& context);
 void add_predict(Command app, Context& context);
 void add_calibrate(Command app, Context& context);
+void add_next(Command app, Context& context);
+void add_tell(Command app, Context& context);
 void add_accuracy(Command app, Context& context);
 void add_bench(Command app, Context& context);
 void add_describe(Command app, Context& context);
@@ -51,6 +53,8 @@ inline constexpr std::array kCommands{
     add_surface,
     add_solve,
     add_calibrate,
+    add_next,
+    add_tell,
     add_reproduce,
     add_predict,
     add_accuracy,

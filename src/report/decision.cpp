@@ -200,7 +200,16 @@ Json decision_json(const ResultFiles& f) {
                 {"loss", json_number(r.loss)}};
   };
   for (const Reversal& r : d.hypotheses) hypotheses.push_back(reversal(r));
-  for (std::size_t i = 0; i < d.designs.size(); ++i) designs[folder(i)] = prospect_json(f, i);
+  for (std::size_t i = 0; i < d.designs.size(); ++i) {
+    designs[folder(i)] = prospect_json(f, i);
+    Json worth = Json::array(), kept = Json::array();
+    for (std::size_t m = 0; m < d.worth.weights.size(); ++m) {
+      worth.push_back(json_number(d.worth.worth[i][m]));
+      kept.push_back(d.worth.keeps(i, m));
+    }
+    designs[folder(i)]["worth_at_members"] = std::move(worth);
+    designs[folder(i)]["limits_kept_at_members"] = std::move(kept);
+  }
   Json out{{"absent", ""},
            {"by", f.study.risk.belief},
            {"worth", worth_name(f)},

@@ -194,7 +194,8 @@ Decision decide(const StudyProblem& problem, const std::vector<FinalDesign>& fin
         pick_worth(out.rule, candidates[out.nominal], of_front))
       out.nominal = i;
   }
-  const MemberWorth worth = member_worth(problem, front, out.rule, of_front);
+  out.worth = member_worth(problem, front, out.rule, of_front);
+  const MemberWorth& worth = out.worth;
   const double limits = problem.study().risk.limits;
   out.designs = prospects(worth, problem.belief_risk());
   out.best = chosen(out.designs, limits);

@@ -1,0 +1,386 @@
+// Planted truths: how many measurements find the right hypothesis, halve the interval of a decision
+// and find an error of the model; by chosen experiments, by D-optimal ones and by a grid. Markdown
+// on standard output.
+//   lab_bench FOLDER [MEMBERS TRUTHS]
+//                    FOLDER keeps what the model has answered; MEMBERS of each hypothesis, drawn
+//                    about the reference finger; TRUTHS are drawn anew and evaluated on other skins
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "lab/planning.h"
+#include "numerics/statistics.h"
+
+using namespace papilla::tests;
+
+namespace {
+
+constexpr int kTruthSeed = 3000;  // of the skins of the truths
+// Touches a day; of a plan by the decision or for hypotheses, and of the plans beside it, at most.
+constexpr int kRound = 6, kWanted = 30, kMost = 72;
+const std::vector<std::string> kDesigns{"a3h350", "a3h600", "a3h900", "a4h350", "a4h600", "flat"};
+const std::vector<std::string> kHypotheses{"air ionises", "air breaks down by field alone"};
+
+// Numbers of the finger times exp(s normal): skin, load, layer, water; every second by another
+// hypothesis.
+Belief drawn(const Finger& finger, int members, const char* purpose) {
+  Belief out;
+  out.made_of = "drawn by lab_bench";
+  out.calibrated_for = finger.calibrated_for;
+  RandomStream random(1, purpose);
+  for (int m = 0; m < members; ++m) {
+    BeliefMember member;
+    member.weight = 1.0 / members;
+    const auto set = [&](const char* path, double value, double spread, const char* unit) {
+      member.set.push_back(
+          {path,
+           text_node(fmt::format("{:.6g} {}", value * std::exp(spread * random.normal()), unit))});
+    };
+    set("skin.rms", 1e9 * finger.skin.rms, 0.15, "nm");
+    set("skin.layer_modulus", 1e-6 * finger.skin.layer_modulus, 0.3, "MPa");
+    set("electrical.thickness_15", 1e9 * finger.electrical.thickness_15, 0.3, "nm");
+    set("electrical.thickness_75", 1e9 * finger.electrical.thickness_75, 0.3, "nm");
+    set("macro.shear_strength", 1e-6 * finger.macro.shear_strength, 0.3, "MPa");
+    const double load = finger.macro.load_share * std::exp(0.4 * random.normal()),
+                 water = std::exp(0.4 * random.normal());
+    member.set.push_back({"macro.load_share", number_node(load)});
+    member.set.push_back({"water.scale", number_node(water)});
+    member.hypothesis = kHypotheses[static_cast<std::size_t>(m) % kHypotheses.size()];
+    if (m % 2 == 1) member.set.push_back({"model.air_limit", text_node("emission")});
+    out.members.push_back(std::move(member));
+  }
+  return out;
+}
+
+struct World {
+  LabFile file;
+  std::vector<LabDesign> designs, truth_designs;
+  std::vector<Experiment> experiments;
+  std::unique_ptr<MemberModel> model, truth_model;
+  std::unique_ptr<ResponseTable> table, truth_table;
+  std::vector<std::vector<double>> worth, truth_worth;  // [design][member]
+};
+
+// The worst modulation over the humidities at the highest voltage.
+std::vector<std::vector<double>> worth_of(const World& w, const ResponseTable& table,
+                                          std::size_t members) {
+  std::vector<std::vector<double>> out(w.designs.size(), std::vector<double>(members, 1e9));
+  for (const Experiment& e : w.experiments) {
+    if (e.at.voltage != w.file.conditions.voltage.back()) continue;
+    const MeasurableCell& cell = table.cell(e);
+    for (std::size_t m = 0; m < members; ++m) {
+      const double on = cell.on ? table.responses()[*cell.on][m] : 0,
+                   off = cell.off ? table.responses()[*cell.off][m] : 0;
+      out[e.design][m] = std::min(out[e.design][m], std::exp(on - off) - 1);
+    }
+  }
+  return out;
+}
+
+World make_world(const std::string& folder, int members, int truths) {
+  World w;
+  w.file.conditions.humidity = {0.15, 0.35, 0.55, 0.75};
+  w.file.conditions.voltage = {100, 200};
+  w.file.conditions.load = {0.2};
+  w.file.worth = "worst(modulation)";
+  for (const std::string& name : kDesigns) {
+    Design d = read_design(find_design("m3_samples/" + name + ".toml"));
+    d.accuracy.level = AccuracyLevel::Draft;
+    w.designs.push_back({name, d, true});
+    w.file.designs.push_back({name, name + ".toml", true});
+    d.accuracy.seed = kTruthSeed;
+    w.truth_designs.push_back({name, d, true});
+  }
+  for (std::size_t d = 0; d < w.designs.size(); ++d) {
+    for (const double v : w.file.conditions.voltage) {
+      for (const double rh : w.file.conditions.humidity)
+        w.experiments.push_back({d, {0.2, rh, v, 0, FingerState::Clean}});
+    }
+  }
+  const Finger& finger = w.designs.front().design.finger;
+  const auto note = [](const std::string& text) { fmt::print(stderr, "{}\n", text); };
+  w.model = std::make_unique<MemberModel>(drawn(finger, members, "lab members"), folder, 0, note);
+  w.truth_model =
+      std::make_unique<MemberModel>(drawn(finger, truths, "lab truths"), folder, 0, note);
+  w.table = std::make_unique<ResponseTable>(w.designs, *w.model);
+  w.truth_table = std::make_unique<ResponseTable>(w.truth_designs, *w.truth_model);
+  w.table->add(w.experiments);
+  w.truth_table->add(w.experiments);
+  w.worth = worth_of(w, *w.table, static_cast<std::size_t>(members));
+  w.truth_worth = worth_of(w, *w.truth_table, static_cast<std::size_t>(truths));
+  return w;
+}
+
+// The readings of a truth: each as its instrument scatters.
+class Bench {
+ public:
+  Bench(const World& world, std::size_t truth, std::uint64_t stream)
+      : world_(world), truth_(truth), random_(77, "lab readings", stream) {
+    const Instrument& i = world.file.instrument;
+    finger_ = i.finger_to_finger * random_.normal();
+    for (std::size_t d = 0; d < world.designs.size(); ++d)
+      design_.push_back(i.model * random_.normal());
+  }
+
+  void next_day() { day_ = world_.file.instrument.day_to_day * random_.normal(); }
+  // An error of the model: friction at some experiments times exp(size).
+  void plant(std::function<bool(const Experiment&, bool on)> where, double size) {
+    where_ = std::move(where);
+    planted_ = size;
+  }
+
+  FrictionReading measure(const Experiment& e, int day) {
+    FrictionReading r;
+    r.experiment = e;
+    r.finger = "1";
+    r.day = fmt::format("{}", day);
+    const MeasurableCell& cell = world_.truth_table->cell(e);
+    const auto read = [&](std::size_t row, bool on) {
+      const double wrong = where_ && where_(e, on) ? planted_ : 0;
+      return std::exp(world_.truth_table->responses()[row][truth_] + finger_ + day_ +
+                      design_[e.design] + wrong +
+                      world_.file.instrument.repeatability * random_.normal());
+    };
+    if (cell.off) r.off = read(*cell.off, false);
+    if (cell.on) r.on = read(*cell.on, true);
+    return r;
+  }
+
+ private:
+  const World& world_;
+  std::size_t truth_;
+  RandomStream random_;
+  double finger_ = 0, day_ = 0, planted_ = 0;
+  std::vector<double> design_;
+  std::function<bool(const Experiment&, bool)> where_;
+};
+
+std::unique_ptr<Standing> stand(const World& w, const std::vector<FrictionReading>& readings) {
+  return standing_of(w.model->belief(), w.file, w.designs, *w.table, readings, w.worth, {});
+}
+
+// How widely belief spreads the differences that decide: the root of the mean square of the 95 %
+// intervals of a design's worth less that of the design chosen at first.
+double width(const Standing& s, std::size_t first, const std::vector<double>& p_first) {
+  const WorthAfter after = worth_after(s.ensemble, s.kernels, *s.evidence);
+  double sum = 0, weight = 0;
+  for (std::size_t d = 0; d < after.worth.size(); ++d) {
+    if (d == first) continue;
+    std::vector<double> difference = after.worth[d];
+    for (std::size_t k = 0; k < difference.size(); ++k) difference[k] -= after.worth[first][k];
+    const double w = weighted_quantile(difference, after.weights, 0.975) -
+                     weighted_quantile(difference, after.weights, 0.025);
+    sum += p_first[d] * w * w;
+    weight += p_first[d];
+  }
+  return std::sqrt(sum / weight);
+}
+
+enum class Plan { Decision, Hypotheses, DOptimal, Grid };
+
+// After some touches.
+struct Mark {
+  int touches = 0;
+  double seconds = 0, width = 0, loss = 0, p_right = 0;
+  bool right = false;
+};
+
+std::vector<Experiment> batch_of(const World& w, const Standing& s, Plan plan, int done, int day) {
+  std::vector<Experiment> out;
+  if (plan == Plan::Grid) {
+    // Humidity by humidity, all designs at the highest voltage, then at the next one.
+    std::vector<Experiment> sweep;
+    for (const double v : {200.0, 100.0}) {
+      for (const double rh : w.file.conditions.humidity) {
+        for (const Experiment& e : w.experiments) {
+          if (e.at.voltage == v && e.at.relative_humidity == rh) sweep.push_back(e);
+        }
+      }
+    }
+    for (int k = 0; k < kRound; ++k)
+      out.push_back(sweep[static_cast<std::size_t>(done + k) % sweep.size()]);
+    return out;
+  }
+  NextOptions options;
+  options.aim = plan == Plan::Decision     ? Aim::Decision
+                : plan == Plan::Hypotheses ? Aim::Hypotheses
+                                           : Aim::Parameters;
+  options.count = kRound;
+  options.day = fmt::format("{}", day);
+  options.date = "2026-01-01";
+  const PlanRecord record = plan_batch(s, *w.table, w.experiments, w.file, options, 0);
+  for (const PlannedExperiment& e : record.experiments) {
+    for (int k = 0; k < e.repeats; ++k) out.push_back(e.experiment);
+  }
+  return out;
+}
+
+double cost(const World& w, const std::vector<Experiment>& batch) {
+  std::vector<Candidate> candidates;
+  std::vector<std::size_t> all;
+  for (const Experiment& e : batch) {
+    all.push_back(candidates.size());
+    candidates.push_back({e, {}});
+  }
+  return seconds_of(candidates, all, w.file.costs);
+}
+
+std::vector<Mark> run(const World& w, std::size_t truth, Plan plan, int most) {
+  Bench bench(w, truth, truth * 10);
+  std::vector<FrictionReading> readings;
+  std::vector<Mark> out;
+  auto s = stand(w, readings);
+  const std::size_t first = s->best;
+  std::vector<double> p_first;
+  for (const Prospect& p : s->prospects) p_first.push_back(p.p_best);
+  double seconds = 0;
+  const auto mark = [&] {
+    double best = -1e9;
+    for (const auto& of : w.truth_worth) best = std::max(best, of[truth]);
+    const std::size_t right = truth % kHypotheses.size();
+    const auto heaviest = std::max_element(s->p_hypothesis.begin(), s->p_hypothesis.end());
+    out.push_back({static_cast<int>(readings.size()), seconds, width(*s, first, p_first),
+                   (best - w.truth_worth[s->best][truth]) / best, s->p_hypothesis[right],
+                   static_cast<std::size_t>(heaviest - s->p_hypothesis.begin()) == right});
+  };
+  mark();
+  for (int day = 1; static_cast<int>(readings.size()) < most; ++day) {
+    bench.next_day();
+    const std::vector<Experiment> batch =
+        batch_of(w, *s, plan, static_cast<int>(readings.size()), day);
+    if (batch.empty()) break;
+    seconds += cost(w, batch);
+    for (const Experiment& e : batch) readings.push_back(bench.measure(e, day));
+    s = stand(w, readings);
+    mark();
+  }
+  return out;
+}
+
+// When the width is half of the first, between rounds by its logarithm; infinite: never.
+struct Halved {
+  double touches = INFINITY, seconds = INFINITY;
+};
+Halved halved(const std::vector<Mark>& marks) {
+  for (std::size_t k = 1; k < marks.size(); ++k) {
+    const double goal = std::log(marks.front().width / 2), a = std::log(marks[k - 1].width),
+                 b = std::log(marks[k].width);
+    if (b > goal) continue;
+    const double share = a > b ? std::clamp((a - goal) / (a - b), 0.0, 1.0) : 1;
+    return {marks[k - 1].touches + share * (marks[k].touches - marks[k - 1].touches),
+            marks[k - 1].seconds + share * (marks[k].seconds - marks[k - 1].seconds)};
+  }
+  return {};
+}
+
+double median(std::vector<double> v) {
+  std::sort(v.begin(), v.end());
+  return v.empty() ? NAN : v[v.size() / 2];
+}
+
+void judge_plans(const World& w, std::size_t truths) {
+  fmt::print(
+      "| plan | truths halved within 30 touches | median touches to half | median hours to "
+      "half | right hypothesis after 30 touches | mean loss of the choice: before, after 30 "
+      "touches |\n|---|---|---|---|---|---|\n");
+  for (const auto& [name, plan] :
+       {std::pair("for the decision", Plan::Decision),
+        std::pair("for the hypotheses", Plan::Hypotheses), std::pair("D-optimal", Plan::DOptimal),
+        std::pair("grid", Plan::Grid)}) {
+    std::vector<double> touches, hours;
+    int within = 0, right = 0;
+    double before = 0, after = 0;
+    const bool cheap = plan == Plan::DOptimal || plan == Plan::Grid;
+    for (std::size_t t = 0; t < truths; ++t) {
+      const std::vector<Mark> marks = run(w, t, plan, cheap ? kMost : kWanted);
+      const Halved h = halved(marks);
+      touches.push_back(h.touches);
+      hours.push_back(h.seconds / 3600);
+      within += h.touches <= kWanted;
+      std::size_t k = 0;
+      while (k + 1 < marks.size() && marks[k].touches < kWanted) ++k;
+      right += marks[k].right;
+      before += marks.front().loss / static_cast<double>(truths);
+      after += marks[k].loss / static_cast<double>(truths);
+      fmt::print(stderr,
+                 "{} {}: half at {:.1f} touches {:.1f} h, p right {:.3f}, loss {:.3f} -> "
+                 "{:.3f}\n",
+                 name, t, h.touches, h.seconds / 3600, marks[k].p_right, marks.front().loss,
+                 marks[k].loss);
+    }
+    fmt::print("| {} | {} of {} | {:.0f} | {:.1f} | {} of {} | {:.1f} %, {:.1f} % |\n", name,
+               within, truths, median(touches), median(hours), right, truths, 100 * before,
+               100 * after);
+  }
+}
+
+// An error of 20 % somewhere, in 30 touches of the decision's own choice.
+void judge_discrepancy(const World& w, std::size_t truths) {
+  fmt::print(
+      "\n| model error planted | found | at its place | said where there is none |\n"
+      "|---|---|---|---|\n");
+  struct Planted {
+    const char* name;
+    const char* where;
+    std::function<bool(const Experiment&, bool)> is;
+  };
+  const std::vector<Planted> places{
+      {"20 % at 75 % RH", "at 75 % RH",
+       [](const Experiment& e, bool) { return e.at.relative_humidity == 0.75; }},
+      {"20 % of one design", "of a4h600", [](const Experiment& e, bool) { return e.design == 4; }},
+      {"20 % under voltage", "under voltage", [](const Experiment&, bool on) { return on; }},
+      {"none", "", [](const Experiment&, bool) { return false; }}};
+  for (const Planted& p : places) {
+    int found = 0, located = 0;
+    for (std::size_t t = 0; t < truths; ++t) {
+      Bench bench(w, t, t * 10 + 5);
+      bench.plant(p.is, std::log(1.2));
+      std::vector<FrictionReading> readings;
+      for (int day = 1; day <= 4; ++day) {
+        bench.next_day();
+        for (const Experiment& e : w.experiments) {
+          if (e.at.voltage == 200 &&
+              (e.design + static_cast<std::size_t>(day)) % 3 != 0)  // two thirds of the designs
+            readings.push_back(bench.measure(e, day));
+        }
+        if (readings.size() >= 64) break;
+      }
+      const auto s = stand(w, readings);
+      const Discrepancies& d = s->discrepancies;
+      found += d.none < 0.5;
+      located += d.none < 0.5 && d.found.front().where == p.where;
+      fmt::print(stderr, "{} truth {}: none {:.3f}, {} {:.2f} {:+.3f}\n", p.name, t, d.none,
+                 d.found.front().where, d.found.front().probability, d.found.front().shift);
+    }
+    fmt::print("| {} | {} of {} | {} | {} |\n", p.name, p.where[0] ? fmt::format("{}", found) : "",
+               truths, p.where[0] ? fmt::format("{}", located) : "",
+               p.where[0] ? "" : fmt::format("{}", found));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2 && argc != 4) {
+    fmt::print(stderr, "lab_bench FOLDER [MEMBERS TRUTHS]\n");
+    return 2;
+  }
+  try {
+    const int members = argc > 2 ? std::atoi(argv[2]) : 80,
+              truths = argc > 3 ? std::atoi(argv[3]) : 20;
+    const World w = make_world(argv[1], members, truths);
+    judge_plans(w, static_cast<std::size_t>(truths));
+    judge_discrepancy(w, static_cast<std::size_t>(truths));
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,180 @@
+"""Which measurement settles a decision, and what measurements change."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from papilla import _native, values as v
+from papilla.errors import InputError, Problem
+from papilla.progress import Progress, shown
+from papilla.values import Path
+
+__all__ = ["Batch", "Experiment", "Lab", "Told"]
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """An experiment to make."""
+
+    id: str
+    """What tables and records call it, "E07"."""
+    design: str
+    field: str
+    """Its label on the wafer; "": none."""
+    load: float
+    """[N]"""
+    humidity: float
+    """From 0 to 1."""
+    voltage: float
+    """Peak [V]; 0: undriven."""
+    frequency: float
+    """Of the carrier [Hz]; 0: that of the design."""
+    state: str
+    repeats: int
+    """Touches."""
+    friction_off: list[float]
+    """By belief [N]: median and 95 % interval."""
+    friction_on: list[float]
+
+
+class Batch:
+    """Experiments to make next, why, and whether to stop."""
+
+    def __init__(self, stop: bool, table: str, document: dict[str, Any]) -> None:
+        plan = document["plan"]
+        self.stop = stop
+        """No more experiments are worth it."""
+        self.table = table
+        """What the command prints."""
+        self.purpose: str = plan["for"]
+        self.seconds: float = plan["seconds"]
+        """Of work."""
+        self.regret_now: float = plan["regret_now"]
+        """Expected, of the choice; 0 without a decision."""
+        self.regret_after: float = plan["regret_after"]
+        self.p_change: float = plan["p_change"]
+        """That another design is chosen after the batch."""
+        self.experiments: list[Experiment] = [
+            Experiment(e["id"], e["design"], e["field"], e["conditions"]["load"], e["conditions"]["relative_humidity"],
+                       e["conditions"]["voltage"], e["conditions"]["frequency"], e["conditions"]["state"], e["repeats"],
+                       e["F_off"], e["F_on"]) for e in plan["experiments"]]
+        self._document = document
+
+    def to_dict(self) -> dict[str, Any]:
+        """What ``papilla next --json`` prints."""
+        return self._document
+
+    def __repr__(self) -> str:
+        return f"<papilla.Batch of {len(self.experiments)} experiments{', stop' if self.stop else ''}>"
+
+    def _repr_markdown_(self) -> str:
+        return self.table
+
+
+class Told:
+    """What became of files that were told."""
+
+    def __init__(self, refused: list[tuple[str, int, int, str, str]], table: str, document: dict[str, Any]) -> None:
+        self.refused: list[Problem] = [Problem(*p) for p in refused]
+        """Files of which nothing was kept, and why."""
+        self.table = table
+        """What the command prints."""
+        self.readings: int = sum(len(f["told"]["readings"]) for f in document["files"])
+        """New ones."""
+        self.already: int = sum(f["already"] for f in document["files"])
+        """Readings that were told before and are not counted again."""
+        self._document = document
+
+    def to_dict(self) -> dict[str, Any]:
+        """What ``papilla tell --json`` prints."""
+        return self._document
+
+    def __repr__(self) -> str:
+        return f"<papilla.Told, {self.readings} readings, {len(self.refused)} refusals>"
+
+    def _repr_markdown_(self) -> str:
+        return self.table
+
+
+class Lab:
+    """A decision, the belief behind it, and what is measured for it, in one folder.
+
+    lab = pp.Lab.open("results/glass", "labs/glass", humidity="15 %,75 %"); the first batch is lab.batch. Then
+    lab.tell("plan_01.csv") and lab.next(), until batch.stop. A folder that is a lab already goes on: pp.Lab("labs/glass").
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = v.path(folder, "folder")
+        self.batch: Batch | None = None
+        """The last one that this object has planned."""
+        self.state()
+
+    @classmethod
+    def open(cls, sources: Path | Sequence[Path], folder: Path, *, belief: Path = "", worth: str = "", load: str = "",
+             humidity: str = "", voltage: str = "", frequency: str = "", states: str = "", purpose: str = "",
+             count: int = 10, seconds: float = 0, finger: str = "1", date: str = "", threads: int = 0,
+             progress: Progress = None) -> Lab:
+        """A new lab with its first batch: ``papilla next``.
+
+        sources: a folder of results, a wafer's manifest.csv, designs, a calibration. load, humidity, voltage, frequency,
+        states: what can be set, lists as "15 %,75 %"; empty: the designs' own. purpose: "decision", "hypotheses",
+        "parameters". count: touches, at most. seconds: of work, at most. Raises InputError, KeyboardInterrupt.
+        """
+        several = [sources] if isinstance(sources, (str, bytes)) or hasattr(sources, "__fspath__") else list(sources)  # type: ignore[arg-type]
+        conditions = [v.text(t, n) for t, n in ((load, "load"), (humidity, "humidity"), (voltage, "voltage"),
+                                                (frequency, "frequency"), (states, "states"))]
+        found, stop, table, document = _native.next_experiments(
+            [v.path(s, "sources") for s in several], v.path(folder, "folder"), v.text(purpose, "purpose"),
+            v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"), conditions,
+            v.text(finger, "finger"), "", v.text(date, "date"), v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
+        lab = cls(found)
+        lab.batch = Batch(stop, table, json.loads(document))
+        return lab
+
+    def next(self, purpose: str = "", *, count: int = 10, seconds: float = 0, finger: str = "1", day: str = "",
+             date: str = "", threads: int = 0, progress: Progress = None) -> Batch:
+        """The batch to measure next: ``papilla next LAB``. Raises InputError, KeyboardInterrupt."""
+        _, stop, table, document = _native.next_experiments(
+            [self.folder], "", v.text(purpose, "purpose"), v.whole(count, "count", 1, 1000), float(seconds), "", "",
+            [""] * 5, v.text(finger, "finger"), v.text(day, "day"), v.text(date, "date"),
+            v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
+        self.batch = Batch(stop, table, json.loads(document))
+        return self.batch
+
+    def tell(self, files: Path | Sequence[Path], *, experiment: str = "", field: str = "", design: str = "",
+             finger: str = "", day: str = "", date: str = "", replace: bool = False, threads: int = 0,
+             progress: Progress = None, refuse: bool = True) -> Told:
+        """Tables of friction and records of a tribometer: ``papilla tell``.
+
+        What is said here holds where the file does not say it. refuse: raises InputError where nothing of a file was
+        kept; the others are kept all the same. Raises KeyboardInterrupt.
+        """
+        several = [files] if isinstance(files, (str, bytes)) or hasattr(files, "__fspath__") else list(files)  # type: ignore[arg-type]
+        said = [v.text(t, n) for t, n in ((experiment, "experiment"), (field, "field"), (design, "design"),
+                                          (finger, "finger"), (day, "day"), (date, "date"))]
+        refused, table, document = _native.tell_lab(self.folder, [v.path(f, "files") for f in several], said,
+                                                    v.flag(replace, "replace"), v.whole(threads, "threads", 0, 4096),
+                                                    shown(progress, "tell"))
+        told = Told(refused, table, json.loads(document))
+        if refuse and told.refused:
+            raise InputError(told.refused)
+        return told
+
+    def state(self) -> dict[str, Any]:
+        """Where the lab stands: lab.json. Raises InputError."""
+        document: dict[str, Any] = json.loads(_native.lab_state(self.folder, 0)[1])
+        return document
+
+    @property
+    def page(self) -> str:
+        """lab.md."""
+        return _native.lab_state(self.folder, 0)[0]
+
+    def __repr__(self) -> str:
+        return f"<papilla.Lab {self.folder}>"
+
+    def _repr_markdown_(self) -> str:
+        return self.page

@@ -1,0 +1,49 @@
+"""A lab from Python: opened, told, planned again."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import papilla as pp
+
+HEAD = "design,repeat,load_N,humidity_percent,voltage_V,day,F_off_N,F_on_N\n"
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> pp.Lab:
+    place = tmp_path_factory.mktemp("lab")
+    members = "".join(f'[[member]]\nweight = 0.5\nhypothesis = "one"\nset = {{ "macro.shear_strength" = "{s} MPa" }}\n'
+                      for s in (8, 10))
+    (place / "belief.toml").write_text(
+        'schema_version = 1\n[calibrated_for]\ncoupling = "equilibrium"\nair_limit = "ionisation"\n' + members)
+    files = []
+    for name, depth in (("deep", 600), ("shallow", 200)):
+        design = pp.Design.load("m3_samples/a3h600.toml").with_(
+            {"texture.depth": f"{depth} nm", "accuracy.level": "draft", "accuracy.grid": 48})
+        design.save(place / f"{name}.toml")
+        files.append(place / f"{name}.toml")
+    return pp.Lab.open(files, place / "lab", belief=place / "belief.toml", humidity="35 %", count=3, date="2026-03-01")
+
+
+def test_a_lab_plans_a_batch_with_expectations(lab: pp.Lab) -> None:
+    assert lab.batch is not None
+    assert lab.batch.purpose == "decision"
+    for e in lab.batch.experiments:
+        assert e.design in ("deep", "shallow")
+        assert e.humidity == 0.35
+        assert e.friction_on[1] <= e.friction_on[0] <= e.friction_on[2]
+
+
+def test_a_table_counts_once_and_a_wrong_one_not_at_all(lab: pp.Lab, tmp_path: Path) -> None:
+    table = tmp_path / "a.csv"
+    table.write_text(HEAD + "deep,1,0.2,35,200,1,0.06,0.09\n")
+    assert lab.tell(table, date="2026-03-02").readings == 1
+    again = lab.tell(table, date="2026-03-02")
+    assert (again.readings, again.already) == (0, 1)
+    wrong = tmp_path / "b.csv"
+    wrong.write_text(HEAD + "deep,2,0.2,35,200,1,60,90\n")
+    with pytest.raises(pp.InputError, match="are these mN"):
+        lab.tell(wrong)
+    assert lab.state()["standing"]["readings"] == 1

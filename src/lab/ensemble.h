@@ -1,0 +1,47 @@
+// The members of a belief as numbers: what each says of every measurable friction and of what every
+// design is worth. Equations lab.N: docs/theory/lab.md.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+
+namespace papilla::lab {
+
+struct Ensemble {
+  std::vector<double> weights;          // of the members, all 1
+  std::vector<std::size_t> hypothesis;  // of each member
+  std::vector<std::string> hypotheses;  // their names
+  // [row][member]: logarithm of a friction [N].
+  std::vector<std::vector<double>> responses;
+  // [row]: standard deviation of it by the model's own few skins, common to all members.
+  std::vector<double> numerical;
+  // [design][member]: higher is better.
+  std::vector<std::vector<double>> worth;
+
+  std::size_t members() const { return weights.size(); }
+};
+
+// The weight of each hypothesis by weights of the members.
+std::vector<double> weights_by_hypothesis(const Ensemble& e, const std::vector<double>& weights);
+
+// Members as the middles of kernels that fill what lies between them: each is drawn towards the
+// mean of its hypothesis by `shrink`, and has the covariance `width`^2 times that of all members
+// about the means of their hypotheses. Mean and covariance of all stay. Eq. lab.3
+struct Kernels {
+  double width = 0, shrink = 1;
+  std::vector<std::vector<double>> responses, worth;  // of the middles
+  // [row or design][member]: root of the weight times the deviation, so that the covariance of two
+  // rows is the sum of products.
+  std::vector<std::vector<double>> response_moves, worth_moves;
+
+  // Within the hypotheses, of all members.
+  double covariance(std::size_t row, std::size_t other) const;
+  double worth_covariance(std::size_t design, std::size_t row) const;
+  double worth_covariance_of(std::size_t design, std::size_t other) const;
+};
+Kernels kernels_of(const Ensemble& ensemble);
+
+}  // namespace papilla::lab

@@ -1,0 +1,338 @@
+#include "lab/matching.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace papilla::lab {
+namespace {
+
+// What is set at an instrument comes out so near: the reading is taken as of what was planned.
+constexpr double kHumidityBand = 0.015;                 // of relative humidity, absolute
+constexpr double kLoadBand = 0.1, kVoltageBand = 0.02;  // shares
+// A record's own load beyond this share of the planned one is another experiment.
+constexpr double kRecordLoadBand = 0.25;
+// Of what friction is corrected by from load to load, what is not known of the correction.
+constexpr double kCorrectionError = 0.5;
+// A trace's own conditions are rounded so where nothing was planned.
+constexpr double kLoadStep = 5e-3, kHumidityStep = 0.01, kVoltageStep = 1;
+
+double rounded(double value, double step) { return step * std::round(value / step); }
+
+bool near(double value, double wanted, double absolute, double share) {
+  return std::abs(value - wanted) <= std::max(absolute, share * std::abs(wanted));
+}
+
+bool near(const Conditions& is, const Conditions& wanted) {
+  return is.state == wanted.state &&
+         near(is.relative_humidity, wanted.relative_humidity, kHumidityBand, 0) &&
+         near(is.load, wanted.load, 0, kLoadBand) &&
+         near(is.voltage, wanted.voltage, 0, kVoltageBand) &&
+         (!wanted.driven() || wanted.frequency == 0 || is.frequency == 0 ||
+          near(is.frequency, wanted.frequency, 0, kVoltageBand));
+}
+
+// The nearest of some values, where it is near enough.
+double snapped(double value, const std::vector<double>& known, double absolute, double share) {
+  for (const double k : known) {
+    if (near(value, k, absolute, share)) return k;
+  }
+  return value;
+}
+
+class Matcher {
+ public:
+  Matcher(const MatchContext& context, const TellOptions& options, const std::string& file)
+      : context_(context), options_(options), file_(file) {}
+
+  std::optional<FrictionReading> match(const MeasuredRow& row) {
+    FrictionReading out;
+    line_ = row.line;
+    const std::size_t before = problems_.size();
+    const std::string experiment = said(row.experiment, options_.experiment),
+                      field = said(row.field, options_.field),
+                      design = said(row.design, options_.design);
+    if (!experiment.empty())
+      by_experiment(experiment, row, out);
+    else if (!field.empty())
+      by_field(field, row, out);
+    else
+      by_design(design, row, out);
+    out.finger = said(row.finger, options_.finger, "1");
+    out.day = said(row.day, options_.day, options_.date);
+    out.repeat = row.repeat;
+    out.line = row.line;
+    out.off = row.off.value_or(0);
+    out.off_sd = row.off_sd.value_or(0);
+    out.on = row.on.value_or(0);
+    out.on_sd = row.on_sd.value_or(0);
+    if (out.on > 0 && !out.experiment.at.driven() && problems_.size() == before)
+      problem("F_on", "a friction under voltage, but its experiment has none");
+    if (problems_.size() > before) return std::nullopt;
+    return out;
+  }
+
+  void tell_problems() const {
+    if (!problems_.empty()) throw InputError(problems_);
+  }
+  int planned_conditions() const { return as_planned_; }
+
+ private:
+  static std::string said(const std::string& in_row, const std::string& in_options,
+                          const std::string& otherwise = "") {
+    if (!in_row.empty()) return in_row;
+    return in_options.empty() ? otherwise : in_options;
+  }
+
+  void problem(const std::string& key, const std::string& message) {
+    problems_.push_back({file_, line_, 0, key, message});
+  }
+
+  void unknown(const std::string& what, const std::string& name,
+               const std::vector<std::string>& known) {
+    const std::string close = nearest_name(name, known);
+    problem(what, fmt::format("no {} \"{}\"{}", what, name,
+                              close.empty() ? "; there are " + join_names(known)
+                                            : fmt::format(", is it `{}`?", close)));
+  }
+
+  // Conditions of a row over those that are meant.
+  Conditions over(const MeasuredRow& row, Conditions at) const {
+    at.load = row.load.value_or(at.load);
+    at.relative_humidity = row.relative_humidity.value_or(at.relative_humidity);
+    at.voltage = row.voltage.value_or(at.voltage);
+    at.frequency = row.frequency.value_or(at.frequency);
+    at.state = row.state.value_or(at.state);
+    if (!at.driven()) at.frequency = 0;
+    return at;
+  }
+
+  // As it was planned where the row is near it.
+  Conditions taken(const MeasuredRow& row, const Conditions& planned) {
+    const Conditions is = over(row, planned);
+    if (!near(is, planned)) return snapped_to_candidates(is);
+    as_planned_ += !(is == planned);
+    return planned;
+  }
+
+  Conditions snapped_to_candidates(Conditions at) const {
+    const CandidateConditions& c = context_.file.conditions;
+    at.load = snapped(at.load, c.load, 0, kLoadBand);
+    at.relative_humidity = snapped(at.relative_humidity, c.humidity, kHumidityBand, 0);
+    at.voltage = snapped(at.voltage, c.voltage, 0, kVoltageBand);
+    return at;
+  }
+
+  void by_experiment(const std::string& id, const MeasuredRow& row, FrictionReading& out) {
+    std::vector<std::string> known;
+    for (const PlannedExperiment& p : context_.planned) {
+      known.push_back(p.id);
+      if (p.id != id) continue;
+      out.id = id;
+      out.field = p.field;
+      out.experiment = {p.experiment.design, taken(row, p.experiment.at)};
+      if (!row.field.empty() && !p.field.empty() && row.field != p.field)
+        problem("field",
+                fmt::format("{} stands in field {} of the plan, not {}", id, p.field, row.field));
+      return;
+    }
+    unknown("experiment", id, known);
+  }
+
+  void by_field(const std::string& field, const MeasuredRow& row, FrictionReading& out) {
+    std::vector<std::string> known;
+    std::vector<const FieldEntry*> here;
+    for (const FieldEntry& f : context_.file.fields) {
+      if (std::find(known.begin(), known.end(), f.field) == known.end()) known.push_back(f.field);
+      if (f.field == field) here.push_back(&f);
+    }
+    if (here.empty()) return unknown("field", field, known);
+    out.field = field;
+    out.experiment.design = design_index(here.front()->design);
+    for (const FieldEntry* f : here) {
+      const Conditions planned = conditions_of(*f), is = over(row, planned);
+      if (!near(is, planned)) continue;
+      as_planned_ += !(is == planned);
+      out.experiment.at = planned;
+      if (here.size() == 1 || says_conditions(row)) return;
+    }
+    if (here.size() > 1 && !says_conditions(row))
+      return problem("field", fmt::format("{} is to be measured under {} conditions: say which "
+                                          "(load, humidity, voltage)",
+                                          field, here.size()));
+    out.experiment.at = snapped_to_candidates(over(row, conditions_of(*here.front())));
+  }
+
+  static bool says_conditions(const MeasuredRow& row) {
+    return row.load || row.relative_humidity || row.voltage || row.frequency || row.state;
+  }
+
+  static Conditions conditions_of(const FieldEntry& f) {
+    return {f.load, f.humidity, f.voltage, f.voltage > 0 ? f.frequency : 0, f.state};
+  }
+
+  void by_design(const std::string& name, const MeasuredRow& row, FrictionReading& out) {
+    if (name.empty())
+      return problem("", "says no experiment, field or design: add such a column, or --experiment");
+    const std::size_t index = design_index(name);
+    if (index == context_.designs.size()) {
+      std::vector<std::string> known;
+      for (const LabDesign& d : context_.designs) known.push_back(d.name);
+      return unknown("design", name, known);
+    }
+    const CandidateConditions& c = context_.file.conditions;
+    const auto needed = [&](const std::optional<double>& is, const std::vector<double>& known,
+                            const char* what) {
+      if (is) return *is;
+      if (known.size() == 1) return known.front();
+      problem(what, "not said, and the lab has more than one");
+      return 0.0;
+    };
+    Conditions at;
+    at.load = needed(row.load, c.load, "load");
+    at.relative_humidity = needed(row.relative_humidity, c.humidity, "humidity");
+    at.voltage = needed(row.voltage, c.voltage, "voltage");
+    if (at.driven())
+      at.frequency = row.frequency.value_or(c.frequency.size() == 1 ? c.frequency.front() : 0);
+    at.state = row.state.value_or(FingerState::Clean);
+    out.experiment = {index, snapped_to_candidates(at)};
+  }
+
+  // By its name in the lab, or the file that a table names.
+  std::size_t design_index(const std::string& name) const {
+    const std::string stem = std::filesystem::path(name).stem().string();
+    for (std::size_t i = 0; i < context_.designs.size(); ++i) {
+      if (context_.designs[i].name == name) return i;
+    }
+    for (std::size_t i = 0; i < context_.designs.size(); ++i) {
+      if (context_.designs[i].name == stem) return i;
+    }
+    return context_.designs.size();
+  }
+
+  const MatchContext& context_;
+  const TellOptions& options_;
+  std::string file_;
+  int line_ = 0, as_planned_ = 0;
+  std::vector<Problem> problems_;
+};
+
+void note_planned(const Matcher& matcher, Matched& out) {
+  if (matcher.planned_conditions() > 0)
+    out.notes.push_back(
+        fmt::format("{} within {} % RH, {:.0f} % of load and {:.0f} % of voltage of "
+                    "what was planned: taken as planned",
+                    counted(matcher.planned_conditions(), "reading"),
+                    significant(100 * kHumidityBand, 2), 100 * kLoadBand, 100 * kVoltageBand));
+}
+
+std::string key_of(const FrictionReading& r) {
+  return fmt::format("{} | {} | {} | {} | {} | {:.9g} {:.9g}", r.experiment.design,
+                     text(r.experiment.at), r.finger, r.day, r.repeat, r.off, r.on);
+}
+
+// What the name of a record's file says: a word of it is an experiment of the plan or a field.
+void by_name(const std::string& file, const MatchContext& context, MeasuredRow& row) {
+  std::string stem = std::filesystem::path(file).stem().string();
+  std::replace_if(
+      stem.begin(), stem.end(), [](char c) { return c == '_' || c == '-' || c == ' '; }, ' ');
+  for (const std::string& word : split(stem, ' ')) {
+    for (const PlannedExperiment& p : context.planned) {
+      if (p.id == word) row.experiment = word;
+    }
+    for (const FieldEntry& f : context.file.fields) {
+      if (f.field == word) row.field = word;
+    }
+  }
+}
+
+// The friction at the planned load, where the finger pressed a little otherwise: in proportion.
+void to_load(FrictionReading& r, double load, std::vector<std::string>& notes) {
+  const double by = r.experiment.at.load / load;
+  const auto move = [&](double& force, double& sd) {
+    const double moved = force * (by - 1);
+    force += moved;
+    sd = sd > 0 ? std::hypot(sd * by, kCorrectionError * moved) : 0;
+  };
+  move(r.off, r.off_sd);
+  move(r.on, r.on_sd);
+  if (std::abs(by - 1) > 0.01)
+    notes.push_back(
+        fmt::format("pressed with {} N where {} N were meant: friction taken in "
+                    "proportion, half of the difference added to its error",
+                    significant(load, 3), significant(r.experiment.at.load, 3)));
+}
+
+}  // namespace
+
+Matched match_table(const MeasuredTable& table, const MatchContext& context,
+                    const TellOptions& options, const std::string& file) {
+  Matcher matcher(context, options, file);
+  Matched out;
+  out.notes = table.notes;
+  std::map<std::string, int> seen;
+  for (const MeasuredRow& row : table.rows) {
+    auto reading = matcher.match(row);
+    if (!reading) continue;
+    if (!row.measured()) {
+      ++out.empty;
+      continue;
+    }
+    // Rows alike in everything are readings alike: the first, the second, ...
+    reading->key = key_of(*reading);
+    reading->key += fmt::format(" | {}", ++seen[reading->key]);
+    out.readings.push_back(std::move(*reading));
+  }
+  matcher.tell_problems();
+  note_planned(matcher, out);
+  return out;
+}
+
+Matched match_trace(const Trace& trace, const TraceReading& reading, const MatchContext& context,
+                    const TellOptions& options, const std::string& file) {
+  MeasuredRow row;
+  by_name(file, context, row);
+  for (const auto& [key, target] :
+       {std::pair("experiment", &row.experiment), std::pair("field", &row.field),
+        std::pair("design", &row.design), std::pair("finger", &row.finger),
+        std::pair("day", &row.day)}) {
+    const auto found = trace.said.find(key);
+    if (found != trace.said.end()) *target = found->second;
+  }
+  if (const auto repeat = trace.said.find("repeat"); repeat != trace.said.end())
+    row.repeat = std::max(0, std::atoi(repeat->second.c_str()));
+  row.load = rounded(reading.load, kLoadStep);
+  if (reading.relative_humidity)
+    row.relative_humidity = rounded(*reading.relative_humidity, kHumidityStep);
+  if (reading.on_sd > 0) row.voltage = rounded(reading.voltage, kVoltageStep);
+  if (reading.off_sd > 0) {
+    row.off = reading.off;
+    row.off_sd = reading.off_sd;
+  }
+  if (reading.on_sd > 0) {
+    row.on = reading.on;
+    row.on_sd = reading.on_sd;
+  }
+  Matcher matcher(context, options, file);
+  Matched out;
+  auto found = matcher.match(row);
+  matcher.tell_problems();
+  if (std::abs(found->experiment.at.load / reading.load - 1) > kRecordLoadBand)
+    throw InputError({Problem{
+        file, 0, 0, "normal",
+        fmt::format("the finger pressed with {} N, its experiment is at {} N",
+                    significant(reading.load, 3), significant(found->experiment.at.load, 3))}});
+  to_load(*found, reading.load, out.notes);
+  note_planned(matcher, out);
+  found->key = key_of(*found) + " | record";
+  out.readings.push_back(std::move(*found));
+  return out;
+}
+
+}  // namespace papilla::lab

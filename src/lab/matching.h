@@ -1,0 +1,44 @@
+// Which experiment a told row or record is of: by the plan, the wafer's field, or design and
+// conditions.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "lab/lab_file.h"
+#include "lab/measured_table.h"
+#include "lab/records.h"
+#include "lab/response_table.h"
+#include "lab/trace_reading.h"
+
+namespace papilla::lab {
+
+// What rows are held against. All outlive this.
+struct MatchContext {
+  const LabFile& file;
+  const std::vector<LabDesign>& designs;
+  const std::vector<PlannedExperiment>& planned;
+};
+
+// What the user says of a file as a whole; "": nothing.
+struct TellOptions {
+  std::string experiment, field, design, finger, day;
+  std::string date;      // of today, "2026-03-01"; the day where nothing else says it
+  bool replace = false;  // readings that contradict earlier ones take their place
+};
+
+struct Matched {
+  std::vector<FrictionReading> readings;  // in the order of the rows
+  int empty = 0;                          // rows that are not measured yet
+  std::vector<std::string> notes;
+};
+
+// Throws InputError with every row that is of no known experiment, each with its line.
+Matched match_table(const MeasuredTable& table, const MatchContext& context,
+                    const TellOptions& options, const std::string& file);
+Matched match_trace(const Trace& trace, const TraceReading& reading, const MatchContext& context,
+                    const TellOptions& options, const std::string& file);
+
+}  // namespace papilla::lab

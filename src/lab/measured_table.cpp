@@ -1,0 +1,278 @@
+#include "lab/measured_table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "lab/columns.h"
+
+namespace papilla::lab {
+namespace {
+
+// No skin rubs at ten times its load (coefficients are 0.1 to 3): it is another unit.
+constexpr double kLargestCoefficient = 10;
+// Humidity in percent below this is meant as a share.
+constexpr double kLeastHumidity = 0.01;
+
+enum class Kind {
+  Experiment,
+  Field,
+  Design,
+  Finger,
+  Day,
+  State,
+  Repeat,
+  Load,
+  Humidity,
+  HumidityShare,
+  Voltage,
+  Frequency,
+  Off,
+  OffSd,
+  On,
+  OnSd
+};
+
+const std::vector<ColumnKind>& table_kinds() {
+  static const std::vector<ColumnKind> kinds{{"experiment", "", true, {}},
+                                             {"field", "", true, {}},
+                                             {"design", "", true, {}},
+                                             {"finger", "", true, {}},
+                                             {"day", "", true, {"date", "session"}},
+                                             {"state", "", true, {}},
+                                             {"repeat", "", false, {}},
+                                             {"load", "N", false, {"normal"}},
+                                             {"humidity", "%", false, {}},
+                                             {"relative_humidity", "", true, {}},
+                                             {"voltage", "V", false, {"amplitude"}},
+                                             {"frequency", "Hz", false, {}},
+                                             {"F_off", "N", false, {"friction_off"}},
+                                             {"F_off_sd", "N", false, {"friction_off_sd"}},
+                                             {"F_on", "N", false, {"friction_on"}},
+                                             {"F_on_sd", "N", false, {"friction_on_sd"}}};
+  return kinds;
+}
+
+class TableReader {
+ public:
+  TableReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
+
+  MeasuredTable read() {
+    std::string_view line;
+    std::vector<std::string_view> cells;
+    while (lines_.next(line)) {
+      if (line.find_first_not_of(" \t,;") == std::string_view::npos || line.front() == '#')
+        continue;
+      if (columns_.empty()) {
+        separator_ = separator_of(line);
+        split_cells(line, separator_, cells);
+        header(cells);
+        continue;
+      }
+      split_cells(line, separator_, cells);
+      row(cells);
+    }
+    if (columns_.empty()) problem("", "no header line");
+    if (problems_.empty() && out_.rows.empty()) problem("", "no rows below the header");
+    if (problems_.empty()) check_order();
+    if (!problems_.empty()) throw InputError(problems_);
+    if (lines_.ended_within())
+      out_.notes.push_back("the last line has no line end: is the file whole?");
+    return std::move(out_);
+  }
+
+ private:
+  void problem(const std::string& key, const std::string& message, int cell = 0) {
+    problems_.push_back({file_, lines_.number(), cell, key, message});
+  }
+
+  void header(const std::vector<std::string_view>& cells) {
+    std::vector<std::string> unread, known;
+    for (const ColumnKind& kind : table_kinds())
+      known.push_back(kind.name + (kind.unit.empty()  ? ""
+                                   : kind.unit == "%" ? "_percent"
+                                                      : "_" + kind.unit));
+    for (const std::string_view cell : cells) {
+      Column column;
+      try {
+        column = read_column(cell, table_kinds());
+      } catch (const InputError& error) {
+        problem("", error.problems().front().message);
+      }
+      columns_.push_back(column);
+      if (column.kind || !problems_.empty()) continue;
+      const std::string near = nearest_name(cell, known);
+      if (near.empty())
+        unread.emplace_back(cell);
+      else
+        problem(std::string(cell), fmt::format("no such column, is it `{}`?", near));
+    }
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!columns_[i].kind) continue;
+      const Kind kind = kind_of(columns_[i]);
+      out_.has_friction |= kind == Kind::Off || kind == Kind::On;
+      for (std::size_t j = 0; j < i; ++j) {
+        if (columns_[j].kind == columns_[i].kind)
+          problem(std::string(cells[i]), "a second column of the same quantity");
+      }
+    }
+    if (!unread.empty()) out_.notes.push_back("columns that are not read: " + join_names(unread));
+  }
+
+  static Kind kind_of(const Column& column) {
+    return static_cast<Kind>(column.kind - table_kinds().data());
+  }
+
+  void row(const std::vector<std::string_view>& cells) {
+    if (cells.size() != columns_.size()) {
+      problem("", fmt::format("expected {} cells, got {}{}", columns_.size(), cells.size(),
+                              lines_.ended_within() ? ": the file is cut off" : ""));
+      return;
+    }
+    MeasuredRow r;
+    r.line = lines_.number();
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (columns_[i].kind && !cells[i].empty())
+        take(r, columns_[i], cells[i], static_cast<int>(i) + 1);
+    }
+    check(r);
+    out_.rows.push_back(std::move(r));
+  }
+
+  void take(MeasuredRow& r, const Column& column, std::string_view cell, int place) {
+    switch (kind_of(column)) {
+      case Kind::Experiment:
+        r.experiment = cell;
+        return;
+      case Kind::Field:
+        r.field = cell;
+        return;
+      case Kind::Design:
+        r.design = cell;
+        return;
+      case Kind::Finger:
+        r.finger = cell;
+        return;
+      case Kind::Day:
+        r.day = cell;
+        return;
+      case Kind::State:
+        r.state = state(cell, place);
+        return;
+      case Kind::Repeat:
+        r.repeat = static_cast<int>(number(column, cell, place, 1, 1e6).value_or(0));
+        return;
+      case Kind::Load:
+        r.load = number(column, cell, place, 1e-6, 100);
+        return;
+      case Kind::Humidity:
+        r.relative_humidity = humidity(column, cell, place);
+        return;
+      case Kind::HumidityShare:
+        r.relative_humidity = share(column, cell, place);
+        return;
+      case Kind::Voltage:
+        r.voltage = number(column, cell, place, 0, 1e5);
+        return;
+      case Kind::Frequency:
+        r.frequency = number(column, cell, place, 0, 1e9);
+        return;
+      case Kind::Off:
+        r.off = number(column, cell, place, 1e-9, 1e3);
+        return;
+      case Kind::OffSd:
+        r.off_sd = number(column, cell, place, 1e-9, 1e3);
+        return;
+      case Kind::On:
+        r.on = number(column, cell, place, 1e-9, 1e3);
+        return;
+      case Kind::OnSd:
+        r.on_sd = number(column, cell, place, 1e-9, 1e3);
+        return;
+    }
+  }
+
+  std::optional<double> number(const Column& column, std::string_view cell, int place, double low,
+                               double high) {
+    const auto value = cell_number(cell);
+    if (!value) {
+      problem(column.kind->name, fmt::format("expected a number, got \"{}\"", cell), place);
+      return std::nullopt;
+    }
+    const double si = *value * column.to_si;
+    if (!(si >= low && si <= high)) {
+      problem(column.kind->name,
+              fmt::format("{} lies outside {} to {} {}", cell, low, high, column.kind->unit),
+              place);
+      return std::nullopt;
+    }
+    return si;
+  }
+
+  std::optional<double> humidity(const Column& column, std::string_view cell, int place) {
+    const auto value = number(column, cell, place, 0, 1);
+    if (value && *value > 0 && *value < kLeastHumidity)
+      problem("humidity",
+              fmt::format("{} %: is it a share? Then {} % is meant", cell,
+                          significant(1e4 * *value, 3)),
+              place);
+    return value;
+  }
+
+  // "15 %" or 0.15, as `papilla calibrate` takes it.
+  std::optional<double> share(const Column& column, std::string_view cell, int place) {
+    if (const auto q = parse_quantity(cell); q && q->unit == "%") return q->si;
+    return number(column, cell, place, 0, 1);
+  }
+
+  std::optional<FingerState> state(std::string_view cell, int place) {
+    const std::vector<std::string>& names = finger_state_names();
+    const auto found = std::find(names.begin(), names.end(), cell);
+    if (found != names.end()) return static_cast<FingerState>(found - names.begin());
+    problem("state", fmt::format("\"{}\" is no state: {}", cell, join_names(names)), place);
+    return std::nullopt;
+  }
+
+  void check(const MeasuredRow& r) {
+    if (r.on && r.voltage == 0.0) problem("F_on", "a friction under voltage, but the voltage is 0");
+    for (const auto& [name, force] : {std::pair("F_off", r.off), std::pair("F_on", r.on)}) {
+      if (!force || !r.load || *force <= kLargestCoefficient * *r.load) continue;
+      problem(name, fmt::format("{} N is {} times the load of {} N: are these mN?",
+                                significant(*force, 4), significant(*force / *r.load, 3),
+                                significant(*r.load, 3)));
+    }
+  }
+
+  // A voltage draws the finger to the surface: columns that say the contrary are exchanged.
+  void check_order() {
+    double off = 0, on = 0;
+    for (const MeasuredRow& r : out_.rows) {
+      if (!r.off || !r.on) continue;
+      off += *r.off;
+      on += *r.on;
+    }
+    if (!(on < off)) return;
+    problem("F_on",
+            "under voltage the finger rubs less on average than without it: are F_off and "
+            "F_on exchanged?");
+  }
+
+  Lines lines_;
+  std::string file_;
+  char separator_ = ',';
+  std::vector<Column> columns_;
+  std::vector<Problem> problems_;
+  MeasuredTable out_;
+};
+
+}  // namespace
+
+MeasuredTable read_measured_table(std::string_view text, const std::string& file) {
+  return TableReader(text, file).read();
+}
+
+}  // namespace papilla::lab

@@ -1,0 +1,39 @@
+// Tables of what was measured, as they stand in a file: the plan filled in, a wafer's manifest, or
+// a table with the columns of `papilla calibrate`.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/rooms.h"
+#include "scene/finger.h"
+
+namespace papilla::lab {
+
+// A line; SI. What its cell is empty of, or the table has no column of, is not there.
+struct MeasuredRow {
+  std::string experiment, field, design, finger, day;
+  std::optional<FingerState> state;
+  std::optional<double> load, relative_humidity, voltage, frequency;
+  std::optional<double> off, off_sd, on, on_sd;  // [N]
+  int repeat = 0;                                // 0: not said
+  int line = 0;
+
+  bool measured() const { return off.has_value() || on.has_value(); }
+};
+
+struct MeasuredTable {
+  std::vector<MeasuredRow> rows;
+  std::vector<std::string> notes;  // for people: what was not read
+  bool has_friction = false;       // a column of it
+};
+
+// Columns by name and unit in any order; further ones are told and not read. Throws InputError with
+// every mistake and its line: a unit that is none, a column that nearly has a known name, a number
+// that is none or lies outside of what a finger does, F_on below F_off on average, a line that is
+// cut off.
+MeasuredTable read_measured_table(std::string_view text, const std::string& file);
+
+}  // namespace papilla::lab

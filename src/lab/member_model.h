@@ -1,0 +1,58 @@
+// What every member of a belief says of a design: friction under conditions, worth under the
+// design's own. Answers are kept in a file, so that nothing is evaluated twice.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "design/design.h"
+#include "lab/experiment.h"
+#include "metrics/metrics.h"
+#include "optim/unfinished.h"
+#include "scene/belief.h"
+
+namespace papilla::lab {
+
+// Of one experiment. NaN where a member has no such state.
+struct MemberFriction {
+  std::vector<double> off, on;   // [member] [N]; on empty: undriven
+  double off_se = 0, on_se = 0;  // of the model's few skins, a share: the median over members
+};
+
+class MemberModel {
+ public:
+  // folder: where answers are kept; empty: they are not.
+  MemberModel(Belief belief, const std::string& folder, int threads,
+              std::function<void(const std::string&)> note = {});
+
+  const Belief& belief() const { return belief_; }
+  int evaluated() const { return evaluated_; }
+
+  // Conditions that differ in humidity alone are one evaluation of each member. An answer per
+  // condition, in their order.
+  std::vector<MemberFriction> friction(const Design& design,
+                                       const std::vector<Conditions>& conditions);
+  // [member] of the design at its own drive and humidities, higher is better; NaN where it has
+  // none.
+  std::vector<double> worth(const Design& design, const MetricExpression& expression);
+
+ private:
+  std::vector<double> kept(const std::string& question, std::size_t size,
+                           const std::function<std::vector<double>()>& make);
+  std::vector<Response> runs(const Design& design) const;
+  // off, on, and their errors of the sampling, of each humidity and member.
+  std::vector<double> group(const Design& design);
+
+  Belief belief_;
+  std::string belief_text_;
+  Unfinished kept_;
+  int threads_, evaluated_ = 0;
+  std::function<void(const std::string&)> note_;
+};
+
+// The design under other conditions: its humidities are these.
+Design under_conditions(const Design& design, const Conditions& at, std::vector<double> humidities);
+
+}  // namespace papilla::lab

@@ -1,0 +1,139 @@
+#include "lab/planning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "numerics/statistics.h"
+
+namespace papilla::lab {
+namespace {
+
+// Futures that the value of a candidate is taken over: a share of 1 % is then seen by 4 of them.
+constexpr int kDraws = 384;
+// A batch that changes the choice less often than this changes no decision.
+constexpr double kNoChange = 0.05;
+
+std::vector<Candidate> candidates_of(const Standing& s, const ResponseTable& table,
+                                     const std::vector<Experiment>& experiments,
+                                     const NextOptions& options) {
+  std::vector<Candidate> out;
+  const std::string day = options.day.empty() ? options.date : options.day;
+  for (const Experiment& e : experiments) {
+    Candidate c{e, observations_of(table, e, s.instrument, 0, 0, options.finger, day)};
+    if (!c.readings.empty()) out.push_back(std::move(c));
+  }
+  if (out.empty()) throw InputError("no experiment can be held against every member of the belief");
+  return out;
+}
+
+Aim aim_of(const Standing& s, const NextOptions& options) {
+  if (options.aim == Aim::Decision && !s.decided())
+    throw InputError(
+        "--for decision: nothing is decided in this lab (worth = \"\" in lab.toml, or "
+        "one design)");
+  if (options.aim == Aim::Hypotheses && s.ensemble.hypotheses.size() < 2)
+    throw InputError("--for hypotheses: the belief has one hypothesis");
+  if (options.aim) return *options.aim;
+  if (s.decided()) return Aim::Decision;
+  return s.ensemble.hypotheses.size() > 1 ? Aim::Hypotheses : Aim::Parameters;
+}
+
+// Median and 95 % of what belief expects of a row [N].
+std::vector<double> expected(const Standing& s, const std::optional<std::size_t>& row) {
+  if (!row) return {};
+  std::vector<double> out;
+  for (const double p : {0.5, 0.025, 0.975})
+    out.push_back(std::exp(weighted_quantile(s.ensemble.responses[*row], s.weights, p)));
+  return out;
+}
+
+// What each reading of the batch would change, at the first touch of each experiment.
+void add_outcomes(const std::vector<Candidate>& candidates, const std::vector<Chosen>& batch,
+                  const DecisionGain& gain, const ResponseTable& table,
+                  std::vector<PlannedExperiment>& plan) {
+  const auto outcomes = gain.outcomes();
+  std::size_t k = 0;
+  for (const Chosen& c : batch) {
+    const Candidate& candidate = candidates[c.candidate];
+    const auto planned = std::find_if(plan.begin(), plan.end(), [&](const PlannedExperiment& p) {
+      return p.experiment == candidate.experiment;
+    });
+    for (const Observation& o : candidate.readings) {
+      const MeasurableCell& cell = table.cell(candidate.experiment);
+      auto& thirds = cell.on && o.row == *cell.on ? planned->on : planned->off;
+      if (thirds.empty()) thirds = outcomes[k];
+      ++k;
+    }
+  }
+}
+
+std::vector<PlannedExperiment> planned_of(const Standing& s, const ResponseTable& table,
+                                          const std::vector<Candidate>& candidates,
+                                          const std::vector<Chosen>& batch, const LabFile& file,
+                                          std::size_t numbered) {
+  std::vector<PlannedExperiment> out;
+  for (const Chosen& c : batch) {
+    const Experiment& e = candidates[c.candidate].experiment;
+    const auto known = std::find_if(out.begin(), out.end(),
+                                    [&](const PlannedExperiment& p) { return p.experiment == e; });
+    if (known != out.end()) {
+      ++known->repeats;
+      known->gain += c.gain;
+      continue;
+    }
+    PlannedExperiment p;
+    p.id = fmt::format("E{:02}", numbered + out.size() + 1);
+    p.experiment = e;
+    p.gain = c.gain;
+    const MeasurableCell& cell = table.cell(e);
+    p.expected_off = expected(s, cell.off);
+    p.expected_on = expected(s, cell.on);
+    for (const FieldEntry& f : file.fields) {
+      const Conditions at{f.load, f.humidity, f.voltage, f.voltage > 0 ? f.frequency : 0, f.state};
+      if (at == e.at && file.designs[e.design].name == f.design && p.field.empty())
+        p.field = f.field;
+    }
+    out.push_back(std::move(p));
+  }
+  return out;
+}
+
+}  // namespace
+
+PlanRecord plan_batch(const Standing& s, const ResponseTable& table,
+                      const std::vector<Experiment>& experiments, const LabFile& file,
+                      const NextOptions& options, std::size_t numbered) {
+  PlanRecord plan;
+  plan.date = options.date;
+  plan.aim = aim_of(s, options);
+  const std::vector<Candidate> candidates = candidates_of(s, table, experiments, options);
+  std::unique_ptr<Gain> gain;
+  DecisionGain* decision = nullptr;
+  if (plan.aim == Aim::Decision) {
+    auto own = std::make_unique<DecisionGain>(s.ensemble, s.kernels, *s.evidence, s.limits, kDraws);
+    decision = own.get();
+    gain = std::move(own);
+  } else if (plan.aim == Aim::Hypotheses) {
+    gain = hypotheses_gain(s.ensemble, *s.evidence, s.instrument);
+  } else {
+    gain = parameters_gain(s.ensemble, *s.evidence, s.instrument);
+  }
+  const std::vector<Chosen> batch =
+      choose_batch(candidates, *gain, {options.count, options.seconds, file.costs, 0});
+  plan.experiments = planned_of(s, table, candidates, batch, file, numbered);
+  for (const Chosen& c : batch) plan.seconds += c.seconds;
+  if (!decision) return plan;
+  plan.regret_now = decision->regret_now();
+  plan.regret_after = decision->regret_after();
+  plan.p_change = decision->p_change();
+  const double small = file.stop * std::abs(s.best_worth);
+  plan.stop = plan.regret_now < small ||
+              (plan.p_change < kNoChange && plan.regret_now - plan.regret_after < small);
+  add_outcomes(candidates, batch, *decision, table, plan.experiments);
+  return plan;
+}
+
+}  // namespace papilla::lab

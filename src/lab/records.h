@@ -1,0 +1,80 @@
+// What a lab folder remembers: how it was opened, experiments planned, readings told, decisions
+// with their dates. Each is one record of the journal, so it is there as a whole or not at all.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "lab/batch.h"
+#include "lab/decision_gain.h"
+#include "lab/experiment.h"
+
+namespace papilla::lab {
+
+// An experiment to make. Readings of it name it, or its field.
+struct PlannedExperiment {
+  std::string id;     // "E07"
+  std::string field;  // of the wafer; "": none
+  Experiment experiment;
+  int repeats = 1;                // touches
+  double gain = 0;                // of what there is to gain, when it was chosen
+  std::vector<Foreseen> off, on;  // thirds of its readings; empty without a decision
+  std::vector<double> expected_off, expected_on;  // [N]: median and 95 % interval by belief
+};
+
+struct PlanRecord {
+  std::string date;
+  Aim aim = Aim::Decision;
+  std::vector<PlannedExperiment> experiments;
+  double seconds = 0;                       // of work
+  double regret_now = 0, regret_after = 0;  // expected, without a decision 0
+  double p_change = 0;                      // that the readings choose another design
+  bool stop = false;                        // no more experiments are worth it
+};
+
+// A friction that was measured, off and on where both were.
+struct FrictionReading {
+  Experiment experiment;
+  std::string id, field;  // of the plan and the wafer, where it names them
+  std::string finger, day;
+  int repeat = 0;
+  double off = 0, off_sd = 0, on = 0, on_sd = 0;  // [N]; 0: not measured
+  int line = 0;                                   // of the table; 0: a trace
+  std::string key;                                // what it is, and which of several alike
+};
+
+struct TellRecord {
+  std::string date, file, sha256;
+  bool trace = false;
+  std::vector<FrictionReading> readings;  // new ones
+  std::vector<std::string> notes;
+};
+
+// What belief says of the designs at a time.
+struct DecisionRecord {
+  std::string date;
+  std::size_t readings = 0;
+  std::string best;  // design; "": there is no decision
+  double p_best = 0, regret = 0;
+  std::vector<double> p_designs;  // p(best) of each choice, in the order of lab.toml
+  std::vector<double> p_hypothesis;
+  double effective_members = 0;
+  double explained = 1;     // probability that the members explain all readings
+  std::string discrepancy;  // the likeliest place where they do not
+};
+
+// Told and what came of it, in one record.
+struct JournalEntry {
+  std::optional<PlanRecord> plan;
+  std::optional<TellRecord> tell;
+  std::optional<DecisionRecord> decision;
+};
+
+std::string entry_text(const JournalEntry& entry);
+// Throws InputError for what this program has not written.
+JournalEntry read_entry(const std::string& text);
+
+}  // namespace papilla::lab

@@ -1,0 +1,52 @@
+// Every friction that can be or was measured, as rows of an ensemble.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "lab/ensemble.h"
+#include "lab/member_model.h"
+
+namespace papilla::lab {
+
+struct LabDesign {
+  std::string name;
+  Design design;
+  bool choice = true;  // one of those that are decided among
+};
+
+// The readings of one experiment: rows of the ensemble.
+struct MeasurableCell {
+  std::size_t skin = 0;                // common to experiments that differ in the drive alone
+  std::optional<std::size_t> off, on;  // none: some member has no such state
+};
+
+class ResponseTable {
+ public:
+  // Both outlive this.
+  ResponseTable(const std::vector<LabDesign>& designs, MemberModel& model)
+      : designs_(designs), model_(model) {}
+
+  // Evaluates what it does not know yet.
+  void add(const std::vector<Experiment>& experiments);
+  // Of an experiment that was added.
+  const MeasurableCell& cell(const Experiment& experiment) const;
+
+  const std::vector<std::vector<double>>& responses() const { return responses_; }
+  const std::vector<double>& numerical() const { return numerical_; }
+
+ private:
+  std::optional<std::size_t> add_row(const std::vector<double>& forces, double error);
+
+  const std::vector<LabDesign>& designs_;
+  MemberModel& model_;
+  std::map<std::string, MeasurableCell> cells_;
+  std::map<std::string, std::size_t> skins_;
+  std::vector<std::vector<double>> responses_;
+  std::vector<double> numerical_;
+};
+
+}  // namespace papilla::lab

@@ -1,0 +1,62 @@
+// What belief says after the readings: of the designs, of its hypotheses, and of what no member
+// explains.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "lab/decision_gain.h"
+#include "lab/discrepancy.h"
+#include "lab/gauge.h"
+#include "lab/lab_file.h"
+#include "lab/response_table.h"
+
+namespace papilla::lab {
+
+// Below it a belief is to be made again of all data: a few members stand for it.
+inline constexpr double kFewMembers = 10;
+
+// Numbers behind a state of a lab; they refer to one another, so they stay where they are.
+struct Standing {
+  Ensemble ensemble;
+  Kernels kernels;
+  Gauge gauge;
+  Instrument instrument;  // after its own readings
+  DecisionLimits limits;
+  std::vector<std::size_t> choices;  // designs that are decided among
+  std::unique_ptr<Evidence> evidence;
+  std::vector<Prospect> prospects;  // of the choices; empty: nothing is decided
+  std::size_t best = 0;             // of the choices
+  double best_worth = 0;            // on average over belief
+  // 95 % interval of the worth of each choice, and of how much better the best is than it.
+  struct Interval {
+    double low = 0, middle = 0, high = 0;
+  };
+  std::vector<Interval> worth, behind;
+  std::vector<double> weights, p_hypothesis;
+  double effective_members = 0;
+  Discrepancies discrepancies;
+
+  Standing() = default;
+  Standing(const Standing&) = delete;
+  Standing& operator=(const Standing&) = delete;
+  bool decided() const { return !prospects.empty(); }
+};
+
+// Of which row, by whom and when.
+std::vector<Observation> observations_of(const ResponseTable& table, const Experiment& experiment,
+                                         const Instrument& instrument, double off_share,
+                                         double on_share, const std::string& finger,
+                                         const std::string& day);
+
+// worth: of the choices at each member, NaN where there is none; kept: their limits, may be empty.
+std::unique_ptr<Standing> standing_of(const Belief& belief, const LabFile& file,
+                                      const std::vector<LabDesign>& designs,
+                                      const ResponseTable& table,
+                                      const std::vector<FrictionReading>& readings,
+                                      const std::vector<std::vector<double>>& worth,
+                                      const std::vector<std::vector<bool>>& kept);
+
+}  // namespace papilla::lab

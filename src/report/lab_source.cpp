@@ -1,0 +1,264 @@
+#include "report/lab_source.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/text.h"
+#include "base/units.h"
+#include "calibrate/calibration_file.h"
+#include "claims/claim.h"
+#include "config/reader.h"
+#include "metrics/metrics.h"
+
+namespace papilla::report {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LabOpener {
+ public:
+  explicit LabOpener(const LabSource& source) : source_(source) {}
+
+  LabOpening open() {
+    for (const std::string& path : source_.paths) take(path);
+    if (designs_.empty()) throw InputError("no design to measure");
+    set_belief();
+    set_conditions();
+    set_worth();
+    LabFile& file = out_.opening.file;
+    file.source = join_names(source_.paths, " ");
+    out_.opening.designs = designs_;
+    return std::move(out_);
+  }
+
+ private:
+  LabFile& file() { return out_.opening.file; }
+  void note(const std::string& text) { out_.notes.push_back(text); }
+
+  void take(const std::string& path) {
+    const bool folder = fs::is_directory(path);
+    if (folder && fs::is_regular_file(path + "/run.json")) return take_run(path);
+    if (folder && fs::is_regular_file(path + "/manifest.csv"))
+      return take_manifest(path + "/manifest.csv");
+    if (path.ends_with(".csv")) return take_manifest(path);
+    if (folder)
+      throw InputError(path + ": neither a run (run.json), nor a wafer (manifest.csv), nor a lab");
+    if (is_calibration(path)) return take_calibration(path);
+    add(fs::path(path).stem().string(), read_design(path), true);
+  }
+
+  static bool is_calibration(const std::string& path) {
+    return load_document(path, {}, design_roots()).has("parameters");
+  }
+
+  // Under a name that no other has; the index of the design.
+  std::size_t add(std::string name, const Design& design, bool choice) {
+    const auto taken = [&](const std::string& n) {
+      return std::any_of(file().designs.begin(), file().designs.end(),
+                         [&](const DesignEntry& d) { return d.name == n; });
+    };
+    const std::string plain = name;
+    for (int k = 2; taken(name); ++k) name = fmt::format("{}-{}", plain, k);
+    std::string stem = name;
+    std::replace(stem.begin(), stem.end(), '/', '_');
+    file().designs.push_back({name, "designs/" + stem + ".toml", choice});
+    designs_.push_back(design);
+    return designs_.size() - 1;
+  }
+
+  void take_run(const std::string& path) {
+    const Folder folder(path);
+    nlohmann::ordered_json run;
+    try {
+      run = nlohmann::ordered_json::parse(folder.read("run.json")).at("decision");
+    } catch (const nlohmann::ordered_json::exception&) {
+      throw InputError(path +
+                       "/run.json: no decision in it: an unfinished run, or of another "
+                       "version of this program");
+    }
+    if (const std::string absent = run.value("absent", ""); !absent.empty())
+      throw InputError(path + ": no decision by belief: " + absent);
+    RunWorth worth;
+    worth.name = run.value("worth", "");
+    for (const auto& [name, design] : run.at("designs").items()) {
+      if (!design.contains("worth_at_members"))
+        throw InputError(path +
+                         "/run.json: without what its designs are worth at each member; "
+                         "`papilla optimize` with the same study adds it, nothing is "
+                         "evaluated again");
+      add(name, read_design(folder.file(name + "/design.toml")), true);
+      worth.designs.push_back(name);
+      std::vector<double>& row = worth.worth.emplace_back();
+      for (const auto& x : design.at("worth_at_members"))
+        row.push_back(x.is_null() ? std::nan("") : x.get<double>());
+      worth.kept.push_back(design.at("limits_kept_at_members").get<std::vector<bool>>());
+    }
+    file().worth = worth.name;
+    file().worth_file = "worth.json";
+    out_.opening.worth = std::move(worth);
+  }
+
+  // Fields of a wafer. A design that a run has brought already is that one.
+  void take_manifest(const std::string& path) {
+    const MeasuredTable table = read_measured_table(read_bytes(path, std::size_t{1} << 26), path);
+    std::vector<Problem> problems;
+    std::map<std::string, std::size_t> known;
+    for (const MeasuredRow& row : table.rows) {
+      const auto problem = [&](const char* key, const std::string& message) {
+        problems.push_back({path, row.line, 0, key, message});
+      };
+      if (row.field.empty()) problem("field", "a row without a label");
+      if (row.design.empty()) problem("design", "a row without a design");
+      if (!row.load) problem("load", "a row without a load");
+      if (!row.relative_humidity) problem("humidity", "a row without a humidity");
+      if (row.field.empty() || row.design.empty() || !row.load || !row.relative_humidity) continue;
+      if (!known.count(row.design)) {
+        const std::string at = (fs::path(path).parent_path() / row.design).string();
+        try {
+          known[row.design] = same_or_new(row.design, read_design(at));
+        } catch (const InputError& error) {
+          for (const Problem& p : error.problems()) problems.push_back(p);
+          continue;
+        }
+      }
+      file().fields.push_back({row.field, file().designs[known[row.design]].name, *row.load,
+                               *row.relative_humidity, row.voltage.value_or(0),
+                               row.frequency.value_or(0), row.state.value_or(FingerState::Clean)});
+    }
+    if (!problems.empty()) throw InputError(problems);
+    for (const std::string& n : table.notes) note(fs::path(path).filename().string() + ": " + n);
+  }
+
+  std::size_t same_or_new(const std::string& name, const Design& design) {
+    for (std::size_t i = 0; i < designs_.size(); ++i) {
+      if (designs_[i].texture == design.texture && designs_[i].surface == design.surface) return i;
+    }
+    // Beside a run the wafer's other fields are controls.
+    return add(fs::path(name).stem().string(), design, !out_.opening.worth.has_value());
+  }
+
+  void take_calibration(const std::string& path) {
+    const Calibration c = read_calibration(path, m3_claim_ids());
+    std::vector<std::string> files;
+    CandidateConditions& at = file().conditions;
+    const auto once = [](std::vector<double>& values, double v) {
+      if (std::find(values.begin(), values.end(), v) == values.end()) values.push_back(v);
+    };
+    for (const FrictionDatum& d : c.data) {
+      once(at.load, d.load);
+      once(at.humidity, d.relative_humidity);
+      once(at.voltage, d.amplitude);
+      if (std::find(files.begin(), files.end(), d.design) != files.end()) continue;
+      files.push_back(d.design);
+      Design design = read_design(d.design);
+      design.finger = c.finger;
+      add(fs::path(d.design).stem().string(), design, false);
+    }
+    if (files.empty())
+      throw InputError(path +
+                       ": a fit to published numbers alone names no design to measure; name "
+                       "design files, with --belief");
+    calibrated_ = true;
+    if (source_.belief.empty()) {
+      const std::string fitted = "results/" + fs::path(path).stem().string() + "/belief.toml";
+      if (!fs::is_regular_file(fitted))
+        throw InputError(path + ": no " + fitted +
+                         "; run `papilla calibrate` first, or say --belief");
+      belief_ = fitted;
+    }
+  }
+
+  void set_belief() {
+    std::string path = source_.belief.empty() ? belief_ : source_.belief;
+    if (path.empty()) path = designs_.front().finger.belief;
+    if (path.empty())
+      throw InputError(
+          fmt::format("finger \"{}\" names no belief (finger.belief): say --belief FILE",
+                      designs_.front().finger.name));
+    const Belief belief = read_belief(path, designs_.front().finger);
+    for (const Design& d : designs_) {
+      if (d.model == belief.calibrated_for) continue;
+      throw InputError(
+          fmt::format("{}: its members were found for other model options than [model] "
+                      "of {}",
+                      path, d.title));
+    }
+    out_.opening.belief_text =
+        "# Before anything was measured: " + path + ".\n" + belief_text(belief);
+    note(fmt::format("belief: {} ({} members, as good as {} equal ones)", path,
+                     belief.members.size(), significant(belief.effective_members(), 3)));
+  }
+
+  std::vector<double> listed(const std::string& text, const char* unit, const char* option) {
+    std::vector<double> out;
+    for (const std::string& one : split(text, ',')) {
+      if (one.empty()) throw InputError(fmt::format("{}: \"{}\": an empty item", option, text));
+      out.push_back(parse_si(one, unit));
+    }
+    return out;
+  }
+
+  void set_conditions() {
+    CandidateConditions& at = file().conditions;
+    const auto given = [&](const std::string& text, const char* unit, const char* option,
+                           std::vector<double>& values) {
+      if (!text.empty()) values = listed(text, unit, option);
+    };
+    const Design& first = designs_.front();
+    if (at.load.empty()) at.load = {first.finger.load};
+    if (at.humidity.empty()) at.humidity = first.environment.relative_humidity;
+    if (at.voltage.empty()) {
+      const bool current = first.drive.driven() && first.drive.control == DriveControl::Current;
+      if (current && source_.voltage.empty())
+        throw InputError(
+            "a drive by current: say at which voltages friction can be measured, "
+            "--voltage \"100 V\"");
+      at.voltage = {first.drive.amplitude};
+    }
+    given(source_.load, "N", "--load", at.load);
+    given(source_.humidity, "%", "--humidity", at.humidity);
+    given(source_.voltage, "V", "--voltage", at.voltage);
+    given(source_.frequency, "Hz", "--frequency", at.frequency);
+    at.states =
+        source_.states.empty()
+            ? std::vector{finger_state_names()[static_cast<std::size_t>(first.finger.state)]}
+            : split(source_.states, ',');
+    if (!file().fields.empty())
+      note(fmt::format("{} of the wafer can be measured", counted(file().fields.size(), "field")));
+  }
+
+  void set_worth() {
+    if (!source_.worth.empty()) {
+      if (out_.opening.worth)
+        throw InputError("--worth: the run decides by its own rule, " + out_.opening.worth->name);
+      parse_metric(source_.worth);
+      file().worth = source_.worth;
+      return;
+    }
+    if (out_.opening.worth || calibrated_ || designs_.size() < 2) return;
+    const bool driven = std::all_of(designs_.begin(), designs_.end(),
+                                    [](const Design& d) { return d.drive.driven(); });
+    if (driven) file().worth = "worst(modulation)";
+    note(driven ? "designs are compared by worst(modulation); --worth for another metric"
+                : "nothing is decided, as some designs are not driven; --worth says by what");
+  }
+
+  const LabSource& source_;
+  LabOpening out_;
+  std::vector<Design> designs_;
+  std::string belief_;
+  bool calibrated_ = false;
+};
+
+}  // namespace
+
+LabOpening lab_opening(const LabSource& source) { return LabOpener(source).open(); }
+
+}  // namespace papilla::report

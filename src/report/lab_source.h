@@ -1,0 +1,29 @@
+// What a lab is opened with: a run and its finalists, a wafer's manifest, designs by name, a
+// calibration.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "lab/lab.h"
+
+namespace papilla::report {
+
+struct LabSource {
+  // A folder that `papilla optimize` wrote, a manifest.csv or its folder, design files, a
+  // calibration; a run and a manifest together.
+  std::vector<std::string> paths;
+  std::string belief;  // a file; "": that of the designs' finger, or of the calibration
+  std::string worth;   // a metric; "": that of the run, else worst(modulation) of driven designs
+  std::string load, humidity, voltage, frequency, states;  // lists, "0 V,100 V"; "": the designs'
+};
+
+// What the lab will hold, and for people what was taken where nothing was said. Throws InputError.
+struct LabOpening {
+  Opening opening;
+  std::vector<std::string> notes;
+};
+LabOpening lab_opening(const LabSource& source);
+
+}  // namespace papilla::report

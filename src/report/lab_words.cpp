@@ -1,0 +1,335 @@
+#include "report/lab_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "metrics/shown.h"
+#include "report/tables.h"
+
+namespace papilla::report {
+namespace {
+
+std::string lab_percent(double share) {
+  if (share > 0.99 && share < 1 - 1e-9) return "over 99 %";
+  if (share > 1e-9 && share < 0.01) return "under 1 %";
+  return fmt::format("{:.0f} %", 100 * share);
+}
+
+const std::string& choice_name(const Lab& lab, std::size_t choice) {
+  std::size_t k = 0;
+  for (const LabDesign& d : lab.designs()) {
+    if (d.choice && k++ == choice) return d.name;
+  }
+  return lab.designs().front().name;
+}
+
+std::string newtons(double force) { return significant(1e3 * force, 3) + " mN"; }
+
+std::string hours(double seconds) {
+  const long minutes = std::lround(seconds / 60);
+  return minutes < 60 ? fmt::format("{} min", minutes)
+                      : fmt::format("{} h {} min", minutes / 60, minutes % 60);
+}
+
+std::string hypotheses_text(const Ensemble& e, const std::vector<double>& p) {
+  std::vector<std::string> out;
+  for (std::size_t h = 0; h < p.size(); ++h)
+    out.push_back(fmt::format("\"{}\" {}", e.hypotheses[h], lab_percent(p[h])));
+  return join_names(out);
+}
+
+std::string regret_text(const Standing& s, double regret) {
+  if (s.best_worth == 0) return significant(regret, 2);
+  return fmt::format("{} ({} %)", significant(regret, 2),
+                     significant(100 * regret / std::abs(s.best_worth), 2));
+}
+
+std::string choices_table(const Lab& lab, const Standing& s) {
+  std::string out = markdown_head(
+      {"design", "p(best)", "expected regret", "worth, 95 %", "behind the best, 95 %"});
+  for (std::size_t i = 0; i < s.prospects.size(); ++i) {
+    const auto band = [](const Standing::Interval& v) {
+      return fmt::format("{} ({} to {})", significant(v.middle, 3), significant(v.low, 3),
+                         significant(v.high, 3));
+    };
+    out += markdown_row({choice_name(lab, i), lab_percent(s.prospects[i].p_best),
+                         regret_text(s, s.prospects[i].regret), band(s.worth[i]),
+                         i == s.best ? "" : band(s.behind[i])});
+  }
+  return out;
+}
+
+std::string discrepancy_text(const Standing& s) {
+  const Discrepancies& d = s.discrepancies;
+  if (d.found.empty()) return {};
+  const Discrepancy& first = d.found.front();
+  std::string out = fmt::format(
+      "The members explain all readings with probability {} (chi squared {} a reading).",
+      lab_percent(d.none), significant(d.misfit, 2));
+  if (d.none > 0.5) return out + "\n";
+  out += fmt::format(
+      " What no member explains lies most likely {} ({}): friction is {:+.0f} % ± {:.0f} % off "
+      "there.",
+      first.where, lab_percent(first.probability), 100 * std::expm1(first.shift),
+      100 * first.deviation);
+  if (d.found.size() > 1 && d.found[1].probability > 0.05)
+    out += fmt::format(" Else {} ({}).", d.found[1].where, lab_percent(d.found[1].probability));
+  return out + "\n";
+}
+
+std::string gauge_text(const Lab& lab, const Standing& s) {
+  std::string out;
+  const Instrument& stated = lab.file().instrument;
+  const auto line = [&](const char* name, const GaugeSpread& found, double is, double used) {
+    if (found.freedom == 0) return;
+    out += fmt::format("- {}: {} % by {} of its own readings, {} % stated{}\n", name,
+                       significant(100 * found.deviation, 2), counted(found.freedom, "difference"),
+                       significant(100 * is, 2), used > is ? ": the readings are believed" : "");
+  };
+  line("repeatability", s.gauge.repeatability, stated.repeatability, s.instrument.repeatability);
+  line("day to day", s.gauge.day_to_day, stated.day_to_day, s.instrument.day_to_day);
+  line("finger to finger", s.gauge.finger_to_finger, stated.finger_to_finger,
+       s.instrument.finger_to_finger);
+  return out.empty() ? out : "\nThe instrument:\n\n" + out;
+}
+
+std::string members_text(const Standing& s) {
+  std::string out =
+      fmt::format("Belief is worth {} equal members.", significant(s.effective_members, 3));
+  if (s.effective_members < kFewMembers)
+    out +=
+        " These are few: fit it again to all readings (`papilla calibrate` takes readings.csv of "
+        "this folder), and open a new lab with the belief of that fit.";
+  return out + "\n";
+}
+
+// "below 61 mN: front/02 (80 %); between: ...; above 75 mN: front/05 (64 %)"
+std::string thirds_text(const Lab& lab, const std::vector<Foreseen>& thirds) {
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < thirds.size(); ++k) {
+    const std::string where = k == 0                   ? "below " + newtons(thirds[k].high)
+                              : k + 1 == thirds.size() ? "above " + newtons(thirds[k].low)
+                                                       : std::string("between");
+    out.push_back(fmt::format("{}: {} ({})", where, choice_name(lab, thirds[k].choice),
+                              lab_percent(thirds[k].p_choice)));
+  }
+  return join_names(out, "; ");
+}
+
+bool changes(const std::vector<Foreseen>& thirds) {
+  return !thirds.empty() && std::any_of(thirds.begin(), thirds.end(), [&](const Foreseen& o) {
+    return o.choice != thirds.front().choice || o.p_choice < 0.9;
+  });
+}
+
+std::string outcomes_text(const Lab& lab, const PlanRecord& plan) {
+  std::string out;
+  for (const PlannedExperiment& e : plan.experiments) {
+    for (const auto& [name, thirds] : {std::pair("F_off", &e.off), std::pair("F_on", &e.on)}) {
+      if (changes(*thirds))
+        out += fmt::format("- {}, {} {}\n", e.id, name, thirds_text(lab, *thirds));
+    }
+  }
+  if (out.empty()) return "\nNo single outcome changes the choice.\n";
+  return "\nWhat each outcome would change, once the whole batch is in (the design that is then "
+         "chosen most often):\n\n" +
+         out;
+}
+
+std::string expectation(const std::vector<double>& e) {
+  if (e.empty()) return "";
+  return fmt::format("{} ({} to {})", significant(1e3 * e[0], 3), significant(1e3 * e[1], 3),
+                     significant(1e3 * e[2], 3));
+}
+
+std::string plan_table(const Lab& lab, const PlanRecord& plan) {
+  const bool fields = std::any_of(plan.experiments.begin(), plan.experiments.end(),
+                                  [](const PlannedExperiment& e) { return !e.field.empty(); });
+  std::vector<std::string> head{
+      "", "design", "conditions", "touches", "F_off expected [mN]", "F_on expected [mN]"};
+  if (fields) head.insert(head.begin() + 1, "field");
+  std::string out = markdown_head(head);
+  for (const PlannedExperiment& e : plan.experiments) {
+    std::vector<std::string> row{e.id,
+                                 lab.designs()[e.experiment.design].name,
+                                 text(e.experiment.at),
+                                 std::to_string(e.repeats),
+                                 expectation(e.expected_off),
+                                 expectation(e.expected_on)};
+    if (fields) row.insert(row.begin() + 1, e.field);
+    out += markdown_row(row);
+  }
+  return out;
+}
+
+std::string why_text(const Standing& s, const PlanRecord& plan) {
+  switch (plan.aim) {
+    case Aim::Decision:
+      return fmt::format(
+          "Why these: of all that can be measured they lower the expected regret of the choice "
+          "most "
+          "for the time they take, from {} to {}; with probability {} another design is chosen "
+          "after them.",
+          regret_text(s, plan.regret_now), regret_text(s, plan.regret_after),
+          lab_percent(plan.p_change));
+    case Aim::Hypotheses:
+      return "Why these: the hypotheses of the model differ most there for the scatter of a "
+             "reading "
+             "(T-optimal). They weigh now: " +
+             hypotheses_text(s.ensemble, s.p_hypothesis) + ".";
+    case Aim::Parameters:
+      return "Why these: they shrink most of all that the members of belief differ in (D-optimal).";
+  }
+  return {};
+}
+
+std::string stop_text(const Standing& s, const PlanRecord& plan) {
+  if (plan.aim != Aim::Decision) return {};
+  if (plan.stop)
+    return fmt::format(
+        "\nStop: {} more change no decision. What is still expected to be lost, {}, "
+        "is below what was said to be worth it (stop in lab.toml).\n",
+        counted(static_cast<long long>(plan.experiments.size()), "experiment"),
+        regret_text(s, plan.regret_now));
+  return "\nStop when the expected regret is below `stop` of lab.toml: `papilla tell` says it "
+         "after "
+         "every table.\n";
+}
+
+std::string decision_line(const DecisionRecord& d) {
+  std::string out =
+      fmt::format("{}, {}", d.date, counted(static_cast<long long>(d.readings), "reading"));
+  if (!d.best.empty())
+    out += fmt::format(": {} is the best with probability {}, expected regret {}", d.best,
+                       lab_percent(d.p_best), significant(d.regret, 2));
+  return out + fmt::format("; as good as {} members", significant(d.effective_members, 3));
+}
+
+}  // namespace
+
+std::string lab_standing_text(Lab& lab) {
+  const Standing& s = lab.standing();
+  std::string out;
+  if (s.decided()) {
+    const Prospect& best = s.prospects[s.best];
+    out += fmt::format("{} is the best of {} in {} with probability {}; expected regret {}.\n\n",
+                       choice_name(lab, s.best), s.prospects.size(), lab.file().worth,
+                       lab_percent(best.p_best), regret_text(s, best.regret));
+    out += choices_table(lab, s) + "\n";
+  }
+  if (s.ensemble.hypotheses.size() > 1)
+    out += "Hypotheses: " + hypotheses_text(s.ensemble, s.p_hypothesis) + ".\n";
+  return out + members_text(s) + discrepancy_text(s) + gauge_text(lab, s);
+}
+
+std::string lab_plan_text(Lab& lab, const PlanRecord& plan) {
+  const Standing& s = lab.standing();
+  std::string out = "# What to measure next\n\n" + lab_standing_text(lab) + "\n";
+  if (plan.experiments.empty()) return out + "Nothing that can be measured tells anything.\n";
+  out += plan_table(lab, plan) + "\n" + why_text(s, plan) +
+         fmt::format(" It takes {}.\n", hours(plan.seconds));
+  if (plan.aim == Aim::Decision) out += outcomes_text(lab, plan);
+  return out + stop_text(s, plan);
+}
+
+std::string lab_told_text(const Lab& lab, const Told& told) {
+  std::string out;
+  const std::string& file = told.record.file;
+  const auto count = static_cast<long long>(told.record.readings.size());
+  if (count > 0) {
+    out += fmt::format("{}: {} told\n", file, counted(count, "reading"));
+    for (const FrictionReading& r : told.record.readings) {
+      std::vector<std::string> forces;
+      const auto add = [&](const char* name, double force, double sd) {
+        if (force > 0)
+          forces.push_back(fmt::format("{} {} mN", name, with_error(1e3 * force, 1e3 * sd)));
+      };
+      add("F_off", r.off, r.off_sd);
+      add("F_on", r.on, r.on_sd);
+      out += fmt::format("- {}{}, {}: {}\n", r.id.empty() ? "" : r.id + " ",
+                         lab.designs()[r.experiment.design].name, text(r.experiment.at),
+                         join_names(forces));
+    }
+  }
+  if (told.already > 0)
+    out += fmt::format("{}: {} told already, in {}: not counted again\n", file,
+                       counted(told.already, "reading"), told.already_of);
+  if (told.empty > 0)
+    out += fmt::format("{}: {} not measured yet, left planned\n", file, counted(told.empty, "row"));
+  for (const std::string& n : told.record.notes) out += "- " + n + "\n";
+  if (!told.after) return out;
+  out += "\nBefore: " + decision_line(*told.before) + ".\n";
+  out += "Now:    " + decision_line(*told.after) + ".\n";
+  if (told.before->best != told.after->best)
+    out += fmt::format("The recommendation changes from {} to {}.\n", told.before->best,
+                       told.after->best);
+  return out;
+}
+
+std::string lab_page(Lab& lab) {
+  std::string out = "# Lab: " + lab.file().source + "\n\n" + lab_standing_text(lab);
+  std::vector<std::string> decisions, told;
+  const PlanRecord* last = nullptr;
+  for (const JournalEntry& e : lab.entries()) {
+    if (e.plan) last = &*e.plan;
+    if (e.decision)
+      decisions.push_back(
+          decision_line(*e.decision) +
+          (e.plan ? fmt::format(
+                        " ({} planned)",
+                        counted(static_cast<long long>(e.plan->experiments.size()), "experiment"))
+                  : " (" + e.tell->file + " told)"));
+    if (!e.tell) continue;
+    told.push_back(
+        fmt::format("{}, {}: {}", e.tell->date, e.tell->file,
+                    counted(static_cast<long long>(e.tell->readings.size()), "reading")));
+    for (const std::string& n : e.tell->notes) told.push_back("  - " + n);
+  }
+  if (last && !last->experiments.empty()) out += "\n## Planned last\n\n" + plan_table(lab, *last);
+  if (!told.empty()) {
+    out += "\n## Told\n\n";
+    for (const std::string& t : told) out += t.starts_with("  ") ? t + "\n" : "- " + t + "\n";
+  }
+  if (!decisions.empty()) out += "\n## Decisions\n\n";
+  for (const std::string& d : decisions) out += "- " + d + "\n";
+  return out;
+}
+
+std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan) {
+  std::string out =
+      "experiment,field,design,repeat,load_N,humidity_percent,voltage_V,frequency_Hz,state,finger,"
+      "day,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N\n";
+  for (const PlannedExperiment& e : plan.experiments) {
+    const Conditions& at = e.experiment.at;
+    for (int k = 1; k <= e.repeats; ++k)
+      out += fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},,,,,,\n", e.id,
+                         csv_cell(e.field), csv_cell(lab.designs()[e.experiment.design].name), k,
+                         at.load, 100 * at.relative_humidity, at.voltage, at.frequency,
+                         finger_state_names()[static_cast<std::size_t>(at.state)]);
+  }
+  return out;
+}
+
+std::string lab_readings_csv(const Lab& lab) {
+  std::string out =
+      "design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N"
+      "\n";
+  const double own = lab.file().instrument.repeatability;
+  for (const FrictionReading& r : lab.readings()) {
+    if (!(r.off > 0)) continue;
+    const Conditions& at = r.experiment.at;
+    const auto sd = [&](double force, double stated) { return std::hypot(stated, own * force); };
+    out += fmt::format(
+        "{},{:.4g} %,{:.6g},{:.6g},{:.6g},{:.6g},{:.3g},",
+        lab.file().designs[r.experiment.design].file, 100 * at.relative_humidity, at.voltage,
+        at.frequency > 0 ? at.frequency : lab.designs()[r.experiment.design].design.drive.frequency,
+        at.load, r.off, sd(r.off, r.off_sd));
+    out += r.on > 0 ? fmt::format("{:.6g},{:.3g}\n", r.on, sd(r.on, r.on_sd)) : std::string(",\n");
+  }
+  return out;
+}
+
+}  // namespace papilla::report

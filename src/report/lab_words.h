@@ -1,0 +1,32 @@
+// A lab in words: what to measure next and why, what told readings have changed, where it stands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/rooms.h"
+#include "lab/lab.h"
+
+namespace papilla::report {
+
+// Which design, how surely, how much it is better; what the hypotheses weigh; what no member
+// explains; how many readings, and whether a new fit is due.
+std::string lab_standing_text(Lab& lab);
+// The batch as a table, why, what each outcome would change, what it takes, when to stop.
+std::string lab_plan_text(Lab& lab, const PlanRecord& plan);
+// What came of a file: readings, notes, the decision before and after.
+std::string lab_told_text(const Lab& lab, const Told& told);
+// All of it, with the history of decisions: lab.md.
+std::string lab_page(Lab& lab);
+
+// One JSON object each.
+std::string lab_plan_json(Lab& lab, const PlanRecord& plan);
+std::string lab_told_json(const Lab& lab, const Told& told);
+std::string lab_state_json(Lab& lab);
+
+// Tables to fill in and to give on.
+std::string lab_plan_csv(const Lab& lab, const PlanRecord& plan);
+// With the columns of `papilla calibrate`; readings without a friction off are left out.
+std::string lab_readings_csv(const Lab& lab);
+
+}  // namespace papilla::report

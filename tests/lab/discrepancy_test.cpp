@@ -1,0 +1,79 @@
+// Planted errors of the model, and none; the instrument's own scatter from its repeats.
+#include "lab/discrepancy.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "lab/gauge.h"
+#include "tests/lab/ensembles.h"
+
+namespace papilla::tests {
+namespace {
+
+// Ten rows that one number moves alike; readings of a member with some of them off by a factor.
+Discrepancies found(double planted) {
+  const std::vector<std::vector<double>> same(10, {0.3});
+  const Ensemble e = linear_ensemble(50, same, {{1.0}, {0.0}});
+  const Kernels k = kernels_of(e);
+  const Instrument instrument{0.02, 0.03, 0.05, 0.01};
+  Evidence evidence(e, k, instrument);
+  RandomStream random(3, "planted");
+  for (std::size_t i = 0; i < 10; ++i) {
+    const double wrong = i >= 7 ? planted : 0;
+    evidence.add(observation(i, 0.02, i), e.responses[i][20] + wrong + 0.02 * random.normal());
+  }
+  return discrepancies(
+      e, evidence,
+      {{"of the first", {0, 1, 2}}, {"of the last", {7, 8, 9}}, {"at even ones", {0, 2, 4, 6, 8}}},
+      std::log(1.2));
+}
+
+TEST(Discrepancy, IsFoundWhereItIsWithItsSize) {
+  const Discrepancies d = found(std::log(1.2));
+  EXPECT_LT(d.none, 0.01);
+  EXPECT_EQ(d.found.front().where, "of the last");
+  EXPECT_GT(d.found.front().probability, 0.98);
+  EXPECT_NEAR(d.found.front().shift, std::log(1.2), 3 * d.found.front().deviation);
+  EXPECT_LT(d.found.front().deviation, 0.05);
+}
+
+TEST(Discrepancy, IsNotSeenWhereThereIsNone) {
+  const Discrepancies d = found(0);
+  EXPECT_GT(d.none, 0.7);
+  double sum = d.none;
+  for (const Discrepancy& one : d.found) sum += one.probability;
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+TEST(Gauge, PartsRepeatsDaysAndFingers) {
+  RandomStream random(9, "gauge");
+  std::vector<FrictionReading> readings;
+  for (int finger = 0; finger < 60; ++finger) {
+    const double of_finger = 0.2 * random.normal();
+    for (int day = 0; day < 3; ++day) {
+      const double of_day = 0.08 * random.normal();
+      for (int repeat = 0; repeat < 4; ++repeat) {
+        FrictionReading r;
+        r.finger = std::to_string(finger);
+        r.day = std::to_string(day);
+        r.off = 0.1 * std::exp(of_finger + of_day + 0.03 * random.normal());
+        readings.push_back(r);
+      }
+    }
+  }
+  const Gauge g = gauge_of(readings);
+  // A deviation from n differences is known to 1 / sqrt(2 n).
+  EXPECT_EQ(g.repeatability.freedom, 540);
+  EXPECT_NEAR(g.repeatability.deviation, 0.03, 3 * 0.03 / std::sqrt(2 * 540.0));
+  EXPECT_NEAR(g.day_to_day.deviation, 0.08, 3 * 0.08 / std::sqrt(2 * 120.0));
+  EXPECT_NEAR(g.finger_to_finger.deviation, 0.2, 3 * 0.2 / std::sqrt(2 * 59.0));
+  const Instrument stated{0.01, 0.1, 0.1, 0.03};
+  const Instrument used = after_gauge(stated, g);
+  EXPECT_EQ(used.repeatability, g.repeatability.deviation);
+  EXPECT_EQ(used.day_to_day, stated.day_to_day);
+  EXPECT_EQ(used.model, stated.model);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,106 @@
+// Weights and worth after readings against the formulas of normal distributions.
+#include "lab/evidence.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "tests/lab/ensembles.h"
+
+namespace papilla::tests {
+namespace {
+
+TEST(Kernels, KeepMeanAndCovarianceOfTheMembers) {
+  const Ensemble e = linear_ensemble(40, {{1, 0.5}, {0.2, -1}}, {{2, 1}});
+  const Kernels k = kernels_of(e);
+  double mean = 0, middle = 0, variance = 0, within = 0;
+  for (std::size_t m = 0; m < 40; ++m) {
+    mean += e.responses[0][m] / 40;
+    middle += k.responses[0][m] / 40;
+  }
+  for (std::size_t m = 0; m < 40; ++m) {
+    variance += std::pow(e.responses[0][m] - mean, 2) / 40;
+    within += std::pow(k.responses[0][m] - middle, 2) / 40;
+  }
+  EXPECT_NEAR(middle, mean, 1e-12);
+  EXPECT_NEAR(within + k.width * k.width * k.covariance(0, 0), variance, 1e-12);
+  // Two directions of unlike size: (1.29 + 1.04)^2 / ... lies between 1 and 2 dimensions.
+  EXPECT_GT(k.width, 0.4);
+  EXPECT_LT(k.width, 0.65);
+}
+
+TEST(Evidence, GivesTheWeightsOfTheDensityOfAllReadingsTogether) {
+  Ensemble e = linear_ensemble(12, {{1, 0.5}, {0.2, -1}, {0.7, 0.1}}, {{2, 1}});
+  e.numerical = {0.02, 0.3, 0.1};  // of the model, common to a cell: off and on differ
+  const Kernels k = kernels_of(e);
+  const Instrument instrument{0.1, 0.2, 0.3, 0.15};
+  Evidence evidence(e, k, instrument);
+  std::vector<Observation> all{observation(0, 0.1, 0), observation(1, 0.15, 0),
+                               observation(2, 0.1, 1), observation(0, 0.1, 0)};
+  all[3].day = "2";
+  all[1].cell = all[0].cell;
+  const std::vector<double> y{0.3, -0.2, 0.1, 0.4};
+  Eigen::MatrixXd c(4, 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    evidence.add(all[i], y[i]);
+    for (std::size_t j = 0; j < 4; ++j)
+      c(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          covariance(instrument, all[i], all[j], i == j,
+                     e.numerical[all[i].row] * e.numerical[all[j].row]) +
+          k.width * k.width * k.covariance(all[i].row, all[j].row);
+  }
+  std::vector<double> expected;
+  double sum = 0;
+  for (std::size_t m = 0; m < 12; ++m) {
+    Eigen::VectorXd r(4);
+    for (std::size_t i = 0; i < 4; ++i)
+      r(static_cast<Eigen::Index>(i)) = y[i] - k.responses[all[i].row][m];
+    expected.push_back(std::exp(-0.5 * r.dot(c.inverse() * r)));
+    sum += expected.back();
+  }
+  const std::vector<double> weights = evidence.weights();
+  for (std::size_t m = 0; m < 12; ++m) EXPECT_NEAR(weights[m], expected[m] / sum, 1e-10);
+}
+
+// Of a linear model the posterior is known: mean and variance of the worth.
+TEST(Evidence, MovesWorthAsALinearModelDoes) {
+  const Ensemble e = linear_ensemble(3000, {{1.0}}, {{2.0}, {0.0}});
+  const Kernels k = kernels_of(e);
+  const Instrument instrument = plain_instrument(0.5);
+  Evidence evidence(e, k, instrument);
+  evidence.add(observation(0, 0.5), 0.8);
+  const WorthAfter after = worth_after(e, k, evidence);
+  double mean = 0, squares = 0;
+  for (std::size_t i = 0; i < after.weights.size(); ++i) {
+    mean += after.weights[i] * after.worth[0][i];
+    squares += after.weights[i] * after.worth[0][i] * after.worth[0][i];
+  }
+  // x ~ N(0, 1), y = x + N(0, .25): mean 0.8 / 1.25, variance 0.25 / 1.25; worth 2 x.
+  EXPECT_NEAR(mean, 2 * 0.64, 0.03);
+  EXPECT_NEAR(std::sqrt(squares - mean * mean), 2 * std::sqrt(0.2), 0.03);
+}
+
+TEST(Evidence, OfTwoReadingsOnADayKnowsTheirRatioBest) {
+  const Ensemble e = linear_ensemble(200, {{1.0, 0.0}, {1.0, 0.3}}, {{0.0, 1.0}, {0.0, 0.0}});
+  const Kernels k = kernels_of(e);
+  const Instrument instrument{0.02, 0.3, 0.3, 0};
+  const auto spread = [&](const std::string& second_day) {
+    Evidence evidence(e, k, instrument);
+    evidence.add(observation(0, 0.02, 0), 0.1);
+    Observation second = observation(1, 0.02, 1);
+    second.day = second_day;
+    evidence.add(second, 0.2);
+    const WorthAfter after = worth_after(e, k, evidence);
+    double mean = 0, squares = 0;
+    for (std::size_t i = 0; i < after.weights.size(); ++i) {
+      mean += after.weights[i] * after.worth[0][i];
+      squares += after.weights[i] * after.worth[0][i] * after.worth[0][i];
+    }
+    return std::sqrt(squares - mean * mean);
+  };
+  EXPECT_LT(spread("1"), 0.25 * spread("2"));
+}
+
+}  // namespace
+}  // namespace papilla::tests

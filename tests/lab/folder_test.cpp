@@ -1,0 +1,210 @@
+// A lab as a folder: what is told is there once, whatever happens.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "report/lab_folder.h"
+#include "tests/cli/program.h"
+#include "tests/lab/small_lab.h"
+#include "tests/lab/tribometer.h"
+#include "tests/support/refusal.h"
+
+namespace papilla::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LabFolder : public testing::Test {
+ protected:
+  // One model run for all tests: each has a copy of the opened lab.
+  static void SetUpTestSuite() {
+    place_ = new TemporaryFolder;
+    write_small_lab(place_->path());
+    NextRun run;
+    for (const char* d : {"deep", "shallow"})
+      run.source.paths.push_back((place_->path() / (std::string(d) + ".toml")).string());
+    run.source.belief = (place_->path() / "belief.toml").string();
+    run.source.humidity = "35 %,75 %";
+    run.folder = (place_->path() / "first").string();
+    run.options.date = "2026-03-01";
+    run.options.count = 4;
+    plan_ = new NextReport(next_in_lab(run));
+  }
+  static void TearDownTestSuite() {
+    delete plan_;
+    delete place_;
+  }
+  void SetUp() override {
+    folder_ = (own_.path() / "lab").string();
+    fs::copy(place_->path() / "first", folder_, fs::copy_options::recursive);
+  }
+
+  std::string file(const std::string& name, const std::string& text) const {
+    write_text(own_.path() / name, text);
+    return (own_.path() / name).string();
+  }
+  TellReport tell(const std::vector<std::string>& files, bool replace = false) const {
+    TellRun run;
+    run.folder = folder_;
+    run.files = files;
+    run.options.date = "2026-03-02";
+    run.options.replace = replace;
+    return tell_lab(run);
+  }
+  std::size_t readings() const { return Lab(folder_, 1).readings().size(); }
+  std::string words(const TellReport& report) const {
+    std::string out;
+    for (const Problem& p : report.refused) out += p.text() + "\n";
+    return out;
+  }
+
+  static constexpr const char* kHead =
+      "design,repeat,load_N,humidity_percent,voltage_V,day,F_off_N,F_on_N\n";
+  static TemporaryFolder* place_;
+  static NextReport* plan_;
+  TemporaryFolder own_;
+  std::string folder_;
+};
+TemporaryFolder* LabFolder::place_ = nullptr;
+NextReport* LabFolder::plan_ = nullptr;
+
+TEST_F(LabFolder, PlansABatchWithItsReasonsAndATableToFillIn) {
+  EXPECT_NE(plan_->markdown.find("Why these:"), std::string::npos);
+  EXPECT_NE(plan_->markdown.find("is the best of 2 in worst(modulation) with probability"),
+            std::string::npos);
+  const std::string csv = file_text(folder_ + "/plan_01.csv");
+  EXPECT_EQ(csv.substr(0, 23), "experiment,field,design");
+  EXPECT_NE(csv.find("\nE01,,"), std::string::npos);
+  for (const char* name : {"lab.md", "lab.json", "belief.toml", "readings.csv", "prior.toml"})
+    EXPECT_TRUE(fs::is_regular_file(fs::path(folder_) / name)) << name;
+  EXPECT_EQ(read_belief(folder_ + "/belief.toml").members.size(), 6u);
+}
+
+TEST_F(LabFolder, CountsATableOnceHoweverOftenItIsTold) {
+  const std::string table = file("a.csv", std::string(kHead) +
+                                              "deep,1,0.2,35,200,1,0.06,0.09\n"
+                                              "deep,2,0.2,35,200,1,0.061,0.091\n"
+                                              "shallow,1,0.2,75,200,1,0.08,0.12\n");
+  TellReport told = tell({table});
+  EXPECT_NE(told.markdown.find("3 readings told"), std::string::npos);
+  EXPECT_EQ(readings(), 3u);
+  const std::string belief = file_text(folder_ + "/belief.toml");
+  told = tell({table, table});
+  EXPECT_NE(told.markdown.find("3 readings told already"), std::string::npos);
+  EXPECT_EQ(readings(), 3u);
+  EXPECT_EQ(file_text(folder_ + "/belief.toml"), belief);
+}
+
+TEST_F(LabFolder, TakesHalfATableAndThenTheRestOfIt) {
+  const std::string first = "deep,1,0.2,35,200,1,0.06,0.09\n", second = "deep,2,0.2,35,200,1,,\n",
+                    later = "deep,2,0.2,35,200,1,0.061,0.091\n";
+  TellReport told = tell({file("half.csv", kHead + first + second)});
+  EXPECT_NE(told.markdown.find("1 row not measured yet"), std::string::npos);
+  EXPECT_EQ(readings(), 1u);
+  told = tell({file("half.csv", kHead + first + later)});
+  EXPECT_NE(told.markdown.find("1 reading told already"), std::string::npos);
+  EXPECT_EQ(readings(), 2u);
+}
+
+TEST_F(LabFolder, KeepsNothingOfAFileThatIsRefused) {
+  const std::string before = file_text(folder_ + "/lab.journal");
+  const std::string good = "deep,1,0.2,35,200,1,0.06,0.09\n";
+  for (const auto& [rows, why] :
+       {std::pair("depe,1,0.2,35,200,1,0.06,0.09\n", "no design \"depe\", is it `deep`?"),
+        std::pair("deep,1,200,35,200,1,0.06,0.09\n", "lies outside"),
+        std::pair("deep,1,0.2,35,200,1,60,90\n", "are these mN?"),
+        std::pair("deep,1,0.2,35,200,1,0.0", "the file is cut off")}) {
+    const TellReport told = tell({file("bad.csv", kHead + good + rows)});
+    EXPECT_NE(words(told).find(why), std::string::npos) << words(told);
+    EXPECT_EQ(file_text(folder_ + "/lab.journal"), before);
+  }
+  const TellReport told = tell({file("field.csv", "field,F_off_N\nA7,0.1\n")});
+  EXPECT_NE(words(told).find("no field \"A7\""), std::string::npos);
+  EXPECT_EQ(readings(), 0u);
+}
+
+TEST_F(LabFolder, RefusesAContradictionUnlessItReplaces) {
+  tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,0.09\n")});
+  const std::string other = file("b.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.066,0.1\n");
+  const TellReport refused = tell({other});
+  EXPECT_NE(words(refused).find("another value of repeat 1 of this experiment was told in a.csv of "
+                                "2026-03-02"),
+            std::string::npos);
+  EXPECT_EQ(readings(), 1u);
+  tell({other}, true);
+  const std::vector<FrictionReading> now = Lab(folder_, 1).readings();
+  ASSERT_EQ(now.size(), 1u);
+  EXPECT_DOUBLE_EQ(now[0].off, 0.066);
+}
+
+TEST_F(LabFolder, TakesARecordAsAReadingWithAPicture) {
+  Tribometer t;
+  t.off = 0.06;
+  t.on = 0.09;
+  const std::string record = file("E01_run.csv", t.record("# finger: Ada\n"));
+  TellReport told = tell({record});
+  const std::vector<FrictionReading> now = Lab(folder_, 1).readings();
+  ASSERT_EQ(now.size(), 1u) << words(told);
+  EXPECT_EQ(now[0].finger, "Ada");
+  EXPECT_NEAR(now[0].off, 0.06, 0.001);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_ + "/traces"), {}), 1);
+  told = tell({record});
+  EXPECT_NE(told.markdown.find("told already"), std::string::npos);
+  EXPECT_EQ(readings(), 1u);
+}
+
+TEST_F(LabFolder, MovesWeightToTheHypothesisThatTheReadingsSpeakFor) {
+  Lab lab(folder_, 1);
+  const Standing& s = lab.standing();
+  const double before = s.p_hypothesis[1];
+  // Readings as a member of the second hypothesis says them.
+  const std::size_t member = 4;
+  std::string rows = kHead;
+  MemberModel model(lab.belief(), folder_, 1);
+  for (std::size_t d = 0; d < 2; ++d) {
+    for (const double rh : {0.35, 0.75}) {
+      const MemberFriction f =
+          model.friction(lab.designs()[d].design, {{0.2, rh, 200, 0, FingerState::Clean}}).front();
+      for (int repeat = 1; repeat <= 3; ++repeat)
+        rows += fmt::format("{},{},0.2,{},200,1,{:.6f},{:.6f}\n", lab.designs()[d].name, repeat,
+                            100 * rh, f.off[member], f.on[member]);
+    }
+  }
+  TellOptions options;
+  options.date = "2026-03-02";
+  const Told told = lab.tell(file("model.csv", rows), options, {});
+  EXPECT_EQ(told.record.readings.size(), 12u);
+  EXPECT_GT(told.after->p_hypothesis[1], before + 0.2);
+  EXPECT_LT(told.after->regret, told.before->regret + 1e-12);
+}
+
+TEST_F(LabFolder, CutsOffADamagedRecordAndKeepsACopy) {
+  tell({file("a.csv", std::string(kHead) + "deep,1,0.2,35,200,1,0.06,0.09\n")});
+  tell({file("b.csv", std::string(kHead) + "deep,2,0.2,35,200,1,0.061,0.09\n")});
+  std::string journal = file_text(folder_ + "/lab.journal");
+  const std::size_t last = journal.rfind('\n', journal.size() - 2);
+  journal[last + 40] = '~';
+  write_text(folder_ + "/lab.journal", journal);
+  const Lab lab(folder_, 1);
+  EXPECT_EQ(lab.lost(), 1);
+  EXPECT_EQ(lab.readings().size(), 1u);
+  EXPECT_TRUE(fs::is_regular_file(lab.kept_copy()));
+}
+
+TEST_F(LabFolder, RefusesASecondOneThatWorksInIt) {
+  const Lab lab(folder_, 1);
+  EXPECT_NE(refusal_of([&] { const Lab second(folder_, 1); }).find("another papilla next or tell"),
+            std::string::npos);
+}
+
+TEST_F(LabFolder, SaysWhatIsWrongInLabToml) {
+  std::string text = file_text(folder_ + "/lab.toml");
+  const std::size_t at = text.find("repeatability");
+  text.insert(at, "repeatabilty = \"3 %\"\n");
+  write_text(folder_ + "/lab.toml", text);
+  EXPECT_NE(refusal_of([&] { const Lab lab(folder_, 1); }).find("repeatability"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,88 @@
+// Tables of measured friction, right and wrong.
+#include <gtest/gtest.h>
+
+#include "lab/measured_table.h"
+#include "tests/support/refusal.h"
+
+namespace papilla::tests {
+namespace {
+
+MeasuredTable table(const std::string& text) { return read_measured_table(text, "table.csv"); }
+std::string refused(const std::string& text) {
+  return refusal_of([&] { table(text); });
+}
+bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
+
+TEST(MeasuredTable, ReadsThePlanFilledIn) {
+  const MeasuredTable t = table(
+      "experiment,field,design,repeat,load_N,humidity_percent,voltage_V,frequency_Hz,state,finger,"
+      "day,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N\n"
+      "E01,A3,front/01,1,0.2,35,150,5000,natural,Ada,2026-03-02,0.081,0.004,0.142,0.006\n"
+      "E02,,flat,1,0.2,75,0,,clean,,,,,,\n");
+  ASSERT_EQ(t.rows.size(), 2u);
+  const MeasuredRow& r = t.rows[0];
+  EXPECT_EQ(r.experiment + r.field + r.design + r.finger + r.day, "E01A3front/01Ada2026-03-02");
+  EXPECT_EQ(r.repeat, 1);
+  EXPECT_DOUBLE_EQ(*r.relative_humidity, 0.35);
+  EXPECT_DOUBLE_EQ(*r.off, 0.081);
+  EXPECT_DOUBLE_EQ(*r.on_sd, 0.006);
+  EXPECT_EQ(*r.state, FingerState::Natural);
+  EXPECT_TRUE(r.measured());
+  EXPECT_FALSE(t.rows[1].measured());
+  EXPECT_TRUE(t.notes.empty());
+}
+
+TEST(MeasuredTable, ReadsTheColumnsOfCalibrateAndOtherUnits) {
+  const MeasuredTable t = table(
+      "design,relative_humidity,amplitude_V,frequency_Hz,load_N,F_off_N,F_off_sd_N,F_on_N,F_on_sd_N"
+      "\nflat.toml,35 %,200,5000,0.2,0.081,0.004,0.142,0.006\n");
+  EXPECT_DOUBLE_EQ(*t.rows[0].relative_humidity, 0.35);
+  EXPECT_DOUBLE_EQ(*t.rows[0].voltage, 200);
+  const MeasuredTable m = table(
+      "design;load [mN];humidity [%];voltage_kV;frequency_kHz;F_off [mN];photo\n"
+      "flat;200;35;0.2;5;81;a.jpg\n");
+  EXPECT_DOUBLE_EQ(*m.rows[0].load, 0.2);
+  EXPECT_DOUBLE_EQ(*m.rows[0].voltage, 200);
+  EXPECT_DOUBLE_EQ(*m.rows[0].frequency, 5000);
+  EXPECT_DOUBLE_EQ(*m.rows[0].off, 0.081);
+  ASSERT_EQ(m.notes.size(), 1u);
+  EXPECT_EQ(m.notes[0], "columns that are not read: photo");
+}
+
+TEST(MeasuredTable, RefusesWrongUnitsWithTheWayOut) {
+  const std::string head = "design,load_N,humidity_percent,voltage_V,F_off_N,F_on_N\n";
+  EXPECT_TRUE(says(refused("design,load,humidity_percent,F_off_N\nflat,0.2,35,0.1\n"),
+                   "load: a column without a unit: write load_N"));
+  EXPECT_TRUE(says(refused("design,load_V,humidity_percent,F_off_N\nflat,0.2,35,0.1\n"),
+                   "\"V\" is no unit of a force; write load_N"));
+  EXPECT_TRUE(says(refused(head + "flat,0.2,35,200,81,142\n"), "are these mN?"));
+  EXPECT_TRUE(says(refused(head + "flat,0.2,0.35,200,.081,.142\n"), "is it a share? Then 35 %"));
+  EXPECT_TRUE(says(refused(head + "flat,200,35,200,.081,.142\n"), "lies outside"));
+  EXPECT_TRUE(says(refused(head + "flat,0.2,35,200,.142,.081\n"), "exchanged?"));
+  EXPECT_TRUE(says(refused(head + "flat,0.2,35,0,.142,.181\n"), "but the voltage is 0"));
+  EXPECT_TRUE(says(refused("design,load_N,humidity_percent,F_of_N\nflat,0.2,35,0.1\n"),
+                   "is it `F_off_N`?"));
+}
+
+TEST(MeasuredTable, RefusesEveryMistakeAtOnceWithItsLine) {
+  const std::string all = refused(
+      "design,load_N,humidity_percent,state,F_off_N\n"
+      "flat,x,35,clean,0.1\nflat,0.2,35,dirty,0.1\nflat,0.2,35\n");
+  EXPECT_TRUE(says(all, "table.csv:2:2: load: expected a number, got \"x\""));
+  EXPECT_TRUE(says(all, "table.csv:3:4: state: \"dirty\" is no state"));
+  EXPECT_TRUE(says(all, "table.csv:4:0: expected 5 cells, got 3"));
+  EXPECT_TRUE(says(refused("design,load_N,F_off_N\nflat,0.2,0.1\nflat,0."), "the file is cut off"));
+  EXPECT_TRUE(says(refused(""), "no header line"));
+  EXPECT_TRUE(says(refused("design,F_off_N\n"), "no rows below the header"));
+}
+
+TEST(MeasuredTable, AsksWhetherAFileWithoutItsLastLineEndIsWhole) {
+  const MeasuredTable t = table("design,load_N,F_off_N\nflat,0.2,0.1\nflat,0.2,0.1");
+  ASSERT_EQ(t.notes.size(), 1u);
+  EXPECT_TRUE(says(t.notes[0], "is the file whole?"));
+}
+
+}  // namespace
+}  // namespace papilla::tests

@@ -1,0 +1,207 @@
+// Records of a tribometer whose friction is known.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+
+#include "lab/trace_reading.h"
+#include "report/lab_trace.h"
+#include "tests/lab/tribometer.h"
+#include "tests/support/refusal.h"
+
+namespace papilla::tests {
+namespace {
+
+TraceReading read(const std::string& text) {
+  const Trace trace = read_trace(text, "record.csv");
+  return read_friction_of(trace, find_sliding(trace), "record.csv");
+}
+
+bool says(const std::vector<std::string>& notes, const std::string& words) {
+  for (const std::string& n : notes) {
+    if (n.find(words) != std::string::npos) return true;
+  }
+  return false;
+}
+
+TEST(Record, GivesFrictionOffAndOnInsideItsErrors) {
+  int inside = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    Tribometer t;
+    t.seed = seed;
+    const TraceReading r = read(t.record());
+    EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
+    EXPECT_NEAR(r.on, t.on, 0.01 * t.on);
+    EXPECT_NEAR(r.load, t.load, 1e-3);
+    EXPECT_NEAR(*r.relative_humidity, t.humidity, 1e-4);
+    EXPECT_NEAR(r.voltage, t.voltage, 0.05 * t.voltage);
+    EXPECT_LT(r.off_sd, 0.01 * t.off);
+    inside += std::abs(r.off - t.off) < 2 * r.off_sd && std::abs(r.on - t.on) < 2 * r.on_sd;
+  }
+  EXPECT_GE(inside, 7);
+}
+
+TEST(Record, PartsDriftOfTheZeroFromThatOfTheFriction) {
+  Tribometer t;
+  t.zero = 0.05;
+  t.zero_drift = 0.06;
+  t.drift = 0.2;
+  const TraceReading r = read(t.record());
+  EXPECT_NEAR(r.off, t.off, 0.02 * t.off);
+  EXPECT_NEAR(r.zero_drift, t.zero_drift, 0.05 * t.zero_drift);
+  EXPECT_NEAR(r.drift, t.drift, 0.1 * t.drift);
+  EXPECT_TRUE(says(r.notes, "the zero of the force drifts by 6"));
+  EXPECT_TRUE(says(r.notes, "friction drifts by +"));
+}
+
+TEST(Record, FollowsTheDriveWithItsLag) {
+  Tribometer t;
+  t.lag = 0.1;
+  const TraceReading r = read(t.record());
+  EXPECT_NEAR(r.lag, t.lag, 0.03);
+  EXPECT_NEAR(r.on, t.on, 0.01 * t.on);
+  EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
+}
+
+TEST(Record, MarksStickSlipAndTakesItsMean) {
+  Tribometer t;
+  t.on = 0;
+  t.slip = 0.03;
+  const Trace trace = read_trace(t.record(), "record.csv");
+  const Sliding sliding = find_sliding(trace);
+  int sticks = 0;
+  for (const Stroke& s : sliding.strokes) sticks += s.sticks();
+  EXPECT_EQ(sticks, t.strokes);
+  EXPECT_NEAR(sliding.strokes.front().slip, t.slip, 0.25 * t.slip);
+  const TraceReading r = read_friction_of(trace, sliding, "record.csv");
+  EXPECT_NEAR(r.off, t.off, 0.03 * t.off);
+  EXPECT_TRUE(says(r.notes, "stick-slip in 12 of 12 strokes"));
+  t.slip = 0;
+  for (const Stroke& s : find_sliding(read_trace(t.record(), "")).strokes) EXPECT_FALSE(s.sticks());
+}
+
+TEST(Record, FindsTheOnsetWhereTheForceHasTurnedRound) {
+  Tribometer t;
+  t.on = 0;
+  const Sliding sliding = find_sliding(read_trace(t.record(), ""));
+  ASSERT_EQ(static_cast<int>(sliding.strokes.size()), t.strokes);
+  for (const Stroke& s : sliding.strokes) {
+    const double share =
+        static_cast<double>(s.onset - s.all.begin) / static_cast<double>(s.all.size());
+    EXPECT_LT(share, 0.05);
+    EXPECT_GT(s.steady.size(), s.all.size() * 7 / 10);
+  }
+}
+
+TEST(Record, SaysWhatItLeftOutAndAssumed) {
+  Tribometer t;
+  std::string text = t.record();
+  // Times that are written too coarsely, a hole, a line that is cut.
+  for (std::size_t at = text.find("\n3.000000"); at != std::string::npos;) {
+    text.replace(at, 9, "\nx.000000");
+    break;
+  }
+  text.resize(text.size() - 20);
+  const TraceReading r = read(text);
+  EXPECT_TRUE(says(r.notes, "1 sample without a number left out"));
+  EXPECT_TRUE(says(r.notes, "the last line is cut off"));
+  EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
+}
+
+TEST(Record, SpreadsTimesThatAreWrittenTooCoarsely) {
+  Tribometer t;
+  std::string coarse, text = t.record();
+  std::size_t from = 0;
+  for (std::size_t end; (end = text.find('\n', from)) != std::string::npos; from = end + 1) {
+    std::string line = text.substr(from, end - from);
+    if (const std::size_t dot = line.find('.'); from > 0 && dot != std::string::npos)
+      line.erase(dot + 3, 4);  // hundredths of a second at a thousand samples
+    coarse += line + "\n";
+  }
+  const TraceReading r = read(coarse);
+  EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
+  EXPECT_TRUE(says(r.notes, "share their time with the one before"));
+}
+
+TEST(Record, IsRefusedWhereNothingSlidesSteadily) {
+  Tribometer t;
+  t.rate = 15;  // thirty samples a stroke
+  EXPECT_NE(refusal_of([&] { read(t.record()); }).find("sample faster, or make longer strokes"),
+            std::string::npos);
+}
+
+TEST(Record, IsRefusedForWrongUnitsAndDamage) {
+  Tribometer t;
+  t.strokes = 2;
+  const std::string text = t.record();
+  const auto with_header = [&](const std::string& header) {
+    return header + text.substr(text.find('\n'));
+  };
+  EXPECT_NE(refusal_of([&] {
+              read(
+                  with_header("time_s,tangential_kg,normal_N,voltage_V,humidity_percent,"
+                              "position_mm"));
+            }).find("\"kg\" is no unit of a force; write tangential_N"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal_of([&] {
+        read(with_header("time_s,tangential,normal_N,voltage_V,humidity_percent,position_mm"));
+      }).find("a column without a unit: write tangential_N"),
+      std::string::npos);
+  EXPECT_NE(refusal_of([&] { read("time_s,tangential_N\n0,1\n"); }).find("normal"),
+            std::string::npos);
+  std::string broken = text;
+  for (std::size_t i = 200; i < broken.size(); i += 300) broken[i] = '?';
+  EXPECT_NE(refusal_of([&] { read(broken); }).find("the file is damaged"), std::string::npos);
+  EXPECT_NE(refusal_of([&] { read(text + text.substr(text.find('\n') + 1)); }).find("falls after"),
+            std::string::npos);
+}
+
+TEST(Record, TakesMillinewtonsAndSemicolons) {
+  Tribometer t;
+  t.strokes = 6;
+  const TraceReading newtons = read(t.record());
+  t.milliseconds = true;
+  std::string text = t.record();
+  const std::size_t head = text.find('\n');
+  text = "time [ms];tangential [N];normal [N];voltage [V];humidity [%];position [mm]" +
+         text.substr(head);
+  std::replace(text.begin(), text.end(), ',', ';');
+  const TraceReading r = read(text);
+  EXPECT_NEAR(r.off, newtons.off, 0.02 * newtons.off);
+}
+
+TEST(Record, OfAMillionSamplesTakesTwoSecondsAtMost) {
+  Tribometer t;
+  t.rate = 25000;
+  t.strokes = 20;
+  const std::string text = t.record();
+  const auto begin = std::clock();
+  const Trace trace = read_trace(text, "record.csv");
+  EXPECT_EQ(trace.size(), 1000000u);
+  const Sliding sliding = find_sliding(trace);
+  const TraceReading r = read_friction_of(trace, sliding, "record.csv");
+  const std::string picture = trace_svg(trace, sliding, r, "record.csv");
+  EXPECT_LT(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC, 2.0);
+  EXPECT_NEAR(r.off, t.off, 0.01 * t.off);
+  EXPECT_LT(picture.size(), 400000u);
+}
+
+TEST(Record, IsDrawnWithWhatWasFound) {
+  Tribometer t;
+  t.strokes = 4;
+  const Trace trace = read_trace(t.record(), "record.csv");
+  const Sliding sliding = find_sliding(trace);
+  const std::string svg =
+      trace_svg(trace, sliding, read_friction_of(trace, sliding, ""), "E01 <run & 2>");
+  EXPECT_NE(svg.find("E01 &lt;run &amp; 2>"), std::string::npos);
+  std::size_t steady = 0, onsets = 0;
+  for (std::size_t at = 0; (at = svg.find("#dff0de", at)) != std::string::npos; ++at) ++steady;
+  for (std::size_t at = 0; (at = svg.find("#c0392b", at)) != std::string::npos; ++at) ++onsets;
+  EXPECT_EQ(steady, 4u * 3u);  // in each of three panels
+  EXPECT_EQ(onsets, 4u);
+}
+
+}  // namespace
+}  // namespace papilla::tests
