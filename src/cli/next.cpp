@@ -87,6 +87,23 @@ void add_next(Command app, Context& context) {
   command.add_option("--jobs", options->run.threads, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--show", options->show, "Where a lab stands, without planning");
   command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.document(
+      {"Plans the few measurements that settle a decision: designs at loads, humidities, voltages "
+       "and "
+       "states of the finger, chosen by how far they lower the expected regret of the choice, tell "
+       "hypotheses apart or shrink parameters, by the members of a belief. Says why, what each "
+       "outcome would change and when to stop. A lab is one folder that remembers everything.",
+       {{"papilla next results/study",
+         "open a lab for the finalists of a run, with its first batch"},
+        {"papilla next m3_samples/a3h600.toml m3_samples/a4h600.toml m3_samples/flat.toml --belief "
+         "fingers/belief.toml",
+         "of designs without a run"},
+        {"papilla next labs/study --count 6", "the next batch of a lab"}},
+       {{"LAB/lab.toml", "what can be set at the bench, how the instrument scatters: change it"},
+        {"LAB/plan_NN.csv", "a batch as a table to fill in"},
+        {"LAB/lab.md, lab.json, decisions.svg", "where the decision stands"},
+        {"LAB/belief.toml", "the members with their weights now"},
+        {"LAB/lab.journal", "what counts; the other files are made from it again"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return plan_next(context, *options); };
   });

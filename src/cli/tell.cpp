@@ -50,6 +50,18 @@ void add_tell(Command app, Context& context) {
   command.add_flag("--replace", said.replace, "Readings take the place of those they contradict");
   command.add_option("--jobs", options->run.threads, "Threads; 0: all processors").range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");
+  command.document(
+      {"Takes measured frictions into a lab: tables, or the raw records of a tribometer, of which "
+       "steady sliding is found, drift taken out, stick-slip and onsets marked. The belief is "
+       "weighed "
+       "anew; what no member explains is said with its place. A file counts whole or not at all, "
+       "and "
+       "the same file twice counts once.",
+       {{"papilla tell labs/study plan_01.csv", "the plan, filled in"},
+        {"papilla tell labs/study E01_run1.csv E01_run2.csv --finger Ada",
+         "records of one experiment"}},
+       {{"LAB/traces", "a picture of every record"},
+        {"LAB/readings.csv", "all readings with the columns of `papilla calibrate`"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return tell_files(context, *options); };
   });
