@@ -44,15 +44,10 @@ struct Look {
 
   bool operator==(const Look&) const = default;
 };
-inline constexpr std::array kLookNumbers{&Look::haze,
-                                         &Look::transmittance,
-                                         &Look::gloss,
-                                         &Look::colour_shift,
-                                         &Look::total_transmittance,
-                                         &Look::gloss_20,
-                                         &Look::gloss_85,
-                                         &Look::distinctness,
-                                         &Look::sparkle};
+inline constexpr std::array kLookNumbers{
+    &Look::haze,         &Look::transmittance,       &Look::gloss,
+    &Look::colour_shift, &Look::total_transmittance, &Look::gloss_20,
+    &Look::gloss_85,     &Look::distinctness,        &Look::sparkle};
 
 struct Optics : Look {
   std::vector<SpectrumPoint> spectrum;
