@@ -139,7 +139,6 @@ TEST(Posterior, OfARowThatJittersKnowsThatItDoes) {
   }
   EXPECT_NEAR(mean, 9.0 / 14, 0.5);
   EXPECT_NEAR(std::sqrt(squares - square(mean)), std::sqrt(45.0 / 14), 0.3);
-  EXPECT_NEAR(p.guess_error, 1, 0.25);
 }
 
 // Only the band's outside is missed; inside of it the prior is what is left.
