@@ -123,11 +123,10 @@ class Lab:
         states: what can be set, lists as "15 %,75 %"; empty: the designs' own. purpose: "decision", "hypotheses",
         "parameters". count: touches, at most. seconds: of work, at most. Raises InputError, KeyboardInterrupt.
         """
-        several = [sources] if isinstance(sources, (str, bytes)) or hasattr(sources, "__fspath__") else list(sources)  # type: ignore[arg-type]
         conditions = [v.text(t, n) for t, n in ((load, "load"), (humidity, "humidity"), (voltage, "voltage"),
                                                 (frequency, "frequency"), (states, "states"))]
         found, stop, table, document = _native.next_experiments(
-            [v.path(s, "sources") for s in several], v.path(folder, "folder"), v.text(purpose, "purpose"),
+            v.paths(sources, "sources"), v.path(folder, "folder"), v.text(purpose, "purpose"),
             v.whole(count, "count", 1, 1000), float(seconds), v.path(belief, "belief"), v.text(worth, "worth"), conditions,
             v.text(finger, "finger"), "", v.text(date, "date"), v.whole(threads, "threads", 0, 4096), shown(progress, "next"))
         lab = cls(found)
@@ -152,10 +151,9 @@ class Lab:
         What is said here holds where the file does not say it. refuse: raises InputError where nothing of a file was
         kept; the others are kept all the same. Raises KeyboardInterrupt.
         """
-        several = [files] if isinstance(files, (str, bytes)) or hasattr(files, "__fspath__") else list(files)  # type: ignore[arg-type]
         said = [v.text(t, n) for t, n in ((experiment, "experiment"), (field, "field"), (design, "design"),
                                           (finger, "finger"), (day, "day"), (date, "date"))]
-        refused, table, document = _native.tell_lab(self.folder, [v.path(f, "files") for f in several], said,
+        refused, table, document = _native.tell_lab(self.folder, v.paths(files, "files"), said,
                                                     v.flag(replace, "replace"), v.whole(threads, "threads", 0, 4096),
                                                     shown(progress, "tell"))
         told = Told(refused, table, json.loads(document))

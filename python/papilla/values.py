@@ -120,6 +120,12 @@ def path(value: Path, key: str) -> str:
     return os.fspath(value)
 
 
+def paths(values: Path | Sequence[Path], key: str) -> list[str]:
+    """One name of a file, or several."""
+    several = [values] if isinstance(values, (str, os.PathLike)) else items(values, key)
+    return [path(one, key) for one in several]
+
+
 def height_map(z: npt.ArrayLike, key: str) -> FloatArray:
     """A map of numbers, shape (ny, nx): real, finite, none masked, 2 x 2 pixels at least."""
     if isinstance(z, np.ma.MaskedArray) and (masked := np.count_nonzero(np.asarray(z.mask))):
