@@ -62,7 +62,7 @@ TEST(Comparison, StatesDifferencesWithTheErrorsOfBothRuns) {
       comparison_markdown(run(place, "one", "200 V", 0), run(place, "two", "150 V", 0.1));
   // sqrt(2) times 0.03; told apart: 0.1 > 0.085.
   EXPECT_NE(
-      text.find("| mean(modulation) | 0.400 ± 0.03 | 0.500 ± 0.03 | +0.100 ± 0.042, better |"),
+      text.find("| mean(modulation) | 0.400 ± 0.030 | 0.500 ± 0.030 | +0.100 ± 0.042, better |"),
       std::string::npos)
       << text;
   EXPECT_NE(text.find("not told apart"), std::string::npos) << text;  // equal frictions

@@ -130,6 +130,7 @@ TEST(SurfaceReport, ForProgramsIsInSi) {
   const nlohmann::json scan{{"file", "scan.gsf"},
                             {"as_is", false},
                             {"repeats", false},
+                            {"made", false},
                             {"tilt", std::atan(0.005)},
                             {"slope", {0.003, 0.004}},
                             {"rise", 540e-9},
