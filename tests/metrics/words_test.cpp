@@ -103,7 +103,7 @@ TEST(MetricWords, ReadBackToTheSameValue) {
       }
     }
   }
-  EXPECT_EQ(seen, 8 * (18 + 2 * 200));
+  EXPECT_EQ(seen, 8 * (23 + 2 * 200));
 }
 
 TEST(MetricWords, ExpressionsAreReadAndWritten) {
