@@ -29,7 +29,9 @@ TEST(ListItems, OfAFilmAreItsLayers) {
             "strength: an electric field in V/um, 0 to 1000000 V/um, 1000 V/um, measured SiO2 1 "
             "GV/m at 50 "
             "nm (McPherson 2016)\n"
-            "process: one of surface, conformal, directional, planar, , surface, choice \n");
+            "process: one of surface, conformal, directional, planar, , surface, choice \n"
+            "refractive_index: a number, 0 to 5, 0, choice \n"
+            "extinction: a number, 0 to 5, 0, choice \n");
 }
 
 // A correlation lies between -1 and 1.

@@ -57,8 +57,14 @@ TEST(AppearanceInStudies, ALimitOnHazeHoldsBeforeAnEvaluation) {
 }
 
 TEST(AppearanceInStudies, APeriodThatNoTheoryCoversIsOutsideTheSpace) {
-  const Study study = transparent_glass({"texture.period=\"1 um\"", "texture.diameter=\"0.5 um\"",
-                                         "design_space.texture.period=[\"0.2 um\", \"10 um\"]"});
+  const std::vector<std::string> fine{"texture.period=\"1 um\"", "texture.diameter=\"0.5 um\"",
+                                      "design_space.texture.period=[\"0.2 um\", \"10 um\"]"};
+  const Study covered = transparent_glass(fine);  // by the rigorous theory
+  const StudyProblem inside(covered);
+  EXPECT_LT(inside.constraints().geometry(inside.space().unit_of_study()).front(), 0);
+  std::vector<std::string> scalar = fine;
+  scalar.emplace_back("view.lattices=\"scalar\"");
+  const Study study = transparent_glass(scalar);
   const StudyProblem problem(study);
   const Point unit = problem.space().unit_of_study();
   EXPECT_GT(problem.constraints().geometry(unit).front(), 0);
