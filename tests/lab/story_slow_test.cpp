@@ -181,8 +181,9 @@ TEST_F(Story, OfATellKilledAtThirtyMomentsLosesNothingAndCountsNothingTwice) {
   int killed = 0;
   for (int k = 0; k < 30; ++k) {
     place_->shell("rm -rf killed/lab && cp -r lab killed/lab");
-    // Its lock is free once the system has buried it.
-    place_->shell(fmt::format("timeout -s KILL {:.3f} '" PAPILLA_PROGRAM "' {}; sleep 0.3",
+    // In the foreground: the signal is not its own too, so that it waits until the killed one is
+    // gone.
+    place_->shell(fmt::format("timeout --foreground -s KILL {:.3f} '" PAPILLA_PROGRAM "' {}",
                               life * (k + 0.5) / 30, in("killed/lab")));
     const std::size_t then = Lab((place_->path() / "killed/lab").string(), 1).readings().size();
     killed += then < whole;
