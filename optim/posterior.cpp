@@ -12,63 +12,32 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "base/random.h"
-#include "optim/row_quadratics.h"
+#include "optim/posterior_guess.h"
 #include "optim/trust_region.h"
 
 namespace papilla::optim {
 namespace {
 
-// Tails of the proposal: wider than the bell that they stand around, so that no weight is far above
-// the others (Geweke 1989).
-constexpr int kFreedom = 7;
-// Precision that a parameter without a prior gets beside its data, per square of a quarter of its
-// range: the whole range lies within one standard deviation.
-constexpr double kFlatPrecision = 0.25;
 // Minima closer than this, squared in standard deviations of the better one, are one valley.
 constexpr double kSameValley = 1;
-// Draws outside of the bounds, and those that are thinned out, are drawn again, so often at most.
-constexpr int kMostRedraws = 1000000;
-// Samples of a stage, which are thinned by all that was answered before them: at least, and as a
-// share of those before. More samples so begin with the same ones.
+// Samples of a stage, which are chosen by all that was answered before them: at least, and as a
+// share of those before.
 constexpr int kStage = 12;
 constexpr double kStageShare = 1.0 / 3;
-// Draws that the thinning of a stage is set by; the share of the guess's weight that its cap
-// leaves; the share of samples that no guess has thinned.
-constexpr int kPilot = 20000;
-constexpr double kUncapped = 0.9, kUnthinned = 0.15;
-// Sums of squares above the least one, in variance factors, that double the noise of a trial.
-constexpr double kFarTrial = 20;
+// Draws of the bells that those of a stage are chosen among, and that the posterior is made of.
+constexpr int kPilot = 4000, kDraws = 20000;
+// Of the draws of a stage, the share of the bells of the fits themselves, whatever is guessed; of
+// the rest, the share of the posterior of all rows. Groups left out have what is left.
+constexpr double kOfFits = 0.25, kOfAllRows = 0.5;
+// The last samples, whose answers the guess is held against; rows that it leaves less open, squared
+// in standard deviations of the data, say nothing.
+constexpr double kHeldShare = 0.5, kLeastOpen = 1e-4;
 
-// A Student distribution around a minimum, in the coordinates of the fit.
-struct Bell {
-  Eigen::VectorXd middle;
-  Eigen::MatrixXd root;  // lower triangle: precision = root root'
-  double log_size = 0;   // log of the root's determinant
-  double log_weight = 0;
-
-  double squared_distance(const Eigen::VectorXd& x) const {
-    return (root.transpose() * (x - middle)).squaredNorm();
-  }
-  double log_density(const Eigen::VectorXd& x) const {
-    const auto n = static_cast<double>(x.size());
-    return log_size - (kFreedom + n) / 2 * std::log1p(squared_distance(x) / kFreedom);
-  }
-  Eigen::VectorXd draw(RandomStream& random) const {
-    Eigen::VectorXd z(middle.size());
-    for (Eigen::Index i = 0; i < z.size(); ++i) z(i) = random.normal();
-    double squares = 0;
-    for (int k = 0; k < kFreedom; ++k) squares += square(random.normal());
-    return middle +
-           root.transpose().triangularView<Eigen::Upper>().solve(z) * std::sqrt(kFreedom / squares);
-  }
-};
-
-// How the draws of a stage are thinned.
-struct Thinning {
-  RowQuadratics guess;
-  double log_cap = 0;  // of guessed posterior over proposal: kept for certain from here on
-  double floor = 0;    // least probability that a draw is kept
-  double mean = 1;     // probability that a draw is kept
+// Draws of the bells within the bounds, with the densities of the guess over the bells': of all
+// rows, then without each group.
+struct Drawn {
+  std::vector<Eigen::VectorXd> points;
+  std::vector<std::vector<double>> log_over;  // [0 or 1 + group][point]
 };
 
 class Sampler {
@@ -84,6 +53,8 @@ class Sampler {
         function_([this, &function](std::span<const double> p, std::span<double> r) {
           if (!function(p, r)) return false;
           trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
+          for (std::size_t k = 0; k < options_.bands.size(); ++k)
+            r[k] = options_.bands[k].miss(r[k]);
           return true;
         }) {}
 
@@ -97,11 +68,11 @@ class Sampler {
               ? std::max(1.0, (best.chi2 + best.prior_chi2) / best.degrees_of_freedom)
               : 1;
     }
+    of_.emplace(GuessedPosterior{coordinates_, parameters_, options_, out_.variance_factor});
     place_bells();
+    ask();
     draw();
-    if (out_.samples.empty())
-      throw InputError("no sample of the posterior has an answer of the model");
-    reweigh(out_, out_.variance_factor);
+    out_.least_sum = least_sum();
     return std::move(out_);
   }
 
@@ -133,6 +104,7 @@ class Sampler {
     for (int k = 0; k < options_.starts; ++k) {
       if (k == 0 && first) {
         fits_.push_back(*first);
+        if (trials_.empty()) trials_.push_back({first->values(), first->residuals});
         continue;
       }
       note(fmt::format("start {} of {}", k + 1, options_.starts));
@@ -149,13 +121,6 @@ class Sampler {
     });
   }
 
-  Eigen::VectorXd coordinates(const std::vector<double>& values) const {
-    Eigen::VectorXd x(static_cast<Eigen::Index>(values.size()));
-    for (std::size_t i = 0; i < values.size(); ++i)
-      x(static_cast<Eigen::Index>(i)) = coordinates_.to(i, values[i]);
-    return x;
-  }
-
   // The bell of a minimum: of the data's information, that of the priors, and all by the variance
   // factor, of parameters at a bound too. Eq. calibration.2, calibration.7
   Bell bell_of(const LeastSquaresFit& fit) const {
@@ -165,15 +130,9 @@ class Sampler {
       const Eigen::Map<const Eigen::VectorXd> v(d.weights.data(), n);
       precision += square(d.singular_value) * v * v.transpose();
     }
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      precision(i, i) +=
-          coordinates_.has_prior(k) ? square(coordinates_.prior_slope(k)) : kFlatPrecision;
-    }
-    Bell out{coordinates(fit.values()), {}, 0, 0};
-    out.root = (precision / out_.variance_factor).llt().matrixL();
-    out.log_size = out.root.diagonal().array().log().sum();
-    return out;
+    for (Eigen::Index i = 0; i < n; ++i)
+      precision(i, i) += of_->prior_precision(static_cast<std::size_t>(i));
+    return {of_->at(fit.values()), precision / out_.variance_factor};
   }
 
   // A bell's weight: the root of its volume by Laplace, so that a shallow valley is looked at too;
@@ -182,168 +141,163 @@ class Sampler {
     const double best = fits_.front().chi2 + fits_.front().prior_chi2;
     for (const LeastSquaresFit& fit : fits_) {
       Bell bell = bell_of(fit);
-      const bool known = std::any_of(bells_.begin(), bells_.end(), [&](const Bell& b) {
-        return b.squared_distance(bell.middle) < kSameValley;
-      });
-      if (known) continue;
+      const auto& known = valleys_.all();
+      if (std::any_of(known.begin(), known.end(),
+                      [&](const Bell& b) { return b.squared_distance(bell.middle) < kSameValley; }))
+        continue;
       const double sum = fit.chi2 + fit.prior_chi2;
-      bell.log_weight = -(sum - best) / (4 * out_.variance_factor) - bell.log_size / 2;
-      bells_.push_back(std::move(bell));
+      log_shares_.push_back(-(sum - best) / (4 * out_.variance_factor) - bell.log_size / 2);
+      valleys_.add(std::move(bell), log_shares_.back());
       out_.valleys.push_back({fit.values(), sum, 0});
     }
-    std::vector<double> logs;
-    for (const Bell& b : bells_) logs.push_back(b.log_weight);
-    const double all = log_sum(logs);
-    for (Bell& b : bells_) b.log_weight -= all;
+    units_ = {valleys_.all().front().middle, valleys_.all().front().root};
   }
 
-  bool inside(const Eigen::VectorXd& x) const {
-    for (std::size_t i = 0; i < parameters_.size(); ++i) {
-      const double v = x(static_cast<Eigen::Index>(i));
-      if (v < coordinates_.to(i, parameters_[i].low) || v > coordinates_.to(i, parameters_[i].high))
-        return false;
+  // Bells of the fits, and around every valley those of the guess, of all rows and without each
+  // group. Eq. calibration.7
+  Bells bells_by(const PosteriorGuess& guess) const {
+    Bells out;
+    const double all = log_sum(log_shares_);
+    const std::size_t groups = options_.groups.size();
+    const double of_all = groups > 0 ? kOfAllRows : 1;
+    for (std::size_t v = 0; v < valleys_.all().size(); ++v) {
+      const Bell& valley = valleys_.all()[v];
+      const double share = log_shares_[v] - all;
+      out.add(valley, share + std::log(kOfFits));
+      const Bell found = guess.bell(valley.middle, PosteriorGuess::kAllRows);
+      for (std::size_t g = 0; g < groups; ++g) {
+        out.add(guess.bell(found.middle, g),
+                share + std::log((1 - kOfFits) * (1 - of_all) / static_cast<double>(groups)));
+      }
+      out.add(found, share + std::log((1 - kOfFits) * of_all));
     }
-    return true;
+    return out;
   }
 
-  double log_prior(const Eigen::VectorXd& x) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < parameters_.size(); ++i) {
-      if (coordinates_.has_prior(i))
-        sum += square(coordinates_.prior_residual(i, x(static_cast<Eigen::Index>(i))));
+  // Units that hold all of a stage's bells: the next guess is a quadratic in them.
+  GuessUnits units_of(const Bells& bells) const {
+    const auto n = static_cast<Eigen::Index>(parameters_.size());
+    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(n, n);
+    for (const Bell& b : bells.all())
+      mean += b.covariance() / static_cast<double>(bells.all().size());
+    return {bells.all().back().middle, mean.inverse().llt().matrixL()};
+  }
+
+  Drawn drawn(const PosteriorGuess& guess, const Bells& bells, int count,
+              RandomStream& random) const {
+    Drawn out;
+    out.log_over.resize(1 + options_.groups.size());
+    for (int k = 0; k < count; ++k) {
+      Eigen::VectorXd x = bells.draw(random);
+      if (!of_->inside(x)) continue;
+      const double by = bells.log_density(x);
+      const std::vector<double> logs = guess.log_densities(x);
+      for (std::size_t g = 0; g < logs.size(); ++g) out.log_over[g].push_back(logs[g] - by);
+      out.points.push_back(std::move(x));
     }
-    return -sum / (2 * out_.variance_factor);
+    if (out.points.empty()) throw InputError("no draw of the posterior lies within the bounds");
+    return out;
   }
 
-  // Where a point lies from the best minimum, in standard deviations by its bell.
-  Eigen::VectorXd from_best(const Eigen::VectorXd& x) const {
-    return bells_.front().root.transpose() * (x - bells_.front().middle);
-  }
-
-  std::vector<double> log_proposals(const Eigen::VectorXd& x) const {
+  // Logarithms of what each draw is wanted by: half for the posterior of all rows, the rest for
+  // what it is without each group.
+  std::vector<double> wanted(const Drawn& drawn) const {
+    const std::size_t groups = options_.groups.size();
+    std::vector<std::vector<double>> logs(drawn.points.size());
+    for (std::size_t g = 0; g < drawn.log_over.size(); ++g) {
+      const double share = groups == 0 ? 1
+                           : g == 0    ? kOfAllRows
+                                       : (1 - kOfAllRows) / static_cast<double>(groups);
+      const double all = log_sum(drawn.log_over[g]);
+      for (std::size_t k = 0; k < logs.size(); ++k)
+        logs[k].push_back(std::log(share) + drawn.log_over[g][k] - all);
+    }
     std::vector<double> out;
-    for (const Bell& b : bells_) out.push_back(b.log_weight + b.log_density(x));
+    for (const std::vector<double>& of : logs) out.push_back(log_sum(of));
     return out;
   }
 
-  double log_proposal(const Eigen::VectorXd& x) const { return log_sum(log_proposals(x)); }
-
-  Eigen::VectorXd propose(RandomStream& random) const {
-    double left = random.uniform();
-    std::size_t b = 0;
-    while (b + 1 < bells_.size() && left >= std::exp(bells_[b].log_weight))
-      left -= std::exp(bells_[b++].log_weight);
-    return bells_[b].draw(random);
-  }
-
-  // The model's answers so far as quadratics. Eq. calibration.11
-  std::optional<RowQuadratics> guess() const {
-    std::vector<Eigen::VectorXd> points;
-    std::vector<std::vector<double>> residuals;
-    std::vector<double> sums;
-    double least = kInfinity;
-    for (const PosteriorTrial& trial : trials_) {
-      const Eigen::VectorXd x = coordinates(trial.values);
-      double sum = -2 * out_.variance_factor * log_prior(x);
-      for (const double r : trial.residuals) sum += square(r);
-      if (!std::isfinite(sum)) continue;
-      points.push_back(from_best(x));
-      residuals.push_back(trial.residuals);
-      sums.push_back(sum);
-      least = std::min(least, sum);
-    }
-    if (points.empty()) return {};
-    for (double& sum : sums) sum = 1 + (sum - least) / (kFarTrial * out_.variance_factor);
-    return RowQuadratics(points, residuals, sums);
-  }
-
-  // Guessed posterior over proposal.
-  double log_guess(const RowQuadratics& guess, const Eigen::VectorXd& x) const {
-    return guess.log_likelihood(from_best(x), out_.variance_factor) + log_prior(x) -
-           log_proposal(x);
-  }
-
-  double kept(const Thinning& t, const Eigen::VectorXd& x) const {
-    return std::max(t.floor, std::exp(std::min(0.0, log_guess(t.guess, x) - t.log_cap)));
-  }
-
-  std::optional<Thinning> thinning(int stage) const {
-    std::optional<RowQuadratics> by = guess();
-    if (!by) return {};
-    RandomStream random(options_.seed, "posterior pilot", static_cast<std::uint64_t>(stage));
-    std::vector<double> logs;
-    for (int k = 0; k < kPilot; ++k) {
-      const Eigen::VectorXd x = propose(random);
-      if (inside(x)) logs.push_back(log_guess(*by, x));
-    }
-    if (logs.empty()) return {};
-    std::sort(logs.begin(), logs.end(), std::greater<>());
-    // The cap whose draws above it lose a share of all weight.
-    const double largest = logs.front(), all = std::exp(log_sum(logs) - largest);
-    double above = 0;
-    std::size_t cut = 0;
-    for (; cut + 1 < logs.size(); ++cut) {
-      above += std::exp(logs[cut] - largest);
-      const double lost = above - static_cast<double>(cut + 1) * std::exp(logs[cut + 1] - largest);
-      if (lost > (1 - kUncapped) * all) break;
-    }
-    Thinning out{std::move(*by), logs[cut], 0, 0};
-    const auto count = static_cast<double>(logs.size());
-    for (const double v : logs) out.floor += std::exp(std::min(0.0, v - out.log_cap)) / count;
-    out.floor *= kUnthinned;
-    for (const double v : logs)
-      out.mean += std::max(out.floor, std::exp(std::min(0.0, v - out.log_cap))) / count;
+  // By weight and without one twice: the largest of ln w + Gumbel (Efraimidis and Spirakis 2006).
+  static std::vector<std::size_t> chosen(const std::vector<double>& log_weights, std::size_t count,
+                                         RandomStream& random) {
+    std::vector<std::pair<double, std::size_t>> keys;
+    for (std::size_t k = 0; k < log_weights.size(); ++k)
+      keys.emplace_back(log_weights[k] - std::log(-std::log(1 - random.uniform())), k);
+    count = std::min(count, keys.size());
+    std::partial_sort(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(count), keys.end(),
+                      std::greater<>());
+    std::vector<std::size_t> out;
+    for (std::size_t k = 0; k < count; ++k) out.push_back(keys[k].second);
     return out;
   }
 
-  void draw() {
+  // The model is asked in stages. Eq. calibration.11
+  void ask() {
     for (int stage = 0, begin = 0; begin < options_.samples; ++stage) {
       const int most = std::max(kStage, static_cast<int>(begin * kStageShare));
       const int end = std::min(begin + most, options_.samples);
-      stages_.push_back({end - begin, thinning(stage)});
-      for (int k = begin; k < end; ++k) draw(k, stages_.back().second);
+      RandomStream random(options_.seed, "posterior stage", static_cast<std::uint64_t>(stage));
+      const PosteriorGuess guess(*of_, trials_, units_);
+      const Bells bells = bells_by(guess);
+      const Drawn found = drawn(guess, bells, kPilot, random);
+      for (const std::size_t k :
+           chosen(wanted(found), static_cast<std::size_t>(end - begin), random))
+        ask(found.points[k], guess, begin >= kHeldShare * options_.samples);
+      units_ = units_of(bells);
       begin = end;
+      note(fmt::format("sample {} of {}", end, options_.samples));
     }
-    weigh();
+    if (out_.asked == 0) throw InputError("no sample of the posterior has an answer of the model");
+    if (held_ > 0) out_.guess_error = std::sqrt(out_.guess_error / held_);
   }
 
-  void draw(int k, const std::optional<Thinning>& thinned) {
-    RandomStream random(options_.seed, "posterior sample", static_cast<std::uint64_t>(k));
-    for (int tries = 0; tries < kMostRedraws; ++tries) {
-      const Eigen::VectorXd x = propose(random);
-      if (!inside(x) || (thinned && random.uniform() >= kept(*thinned, x))) continue;
-      add(x);
-      break;
-    }
-    if ((k + 1) % 10 == 0) note(fmt::format("sample {} of {}", k + 1, options_.samples));
-  }
-
-  void add(const Eigen::VectorXd& x) {
-    PosteriorSample s;
+  void ask(const Eigen::VectorXd& x, const PosteriorGuess& guess, bool held) {
+    std::vector<double> values, misses(static_cast<std::size_t>(residuals_));
     for (std::size_t i = 0; i < parameters_.size(); ++i)
-      s.values.push_back(coordinates_.from(i, x(static_cast<Eigen::Index>(i))));
-    s.residuals.resize(static_cast<std::size_t>(residuals_));
+      values.push_back(coordinates_.from(i, x(static_cast<Eigen::Index>(i))));
+    const RowQuadratics::Rows before = guess.rows(x);
     ++out_.evaluations;
-    if (!function_(s.values, s.residuals)) return;
-    s.sum = -2 * out_.variance_factor * log_prior(x);
-    for (const double r : s.residuals) s.sum += square(r);
-    if (!std::isfinite(s.sum)) return;
-    out_.samples.push_back(std::move(s));
-    points_.push_back(x);
+    if (!function_(values, misses)) return;
+    ++out_.asked;
+    for (std::size_t k = 0; held && k < misses.size(); ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      if (before.variance(row) < kLeastOpen) continue;
+      out_.guess_error += square(misses[k] - before.miss(row)) / before.variance(row);
+      ++held_;
+    }
   }
 
-  // Posterior over the proposals of all stages. Eq. calibration.8
-  void weigh() {
-    for (std::size_t k = 0; k < out_.samples.size(); ++k) {
-      PosteriorSample& s = out_.samples[k];
-      const Eigen::VectorXd& x = points_[k];
-      const std::vector<double> logs = log_proposals(x);
-      const double all = log_sum(logs);
-      double thinned = 0;
-      for (const double v : logs) s.from.push_back(std::exp(v - all));
-      for (const auto& [count, by] : stages_) thinned += count * (by ? kept(*by, x) / by->mean : 1);
-      s.log_ratio = -s.sum / (2 * out_.variance_factor) - all - std::log(thinned);
+  // Draws of the last guess, weighted by importance. Eq. calibration.8
+  void draw() {
+    RandomStream random(options_.seed, "posterior");
+    const PosteriorGuess guess(*of_, trials_, units_);
+    const Bells bells = bells_by(guess);
+    for (const Eigen::VectorXd& x : drawn(guess, bells, kDraws, random).points) {
+      PosteriorSample& s = out_.samples.emplace_back();
+      for (std::size_t i = 0; i < parameters_.size(); ++i)
+        s.values.push_back(coordinates_.from(i, x(static_cast<Eigen::Index>(i))));
+      const RowQuadratics::Rows rows = guess.rows(x);
+      s.answers.assign(rows.answer.begin(), rows.answer.end());
+      s.misses.assign(rows.miss.begin(), rows.miss.end());
+      s.open.assign(rows.variance.begin(), rows.variance.end());
+      s.prior_sum = -2 * out_.variance_factor * of_->log_prior(x);
+      s.log_proposal = bells.log_density(x);
+      const std::vector<double> logs = valleys_.log_densities(x);
+      for (const double v : logs) s.from.push_back(std::exp(v - log_sum(logs)));
     }
+    reweigh(out_, out_.variance_factor);
+  }
+
+  double least_sum() const {
+    double out = kInfinity;
+    for (const PosteriorTrial& trial : trials_) {
+      double sum = -2 * out_.variance_factor * of_->log_prior(of_->at(trial.values));
+      for (std::size_t k = 0; k < trial.answers.size(); ++k)
+        sum += square(options_.bands.empty() ? trial.answers[k]
+                                             : options_.bands[k].miss(trial.answers[k]));
+      out = std::min(out, sum);
+    }
+    return out;
   }
 
   const std::vector<FitParameter>& parameters_;
@@ -353,9 +307,11 @@ class Sampler {
   std::vector<PosteriorTrial> trials_;
   ResidualFunction function_;  // keeps what it is answered
   std::vector<LeastSquaresFit> fits_;
-  std::vector<Bell> bells_;
-  std::vector<std::pair<int, std::optional<Thinning>>> stages_;  // samples of each
-  std::vector<Eigen::VectorXd> points_;                          // of the samples
+  std::optional<GuessedPosterior> of_;
+  Bells valleys_;
+  std::vector<double> log_shares_;  // of the valleys
+  GuessUnits units_;
+  int held_ = 0;  // answers that the guess was held against
   Posterior out_;
 };
 
@@ -369,11 +325,20 @@ Posterior sample_posterior(const std::vector<FitParameter>& parameters, int resi
   return Sampler(parameters, residuals, function, options, std::move(trials)).run(first);
 }
 
+double log_likelihood(double miss, double open, double variance_factor) {
+  return -0.5 * (std::log1p(open / variance_factor) + square(miss) / (variance_factor + open));
+}
+
+double PosteriorSample::log_likelihood(std::size_t row, double variance_factor) const {
+  return optim::log_likelihood(misses[row], open[row], variance_factor);
+}
+
 void reweigh(Posterior& posterior, double variance_factor) {
-  const double change = 1 / posterior.variance_factor - 1 / variance_factor;
   std::vector<double> logs;
   for (PosteriorSample& s : posterior.samples) {
-    s.log_ratio += s.sum / 2 * change;
+    s.log_ratio = -s.prior_sum / (2 * variance_factor) - s.log_proposal;
+    for (std::size_t k = 0; k < s.misses.size(); ++k)
+      s.log_ratio += s.log_likelihood(k, variance_factor);
     logs.push_back(s.log_ratio);
   }
   const std::vector<double> weights = normalised(logs);

@@ -9,16 +9,21 @@
 
 #include "base/rooms.h"
 #include "optim/least_squares.h"
+#include "optim/row_quadratics.h"
 
 namespace papilla::optim {
 
 struct PosteriorOptions {
   int starts = 3;     // fits in all: from the parameters' own start, then drawn from the priors
-  int samples = 200;  // evaluated with the model
+  int samples = 200;  // asked of the model
   // The sum of squares is divided by it: 0: the largest of 1 and chi squared per degree of freedom
   // at the best minimum.
   double variance_factor = 0;
   std::uint64_t seed = 1;
+  // What the function's answers are held against, one per row; empty: against 0.
+  std::vector<RowBand> bands;
+  // Rows that are left out together, where half of the draws are to know of it; empty: none are.
+  std::vector<std::vector<std::size_t>> groups;
   LeastSquaresOptions fit;  // of each start
   std::function<void(const std::string&)> note;
 };
@@ -30,35 +35,48 @@ struct Valley {
   double share = 0;            // of the weight of all samples
 };
 
-// What the model has answered.
+// What the model has answered, in standard deviations from the data, inside of bands too.
 struct PosteriorTrial {
   std::vector<double> values;
-  std::vector<double> residuals;
+  std::vector<double> answers;
 };
 
+// A draw; its rows are the guess of Eq. calibration.11.
 struct PosteriorSample {
   std::vector<double> values;
-  std::vector<double> residuals;
-  double sum = 0;            // of their squares and those of the priors
-  std::vector<double> from;  // how probable it is that each valley has drawn it
-  double weight = 0;         // of all samples 1
-  // Logarithm of posterior over proposal, both up to a constant of all samples.
-  double log_ratio = 0;
+  std::vector<double> answers;  // in standard deviations from the data
+  std::vector<double> misses;   // the same from the bands
+  std::vector<double> open;     // variance of what the guess leaves open of each
+  double prior_sum = 0;         // of the squares of the priors
+  std::vector<double> from;     // how probable it is that it belongs to each valley
+  double weight = 0;            // of all samples 1
+  double log_proposal = 0;
+  double log_ratio = 0;  // of posterior over proposal, both up to a constant of all samples
+
+  // Of a row, ln of the mean of exp(-miss^2/2f) over what is open of it.
+  double log_likelihood(std::size_t row, double variance_factor) const;
 };
+// The same of a miss with a variance of its own.
+double log_likelihood(double miss, double open, double variance_factor);
 
 struct Posterior {
   std::vector<Valley> valleys;  // best first
   std::vector<PosteriorSample> samples;
   double effective = 0;  // (sum w)^2 / sum w^2: independent samples that these are worth
+  int asked = 0;         // samples that the model has answered
+  double least_sum = 0;  // chi squared of data and priors of the best answer
+  // Root mean square of what the guess missed the later answers by, in its own standard deviations.
+  double guess_error = 0;
   double variance_factor = 1;
   int evaluations = 0;
 };
 
-// Draws of a mixture of Student distributions, one per valley, whose covariance is that of
-// Eq. calibration.2, thinned by what the model has answered before and weighted by importance
-// (Eq. calibration.7, calibration.8, calibration.11). first: a fit from the parameters' own start
-// where one is at hand, with its trials. The function is called in one order, so the result does
-// not depend on its threads. Throws InputError where no start has a minimum.
+// The rows are learnt from what the model answers where the posterior of those before is high, and
+// are drawn from with what they leave open (Eq. calibration.7, calibration.8, calibration.11). The
+// function answers in standard deviations from the data (`PosteriorOptions::bands`). first: a fit
+// from the parameters' own start where one is at hand, with its trials. The function is called in
+// one order, so the result does not depend on its threads. Throws InputError where no start has a
+// minimum.
 Posterior sample_posterior(const std::vector<FitParameter>& parameters, int residuals,
                            const ResidualFunction& function, const PosteriorOptions& options,
                            const LeastSquaresFit* first = nullptr,

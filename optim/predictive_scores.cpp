@@ -40,10 +40,10 @@ LeftOut leave_out(const std::vector<PosteriorSample>& samples, double variance_f
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::vector<double> with, without;
     for (const PosteriorSample& s : samples) {
-      double sum = 0;
-      for (const std::size_t row : groups[g]) sum += square(s.residuals[row]);
+      double likely = 0;
+      for (const std::size_t row : groups[g]) likely += s.log_likelihood(row, variance_factor);
       with.push_back(s.log_ratio);
-      without.push_back(s.log_ratio + sum / (2 * variance_factor));
+      without.push_back(s.log_ratio - likely);
     }
     const double size = static_cast<double>(groups[g].size()) / 2;
     out.scores.push_back(log_sum(with) - log_sum(without) - log_sd[g] -

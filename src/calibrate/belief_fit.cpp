@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -54,7 +53,6 @@ class BeliefMaker {
   void sample(const Hypothesis& hypothesis, bool own) {
     HypothesisFit& out = out_.hypotheses.emplace_back();
     out.name = hypothesis.name;
-    values_.emplace_back();
     try {
       const Calibration calibration = own ? calibration_ : under(calibration_, hypothesis);
       PosteriorOptions options;
@@ -67,20 +65,20 @@ class BeliefMaker {
       options.fit.profile_iterations = 0;
       options.note = [&](const std::string& text) { note(hypothesis.name + ": " + text); };
       if (!own) weigh_rows(calibration);
+      options.bands = residuals_.bands();
+      options.groups = groups();
+      if (!own) options.variance_factor = out_.hypotheses.front().posterior.variance_factor;
       int said = 0;
-      const auto misses = [&](std::span<const double> p, std::span<double> r) {
+      const auto answers = [&](std::span<const double> p, std::span<double> r) {
         const std::vector<Estimate> model = residuals_.model(calibration, p);
         Watch::look();
         if (++said % kSaid == 0) note(fmt::format("{}: evaluation {}", hypothesis.name, said));
-        std::vector<double>& kept = values_.back()[{p.begin(), p.end()}];
-        kept.clear();
-        for (const Estimate& e : model) kept.push_back(e.value);
-        return residuals_.residuals(model, r);
+        return residuals_.answers(model, r);
       };
       const std::vector<FitParameter> parameters = fit_parameters(calibration);
       out.posterior =
-          own ? sample_posterior(parameters, residuals_.size(), misses, options, &fit_, trials_)
-              : sample_posterior(parameters, residuals_.size(), misses, options);
+          own ? sample_posterior(parameters, residuals_.size(), answers, options, &fit_, trials_)
+              : sample_posterior(parameters, residuals_.size(), answers, options);
       out_.evaluations += out.posterior.evaluations;
       std::vector<double> log_sd(out_.groups.size(), 0);
       for (std::size_t i = 0; i < sources_.size(); ++i)
@@ -110,21 +108,32 @@ class BeliefMaker {
         std::find(out_.groups.begin(), out_.groups.end(), sources_[row]) - out_.groups.begin());
   }
 
+  std::vector<std::vector<std::size_t>> groups() const {
+    std::vector<std::vector<std::size_t>> out(out_.groups.size());
+    for (std::size_t i = 0; i < sources_.size(); ++i) out[group(i)].push_back(i);
+    return out;
+  }
+
+  // Of the best fit or sample. Eq. calibration.2
+  double own_factor(const Posterior& posterior) const {
+    return fit_.degrees_of_freedom > 0
+               ? std::max(1.0, posterior.least_sum / fit_.degrees_of_freedom)
+               : 1;
+  }
+
   // All by the variance factor of the one that explains the data best. Eq. calibration.9
   void weigh() {
     double factor = std::numeric_limits<double>::infinity();
     for (const HypothesisFit& h : out_.hypotheses) {
-      if (h.failed.empty()) factor = std::min(factor, h.posterior.variance_factor);
+      if (h.failed.empty()) factor = std::min(factor, own_factor(h.posterior));
     }
     out_.variance_factor = factor;
-    std::vector<std::vector<std::size_t>> groups(out_.groups.size());
-    for (std::size_t i = 0; i < sources_.size(); ++i) groups[group(i)].push_back(i);
     std::vector<std::vector<double>> scores;
     for (std::size_t k = 0; k < out_.hypotheses.size(); ++k) {
       HypothesisFit& h = out_.hypotheses[k];
       if (!h.failed.empty()) continue;
       reweigh(h.posterior, factor);
-      LeftOut left = leave_out(h.posterior.samples, factor, groups, log_sd_[k]);
+      LeftOut left = leave_out(h.posterior.samples, factor, groups(), log_sd_[k]);
       h.scores = left.scores;
       h.least_effective = left.least_effective;
       for (const double s : h.scores) h.score += s;
@@ -136,9 +145,10 @@ class BeliefMaker {
     for (HypothesisFit& h : out_.hypotheses) {
       if (!h.failed.empty()) continue;
       h.weight = weights[next++];
-      note(fmt::format("{}: weight {:.3f}, log predictive score {:.2f}, worth {:.1f} of {} samples",
-                       h.name, h.weight, h.score, h.posterior.effective,
-                       h.posterior.samples.size()));
+      note(
+          fmt::format("{}: weight {:.3f}, log predictive score {:.2f}, {} samples, guessed to "
+                      "{:.2f} of their own error",
+                      h.name, h.weight, h.score, h.posterior.asked, h.posterior.guess_error));
     }
   }
 
@@ -156,7 +166,8 @@ class BeliefMaker {
       const HypothesisFit& h = out_.hypotheses[k];
       for (const PosteriorSample& s : h.posterior.samples) {
         if (!(h.weight * s.weight > 0)) continue;
-        std::vector<double> feature = values_[k].at(s.values);
+        std::vector<double> feature;
+        for (const double answer : s.answers) feature.push_back(compressed(answer));
         for (std::size_t i = 0; i < s.values.size(); ++i)
           feature.push_back(coordinate(i, s.values[i]));
         features.push_back(std::move(feature));
@@ -173,7 +184,7 @@ class BeliefMaker {
     Belief& b = out_.belief;
     b.made_of = fmt::format("papilla calibrate, {} rows, {} hypotheses", residuals_.size(),
                             out_.hypotheses.size());
-    b.samples = static_cast<double>(features.size());
+    for (const HypothesisFit& h : out_.hypotheses) b.samples += h.posterior.asked;
     b.effective_samples = effective_number(weights);
     b.calibrated_for = finger_.calibrated_for;
     b.fitted = values(fit_.values());
@@ -206,9 +217,8 @@ class BeliefMaker {
   const std::vector<PosteriorTrial>& trials_;
   std::function<void(const std::string&)> note_;
   std::vector<FitParameter> parameters_;
-  std::vector<std::string> sources_;                                        // of each row
-  std::vector<std::map<std::vector<double>, std::vector<double>>> values_;  // [hypothesis] of rows
-  std::vector<std::vector<double>> log_sd_;                                 // [hypothesis][group]
+  std::vector<std::string> sources_;         // of each row
+  std::vector<std::vector<double>> log_sd_;  // [hypothesis][group]
   BeliefFit out_;
 };
 

@@ -146,10 +146,12 @@ class Fit {
 
   // Where the fitted finger is far from the start the correction is another: again from there.
   void descend() {
-    const auto misses = [this](std::span<const double> p, std::span<double> r) {
-      const bool ok = timed([&] { return residuals_.residuals(calibration_, p, r); });
+    const std::vector<RowBand> bands = residuals_.bands();
+    const auto misses = [&](std::span<const double> p, std::span<double> r) {
+      const bool ok = timed([&] { return residuals_.answers(calibration_, p, r); });
       Watch::look();
       if (ok) trials_.push_back({{p.begin(), p.end()}, {r.begin(), r.end()}});
+      for (std::size_t i = 0; i < r.size(); ++i) r[i] = bands[i].miss(r[i]);
       if (++evaluations_ % 10 == 0) {
         const int left = std::max(0, an_iteration() * calibration_.iterations - in_round_);
         note(fmt::format("evaluation {}: chi2 {:.4g}; {} at most to the last iteration",

@@ -11,6 +11,7 @@
 
 #include "base/files.h"
 #include "config/writer.h"
+#include "forward/dry_areas.h"
 #include "forward/forward.h"
 #include "optim/trust_region.h"
 
@@ -21,6 +22,15 @@ namespace {
 // Steps that the correction is followed by, in prior widths: as far as a fit moves in its last
 // rounds, and the ripples of a friction are small beside what it changes.
 constexpr double kFollowedStep = 0.25;
+
+// Of the band, or its one end.
+double middle(const FitRow& row) {
+  if (!std::isfinite(row.low)) return row.high;
+  if (!std::isfinite(row.high)) return row.low;
+  return (row.low + row.high) / 2;
+}
+
+double deviation(const FitRow& row) { return std::hypot(row.sd, row.sampling_sd); }
 
 std::string as_text(const SkinSampling& s) {
   return fmt::format("{} {} {} {}", s.level, s.skins, s.first_skin, s.grid);
@@ -178,17 +188,32 @@ std::vector<std::string> Residuals::sources() const {
 
 bool Residuals::residuals(const Calibration& from, std::span<const double> values,
                           std::span<double> r) {
-  return residuals(model(from, values), r);
+  if (!answers(from, values, r)) return false;
+  const std::vector<RowBand> bands = this->bands();
+  for (std::size_t i = 0; i < bands.size(); ++i) r[i] = bands[i].miss(r[i]);
+  return true;
 }
 
-bool Residuals::residuals(const std::vector<Estimate>& values, std::span<double> r) const {
+bool Residuals::answers(const Calibration& from, std::span<const double> values,
+                        std::span<double> r) {
+  return answers(model(from, values), r);
+}
+
+bool Residuals::answers(const std::vector<Estimate>& values, std::span<double> r) const {
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const FitRow& row = rows_[i];
     if (!std::isfinite(values[i].value)) return false;
-    const double miss = values[i].value - std::clamp(values[i].value, row.low, row.high);
-    r[i] = miss / std::hypot(row.sd, row.sampling_sd);
+    r[i] = (values[i].value - middle(rows_[i])) / deviation(rows_[i]);
   }
   return true;
+}
+
+std::vector<RowBand> Residuals::bands() const {
+  std::vector<RowBand> out;
+  for (const FitRow& row : rows_) {
+    out.push_back(
+        {(row.low - middle(row)) / deviation(row), (row.high - middle(row)) / deviation(row)});
+  }
+  return out;
 }
 
 std::vector<Residuals::Friction> Residuals::frictions(const Finger& finger,
@@ -223,7 +248,9 @@ std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
     scene.finger.load = load;
     scene.finger.state = state;
     scene.model = finger.calibrated_for;
-    const Response response = evaluate(scene, s.design.texture, fidelity);
+    const Response response = corrected && fidelity.control_skins < 2
+                                  ? evaluate_resolved(scene, s.design.texture, fidelity, kDrySkins)
+                                  : evaluate(scene, s.design.texture, fidelity);
     for (std::size_t k = 0; k < s.rows.size(); ++k) {
       const ResponsePoint& p = response.points[s.humidity_of[k]];
       out[s.rows[k]] = {{p.friction_off.value, p.friction_off.parts.sampling},

@@ -10,6 +10,7 @@
 #include "calibrate/kept_answers.h"
 #include "design/design.h"
 #include "numerics/statistics.h"
+#include "optim/row_quadratics.h"
 #include "published/targets.h"
 
 namespace papilla::calibrate {
@@ -59,7 +60,11 @@ class Residuals {
   // Distance from the band in standard deviations: the data's and the model's sampling error,
   // which stays what it was at the start. false: the model has no answer. Eq. calibration.5
   bool residuals(const Calibration& from, std::span<const double> values, std::span<double> r);
-  bool residuals(const std::vector<Estimate>& model, std::span<double> r) const;
+  // The same before the band is taken off: from its middle, or from its one end. `bands` in the
+  // same unit.
+  bool answers(const Calibration& from, std::span<const double> values, std::span<double> r);
+  bool answers(const std::vector<Estimate>& model, std::span<double> r) const;
+  std::vector<RowBand> bands() const;
 
  private:
   struct Friction {

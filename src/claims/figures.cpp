@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "claims/members.h"
 #include "claims/papers.h"
+#include "claims/whole_finger.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
 #include "published/samples.h"
@@ -139,13 +140,44 @@ std::vector<PublishedTarget> printed_numbers() {
                  [](FingerModel& model) { return variation(model, "flat", 0); }});
   out.push_back({"M14", "sd/mean of the modulation over humidity, a3h350 110°, %", 6.7, 6.7, 5,
                  [](FingerModel& model) { return variation(model, "a3h350", 110); }});
+  for (PublishedTarget& target : whole_finger_targets()) out.push_back(std::move(target));
   return out;
 }
 
+ParameterSet set_of(std::string name, const std::vector<PrintedNumber>& printed,
+                    std::vector<double> values) {
+  ParameterSet out{std::move(name), std::move(values), {}};
+  for (std::size_t i = 0; i < printed.size(); ++i) {
+    const PrintedNumber& p = printed[i];
+    const double error = out.values[i] - std::clamp(out.values[i], p.low, p.high);
+    out.misses.push_back(error / std::hypot(p.papilla.se, p.published_sd));
+  }
+  return out;
+}
+
+// Of each hypothesis the member that comes nearest to all of them.
+void add_nearest(FigureTables& tables, const Belief& belief,
+                 const std::vector<std::vector<double>>& values) {
+  const std::size_t own = tables.sets.size();
+  for (std::size_t k = 0; k < belief.members.size(); ++k) {
+    std::vector<double> there;
+    for (const std::vector<double>& of : values) there.push_back(of[k]);
+    ParameterSet set = set_of(belief.members[k].hypothesis, tables.printed, std::move(there));
+    const auto same =
+        std::find_if(tables.sets.begin() + static_cast<std::ptrdiff_t>(own), tables.sets.end(),
+                     [&](const ParameterSet& other) { return other.name == set.name; });
+    if (same == tables.sets.end())
+      tables.sets.push_back(std::move(set));
+    else if (set.largest() < same->largest())
+      *same = std::move(set);
+  }
+}
+
 // What belief leaves of each number: its spread over the members, on the skins of a draft.
-void add_input_errors(std::vector<PrintedNumber>& printed,
-                      const std::vector<PublishedTarget>& targets, const FigureOptions& options) {
+void add_input_errors(FigureTables& tables, const std::vector<PublishedTarget>& targets,
+                      const FigureOptions& options) {
   if (options.finger.belief.empty()) return;
+  std::vector<PrintedNumber>& printed = tables.printed;
   const Belief belief = belief_of(options.finger);
   std::vector<std::vector<double>> values(printed.size());
   for (std::size_t k = 0; k < belief.members.size(); ++k) {
@@ -158,6 +190,7 @@ void add_input_errors(std::vector<PrintedNumber>& printed,
   }
   for (std::size_t i = 0; i < printed.size(); ++i)
     printed[i].input_sd = deviation_over(belief, values[i]);
+  add_nearest(tables, belief, values);
 }
 
 }  // namespace
@@ -165,6 +198,12 @@ void add_input_errors(std::vector<PrintedNumber>& printed,
 double PrintedNumber::deviation(const Estimate& model) const {
   const double nearest = std::clamp(model.value, low, high);
   return model.value / nearest - 1;
+}
+
+double ParameterSet::largest() const {
+  double out = 0;
+  for (const double miss : misses) out = std::max(out, std::abs(miss));
+  return out;
 }
 
 double PrintedNumber::error() const { return papilla.value - std::clamp(papilla.value, low, high); }
@@ -179,7 +218,8 @@ FigureTables figure_tables(const FigureOptions& options) {
   FigureTables out;
   const auto wanted = [&](const std::string& claim) {
     return options.claims.empty() ||
-           std::find(options.claims.begin(), options.claims.end(), claim) != options.claims.end();
+           std::find(options.claims.begin(), options.claims.end(),
+                     claim == kGapTarget ? "B2" : claim) != options.claims.end();
   };
   for (const Shown& shown : options.claims.empty() ? shown_cases() : std::vector<Shown>{}) {
     if (options.started) options.started(shown.sample);
@@ -193,7 +233,10 @@ FigureTables figure_tables(const FigureOptions& options) {
     out.printed.push_back({target.claim, target.what, target.low, target.high, target.sd,
                            target.model(papilla), target.model(m3)});
   }
-  add_input_errors(out.printed, targets, options);
+  std::vector<double> own;
+  for (const PrintedNumber& p : out.printed) own.push_back(p.papilla.value);
+  out.sets.push_back(set_of(options.finger.name, out.printed, std::move(own)));
+  add_input_errors(out, targets, options);
   return out;
 }
 

@@ -44,9 +44,22 @@ struct PrintedNumber {
   double validation_sd() const;                   // u_val; without belief its part is missing
 };
 
+// One set of parameters beside all printed numbers: the finger's own, or the member of a hypothesis
+// whose largest miss is the least.
+struct ParameterSet {
+  std::string name;
+  std::vector<double> values;  // of the printed numbers
+  std::vector<double> misses;  // E over what sampling and words of the paper leave
+
+  double largest() const;  // of the sizes of the misses
+};
+// Misses beyond this many standard deviations contradict the numbers that a set meets.
+inline constexpr double kContradicts = 2;
+
 struct FigureTables {
   std::vector<FigureRow> rows;
   std::vector<PrintedNumber> printed;
+  std::vector<ParameterSet> sets;  // the finger, then one of each hypothesis of its belief
 };
 
 struct FigureOptions {

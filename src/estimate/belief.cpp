@@ -7,6 +7,7 @@
 
 #include "base/parallel.h"
 #include "estimate/parameters.h"
+#include "forward/dry_areas.h"
 #include "metrics/metrics.h"
 
 namespace papilla::estimate {
@@ -55,7 +56,8 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
   const Belief belief = belief_of(scene.finger);
   Fidelity few = belief_fidelity(fidelity);
   const int threads = few.threads;
-  few.threads = 1;  // a member each
+  few.threads = 1;                                   // a member each
+  const bool resolved = fidelity.control_skins > 1;  // so the number itself is
   out.file = belief.file;
   out.skins = few.skins;
   out.grid = few.grid;
@@ -68,7 +70,8 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
       [&](int i) {
         const auto k = static_cast<std::size_t>(i);
         const Watch quiet({}, nullptr);  // members are counted, not their skins
-        runs[k] = respond(scenes[k], few, solve_patches(scenes[k], texture, few));
+        runs[k] = resolved ? evaluate_resolved(scenes[k], texture, few, kFewDrySkins)
+                           : evaluate(scenes[k], texture, few);
       },
       threads);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -15,7 +15,10 @@ Fidelity SkinSampling::fidelity(int threads) const {
   f.contact_tolerance = std::min(f.contact_tolerance, 1e-5);
   // The 3-D field of a few skins moves with their droplets. A fit descends on the rule alone; what
   // it lacks is in its factors to the level of the check.
-  if (f.estimator == Estimator::Load) f.field_skins = 0;
+  if (f.estimator == Estimator::Load) {
+    f.field_skins = 0;
+    f.control_skins = 0;  // errors that no fit reads
+  }
   return f;
 }
 

@@ -6,13 +6,20 @@
 #include <cmath>
 
 #include "base/constants.h"
+#include "forward/dry_areas.h"
 #include "forward/forward.h"
 
 namespace papilla::published {
 namespace {
 
+// Without control skins areas are still those of the whole skin.
+Response resolved(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
+  return fidelity.control_skins > 1 ? evaluate(scene, texture, fidelity)
+                                    : evaluate_resolved(scene, texture, fidelity, kDrySkins);
+}
+
 Sample evaluate_sample(const Scene& scene, const Texture& texture, const Fidelity& fidelity) {
-  Sample out{evaluate(scene, texture, fidelity), {}};
+  Sample out{resolved(scene, texture, fidelity), {}};
   for (const ResponsePoint& p : out.response.points) out.preload.push_back(p.samples.preload);
   if (fidelity.estimator == Estimator::Area) return out;
   for (std::size_t i = 0; i < out.response.points.size(); ++i) {  // areas from loads, of each skin

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/text.h"
 #include "report/tables.h"
 
 namespace papilla::report {
@@ -53,6 +54,7 @@ const std::vector<Column>& columns() {
 const char* preset_name(Preset preset) { return preset == Preset::M3 ? "m3" : "papilla"; }
 
 std::string range_text(const PrintedNumber& p) {
+  if (std::isinf(p.high)) return fmt::format("above {:g}", p.low);
   return p.low == p.high ? fmt::format("{:g}", p.low) : fmt::format("{:g} to {:g}", p.low, p.high);
 }
 
@@ -60,6 +62,45 @@ std::string model_text(const PrintedNumber& p, const Estimate& model) {
   const std::string value = model.se > 0 ? fmt::format("{:.3g} ± {:.1g}", model.value, model.se)
                                          : fmt::format("{:.3g}", model.value);
   return fmt::format("{} ({:+.0f} %)", value, 100 * p.deviation(model));
+}
+
+std::string contradicted(const FigureTables& tables, const ParameterSet& set) {
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < set.misses.size(); ++i) {
+    if (std::abs(set.misses[i]) > kContradicts)
+      out.push_back(fmt::format("{} ({:.3g}, printed {})", tables.printed[i].what, set.values[i],
+                                range_text(tables.printed[i])));
+  }
+  return join_names(out, "; ");
+}
+
+// One set of parameters beside all printed numbers, of textures and of whole fingers.
+std::string sets_text(const FigureTables& tables) {
+  std::string out =
+      "\n## One set of parameters beside all printed numbers\n\nThe finger, and of each hypothesis "
+      "of "
+      "its belief the member whose largest miss is the least (drafts). In brackets E over the root "
+      "of u_num² + u_D²; what a set misses by more than 2 contradicts what it meets.\n\n";
+  std::vector<std::string> head{"claim", "what", "paper"};
+  for (const ParameterSet& set : tables.sets) head.push_back(set.name);
+  out += markdown_head(head);
+  for (std::size_t i = 0; i < tables.printed.size(); ++i) {
+    const PrintedNumber& p = tables.printed[i];
+    std::vector<std::string> cells{p.claim, p.what, range_text(p)};
+    for (const ParameterSet& set : tables.sets)
+      cells.push_back(fmt::format("{:.3g} ({:+.1f})", set.values[i], set.misses[i]));
+    out += markdown_row(cells);
+  }
+  bool meets = false;
+  out += '\n';
+  for (const ParameterSet& set : tables.sets) {
+    meets = meets || set.largest() <= kContradicts;
+    out += fmt::format("- {}: {}\n", set.name,
+                       set.largest() <= kContradicts ? "meets all of them"
+                                                     : "misses " + contradicted(tables, set));
+  }
+  return out + (meets ? "\nOne set of parameters meets all of them.\n"
+                      : "\nNo set of parameters meets all of them.\n");
 }
 
 // Rows of one quantity: a surface by a preset, over humidity.
@@ -135,6 +176,7 @@ std::string figures_markdown(const FigureTables& tables, const std::string& fing
       "skins), u_input (belief in the finger) and u_D (what the paper's words leave). A claim "
       "whose "
       "numbers the finger was fitted to proves nothing by a small E.\n";
+  out += sets_text(tables);
   for (const Column& column : columns()) out += quantity_table(tables, column);
   return out;
 }

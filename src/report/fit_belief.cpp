@@ -22,12 +22,11 @@ std::string hypothesis_row(const HypothesisFit& h) {
   for (const Valley& v : h.posterior.valleys)
     valleys +=
         fmt::format("{}{:.4g} ({:.0f} %)", valleys.empty() ? "" : ", ", v.sum, 100 * v.share);
-  return fmt::format(
-      "| {} | {} | {} | {:.1f} | {:.2f} | {:.3f} | {} |\n", h.name, valleys,
-      h.posterior.samples.size(), h.posterior.effective, h.score, h.weight,
-      h.least_effective < kFewSamples
-          ? fmt::format("a group left out stands on {:.1f} samples", h.least_effective)
-          : "");
+  return fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {} |\n", h.name, valleys,
+                     h.posterior.asked, h.posterior.guess_error, h.score, h.weight,
+                     h.least_effective < kFewSamples
+                         ? fmt::format("a group left out stands on {:.1f} draws", h.least_effective)
+                         : "");
 }
 
 }  // namespace
@@ -35,28 +34,33 @@ std::string hypothesis_row(const HypothesisFit& h) {
 std::string belief_section(const Calibration& calibration, const BeliefFit& fit) {
   std::string out =
       "\n## Belief: what the data leave open\n\n"
-      "| hypothesis | valleys: χ² with priors (share) | samples | worth | log predictive score | "
-      "weight | |\n|---|---|---|---|---|---|---|\n";
+      "| hypothesis | valleys: χ² with priors (share) | samples | guess missed by | log predictive "
+      "score | weight | |\n|---|---|---|---|---|---|---|\n";
   for (const HypothesisFit& h : fit.hypotheses) out += hypothesis_row(h);
   out += fmt::format(
-      "\nSamples are evaluated with the model and weighted; \"worth\" is the number of independent "
-      "ones that they are worth. Weights of hypotheses: by what each predicts of {} groups of rows "
-      "({}) left out one at a time, not by χ². Sums of squares are divided by {:.3g}, common to "
-      "all.\n",
+      "\nSamples are answers of the model where the posterior is high; all rows are learnt from "
+      "them "
+      "as quadratics of the parameters, and what those leave open counts as an error of the row. "
+      "\"Guess missed by\": root mean square of what later answers missed the guess by, in its own "
+      "standard deviations (1: it knows its error). Weights of hypotheses: by what each predicts "
+      "of "
+      "{} groups of rows ({}) left out one at a time, not by χ². Sums of squares are divided by "
+      "{:.3g}, common to all.\n",
       fit.groups.size(), join_names(fit.groups), fit.variance_factor);
   const Belief& b = fit.belief;
   out += fmt::format(
-      "\n`belief.toml` has {} members of {:.0f} samples (worth {:.1f}; the members {:.1f} equal "
-      "ones). In every row and parameter ({} and {}) their weighted mean is within {:.2f} standard "
+      "\n`belief.toml` has {} members (worth {:.1f} equal ones) of draws that are worth {:.0f}, by "
+      "{:.0f} "
+      "samples. In every row and parameter ({} and {}) their weighted mean is within {:.2f} "
+      "standard "
       "deviations of the samples' and their standard deviation {:.2f} to {:.2f} times it, "
       "widened for what they are worth.\n",
-      b.members.size(), b.samples, b.effective_samples, b.effective_members(),
-      fit.hypotheses.front().posterior.samples.front().residuals.size(),
-      calibration.parameters.size(), fit.largest_mean, fit.least_spread, fit.largest_spread);
+      b.members.size(), b.effective_members(), b.effective_samples, b.samples,
+      fit.hypotheses.front().posterior.samples.front().misses.size(), calibration.parameters.size(),
+      fit.largest_mean, fit.least_spread, fit.largest_spread);
   if (b.effective_samples < kFewSamples)
     out += fmt::format(
-        "\n**The samples are worth fewer than {:.0f}**: more of them (`[belief] samples`), or "
-        "wider "
+        "\n**The draws are worth fewer than {:.0f}**: more samples (`[belief] samples`), or wider "
         "standard deviations of the data, before much is made of this belief.\n",
         kFewSamples);
   return out;
@@ -73,7 +77,8 @@ Json belief_fit_json(const BeliefFit& fit) {
     hypotheses.push_back({{"name", h.name},
                           {"weight", h.weight},
                           {"valleys", std::move(valleys)},
-                          {"samples", h.posterior.samples.size()},
+                          {"samples", h.posterior.asked},
+                          {"guess_missed_by", json_number(h.posterior.guess_error)},
                           {"effective_samples", h.posterior.effective},
                           {"log_predictive_score", json_number(h.score)},
                           {"of_groups", std::move(scores)},

@@ -8,8 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "base/constants.h"
 #include "claims/figures.h"
 #include "claims/papers.h"
+#include "claims/whole_finger.h"
 #include "forward/forward.h"
 #include "published/targets.h"
 
@@ -196,9 +198,14 @@ TEST(FigureRowsOfOneRun, PrintedNumbersAreThoseOfTheTargetsAndOfTheVariation) {
       {"C_gap", "gap of a sliding finger by its capacitance, um", 1.06, 1.06},
       {"friction", "friction coefficient, flat, 35 and 55 %", 0.2, 0.4},
       {"M14", "sd/mean of the modulation over humidity, flat 50°, %", 27.3, 27.3},
-      {"M14", "sd/mean of the modulation over humidity, a3h350 110°, %", 6.7, 6.7}};
+      {"M14", "sd/mean of the modulation over humidity, a3h350 110°, %", 6.7, 6.7},
+      {"B3", "pull of a whole finger, 136 V at 25 kHz, 1 N, 1 um of oxide, mN", 609, 609},
+      {"B3", "ΔF there, mN", 122, 122},
+      {"B8", "amplitude of 4 mA there, V", 113, 150},
+      {"P8", "friction coefficient under 200 V, 0.2 N over 2 N", 1, kInfinity}};
   FingerModel papilla = model_of(Preset::Papilla), m3 = model_of(Preset::M3);
-  const std::vector<PublishedTarget> targets = published_targets();
+  std::vector<PublishedTarget> targets = published_targets();
+  for (const PublishedTarget& t : whole_finger_targets()) targets.push_back(t);
   const std::vector<PrintedNumber>& printed = run().tables.printed;
   ASSERT_EQ(printed.size(), expected.size());
   for (std::size_t i = 0; i < printed.size(); ++i) {
@@ -209,7 +216,7 @@ TEST(FigureRowsOfOneRun, PrintedNumbersAreThoseOfTheTargetsAndOfTheVariation) {
     EXPECT_EQ(p.high, expected[i].high) << p.what;
     for (const auto& [of, model] : {std::pair{&p.papilla, &papilla}, std::pair{&p.m3, &m3}}) {
       Estimate e;
-      if (i >= 10) {
+      if (i == 10 || i == 11) {
         const Sample& s = i == 10 ? m3_sample(*model, "flat") : m3_sample(*model, "a3h350", 110);
         e.value = 100 * deviation_over_mean(s, Skins::all());
         e.se = 50 * std::abs(deviation_over_mean(s, Skins::without(0)) -
@@ -224,6 +231,33 @@ TEST(FigureRowsOfOneRun, PrintedNumbersAreThoseOfTheTargetsAndOfTheVariation) {
       EXPECT_NEAR(of->se, e.se, 1e-7 * e.se + 1e-12) << p.what;
     }
   }
+}
+
+// The finger alone, without belief: its misses are those of the printed numbers.
+TEST(FigureRowsOfOneRun, TheFingerIsOneSetOfParameters) {
+  const FigureTables& tables = run().tables;
+  ASSERT_EQ(tables.sets.size(), 1u);
+  const ParameterSet& own = tables.sets.front();
+  EXPECT_EQ(own.name, few_pixels().finger.name);
+  double largest = 0;
+  for (std::size_t i = 0; i < tables.printed.size(); ++i) {
+    const PrintedNumber& p = tables.printed[i];
+    EXPECT_EQ(own.values[i], p.papilla.value);
+    EXPECT_NEAR(own.misses[i] * p.validation_sd(), p.error(), 1e-12 * std::abs(p.error()));
+    largest = std::max(largest, std::abs(own.misses[i]));
+  }
+  EXPECT_EQ(own.largest(), largest);
+}
+
+// On flat glass under a load of 1 N: the law of the pull on a parallel gap, as far as 30 mm^2 carry
+// it, is the printed one.
+TEST(WholeFinger, IsPrintedAsItsLawSays) {
+  const double alpha = 0.2 * 30e-6 * 8.854e-12 / (2 * square(1.1e-6)), gap_volts = 105;
+  const std::vector<PublishedTarget> targets = whole_finger_targets();
+  EXPECT_NEAR(1e3 * alpha * square(gap_volts) / 2, targets[1].low, 0.02 * targets[1].low);
+  EXPECT_NEAR(targets[1].low / 0.2, targets[0].low, 0.01 * targets[0].low);
+  // 4 mA on 250 pF at 25 kHz, 90 % of all in the gap.
+  EXPECT_NEAR(4e-3 / (2 * kPi * 25e3 * 250e-12) / 0.9, targets[2].low, 1);
 }
 
 }  // namespace

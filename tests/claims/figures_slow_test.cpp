@@ -68,7 +68,7 @@ TEST(FiguresOfOneRun, ThePresetsDifferAsThePaperHasIt) {
 }
 
 TEST(FiguresOfOneRun, PrintedNumbersStandBesideTheModels) {
-  EXPECT_EQ(tables().printed.size(), 12u);
+  EXPECT_EQ(tables().printed.size(), 16u);
   const PrintedNumber ranged{"M5", "", 22.3, 24.1, 4, {12.05, 1}, {23, 1}};
   EXPECT_NEAR(ranged.deviation(ranged.papilla), 12.05 / 22.3 - 1, 1e-12);
   EXPECT_EQ(ranged.deviation(ranged.m3), 0);
@@ -79,6 +79,7 @@ TEST(FiguresOfOneRun, PrintedNumbersStandBesideTheModels) {
   const std::string page = figures_markdown(tables(), "reference");
   EXPECT_NE(page.find("| M14 |"), std::string::npos);
   EXPECT_NE(page.find("## Fig. 2d"), std::string::npos);
+  EXPECT_NE(page.find("## One set of parameters"), std::string::npos);
   const auto rows = csv_rows(figures_csv(tables()));
   EXPECT_EQ(rows.size(), tables().rows.size() + 1);
   for (const auto& cells : rows) EXPECT_EQ(cells.size(), rows[0].size());

@@ -18,7 +18,7 @@ TEST(PosteriorSlow, IntervalsHoldPlantedTruths) {
   int held = 0, by_members = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const Linear model(seed);
-    const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(400));
+    const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(40));
     std::vector<std::vector<double>> features;
     for (const PosteriorSample& s : p.samples) features.push_back(s.values);
     const std::vector<double> weights = weights_of(p);
@@ -42,14 +42,12 @@ TEST(PosteriorSlow, IntervalsHoldPlantedTruths) {
   EXPECT_LE(by_members, 0.99 * all);
 }
 
-// Two hundred truths, each by 24 draws: few that are worth few hold as many.
+// Two hundred truths, each by 24 answers of the model.
 TEST(PosteriorSlow, FewSamplesHoldPlantedTruths) {
   int held = 0, all = 0;
-  double worth = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const Linear model(seed);
     const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(24));
-    worth += p.effective / 200;
     std::vector<std::vector<double>> features;
     for (const PosteriorSample& s : p.samples) features.push_back(s.values);
     const ChosenPoints members =
@@ -65,7 +63,6 @@ TEST(PosteriorSlow, FewSamplesHoldPlantedTruths) {
               normal_quantile(0.975) * std::sqrt(variance);
     }
   }
-  EXPECT_LT(worth, 24);
   EXPECT_GE(held, 0.90 * all);
   EXPECT_LE(held, 0.99 * all);
 }
@@ -73,8 +70,10 @@ TEST(PosteriorSlow, FewSamplesHoldPlantedTruths) {
 // The rows 0 and 1 of a linear model, left out together: a normal density in closed form.
 TEST(PosteriorSlow, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
   const Linear model(5);
-  const Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(60000));
-  const LeftOut left = leave_out(p.samples, 1, {{0, 1}, {2, 3, 4, 5}}, {0, 0});
+  PosteriorOptions options = known(60);
+  options.groups = {{0, 1}, {2, 3, 4, 5}};
+  const Posterior p = sample_posterior(model.parameters, 6, model.misses(), options);
+  const LeftOut left = leave_out(p.samples, 1, options.groups, {0, 0});
   const Eigen::MatrixXd others = model.a.bottomRows(4), own = model.a.topRows(2);
   const Eigen::MatrixXd c =
       (others.transpose() * others + Eigen::MatrixXd::Identity(3, 3) / 4).inverse();
@@ -85,12 +84,12 @@ TEST(PosteriorSlow, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
   const double expected = -0.5 * miss.dot(spread.inverse() * miss) -
                           0.5 * std::log(spread.determinant()) - std::log(2 * kPi);
   EXPECT_NEAR(left.scores[0], expected, 0.1);
-  EXPECT_LT(left.least_effective, p.effective);
+  EXPECT_GT(left.least_effective, 1000);
 }
 
 TEST(PosteriorSlow, AnotherVarianceFactorIsAnotherPosteriorOfTheSameSamples) {
   const Linear model(2);
-  Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(20000));
+  Posterior p = sample_posterior(model.parameters, 6, model.misses(), known(60));
   reweigh(p, 2);  // chi squared of data and priors halved: twice the covariance
   const std::vector<double> values = values_of(p, 0), weights = weights_of(p);
   double mean = 0, variance = 0;
