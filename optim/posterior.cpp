@@ -25,7 +25,7 @@ constexpr double kSameValley = 1;
 constexpr int kStage = 12;
 constexpr double kStageShare = 1.0 / 3;
 // Draws of the bells that those of a stage are chosen among, and that the posterior is made of.
-constexpr int kPilot = 4000, kDraws = 20000;
+constexpr int kPilot = 4000, kDraws = 20000, kHalfDraws = 5000;
 // Of the draws of a stage, the share of the bells of the fits themselves, whatever is guessed; of
 // the rest, the share of the posterior of all rows. Groups left out have what is left.
 constexpr double kOfFits = 0.25, kOfAllRows = 0.5;
@@ -60,25 +60,27 @@ class Sampler {
 
   Posterior run(const LeastSquaresFit* first) {
     find_minima(first);
-    out_.variance_factor = options_.variance_factor;
-    if (!(out_.variance_factor > 0)) {
-      const LeastSquaresFit& best = fits_.front();
-      out_.variance_factor =
-          best.degrees_of_freedom > 0
-              ? std::max(1.0, (best.chi2 + best.prior_chi2) / best.degrees_of_freedom)
-              : 1;
-    }
+    out_.variance_factor = variance_factor(fits_.front().chi2 + fits_.front().prior_chi2);
     of_.emplace(GuessedPosterior{coordinates_, parameters_, options_, out_.variance_factor});
     place_bells();
     ask();
-    draw();
+    // A fit of few steps may have ended above what the samples have found.
     out_.least_sum = least_sum();
+    out_.variance_factor = of_->variance_factor =
+        std::min(out_.variance_factor, variance_factor(out_.least_sum));
+    draw();
     return std::move(out_);
   }
 
  private:
   void note(const std::string& text) const {
     if (options_.note) options_.note(text);
+  }
+
+  double variance_factor(double sum) const {
+    if (options_.variance_factor > 0) return options_.variance_factor;
+    const int freedom = fits_.front().degrees_of_freedom;
+    return freedom > 0 ? std::max(1.0, sum / freedom) : 1;
   }
 
   // A start from the priors; from the whole range without one.
@@ -267,13 +269,27 @@ class Sampler {
     }
   }
 
-  // Draws of the last guess, weighted by importance. Eq. calibration.8
   void draw() {
+    out_.samples = samples_by(trials_, kDraws);
+    if (trials_.size() > 1) {
+      for (std::size_t half = 0; half < 2; ++half) {
+        std::vector<PosteriorTrial> every_second;
+        for (std::size_t k = half; k < trials_.size(); k += 2) every_second.push_back(trials_[k]);
+        out_.halves.push_back(samples_by(every_second, kHalfDraws));
+      }
+    }
+    reweigh(out_, out_.variance_factor);
+  }
+
+  // Draws of what these answers say, weighted by importance. Eq. calibration.8
+  std::vector<PosteriorSample> samples_by(const std::vector<PosteriorTrial>& trials,
+                                          int count) const {
+    std::vector<PosteriorSample> out;
     RandomStream random(options_.seed, "posterior");
-    const PosteriorGuess guess(*of_, trials_, units_);
+    const PosteriorGuess guess(*of_, trials, units_);
     const Bells bells = bells_by(guess);
-    for (const Eigen::VectorXd& x : drawn(guess, bells, kDraws, random).points) {
-      PosteriorSample& s = out_.samples.emplace_back();
+    for (const Eigen::VectorXd& x : drawn(guess, bells, count, random).points) {
+      PosteriorSample& s = out.emplace_back();
       for (std::size_t i = 0; i < parameters_.size(); ++i)
         s.values.push_back(coordinates_.from(i, x(static_cast<Eigen::Index>(i))));
       const RowQuadratics::Rows rows = guess.rows(x);
@@ -285,7 +301,7 @@ class Sampler {
       const std::vector<double> logs = valleys_.log_densities(x);
       for (const double v : logs) s.from.push_back(std::exp(v - log_sum(logs)));
     }
-    reweigh(out_, out_.variance_factor);
+    return out;
   }
 
   double least_sum() const {
@@ -334,14 +350,18 @@ double PosteriorSample::log_likelihood(std::size_t row, double variance_factor) 
 }
 
 void reweigh(Posterior& posterior, double variance_factor) {
-  std::vector<double> logs;
-  for (PosteriorSample& s : posterior.samples) {
-    s.log_ratio = -s.prior_sum / (2 * variance_factor) - s.log_proposal;
-    for (std::size_t k = 0; k < s.misses.size(); ++k)
-      s.log_ratio += s.log_likelihood(k, variance_factor);
-    logs.push_back(s.log_ratio);
-  }
-  const std::vector<double> weights = normalised(logs);
+  const auto normalised_ratios = [&](std::vector<PosteriorSample>& samples) {
+    std::vector<double> logs;
+    for (PosteriorSample& s : samples) {
+      s.log_ratio = -s.prior_sum / (2 * variance_factor) - s.log_proposal;
+      for (std::size_t k = 0; k < s.misses.size(); ++k)
+        s.log_ratio += s.log_likelihood(k, variance_factor);
+      logs.push_back(s.log_ratio);
+    }
+    return normalised(logs);
+  };
+  for (std::vector<PosteriorSample>& half : posterior.halves) normalised_ratios(half);
+  const std::vector<double> weights = normalised_ratios(posterior.samples);
   for (Valley& v : posterior.valleys) v.share = 0;
   for (std::size_t k = 0; k < weights.size(); ++k) {
     posterior.samples[k].weight = weights[k];

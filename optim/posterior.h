@@ -62,6 +62,9 @@ double log_likelihood(double miss, double open, double variance_factor);
 struct Posterior {
   std::vector<Valley> valleys;  // best first
   std::vector<PosteriorSample> samples;
+  // Fewer draws, of what every second answer alone says and of what the others say: how far they
+  // differ is how much chance there is in a guess.
+  std::vector<std::vector<PosteriorSample>> halves;
   double effective = 0;  // (sum w)^2 / sum w^2: independent samples that these are worth
   int asked = 0;         // samples that the model has answered
   double least_sum = 0;  // chi squared of data and priors of the best answer
@@ -92,20 +95,19 @@ std::vector<double> normalised(const std::vector<double>& logarithms);
 double effective_number(const std::vector<double>& weights);
 
 // Logarithmic predictive score of groups of residuals, each left out: log p(y_g | all others),
-// one per group, and the least effective number of samples that one of them stands on. Residuals
-// are whitened; log_sd: the sum of the logarithms of the standard deviations of each group.
-// Eq. calibration.9
+// one per group with the standard deviation that the halves leave it, and the least effective
+// number of samples that one of them stands on. Residuals are whitened; log_sd: the sum of the
+// logarithms of the standard deviations of each group. Eq. calibration.9
 struct LeftOut {
-  std::vector<double> scores;
+  std::vector<double> scores, errors;
   double least_effective = 0;
 };
-LeftOut leave_out(const std::vector<PosteriorSample>& samples, double variance_factor,
-                  const std::vector<std::vector<std::size_t>>& groups,
+LeftOut leave_out(const Posterior& posterior, const std::vector<std::vector<std::size_t>>& groups,
                   const std::vector<double>& log_sd);
-// Weights of hypotheses from their scores on the same groups: the mean over resampled groups of
-// exp(score), normalised (pseudo-BMA+, Yao et al. 2018). Eq. calibration.9
-std::vector<double> hypothesis_weights(const std::vector<std::vector<double>>& scores,
-                                       std::uint64_t seed);
+// Weights of hypotheses from their scores on the same groups: the mean over resampled groups, and
+// over what each score may be off, of exp(score), normalised (pseudo-BMA+, Yao et al. 2018).
+// Eq. calibration.9
+std::vector<double> hypothesis_weights(const std::vector<LeftOut>& of, std::uint64_t seed);
 
 // A few of many weighted points with weights of their own, whose weighted means and standard
 // deviations of every feature are those of all, the deviations widened for the effective number of

@@ -32,10 +32,13 @@ double effective_number(const std::vector<double>& weights) {
   return squares > 0 ? sum * sum / squares : 0;
 }
 
-LeftOut leave_out(const std::vector<PosteriorSample>& samples, double variance_factor,
+namespace {
+
+LeftOut scores_of(const std::vector<PosteriorSample>& samples, double variance_factor,
                   const std::vector<std::vector<std::size_t>>& groups,
                   const std::vector<double>& log_sd) {
   LeftOut out;
+  out.errors.assign(groups.size(), 0);
   out.least_effective = static_cast<double>(samples.size());
   for (std::size_t g = 0; g < groups.size(); ++g) {
     std::vector<double> with, without;
@@ -53,11 +56,28 @@ LeftOut leave_out(const std::vector<PosteriorSample>& samples, double variance_f
   return out;
 }
 
-std::vector<double> hypothesis_weights(const std::vector<std::vector<double>>& scores,
-                                       std::uint64_t seed) {
-  constexpr int kResamplings = 2000;
-  std::vector<double> out(scores.size(), 0);
-  const std::size_t groups = scores.front().size();
+}  // namespace
+
+LeftOut leave_out(const Posterior& posterior, const std::vector<std::vector<std::size_t>>& groups,
+                  const std::vector<double>& log_sd) {
+  LeftOut out = scores_of(posterior.samples, posterior.variance_factor, groups, log_sd);
+  if (posterior.halves.empty()) return out;
+  // A half has twice the variance of all and all have half of its answers in common with it: their
+  // difference has the variance of all.
+  for (const std::vector<PosteriorSample>& half : posterior.halves) {
+    const LeftOut by_half = scores_of(half, posterior.variance_factor, groups, log_sd);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      out.errors[g] += square(by_half.scores[g] - out.scores[g]);
+  }
+  for (double& error : out.errors)
+    error = std::sqrt(error / static_cast<double>(posterior.halves.size()));
+  return out;
+}
+
+std::vector<double> hypothesis_weights(const std::vector<LeftOut>& of, std::uint64_t seed) {
+  constexpr int kResamplings = 20000;
+  std::vector<double> out(of.size(), 0);
+  const std::size_t groups = of.front().scores.size();
   RandomStream random(seed, "hypothesis weights");
   for (int k = 0; k < kResamplings; ++k) {
     std::vector<double> share;  // of the groups: Dirichlet(1, ..., 1)
@@ -67,10 +87,11 @@ std::vector<double> hypothesis_weights(const std::vector<std::vector<double>>& s
       sum += share.back();
     }
     std::vector<double> totals;
-    for (const std::vector<double>& s : scores) {
+    for (const LeftOut& h : of) {
       double total = 0;
       for (std::size_t g = 0; g < groups; ++g)
-        total += static_cast<double>(groups) * share[g] / sum * s[g];
+        total += static_cast<double>(groups) * share[g] / sum *
+                 (h.scores[g] + (h.errors[g] > 0 ? h.errors[g] * random.normal() : 0));
       totals.push_back(total);
     }
     const std::vector<double> w = normalised(totals);

@@ -182,6 +182,10 @@ FitSolution TrustRegion::solve(std::vector<double> x, const std::vector<std::siz
 
 bool TrustRegion::descend(std::vector<double>& x, const std::vector<std::size_t>& free,
                           int iterations, double region, std::string& message) {
+  if (iterations == 0) {
+    message = "kept at its start";
+    return true;
+  }
   std::vector<double> values, low, high;
   for (std::size_t i : free) {
     const FitParameter& p = coordinates_.parameter(i);

@@ -128,16 +128,19 @@ class BeliefMaker {
       if (h.failed.empty()) factor = std::min(factor, own_factor(h.posterior));
     }
     out_.variance_factor = factor;
-    std::vector<std::vector<double>> scores;
+    std::vector<LeftOut> scores;
     for (std::size_t k = 0; k < out_.hypotheses.size(); ++k) {
       HypothesisFit& h = out_.hypotheses[k];
       if (!h.failed.empty()) continue;
       reweigh(h.posterior, factor);
-      LeftOut left = leave_out(h.posterior.samples, factor, groups(), log_sd_[k]);
+      scores.push_back(leave_out(h.posterior, groups(), log_sd_[k]));
+      const LeftOut& left = scores.back();
       h.scores = left.scores;
       h.least_effective = left.least_effective;
-      for (const double s : h.scores) h.score += s;
-      scores.push_back(std::move(left.scores));
+      for (std::size_t g = 0; g < left.scores.size(); ++g) {
+        h.score += left.scores[g];
+        h.score_error = std::hypot(h.score_error, left.errors[g]);
+      }
     }
     const std::vector<double> weights =
         hypothesis_weights(scores, static_cast<std::uint64_t>(settings_.seed));
@@ -146,9 +149,10 @@ class BeliefMaker {
       if (!h.failed.empty()) continue;
       h.weight = weights[next++];
       note(
-          fmt::format("{}: weight {:.3f}, log predictive score {:.2f}, {} samples, guessed to "
-                      "{:.2f} of their own error",
-                      h.name, h.weight, h.score, h.posterior.asked, h.posterior.guess_error));
+          fmt::format("{}: weight {:.3f}, log predictive score {:.2f} ± {:.2f}, {} samples, "
+                      "guessed to {:.2f} of their own error",
+                      h.name, h.weight, h.score, h.score_error, h.posterior.asked,
+                      h.posterior.guess_error));
     }
   }
 

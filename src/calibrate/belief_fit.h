@@ -19,6 +19,7 @@ struct HypothesisFit {
   Posterior posterior;
   std::vector<double> scores;  // log predictive, of each group left out
   double score = 0;            // their sum
+  double score_error = 0;      // its standard deviation, by halves of the answers
   double least_effective = 0;  // samples that one of them stands on
   double weight = 0;
   std::string failed;  // why it has no posterior; then its weight is 0

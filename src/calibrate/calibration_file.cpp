@@ -39,7 +39,7 @@ class CalibrationReader {
     read_data();
     read_sampling("sampling", out_.sampling);
     read_sampling("check", out_.check);
-    integer("iterations", 1, 1000, out_.iterations);
+    integer("iterations", 0, 1000, out_.iterations);
     if (const Node* node = document_.take("profiles")) {
       if (node->kind == Node::Kind::Flag) {
         out_.profiles = node->flag;
@@ -114,7 +114,7 @@ class CalibrationReader {
 
   void read_lists() {
     std::set<std::string> with_numbers;
-    for (const PublishedTarget& t : published_targets()) with_numbers.insert(t.claim);
+    for (const PublishedTarget& t : fittable_targets()) with_numbers.insert(t.claim);
     for (const auto& [key, list] : {std::pair{"fit", &out_.fit}, {"hold_out", &out_.hold_out}}) {
       const Node* node = document_.take(key);
       if (!node) continue;

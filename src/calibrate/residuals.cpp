@@ -11,7 +11,6 @@
 
 #include "base/files.h"
 #include "config/writer.h"
-#include "forward/dry_areas.h"
 #include "forward/forward.h"
 #include "optim/trust_region.h"
 
@@ -52,7 +51,7 @@ std::string problem_of(const Calibration& calibration, const std::vector<Measure
 Residuals::Residuals(const Calibration& calibration, int threads, const std::string& folder)
     : calibration_(calibration), threads_(threads), factors_(calibration.data.size()) {
   const std::set<std::string> wanted(calibration.fit.begin(), calibration.fit.end());
-  for (PublishedTarget& target : published_targets()) {
+  for (PublishedTarget& target : fittable_targets()) {
     if (wanted.count(target.claim)) targets_.push_back(std::move(target));
   }
   group_data();
@@ -239,7 +238,7 @@ std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
                                                       bool corrected) const {
   std::vector<Friction> out(calibration_.data.size());
   Fidelity fidelity = sampling.fidelity(threads_);
-  if (!corrected) fidelity.control_skins = 0;
+  if (corrected) fidelity.control_skins = fidelity_level(sampling.level).control_skins;
   for (const MeasuredGroup& s : groups_) {
     Scene scene = scene_of(s.design);
     const double load = scene.finger.load;
@@ -248,9 +247,7 @@ std::vector<Residuals::Friction> Residuals::evaluated(const Finger& finger,
     scene.finger.load = load;
     scene.finger.state = state;
     scene.model = finger.calibrated_for;
-    const Response response = corrected && fidelity.control_skins < 2
-                                  ? evaluate_resolved(scene, s.design.texture, fidelity, kDrySkins)
-                                  : evaluate(scene, s.design.texture, fidelity);
+    const Response response = evaluate(scene, s.design.texture, fidelity);
     for (std::size_t k = 0; k < s.rows.size(); ++k) {
       const ResponsePoint& p = response.points[s.humidity_of[k]];
       out[s.rows[k]] = {{p.friction_off.value, p.friction_off.parts.sampling},

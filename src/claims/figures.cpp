@@ -8,11 +8,11 @@
 #include "base/constants.h"
 #include "claims/members.h"
 #include "claims/papers.h"
-#include "claims/whole_finger.h"
 #include "forward/forward.h"
 #include "forward/scene_terms.h"
 #include "published/samples.h"
 #include "published/targets.h"
+#include "published/whole_finger.h"
 
 namespace papilla::claims {
 namespace {

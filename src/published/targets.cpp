@@ -5,6 +5,7 @@
 #include "base/constants.h"
 #include "forward/ridges.h"
 #include "published/samples.h"
+#include "published/whole_finger.h"
 
 namespace papilla::published {
 namespace {
@@ -107,6 +108,12 @@ std::vector<PublishedTarget> published_targets() {
        1e6 * kPublishedGap, 0.1, gap_in_um},
       {kFrictionTarget, "friction coefficient, flat, 35 and 55 %", 0.2, 0.4, 0.1, room_friction},
   };
+}
+
+std::vector<PublishedTarget> fittable_targets() {
+  std::vector<PublishedTarget> out = published_targets();
+  for (PublishedTarget& target : whole_finger_targets()) out.push_back(std::move(target));
+  return out;
 }
 
 double capacitance_gap(const Finger& finger) {

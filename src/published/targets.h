@@ -20,6 +20,8 @@ struct PublishedTarget {
   std::function<Estimate(FingerModel&)> model;
 };
 std::vector<PublishedTarget> published_targets();
+// These, and those of whole fingers (`whole_finger_targets`): all that a fit can name.
+std::vector<PublishedTarget> fittable_targets();
 
 // The gap under a finger that slides on coated glass, by its capacitance [m]: the paper on
 // broadband electroadhesion has 250 pF on 30 mm2 (claim B2); and what the ridges of this finger

@@ -22,8 +22,9 @@ std::string hypothesis_row(const HypothesisFit& h) {
   for (const Valley& v : h.posterior.valleys)
     valleys +=
         fmt::format("{}{:.4g} ({:.0f} %)", valleys.empty() ? "" : ", ", v.sum, 100 * v.share);
-  return fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {:.3f} | {} |\n", h.name, valleys,
-                     h.posterior.asked, h.posterior.guess_error, h.score, h.weight,
+  return fmt::format("| {} | {} | {} | {:.2f} | {:.2f} ± {:.2f} | {:.3f} | {} |\n", h.name, valleys,
+                     h.posterior.asked, h.posterior.guess_error, h.score, h.score_error,
+                     h.weight,
                      h.least_effective < kFewSamples
                          ? fmt::format("a group left out stands on {:.1f} draws", h.least_effective)
                          : "");
@@ -81,6 +82,7 @@ Json belief_fit_json(const BeliefFit& fit) {
                           {"guess_missed_by", json_number(h.posterior.guess_error)},
                           {"effective_samples", h.posterior.effective},
                           {"log_predictive_score", json_number(h.score)},
+                          {"log_predictive_score_se", json_number(h.score_error)},
                           {"of_groups", std::move(scores)},
                           {"least_effective_left_out", h.least_effective},
                           {"status", h.failed.empty() ? "ok" : h.failed}});

@@ -9,7 +9,8 @@
 namespace papilla::report {
 
 extern const std::string_view kLookModule, kNumbersModule, kTablesModule, kMapsModule,
-    kChartsModule, kDimensionsModule, kCurvesModule, kFoundModule, kSolidModule;
+    kChartsModule, kDimensionsModule, kCurvesModule, kFoundModule, kParallelModule,
+    kSolidModule;
 extern const std::string_view kPageStyle, kChartScript, kThreeScript;
 
 }  // namespace papilla::report

@@ -40,6 +40,7 @@ const std::array kFiles{
     Entry{"/plots/charts.js", kScript, &kChartsModule},
     Entry{"/plots/dimensions.js", kScript, &kDimensionsModule},
     Entry{"/plots/found.js", kScript, &kFoundModule},
+    Entry{"/plots/parallel.js", kScript, &kParallelModule},
     Entry{"/plots/curves.js", kScript, &kCurvesModule},
     Entry{"/plots/solid.js", kScript, &kSolidModule},
     Entry{"/chart.js", kScript, &kChartScript},

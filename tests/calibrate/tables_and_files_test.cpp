@@ -276,10 +276,10 @@ TEST_F(TablesAndFiles, MistakesOfAFitAreToldInTheirWords) {
   const auto also = [&](const std::string& line) {
     return told(line + "\nfit = [\"M1\"]\n" + kSoftening);
   };
-  EXPECT_EQ(also("iterations = 0"), "3:14: iterations: expected a whole number from 1 to 1000\n");
+  EXPECT_EQ(also("iterations = -1"), "3:14: iterations: expected a whole number from 0 to 1000\n");
   EXPECT_EQ(also("iterations = 1001"),
-            "3:14: iterations: expected a whole number from 1 to 1000\n");
-  EXPECT_EQ(also("iterations = 1"), "");
+            "3:14: iterations: expected a whole number from 0 to 1000\n");
+  EXPECT_EQ(also("iterations = 0"), "");
   EXPECT_EQ(also("iterations = 1000"), "");
   EXPECT_EQ(also("profiles = 1"), "3:12: profiles: expected true or false\n");
   EXPECT_EQ(also("data = \"none.csv\""), "3:8: data: no file \"none.csv\"\n");

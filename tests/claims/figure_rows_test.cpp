@@ -11,9 +11,9 @@
 #include "base/constants.h"
 #include "claims/figures.h"
 #include "claims/papers.h"
-#include "claims/whole_finger.h"
 #include "forward/forward.h"
 #include "published/targets.h"
+#include "published/whole_finger.h"
 
 namespace papilla::tests {
 namespace {

@@ -73,7 +73,7 @@ TEST(PosteriorSlow, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
   PosteriorOptions options = known(60);
   options.groups = {{0, 1}, {2, 3, 4, 5}};
   const Posterior p = sample_posterior(model.parameters, 6, model.misses(), options);
-  const LeftOut left = leave_out(p.samples, 1, options.groups, {0, 0});
+  const LeftOut left = leave_out(p, options.groups, {0, 0});
   const Eigen::MatrixXd others = model.a.bottomRows(4), own = model.a.topRows(2);
   const Eigen::MatrixXd c =
       (others.transpose() * others + Eigen::MatrixXd::Identity(3, 3) / 4).inverse();
@@ -84,6 +84,7 @@ TEST(PosteriorSlow, TheScoreOfAGroupLeftOutIsItsPredictiveDensity) {
   const double expected = -0.5 * miss.dot(spread.inverse() * miss) -
                           0.5 * std::log(spread.determinant()) - std::log(2 * kPi);
   EXPECT_NEAR(left.scores[0], expected, 0.1);
+  EXPECT_LT(left.errors[0], 0.3);  // rows that are straight
   EXPECT_GT(left.least_effective, 1000);
 }
 

@@ -199,16 +199,36 @@ TEST(Posterior, OfNoDataIsTheRange) {
   EXPECT_NEAR(squares, 1.0 / 3, 4 * std::sqrt(4.0 / 45 / p.effective));
 }
 
+LeftOut scored(std::vector<double> scores, double error = 0) {
+  std::vector<double> errors(scores.size(), error);
+  return {std::move(scores), std::move(errors), 0};
+}
+
 TEST(HypothesisWeights, AreTheScoresWhereGroupsSayTheSameAndNeverCertainWhereTheyDoNot) {
-  const std::vector<double> same = hypothesis_weights({{-1, -2, -3}, {-1, -2, -3}}, 1);
+  const std::vector<double> same = hypothesis_weights({scored({-1, -2, -3}), scored({-1, -2, -3})}, 1);
   EXPECT_NEAR(same[0], 0.5, 1e-12);
   // One ahead by 1 in each of four groups: e^4 whatever their shares.
-  const std::vector<double> ahead = hypothesis_weights({{0, 0, 0, 0}, {-1, -1, -1, -1}}, 1);
+  const std::vector<double> ahead = hypothesis_weights({scored({0, 0, 0, 0}), scored({-1, -1, -1, -1})}, 1);
   EXPECT_NEAR(ahead[0], 1 / (1 + std::exp(-4)), 1e-9);
   // The same lead from one group alone: less sure.
-  const std::vector<double> one = hypothesis_weights({{0, 0, 0, 0}, {-4, 0, 0, 0}}, 1);
+  const std::vector<double> one = hypothesis_weights({scored({0, 0, 0, 0}), scored({-4, 0, 0, 0})}, 1);
   EXPECT_LT(one[0], ahead[0] - 0.05);
   EXPECT_GT(one[0], 0.5);
+}
+
+// The lead of one group is 1; what the scores may be off is added to it, and the mean of the
+// logistic function over that normal by quadrature.
+TEST(HypothesisWeights, KnowWhatTheScoresMayBeOff) {
+  constexpr double kError = 3;
+  const std::vector<double> w = hypothesis_weights({scored({0}, kError), scored({-1})}, 1);
+  double expected = 0;
+  constexpr int kNodes = 4000;
+  for (int k = 0; k < kNodes; ++k) {
+    const double z = normal_quantile((k + 0.5) / kNodes);
+    expected += 1 / (1 + std::exp(-1 - kError * z)) / kNodes;
+  }
+  EXPECT_NEAR(w[0], expected, 4 * 0.5 / std::sqrt(20000.0));
+  EXPECT_LT(w[0], 1 / (1 + std::exp(-1.0)) - 0.05);
 }
 
 TEST(ChosenPoints, HaveTheMeansAndSpreadsOfAll) {

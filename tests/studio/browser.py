@@ -248,6 +248,22 @@ def unfinished(browser):
     browser.call("POST", "/window", {"handle": page})
 
 
+def by_numbers(browser):
+    """All designs over their numbers: those of the upper half of an axis, by the server's own texts, pass; a line opens its design."""
+    browser.run("document.getElementById('allbox').open = true")
+    until(browser, "document.querySelectorAll('#all polyline').length > 5", 10, "lines of designs")
+    counts = browser.run("""
+        const axis = [...document.querySelectorAll('#all .axis')].find(a => a.getAttribute('aria-label').startsWith('depth'));
+        for (let k = 0; k < 10; ++k) axis.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowUp', bubbles: true}));
+        const titles = [...document.querySelectorAll('#all polyline')].map(l => l.querySelector('title').textContent), depths = titles.map(t => parseFloat(/depth ([\\d.]+)/.exec(t)[1]));
+        const middle = (Math.min(...depths) + Math.max(...depths)) / 2;
+        const out = [titles.length, +document.getElementById('all').dataset.passing, document.querySelectorAll('#all polyline:not(.out)').length, depths.filter(d => d >= middle).length, axis.getAttribute('aria-valuetext')];
+        axis.dispatchEvent(new KeyboardEvent('keydown', {key: 'Escape', bubbles: true}));
+        return out.concat(+document.getElementById('all').dataset.passing);""")
+    check(0 < counts[1] < counts[0] and counts[1] == counts[2] == counts[3], f"designs that pass the upper half of the depths: {counts}")
+    check(counts[5] == counts[0], f"Escape leaves a range: {counts}")
+
+
 def hour(browser, folder):
     shutil.copy(os.path.join(TREE, "designs", "measured_surface", "scan.gsf"), folder)
     studio = Studio(folder, two_humidities(folder))
@@ -266,6 +282,7 @@ def hour(browser, folder):
         # Search, steered once.
         browser.run("document.getElementById('evaluations').value = 30; document.getElementById('start').click()")
         until(browser, "papilla.charts.pareto && papilla.charts.pareto.data.datasets.some(s => s.data.length > 5)", 180, "designs of the search")
+        by_numbers(browser)
         browser.picture(PICTURES, "hour_3_search.png")
         unfinished(browser)
         browser.run("document.querySelector('#frontlist button').click()")

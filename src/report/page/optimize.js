@@ -114,6 +114,22 @@ function showFinalists() {
   table($('kept'), ['design'].concat(limits.map(heading)), finalists.map((r) => ['design'].concat(limits).map((c) => r[c])), limits.map((c, i) => i + 1));
 }
 
+// Every design of the search over its objectives and its numbers, at the level of the search.
+function showAll() {
+  const names = objectives.concat(variables), done = history.filter((r) => r.status === 'ok');
+  $('allbox').hidden = done.length < 2;
+  if ($('allbox').hidden) return;
+  const number = (text) => text === '' || Number.isNaN(+text) ? text : +text, axes = names.map((name) => {
+    const m = /^(.*?)(?: \[(.*)\])?$/.exec(name), s = shownAs(name);
+    return { name: m[1].replace(/^[a-z]+\./, '').replace(/_/g, ' '), unit: m[2] || s.unit, scale: objectives.includes(name) ? s.scale : 1 };
+  });
+  parallel($('all'), axes, done.map((r) => ({
+    values: names.map((name, i) => { const v = number(r[name]); return typeof v === 'number' ? v * axes[i].scale : v; }),
+    group: r.feasible === 'no' ? 'broken' : 'searched',
+    text: names.filter((name) => r[name] !== '').map((name) => `${name} ${entry(r[name])}`).join(', '),
+  })), () => {});
+}
+
 // The range of each number over all good designs, within what it may be.
 function showShared() {
   const shared = run.shared;
@@ -272,6 +288,7 @@ startSolid();
 select('best');
 showSteps();
 showSection($('decision'), 'Which of them, by belief', '');
+showAll();
 showShared();
 showSection($('stability'), 'Does the order hold?', Object.keys(data.designs).length > 2 ? 'Whether the order holds under other choices of the model was not checked.' : 'One design on the front: there is no order to check.');
 showSection($('sensitivity'), 'What the best design is sensitive to', '');

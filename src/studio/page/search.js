@@ -3,6 +3,7 @@ import { $ } from '../plots/look.js';
 import { charts, draw, errorBars } from '../plots/charts.js';
 import { found, foundChart, foundTable } from '../plots/found.js';
 import { round } from '../plots/numbers.js';
+import { parallel } from '../plots/parallel.js';
 import { table } from '../plots/tables.js';
 import { called, people } from './form.js';
 import { ask, post } from './server.js';
@@ -165,6 +166,21 @@ export function showSearch(search) {
   $('stage').textContent = search.state === 'failed' ? search.trouble : `${search.done} of ${search.total} designs` + (running ? `; ${stages[search.stage] || ''}` : '') + (told && told.seconds_left !== null ? `, about ${time(told.seconds_left)} left` : '') + `; ${search.folder}`;
   showFront(search);
 }
+// Every design that the search looked at, over all its numbers.
+function showAll(searched, front, search, names) {
+  const wanted = names[1] === 'evaluation' ? names.slice(0, 1) : names, on = new Set(front);
+  const number = (text) => { const m = /^-?[\d.]+(e[-+]?\d+)?(?=\s|$)/i.exec(text); return m ? +m[0] : text; };
+  const unit = (i) => { const text = searched.map((p) => p.values[i]).find((v) => v && typeof number(v) === 'number'); return text ? people(text).replace(/^\S+\s?/, '') : ''; };
+  $('allbox').hidden = searched.length < 2;
+  if ($('allbox').hidden) return;
+  const axes = wanted.map((name) => ({ name, unit: '' })).concat(search.variables.map((v, i) => ({ name: called(v.path), unit: unit(i) })));
+  parallel($('all'), axes, searched.map((p) => ({
+    values: [p.x, p.y].slice(0, wanted.length).concat(p.values.map(number)),
+    group: on.has(p) ? 'front' : p.ok ? 'searched' : 'broken',
+    text: wanted.map((name, k) => `${name} ${round([p.x, p.y][k], 4)}`).concat(search.variables.map((v, i) => p.values[i] ? `${called(v.path)} ${people(p.values[i])}` : '').filter(Boolean)).join(', '),
+    evaluation: p.evaluation,
+  })), open);
+}
 function showFront(search) {
   const all = found(search), { searched, confirmed, front, names } = all, { sets, scales } = foundChart(all);
   if (charts.pareto && charts.pareto.$names === names.join()) {
@@ -190,6 +206,7 @@ function showFront(search) {
     charts.pareto.$names = names.join();
   }
   $('fronthint').textContent = searched.length ? (confirmed.length ? 'Bars: ± one standard error. Points of the search are of a cheaper level: compare them with each other only. ' : 'Searched at a cheap level: the finalists are confirmed at the end. ') + 'Select a point, or Open, to make it the design at hand.' : 'The first designs are on their way.';
+  showAll(searched, front, search, names);
   // The same by keys and for those who hear the page.
   const list = confirmed.length ? confirmed : front;
   const shown = foundTable(list, names, search.variables.map((v) => called(v.path)), people);

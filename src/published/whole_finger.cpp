@@ -1,4 +1,4 @@
-#include "claims/whole_finger.h"
+#include "published/whole_finger.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "design/design.h"
 #include "forward/forward.h"
 
-namespace papilla::claims {
+namespace papilla::published {
 namespace {
 
 // The finger of the paper on broadband electroadhesion: 1 N on 1 um of SiO2 over ITO, 25 kHz; the
@@ -102,4 +102,4 @@ std::vector<PublishedTarget> whole_finger_targets() {
   };
 }
 
-}  // namespace papilla::claims
+}  // namespace papilla::published

@@ -7,10 +7,9 @@
 #include "base/rooms.h"
 #include "published/targets.h"
 
-namespace papilla::claims {
+namespace papilla::published {
 
-// Numbers that no fit uses, and trends as ranges with one end. The gap by capacitance (B2) is
-// `published::kGapTarget`.
+// Numbers, and a trend as a range with one end. The gap by capacitance (B2) is `kGapTarget`.
 std::vector<PublishedTarget> whole_finger_targets();
 
-}  // namespace papilla::claims
+}  // namespace papilla::published
