@@ -14,7 +14,7 @@ namespace papilla::estimate {
 namespace {
 
 // Members differ by far more than skins and pixels move their differences.
-constexpr int kMostMemberSkins = 4, kFinestMemberGrid = 64;
+constexpr int kMostMemberSkins = 2, kFinestMemberGrid = 64;
 constexpr double kMemberTolerance = 3e-3;  // of the contact, at the finest
 
 std::string absent_belief(const Scene& scene) {
