@@ -167,6 +167,7 @@ def _without_clock(response: Response) -> dict[str, Any]:
     document = response.to_dict()
     for clock in ("seconds", "processor_seconds"):
         document.pop(clock, None)
+    document.get("belief", {}).pop("seconds", None)
     return document
 
 

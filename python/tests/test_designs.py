@@ -171,7 +171,8 @@ def test_numbers_say_unit_range_and_meaning() -> None:
 
 
 def test_a_fitted_finger_replaces_that_of_a_design() -> None:
-    finger = (ROOT / "designs/fingers/reference.toml").read_text()
+    lines = (ROOT / "designs/fingers/reference.toml").read_text().splitlines(keepends=True)
+    finger = "".join(line for line in lines if not line.startswith("belief"))  # another fit has none, or its own
     fit = pp.Calibration({"converged": True, "explains_data": True, "warning": "", "parameters": [], "chi2_before": 2.0,
                           "chi2": 1.0, "degrees_of_freedom": 1, "finger": finger.replace('"207 nm"', '"300 nm"'),
                           "table": "", "json": "{}"})

@@ -1,5 +1,7 @@
 #include "papilla/calibrate.h"
 
+#include <filesystem>
+
 #include "api/inside.h"
 #include "config/writer.h"
 #include "report/fit_folder.h"
@@ -19,7 +21,10 @@ CalibrateResult calibrate(const std::string& file, const CalibrateOptions& optio
     out.chi2_before = fit.result.chi2_before;
     out.chi2 = fit.result.fit.chi2;
     out.degrees_of_freedom = fit.result.fit.degrees_of_freedom;
-    out.finger = "schema_version = 1\n" + to_toml(fit.result.finger);
+    Finger finger = fit.result.finger;
+    if (fit.result.belief && !options.folder.empty())  // where it can be read from anywhere
+      finger.belief = std::filesystem::absolute(options.folder) / "belief.toml";
+    out.finger = "schema_version = 1\n" + to_toml(finger);
     out.table = fit.markdown;
     out.json = fit.json;
     return out;

@@ -62,6 +62,8 @@ void add_belief(Response& response, const Scene& scene, const Texture& texture,
   out.skins = few.skins;
   out.grid = few.grid;
   std::vector<Scene> scenes = belief_scenes(belief, scene);
+  for (const Scene& member : scenes)
+    out.over_air_limits |= member.model.air_limit != scene.model.air_limit;
   scenes.push_back(scene);
   std::vector<Response> runs(scenes.size());
   const auto begin = std::chrono::steady_clock::now();

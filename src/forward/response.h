@@ -144,6 +144,7 @@ struct BeliefRuns {
   double seconds = 0;                  // wall time; in no file that must be reproducible
   std::vector<PointTrouble> troubles;  // of the first member whose response is not sound
   std::string absent;                  // why there are no members, for people; "": not asked for
+  bool over_air_limits = false;        // members differ in what air withstands
 
   double effective() const;  // number of members: 1 / sum of the squared weights
 };

@@ -111,7 +111,7 @@ std::string choices_line(const Response& response, bool water) {
   }
   double share = 0;
   for (const ResponsePoint& p : response.points) share = std::max(share, p.over_limit_share);
-  if (share > 0)
+  if (share > 0 && !response.belief.over_air_limits)
     choices.push_back(fmt::format(
         "what air withstands (model.air_limit), where {:.2g} % of the pull stands", 100 * share));
   return choices.empty() ? ""

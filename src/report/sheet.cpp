@@ -225,11 +225,12 @@ std::string skin_text(const ResultFiles& f) {
                      join_names(values));
 }
 
-// Choices of the model that no ± holds, and how far they move the design.
+// Choices of the model, and how far each moves the design alone. Without belief no ± holds any.
 std::string model_text(const ResultFiles& f) {
   const Stability& s = f.result.stability;
   const auto place = checked_place(f);
-  const std::string out = "In no ±: choices of the model";
+  const std::string out =
+      f.problem.has_belief() ? "Choices of the model, each alone" : "In no ±: choices of the model";
   if (!s.other_skin || !place)
     return out + " (`papilla explain` names them), which were not tried on it.";
   std::vector<std::string> names, ranges;
