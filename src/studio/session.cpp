@@ -146,7 +146,14 @@ void Session::adopt(Draft draft) {
 
 SessionView Session::view() const {
   const std::lock_guard lock(mutex_);
-  return {revision_, draft_, study_, opened_, pins_, !past_.empty(), !future_.empty()};
+  std::vector<const Draft*> drafts;
+  for (const Draft& d : past_) drafts.push_back(&d);
+  drafts.push_back(&draft_);
+  for (auto d = future_.rbegin(); d != future_.rend(); ++d) drafts.push_back(&*d);
+  std::vector<std::string> steps;
+  for (std::size_t i = 1; i < drafts.size(); ++i)
+    steps.push_back(step_text(*drafts[i - 1], *drafts[i]));
+  return {revision_, draft_, study_, opened_, pins_, std::move(steps), past_.size()};
 }
 
 std::uint64_t Session::replace(Draft next, std::uint64_t step) {
@@ -278,6 +285,41 @@ std::uint64_t Session::undo() {
 std::uint64_t Session::redo() {
   const std::lock_guard lock(mutex_);
   return step_to(future_, past_);
+}
+
+std::uint64_t Session::go_to(std::size_t done) {
+  const std::lock_guard lock(mutex_);
+  if (done > past_.size() + future_.size())
+    throw InputError("the history has no step of that number");
+  while (past_.size() > done) step_to(past_, future_);
+  while (past_.size() < done) step_to(future_, past_);
+  return revision_;
+}
+
+std::string step_text(const Draft& from, const Draft& to) {
+  constexpr std::size_t kMostNamed = 3;
+  if (from.file != to.file) return std::filesystem::path(to.file).filename().string() + " opened";
+  const auto called = [](std::string path) {
+    path.erase(0, path.find('.') + 1);
+    std::replace(path.begin(), path.end(), '_', ' ');
+    return path;
+  };
+  std::vector<std::string> parts;
+  for (const Change& c : to.changes) {
+    if (std::find(from.changes.begin(), from.changes.end(), c) == from.changes.end())
+      parts.push_back(called(c.path) + " " + c.text);
+  }
+  for (const Change& c : from.changes) {
+    if (std::none_of(to.changes.begin(), to.changes.end(),
+                     [&](const Change& other) { return other.path == c.path; }))
+      parts.push_back(called(c.path) + " as the file has it");
+  }
+  if (parts.size() > kMostNamed) {
+    const std::size_t more = parts.size() - kMostNamed;
+    parts.resize(kMostNamed);
+    parts.push_back(fmt::format("{} more", more));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
 }
 
 int Session::pin(const std::string& name) {

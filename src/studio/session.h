@@ -47,7 +47,13 @@ struct SessionView {
   Study study;
   Design opened;  // of the file, without the changes
   std::vector<Pin> pins;
-  bool can_undo = false, can_redo = false;
+  // What each step changed, oldest first, the undone ones behind: the design at hand stands behind
+  // the first `done` of them.
+  std::vector<std::string> steps;
+  std::size_t done = 0;
+
+  bool can_undo() const { return done > 0; }
+  bool can_redo() const { return done < steps.size(); }
 };
 
 class Session {
@@ -75,6 +81,8 @@ class Session {
                         const std::function<void(const Draft&, const Study&)>& write);
   std::uint64_t undo();
   std::uint64_t redo();
+  // Back or forth until so many steps are done. Throws InputError for more than there are.
+  std::uint64_t go_to(std::size_t done);
 
   int pin(const std::string& name);
   void unpin(int number);
@@ -109,5 +117,8 @@ class Session {
 };
 
 Study study_of(const Draft& draft);
+
+// What leads from one draft to the next, for people: "depth 262 nm; diameter as the file has it".
+std::string step_text(const Draft& from, const Draft& to);
 
 }  // namespace papilla::studio

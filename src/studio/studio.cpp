@@ -208,8 +208,10 @@ std::string Studio::session_json() const {
               {"kind", texture_name(view.study.design.texture)},
               {"driven", view.study.design.drive.driven()},
               {"changes", changes},
-              {"undo", view.can_undo},
-              {"redo", view.can_redo},
+              {"undo", view.can_undo()},
+              {"redo", view.can_redo()},
+              {"steps", view.steps},
+              {"done", view.done},
               {"pins", pins},
               {"keys", form_json(view.study, view.opened, view.draft.changes)}}
       .dump();
@@ -252,6 +254,11 @@ void Studio::add_design_routes() {
   };
   routes_["POST /undo"] = [this](const Asked&) { return changed(session_.undo()); };
   routes_["POST /redo"] = [this](const Asked&) { return changed(session_.redo()); };
+  routes_["POST /history"] = [this](const Asked& a) {
+    const int done = a.whole("done");
+    if (done < 0) throw InputError("the history has no step of that number");
+    return changed(session_.go_to(static_cast<std::size_t>(done)));
+  };
   routes_["POST /pin"] = [this](const Asked& a) {
     const int number = session_.pin(a.text_or("name"));
     design_changed();

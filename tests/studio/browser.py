@@ -248,6 +248,20 @@ def unfinished(browser):
     browser.call("POST", "/window", {"handle": page})
 
 
+def through_history(browser):
+    """To the first step and back to the last: the dialog has every step, and the design goes along."""
+    done = browser.run("return papilla.session().done")
+    for to, depth in ((0, False), (done, True)):
+        browser.run("document.getElementById('history').click()")
+        until(browser, "document.querySelector('#dialog').open && document.querySelector('#dialogbody select')", 10, "the history")
+        check(browser.run("return document.querySelectorAll('#dialogbody option').length") == done + 1, "steps of the history")
+        browser.run(f"document.querySelector('#dialogbody select').value = {to}")
+        click(browser, "Go there")
+        until(browser, f"papilla.session().done === {to} && !document.querySelector('#dialog').open", 20, f"step {to}")
+        check(browser.run("return papilla.session().keys.find(k => k.path === 'texture.depth').changed") == depth, f"the depth at step {to}")
+    until(browser, "document.documentElement.dataset.idle === 'yes'", 120, "the answer of the last step")
+
+
 def by_numbers(browser):
     """All designs over their numbers: those of the upper half of an axis, by the server's own texts, pass; a line opens its design."""
     browser.run("document.getElementById('allbox').open = true")
@@ -279,6 +293,7 @@ def hour(browser, folder):
         until(browser, "papilla.session().keys.find(k => k.path === 'texture.diameter').changed && +document.documentElement.dataset.shape === papilla.session().revision", 30, "the shape of the change")
         until(browser, "document.documentElement.dataset.idle === 'yes' && document.documentElement.dataset.step !== 'first'", 120, "the comparison")
         browser.picture(PICTURES, "hour_2_pinned.png")
+        through_history(browser)
         # Search, steered once.
         browser.run("document.getElementById('evaluations').value = 30; document.getElementById('start').click()")
         until(browser, "papilla.charts.pareto && papilla.charts.pareto.data.datasets.some(s => s.data.length > 5)", 180, "designs of the search")

@@ -4,6 +4,7 @@ import { axis, charts, draw } from '../plots/charts.js';
 import { drawMap } from '../plots/maps.js';
 import { micrometres, round } from '../plots/numbers.js';
 import { table } from '../plots/tables.js';
+import { people } from './form.js';
 import { get, notice, post, upload } from './server.js';
 
 const make = (tag, more = {}, ...children) => { const e = Object.assign(document.createElement(tag), more); e.append(...children); return e; };
@@ -46,6 +47,15 @@ export async function openDialog() {
   files.designs.forEach((name) => list.add(new Option(name, name)));
   list.selectedIndex = 0;
   dialog(`Designs in ${files.folder}`, [files.designs.length ? field('Design', list) : make('p', { textContent: 'There is no design in this folder yet: save one.' })], files.designs.length ? [['Open', async () => { await post('open', { name: list.value }); return true; }, true]] : []);
+}
+
+// Every step since the file was opened, the newest on top; the one at hand is marked.
+export function historyDialog(session) {
+  if (!session || !session.steps.length) return;
+  const list = make('select', { size: Math.min(14, session.steps.length + 1) });
+  ['as it was opened', ...session.steps].forEach((text, done) => list.add(new Option(`${done === session.done ? '● ' : ''}${done}  ${people(text)}`, done), 0));
+  list.value = session.done;
+  dialog('History', [field('Step', list)], [['Go there', async () => { await post('history', { done: +list.value }); return true; }, true]]);
 }
 
 export const saving = { name: '' };  // under which the design at hand goes on

@@ -3,7 +3,7 @@ import { $ } from '../plots/look.js';
 import { charts } from '../plots/charts.js';
 import { drawn, latency, showForm, showKinds, startFilter } from './form.js';
 import { showAnswer, showSessionPins } from './answer.js';
-import { exportDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
+import { exportDialog, historyDialog, openDialog, saveDialog, saving, startFiles, state } from './files.js';
 import { showDimensions, showLook, showShape, startScene } from './scene.js';
 import { showSearch, showWish, startSearch } from './search.js';
 import { ask, listen, notice, post } from './server.js';
@@ -19,6 +19,7 @@ function showSession(now) {
   document.title = `${now.title || now.file} · Papilla studio`;
   $('undo').disabled = !now.undo;
   $('redo').disabled = !now.redo;
+  $('history').disabled = !now.steps.length;
   showForm(now);
   showDimensions(now);
   showSessionPins(now);
@@ -36,6 +37,7 @@ function told(answer) {
 function toolbar() {
   $('undo').addEventListener('click', () => ask('undo'));
   $('redo').addEventListener('click', () => ask('redo'));
+  $('history').addEventListener('click', () => historyDialog(session));
   $('pin').addEventListener('click', () => ask('pin'));
   $('open').addEventListener('click', openDialog);
   $('save').addEventListener('click', () => saveDialog(session));
@@ -45,6 +47,7 @@ function toolbar() {
     if ($('dialog').open) return;
     if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === 'z' && !typing) { e.preventDefault(); ask(e.shiftKey ? 'redo' : 'undo'); }
     else if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === 's') { e.preventDefault(); saveDialog(session); }
+    else if (e.key.toLowerCase() === 'h' && !typing && !e.ctrlKey && !e.metaKey && !e.altKey) historyDialog(session);
     else if (e.key.toLowerCase() === 'p' && !typing && !e.ctrlKey && !e.metaKey && !e.altKey) ask('pin');
   });
   const choose = document.querySelector('.link');
