@@ -135,6 +135,13 @@ Heightmap random_surface(const std::vector<RoughScale>& scales, const Grid& grid
   return with_random_phases(amplitudes, grid, RandomStream(seed, "etch", 0).bits(), 0, 0);
 }
 
+Heightmap random_surface(const std::function<double(double)>& spectrum, const Grid& grid,
+                         std::uint64_t seed) {
+  const double cell = (2 * kPi / grid.lx) * (2 * kPi / grid.ly);
+  return with_random_phases(amplitudes_on(grid, [&](double q) { return spectrum(q) * cell; }), grid,
+                            RandomStream(seed, "spectrum", 0).bits(), 0, 0);
+}
+
 RoughnessParameters roughness_parameters(const Heightmap& h) {
   const Grid& g = h.grid;
   const auto n = static_cast<double>(g.size());

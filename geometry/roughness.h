@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "base/rooms.h"
@@ -32,6 +33,11 @@ RoughScale endless_scale(double rms, double correlation_length, double side);
 // A periodic surface of such scales, as above: amplitudes are those of their spectra, phases random
 // and keyed by the integer mode; waves longer than the grid have no place on it.
 Heightmap random_surface(const std::vector<RoughScale>& scales, const Grid& grid,
+                         std::uint64_t seed);
+
+// A periodic surface of a spectrum C(q) [m^4], <h^2> the integral of it over the plane of wave
+// vectors; as above.
+Heightmap random_surface(const std::function<double(double q)>& spectrum, const Grid& grid,
                          std::uint64_t seed);
 
 // ISO 25178-2 height and slope parameters; heights about the mean. Slopes by forward differences.

@@ -64,7 +64,7 @@ std::vector<Sensitivity> sensitivity(const Design& design, const std::string& me
   return across([&] {
     if (!(options.step > 0 && options.step < 1))
       throw wrong("step", "expected more than 0 and less than 1");
-    const MetricExpression expression = parse_metric(metric);
+    const MetricExpression expression = parse_own_metric(metric);
     const rooms::Design own = at_options(design, options.evaluate);
     Watch watch(options.evaluate.progress, options.evaluate.stop);
     std::vector<Sensitivity> out;

@@ -25,14 +25,21 @@ constexpr std::size_t kMostSamples = std::size_t{1} << 22;
 
 double insulating_if_zero(double resistivity) { return resistivity > 0 ? resistivity : kInfinity; }
 
-// Several layers as one: resistances and elastances add (exact for equal time constants).
-ImpedanceLayer stack(const std::vector<Dielectric>& layers, double area) {
+// Several layers as one: resistances and elastances add (exact for equal time constants). Layers
+// that relax stay by themselves.
+ImpedanceLayer stack(const std::vector<Dielectric>& layers, double area, Network& network) {
   ImpedanceLayer sum{0, 0};
   double elastance = 0;
   for (const Dielectric& layer : layers) {
     if (layer.thickness == 0) continue;
-    const ImpedanceLayer one =
+    ImpedanceLayer one =
         slab(layer.thickness, layer.permittivity, insulating_if_zero(layer.resistivity), area);
+    if (layer.relaxation.law != RelaxationLaw::None) {
+      one.relaxation = layer.relaxation;
+      one.permittivity = layer.permittivity;
+      network.relaxing.push_back(std::move(one));
+      continue;
+    }
     sum.resistance += one.resistance;
     elastance += 1 / one.capacitance;
   }
@@ -43,11 +50,12 @@ ImpedanceLayer stack(const std::vector<Dielectric>& layers, double area) {
 Network given_network(const DriveCase& c) {
   const double area = c.touch.area;
   Network n;
-  n.dielectric = stack(c.surface.dielectric, area);
+  n.dielectric = stack(c.surface.dielectric, area, n);
   n.skin =
       slab(c.skin.thickness, c.skin.permittivity, insulating_if_zero(c.skin.resistivity), area);
   n.gap = plane_gap(c.gap.distance, c.gap.permittivity,
                     insulating_if_zero(c.gap.resistivity) * c.gap.distance / area, area);
+  n.gap.held = saturated_air_field(c.surface.dielectric) / c.gap.permittivity * c.gap.distance;
   return n;
 }
 
@@ -81,7 +89,7 @@ Network design_network(const DriveCase& c, double& area) {
     }
   }
   Network n;
-  n.dielectric = stack(scene.surface.layers(), area);
+  n.dielectric = stack(scene.surface.layers(), area, n);
   if (skin > 0) {
     const double capacitance = kVacuumPermittivity * area / skin;
     const double corner = electrical.corner_frequency;
@@ -90,6 +98,7 @@ Network design_network(const DriveCase& c, double& area) {
   const double distance = 1 / inverse - h0;
   n.gap = rough_gap(inverse, inverse_square, h0,
                     insulating_if_zero(c.gap.resistivity) * distance / area, area);
+  n.gap.held = scene.surface.saturated_air_field() * distance;
   return n;
 }
 
@@ -112,7 +121,7 @@ double spots_conductance(const DriveCase& c, double area) {
     }
     stiffness += (pressure[1] - pressure[0]) / (gap[0] - gap[1]) / c.gap.skins;
   }
-  const Skin skin = design.finger.applied().skin;
+  const Skin skin = scene_of(design).finger.applied().skin;
   const double modulus =
       skin.layer_modulus * skin.modulus_factor(rh) / (1 - square(skin.layer_poisson));
   return 2 * stiffness * area / (modulus * c.skin.resistivity);
@@ -293,6 +302,11 @@ DriveCase read_drive_case(Document document) {
         document.problem_at("tones.frequency", "expected tones below the carrier's frequency");
       }
     }
+  }
+  for (std::size_t k = 0; k < c.surface.dielectric.size(); ++k) {
+    if (const auto wrong = relaxation_problem(c.surface.dielectric[k]); !wrong.key.empty())
+      document.problem_at(fmt::format("surface.dielectric.{}.relaxation.{}", k, wrong.key),
+                          wrong.message);
   }
   if (current && c.drive.waveform == Waveform::Dc && c.source.shunt == 0 &&
       c.gap.resistivity == 0) {

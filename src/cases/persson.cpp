@@ -1,5 +1,7 @@
 #include "cases/persson.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,6 +37,18 @@ void fields(FieldVisitor& v, SpectrumSettings& s) {
             s.wave_number);
   v.numbers({"density", "m4", 1e-60, 1e6, "C(q) at the knots, straight in log-log between"},
             s.density);
+}
+
+std::vector<std::pair<std::string, std::string>> spectrum_problems(const SpectrumSettings& s) {
+  std::vector<std::pair<std::string, std::string>> out;
+  if (!(s.lowest <= s.roll_off && s.roll_off < s.cutoff))
+    out.emplace_back("roll_off", "expected lowest <= roll_off < cutoff");
+  if (s.wave_number.size() != s.density.size() || s.wave_number.size() == 1) {
+    out.emplace_back("density", "expected one density for each of at least two wave numbers");
+  } else if (!std::is_sorted(s.wave_number.begin(), s.wave_number.end(), std::less_equal<>())) {
+    out.emplace_back("wave_number", "expected rising wave numbers");
+  }
+  return out;
 }
 
 void fields(FieldVisitor& v, SolidSettings& s) {
@@ -133,15 +147,14 @@ MeanFieldCase read_mean_field(Document document) {
   c.drive.amplitude = 100;
   c.drive.frequency = 1e3;
   read_section(document, "", c);
-  const SpectrumSettings& r = c.roughness;
-  if (!(r.lowest <= r.roll_off && r.roll_off < r.cutoff)) {
-    document.problem_at("roughness.roll_off", "expected lowest <= roll_off < cutoff");
-  }
-  if (r.wave_number.size() != r.density.size() || r.wave_number.size() == 1) {
-    document.problem_at("roughness.density",
-                        "expected one density for each of at least two wave numbers");
-  } else if (!std::is_sorted(r.wave_number.begin(), r.wave_number.end(), std::less_equal<>())) {
-    document.problem_at("roughness.wave_number", "expected rising wave numbers");
+  for (const auto& [key, message] : spectrum_problems(c.roughness))
+    document.problem_at("roughness." + key, message);
+  for (std::size_t k = 0; k < c.interface.dielectric.size(); ++k) {
+    const Dielectric& layer = c.interface.dielectric[k];
+    if (layer.relaxation.law != RelaxationLaw::None || layer.saturation_field > 0)
+      document.problem_at(fmt::format("interface.dielectric.{}", k),
+                          "the mean field takes films at rest: leave relaxation and "
+                          "saturation_field out, or use papilla evaluate with a pin");
   }
   if (c.drive.control == DriveControl::Current) {
     document.problem_at("drive.control", "the mean field takes a voltage; see papilla solve drive");

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/rooms.h"
@@ -21,6 +22,8 @@ struct SpectrumSettings {
   PowerSpectrum spectrum() const;
 };
 void fields(FieldVisitor& v, SpectrumSettings& s);
+// What contradicts, by key.
+std::vector<std::pair<std::string, std::string>> spectrum_problems(const SpectrumSettings& s);
 
 struct SolidSettings {
   MeanFieldSolid solid;

@@ -8,12 +8,15 @@
 #include <memory>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/memory.h"
 #include "base/units.h"
+#include "cases/contact_statistics.h"
 #include "cli/commands.h"
 #include "cli/scan_options.h"
 #include "geometry/io/files.h"
 #include "physics/contact/contact.h"
+#include "report/contact_statistics.h"
 #include "report/pieces.h"
 #include "report/surface.h"
 
@@ -21,6 +24,8 @@ namespace papilla::cli {
 namespace {
 
 struct ContactCommand {
+  std::string statistics, out;  // a case of statistics; its folder
+  std::vector<std::string> overrides;
   ScanOptions scan;
   std::string pressure, approach, modulus;
   std::string layer_modulus, layer_thickness, bulk_modulus, counter_modulus;
@@ -70,7 +75,30 @@ LayeredSolid solid_of(const ContactCommand& c) {
   return solid;
 }
 
+int solve_case(const Context& context, const ContactCommand& command) {
+  if (!command.scan.file.empty())
+    throw InputError("give either a case of statistics or --height, a surface to press");
+  const StatisticsCase c = read_statistics(command.statistics, command.overrides);
+  if (!command.out.empty()) make_folder(command.out);
+  const auto begin = std::chrono::steady_clock::now();
+  const StatisticsResult r = solve_statistics(c, command.threads);
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!command.out.empty()) {
+    write_bytes(command.out + "/gaps.csv", gap_distribution_csv(r));
+    write_bytes(command.out + "/stresses.csv", stress_distribution_csv(r));
+    context.note("wrote " + command.out);
+  }
+  std::cout << (command.json ? statistics_json(c, r, seconds) + '\n'
+                             : statistics_text(c, r, seconds));
+  return r.converged ? kSuccess : kWorkFailed;
+}
+
 int solve(const ContactCommand& c) {
+  if (c.scan.file.empty())
+    throw InputError(
+        "give a surface, --height FILE, or a case of statistics, e.g. "
+        "designs/physics/rough_contact.toml");
   const LayeredSolid solid = solid_of(c);
   if (c.pressure.empty() == c.approach.empty()) {
     throw InputError("give either --pressure or --approach");
@@ -117,9 +145,13 @@ void add_solve_contact(Command solve_command, Context& context) {
       "contact", "Rough contact of a rigid surface with a layered elastic half-space");
   auto c = std::make_shared<ContactCommand>();
   command
-      .add_option("--height", c->scan.file,
-                  "Heightmap (.npy .gsf .exr .tif .x3p), high touches first")
-      .required();
+      .add_option("case", c->statistics,
+                  "Statistics of a stated spectrum over seeds, e.g. "
+                  "designs/physics/rough_contact.toml")
+      .type_name("CASE.toml");
+  command.add_option("--height", c->scan.file,
+                     "Or a heightmap (.npy .gsf .exr .tif .x3p), high touches first");
+  add_set_option(command, c->overrides);
   add_scan_options(command, c->scan);
   command.add_option("--pressure", c->pressure, "Mean pressure: \"15 kPa\"");
   command.add_option("--approach", c->approach,
@@ -141,12 +173,20 @@ void add_solve_contact(Command solve_command, Context& context) {
   command.add_option("--max-iterations", c->max_iterations, "Before the solver gives up")
       .range(1, 1000000);
   command
-      .add_option("--threads", c->threads, "Accepted for comparisons: a solve runs on one thread")
+      .add_option("--threads", c->threads, "Of a case, one a surface; a single solve runs on one")
       .range(1, 1024);
+  command
+      .add_option("--out", c->out,
+                  "Of a case: also the distributions of gaps and pressures as tables")
+      .type_name("DIR");
   command.add_option("--out-pressure", c->out_pressure, "Pressure [Pa] as .npy");
   command.add_option("--out-gap", c->out_gap, "Gap [m] as .npy");
   command.add_flag("--json", c->json, "One JSON object");
-  command.on_chosen([c, &context] { context.action = [c] { return solve(*c); }; });
+  command.on_chosen([c, &context] {
+    context.action = [c, &context] {
+      return c->statistics.empty() ? solve(*c) : solve_case(context, *c);
+    };
+  });
 }
 
 }  // namespace papilla::cli

@@ -11,6 +11,7 @@
 #include "base/units.h"
 #include "config/reader.h"
 #include "config/writer.h"
+#include "forward/counterface.h"
 #include "physics/capillary/facts.h"
 #include "scene/belief.h"
 #include "scene/uncertainty.h"
@@ -134,7 +135,8 @@ void film_problems(const Texture& texture, const Surface& surface, Problems& out
 
 // What would take minutes for every patch is refused before it begins.
 void droplet_problems(const Design& design, Problems& out) {
-  const SkinWater& water = design.finger.water;
+  const Scene scene = scene_of(design);
+  const SkinWater& water = scene.finger.water;
   if (design.model.water != WaterModel::Droplets || water.volume.empty()) return;
   const Grid patch = simulated_patch(design.texture, 16);
   double most = 0;
@@ -146,6 +148,42 @@ void droplet_problems(const Design& design, Problems& out) {
                              "{:g} that are settled in reasonable time: fewer of them, a shorter "
                              "period, or model.water = \"threshold\"",
                              water.drops_per_um3, most, 1e6 * patch.lx, kMostDroplets)});
+}
+
+// Of a pin at a path of the design.
+void pin_problems(const Pin& pin, const std::string& path, const Design& design, Problems& out) {
+  const std::vector<PinProblem> own = scene::pin_problems(pin);
+  for (const auto& [key, message] : own) out.push_back({path + "." + key, message});
+  if (!own.empty()) return;
+  if (const std::string why = pin_refusal(pin, design.surface); !why.empty())
+    out.push_back({path, why});
+}
+
+void counterface_problems(const Design& design, Problems& out) {
+  const Counterface& c = design.counterface;
+  const bool pen = c.type == CounterfaceType::Pen;
+  if (c.type == CounterfaceType::Pin) {
+    pin_problems(c.pin, "counterface", design, out);
+  } else if (c.pin != Pin{}) {
+    out.push_back({"counterface.type",
+                   "a pin is described beside it: say \"pin\", or move its keys to "
+                   "[counterface.pen]"});
+  }
+  if (pen && !c.has_pen()) {
+    out.push_back({"counterface.type", "there is no pen: describe it under [counterface.pen]"});
+  } else if (c.has_pen()) {
+    pin_problems(c.pen, "counterface.pen", design, out);
+  }
+  if (c.in_place() && design.model.preset == Preset::M3)
+    out.push_back({"model.preset", "the published model is one of skin: \"papilla\" takes pins"});
+}
+
+void relaxation_problems(const Surface& surface, Problems& out) {
+  for (std::size_t k = 0; k < surface.dielectric.size(); ++k) {
+    if (const auto wrong = relaxation_problem(surface.dielectric[k]); !wrong.key.empty())
+      out.push_back(
+          {fmt::format("surface.dielectric.{}.relaxation.{}", k, wrong.key), wrong.message});
+  }
 }
 
 void view_problems(const View& view, const Surface& surface, Problems& out) {
@@ -196,6 +234,7 @@ void fields(FieldVisitor& v, Design& s) {
   v.section({"surface", "the finish of the surface"}, s.surface);
   v.section({"view", "how the texture is looked at (optics only)"}, s.view);
   v.section({"finger", "the finger that touches it"}, s.finger);
+  v.section({"counterface", "what touches the surface, where it is no finger"}, s.counterface);
   v.section({"environment", "the air"}, s.environment);
   v.section({"drive", "the voltage"}, s.drive);
   if (v.reading()) s.model = s.finger.calibrated_for;
@@ -212,18 +251,27 @@ std::vector<DesignProblem> design_problems(const Design& design) {
   if (design.title.size() > kLongestTitle)
     out.push_back({"title", "longer than 1000 letters; it is a line for reports"});
   environment_problems(design.environment, out);
-  finger_problems(design.finger, design.model, out);
+  if (!design.counterface.in_place()) finger_problems(design.finger, design.model, out);
   if (design.accuracy.grid > 0 && design.accuracy.grid < 16)
     out.push_back({"accuracy.grid", "expected 0 (by level) or at least 16 pixels"});
   drive_problems(design.drive, design.surface, out);
   film_problems(design.texture, design.surface, out);
   view_problems(design.view, design.surface, out);
+  relaxation_problems(design.surface, out);
+  counterface_problems(design, out);
   if (out.empty()) droplet_problems(design, out);  // of a design that has a patch and a finger
   return out;
 }
 
 Scene scene_of(const Design& design) {
-  return {design.surface, design.finger, design.environment, design.drive, design.model};
+  const Scene scene{design.surface, design.finger, design.environment, design.drive, design.model};
+  const Pin* pin = design.counterface.in_place();
+  return pin ? touched_by(*pin, scene) : scene;
+}
+
+Design under_pen(Design design) {
+  design.counterface.type = CounterfaceType::Pen;
+  return design;
 }
 
 Fidelity fidelity_of(const Design& design) {
@@ -239,6 +287,7 @@ Optics appearance_of(const Design& design) {
 }
 
 std::vector<std::string> calibration_mismatch(const Design& design) {
+  if (design.counterface.in_place()) return {};  // nothing of a pin is fitted
   const Node now = to_table(design.model), fitted = to_table(design.finger.calibrated_for);
   std::vector<std::string> out;
   for (const Node& option : fitted.children) {

@@ -9,6 +9,7 @@
 #include "forward/appearance.h"
 #include "forward/fidelity.h"
 #include "geometry/texture.h"
+#include "scene/counterface.h"
 #include "scene/environment.h"
 #include "scene/finger.h"
 #include "scene/scene.h"
@@ -39,6 +40,7 @@ struct Design {
   Surface surface;
   View view;
   Finger finger;
+  Counterface counterface;
   Environment environment;
   Drive drive;
   ModelOptions model = Finger{}.calibrated_for;  // starts from finger.calibrated_for
@@ -48,8 +50,10 @@ struct Design {
 };
 void fields(FieldVisitor& v, Design& s);
 
-// What the forward model takes.
+// What the forward model takes: touched by the design's finger or by what stands in its place.
 Scene scene_of(const Design& design);
+// The design under its pen. Eq. friction.4
+Design under_pen(Design design);
 Fidelity fidelity_of(const Design& design);
 Optics appearance_of(const Design& design);
 

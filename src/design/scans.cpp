@@ -30,7 +30,7 @@ std::vector<DesignScan> scans_of(const Design& design) {
       out.push_back({source.file, changes_of_map(source), known.free_patch.exact.value_or(0)});
     });
   }
-  if (const Skin& skin = design.finger.skin; !skin.map.empty())
+  if (const Skin skin = scene_of(design).finger.skin; !skin.map.empty())
     mistakes.of([&] { out.push_back({skin.map, changes_of_map({skin.map, skin.map_width})}); });
   mistakes.tell();
   return out;

@@ -19,7 +19,9 @@ constexpr double kMemberTolerance = 3e-3;  // of the contact, at the finest
 
 std::string absent_belief(const Scene& scene) {
   if (scene.finger.belief.empty())
-    return fmt::format("finger \"{}\" names no belief (finger.belief)", scene.finger.name);
+    return !scene.touch.name.empty()
+               ? fmt::format("nothing is fitted of \"{}\"", scene.touch.name)
+               : fmt::format("finger \"{}\" names no belief (finger.belief)", scene.finger.name);
   if (scene.model != scene.finger.calibrated_for)
     return fmt::format("the belief of finger \"{}\" is of other model options than [model]",
                        scene.finger.name);

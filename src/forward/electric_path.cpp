@@ -35,6 +35,12 @@ double gap_corner(const Scene& scene) {
 // A resistor beside a capacitor.
 Complex conducts(double corner, double f) { return {corner, f}; }
 
+// Of a layer of the film: its resistor beside what stores and relaxes. Eq. drive.22
+Complex layer_conducts(const Dielectric& layer, double f) {
+  if (layer.relaxation.law == RelaxationLaw::None) return conducts(layer.corner_frequency(), f);
+  return layer.corner_frequency() + Complex(0, f) * layer.relaxation.share(layer.permittivity, f);
+}
+
 // Of the stratum corneum: a resistor beside a constant-phase element that is the capacitor of the
 // stated thickness at `dispersion_frequency`. Eq. drive.19
 Complex skin_conducts(const ElectricalLayer& skin, double f) {
@@ -93,7 +99,7 @@ SeriesLayers series_layers(const Scene& scene, double relative_humidity) {
   const Complex gap = gap_conducts(scene, f);
   SeriesLayers out;
   for (const FilmDielectric& layer : scene.surface.dielectric) {
-    const Complex counts = gap / conducts(layer.corner_frequency(), f);
+    const Complex counts = gap / layer_conducts(layer, f);
     out.of_film.emplace_back(std::clamp(counts.real(), kThinnest, kThickest), counts.imag());
   }
   const Complex counts = gap / skin_conducts(scene.finger.electrical, f);
@@ -112,7 +118,7 @@ double wetted_series(const Scene& scene, double relative_humidity) {
     if (thickness > 0) energy += std::norm(z) / thickness * (layer.imag() / f);
   };
   for (const FilmDielectric& layer : scene.surface.dielectric)
-    add(layer.equivalent_thickness(), conducts(layer.corner_frequency(), f));
+    add(layer.equivalent_thickness(), layer_conducts(layer, f));
   add(scene.finger.skin_layer(relative_humidity), skin_conducts(scene.finger.electrical, f));
   return energy > 0 ? std::norm(all) / energy : 0;
 }
@@ -126,7 +132,7 @@ double water_skin_layer(const Scene& scene, double relative_humidity, double die
                                     skin_conducts(scene.finger.electrical, f));
   Complex film = 0;
   for (const FilmDielectric& layer : scene.surface.dielectric)
-    film += beside_water(layer.equivalent_thickness(), conducts(layer.corner_frequency(), f));
+    film += beside_water(layer.equivalent_thickness(), layer_conducts(layer, f));
   const double share = std::abs(skin) / std::max(std::abs(skin + film), 1e-300);
   // Eq. drive.21; behind a film that leads the water is at the electrode's potential, nearly.
   return dielectric * std::min(share / std::max(1 - share, 1 / kThickest), kThickest);

@@ -226,9 +226,9 @@ double open_gap_pull(const GapShares& gaps, const SurfaceLevels& levels,
   const double peak = field.v_rms * (field.steady ? 1 : std::sqrt(2.0));
   const auto held = [&](double air, double rest) {
     const double field2 = 1 / (square(air + rest) + im2);
-    if (field.air_limit == AirLimit::None) return field2;
-    const double limit = air_field_limit(field.air_limit, air) / (peak * std::sqrt(field2));
-    return field2 * clipped_share(limit, field.steady);
+    if (!field_is_held(field)) return field2;
+    const double most = std::min(air_field_limit(field.air_limit, air), field.film_holds);
+    return field2 * clipped_share(most / (peak * std::sqrt(field2)), field.steady);
   };
   const std::vector<double>& row = GapShares::gaps();
   // Eq. coupling.8: levels one by one, all gaps over each.

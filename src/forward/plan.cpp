@@ -176,10 +176,13 @@ Entry water(const Setting& s) {
                   facts.error(s.water)};
 }
 
-constexpr const char* kUndriven = "the drive is at 0";
+const char* undriven(const Setting& s) {
+  return s.scene.touch.conducts ? "the drive is at 0"
+                                : "what touches does not conduct: no field reaches it";
+}
 
 Entry field(const Setting& s) {
-  if (!s.plan.field) return PlanSkip{Piece::Field, kUndriven};
+  if (!s.plan.field) return PlanSkip{Piece::Field, undriven(s)};
   const FieldMethod method = field_method(s.scene.model);
   const FieldRule& rule = field_rule(method);
   PlanStep step{Piece::Field, rule.method, rule.accuracy, s.states * s.price.field,
@@ -194,7 +197,7 @@ Entry field(const Setting& s) {
 }
 
 Entry electrowetting(const Setting& s) {
-  if (!s.plan.field) return PlanSkip{Piece::Electrowetting, kUndriven};
+  if (!s.plan.field) return PlanSkip{Piece::Electrowetting, undriven(s)};
   if (!s.plan.water) return PlanSkip{Piece::Electrowetting, "no bridges without water"};
   return PlanStep{Piece::Electrowetting, "saturated law, averaged over the cycle",
                   "bridges conduct; the angle saturates"};
@@ -391,7 +394,7 @@ Plan make_plan(const Scene& scene, const Texture& texture, const Fidelity& fidel
     setting.water.push_back(scene.finger.water.volume_per_area(rh));
   plan.water =
       std::any_of(setting.water.begin(), setting.water.end(), [](double v) { return v > 0; });
-  plan.field = scene.drive.driven();
+  plan.field = scene.drive.driven() && scene.touch.conducts;
   for (std::string said : {direct_voltage(scene), source_at_compliance(scene),
                            sliding_direction(texture), nearly_wetting(scene, plan.water)})
     if (!said.empty()) plan.warnings.push_back(std::move(said));

@@ -140,6 +140,25 @@ void add_friction(ResponsePoint& point, double strength, const Measured& retenti
   point.modulation.parts.sampling *= std::abs(share);
 }
 
+// Eq. friction.4: a coefficient on all that presses, whatever touches; retention is held besides.
+void rub_by_load(ResponsePoint& point, double coefficient, double patches_per_finger,
+                 const Measured& retention_on, bool driven) {
+  const auto rubbed = [&](const std::vector<double>& loads, const Measured& held) {
+    const Estimate load = mean_estimate(loads);
+    const double factor = coefficient * patches_per_finger;
+    return Measured{factor * load.value + held.value,
+                    {.sampling = std::hypot(factor * load.se, held.parts.sampling)}};
+  };
+  point.friction_off = rubbed(point.samples.load_off, point.retention_force);
+  point.friction_on = rubbed(point.samples.load_on, retention_on);
+  point.retention_gain = retention_on.value - point.retention_force.value;
+  point.modulation = {};
+  if (!driven || point.friction_off.value <= 0) return;
+  const Estimate gain = ratio_estimate(point.samples.load_on, point.samples.load_off);
+  point.modulation.value = point.friction_on.value / point.friction_off.value - 1;
+  point.modulation.parts.sampling = gain.se;
+}
+
 // Eq. accuracy.1
 void add_solver_errors(ResponsePoint& point, Patches patches, double exponent) {
   double certificate = 0, residual = 0;
@@ -192,6 +211,8 @@ ResponsePoint response_point(const PointSetting& setting, double relative_humidi
     for (double& area : *areas) area *= setting.area_factor;
   add_friction(point, shear_strength(scene, relative_humidity) * carrying, retention_on,
                plan.field);
+  if (scene.touch.coefficient > 0)
+    rub_by_load(point, scene.touch.coefficient, patches_per_finger, retention_on, plan.field);
   add_solver_errors(point, patches, setting.fidelity.load_exponent);
   if (plan.water)
     add_water_band(point, patches, scene.model.water, plan.grid, setting.fidelity.load_exponent);

@@ -127,6 +127,7 @@ FieldProblem field_problem(const Scene& scene, double relative_humidity) {
   p.film_phase = film.real() > 0 ? std::abs(film) / film.real() : 1;
   p.water_skin_layer = water_skin_layer(scene, relative_humidity, p.dielectric);
   p.air_limit = scene.model.air_limit;
+  p.film_holds = scene.surface.saturated_air_field();
   p.steady = scene.drive.waveform == Waveform::Dc || scene.drive.waveform == Waveform::Square;
   p.droplet_enhancement = scene.model.droplet_enhancement;
   if (scene.model.preset == Preset::M3) {

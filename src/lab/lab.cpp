@@ -173,7 +173,7 @@ const std::vector<std::vector<double>>& Lab::worth() {
     }
     return worth_;
   }
-  const MetricExpression metric = parse_metric(file_.worth);
+  const MetricExpression metric = parse_own_metric(file_.worth);
   for (const LabDesign& d : designs_) {
     if (d.choice) worth_.push_back(model_->worth(d.design, metric));
   }

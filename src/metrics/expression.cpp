@@ -19,6 +19,14 @@ constexpr std::array<std::pair<const char*, Summary>, 8> kSummaries{
      {"first", Summary::First},
      {"last", Summary::Last}}};
 
+constexpr const char* kPen = "pen.";
+
+// The metric of a name, which may be one of the pen.
+std::optional<Metric> named(const std::string& name, bool& pen) {
+  pen = name.starts_with(kPen);
+  return find_metric(pen ? name.substr(std::string(kPen).size()) : name);
+}
+
 }  // namespace
 
 bool is_spread(Summary summary) {
@@ -28,7 +36,7 @@ bool is_spread(Summary summary) {
 MetricExpression parse_metric(const std::string& text) {
   MetricExpression expression;
   std::string name = text;
-  std::optional<Metric> metric = find_metric(name);
+  std::optional<Metric> metric = named(name, expression.pen);
   const std::size_t open = text.find('(');
   if (!metric && open != std::string::npos) {
     const std::string word = text.substr(0, open);
@@ -47,7 +55,7 @@ MetricExpression parse_metric(const std::string& text) {
       throw InputError(fmt::format("\"{}\" is no summary over humidity; use one of {}", word,
                                    join_names(known)));
     }
-    metric = find_metric(name);
+    metric = named(name, expression.pen);
   }
   if (!metric) {
     std::vector<std::string> known;
@@ -60,12 +68,21 @@ MetricExpression parse_metric(const std::string& text) {
   return expression;
 }
 
+MetricExpression parse_own_metric(const std::string& text) {
+  const MetricExpression expression = parse_metric(text);
+  if (expression.pen)
+    throw InputError("\"" + text +
+                     "\": one counterface is judged here; counterface.type = \"pen\" makes it the "
+                     "pen");
+  return expression;
+}
+
 std::string metric_text(const MetricExpression& expression) {
+  const std::string name = (expression.pen ? kPen : "") + metric_text(expression.metric);
   for (const auto& [label, summary] : kSummaries) {
-    if (summary == expression.summary)
-      return std::string(label) + "(" + metric_text(expression.metric) + ")";
+    if (summary == expression.summary) return std::string(label) + "(" + name + ")";
   }
-  return metric_text(expression.metric);
+  return name;
 }
 
 Better better_direction(const MetricExpression& expression) {

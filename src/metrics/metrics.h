@@ -90,14 +90,18 @@ ErrorSamples error_samples_at(std::size_t point, const Metric& metric, const Res
 // part. Nothing where one of them lacks the samples of the other. Eq. accuracy.14
 std::optional<double> difference_error(const ErrorSamples& first, const ErrorSamples& second);
 
-// "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name).
+// "mean(modulation)", "variation(modulation)", "worst(friction)"; a bare name means mean(name). Of
+// the second counterface of a study: "mean(pen.friction)".
 struct MetricExpression {
   Summary summary = Summary::Mean;
   Metric metric{};
+  bool pen = false;
 
   bool operator==(const MetricExpression&) const = default;
 };
 MetricExpression parse_metric(const std::string& text);  // throws InputError
+// The same where one counterface is judged: a pen is refused.
+MetricExpression parse_own_metric(const std::string& text);
 // Reads back to the same expression.
 std::string metric_text(const MetricExpression& expression);
 // Which direction is better, of the metric or of its spread.

@@ -41,7 +41,7 @@ KeyValues conditions_of(const Design& design, const RankOptions& options) {
   }
   KeyValues out;
   if (felt) {
-    Finger finger = design.finger;
+    Finger finger = scene_of(design).finger;
     // Names and the story of the fit move nothing; the options rule the state.
     finger.name.clear();
     finger.fitted_to.clear();
@@ -49,6 +49,7 @@ KeyValues conditions_of(const Design& design, const RankOptions& options) {
     finger.calibrated_for = {};
     finger.state = FingerState::Clean;
     leaves(to_table(finger), "finger", out);
+    if (design.counterface.in_place()) leaves(to_table(design.counterface), "counterface", out);
     leaves(to_table(design.environment), "environment", out);
     leaves(to_table(design.model), "model", out);
     AccuracySettings accuracy = design.accuracy;

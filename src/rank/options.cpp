@@ -16,7 +16,7 @@ Criterion parse_criterion(std::string word) {
     direction = word.substr(colon + 1);
     word.resize(colon);
   }
-  c.expression = parse_metric(word);
+  c.expression = parse_own_metric(word);
   if (info_of(c.expression.metric).takes_modulation)
     throw InputError(fmt::format("\"{}\": a ranking is by forces at the designs' own drive", word));
   const Better better = better_direction(c.expression);

@@ -238,7 +238,7 @@ class LabOpener {
     if (!source_.worth.empty()) {
       if (out_.opening.worth)
         throw InputError("--worth: the run decides by its own rule, " + out_.opening.worth->name);
-      parse_metric(source_.worth);
+      parse_own_metric(source_.worth);
       file().worth = source_.worth;
       return;
     }

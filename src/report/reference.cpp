@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "cases/contact_statistics.h"
 #include "cases/drive.h"
 #include "cases/persson.h"
 #include "config/describe.h"
@@ -43,6 +44,9 @@ const char* about(const std::string& section) {
     return "How the texture is looked at: haze, transmittance, gloss, distinctness of image, "
            "sparkle, colour.";
   if (section == "finger") return "The finger; usually `base = \"../fingers/reference.toml\"`.";
+  if (section == "counterface")
+    return "What touches the surface, where it is no finger: a pin or a pen; `type` chooses.";
+  if (section == "statistics") return "A case of `papilla solve contact`.";
   if (section == "environment") return "The humidities at which a design is judged.";
   if (section == "drive") return "The electrical drive; without an amplitude nothing is driven.";
   if (section == "model") {
@@ -237,12 +241,14 @@ std::vector<Part> parts_of(const std::string& section) {
   if (section == "surface") return {{"", field_rows(Surface{}, section)}};
   if (section == "view") return {{"", field_rows(View{}, section)}};
   if (section == "finger") return {{"", field_rows(Finger{}, section)}};
+  if (section == "counterface") return {{"", field_rows(Counterface{}, section)}};
   if (section == "environment") return {{"", field_rows(Environment{}, section)}};
   if (section == "drive") return {{"", field_rows(Drive{}, section)}};
   if (section == "model") return {{"", field_rows(ModelOptions{}, section)}};
   if (section == "accuracy") return {{"", field_rows(AccuracySettings{}, section)}};
   if (section == "persson") return {{"", field_rows(MeanFieldCase{}, "")}};
   if (section == "circuit") return {{"", field_rows(DriveCase{}, "")}};
+  if (section == "statistics") return {{"", field_rows(StatisticsCase{}, "")}};
   if (section == "metrics") return metrics_reference();
   if (section == "study") return study_reference();
   if (section == "export") return export_reference();
@@ -281,8 +287,9 @@ std::vector<Part> parts_of_key(const std::string& key) {
 }  // namespace
 
 std::vector<std::string> reference_sections() {
-  return {"texture",  "surface", "view",    "finger",  "environment", "drive",  "model",
-          "accuracy", "study",   "metrics", "persson", "circuit",     "export", "wafer"};
+  return {"texture", "surface",    "view",     "finger", "counterface", "environment",
+          "drive",   "model",      "accuracy", "study",  "metrics",     "persson",
+          "circuit", "statistics", "export",   "wafer"};
 }
 
 std::string reference_section(const std::string& section, ReferenceFormat format) {

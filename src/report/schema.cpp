@@ -193,8 +193,9 @@ std::string path_pattern() {
   paths.push_back("texture\\.levels");
   paths.push_back("texture\\.parts\\.[0-9]+\\.[a-z_]+");
   // A section may stand for the beginning of a path: texture.depth without quotes.
-  return fmt::format("^({}|texture|surface|view|finger|environment|drive|model|accuracy)$",
-                     join_names(paths, "|"));
+  return fmt::format(
+      "^({}|texture|surface|view|finger|counterface|environment|drive|model|accuracy)$",
+      join_names(paths, "|"));
 }
 
 Json by_path(Json value) {

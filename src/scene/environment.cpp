@@ -17,6 +17,46 @@ double corner_frequency(double permittivity, double resistivity) {
   return resistivity > 0 ? 1 / (2 * kPi * kVacuumPermittivity * permittivity * resistivity) : 0;
 }
 
+std::complex<double> Relaxation::share(double at_rest, double f) const {
+  switch (law) {
+    case RelaxationLaw::None:
+      return 1;
+    case RelaxationLaw::Debye:
+    case RelaxationLaw::ColeCole: {
+      const std::complex<double> turns(0, 2 * kPi * f * time);
+      const double width = law == RelaxationLaw::Debye ? 1 : 1 - alpha;
+      const double rest = infinite / at_rest;
+      return rest + (1 - rest) / (1.0 + std::pow(turns, width));
+    }
+    case RelaxationLaw::Table:
+      break;
+  }
+  const auto after = std::upper_bound(frequency.begin(), frequency.end(), f);
+  const auto k = static_cast<std::size_t>(after - frequency.begin());
+  const auto at = [&](std::size_t i) {
+    return std::complex(permittivity[i], loss.empty() ? 0 : -loss[i]) / at_rest;
+  };
+  if (k == 0) return at(0);
+  if (k == frequency.size()) return at(k - 1);
+  const double t = std::log(f / frequency[k - 1]) / std::log(frequency[k] / frequency[k - 1]);
+  return (1 - t) * at(k - 1) + t * at(k);
+}
+
+void fields(FieldVisitor& v, Relaxation& s) {
+  v.choice({"law",
+            "how the permittivity falls with frequency: not at all, by one relaxation (Debye), by "
+            "a wide one (Cole and Cole), or by a table"},
+           {"none", "debye", "cole_cole", "table"}, s.law);
+  v.number({"infinite", "", 1, 1e5, "permittivity far above the relaxation (debye, cole_cole)"},
+           s.infinite);
+  v.number({"time", "us", 0, 1e12, "of the relaxation: half of it has gone at 1/(2 pi time)"},
+           s.time);
+  v.number({"alpha", "", 0, 0.99, "cole_cole: 0 is Debye's relaxation, more is wider"}, s.alpha);
+  v.numbers({"frequency", "Hz", 1e-9, 1e12, "table: rising frequencies"}, s.frequency);
+  v.numbers({"permittivity", "", 1, 1e5, "table: the storing part there"}, s.permittivity);
+  v.numbers({"loss", "", 0, 1e5, "table: the lossy part there; none: lossless"}, s.loss);
+}
+
 void fields(FieldVisitor& v, Dielectric& s) {
   v.text({"material", "name"}, s.material);
   v.number({"thickness", "nm", 0, 1e7, "layer thickness", Source::Paper, "M3: 500 nm wet oxide"},
@@ -30,6 +70,10 @@ void fields(FieldVisitor& v, Dielectric& s) {
   v.number({"strength", "V/um", 0, 1e6, "breakdown field", Source::Measured,
             "SiO2 1 GV/m at 50 nm (McPherson 2016)"},
            s.strength);
+  v.section({"relaxation", "how the permittivity falls with frequency"}, s.relaxation);
+  v.number({"saturation_field", "V/um", 0, 1e6,
+            "field in the layer from which its polarisation no longer grows; 0: it grows on"},
+           s.saturation_field);
 }
 
 void fields(FieldVisitor& v, FilmDielectric& s) {
@@ -73,6 +117,31 @@ std::vector<Dielectric> Surface::thinnest_layers(double deepest) const {
     thickness = std::max(0.0, thickness - deepest);
   }
   return out;
+}
+
+double saturated_air_field(std::span<const Dielectric> layers) {
+  double out = kInfinity;
+  for (const Dielectric& layer : layers) {
+    if (layer.saturation_field > 0)
+      out = std::min(out, layer.permittivity * layer.saturation_field);
+  }
+  return out;
+}
+
+RelaxationProblem relaxation_problem(const Dielectric& layer) {
+  const Relaxation& r = layer.relaxation;
+  const bool formula = r.law == RelaxationLaw::Debye || r.law == RelaxationLaw::ColeCole;
+  if (formula && r.time <= 0) return {"time", "expected the time of the relaxation, above 0"};
+  if (formula && r.infinite > layer.permittivity)
+    return {"infinite", "expected at most the permittivity at rest: a film loses, it gains none"};
+  if (r.law != RelaxationLaw::Table) return {};
+  if (r.frequency.size() < 2 || r.permittivity.size() != r.frequency.size() ||
+      (!r.loss.empty() && r.loss.size() != r.frequency.size()))
+    return {"frequency",
+            "expected two or more frequencies, and a permittivity (and a loss) for each"};
+  if (!std::is_sorted(r.frequency.begin(), r.frequency.end(), std::less_equal<>()))
+    return {"frequency", "expected rising frequencies"};
+  return {};
 }
 
 int Surface::carrying_layer() const {
@@ -119,6 +188,13 @@ void fields(FieldVisitor& v, Surface& s) {
   v.number(
       {"poisson", "", 0, 0.5, "Poisson ratio of compliant features", Source::Estimate, "polymers"},
       s.poisson);
+  v.number({"base_modulus", "GPa", 0, 1e4,
+            "Young's modulus of what a pin presses on below texture and features; 0: rigid. Skin "
+            "takes it as rigid"},
+           s.base_modulus);
+  v.number(
+      {"base_poisson", "", 0, 0.5, "its Poisson ratio", Source::Estimate, "glass .2, metals .3"},
+      s.base_poisson);
   v.number({"shear_strength", "MPa", 0, 1e3,
             "interfacial shear strength against clean skin at 15 % RH; 0: the finger's, on glass",
             Source::Choice, "polyethylene 2.5 MPa (Briscoe and Tabor 1978)"},

@@ -1,6 +1,8 @@
 // Air, surface finish and drive. Plain values, SI.
 #pragma once
 
+#include <complex>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,12 +33,31 @@ enum class LayerProcess { Surface, Conformal, Directional, Planar };
 // [ohm m], 0: a perfect insulator, never. Eq. scene.9
 double corner_frequency(double permittivity, double resistivity);
 
+// How a permittivity falls with frequency, and what is lost there.
+enum class RelaxationLaw { None, Debye, ColeCole, Table };
+struct Relaxation {
+  RelaxationLaw law = RelaxationLaw::None;
+  double infinite = 1;  // permittivity far above the relaxation
+  double time = 0;      // [s]
+  double alpha = 0;     // Cole-Cole: how much wider than Debye's, 0 to 1
+  // Of a table: storing and lossy part, straight over ln f between, held outside.
+  std::vector<double> frequency, permittivity, loss;
+
+  // Over the permittivity at rest, fields ~ e^(+jwt): the imaginary part is -loss. Eq. scene.14
+  std::complex<double> share(double at_rest, double f) const;
+
+  bool operator==(const Relaxation&) const = default;
+};
+void fields(FieldVisitor& v, Relaxation& s);
+
 struct Dielectric {
   std::string material = "SiO2";
   double thickness = 500e-9;
-  double permittivity = 3.9;
+  double permittivity = 3.9;  // at rest
   double resistivity = 1e14;  // [ohm m]; 0: a perfect insulator
   double strength = 1e9;      // breakdown field [V/m]
+  Relaxation relaxation{};
+  double saturation_field = 0;  // from which the polarisation no longer grows [V/m]; 0: none
 
   double equivalent_thickness() const { return thickness / permittivity; }
   // Below it the layer conducts [Hz]; 0: never. Eq. scene.9
@@ -45,6 +66,15 @@ struct Dielectric {
   bool operator==(const Dielectric&) const = default;
 };
 void fields(FieldVisitor& v, Dielectric& s);
+
+// Strongest field in the air on these layers that their charge still makes [V/m]; infinite: none
+// saturates. Eq. electrostatics.22
+double saturated_air_field(std::span<const Dielectric> layers);
+// What contradicts in the relaxation of a layer, by key; "" where nothing does.
+struct RelaxationProblem {
+  std::string key, message;
+};
+RelaxationProblem relaxation_problem(const Dielectric& layer);
 
 // A layer below a texture.
 struct FilmDielectric : Dielectric {
@@ -66,8 +96,10 @@ struct Surface {
   double step_coverage = 0;          // of directional layers: side wall / top
   double electrode_edge_radius = 0;  // convex edges under walls [m]; 0: none stated
   double refractive_index = 1.46;
-  double modulus = 0;         // Young's modulus of compliant features (particles); 0: rigid
-  double poisson = 0.4;       // theirs
+  double modulus = 0;    // Young's modulus of compliant features (particles); 0: rigid
+  double poisson = 0.4;  // theirs
+  // Of what lies below texture and features, for pins; 0: rigid. Skin takes it as rigid.
+  double base_modulus = 0, base_poisson = 0.3;
   double shear_strength = 0;  // against clean skin at 15 % RH [Pa]; 0: that of the finger, on glass
   // Against skin in its other states [Pa]; 0: the clean one's, changed as the finger's state says.
   double shear_strength_natural = 0;  // with its sebum, at 15 % RH
@@ -79,6 +111,7 @@ struct Surface {
   // Those at the thinnest place of the film below a texture that lies that deep [m]: planar layers
   // are thinner there.
   std::vector<Dielectric> thinnest_layers(double deepest) const;
+  double saturated_air_field() const { return scene::saturated_air_field(layers()); }
   // The layer that a texture is cut into or imprinted on; -1: none is planar.
   int carrying_layer() const;
 

@@ -88,7 +88,14 @@ Fidelity confirm_fidelity(const Study& study, std::size_t tasks) {
 // Of the study's own design: the same for all, so that they keep common skins.
 Plan plan_at(const StudyProblem& problem, const Fidelity& fidelity) {
   const Design& d = problem.study().design;
-  return make_plan({d.surface, d.finger, d.environment, d.drive, d.model}, d.texture, fidelity);
+  return make_plan(scene_of(d), d.texture, fidelity);
+}
+
+// Of the pen, where a goal is about it [s].
+double pen_seconds(const StudyProblem& problem, const Fidelity& fidelity) {
+  if (!problem.goals().pen) return 0;
+  const Design d = under_pen(problem.study().design);
+  return make_plan(scene_of(d), d.texture, fidelity).seconds();
 }
 
 // What a plan does not know: each target of voltage_for is found by driving the same patches four
@@ -103,7 +110,8 @@ double priced(const StudyProblem& problem, const Fidelity& fidelity) {
   const double each = fidelity.estimator == Estimator::Area ? kVoltageByAreas : kVoltageByLoads;
   const auto targets = static_cast<double>(problem.goals().voltage_targets.size());
   const double pull_in = problem.goals().pull_in ? kPullIn : 0;
-  return plan_at(problem, fidelity).seconds() * (1 + each * targets + pull_in);
+  return plan_at(problem, fidelity).seconds() * (1 + each * targets + pull_in) +
+         pen_seconds(problem, fidelity);
 }
 
 Fidelity full_fidelity(const StudyProblem& problem, Stage stage) {

@@ -81,6 +81,23 @@ void check_amplitude(const Study& study, const StudyGoals& goals) {
   }
 }
 
+// The pen is evaluated at the study's own drive.
+void check_pen(const Study& study, const StudyObjective& o) {
+  const Counterface& c = study.design.counterface;
+  if (!c.has_pen())
+    throw InputError("objective: " + o.name +
+                     " is of a pen, and there is none: describe it under "
+                     "[counterface.pen]");
+  const Metric& metric = o.expression.metric;
+  if (std::holds_alternative<VoltageFor>(metric) || std::holds_alternative<PullInMargin>(metric) ||
+      std::holds_alternative<LookMetric>(metric) || std::holds_alternative<SourceAmplitude>(metric))
+    throw InputError("objective: " + o.name +
+                     " is not asked of a pen: its forces and its contact are");
+  if (info_of(metric).needs_drive && !c.pen.conducting)
+    throw InputError("objective: " + o.name +
+                     " needs a field, and the pen does not conduct: counterface.pen.conducting");
+}
+
 }  // namespace
 
 bool StudyGoals::by_points(std::size_t objective) const {
@@ -109,6 +126,10 @@ StudyGoals study_goals(const Study& study, const std::vector<StudyTask>& tasks) 
     if (info_of(metric).needs_drive && !driven) {
       throw InputError(
           fmt::format("objective: {} needs a driven design; the drive is at 0", objective.name));
+    }
+    if (objective.expression.pen) {
+      check_pen(study, objective);
+      goals.pen = true;
     }
     goals.looks = goals.looks || std::holds_alternative<LookMetric>(metric);
     goals.pull_in = goals.pull_in || std::holds_alternative<PullInMargin>(metric);

@@ -20,14 +20,17 @@ std::vector<Variant> variants(const StudyProblem& problem) {
   for (std::size_t t = 0; t < problem.nominal_tasks(); ++t) {
     out.push_back({"finger " + problem.tasks()[t].name, t, [](Scene&) {}});
   }
+  const ModelOptions& model = problem.study().design.model;
+  const Pin* pin = problem.study().design.counterface.in_place();
   // The water of the skin and its friction: what a person's finger has that a degreased one has
   // not.
   const bool clean = problem.tasks().front().finger.state == FingerState::Clean;
-  out.push_back({clean ? "natural skin, not degreased" : "degreased skin", 0, [clean](Scene& s) {
-                   s.finger.state = clean ? FingerState::Natural : FingerState::Clean;
-                 }});
+  if (!pin)
+    out.push_back({clean ? "natural skin, not degreased" : "degreased skin", 0, [clean](Scene& s) {
+                     s.finger.state = clean ? FingerState::Natural : FingerState::Clean;
+                   }});
   const Scene first{{}, problem.tasks().front().finger, {}, {}, {}};
-  if (!first.finger.water.volume.empty()) {
+  if (!first.finger.water.volume.empty() && !pin) {
     out.push_back({"first droplet step 50 nm", 0, [](Scene& s) { s.model.droplet_step = 50e-9; }});
     out.push_back(
         {"first droplet step 800 nm", 0, [](Scene& s) { s.model.droplet_step = 800e-9; }});
@@ -38,7 +41,6 @@ std::vector<Variant> variants(const StudyProblem& problem) {
     out.push_back({"droplets do not raise the pull", 0,
                    [](Scene& s) { s.model.droplet_enhancement = false; }});
   }
-  const ModelOptions& model = problem.study().design.model;
   for (const auto& [name, law] :
        {std::pair("air insulates", AirLimit::None),
         std::pair("air breaks down at 350 V/um", AirLimit::Emission),
@@ -93,19 +95,21 @@ TaskAnswer evaluate_variant(const StudyProblem& problem, const Design& design, s
   const Variant variant = variants(problem).at(index);
   const StudyTask& task = problem.tasks()[variant.task];
   const StudyGoals& goals = problem.goals();
-  const Design d = with_settings(design, task.settings);
-  Scene scene{d.surface, task.finger, d.environment, d.drive, d.model};
+  Design d = with_settings(design, task.settings);
+  if (!d.counterface.in_place()) d.finger = task.finger;
+  Scene scene = scene_of(d);
   variant.change(scene);
-  Response response = evaluate(scene, d.texture, fidelity);
+  Responses both{evaluate(scene, d.texture, fidelity), pen_response(goals, d, fidelity)};
+  Response& response = both.own;
   if (auto refused = complete(response, goals, scene, d, variant.name, fidelity))
     return *std::move(refused);
-  TaskAnswer out = answer_of(goals, d, variant.name, response);
+  TaskAnswer out = answer_of(goals, d, variant.name, both);
   if (!out.status.ok()) return out;
   // Of the summaries themselves. A distance from a target has no samples of its own.
   for (const StudyObjective& o : goals.objectives) {
     out.samples.push_back(
         {o.aimed ? ErrorSamples{}
-                 : error_samples(o.expression.summary, o.expression.metric, response)});
+                 : error_samples(o.expression.summary, o.expression.metric, both.of(o))});
   }
   return out;
 }

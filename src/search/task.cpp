@@ -50,17 +50,20 @@ Texture without_relief(const Design& textured) {
   return depth || !facts(flat.texture).relief.present ? flat.texture : Texture{};
 }
 
+// What moves the finger leaves the pen: its own numbers have no errors stated.
 std::vector<StepSamples> steps_of(const StudyGoals& goals, const Response& response) {
   std::vector<StepSamples> out;
-  for (const StudyObjective& o : goals.objectives) out.push_back(steps_of(o, response));
+  for (const StudyObjective& o : goals.objectives)
+    out.push_back(o.expression.pen ? StepSamples{} : steps_of(o, response));
   return out;
 }
 
 // The samples behind each number that each objective is made of.
 std::vector<std::vector<ErrorSamples>> samples_of(const StudyGoals& goals,
-                                                  const Response& response) {
+                                                  const Responses& responses) {
   std::vector<std::vector<ErrorSamples>> out;
   for (std::size_t k = 0; k < goals.objectives.size(); ++k) {
+    const Response& response = responses.of(goals.objectives[k]);
     const MetricExpression& e = goals.objectives[k].expression;
     std::vector<ErrorSamples>& of = out.emplace_back();
     if (!goals.by_points(k)) {
@@ -152,16 +155,23 @@ std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, 
   return std::nullopt;
 }
 
+std::optional<Response> pen_response(const StudyGoals& goals, const Design& design,
+                                     const Fidelity& fidelity) {
+  if (!goals.pen) return std::nullopt;
+  return evaluate(scene_of(under_pen(design)), design.texture, fidelity);
+}
+
 TaskAnswer answer_of(const StudyGoals& goals, const Design& d, const std::string& task,
-                     const Response& response) {
+                     const Responses& responses) {
+  const Response& response = responses.own;
   TaskAnswer out;
   for (const StudyObjective& o : goals.objectives) {
-    const auto value = defined(o, task, response, out);
+    const auto value = defined(o, task, responses.of(o), out);
     if (!value) return out;
-    out.objectives.push_back(objective_of(o, *value, response));
+    out.objectives.push_back(objective_of(o, *value, responses.of(o)));
   }
   for (const StudyObjective& o : goals.limited) {
-    const auto value = defined(o, task, response, out);
+    const auto value = defined(o, task, responses.of(o), out);
     if (!value) return out;
     out.limited.push_back(value->value);
     out.limited_errors.push_back(own_error(*value));
@@ -184,15 +194,17 @@ TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std:
     return TaskAnswer::refused(Kind::ShapeRefused,
                                wrong.front().path + ": " + wrong.front().message);
   const Scene scene = scene_of(d);
-  Response response = respond(scene, d, work);
+  Responses both{respond(scene, d, work)};
+  Response& response = both.own;
   if (auto refused = complete(response, goals, scene, d, task.name, work.fidelity))
     return *std::move(refused);
   if (work.confirmed && task.nominal() && d.accuracy.parameters &&
       unknown_model(scene.finger).empty())
     add_model_errors(response, scene, d.texture, steps_fidelity(problem, work.fidelity));
-  TaskAnswer out = answer_of(goals, d, task.name, response);
+  both.pen = pen_response(goals, d, work.fidelity);
+  TaskAnswer out = answer_of(goals, d, task.name, both);
   if (!out.status.ok() || !work.confirmed) return out;
-  out.samples = samples_of(goals, response);
+  out.samples = samples_of(goals, both);
   if (work.text) out.report = work.text(response);
   return out;
 }
@@ -205,14 +217,16 @@ std::vector<TaskAnswer> member_answers(const StudyGoals& goals, const Scene& sce
                                        const Fidelity& fidelity) {
   std::vector<Scene> scenes = belief_scenes(belief_of(scene.finger), scene);
   scenes.push_back(scene);
+  const std::optional<Response> pen = pen_response(goals, d, fidelity);  // no member moves it
   std::vector<TaskAnswer> out;
   for (std::size_t m = 0; m < scenes.size(); ++m) {
     const bool own = m + 1 == scenes.size();
-    Response there;
+    Responses both{{}, pen};
+    Response& there = both.own;
     static_cast<Resampled&>(there) = own ? response.belief.own : response.belief.members[m].run;
     there.driven = response.driven;
     auto refused = complete(there, goals, scenes[m], d, task, fidelity);
-    out.push_back(refused ? *std::move(refused) : answer_of(goals, d, task, there));
+    out.push_back(refused ? *std::move(refused) : answer_of(goals, d, task, both));
   }
   return out;
 }
@@ -223,9 +237,9 @@ TaskAnswer evaluate_steps(const StudyProblem& problem, const Design& design, std
                           const Fidelity& fidelity) {
   const Design d = task_design(problem.study(), design, problem.tasks().at(task));
   Response response;
-  response.driven = d.drive.driven();
   if (problem.goals().looks) response.appearance = appearance_of(d);
   const Scene scene = scene_of(d);
+  response.driven = scene.drive.driven();
   const Fidelity few = steps_fidelity(problem, fidelity);
   add_model_errors(response, scene, d.texture, few);
   TaskAnswer out;

@@ -24,6 +24,14 @@ struct TaskWork {
   double most_seconds = 0;  // on the way to the target, as plans price it; 0: any
 };
 
+// What a design answers under its tasks' counterface and, where a goal is about it, under its pen.
+struct Responses {
+  Response own;
+  std::optional<Response> pen{};
+
+  const Response& of(const StudyObjective& o) const { return o.expression.pen ? *pen : own; }
+};
+
 // What a study wants to know of a response beside the patches: its look, the voltages of
 // voltage_for. An answer where the design has none: no theory of its look, no equilibrium.
 std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, const Scene& scene,
@@ -31,7 +39,10 @@ std::optional<TaskAnswer> complete(Response& response, const StudyGoals& goals, 
                                    const Fidelity& fidelity);
 // The numbers of a complete response that a study is about.
 TaskAnswer answer_of(const StudyGoals& goals, const Design& design, const std::string& task,
-                     const Response& response);
+                     const Responses& responses);
+// Under its pen; nothing where no goal is about it.
+std::optional<Response> pen_response(const StudyGoals& goals, const Design& design,
+                                     const Fidelity& fidelity);
 
 TaskAnswer evaluate_task(const StudyProblem& problem, const Design& design, std::size_t task,
                          const TaskWork& work);

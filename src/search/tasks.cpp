@@ -42,8 +42,15 @@ bool has_no_relief(const Design& design, const std::string& path) {
 
 std::vector<StudyTask> study_tasks(const Study& study) {
   std::vector<StudyTask> tasks;
-  const std::vector<Finger> fingers =
-      study.population.empty() ? std::vector<Finger>{study.design.finger} : study.population;
+  const bool pin = study.design.counterface.in_place() != nullptr;
+  if (pin && !study.population.empty())
+    throw InputError(
+        "population: a pin stands in place of fingers (counterface.type); leave the fingers out, "
+        "or "
+        "describe the pin under [counterface.pen] and judge it beside them");
+  const std::vector<Finger> fingers = study.population.empty()
+                                          ? std::vector<Finger>{scene_of(study.design).finger}
+                                          : study.population;
   const std::vector<Scenario> scenarios =
       study.scenarios.empty() ? std::vector<Scenario>{Scenario{}} : study.scenarios;
   for (const Scenario& scenario : scenarios) {
@@ -71,7 +78,7 @@ std::vector<StudyTask> study_tasks(const Study& study) {
 }
 
 Design task_design(const Study& study, Design d, const StudyTask& task) {
-  d.finger = task.finger;
+  if (!d.counterface.in_place()) d.finger = task.finger;
   d = with_settings(std::move(d), task.settings);  // a scenario may change the finger too
   if (task.nominal()) return d;
   std::vector<double> deviation(study.scatter.size(), 0.0);
@@ -120,11 +127,14 @@ std::string shape_trouble(const Study& study, const std::vector<StudyTask>& task
 std::string frequency_not_felt(const Design& design) {
   if (design.drive.waveform == Waveform::Dc) return "the drive is a direct voltage";
   if (design.drive.control == DriveControl::Current) return "";
-  const ElectricalLayer& finger = design.finger.electrical;
+  const Scene scene = scene_of(design);
+  const ElectricalLayer& finger = scene.finger.electrical;
   if (finger.skin_exponent != 1) return "";  // disperses at every frequency
   double corner = std::max(finger.corner_frequency, corner_frequency(1, finger.gap_resistivity));
-  for (const FilmDielectric& layer : design.surface.dielectric)
+  for (const FilmDielectric& layer : design.surface.dielectric) {
+    if (layer.relaxation.law != RelaxationLaw::None) return "";
     corner = std::max(corner, layer.corner_frequency());
+  }
   constexpr double kSlowest = 1;  // [Hz] nobody drives a screen below
   if (corner > kSlowest) return "";
   return "neither film nor gap nor skin conducts (surface.dielectric.resistivity, "

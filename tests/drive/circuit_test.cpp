@@ -104,6 +104,47 @@ TEST(Circuit, LayersAndGapsAreTheirCapacitors) {
               1e-12 * r.force_factor);
 }
 
+// Eq. drive.22: a capacitor whose permittivity relaxes, beside its resistor.
+TEST(Circuit, ALayerThatRelaxesStoresLessAndLosesAtItsFrequency) {
+  ImpedanceLayer l{1e7, 2e-10};
+  l.relaxation = {.law = RelaxationLaw::Debye, .infinite = 2, .time = 1e-4};
+  l.permittivity = 10;
+  const double f = 1 / (2 * kPi * 1e-4), omega = 1e4;
+  // 1/Z = 1/R + j omega C (6 - 4j)/10.
+  const Complex admittance = 1e-7 + Complex(0.4, 0.6) * omega * 2e-10;
+  EXPECT_LT(std::abs(l.impedance(f) * admittance - 1.0), 1e-12);
+  l.resistance = kInfinity;
+  EXPECT_LT(std::abs(l.impedance(f) * Complex(0.4, 0.6) * omega * 2e-10 - 1.0), 1e-12);
+  // In series beside the other layers.
+  Network n = three();
+  const Complex before = 1.0 / transfer(n, DriveControl::Voltage, f).current;
+  n.relaxing = {l};
+  const Complex with = 1.0 / transfer(n, DriveControl::Voltage, f).current;
+  EXPECT_LT(std::abs(with - before - l.impedance(f)), 1e-6 * std::abs(with));
+}
+
+// Eq. drive.23: a sine of twice what the film holds; by hand <min(2 sin, 1)^2> = 2/3 + ... over
+// a quarter cycle: up to 30 degrees 4 sin^2, then 1.
+TEST(Circuit, AFilmThatSaturatesCutsTheWaveOnItsGap) {
+  Network n = three();
+  n.dielectric = {0, 0};
+  n.skin = {0, 0};
+  n.gap.force_factor = 3;
+  n.gap.held = 1;
+  const DriveResponse r = respond(n, DriveControl::Voltage, 2, 50);
+  const double cut = kPi / 6, quarter = kPi / 2;
+  const double mean = (2 * cut - std::sin(2 * cut) + quarter - cut) / quarter;
+  EXPECT_NEAR(r.mean_force, 3 * mean, 1e-6);
+  EXPECT_EQ(r.gap_voltage, 1);
+  EXPECT_NEAR(respond(n, DriveControl::Voltage, 0.8, 50).mean_force, 3 * 0.32, 1e-12);
+  EXPECT_NEAR(respond(n, DriveControl::Voltage, 0.8, 50).ripple, 3 * 0.32, 1e-12);
+  EXPECT_NEAR(respond(n, DriveControl::Voltage, 5, 0).mean_force, 3, 1e-12);
+  const ForceSeries s = force_series(n, DriveControl::Voltage,
+                                     source_signal(Waveform::Sine, 2, 50, {}, 1, 0.02, 4096));
+  EXPECT_NEAR(s.mean_force, 3 * mean, 1e-3);
+  EXPECT_NEAR(s.peak_gap_voltage, 1, 1e-12);
+}
+
 TEST(Signals, OfEveryWaveformAreWhatTheyAreCalled) {
   const Modulation two{{50, 150}, {0.4, 0.2}};
   EXPECT_NEAR(two.at(1e-3), 0.4 * std::sin(0.1 * kPi) + 0.2 * std::sin(0.3 * kPi), 1e-12);

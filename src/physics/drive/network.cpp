@@ -1,6 +1,6 @@
 #include "physics/drive/network.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 
 #include "base/check.h"
@@ -9,6 +9,11 @@ namespace papilla::drive {
 
 std::complex<double> ImpedanceLayer::impedance(double frequency) const {
   const double omega = 2 * kPi * frequency;
+  if (relaxation.law != RelaxationLaw::None && omega > 0) {
+    const std::complex<double> stores =
+        std::complex<double>(0, omega * capacitance) * relaxation.share(permittivity, frequency);
+    return 1.0 / (1 / resistance + stores);
+  }
   if (std::isinf(resistance)) {
     if (omega * capacitance == 0) return kInfinity;
     return {0, -1 / (omega * capacitance)};
@@ -46,15 +51,16 @@ GapElement rough_gap(double mean_inverse, double mean_inverse_square, double h0,
 }
 
 Transfer transfer(const Network& network, DriveControl control, double frequency) {
-  const std::array<const ImpedanceLayer*, 3> layers{&network.gap.layer, &network.dielectric,
-                                                    &network.skin};
-  std::array<std::complex<double>, 3> z;
+  std::vector<const ImpedanceLayer*> layers{&network.gap.layer, &network.dielectric, &network.skin};
+  for (const ImpedanceLayer& layer : network.relaxing) layers.push_back(&layer);
+  std::vector<std::complex<double>> z;
+  std::complex<double> total = 0;
   bool open = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    z[i] = layers[i]->impedance(frequency);
-    open = open || std::isinf(z[i].real());
+  for (const ImpedanceLayer* layer : layers) {
+    z.push_back(layer->impedance(frequency));
+    total += z.back();
+    open = open || std::isinf(z.back().real());
   }
-  const std::complex<double> total = z[0] + z[1] + z[2];
   if (control == DriveControl::Current && std::isinf(network.shunt)) {
     return {z[0], open ? kInfinity : total, 1};
   }
@@ -64,7 +70,7 @@ Transfer transfer(const Network& network, DriveControl control, double frequency
     out.current = 1.0 / total;
   } else {  // only insulators hold a constant voltage, by their capacitances
     double elastance = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < layers.size(); ++i) {
       if (std::isinf(z[i].real())) elastance += 1 / layers[i]->capacitance;
     }
     if (std::isinf(z[0].real())) out.gap_voltage = 1 / layers[0]->capacitance / elastance;
@@ -78,14 +84,42 @@ Transfer transfer(const Network& network, DriveControl control, double frequency
   return out;
 }
 
+namespace {
+
+// Mean square of a sine of a peak that is held at a voltage, and the amplitude of its square at
+// twice the frequency [V^2]. Eq. drive.23
+struct HeldSquare {
+  double mean = 0, ripple = 0;
+};
+HeldSquare held_square(double peak, double held) {
+  if (peak <= held) return {0.5 * square(peak), 0.5 * square(peak)};
+  constexpr int kSteps = 4096;  // midpoints of a quarter cycle
+  HeldSquare out;
+  for (int i = 0; i < kSteps; ++i) {
+    const double turn = 0.5 * kPi * (i + 0.5) / kSteps;
+    const double v2 = square(std::min(peak * std::sin(turn), held));
+    out.mean += v2 / kSteps;
+    out.ripple -= 2 * v2 * std::cos(2 * turn) / kSteps;
+  }
+  return out;
+}
+
+}  // namespace
+
 DriveResponse respond(const Network& network, DriveControl control, double amplitude,
                       double frequency) {
   const Transfer t = transfer(network, control, frequency);
   DriveResponse out{amplitude * std::abs(t.gap_voltage), amplitude * std::abs(t.source_voltage),
                     amplitude * std::abs(t.current), 0, 0};
-  const double peak = network.gap.force_factor * square(out.gap_voltage);
-  out.mean_force = frequency > 0 ? 0.5 * peak : peak;
-  out.ripple = frequency > 0 ? 0.5 * peak : 0;
+  const double factor = network.gap.force_factor, held = network.gap.held;
+  if (frequency > 0) {
+    const HeldSquare v2 = held_square(out.gap_voltage, held);
+    out.mean_force = factor * v2.mean;
+    out.ripple = factor * v2.ripple;
+  } else {
+    out.mean_force = factor * square(std::min(out.gap_voltage, held));
+  }
+  out.gap_voltage = std::min(out.gap_voltage, held);
   return out;
 }
 

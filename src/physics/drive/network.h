@@ -3,6 +3,7 @@
 #pragma once
 
 #include <complex>
+#include <vector>
 
 #include "base/constants.h"
 #include "base/rooms.h"
@@ -12,8 +13,10 @@ namespace papilla::drive {
 
 // A resistance may be infinite, a capacitance 0; not both.
 struct ImpedanceLayer {
-  double resistance = 0;   // [ohm]
-  double capacitance = 0;  // [F]
+  double resistance = 0;    // [ohm]
+  double capacitance = 0;   // [F], at rest
+  Relaxation relaxation{};  // of the permittivity behind it, and that at rest. Eq. drive.22
+  double permittivity = 1;
 
   // Z = R / (1 + jwRC) [ohm]; infinite for an insulator at 0 Hz. Eq. drive.1
   std::complex<double> impedance(double frequency) const;
@@ -28,6 +31,8 @@ struct GapElement {
   ImpedanceLayer layer;
   double distance = 0;      // equivalent plane gap by capacitance [m]
   double force_factor = 0;  // [N/V^2]
+  // The most that stands across it [V]: a film that saturates has no charge for more. Eq. drive.23
+  double held = kInfinity;
 };
 // Parallel plates. Eq. drive.2
 GapElement plane_gap(double distance, double permittivity, double resistance, double area);
@@ -39,6 +44,7 @@ GapElement rough_gap(double mean_inverse, double mean_inverse_square, double h0,
 struct Network {
   ImpedanceLayer dielectric, skin;
   GapElement gap;
+  std::vector<ImpedanceLayer> relaxing{};  // layers of the dielectric whose permittivity does
   // Across a current source: its output resistance, or one that keeps charge from building up
   // [ohm]; the voltage source does not feel it.
   double shunt = kInfinity;

@@ -111,6 +111,8 @@ ForceSeries force_series(const Network& network, DriveControl control, const Sig
   }
   ForceSeries out;
   out.gap_voltage = {source.period, back(std::move(gap), n)};
+  const double held = network.gap.held;
+  for (double& v : out.gap_voltage.value) v = std::clamp(v, -held, held);  // Eq. drive.23
   const bool holds_voltage = control == DriveControl::Voltage;
   out.source_voltage = holds_voltage ? source : Signal{source.period, back(std::move(voltage), n)};
   out.current = holds_voltage ? Signal{source.period, back(std::move(current), n)} : source;

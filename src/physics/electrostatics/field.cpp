@@ -135,11 +135,11 @@ class ColumnLaw {
     }
     ColumnPull<T> out;
     out.pressure = chosen(pulls, scale_ * field2 * c.open, 0.0);
-    if (p_.air_limit != AirLimit::None)
-      out.pressure =
-          out.pressure *
-          clipped_share(air_field_limit(p_.air_limit, larger(c.air, T(0))) / root(peak2_ * field2),
-                        p_.steady);
+    if (field_is_held(p_)) {
+      // Eqs. electrostatics.21, 22
+      const T most = smaller(air_field_limit(p_.air_limit, larger(c.air, T(0))), p_.film_holds);
+      out.pressure = out.pressure * clipped_share(most / root(peak2_ * field2), p_.steady);
+    }
     of_film2 = chosen(bridge, dry * dry * per_film2, of_film2) * square(p_.film_phase);
     of_film2 = smaller(of_film2, per_film2);
     out.film_field2 = chosen((pulls || bridge) && film, of_film2, 0.0);

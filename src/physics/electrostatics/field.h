@@ -4,6 +4,7 @@
 #include <complex>
 #include <string>
 
+#include "base/constants.h"
 #include "base/rooms.h"
 #include "fields/gap.h"
 #include "fields/wetting.h"
@@ -24,12 +25,18 @@ struct FieldProblem {
   double water_skin_layer = 0;          // [m]
   double film_phase = 1;                // |d/eps| over its real part, of a film that leaks
   AirLimit air_limit = AirLimit::None;  // what holds the field in the air. Eq. electrostatics.21
+  double film_holds = kInfinity;        // field in the air that a film's charge makes at most [V/m]
   bool steady = false;                  // a voltage of one magnitude, direct or square; else a sine
   bool screening = true;                // the field fades towards a bridge
   bool even_screening = false;          // preset m3: that as one factor. Eq. electrostatics.18
   bool droplet_enhancement = true;      // droplets that do not bridge raise the pull
   bool zero_under_droplets = false;     // preset m3: no pull under any droplet
 };
+
+// Something holds the field in the air below what the voltage makes.
+inline bool field_is_held(const FieldProblem& p) {
+  return p.air_limit != AirLimit::None || p.film_holds < kInfinity;
+}
 
 // Whether the film insulates so much better than the gap that next to nothing of the voltage is
 // left to the gap, and hardly any flux spreads in the film: columns are the rule with spreading

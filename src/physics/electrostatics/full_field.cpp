@@ -80,10 +80,10 @@ void add_pull(const PotentialSolution& s, const Gap& gap, const Wetting& wetting
     square_field /= 1 + std::max(square_field, 0.0) * square(p.skin_layer.imag());
     const double g = gap.value[i];
     double pressure = scale * square_field;
-    if (p.air_limit != AirLimit::None && square_field > 0)
-      pressure *= clipped_share(
-          air_field_limit(p.air_limit, std::max(g, 0.0)) / std::sqrt(peak2 * square_field),
-          p.steady);
+    if (field_is_held(p) && square_field > 0) {
+      const double most = std::min(air_field_limit(p.air_limit, std::max(g, 0.0)), p.film_holds);
+      pressure *= clipped_share(most / std::sqrt(peak2 * square_field), p.steady);
+    }
     out.traction.value[i] = pressure;
     sum += pressure;
     if (g > 0 && square_field > 0 &&

@@ -1,0 +1,64 @@
+// Permittivities over frequency, and the field that a saturating film still makes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/constants.h"
+#include "scene/environment.h"
+
+namespace papilla::tests {
+namespace {
+
+TEST(Relaxation, DebyeLosesHalfAtItsFrequency) {
+  const Relaxation debye{.law = RelaxationLaw::Debye, .infinite = 2, .time = 1e-3};
+  const std::complex<double> there = 10.0 * debye.share(10, 1 / (2 * kPi * 1e-3));
+  EXPECT_NEAR(there.real(), 6, 1e-12);
+  EXPECT_NEAR(there.imag(), -4, 1e-12);
+  EXPECT_NEAR(debye.share(10, 1e-9).real(), 1, 1e-9);
+  EXPECT_NEAR(debye.share(10, 1e12).real(), 0.2, 1e-6);
+}
+
+// At its frequency (j)^(1 - alpha) = exp(j pi (1 - alpha)/2): by hand for alpha = 1/2.
+TEST(Relaxation, ColeAndColeIsWider) {
+  const Relaxation wide{.law = RelaxationLaw::ColeCole, .infinite = 2, .time = 1e-3, .alpha = 0.5};
+  const std::complex<double> there = 10.0 * wide.share(10, 1 / (2 * kPi * 1e-3));
+  EXPECT_NEAR(there.real(), 6, 1e-12);
+  EXPECT_NEAR(there.imag(), -4 * std::tan(kPi / 8), 1e-12);
+  const Relaxation debye{.law = RelaxationLaw::Debye, .infinite = 2, .time = 1e-3};
+  const Relaxation narrow{.law = RelaxationLaw::ColeCole, .infinite = 2, .time = 1e-3};
+  EXPECT_EQ(narrow.share(10, 70), debye.share(10, 70));
+}
+
+TEST(Relaxation, ATableIsStraightOverTheLogarithmAndHeldOutside) {
+  const Relaxation table{
+      .law = RelaxationLaw::Table, .frequency = {10, 1000}, .permittivity = {8, 4}, .loss = {0, 2}};
+  EXPECT_EQ(table.share(8, 1), std::complex(1.0, -0.0));
+  EXPECT_NEAR(table.share(8, 100).real(), 0.75, 1e-12);
+  EXPECT_NEAR(table.share(8, 100).imag(), -0.125, 1e-12);
+  EXPECT_NEAR(table.share(8, 1e6).real(), 0.5, 1e-12);
+}
+
+TEST(Relaxation, WhatContradictsIsNamed) {
+  Dielectric film;
+  EXPECT_EQ(relaxation_problem(film).key, "");
+  film.relaxation.law = RelaxationLaw::Debye;
+  EXPECT_EQ(relaxation_problem(film).key, "time");
+  film.relaxation.time = 1e-3;
+  film.relaxation.infinite = 5;  // above 3.9
+  EXPECT_EQ(relaxation_problem(film).key, "infinite");
+  film.relaxation = {.law = RelaxationLaw::Table, .frequency = {10, 10}, .permittivity = {3, 2}};
+  EXPECT_EQ(relaxation_problem(film).key, "frequency");
+}
+
+// D = eps0 eps E up to the field of saturation, and the air above carries the same D.
+TEST(Saturation, TheWeakestLayerHoldsTheFieldInTheAir) {
+  Surface surface;
+  EXPECT_EQ(surface.saturated_air_field(), kInfinity);
+  surface.dielectric[0].saturation_field = 50e6;
+  surface.dielectric.push_back(surface.dielectric[0]);
+  surface.dielectric[1].permittivity = 2;
+  EXPECT_NEAR(surface.saturated_air_field(), 2 * 50e6, 1e-3);
+}
+
+}  // namespace
+}  // namespace papilla::tests
