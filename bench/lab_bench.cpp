@@ -111,8 +111,8 @@ World make_world(const std::string& folder, int members, int truths) {
       std::make_unique<MemberModel>(drawn(finger, truths, "lab truths"), folder, 0, note);
   w.table = std::make_unique<ResponseTable>(w.designs, *w.model);
   w.truth_table = std::make_unique<ResponseTable>(w.truth_designs, *w.truth_model);
-  w.table->add(w.experiments);
-  w.truth_table->add(w.experiments);
+  w.table->lay(w.experiments);
+  w.truth_table->lay(w.experiments);
   w.worth = worth_of(w, *w.table, static_cast<std::size_t>(members));
   w.truth_worth = worth_of(w, *w.truth_table, static_cast<std::size_t>(truths));
   return w;

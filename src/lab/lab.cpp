@@ -78,6 +78,7 @@ Lab::Lab(const std::string& folder, int threads, std::function<void(const std::s
   model_ = std::make_unique<MemberModel>(
       read_belief(folder_.file(file_.belief), designs_.front().design.finger), folder, threads,
       std::move(note));
+  table_ = std::make_unique<ResponseTable>(designs_, *model_);
   journal_ = std::make_unique<Journal>(folder_, kJournalFile, journal_key(), true);
   for (const JournalRecord& record : journal_->records())
     entries_.push_back(read_entry(record.payload));
@@ -180,18 +181,18 @@ const std::vector<std::vector<double>>& Lab::worth() {
   return worth_;
 }
 
-void Lab::stand(const std::vector<Experiment>& more) {
-  if (!table_) table_ = std::make_unique<ResponseTable>(designs_, *model_);
-  std::vector<Experiment> all = more;
+void Lab::stand() {
+  // The same rows in the same order however many calls the readings were told in.
+  std::vector<Experiment> all = candidates();
   const std::vector<FrictionReading> told = readings();
   for (const FrictionReading& r : told) all.push_back(r.experiment);
-  table_->add(all);
+  table_->lay(all);
   const std::vector<std::vector<double>>& of_designs = worth();
   standing_ = standing_of(belief(), file_, designs_, *table_, told, of_designs, kept_);
 }
 
 const Standing& Lab::standing() {
-  if (!standing_) stand(candidates());
+  if (!standing_) stand();
   return *standing_;
 }
 
@@ -220,9 +221,8 @@ void Lab::keep(JournalEntry entry) {
 }
 
 PlanRecord Lab::next(const NextOptions& options) {
-  const std::vector<Experiment> all = candidates();
-  stand(all);
-  PlanRecord plan = plan_batch(*standing_, *table_, all, file_, options, planned().size());
+  stand();
+  PlanRecord plan = plan_batch(*standing_, *table_, candidates(), file_, options, planned().size());
   keep({plan, std::nullopt, decision(options.date)});
   return plan;
 }
@@ -302,7 +302,7 @@ Told Lab::tell(const std::string& path, const TellOptions& options,
   told.before = decision(options.date);
   std::vector<Experiment> of_file;
   for (const FrictionReading& r : told.record.readings) of_file.push_back(r.experiment);
-  table_->add(of_file);
+  table_->lay(of_file);
   for (const FrictionReading& r : told.record.readings) {
     const MeasurableCell& cell = table_->cell(r.experiment);
     if ((r.off > 0 && !cell.off) || (r.on > 0 && !cell.on))
@@ -312,7 +312,7 @@ Told Lab::tell(const std::string& path, const TellOptions& options,
   }
   if (picture) picture(told);
   entries_.push_back({std::nullopt, told.record, std::nullopt});
-  stand(candidates());
+  stand();
   told.after = decision(options.date);
   entries_.pop_back();
   keep({std::nullopt, told.record, told.after});

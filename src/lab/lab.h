@@ -89,7 +89,7 @@ class Lab {
  private:
   std::vector<Experiment> candidates() const;
   const std::vector<std::vector<double>>& worth();
-  void stand(const std::vector<Experiment>& more);
+  void stand();
   DecisionRecord decision(const std::string& date);
   void keep(JournalEntry entry);
   std::vector<FrictionReading> new_ones(std::vector<FrictionReading> readings, bool replace,

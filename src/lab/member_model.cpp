@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <set>
 
 #include "base/parallel.h"
 #include "config/writer.h"
@@ -16,7 +15,7 @@
 namespace papilla::lab {
 namespace {
 
-constexpr std::size_t kNumbers = 4;  // of a humidity and member: off, on, and their errors
+constexpr std::size_t kNumbers = 4;  // of a member: off, on, and their errors
 
 // Hexadecimal, so that a number reads back to its last bit.
 std::string written(const std::vector<double>& numbers) {
@@ -35,11 +34,6 @@ std::vector<double> read_numbers(const std::string& text) {
   }
 }
 
-bool same_but_humidity(Conditions a, const Conditions& b) {
-  a.relative_humidity = b.relative_humidity;
-  return a == b;
-}
-
 double share(const Measured& m) { return m.value > 0 ? m.parts.sampling / m.value : 0; }
 
 }  // namespace
@@ -53,13 +47,12 @@ MemberModel::MemberModel(Belief belief, const std::string& folder, int threads,
   if (!folder.empty()) kept_ = Unfinished(folder, PAPILLA_VERSION "\n" + belief_text_);
 }
 
-Design under_conditions(const Design& design, const Conditions& at,
-                        std::vector<double> humidities) {
+Design under_conditions(const Design& design, const Conditions& at) {
   Design out = design;
   out.finger.belief.clear();
   out.finger.load = at.load;
   out.finger.state = at.state;
-  out.environment = {std::move(humidities), {}};
+  out.environment = {{at.relative_humidity}, {}};
   if (at.driven()) {
     out.drive.control = DriveControl::Voltage;
     out.drive.current = 0;
@@ -101,57 +94,34 @@ std::vector<double> MemberModel::kept(const std::string& question, std::size_t s
   return answer;
 }
 
-std::vector<double> MemberModel::group(const Design& design) {
-  const std::size_t humidities = design.environment.relative_humidity.size();
-  return kept("friction\n" + write_toml(to_table(design)),
-              kNumbers * humidities * belief_.members.size(), [&] {
-                if (note_)
-                  note_(fmt::format("{} at {} members", design.title, belief_.members.size()));
-                std::vector<double> out;
-                for (const Response& r : runs(design)) {
-                  for (const ResponsePoint& p : r.points) {
-                    const bool off = p.knows_undriven(), on = r.driven && p.knows_driven();
-                    out.push_back(off ? p.friction_off.value : std::nan(""));
-                    out.push_back(on ? p.friction_on.value : std::nan(""));
-                    out.push_back(share(p.friction_off));
-                    out.push_back(share(p.friction_on));
-                  }
-                }
-                return out;
-              });
-}
-
-std::vector<MemberFriction> MemberModel::friction(const Design& design,
-                                                  const std::vector<Conditions>& conditions) {
-  std::vector<MemberFriction> out(conditions.size());
-  std::vector<bool> done(conditions.size(), false);
-  const std::size_t members = belief_.members.size();
-  for (std::size_t first = 0; first < conditions.size(); ++first) {
-    if (done[first]) continue;
-    std::set<double> air;
-    for (const Conditions& c : conditions) {
-      if (same_but_humidity(c, conditions[first])) air.insert(c.relative_humidity);
-    }
-    const std::vector<double> humidities(air.begin(), air.end());
-    const std::vector<double> answer =
-        group(under_conditions(design, conditions[first], humidities));
-    for (std::size_t i = first; i < conditions.size(); ++i) {
-      if (!same_but_humidity(conditions[i], conditions[first])) continue;
-      done[i] = true;
-      const auto h = static_cast<std::size_t>(
-          std::distance(air.begin(), air.find(conditions[i].relative_humidity)));
-      std::vector<double> off_se, on_se;
-      for (std::size_t m = 0; m < members; ++m) {
-        const std::size_t at = kNumbers * (m * humidities.size() + h);
-        out[i].off.push_back(answer[at]);
-        if (conditions[i].driven()) out[i].on.push_back(answer[at + 1]);
-        off_se.push_back(answer[at + 2]);
-        on_se.push_back(answer[at + 3]);
-      }
-      out[i].off_se = quantile(off_se, 0.5);
-      out[i].on_se = quantile(on_se, 0.5);
-    }
+MemberFriction MemberModel::friction(const Design& design, const Conditions& at) {
+  const Design there = under_conditions(design, at);
+  const std::vector<double> answer =
+      kept("friction\n" + write_toml(to_table(there)), kNumbers * belief_.members.size(), [&] {
+        if (note_)
+          note_(
+              fmt::format("{}, {}, at {} members", there.title, text(at), belief_.members.size()));
+        std::vector<double> out;
+        for (const Response& r : runs(there)) {
+          const ResponsePoint& p = r.points.front();
+          const bool off = p.knows_undriven(), on = r.driven && p.knows_driven();
+          out.push_back(off ? p.friction_off.value : std::nan(""));
+          out.push_back(on ? p.friction_on.value : std::nan(""));
+          out.push_back(share(p.friction_off));
+          out.push_back(share(p.friction_on));
+        }
+        return out;
+      });
+  MemberFriction out;
+  std::vector<double> off_se, on_se;
+  for (std::size_t i = 0; i < answer.size(); i += kNumbers) {
+    out.off.push_back(answer[i]);
+    if (at.driven()) out.on.push_back(answer[i + 1]);
+    off_se.push_back(answer[i + 2]);
+    on_se.push_back(answer[i + 3]);
   }
+  out.off_se = quantile(off_se, 0.5);
+  out.on_se = quantile(on_se, 0.5);
   return out;
 }
 

@@ -30,10 +30,10 @@ class MemberModel {
   const Belief& belief() const { return belief_; }
   int evaluated() const { return evaluated_; }
 
-  // Conditions that differ in humidity alone are one evaluation of each member. An answer per
-  // condition, in their order.
-  std::vector<MemberFriction> friction(const Design& design,
-                                       const std::vector<Conditions>& conditions);
+  // An evaluation of each member. One humidity at a time, though several would share work: the
+  // contact of a humidity starts from that of the one before, so an answer would depend, within
+  // the tolerance of the contact, on what else was asked.
+  MemberFriction friction(const Design& design, const Conditions& at);
   // [member] of the design at its own drive and humidities, higher is better; NaN where it has
   // none.
   std::vector<double> worth(const Design& design, const MetricExpression& expression);
@@ -42,8 +42,6 @@ class MemberModel {
   std::vector<double> kept(const std::string& question, std::size_t size,
                            const std::function<std::vector<double>()>& make);
   std::vector<Response> runs(const Design& design) const;
-  // off, on, and their errors of the sampling, of each humidity and member.
-  std::vector<double> group(const Design& design);
 
   Belief belief_;
   std::string belief_text_;
@@ -52,7 +50,7 @@ class MemberModel {
   std::function<void(const std::string&)> note_;
 };
 
-// The design under other conditions: its humidities are these.
-Design under_conditions(const Design& design, const Conditions& at, std::vector<double> humidities);
+// The design under other conditions.
+Design under_conditions(const Design& design, const Conditions& at);
 
 }  // namespace papilla::lab

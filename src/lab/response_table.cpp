@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace papilla::lab {
@@ -19,25 +18,27 @@ std::string cell_key(const Experiment& e) {
 
 }  // namespace
 
-void ResponseTable::add(const std::vector<Experiment>& experiments) {
-  for (std::size_t d = 0; d < designs_.size(); ++d) {
-    std::vector<Experiment> wanted;
-    std::vector<Conditions> at;
-    for (const Experiment& e : experiments) {
-      if (e.design != d || cells_.count(cell_key(e))) continue;
-      if (std::find(wanted.begin(), wanted.end(), e) != wanted.end()) continue;
-      wanted.push_back(e);
-      at.push_back(e.at);
-    }
-    if (wanted.empty()) continue;
-    const std::vector<MemberFriction> found = model_.friction(designs_[d].design, at);
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      MeasurableCell cell;
-      cell.skin = skins_.emplace(skin_key(wanted[i]), skins_.size()).first->second;
-      cell.off = add_row(found[i].off, found[i].off_se);
-      if (wanted[i].at.driven()) cell.on = add_row(found[i].on, found[i].on_se);
-      cells_[cell_key(wanted[i])] = cell;
-    }
+const MemberFriction& ResponseTable::friction(const Experiment& e) {
+  const std::string key = cell_key(e);
+  auto found = known_.find(key);
+  if (found == known_.end())
+    found = known_.emplace(key, model_.friction(designs_[e.design].design, e.at)).first;
+  return found->second;
+}
+
+void ResponseTable::lay(const std::vector<Experiment>& experiments) {
+  cells_.clear();
+  skins_.clear();
+  responses_.clear();
+  numerical_.clear();
+  for (const Experiment& e : experiments) {
+    const auto [place, is_new] = cells_.try_emplace(cell_key(e));
+    if (!is_new) continue;
+    const MemberFriction& found = friction(e);
+    MeasurableCell& cell = place->second;
+    cell.skin = skins_.emplace(skin_key(e), skins_.size()).first->second;
+    cell.off = add_row(found.off, found.off_se);
+    if (e.at.driven()) cell.on = add_row(found.on, found.on_se);
   }
 }
 

@@ -30,19 +30,22 @@ class ResponseTable {
   ResponseTable(const std::vector<LabDesign>& designs, MemberModel& model)
       : designs_(designs), model_(model) {}
 
-  // Evaluates what it does not know yet.
-  void add(const std::vector<Experiment>& experiments);
-  // Of an experiment that was added.
+  // Its rows are those of these experiments, in their order, each once; what it has not known yet
+  // is evaluated.
+  void lay(const std::vector<Experiment>& experiments);
+  // Of an experiment that was laid.
   const MeasurableCell& cell(const Experiment& experiment) const;
 
   const std::vector<std::vector<double>>& responses() const { return responses_; }
   const std::vector<double>& numerical() const { return numerical_; }
 
  private:
+  const MemberFriction& friction(const Experiment& experiment);
   std::optional<std::size_t> add_row(const std::vector<double>& forces, double error);
 
   const std::vector<LabDesign>& designs_;
   MemberModel& model_;
+  std::map<std::string, MemberFriction> known_;
   std::map<std::string, MeasurableCell> cells_;
   std::map<std::string, std::size_t> skins_;
   std::vector<std::vector<double>> responses_;

@@ -106,6 +106,22 @@ TEST_F(LabFolder, TakesHalfATableAndThenTheRestOfIt) {
   EXPECT_EQ(readings(), 2u);
 }
 
+// At humidities that the lab has not asked the model about: each is evaluated by itself.
+TEST_F(LabFolder, WeighsWhatIsToldInTwoCallsAsWhatIsToldInOne) {
+  const std::vector<std::string> files{
+      file("first.csv", std::string(kHead) + "deep,1,0.2,45,200,1,0.06,0.09\n"),
+      file("second.csv", std::string(kHead) + "shallow,1,0.2,55,200,1,0.07,0.1\n"
+                                              "deep,1,0.2,25,200,1,0.05,0.08\n")};
+  const std::string apart = folder_;
+  tell({files[0]});
+  tell({files[1]});
+  folder_ = (own_.path() / "together").string();
+  fs::copy(place_->path() / "first", folder_, fs::copy_options::recursive);
+  tell(files);
+  for (const char* made : {"/belief.toml", "/lab.json", "/lab.md"})
+    EXPECT_EQ(file_text(apart + made), file_text(folder_ + made)) << made;
+}
+
 TEST_F(LabFolder, KeepsNothingOfAFileThatIsRefused) {
   const std::string before = file_text(folder_ + "/lab.journal");
   const std::string good = "deep,1,0.2,35,200,1,0.06,0.09\n";
@@ -164,7 +180,7 @@ TEST_F(LabFolder, MovesWeightToTheHypothesisThatTheReadingsSpeakFor) {
   for (std::size_t d = 0; d < 2; ++d) {
     for (const double rh : {0.35, 0.75}) {
       const MemberFriction f =
-          model.friction(lab.designs()[d].design, {{0.2, rh, 200, 0, FingerState::Clean}}).front();
+          model.friction(lab.designs()[d].design, {0.2, rh, 200, 0, FingerState::Clean});
       for (int repeat = 1; repeat <= 3; ++repeat)
         rows += fmt::format("{},{},0.2,{},200,1,{:.6f},{:.6f}\n", lab.designs()[d].name, repeat,
                             100 * rh, f.off[member], f.on[member]);

@@ -60,7 +60,7 @@ class Story : public testing::Test {
     const Lab lab(Story::lab(), 1);
     MemberModel model(lab.belief(), Story::lab(), 1);
     const MemberFriction f =
-        model.friction(lab.designs()[e.experiment.design].design, {e.experiment.at}).front();
+        model.friction(lab.designs()[e.experiment.design].design, e.experiment.at);
     Tribometer t;
     t.off = f.off[member];
     t.on = f.on[member];
@@ -190,10 +190,10 @@ TEST_F(Story, OfATellKilledAtThirtyMomentsLosesNothingAndCountsNothingTwice) {
     const Outcome again = place_->run(in("killed/lab"));
     ASSERT_EQ(again.status, 0) << again.err;
     EXPECT_EQ(Lab((place_->path() / "killed/lab").string(), 1).readings().size(), whole);
-    // The weights of the members are not the same to the last digit: docs/measured/lab.md.
-    EXPECT_EQ(file_text(place_->path() / "killed/lab/readings.csv"),
-              file_text(place_->path() / "killed/whole/readings.csv"))
-        << "after a kill at " << k;
+    for (const std::string file : {"readings.csv", "belief.toml", "lab.json"})
+      EXPECT_EQ(file_text(place_->path() / "killed/lab" / file),
+                file_text(place_->path() / "killed/whole" / file))
+          << file << " after a kill at " << k;
   }
   EXPECT_GT(killed, 3);
 }
