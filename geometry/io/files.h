@@ -58,6 +58,7 @@ struct MapAnswer {
 };
 MapAnswer read_map(const std::string& name, double width = 0,
                    NotNumbers not_numbers = NotNumbers::Refused);
+std::string lower_ending(const std::string& path);  // ".exr"
 // The file of a map and its channel, by name or number: "scan.gwy::Height" is that channel of
 // scan.gwy. Without one the channel that holds heights is read; of several one must be named.
 struct MapName {

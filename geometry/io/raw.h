@@ -8,7 +8,6 @@
 
 namespace papilla::geometry {
 
-std::string lower_ending(const std::string& path);  // ".exr"
 // The lowest bytes of a number, the least first.
 std::string little(std::uint64_t value, int bytes);
 // Throws InputError for sizes that cannot be read.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -11,6 +12,7 @@
 #include "base/units.h"
 #include "fabricate/formats.h"
 #include "fabricate/verify.h"
+#include "geometry/io/files.h"
 #include "geometry/texture.h"
 #include "report/export.h"
 #include "report/json.h"
@@ -26,6 +28,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostListed = 200;
 constexpr int kExportPixels = 512;
+
+// Read by code of our own: what a page sends never reaches another program.
+constexpr std::array kMapEndings{".npy", ".gsf", ".exr", ".tif", ".tiff",
+                                 ".x3p", ".gwy", ".sur", ".sdf"};
+
+// A file of the folder and the channel that was named of it: "scans/a.gwy::Height".
+fs::path map_inside(const fs::path& folder, const std::string& name) {
+  const MapName map = map_name(name);
+  fs::path file = inside(folder, map.file);
+  if (!map.channel.empty()) file += "::" + map.channel;
+  return file;
+}
 
 ScanSource scan_source(const fs::path& file, const std::string& size, bool fill, bool as_is) {
   const double width = size.empty() ? 0 : parse_si(size, "um");
@@ -165,9 +179,11 @@ Json Files::export_files(const Study& study, const std::string& name) const {
 
 Json Files::keep_scan(const std::string& name, const std::string& bytes) const {
   const fs::path file = inside(folder_, "scans/" + name);
-  const std::string kind = file.extension().string();
-  if (kind != ".npy" && kind != ".gsf" && kind != ".exr" && kind != ".tif")
-    throw InputError({Problem{name, 0, 0, "", "expected a map of heights: .npy .gsf .exr .tif"}});
+  if (std::find(kMapEndings.begin(), kMapEndings.end(), lower_ending(name)) == kMapEndings.end())
+    throw InputError({Problem{name, 0, 0, "",
+                              fmt::format("expected a map of heights: {}; others can be read by "
+                                          "`papilla surface FILE --out MAP.gsf`",
+                                          fmt::join(kMapEndings, " "))}});
   handle_.made_below(file.parent_path().lexically_relative(folder_).string())
       .write(file.filename().string(), bytes);
   return {{"name", file.lexically_relative(folder_).generic_string()}, {"bytes", bytes.size()}};
@@ -175,7 +191,7 @@ Json Files::keep_scan(const std::string& name, const std::string& bytes) const {
 
 Json Files::scan_view(const std::string& name, const std::string& size, bool fill,
                       bool as_is) const {
-  const fs::path file = inside(folder_, name);
+  const fs::path file = map_inside(folder_, name);
   const SurfaceView view = view_of(scan_source(file, size, fill, as_is), 0);
   Json out = Json::parse(surface_json(view));
   out["words"] = text(file.filename().string(), view.scan.changes);
@@ -187,7 +203,7 @@ Json Files::scan_view(const std::string& name, const std::string& size, bool fil
 
 Draft Files::with_scan(const Draft& draft, const std::string& name, const std::string& size,
                        bool fill, bool as_is) const {
-  const fs::path file = inside(folder_, name);
+  const fs::path file = map_inside(folder_, name);
   Draft out = draft;
   std::erase_if(out.changes, [](const Change& c) { return c.path.starts_with("texture."); });
   const ScanSource source = scan_source(file, size, fill, as_is);

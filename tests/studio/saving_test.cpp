@@ -12,6 +12,7 @@
 #include "base/units.h"
 #include "geometry/io/files.h"
 #include "studio/files.h"
+#include "tests/io/instrument_bytes.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -257,12 +258,30 @@ TEST_F(Saving, AnExportIsShownBeforeItIsMade) {
 }
 
 TEST_F(Saving, AScanIsKeptWithItsNameAndLength) {
-  for (const char* name : {"a.npy", "a.gsf", "a.exr", "a.tif"})
+  for (const char* name : {"a.npy", "a.gsf", "a.exr", "a.tif", "a.x3p", "a.gwy", "A.SUR", "a.sdf"})
     EXPECT_EQ(files_.keep_scan(name, "12345"),
               (nlohmann::ordered_json{{"name", std::string("scans/") + name}, {"bytes", 5}}));
   EXPECT_EQ(read_bytes(place_.path() / "scans/a.tif"), "12345");
-  for (const char* name : {"a.png", "a", "a.gsf.txt", ".gsf", "a.GSF"})
+  for (const char* name : {"a.png", "a", "a.gsf.txt", ".gsf", "a.nid"})
     EXPECT_THROW(files_.keep_scan(name, ""), InputError) << name;
+}
+
+// Of an instrument's file the channel that was named.
+TEST_F(Saving, AScanOfSeveralChannelsIsTheNamedOne) {
+  Heightmap low{{16, 16, 8e-6, 8e-6}, std::vector<double>(256, 0.0)}, high = low;
+  low.z[5] = 1e-8;
+  high.z[5] = 3e-8;
+  files_.keep_scan("two.gwy", gwy_bytes({{"Forward", "m", &low}, {"Backward", "m", &high}}));
+  EXPECT_THROW(files_.with_scan({shipped_, {}}, "scans/two.gwy", "", false, true), InputError);
+  const Draft draft =
+      files_.with_scan({shipped_, {}}, "scans/two.gwy::Backward", "", false, true);
+  const auto file = std::find_if(draft.changes.begin(), draft.changes.end(),
+                                 [](const Change& c) { return c.path == "texture.file"; });
+  ASSERT_NE(file, draft.changes.end());
+  EXPECT_NE(file->text.find("scans/two.gwy::Backward"), std::string::npos) << file->text;
+  EXPECT_NE(save(draft, "named.toml").find("file = \"scans/two.gwy::Backward\""),
+            std::string::npos);
+  EXPECT_THROW(files_.with_scan({shipped_, {}}, "scans/two.gwy::Up", "", false, true), InputError);
 }
 
 // What was asked of the scan stands in the draft, and nothing of the texture before.
