@@ -15,6 +15,7 @@ const FigureTables& tables() {
   static const FigureTables once = [] {
     FigureOptions options;
     options.finger = read_finger(std::string(PAPILLA_DESIGNS_DIR) + "/fingers/reference.toml");
+    options.finger.belief.clear();  // its members are asked elsewhere
     options.sampling.skins = 2;
     options.sampling.grid = 64;
     return figure_tables(options);

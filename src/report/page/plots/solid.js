@@ -1,8 +1,8 @@
 // The turnable texture.
 import { $, ink } from './look.js';
 import { colour, decode } from './maps.js';
-import { roundLength } from './numbers.js';
-export const solid = { ready: false, radius: 1.13 };
+import { micrometres, round, roundLength } from './numbers.js';
+export const solid = { ready: false, radius: 1.13, zoom: 1, stretch: 0, section: 0 };  // stretch 0: as the heights ask for; section: what of the width is cut away
 export function startSolid() {
   const box = $('solid');
   const probe = document.createElement('canvas');
@@ -38,15 +38,41 @@ export function startSolid() {
   ['pointerup', 'pointercancel'].forEach((name) => box.addEventListener(name, () => { from = null; }));
   box.tabIndex = 0;
   box.setAttribute('role', 'img');
-  box.setAttribute('aria-label', 'The texture in three dimensions; arrow keys turn it');
+  box.setAttribute('aria-label', 'The texture in three dimensions; arrow keys turn it, plus and minus bring it nearer');
   box.addEventListener('keydown', (e) => {
+    if (e.key === '+' || e.key === '-') { e.preventDefault(); zoomBy(e.key === '+' ? 1.25 : 0.8); return; }
     const turn = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[e.key];
     if (!turn) return;
     e.preventDefault();
     turnBy(...turn);
   });
+  // The page scrolls under the wheel, unless Control is held or the solid has been selected.
+  box.addEventListener('wheel', (e) => { if (e.ctrlKey || document.activeElement === box) { e.preventDefault(); zoomBy(Math.exp(-0.002 * e.deltaY)); } }, { passive: false });
   window.addEventListener('resize', render);
+  solid.tools = tools(box);
   solid.ready = true;
+}
+// Stretch, section and scale below the picture.
+function tools(box) {
+  const row = document.createElement('div'), bar = document.createElement('span');
+  row.className = 'solidtools';
+  const slider = (text, max, work) => {
+    const label = document.createElement('label'), range = document.createElement('input');
+    Object.assign(range, { type: 'range', min: 0, max, value: 0 });
+    range.addEventListener('input', () => { work(+range.value); if (solid.map) showSolid(solid.map); });
+    label.append(text, range);
+    row.append(label);
+    return range;
+  };
+  const stretch = slider('stretch', 300, (v) => { solid.stretch = Math.max(1, +Math.pow(10, v / 100).toPrecision(2)); });
+  slider('section', 95, (v) => { solid.section = v / 100; });
+  row.append(bar);
+  box.after(row);
+  return { stretch, bar };
+}
+function zoomBy(factor) {
+  solid.zoom = Math.min(8, Math.max(0.5, solid.zoom * factor));
+  render();
 }
 function turnBy(around, over) {
   solid.turn.rotation.y += around;
@@ -59,41 +85,74 @@ export function render() {
   solid.renderer.setSize(w, h);
   solid.camera.aspect = w / h;
   // As far off as the texture fits in, however it is turned: its corners go round in a circle.
-  const away = solid.radius / (Math.tan(solid.camera.fov / 2 * Math.PI / 180) * Math.min(1, w / h));
+  const away = solid.radius / solid.zoom / (Math.tan(solid.camera.fov / 2 * Math.PI / 180) * Math.min(1, w / h));
   solid.camera.position.set(0, 0.614 * away, 0.789 * away);
   solid.camera.lookAt(0, -0.05, 0);
   solid.camera.updateProjectionMatrix();
   solid.renderer.render(solid.scene, solid.camera);
 }
-export function showSolid(map) {
-  const values = decode(map), span = map.high - map.low;
-  const stretch = span > 0 ? Math.min(Math.max(roundLength(0.12 * map.lx / span), 1), 1000) : 1;
-  $('stretch').textContent = stretch;
-  if (!solid.ready) return;
+// The stretch that a hand has set stays; otherwise heights are made an eighth of the width.
+const chosenStretch = (map, span) => solid.stretch || (span > 0 ? Math.min(Math.max(roundLength(0.12 * map.lx / span), 1), 1000) : 1);
+function clear() {
   while (solid.turn.children.length) {
     const old = solid.turn.children[0];
     solid.turn.remove(old);
     old.geometry.dispose();
     old.material.dispose();
   }
-  const { nx, ny } = map, unit = 1.6 / Math.max(map.lx, map.ly), positions = [], tints = [], index = [];
-  for (let y = 0; y < ny; ++y) {
-    for (let x = 0; x < nx; ++x) {
-      const z = values[y * nx + x];
-      positions.push(((x + 0.5) / nx - 0.5) * map.lx * unit, (z - map.high) * stretch * unit, ((y + 0.5) / ny - 0.5) * map.ly * unit);
-      colour(span > 0 ? (z - map.low) / span : 0.5).forEach((v) => tints.push(v / 255));
-      if (x + 1 < nx && y + 1 < ny) {
-        const a = y * nx + x;
-        index.push(a, a + nx, a + 1, a + 1, a + nx, a + nx + 1);
-      }
-    }
-  }
-  solid.radius = 0.5 * unit * Math.hypot(map.lx, map.ly);
+}
+function mesh(positions, tints, index, sides) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.Float32BufferAttribute(positions, 3));
   geometry.setAttribute('color', new THREE.Float32BufferAttribute(tints, 3));
   geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(index), 1));
   geometry.computeVertexNormals();
-  solid.turn.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide })));
+  solid.turn.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: THREE.VertexColors, side: THREE.DoubleSide, flatShading: sides })));
+}
+// A block with the texture on top, from the section on; its sides go down to below the deepest place.
+export function showSolid(map) {
+  const values = decode(map), span = map.high - map.low, stretch = chosenStretch(map, span);
+  solid.map = map;
+  $('stretch').textContent = round(stretch);
+  if (!solid.ready) return;
+  solid.tools.stretch.value = Math.round(100 * Math.log10(stretch));
+  clear();
+  const { nx, ny } = map, unit = 1.6 / Math.max(map.lx, map.ly), first = Math.min(ny - 2, Math.round(solid.section * (ny - 1)));
+  const at = (x, y, z) => [((x + 0.5) / nx - 0.5) * map.lx * unit, z, ((y + 0.5) / ny - 0.5) * map.ly * unit];
+  const height = (x, y) => (values[y * nx + x] - map.high) * stretch * unit, base = -(span * stretch * unit + 0.12);
+  const positions = [], tints = [], index = [];
+  for (let y = first; y < ny; ++y) {
+    for (let x = 0; x < nx; ++x) {
+      positions.push(...at(x, y, height(x, y)));
+      colour(span > 0 ? (values[y * nx + x] - map.low) / span : 0.5).forEach((v) => tints.push(v / 255));
+      if (x + 1 < nx && y + 1 < ny) {
+        const a = (y - first) * nx + x;
+        index.push(a, a + nx, a + 1, a + 1, a + nx, a + nx + 1);
+      }
+    }
+  }
+  mesh(positions, tints, index, false);
+  const wall = { positions: [], tints: [], index: [] };
+  const side = (places) => {
+    const from = wall.positions.length / 3;
+    places.forEach(([x, y], i) => {
+      wall.positions.push(...at(x, y, height(x, y)), ...at(x, y, base));
+      wall.tints.push(0.62, 0.65, 0.7, 0.5, 0.53, 0.58);
+      if (i) { const a = from + 2 * i; wall.index.push(a - 2, a - 1, a, a, a - 1, a + 1); }
+    });
+  };
+  const across = [...Array(nx).keys()], along = [...Array(ny - first).keys()].map((y) => y + first);
+  side(across.map((x) => [x, first]));
+  side(across.map((x) => [x, ny - 1]));
+  side(along.map((y) => [0, y]));
+  side(along.map((y) => [nx - 1, y]));
+  mesh(wall.positions, wall.tints, wall.index, true);
+  // The bar of a round length lies before the front side.
+  const bar = roundLength(map.lx / 3), left = -map.lx * unit / 2, front = map.ly * unit / 2 + 0.06, mark = new THREE.BufferGeometry();
+  mark.setAttribute('position', new THREE.Float32BufferAttribute([left, base, front, left + bar * unit, base, front, left, base, front + 0.03, left + bar * unit, base, front + 0.03], 3));
+  mark.setIndex([0, 2, 1, 1, 2, 3]);
+  solid.turn.add(new THREE.Mesh(mark, new THREE.MeshBasicMaterial({ color: new THREE.Color(ink('ink')), side: THREE.DoubleSide })));
+  solid.tools.bar.textContent = `bar ${micrometres(bar)}`;
+  solid.radius = 0.5 * unit * Math.hypot(map.lx, map.ly);
   render();
 }
