@@ -14,8 +14,8 @@
 #include "base/text.h"
 #include "base/units.h"
 #include "geometry/io/codec.h"
-#include "geometry/io/height_rows.h"
 #include "geometry/io/files.h"
+#include "geometry/io/height_rows.h"
 #include "geometry/io/raw.h"
 
 namespace papilla::geometry {

@@ -148,11 +148,10 @@ class BeliefMaker {
     for (HypothesisFit& h : out_.hypotheses) {
       if (!h.failed.empty()) continue;
       h.weight = weights[next++];
-      note(
-          fmt::format("{}: weight {:.3f}, log predictive score {:.2f} ± {:.2f}, {} samples, "
-                      "guessed to {:.2f} of their own error",
-                      h.name, h.weight, h.score, h.score_error, h.posterior.asked,
-                      h.posterior.guess_error));
+      note(fmt::format(
+          "{}: weight {:.3f}, log predictive score {:.2f} ± {:.2f}, {} samples, "
+          "guessed to {:.2f} of their own error",
+          h.name, h.weight, h.score, h.score_error, h.posterior.asked, h.posterior.guess_error));
     }
   }
 

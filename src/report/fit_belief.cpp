@@ -23,8 +23,7 @@ std::string hypothesis_row(const HypothesisFit& h) {
     valleys +=
         fmt::format("{}{:.4g} ({:.0f} %)", valleys.empty() ? "" : ", ", v.sum, 100 * v.share);
   return fmt::format("| {} | {} | {} | {:.2f} | {:.2f} ± {:.2f} | {:.3f} | {} |\n", h.name, valleys,
-                     h.posterior.asked, h.posterior.guess_error, h.score, h.score_error,
-                     h.weight,
+                     h.posterior.asked, h.posterior.guess_error, h.score, h.score_error, h.weight,
                      h.least_effective < kFewSamples
                          ? fmt::format("a group left out stands on {:.1f} draws", h.least_effective)
                          : "");

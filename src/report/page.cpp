@@ -65,8 +65,7 @@ std::string joined(const std::vector<std::string_view>& modules) {
 std::string plots(bool solid) {
   std::vector<std::string_view> modules{kLookModule,   kNumbersModule, kTablesModule,
                                         kMapsModule,   kChartsModule,  kDimensionsModule,
-                                        kCurvesModule, kFoundModule,
-                                        kParallelModule};
+                                        kCurvesModule, kFoundModule,   kParallelModule};
   if (solid) modules.push_back(kSolidModule);
   return joined(modules);
 }

@@ -9,8 +9,7 @@
 namespace papilla::report {
 
 extern const std::string_view kLookModule, kNumbersModule, kTablesModule, kMapsModule,
-    kChartsModule, kDimensionsModule, kCurvesModule, kFoundModule, kParallelModule,
-    kSolidModule;
+    kChartsModule, kDimensionsModule, kCurvesModule, kFoundModule, kParallelModule, kSolidModule;
 extern const std::string_view kPageStyle, kChartScript, kThreeScript;
 
 }  // namespace papilla::report

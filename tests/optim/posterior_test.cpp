@@ -205,13 +205,16 @@ LeftOut scored(std::vector<double> scores, double error = 0) {
 }
 
 TEST(HypothesisWeights, AreTheScoresWhereGroupsSayTheSameAndNeverCertainWhereTheyDoNot) {
-  const std::vector<double> same = hypothesis_weights({scored({-1, -2, -3}), scored({-1, -2, -3})}, 1);
+  const std::vector<double> same =
+      hypothesis_weights({scored({-1, -2, -3}), scored({-1, -2, -3})}, 1);
   EXPECT_NEAR(same[0], 0.5, 1e-12);
   // One ahead by 1 in each of four groups: e^4 whatever their shares.
-  const std::vector<double> ahead = hypothesis_weights({scored({0, 0, 0, 0}), scored({-1, -1, -1, -1})}, 1);
+  const std::vector<double> ahead =
+      hypothesis_weights({scored({0, 0, 0, 0}), scored({-1, -1, -1, -1})}, 1);
   EXPECT_NEAR(ahead[0], 1 / (1 + std::exp(-4)), 1e-9);
   // The same lead from one group alone: less sure.
-  const std::vector<double> one = hypothesis_weights({scored({0, 0, 0, 0}), scored({-4, 0, 0, 0})}, 1);
+  const std::vector<double> one =
+      hypothesis_weights({scored({0, 0, 0, 0}), scored({-4, 0, 0, 0})}, 1);
   EXPECT_LT(one[0], ahead[0] - 0.05);
   EXPECT_GT(one[0], 0.5);
 }

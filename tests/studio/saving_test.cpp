@@ -273,8 +273,7 @@ TEST_F(Saving, AScanOfSeveralChannelsIsTheNamedOne) {
   high.z[5] = 3e-8;
   files_.keep_scan("two.gwy", gwy_bytes({{"Forward", "m", &low}, {"Backward", "m", &high}}));
   EXPECT_THROW(files_.with_scan({shipped_, {}}, "scans/two.gwy", "", false, true), InputError);
-  const Draft draft =
-      files_.with_scan({shipped_, {}}, "scans/two.gwy::Backward", "", false, true);
+  const Draft draft = files_.with_scan({shipped_, {}}, "scans/two.gwy::Backward", "", false, true);
   const auto file = std::find_if(draft.changes.begin(), draft.changes.end(),
                                  [](const Change& c) { return c.path == "texture.file"; });
   ASSERT_NE(file, draft.changes.end());
