@@ -94,8 +94,8 @@ void Session::restore(const std::string& file) {
     constexpr std::size_t kMost = std::size_t{1} << 24;
     const Json kept = Json::parse(kept_.read(kSessionFile, kMost));
     for (const Json& p : kept.at("pins")) {
-      Pin pin{p.at("number").get<int>(), p.at("name").get<std::string>(),
-              draft_from(p.at("draft"))};
+      PinnedDesign pin{p.at("number").get<int>(), p.at("name").get<std::string>(),
+                       draft_from(p.at("draft"))};
       study_of(pin.draft);
       last_pin_ = std::max(last_pin_, pin.number);
       pins_.push_back(std::move(pin));
@@ -120,7 +120,7 @@ void Session::restore(const std::string& file) {
 
 void Session::keep() const {
   Json pins = Json::array(), others = Json::array();
-  for (const Pin& p : pins_)
+  for (const PinnedDesign& p : pins_)
     pins.push_back({{"number", p.number}, {"name", p.name}, {"draft", draft_json(p.draft)}});
   for (std::size_t i = others_.size() > kMostOthers ? others_.size() - kMostOthers : 0;
        i < others_.size(); ++i)
@@ -255,7 +255,7 @@ std::uint64_t Session::save_as(const std::string& file,
   };
   for (Draft& draft : past_) note(draft);
   for (Draft& draft : future_) note(draft);
-  for (Pin& pin : pins_) note(pin.draft);
+  for (PinnedDesign& pin : pins_) note(pin.draft);
   write(draft_, study_);
   const Design now = study_of({file, {}}).design;
   for (auto& [draft, design] : standing) draft->changes = changes_between(now, design);
@@ -335,7 +335,7 @@ int Session::pin(const std::string& name) {
 
 void Session::unpin(int number) {
   const std::lock_guard lock(mutex_);
-  std::erase_if(pins_, [&](const Pin& p) { return p.number == number; });
+  std::erase_if(pins_, [&](const PinnedDesign& p) { return p.number == number; });
   keep();
 }
 
@@ -361,7 +361,7 @@ std::string Session::wish() const {
 
 std::uint64_t Session::take(int number) {
   const std::lock_guard lock(mutex_);
-  for (const Pin& p : pins_) {
+  for (const PinnedDesign& p : pins_) {
     if (p.number == number) return replace(p.draft, 0);
   }
   throw InputError("no design is pinned under this number");

@@ -34,7 +34,7 @@ struct Workspace {
   std::vector<Draft> past, future;
 };
 
-struct Pin {
+struct PinnedDesign {
   int number = 0;
   std::string name;
   Draft draft;
@@ -46,7 +46,7 @@ struct SessionView {
   Draft draft;
   Study study;
   Design opened;  // of the file, without the changes
-  std::vector<Pin> pins;
+  std::vector<PinnedDesign> pins;
   // What each step changed, oldest first, the undone ones behind: the design at hand stands behind
   // the first `done` of them.
   std::vector<std::string> steps;
@@ -111,7 +111,7 @@ class Session {
   Study study_;
   Design opened_;
   std::vector<Draft> past_, future_;
-  std::vector<Pin> pins_;
+  std::vector<PinnedDesign> pins_;
   std::uint64_t revision_ = 0, last_step_ = 0;
   int last_pin_ = 0;
 };

@@ -183,7 +183,7 @@ Listener Studio::listener() {
 void Studio::design_changed() {
   const SessionView view = session_.view();
   Wish wish{view.revision, view.study.design, {}, 0};
-  for (const Pin& pin : view.pins) wish.pinned[pin.number] = study_of(pin.draft).design;
+  for (const PinnedDesign& pin : view.pins) wish.pinned[pin.number] = study_of(pin.draft).design;
   evaluator_->wish(std::move(wish));
   events_.tell(Topic::Session, session_json());
 }
@@ -196,7 +196,7 @@ std::string Studio::changed(std::uint64_t revision) {
 std::string Studio::session_json() const {
   const SessionView view = session_.view();
   Json pins = Json::array();
-  for (const Pin& p : view.pins) pins.push_back({{"number", p.number}, {"name", p.name}});
+  for (const PinnedDesign& p : view.pins) pins.push_back({{"number", p.number}, {"name", p.name}});
   Json changes = Json::array();
   for (const Change& c : view.draft.changes) changes.push_back({c.path, c.text});
   const fs::path file(view.draft.file);

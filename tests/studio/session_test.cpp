@@ -228,7 +228,7 @@ TEST(Session, PinsAtMostEightUnderNumbersThatNeverComeAgain) {
   }
   Session again(place.path(), kHoles);
   std::vector<std::pair<int, std::string>> pins;
-  for (const Pin& p : again.view().pins) pins.emplace_back(p.number, p.name);
+  for (const PinnedDesign& p : again.view().pins) pins.emplace_back(p.number, p.name);
   EXPECT_EQ(pins, (std::vector<std::pair<int, std::string>>{{1, "design 1"},
                                                             {3, std::string(60, 'b')},
                                                             {5, "more"},
