@@ -628,6 +628,13 @@ TEST(Reader, AKindComesBeforeItsMembers) {
             "\n[texture]\ntype = \"x\"\ndepth = 1\nwidth = 2\n");
 }
 
+// The second counterface of a study outlives that the first becomes another.
+TEST(Reader, SectionsOutliveTheKindOfTheirSection) {
+  EXPECT_EQ(set("[counterface]\ntype = \"x\"\nload = 1\n[counterface.pen]\nload = 2\n",
+                {"counterface.type=y"}),
+            "\n[counterface]\ntype = \"y\"\n\n[counterface.pen]\nload = 2\n");
+}
+
 // Of tables the members that the file has not; of lists and of another kind nothing.
 TEST(Reader, ABaseFillsWhatIsMissing) {
   const Folder folder("fills");
