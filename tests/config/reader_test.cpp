@@ -628,11 +628,10 @@ TEST(Reader, AKindComesBeforeItsMembers) {
             "\n[texture]\ntype = \"x\"\ndepth = 1\nwidth = 2\n");
 }
 
-// The second counterface of a study outlives that the first becomes another.
+// As the pen of a study, whatever its first counterface becomes.
 TEST(Reader, SectionsOutliveTheKindOfTheirSection) {
-  EXPECT_EQ(set("[counterface]\ntype = \"x\"\nload = 1\n[counterface.pen]\nload = 2\n",
-                {"counterface.type=y"}),
-            "\n[counterface]\ntype = \"y\"\n\n[counterface.pen]\nload = 2\n");
+  EXPECT_EQ(set("[texture]\ntype = \"x\"\ndepth = 1\n[texture.in]\nload = 2\n", {"texture.type=y"}),
+            "\n[texture]\ntype = \"y\"\n\n[texture.in]\nload = 2\n");
 }
 
 // Of tables the members that the file has not; of lists and of another kind nothing.

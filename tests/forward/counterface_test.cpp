@@ -79,7 +79,7 @@ TEST(PinCounterface, RoughOnRoughIsTheCombinedSpectrum) {
   Pin pin = polymer();
   pin.roughness = {
       .rms = 60e-9, .longest = 12e-6, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6};
-  const Texture glass = RandomRough{.rms = 80e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6};
+  const Texture glass{RandomRough{.rms = 80e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6}};
   const PatchSetup setup(touched_by(pin, dry_glass()), glass, few_skins());
   double both = 0, own = 0, other = 0;
   constexpr int kSkins = 40;  // crosses between two random faces average out
@@ -106,7 +106,7 @@ TEST(PinCounterface, RoughOnRoughRubsAsTheCombinedSpectrumOnAFlat) {
   scene.environment.relative_humidity = {0.5};
   Fidelity fidelity = few_skins();
   fidelity.skins = 32;
-  const Texture glass = RandomRough{.rms = 80e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6};
+  const Texture glass{RandomRough{.rms = 80e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6}};
   const Measured on_rough =
       evaluate(touched_by(pin, scene), glass, fidelity).points[0].friction_off;
   pin.roughness.rms = 100e-9;
