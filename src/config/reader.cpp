@@ -238,7 +238,8 @@ void apply(Node& root, const Override& change) {
       Node* child = node->find(parts[i]);
       if (last) {
         if (child && parts[i] == "type" && child->text != change.value.text) {
-          node->children.clear();  // another kind has other keys
+          // Another kind has other keys; its sections are not the kind's.
+          std::erase_if(node->children, [](const Node& member) { return !member.is_table(); });
           child = nullptr;
         }
         Node value = change.value;

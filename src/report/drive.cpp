@@ -219,8 +219,9 @@ Json swipe_json(const Swipe& swipe) {
 
 std::string drive_text(const DriveCase& c, const DriveResult& r) {
   std::string out = c.title.empty() ? "" : c.title + '\n';
-  out += layer_line("dielectric", r.network.dielectric) + layer_line("gap", r.network.gap.layer) +
-         layer_line("skin", r.network.skin);
+  out += layer_line("dielectric", r.network.dielectric);
+  for (const ImpedanceLayer& layer : r.network.relaxing) out += layer_line("relaxing", layer);
+  out += layer_line("gap", r.network.gap.layer) + layer_line("skin", r.network.skin);
   out += fmt::format(
       "gap          {:.4g} um on {:.4g} mm2; {:.4g} mN at 100 V\n"
       "carrier      {:.4g} V at the source, {:.4g} V in the gap, {:.4g} mA\n"
@@ -287,6 +288,8 @@ std::string drive_json(const DriveCase& c, const DriveResult& r, const std::vect
            {"onset_static", r.onset_static},
            {"checks", checks}};
   if (r.spots > 0) out["contact_spots"] = r.spots;
+  for (const ImpedanceLayer& layer : r.network.relaxing)
+    out["relaxing"].push_back(layer_json(layer));
   for (const Swipe& swipe : swipes) out["swipes"].push_back(swipe_json(swipe));
   return out.dump(2);
 }

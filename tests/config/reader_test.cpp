@@ -628,6 +628,12 @@ TEST(Reader, AKindComesBeforeItsMembers) {
             "\n[texture]\ntype = \"x\"\ndepth = 1\nwidth = 2\n");
 }
 
+// As the pen of a study, whatever its first counterface becomes.
+TEST(Reader, SectionsOutliveTheKindOfTheirSection) {
+  EXPECT_EQ(set("[texture]\ntype = \"x\"\ndepth = 1\n[texture.in]\nload = 2\n", {"texture.type=y"}),
+            "\n[texture]\ntype = \"y\"\n\n[texture.in]\nload = 2\n");
+}
+
 // Of tables the members that the file has not; of lists and of another kind nothing.
 TEST(Reader, ABaseFillsWhatIsMissing) {
   const Folder folder("fills");

@@ -107,7 +107,9 @@ TEST(Circuit, LayersAndGapsAreTheirCapacitors) {
 // Eq. drive.22: a capacitor whose permittivity relaxes, beside its resistor.
 TEST(Circuit, ALayerThatRelaxesStoresLessAndLosesAtItsFrequency) {
   ImpedanceLayer l{1e7, 2e-10};
-  l.relaxation = {.law = RelaxationLaw::Debye, .infinite = 2, .time = 1e-4};
+  l.relaxation.law = RelaxationLaw::Debye;
+  l.relaxation.infinite = 2;
+  l.relaxation.time = 1e-4;
   l.permittivity = 10;
   const double f = 1 / (2 * kPi * 1e-4), omega = 1e4;
   // 1/Z = 1/R + j omega C (6 - 4j)/10.

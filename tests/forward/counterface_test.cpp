@@ -79,7 +79,7 @@ TEST(PinCounterface, RoughOnRoughIsTheCombinedSpectrum) {
   Pin pin = polymer();
   pin.roughness = {
       .rms = 60e-9, .longest = 12e-6, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6};
-  const Texture glass = RandomRough{.rms = 80e-9, .correlation_length = 1e-6};
+  const Texture glass{RandomRough{.rms = 80e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6}};
   const PatchSetup setup(touched_by(pin, dry_glass()), glass, few_skins());
   double both = 0, own = 0, other = 0;
   constexpr int kSkins = 40;  // crosses between two random faces average out
@@ -95,6 +95,28 @@ TEST(PinCounterface, RoughOnRoughIsTheCombinedSpectrum) {
   EXPECT_NEAR(both, own + other, 0.03 * both);
   EXPECT_NEAR(std::sqrt(own / (kSkins * static_cast<double>(setup.texture().z.size()))), 60e-9,
               2e-9);
+}
+
+// And rub as that: 60 and 80 nm as 100 nm on a flat.
+TEST(PinCounterface, RoughOnRoughRubsAsTheCombinedSpectrumOnAFlat) {
+  Pin pin = polymer();
+  pin.roughness = {
+      .rms = 60e-9, .longest = 12e-6, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6};
+  Scene scene = dry_glass();
+  scene.environment.relative_humidity = {0.5};
+  Fidelity fidelity = few_skins();
+  fidelity.skins = 32;
+  const Texture glass{RandomRough{.rms = 80e-9, .roll_off = 3e-6, .hurst = 0.8, .cutoff = 0.4e-6}};
+  const Measured on_rough =
+      evaluate(touched_by(pin, scene), glass, fidelity).points[0].friction_off;
+  pin.roughness.rms = 100e-9;
+  const Measured on_flat =
+      evaluate(touched_by(pin, scene), Texture{}, fidelity).points[0].friction_off;
+  EXPECT_NEAR(on_rough.value, on_flat.value, 0.04 * on_flat.value);
+  pin.roughness.rms = 60e-9;
+  const Measured alone =
+      evaluate(touched_by(pin, scene), Texture{}, fidelity).points[0].friction_off;
+  EXPECT_GT(alone.value, 1.15 * on_flat.value);
 }
 
 // Waves above the patch are its ridges; both shares of the rms height together are all of it.
@@ -124,8 +146,10 @@ TEST(PinCounterface, ParallelPlatesFollowTheFilmOverFrequency) {
   film.thickness = 24e-6;
   film.permittivity = 54.2;
   film.resistivity = 0;
-  film.relaxation = {
-      .law = RelaxationLaw::ColeCole, .infinite = 4, .time = 2.82e-6, .alpha = 0.438};
+  film.relaxation.law = RelaxationLaw::ColeCole;
+  film.relaxation.infinite = 4;
+  film.relaxation.time = 2.82e-6;
+  film.relaxation.alpha = 0.438;
   scene.drive.amplitude = 40;
   for (const double frequency : {1.0, 1e4, 1e6}) {
     scene.drive.frequency = frequency;

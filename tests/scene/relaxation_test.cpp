@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "base/constants.h"
 #include "scene/environment.h"
@@ -9,8 +11,24 @@
 namespace papilla::tests {
 namespace {
 
+Relaxation relaxation(RelaxationLaw law, double infinite, double time, double alpha = 0) {
+  Relaxation out;
+  out.law = law, out.infinite = infinite, out.time = time, out.alpha = alpha;
+  return out;
+}
+
+Relaxation table(std::vector<double> frequency, std::vector<double> permittivity,
+                 std::vector<double> loss) {
+  Relaxation out;
+  out.law = RelaxationLaw::Table;
+  out.frequency = std::move(frequency);
+  out.permittivity = std::move(permittivity);
+  out.loss = std::move(loss);
+  return out;
+}
+
 TEST(Relaxation, DebyeLosesHalfAtItsFrequency) {
-  const Relaxation debye{.law = RelaxationLaw::Debye, .infinite = 2, .time = 1e-3};
+  const Relaxation debye = relaxation(RelaxationLaw::Debye, 2, 1e-3);
   const std::complex<double> there = 10.0 * debye.share(10, 1 / (2 * kPi * 1e-3));
   EXPECT_NEAR(there.real(), 6, 1e-12);
   EXPECT_NEAR(there.imag(), -4, 1e-12);
@@ -20,22 +38,21 @@ TEST(Relaxation, DebyeLosesHalfAtItsFrequency) {
 
 // At its frequency (j)^(1 - alpha) = exp(j pi (1 - alpha)/2): by hand for alpha = 1/2.
 TEST(Relaxation, ColeAndColeIsWider) {
-  const Relaxation wide{.law = RelaxationLaw::ColeCole, .infinite = 2, .time = 1e-3, .alpha = 0.5};
+  const Relaxation wide = relaxation(RelaxationLaw::ColeCole, 2, 1e-3, 0.5);
   const std::complex<double> there = 10.0 * wide.share(10, 1 / (2 * kPi * 1e-3));
   EXPECT_NEAR(there.real(), 6, 1e-12);
   EXPECT_NEAR(there.imag(), -4 * std::tan(kPi / 8), 1e-12);
-  const Relaxation debye{.law = RelaxationLaw::Debye, .infinite = 2, .time = 1e-3};
-  const Relaxation narrow{.law = RelaxationLaw::ColeCole, .infinite = 2, .time = 1e-3};
+  const Relaxation debye = relaxation(RelaxationLaw::Debye, 2, 1e-3);
+  const Relaxation narrow = relaxation(RelaxationLaw::ColeCole, 2, 1e-3);
   EXPECT_EQ(narrow.share(10, 70), debye.share(10, 70));
 }
 
 TEST(Relaxation, ATableIsStraightOverTheLogarithmAndHeldOutside) {
-  const Relaxation table{
-      .law = RelaxationLaw::Table, .frequency = {10, 1000}, .permittivity = {8, 4}, .loss = {0, 2}};
-  EXPECT_EQ(table.share(8, 1), std::complex(1.0, -0.0));
-  EXPECT_NEAR(table.share(8, 100).real(), 0.75, 1e-12);
-  EXPECT_NEAR(table.share(8, 100).imag(), -0.125, 1e-12);
-  EXPECT_NEAR(table.share(8, 1e6).real(), 0.5, 1e-12);
+  const Relaxation known = table({10, 1000}, {8, 4}, {0, 2});
+  EXPECT_EQ(known.share(8, 1), std::complex(1.0, -0.0));
+  EXPECT_NEAR(known.share(8, 100).real(), 0.75, 1e-12);
+  EXPECT_NEAR(known.share(8, 100).imag(), -0.125, 1e-12);
+  EXPECT_NEAR(known.share(8, 1e6).real(), 0.5, 1e-12);
 }
 
 TEST(Relaxation, WhatContradictsIsNamed) {
@@ -46,7 +63,7 @@ TEST(Relaxation, WhatContradictsIsNamed) {
   film.relaxation.time = 1e-3;
   film.relaxation.infinite = 5;  // above 3.9
   EXPECT_EQ(relaxation_problem(film).key, "infinite");
-  film.relaxation = {.law = RelaxationLaw::Table, .frequency = {10, 10}, .permittivity = {3, 2}};
+  film.relaxation = table({10, 10}, {3, 2}, {});
   EXPECT_EQ(relaxation_problem(film).key, "frequency");
 }
 

@@ -3,6 +3,7 @@
 
 #include "config/reader.h"
 #include "forward/forward.h"
+#include "search/levels.h"
 #include "search/problem.h"
 #include "search/task.h"
 #include "tests/search/small_study.h"
