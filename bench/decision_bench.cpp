@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "bench/drawn_belief.h"
 #include "bench/front_file.h"
 #include "estimate/belief.h"
 #include "search/levels.h"
@@ -31,31 +32,14 @@ constexpr int kTruthSkins = 3000;  // skins of the truths start here
 
 // Numbers of the finger times exp(s normal): skin, load, layer, water.
 Belief planted(const Finger& finger, int members) {
-  Belief out;
-  out.made_of = "drawn by decision_bench";
-  out.calibrated_for = finger.calibrated_for;
-  RandomStream random(1, "planted belief");
+  DrawnBelief out("decision_bench", finger, "planted belief");
   for (int m = 0; m < members; ++m) {
-    BeliefMember member;
-    member.weight = 1.0 / members;
-    const auto set = [&](const char* path, double value, double spread, const char* unit) {
-      member.set.push_back(
-          {path,
-           text_node(fmt::format("{:.6g} {}", value * std::exp(spread * random.normal()), unit))});
-    };
-    set("skin.rms", 1e9 * finger.skin.rms, 0.15, "nm");
-    set("skin.layer_modulus", 1e-6 * finger.skin.layer_modulus, 0.3, "MPa");
-    set("electrical.thickness_15", 1e9 * finger.electrical.thickness_15, 0.2, "nm");
-    const double load = finger.macro.load_share * std::exp(0.4 * random.normal()),
-                 water = std::exp(0.4 * random.normal());
-    member.set.push_back({"macro.load_share", number_node(load)});
-    member.set.push_back({"water.scale", number_node(water)});
+    BeliefMember& member = out.add(1.0 / members, 0.2, false);
     member.hypothesis = m % 5 == 3 ? "first droplet step 50 nm" : m % 5 == 4 ? "emission" : "fit";
     if (m % 5 == 3) member.set.push_back({"model.droplet_step", text_node("50 nm")});
     if (m % 5 == 4) member.set.push_back({"model.air_limit", text_node("emission")});
-    out.members.push_back(std::move(member));
   }
-  return out;
+  return out.take();
 }
 
 Study study_of(const std::string& file, int members) {

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "bench/drawn_belief.h"
 #include "lab/planning.h"
 #include "numerics/statistics.h"
 
@@ -31,32 +32,13 @@ const std::vector<std::string> kHypotheses{"air ionises", "air breaks down by fi
 // Numbers of the finger times exp(s normal): skin, load, layer, water; every second by another
 // hypothesis.
 Belief drawn(const Finger& finger, int members, const char* purpose) {
-  Belief out;
-  out.made_of = "drawn by lab_bench";
-  out.calibrated_for = finger.calibrated_for;
-  RandomStream random(1, purpose);
+  DrawnBelief out("lab_bench", finger, purpose);
   for (int m = 0; m < members; ++m) {
-    BeliefMember member;
-    member.weight = 1.0 / members;
-    const auto set = [&](const char* path, double value, double spread, const char* unit) {
-      member.set.push_back(
-          {path,
-           text_node(fmt::format("{:.6g} {}", value * std::exp(spread * random.normal()), unit))});
-    };
-    set("skin.rms", 1e9 * finger.skin.rms, 0.15, "nm");
-    set("skin.layer_modulus", 1e-6 * finger.skin.layer_modulus, 0.3, "MPa");
-    set("electrical.thickness_15", 1e9 * finger.electrical.thickness_15, 0.3, "nm");
-    set("electrical.thickness_75", 1e9 * finger.electrical.thickness_75, 0.3, "nm");
-    set("macro.shear_strength", 1e-6 * finger.macro.shear_strength, 0.3, "MPa");
-    const double load = finger.macro.load_share * std::exp(0.4 * random.normal()),
-                 water = std::exp(0.4 * random.normal());
-    member.set.push_back({"macro.load_share", number_node(load)});
-    member.set.push_back({"water.scale", number_node(water)});
+    BeliefMember& member = out.add(1.0 / members, 0.3, true);
     member.hypothesis = kHypotheses[static_cast<std::size_t>(m) % kHypotheses.size()];
     if (m % 2 == 1) member.set.push_back({"model.air_limit", text_node("emission")});
-    out.members.push_back(std::move(member));
   }
-  return out;
+  return out.take();
 }
 
 struct World {

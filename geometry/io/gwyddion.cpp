@@ -20,6 +20,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/folder.h"
+#include "base/scratch_folder.h"
 #include "geometry/io/gwy.h"
 
 namespace papilla::geometry {
@@ -31,27 +32,6 @@ constexpr double kLongest = 60;                   // [s] of one conversion
 constexpr rlim_t kMostMemory = rlim_t{4} << 30;   // addresses
 constexpr rlim_t kMostWritten = rlim_t{1} << 31;  // of a file
 constexpr std::size_t kMostRead = (std::size_t{1} << 31) - 1;
-
-// A folder of its own below the system's temporary one, gone with all it holds.
-class Scratch {
- public:
-  Scratch() {
-    path_ = (fs::temp_directory_path() / ("papilla-gwyddion-" + std::string(6, 'X'))).string();
-    if (::mkdtemp(path_.data()) == nullptr)
-      throw InputError("cannot make a temporary folder " + path_);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  std::string file(const char* name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 enum class ChildEnd { Done, Failed, TooLong };
 
@@ -112,7 +92,7 @@ std::string find_gwyddion() {
   return {};
 }
 
-ChildEnd convert(const std::string& program, const Scratch& scratch, const std::string& from,
+ChildEnd convert(const std::string& program, const ScratchFolder& scratch, const std::string& from,
                  const std::string& to) {
   std::vector<std::string> words{program, "--convert-to-gwy=" + to, from};
   // Its numbers follow the locale, and its settings the home: neither is the user's here.
@@ -143,7 +123,7 @@ std::unique_ptr<HeightRows> open_by_gwyddion(const std::string& path, const std:
         "use .npy, .gsf, .exr, .tif, .x3p, .gwy, .sur or .sdf; other instruments' files are read "
         "by Gwyddion, which is not installed here (apt install gwyddion)");
   }
-  const Scratch scratch;
+  const ScratchFolder scratch("gwyddion");
   const std::string first = scratch.file("first.gwy"), second = scratch.file("second.gwy");
   const ChildEnd end = convert(program, scratch, fs::absolute(path).string(), first);
   if (end == ChildEnd::TooLong)

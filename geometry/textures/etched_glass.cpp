@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "geometry/roughness.h"
+#include "geometry/textures/gaussian_heights.h"
 
 namespace papilla::geometry {
 namespace {
@@ -53,24 +54,9 @@ TextureProblems problems(const EtchedGlass& t) {
 }
 
 TextureFacts facts(const EtchedGlass& t) {
-  return {.relief = Relief{t.rms > 0, std::nullopt},
-          .cell = std::nullopt,
-          .free_patch = FreePatch{0, std::nullopt},
-          .margins = FabricationMargins::none(),
-          .open_share = std::nullopt,
-          .rim_radius = std::nullopt,
-          .outline = NoOutline{"etched glass has no outline: its heights vary gradually, none of "
-                               "them parts deep from high"},
-          .scans = kNoScans,
-          .rough = t.rms > 0 ? scales_of(t) : kNoRoughness,
-          .directional = false,
-          .quick_look = true};
+  return gaussian_facts(t.rms, "etched glass", t.rms > 0 ? scales_of(t) : kNoRoughness, true);
 }
 
-Roles roles(EtchedGlass& t) {
-  Roles out = Roles::none();
-  out.relief = &t.rms;
-  return out;
-}
+Roles roles(EtchedGlass& t) { return gaussian_roles(t.rms); }
 
 }  // namespace papilla::geometry

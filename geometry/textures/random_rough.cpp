@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "geometry/roughness.h"
+#include "geometry/textures/gaussian_heights.h"
 
 namespace papilla::geometry {
 
@@ -25,24 +26,9 @@ TextureProblems problems(const RandomRough& t) {
 }
 
 TextureFacts facts(const RandomRough& t) {
-  return {.relief = Relief{t.rms > 0, std::nullopt},
-          .cell = std::nullopt,
-          .free_patch = FreePatch{0, std::nullopt},
-          .margins = FabricationMargins::none(),
-          .open_share = std::nullopt,
-          .rim_radius = std::nullopt,
-          .outline = NoOutline{"a random rough surface has no outline: its heights vary gradually, "
-                               "none of them parts deep from high"},
-          .scans = kNoScans,
-          .rough = kNoRoughness,
-          .directional = false,
-          .quick_look = false};
+  return gaussian_facts(t.rms, "a random rough surface", kNoRoughness, false);
 }
 
-Roles roles(RandomRough& t) {
-  Roles out = Roles::none();
-  out.relief = &t.rms;
-  return out;
-}
+Roles roles(RandomRough& t) { return gaussian_roles(t.rms); }
 
 }  // namespace papilla::geometry

@@ -175,6 +175,29 @@ std::string price_text(const Study& study) {
   return out;
 }
 
+void check_time(const std::string& time) {
+  if (time.empty()) return;
+  double seconds = 0;
+  try {
+    seconds = parse_si(time, "min");
+  } catch (const InputError& error) {
+    throw InputError(std::string("--time: ") + error.what());
+  }
+  if (!(seconds > 0)) throw InputError("--time: expected more than 0 min, got " + time);
+}
+
+// What decides the result stands in resolved.toml, whichever option said it.
+std::vector<std::string> all_overrides(const OptimizeOptions& options) {
+  check_time(options.time);
+  std::vector<std::string> out = options.overrides;
+  if (options.evaluations > 0)
+    out.push_back(fmt::format("search.evaluations={}", options.evaluations));
+  if (options.seed >= 0) out.push_back(fmt::format("search.seed={}", options.seed));
+  if (!options.time.empty()) out.push_back("search.time=" + options.time);
+  if (!options.method.empty()) out.push_back("search.method=" + options.method);
+  return out;
+}
+
 int optimize(const OptimizeOptions& options, const Context& context) {
   if (launched_rank() > 0) {  // of an MPI job: one voice is enough
     [[maybe_unused]] const auto* out = std::freopen("/dev/null", "w", stdout);
@@ -182,24 +205,12 @@ int optimize(const OptimizeOptions& options, const Context& context) {
   }
   if (options.finish && !options.resume)
     throw InputError("--finish goes on with a run that was interrupted: add --resume");
-  Study study = read_study(options.study, options.overrides);
+  Study study = read_study(options.study, all_overrides(options));
   say_scans({study.design});
   for (const std::string& path : study.fallen_away)
     context.note("warning: " + path +
                  " of the base is left out: this kind of texture has no such number");
-  if (options.jobs > 0) study.search.jobs = options.jobs;
-  if (options.evaluations > 0) study.search.evaluations = options.evaluations;
-  if (options.seed >= 0) study.search.seed = options.seed;
-  if (!options.time.empty()) {
-    try {
-      study.search.time = parse_si(options.time, "min");
-    } catch (const InputError& error) {
-      throw InputError(std::string("--time: ") + error.what());
-    }
-    if (!(study.search.time > 0))
-      throw InputError("--time: expected more than 0 min, got " + options.time);
-  }
-  if (!options.method.empty()) study.search.method = options.method;
+  if (options.jobs > 0) study.search.jobs = options.jobs;  // decides nothing
 
   OptimiseOptions run;
   run.folder = options.out.empty() ? "results/" + study.name : options.out;

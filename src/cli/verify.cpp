@@ -1,8 +1,11 @@
 // papilla verify FOLDER|FILE: exported files held against the design that they were made from.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +15,8 @@
 #include "base/units.h"
 #include "cli/commands.h"
 #include "cli/file_work.h"
+#include "cli/interrupt.h"
+#include "report/run_verdict.h"
 #include "report/verdict.h"
 #include "report/wafer.h"
 
@@ -19,7 +24,9 @@ namespace papilla::cli {
 namespace {
 
 struct VerifyCommand {
-  std::string path, tolerance = "5 %";
+  std::string path, tolerance = "5 %", time = "10 min";
+  std::vector<std::string> receipts;
+  int jobs = 0;
   bool geometry = false, json = false;
 };
 
@@ -43,10 +50,39 @@ int verify_test_wafer(const Context& context, const VerifyCommand& command,
   return status == kSuccess && !left.empty() ? kWorkFailed : status;
 }
 
-int verify_path(const Context& context, const VerifyCommand& command) {
-  if (const std::string wafer = folder_of_wafer(command.path); !wafer.empty())
-    return verify_test_wafer(context, command, wafer);
-  std::vector<std::pair<std::string, ExportVerdict>> verdicts;
+// The numbers of a run; nothing where the folder is none, or has no receipts.
+std::optional<RunVerdict> verify_numbers(const Context& context, const VerifyCommand& command,
+                                         const Interruptible& interrupt) {
+  if (command.geometry && command.receipts.empty()) return std::nullopt;
+  if (!is_finished_run(command.path)) {
+    if (!command.receipts.empty())
+      throw InputError("--receipt is of a folder that `papilla optimize` wrote to its end");
+    return std::nullopt;
+  }
+  if (!has_receipts(command.path)) {
+    const std::string missing = command.path + " has no receipts.json";
+    if (promises_receipts(command.path) || !command.receipts.empty())
+      throw InputError(missing + ": it was taken away; `papilla optimize STUDY --out " +
+                       command.path + " --resume` writes it anew");
+    context.note(missing +
+                 ": no design was found, or an earlier version wrote it (`papilla optimize STUDY "
+                 "--out NEW` writes one); the exported files alone are checked");
+    return std::nullopt;
+  }
+  FileWork work(context, "recomputing");
+  const FileProgress tell = work.progress();
+  RunChecking how{
+      command.receipts, parse_si(command.time, "min"), command.jobs, {}, &interrupt.asked()};
+  if (!(how.seconds > 0)) throw InputError("--time: expected more than 0 min, got " + command.time);
+  how.progress = [&](int done, int total) {
+    tell(fmt::format("{} of {} answers of the model", done, total),
+         static_cast<double>(done) / total);
+  };
+  return verify_run(command.path, how);
+}
+
+int verify_files(const Context& context, const VerifyCommand& command,
+                 std::vector<std::pair<std::string, ExportVerdict>>& verdicts) {
   int status = kSuccess;
   const JudgeOptions how{command.geometry, parse_si(command.tolerance, "%")};
   for (const ExportPlace& place : export_places(command.path)) {
@@ -55,15 +91,31 @@ int verify_path(const Context& context, const VerifyCommand& command) {
     if (!command.json) std::cout << visible(verdict_text(verdicts.back().second)) << std::flush;
     status = std::max(status, verdict_status(verdicts.back().second));
   }
-  if (command.json) std::cout << verdict_json(verdicts) << '\n';
   return status;
 }
 
+int verify_path(const Context& context, const VerifyCommand& command) {
+  if (const std::string wafer = folder_of_wafer(command.path); !wafer.empty())
+    return verify_test_wafer(context, command, wafer);
+  const Interruptible interrupt;
+  const std::optional<RunVerdict> numbers = verify_numbers(context, command, interrupt);
+  if (interrupt.asked()) return interrupt.status();
+  int status = numbers && !numbers->holds() ? kWorkFailed : kSuccess;
+  if (numbers && !command.json) std::cout << visible(run_verdict_text(*numbers)) << std::flush;
+  std::vector<std::pair<std::string, ExportVerdict>> verdicts;
+  if (command.receipts.empty()) status = std::max(status, verify_files(context, command, verdicts));
+  if (!command.json) return status;
+  nlohmann::ordered_json out = nlohmann::ordered_json::parse(verdict_json(verdicts));
+  if (numbers) out["run"] = run_verdict_json(command.path, *numbers);
+  std::cout << out.dump(2) << '\n';
+  return status;
+}
 }  // namespace
 
 void add_verify(Command app, Context& context) {
-  Command command = app.add_command(
-      "verify", "Exported files against their design: sizes, depth, widths, polygons, friction");
+  Command command = app.add_command("verify",
+                                    "A run's numbers computed again; exported files against their "
+                                    "design: sizes, depth, friction");
   auto options = std::make_shared<VerifyCommand>();
   command
       .add_option("path", options->path,
@@ -71,19 +123,37 @@ void add_verify(Command app, Context& context) {
       .required()
       .type_name("FOLDER|FILE");
   command.add_flag("--geometry", options->geometry,
-                   "What the files hold alone: the heights are not simulated");
+                   "What the files hold alone: nothing is simulated");
   command.add_option("--tolerance", options->tolerance, "Largest loss of merit of the heights")
       .show_default();
+  command
+      .add_option("--receipt", options->receipts,
+                  "Of a run: these numbers of its receipts.json alone")
+      .type_name("ID");
+  command
+      .add_option("--time", options->time,
+                  "Of a run: largest time for the model; what does not fit is said")
+      .show_default();
+  command.add_option("--jobs", options->jobs, "Of a run: evaluations at a time; 0: all processors")
+      .range(0, 4096);
   command.add_flag("--json", options->json, "One JSON object on standard output");
   command.document(
-      {"Measures every exported file against its design: size, depth, widths of holes and walls, "
+      {"Asks the model again what a run of `papilla optimize` asked after its search, makes every "
+       "number of the report's first screen anew and says of each whether it holds or is violated, "
+       "by receipts.json, report.html, run.json, summary.md and the tables; the search itself is "
+       "not repeated. Then it measures every exported file against its design: size, depth, widths "
+       "of holes and walls, "
        "polarity, polygons, heights to the rounding of the format, and the friction of what was "
        "written. "
        "A file that differs is named, and the exit status is 1.",
-       {{"papilla verify results/study/best", "all files of the design that a run recommends"},
+       {{"papilla verify results/study", "the numbers of a run, and all its files"},
+        {"papilla verify results/study --receipt r07", "one number"},
+        {"papilla verify results/study/best", "all files of the design that a run recommends"},
         {"papilla verify results/study/best/heightmap.exr --geometry",
          "one file, without simulating it"}},
-       {{"export.json", "beside the files: the design that each was made from"}}});
+       {{"receipts.json",
+         "of a run: each number, its bars, what it rests on, how to compute it again"},
+        {"export.json", "beside the files: the design that each was made from"}}});
   command.on_chosen([&context, options] {
     context.action = [&context, options] { return verify_path(context, *options); };
   });

@@ -27,6 +27,7 @@ struct Node {
   double number = 0;  // Integer too
   bool flag = false;
   bool si = false;             // a bare number of it is in the SI unit of its key
+  bool not_set = false;        // the default, as a resolved file says
   std::vector<Node> children;  // Table: in the order of the file; Array: items
   std::string comment;         // written behind the value
 
@@ -49,6 +50,10 @@ Node table_node();
 
 // `"3 V"`, `3`, `a list`, ...: a value as a message quotes it.
 std::string describe(const Node& node);
+
+// The first line of a file that has every value: what is marked as default there was set by nobody.
+inline constexpr std::string_view kResolvedHead =
+    "# Every value and where it came from; what is marked as default counts as not set.\n";
 
 // TOML text to a tree; every place names `file`. Throws InputError with the place of a syntax
 // error.

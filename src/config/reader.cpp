@@ -79,6 +79,15 @@ std::string read_text(const std::string& path) {
   return read_bytes(path, kLargest);
 }
 
+// A resolved file reads back to the study that it was written of: the keys that nobody set too.
+void mark_defaults(Node& node, const std::vector<std::string>& lines) {
+  for (Node& child : node.children) mark_defaults(child, lines);
+  if (node.is_table() || node.place.line < 1) return;
+  const std::string& line = lines[static_cast<std::size_t>(node.place.line) - 1];
+  const std::size_t comment = line.rfind("  # ");
+  node.not_set = comment != std::string::npos && line.compare(comment + 4, 9, "default (") == 0;
+}
+
 Node parse_file_text(const std::string& text, const std::string& file) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(
@@ -86,6 +95,7 @@ Node parse_file_text(const std::string& text, const std::string& file) {
   }
   Node root = parse_toml(text, file);
   root.place = Place{file, 1, 1};
+  if (text.starts_with(kResolvedHead)) mark_defaults(root, split(text, '\n'));
   return root;
 }
 
@@ -338,7 +348,7 @@ struct Document::State final : public FieldVisitor {
     if (!frame().table) return nullptr;
     const Node* node = frame().table->find(key);
     if (node) {
-      origins[join_path(frame().path, key)] = node->place;
+      if (!node->not_set) origins[join_path(frame().path, key)] = node->place;
     } else if (presence == Presence::Required && !frame().partial) {
       problem(frame().table->place, frame().path, fmt::format("missing `{}` ({}", key, what));
     }
@@ -671,7 +681,7 @@ const Node* Document::take(const std::string& path) {
   const std::string parent = dot == std::string::npos ? "" : path.substr(0, dot);
   state_->known[parent].push_back(dot == std::string::npos ? path : path.substr(dot + 1));
   const Node* node = find_path(state_->root, path);
-  if (node) state_->origins[path] = node->place;
+  if (node && !node->not_set) state_->origins[path] = node->place;
   return node;
 }
 

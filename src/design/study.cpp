@@ -47,7 +47,7 @@ std::string variable_text(const Variable& variable, double value, bool plain) {
 std::string resolved_toml(const Study& study) {
   Node table = to_table(study.design, &study.origins);
   for (const Node& section : study.study_sections.children) table.set(section.key, section);
-  return write_toml(table);
+  return std::string(kResolvedHead) + write_toml(table);
 }
 
 }  // namespace papilla::design

@@ -69,6 +69,33 @@ Column read_column(std::string_view cell, const std::vector<ColumnKind>& kinds) 
   return {&*kind, found->to_si};
 }
 
+bool Header::has(const ColumnKind& kind) const {
+  return std::any_of(columns.begin(), columns.end(),
+                     [&](const Column& c) { return c.kind == &kind; });
+}
+
+Header read_header(const std::vector<std::string_view>& cells,
+                   const std::vector<ColumnKind>& kinds) {
+  Header out;
+  for (const std::string_view cell : cells) {
+    Column column;
+    try {
+      column = read_column(cell, kinds);
+      if (!column.kind) out.unread.emplace_back(cell);
+    } catch (const InputError& error) {
+      out.problems.emplace_back("", error.problems().front().message);
+    }
+    if (column.kind && out.has(*column.kind))
+      out.problems.emplace_back(cell, "a second column of the same quantity");
+    out.columns.push_back(column);
+  }
+  return out;
+}
+
+std::string unread_note(const Header& header) {
+  return header.unread.empty() ? "" : "columns that are not read: " + join_names(header.unread);
+}
+
 void split_cells(std::string_view line, char separator, std::vector<std::string_view>& cells) {
   cells.clear();
   for (std::size_t from = 0;;) {
@@ -101,6 +128,25 @@ std::optional<double> cell_number(std::string_view cell) {
 
 Lines::Lines(std::string_view text) : rest_(text) {
   if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+}
+
+void Lines::each(std::string_view blank, const std::function<void(std::string_view line)>& comment,
+                 const std::function<void(const std::vector<std::string_view>&)>& header,
+                 const std::function<void(const std::vector<std::string_view>&)>& row) {
+  std::string_view line;
+  std::vector<std::string_view> cells;
+  std::optional<char> separator;
+  while (next(line)) {
+    if (line.find_first_not_of(blank) == std::string_view::npos) continue;
+    if (line.front() == '#') {
+      comment(line);
+      continue;
+    }
+    const bool first = !separator;
+    if (first) separator = separator_of(line);
+    split_cells(line, *separator, cells);
+    (first ? header : row)(cells);
+  }
 }
 
 bool Lines::next(std::string_view& line) {

@@ -2,9 +2,11 @@
 // "humidity_percent".
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -36,11 +38,31 @@ char separator_of(std::string_view header);
 // Nothing where the whole of it is no finite number.
 std::optional<double> cell_number(std::string_view cell);
 
+// The columns of a header line, in their order; a null kind: not read. What is wrong with it, each
+// told once.
+struct Header {
+  std::vector<Column> columns;
+  std::vector<std::string> unread;
+  // A cell and what is wrong with it; the cell empty where the message names it.
+  std::vector<std::pair<std::string, std::string>> problems;
+
+  bool has(const ColumnKind& kind) const;
+};
+Header read_header(const std::vector<std::string_view>& cells,
+                   const std::vector<ColumnKind>& kinds);
+// "columns that are not read: row, made"; "" where all are.
+std::string unread_note(const Header& header);
+
 // The lines of a text, one at a time, without their ends.
 class Lines {
  public:
   explicit Lines(std::string_view text);
   bool next(std::string_view& line);
+  // Calls comment with lines of '#', header with the cells of the first other line that is not
+  // blank, and row with those of each later one. blank: what a line without cells is made of.
+  void each(std::string_view blank, const std::function<void(std::string_view line)>& comment,
+            const std::function<void(const std::vector<std::string_view>&)>& header,
+            const std::function<void(const std::vector<std::string_view>&)>& row);
   int number() const { return number_; }               // of the last one, from 1
   bool ended_within() const { return ended_within_; }  // the last one has no line end
 

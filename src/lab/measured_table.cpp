@@ -62,20 +62,10 @@ class TableReader {
   TableReader(std::string_view text, const std::string& file) : lines_(text), file_(file) {}
 
   MeasuredTable read() {
-    std::string_view line;
-    std::vector<std::string_view> cells;
-    while (lines_.next(line)) {
-      if (line.find_first_not_of(" \t,;") == std::string_view::npos || line.front() == '#')
-        continue;
-      if (columns_.empty()) {
-        separator_ = separator_of(line);
-        split_cells(line, separator_, cells);
-        header(cells);
-        continue;
-      }
-      split_cells(line, separator_, cells);
-      row(cells);
-    }
+    lines_.each(
+        " \t,;", [](std::string_view) {},
+        [this](const std::vector<std::string_view>& cells) { header(cells); },
+        [this](const std::vector<std::string_view>& cells) { row(cells); });
     if (columns_.empty()) problem("", "no header line");
     if (problems_.empty() && out_.rows.empty()) problem("", "no rows below the header");
     if (problems_.empty()) check_order();
@@ -91,36 +81,29 @@ class TableReader {
   }
 
   void header(const std::vector<std::string_view>& cells) {
-    std::vector<std::string> unread, known;
+    Header found = read_header(cells, table_kinds());
+    columns_ = found.columns;
+    for (const auto& [cell, message] : found.problems) problem(cell, message);
+    for (const Column& column : columns_) {
+      if (!column.kind) continue;
+      const Kind kind = kind_of(column);
+      out_.has_friction |= kind == Kind::Off || kind == Kind::On;
+    }
+    // A word that is nearly one of a column is that column, mistyped.
+    if (problems_.empty())
+      std::erase_if(found.unread, [&](const std::string& c) { return is_mistyped(c); });
+    if (!found.unread.empty()) out_.notes.push_back(unread_note(found));
+  }
+
+  bool is_mistyped(const std::string& cell) {
+    std::vector<std::string> known;
     for (const ColumnKind& kind : table_kinds())
       known.push_back(kind.name + (kind.unit.empty()  ? ""
                                    : kind.unit == "%" ? "_percent"
                                                       : "_" + kind.unit));
-    for (const std::string_view cell : cells) {
-      Column column;
-      try {
-        column = read_column(cell, table_kinds());
-      } catch (const InputError& error) {
-        problem("", error.problems().front().message);
-      }
-      columns_.push_back(column);
-      if (column.kind || !problems_.empty()) continue;
-      const std::string near = nearest_name(cell, known);
-      if (near.empty())
-        unread.emplace_back(cell);
-      else
-        problem(std::string(cell), fmt::format("no such column, is it `{}`?", near));
-    }
-    for (std::size_t i = 0; i < columns_.size(); ++i) {
-      if (!columns_[i].kind) continue;
-      const Kind kind = kind_of(columns_[i]);
-      out_.has_friction |= kind == Kind::Off || kind == Kind::On;
-      for (std::size_t j = 0; j < i; ++j) {
-        if (columns_[j].kind == columns_[i].kind)
-          problem(std::string(cells[i]), "a second column of the same quantity");
-      }
-    }
-    if (!unread.empty()) out_.notes.push_back("columns that are not read: " + join_names(unread));
+    const std::string near = nearest_name(cell, known);
+    if (!near.empty()) problem(cell, fmt::format("no such column, is it `{}`?", near));
+    return !near.empty();
   }
 
   static Kind kind_of(const Column& column) {
@@ -263,7 +246,6 @@ class TableReader {
 
   Lines lines_;
   std::string file_;
-  char separator_ = ',';
   std::vector<Column> columns_;
   std::vector<Problem> problems_;
   MeasuredTable out_;

@@ -36,23 +36,13 @@ class TraceReader {
   }
 
   Trace read() {
-    std::string_view line;
-    std::vector<std::string_view> cells;
-    while (lines_.next(line)) {
-      if (line.empty()) continue;
-      if (line.front() == '#') {
-        if (columns_.empty()) say(line.substr(1));
-        continue;
-      }
-      if (columns_.empty()) {
-        separator_ = separator_of(line);
-        split_cells(line, separator_, cells);
-        header(cells);
-        continue;
-      }
-      split_cells(line, separator_, cells);
-      sample(cells);
-    }
+    lines_.each(
+        " \t",
+        [this](std::string_view line) {
+          if (columns_.empty()) say(line.substr(1));
+        },
+        [this](const std::vector<std::string_view>& cells) { header(cells); },
+        [this](const std::vector<std::string_view>& cells) { sample(cells); });
     check();
     return std::move(out_);
   }
@@ -79,31 +69,19 @@ class TraceReader {
   }
 
   void header(const std::vector<std::string_view>& cells) {
-    std::vector<std::string> unread;
-    std::array<bool, kTraceColumns> seen{};
-    for (const std::string_view cell : cells) {
-      Column column;
-      try {
-        column = read_column(cell, trace_kinds());
-      } catch (const InputError& error) {
-        problem("", error.problems().front().message);
-        columns_.push_back({kTraceColumns, 1});
-        continue;
-      }
-      const auto index = column.kind ? static_cast<std::size_t>(column.kind - trace_kinds().data())
-                                     : std::size_t{kTraceColumns};
-      if (index < kTraceColumns && seen[index])
-        problem(std::string(cell), "a second column of the same quantity");
-      if (index < kTraceColumns) seen[index] = true;
-      if (!column.kind) unread.emplace_back(cell);
+    const Header found = read_header(cells, trace_kinds());
+    for (const auto& [cell, message] : found.problems) problem(cell, message);
+    for (const Column& column : found.columns) {
+      const auto index =
+          column.kind ? column.kind - trace_kinds().data() : std::ptrdiff_t{kTraceColumns};
       columns_.push_back({static_cast<TraceColumn>(index), column.to_si});
     }
     for (const TraceColumn needed : {kTime, kTangential, kNormal}) {
       const ColumnKind& kind = trace_kinds()[needed];
-      if (!seen[needed] && problems_.empty())
+      if (problems_.empty() && !found.has(kind))
         problem(kind.name, fmt::format("no such column; expected {}_{}", kind.name, kind.unit));
     }
-    if (!unread.empty()) out_.notes.push_back("columns that are not read: " + join_names(unread));
+    if (!found.unread.empty()) out_.notes.push_back(unread_note(found));
   }
 
   void sample(const std::vector<std::string_view>& cells) {
@@ -182,7 +160,6 @@ class TraceReader {
   };
   Lines lines_;
   std::string file_;
-  char separator_ = ',';
   std::vector<Read> columns_;
   int all_ = 0, unreadable_ = 0, last_unreadable_ = 0;
   bool cut_ = false;

@@ -10,6 +10,7 @@
 #include "config/describe.h"
 #include "metrics/shown.h"
 #include "report/json.h"
+#include "report/run_numbers.h"
 #include "report/sheet.h"
 #include "report/tables.h"
 
@@ -27,6 +28,13 @@ std::string percent(double share) {
   return fmt::format("{:.0f} %", 100 * share);
 }
 
+constexpr const char* kOfBelief = "what belief leaves open, itself";
+const std::vector<Stage> kOfDecision{Stage::Confirm, Stage::Belief};
+
+std::string percent_stated(const std::string& words, double share) {
+  return stated(bare_number(words, 100 * share, "%", kOfBelief, kOfDecision), percent(share));
+}
+
 std::string name_of(const ResultFiles& f, std::size_t design) {
   return design_name(f.result.finalists[design].folder);
 }
@@ -40,28 +48,43 @@ std::string worth_name(const ResultFiles& f) {
 }
 
 // A difference in it: "0.004 (0.8 %)", "1.2 mN (3 %)".
-std::string worth_text(const ResultFiles& f, double difference) {
+std::string worth_text(const ResultFiles& f, const std::string& words, double difference) {
   const Decision& d = decision_of(f);
-  if (d.rule.kind == PickRule::Kind::Knee) return fmt::format("{:.2g}", difference);
-  std::string out = fmt::format("{:.2g}", difference);
-  if (d.rule.kind == PickRule::Kind::Objective) {
-    const MetricExpression& e = f.problem.objectives()[d.rule.index].expression;
-    const ShownUnit shown = shown_unit(e);
-    out = fmt::format("{:.2g}{}", difference * shown.scale,
-                      shown.unit.empty() ? "" : " " + shown.unit);
-  }
-  if (d.best_worth == 0) return out;
-  return out + fmt::format(" ({:.2g} %)", 100 * difference / std::abs(d.best_worth));
+  ShownUnit shown;
+  if (d.rule.kind == PickRule::Kind::Objective)
+    shown = shown_unit(f.problem.objectives()[d.rule.index].expression);
+  std::string out =
+      fmt::format("{:.2g}{}", difference * shown.scale, shown.unit.empty() ? "" : " " + shown.unit);
+  if (d.rule.kind != PickRule::Kind::Knee && d.best_worth != 0)
+    out += fmt::format(" ({:.2g} %)", 100 * difference / std::abs(d.best_worth));
+  return stated(bare_number(words, difference * shown.scale, shown.unit, kOfBelief, kOfDecision),
+                out);
+}
+
+std::string regret_text(const ResultFiles& f, std::size_t design) {
+  return worth_text(f, "expected regret of " + name_of(f, design),
+                    decision_of(f).designs[design].regret);
+}
+
+std::string p_best_text(const ResultFiles& f, std::size_t design) {
+  return percent_stated("probability that " + name_of(f, design) + " is the best",
+                        decision_of(f).designs[design].p_best);
+}
+
+std::string p_limits_text(const ResultFiles& f, std::size_t design) {
+  return percent_stated("probability that " + name_of(f, design) + " keeps every limit",
+                        decision_of(f).designs[design].p_limits);
 }
 
 // "under hypothesis "emission" design 02 is better by 0.01 (2 %)"
 std::string reversal_text(const ResultFiles& f, const std::string& where, const Reversal& r) {
   const Decision& d = decision_of(f);
-  const Prospect& best = d.designs[d.best];
   if (r.loss > 0)
-    return fmt::format("{} {} is better by {}", where, name_of(f, r.best), worth_text(f, r.loss));
+    return fmt::format(
+        "{} {} is better by {}", where, name_of(f, r.best),
+        worth_text(f, "what " + name_of(f, r.best) + " is better by " + where, r.loss));
   return fmt::format("{} {} is recommended, as it keeps the limits more surely (over all {})",
-                     where, name_of(f, r.best), percent(best.p_limits));
+                     where, name_of(f, r.best), p_limits_text(f, d.best));
 }
 
 // "207 nm", three digits.
@@ -75,7 +98,11 @@ std::string parameter_text(const ResultFiles& f, const char* word) {
   Finger finger = f.problem.tasks().front().finger;
   const std::vector<NumberField> known = number_fields(finger);
   const NumberField field = find_number_field(known, p.path);
-  return fmt::format("where finger.{} is {} {}", p.path, word, in_digits(p.edge, field.unit));
+  const double edge = p.edge / find_unit(field.unit)->to_si;
+  return fmt::format("where finger.{} is {} {}", p.path, word,
+                     stated(bare_number("middle of belief in finger." + p.path, edge, field.unit,
+                                        kOfBelief, kOfDecision),
+                            in_digits(p.edge, field.unit)));
 }
 
 // Each hypothesis and the parameter that another design is better under.
@@ -105,7 +132,7 @@ std::string limits_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   const double wanted = f.study.risk.limits;
   if (f.study.constraints.empty()) return {};
-  const std::string has = percent(d.designs[d.best].p_limits);
+  const std::string has = p_limits_text(f, d.best);
   if (d.sure(wanted)) return fmt::format(" It keeps every limit with probability {}.", has);
   return fmt::format(
       " It keeps every limit with probability {}, the highest of the front, where the study wants "
@@ -125,11 +152,12 @@ std::string decision_sentence(const ResultFiles& f) {
   const Decision& d = decision_of(f);
   if (!d.made()) return {};
   const std::size_t shown = f.result.best;
-  const Prospect& best = d.designs.at(shown);
   std::string out = fmt::format(
       " By belief about finger and model it is the best of {} in {} with probability {}, with an "
       "expected regret of {}",
-      d.designs.size(), worth_name(f), percent(best.p_best), worth_text(f, best.regret));
+      stated(count_number("designs of the front", d.designs.size(), {Stage::Confirm}),
+             fmt::format("{}", d.designs.size())),
+      worth_name(f), p_best_text(f, shown), regret_text(f, shown));
   if (shown != d.best) return out + fmt::format("; {} has {}.", name_of(f, d.best), chosen_how(f));
   if (d.designs.size() > 1) out += "; " + overturned_text(f);
   out += ".";
@@ -137,7 +165,7 @@ std::string decision_sentence(const ResultFiles& f) {
     out += fmt::format(
         " By the numbers of the fit alone it would be {}, with an expected regret "
         "of {}.",
-        name_of(f, d.nominal), worth_text(f, d.designs[d.nominal].regret));
+        name_of(f, d.nominal), regret_text(f, d.nominal));
   return out + limits_sentence(f);
 }
 
@@ -147,10 +175,13 @@ std::string decision_text(const ResultFiles& f) {
   std::string out = "\n## Which of them, by belief\n\n";
   if (!d.made()) return out + fmt::format("By the numbers of the fit alone: {}.\n", d.absent);
   out += fmt::format(
-      "Each design of the front at {} members of belief about finger and model (as good as {:.3g} "
+      "Each design of the front at {} members of belief about finger and model (as good as {} "
       "equal ones), judged in {}. Regret: what is lost on average against the best design at each "
       "member. `best/` has {}.\n\n",
-      d.members, d.effective_members, worth_name(f), chosen_how(f));
+      stated(count_number("members of belief", d.members, {}), fmt::format("{}", d.members)),
+      stated(bare_number("effective members of belief", d.effective_members, "", kOfBelief, {}),
+             fmt::format("{:.3g}", d.effective_members)),
+      worth_name(f), chosen_how(f));
   std::vector<std::string> head{"design", "p(best)", "expected regret"};
   for (const StudyObjective& o : f.problem.objectives()) head.push_back("p(best) in " + o.name);
   const bool limited = !f.study.constraints.empty();
@@ -159,16 +190,23 @@ std::string decision_text(const ResultFiles& f) {
   out += markdown_head(head);
   for (std::size_t i = 0; i < d.designs.size(); ++i) {
     const Prospect& p = d.designs[i];
-    std::vector<std::string> row{f.result.finalists[i].folder, percent(p.p_best),
-                                 worth_text(f, p.regret)};
-    for (const std::vector<double>& by : d.p_best_by) row.push_back(percent(by[i]));
-    if (limited) row.push_back(percent(p.p_limits));
-    for (double one : p.p_limit) row.push_back(percent(one));
+    std::vector<std::string> row{f.result.finalists[i].folder, p_best_text(f, i),
+                                 regret_text(f, i)};
+    for (std::size_t k = 0; k < d.p_best_by.size(); ++k)
+      row.push_back(percent_stated(
+          "probability that " + name_of(f, i) + " is the best in " + f.problem.objectives()[k].name,
+          d.p_best_by[k][i]));
+    if (limited) row.push_back(p_limits_text(f, i));
+    for (std::size_t k = 0; k < p.p_limit.size(); ++k)
+      row.push_back(percent_stated(
+          "probability that " + name_of(f, i) + " keeps " + limit_name(f.study.constraints[k].on),
+          p.p_limit[k]));
     out += markdown_row(row);
   }
   for (const Reversal& r : d.hypotheses)
     out += fmt::format("\n- Under hypothesis \"{}\" ({} of belief) {} has {}.", r.name,
-                       percent(r.weight), name_of(f, r.best), chosen_how(f));
+                       percent_stated("weight of hypothesis \"" + r.name + "\"", r.weight),
+                       name_of(f, r.best), chosen_how(f));
   return out + fmt::format("\n\nWhat would overturn it: {}.\n", overturned_text(f));
 }
 

@@ -9,6 +9,8 @@
 
 namespace papilla::report {
 
+// Texts carry what is behind their numbers (stated_number.h).
+
 // "It is the best of 9 in the worst modulation with probability 71 %, ...; under hypothesis
 // "emission" design 02 is." Of the design that the decision is for; "" without a decision.
 std::string decision_sentence(const ResultFiles& files);

@@ -12,6 +12,7 @@
 #include "report/export.h"
 #include "report/json.h"
 #include "report/page.h"
+#include "report/receipts.h"
 #include "report/response.h"
 #include "report/sheet.h"
 #include "report/summary.h"
@@ -53,8 +54,13 @@ class Writer {
                           "build.toml");
     }
     folder_.write("sensitivity.json", sensitivity());
-    folder_.write("run.json", run_json(f_));
-    folder_.write("summary.md", run_summary(f_));
+    const Json run = run_json(f_);
+    const std::string summary = run_summary(f_);
+    folder_.write("run.json", as_read(run).dump(1) + "\n");
+    folder_.write("summary.md", as_read(summary));
+    folder_.remove(kReceiptsName);
+    if (!f_.result.interrupted && f_.result.has_best())
+      folder_.write(kReceiptsName, receipts_text(receipts_of(f_, run, summary)));
     write_sums(folder_);
   }
 
@@ -202,7 +208,7 @@ class Writer {
       out["stability"] = {{"on_front", stability.times_on_front[index]},
                           {"variants", stability.variants.size()},
                           {"stable", stability.stable(index)},
-                          {"why", unstable_text(f_, index)}};
+                          {"why", as_read(unstable_text(f_, index))}};
     }
     if (Json prospect = prospect_json(f_, index); !prospect.is_null())
       out["belief"] = std::move(prospect);

@@ -13,6 +13,8 @@
 
 namespace papilla::report {
 
+// Texts and values of this file carry what is behind their numbers (stated_number.h).
+
 // What should be built, what it gains and costs, and what speaks against it.
 std::string recommendation(const ResultFiles& files);
 // What the recommendation rests on, in sentences: fingers and humidities, what is in no ±, a worst
@@ -41,12 +43,14 @@ std::string design_name(const std::string& folder);
 std::string shape_text(const Design& design);
 // "min_wall is 0.3 um, below your limit of 0.4 um"
 std::string limit_broken(const LimitValue& value);
-// The limits of the study and what the design has of them.
+// What a design has of a limit, as a stated number.
+std::string limit_stated(const LimitValue& value, const std::string& words);
+// The limits of the study and what the design has of them; without what is behind them.
 nlohmann::ordered_json limits_json(const std::vector<LimitValue>& limits);
 
 // "## What to build" of summary.md.
 std::string sheet_text(const ResultFiles& files);
 // run.json: how the run ended, remarks, recommendation, sheet.
-std::string run_json(const ResultFiles& files);
+nlohmann::ordered_json run_json(const ResultFiles& files);
 
 }  // namespace papilla::report

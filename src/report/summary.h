@@ -13,7 +13,7 @@ inline constexpr const char* kNoBetter =
     "The best design is no better than its surface without texture: no objective gains more than "
     "the error of the difference.";
 
-// summary.md of a run's folder.
+// summary.md of a run's folder; its text carries what is behind its numbers (stated_number.h).
 std::string run_summary(const ResultFiles& files);
 
 // The finalists as a table for people.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "report/run_numbers.h"
 #include "report/sheet.h"
 
 namespace papilla::report {
@@ -30,13 +31,22 @@ std::string unstable_text(const ResultFiles& f, std::size_t place) {
     if (!v.on_front[place]) lost.push_back(v.name + ": " + why_lost(f, v, place));
   }
   const auto most = std::max_element(s.times_on_front.begin(), s.times_on_front.end());
+  const auto times = [](const char* words, int count) {
+    return stated(
+        count_number(words, static_cast<std::size_t>(count), {Stage::Confirm, Stage::Stability}),
+        fmt::format("{}", count));
+  };
   std::string out = fmt::format(" Its place does not hold: {} of {} checks ({}).",
-                                s.times_on_front[place], s.variants.size(), join_names(lost, "; "));
+                                times("checks in which its place holds", s.times_on_front[place]),
+                                times("checks of the order", static_cast<int>(s.variants.size())),
+                                join_names(lost, "; "));
   if (*most > s.times_on_front[place]) {
     const FinalDesign& steady =
         f.result.finalists[static_cast<std::size_t>(most - s.times_on_front.begin())];
     out += fmt::format(
-        " The alternative that holds in {} of {} is {} ({}).", *most, s.variants.size(),
+        " The alternative that holds in {} of {} is {} ({}).",
+        times("checks in which the alternative's place holds", *most),
+        times("checks of the order", static_cast<int>(s.variants.size())),
         design_name(steady.folder),
         facts(steady.design.texture).relief.present ? shape_text(steady.design) : "flat");
   } else {

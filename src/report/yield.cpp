@@ -9,6 +9,7 @@
 #include "base/units.h"
 #include "config/describe.h"
 #include "report/json.h"
+#include "report/run_numbers.h"
 
 namespace papilla::report {
 namespace {
@@ -32,8 +33,13 @@ std::string tenths_percent(double share) {
   return share > 0 && share < 0.001 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * share);
 }
 
-std::string points(const YieldShare& gain) {
-  return fmt::format("{:.1f} ± {:.1f} points", 100 * gain.share, 100 * gain.error);
+constexpr const char* kOfPlates = "counted over plates of the numbers as they were confirmed";
+const std::vector<Stage> kOfYield{Stage::Confirm, Stage::Rounding};
+
+// "12.1 ± 0.4", in per cent or points of it.
+std::string share_stated(const std::string& words, const YieldShare& share) {
+  return stated({words, 100 * share.share, "%", {100 * share.error, ""}, {{}, kOfPlates}, kOfYield},
+                fmt::format("{:.1f} ± {:.1f}", 100 * share.share, 100 * share.error));
 }
 
 // "min_wall (4.1 %)", the most often broken first.
@@ -47,8 +53,20 @@ std::string broken_text(const Study& study, const Yield& yield) {
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::string> out;
   for (const auto& [share, name] : all)
-    out.push_back(fmt::format("{} ({})", name, tenths_percent(share)));
+    out.push_back(fmt::format(
+        "{} ({})", name,
+        stated(bare_number("plates that break " + name, 100 * share, "%", kOfPlates, kOfYield),
+               tenths_percent(share))));
   return out.empty() ? "" : " Broken by plates: " + join_names(out) + ".";
+}
+
+// As the text has it.
+std::string scatter_stated(const Study& study, std::size_t k, double share = 1) {
+  const Scatter& s = study.scatter[k];
+  const std::string unit = unit_of(study, s.path);
+  return stated(bare_number((share < 1 ? "half the scatter of " : "scatter of ") + s.path,
+                            share * s.tolerance / find_unit(unit)->to_si, unit, "an input", {}),
+                tolerance_text(study, k, share));
 }
 
 std::string gain_text(const Study& study, const Yield& yield) {
@@ -56,9 +74,11 @@ std::string gain_text(const Study& study, const Yield& yield) {
   if (!most) {
     return yield.now.share < 1 ? " Halving one tolerance alone gains no more than the error." : "";
   }
-  return fmt::format(" {} costs most: tightening it from {} to {} gains {}.",
-                     study.scatter[*most].path, tolerance_text(study, *most),
-                     tolerance_text(study, *most, 0.5), points(yield.halved[*most]));
+  const std::string& path = study.scatter[*most].path;
+  return fmt::format(
+      " {} costs most: tightening it from {} to {} gains {} points.", path,
+      scatter_stated(study, *most), scatter_stated(study, *most, 0.5),
+      share_stated("yield that half the scatter of " + path + " gains", yield.halved[*most]));
 }
 
 }  // namespace
@@ -76,9 +96,9 @@ std::string yield_text(const ResultFiles& f) {
   const Yield& yield = *f.result.yield;
   std::vector<std::string> tolerances;
   for (std::size_t k = 0; k < f.study.scatter.size(); ++k)
-    tolerances.push_back(f.study.scatter[k].path + " " + tolerance_text(f.study, k));
-  return fmt::format("Yield: {:.1f} ± {:.1f} % of the plates keep every limit ({}{}).{}{}",
-                     100 * yield.now.share, 100 * yield.now.error, join_names(tolerances),
+    tolerances.push_back(f.study.scatter[k].path + " " + scatter_stated(f.study, k));
+  return fmt::format("Yield: {} % of the plates keep every limit ({}{}).{}{}",
+                     share_stated("yield", yield.now), join_names(tolerances),
                      f.study.correlations.empty() ? "" : ", correlated as stated",
                      broken_text(f.study, yield), gain_text(f.study, yield));
 }

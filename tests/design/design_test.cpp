@@ -146,6 +146,38 @@ TEST(Study, TheResolvedFileReadsBackToTheSameStudy) {
   }
 }
 
+// The population's own state and load are not those that the design has by default.
+TEST(Study, AResolvedFileSetsNothingThatNobodySet) {
+  const Study study =
+      read_study(written("unsaid.toml",
+                         "schema_version = 1\n[texture]\ntype = \"flat\"\n[population]\nfingers = "
+                         "[\"fingers/natural.toml\"]\n[design_space]\n\"surface.contact_angle\" = "
+                         "[\"30 deg\", \"80 deg\"]\n[objective]\nmaximise = "
+                         "\"mean(modulation)\"\n"),
+                 {"search.seed=7"});
+  ASSERT_EQ(study.population.at(0).state, FingerState::Natural);
+  ASSERT_EQ(study.design.finger.state, FingerState::Clean);
+  const std::string resolved = resolved_toml(study);
+  EXPECT_NE(resolved.find("seed = 7  # --set search.seed=7"), std::string::npos);
+  const Study again = read_study(written("resolved.toml", resolved));
+  EXPECT_EQ(again.population, study.population);
+  EXPECT_EQ(again.search, study.search);
+  const auto keys = [](const Study& s) {
+    std::vector<std::string> out;
+    for (const auto& [key, place] : s.origins) out.push_back(key);
+    return out;
+  };
+  EXPECT_EQ(keys(again), keys(study));
+  EXPECT_EQ(again.origins.count("surface.refractive_index"), 0u);
+  // A line that is changed is set.
+  std::string changed = resolved;
+  const std::size_t at = changed.find("refractive_index = 1.46");
+  ASSERT_NE(at, std::string::npos);
+  changed.replace(at, changed.find('\n', at) - at, "refractive_index = 1.5");
+  EXPECT_EQ(read_study(written("resolved.toml", changed)).origins.count("surface.refractive_index"),
+            1u);
+}
+
 TEST(Design, AWrittenDesignReadsBackToTheSameDesign) {
   Design design = read_design(kStudy);
   set_number(design, "texture.depth", 1e-6 / 7);

@@ -1,4 +1,5 @@
-// The readers that stand on more than config and geometry: journals, studies, tables of friction.
+// The readers that stand on more than config and geometry: journals, studies, tables of friction,
+// records, receipts.
 #pragma once
 
 #include <string>
@@ -9,9 +10,14 @@
 #include "claims/claim.h"
 #include "config/describe.h"
 #include "design/study.h"
+#include "lab/measured_table.h"
+#include "lab/trace_file.h"
+#include "lab/trace_reading.h"
 #include "optim/journal.h"
+#include "report/receipts.h"
 #include "search/protocol.h"
 #include "tests/fuzz/targets.h"
+#include "tests/lab/tribometer.h"
 
 namespace papilla::tests {
 
@@ -51,7 +57,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
       journal_line({key, encode(TaskAnswer::refused(TaskStatus::Kind::Crashed, "crashed"))});
   good.pop_back();
   failed.pop_back();
-  out.push_back({"journal", 0.27, {good, failed}, [](const std::string& bytes) {
+  out.push_back({"journal", 0.21, {good, failed}, [](const std::string& bytes) {
                    JournalRecord back;
                    // The checksum: no changed record is taken for a sound one.
                    if (parse_journal_line(bytes, back) && journal_line(back) != bytes + "\n")
@@ -71,6 +77,47 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
                        require_finite(v, "a cell of the table");
                    }
                  })});
+
+  out.push_back(
+      {"table",
+       0.03,
+       {"experiment,field,design,finger,day,state,repeat,load_N,humidity_percent,voltage_V,"
+        "frequency_Hz,F_off_mN,F_off_sd_mN,F_on_mN,F_on_sd_mN\n"
+        "E01,A3,flat,Ada,2,clean,1,0.2,15,200,5000,60,4,90,5\n"
+        "E02,A4,flat,Ada,2,clean,1,0.2,75,200,5000,130,10,,\n",
+        "design;repeat;load [N];relative_humidity;F_off [N]\nflat;2;0.2;15 %;0.06\n"},
+       [](const std::string& bytes) {
+         for (const lab::MeasuredRow& r : lab::read_measured_table(bytes, "table").rows) {
+           for (const auto& v : {r.load, r.relative_humidity, r.voltage, r.frequency, r.off,
+                                 r.off_sd, r.on, r.on_sd})
+             require_finite(v.value_or(0), "a cell of the table");
+         }
+       }});
+
+  Tribometer tribometer;
+  tribometer.rate = 100, tribometer.strokes = 4, tribometer.stroke = 1;
+  out.push_back(
+      {"record", 0.01, {tribometer.record("# field: A3\n")}, [](const std::string& bytes) {
+         const lab::Trace trace = lab::read_trace(bytes, "record");
+         const lab::TraceReading r =
+             lab::read_friction_of(trace, lab::find_sliding(trace), "record");
+         for (double v : {r.off, r.off_sd, r.on, r.on_sd, r.load, r.voltage, r.lag, r.drift,
+                          r.zero_drift, r.peak})
+           require_finite(v, "a number of the reading");
+       }});
+
+  report::Receipts receipts{"0.1.0", "knee", "sum", {}};
+  receipts.list.push_back({"r01",
+                           {"gain", 0.031, "mN", {0.012, ""}, {{}, "not known"}, {Stage::Confirm}},
+                           "0.031",
+                           {"run.json#/recommendation"},
+                           "sum"});
+  out.push_back({"receipts", 0.02, {report::receipts_text(receipts)}, [](const std::string& bytes) {
+                   for (const report::Receipt& r :
+                        report::read_receipts(bytes, "receipts.json").list) {
+                     if (r.number.numerical.size) require_finite(*r.number.numerical.size, "a bar");
+                   }
+                 }});
 
   return out;
 }

@@ -4,14 +4,17 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/constants.h"
 #include "base/files.h"
+#include "report/receipts.h"
 #include "report/remarks.h"
 #include "report/results.h"
 #include "report/sheet.h"
+#include "report/stated_number.h"
 #include "tests/report/same_json.h"
 #include "tests/support/golden.h"
 #include "tests/temporary.h"
@@ -98,29 +101,29 @@ TEST(RunSummary, EachPartHasItsNumbers) {
   run.study.design.accuracy.target = 0.02;
   run.result.finalists[0].confirmed.reports = {
       R"({"accuracy": {"reached": 0.015, "quantity": "friction", "status": "reached"}})"};
-  const std::string page = run_summary(run.files());
+  const std::string page = as_read(run_summary(run.files()));
   EXPECT_TRUE(is_golden(page, "report/golden/summary.md"));
   EXPECT_EQ(page.find(kNoBetter), std::string::npos);
   run.result.stability.times_on_front = {1, 2};
   run.pick = "knee";
-  EXPECT_NE(run_summary(run.files()).find("\n`best/` is front/01: picked by \"knee\".\n"),
+  EXPECT_NE(as_read(run_summary(run.files())).find("\n`best/` is front/01: picked by \"knee\".\n"),
             std::string::npos);
   run.result.flat = score(0.5, 0.3, 0.2);
-  EXPECT_NE(run_summary(run.files()).find(kNoBetter), std::string::npos);
+  EXPECT_NE(as_read(run_summary(run.files())).find(kNoBetter), std::string::npos);
 }
 
 TEST(RunSummary, WhatEndedEarlyHasNoTables) {
   Searched run;
   run.result.interrupted = true;
   run.result.evaluations = 1;
-  EXPECT_EQ(run_summary(run.files()),
+  EXPECT_EQ(as_read(run_summary(run.files())),
             "# Hole array under a grown oxide\n\nInterrupted after 1 evaluation; continue with "
             "--resume.\n");
   run.result.interrupted = false;
   run.result.refused = run.result.failures = 0;
   run.result.asked = 1;
   run.result.finalists.clear();
-  EXPECT_EQ(run_summary(run.files()),
+  EXPECT_EQ(as_read(run_summary(run.files())),
             "# Hole array under a grown oxide\n\nSearch: nsga2 (two objectives). 1 evaluation.\n\n"
             "**No design could be evaluated**: every one failed; history.csv says why for each.\n");
   OptimiseResult none;
@@ -195,18 +198,19 @@ TEST(RunRemarks, SayWhatNeverMovedAndWhatLiesOnItsBound) {
 TEST(BuildSheet, SaysWhatTheTextureGainsAndItsTolerances) {
   const Searched run;
   EXPECT_EQ(advice_of(run.problem, run.result), Advice::Texture);
-  const std::string sheet = sheet_text(run.files());
-  EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + recommendation(run.files()) + "**\n"));
+  const std::string sheet = as_read(sheet_text(run.files()));
+  EXPECT_TRUE(sheet.starts_with("\n## What to build\n\n**" + as_read(recommendation(run.files())) +
+                                "**\n"));
   EXPECT_TRUE(is_golden(sheet, "report/golden/sheet.md"));
   Searched costly;
   costly.result.flat = score(0.4, 0.2, 0.2);  // 0.1 more variation with the texture
-  EXPECT_NE(recommendation(costly.files())
+  EXPECT_NE(as_read(recommendation(costly.files()))
                 .find("it gains mean(modulation) +0.100 ± 0.013 and costs variation(modulation) "
                       "+0.100 ± 0.023. The finish"),
             std::string::npos)
-      << recommendation(costly.files());
+      << as_read(recommendation(costly.files()));
   costly.result.flat = score(0.49, 0.29, 0.2);  // the texture gains 0.010, within its error
-  EXPECT_EQ(recommendation(costly.files()),
+  EXPECT_EQ(as_read(recommendation(costly.files())),
             "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): that "
             "gains mean(modulation) +0.140 ± 0.013, variation(modulation) -0.160 ± 0.023; no "
             "texture of this search adds more than the error of the difference.");
@@ -223,16 +227,17 @@ TEST(BuildSheet, OfAFlatSurfaceIsFlatEverywhere) {
   ASSERT_EQ(advice_of(run.problem, run.result), Advice::Finish);
   EXPECT_FALSE(facts(built_design(run.files()).texture).relief.present);
   EXPECT_FALSE(facts(recommended_design(run.problem, run.result).design.texture).relief.present);
-  const std::string sheet = sheet_text(run.files());
+  const std::string sheet = as_read(sheet_text(run.files()));
   EXPECT_EQ(sheet.find("| texture."), std::string::npos) << sheet;
   EXPECT_NE(sheet.find("| surface.contact_angle | 70 deg |"), std::string::npos) << sheet;
-  const auto json = nlohmann::json::parse(run_json(run.files()));
+  const auto json = as_read(run_json(run.files()));
   EXPECT_EQ(json["textured"], false);
   EXPECT_TRUE(json["design"].is_null());
   for (const auto& row : json["sheet"])
     EXPECT_EQ(row["name"].get<std::string>().find("texture."), std::string::npos);
-  EXPECT_NE(run_summary(run.files()).find("`best/` is the flat surface that is recommended."),
-            std::string::npos);
+  EXPECT_NE(
+      as_read(run_summary(run.files())).find("`best/` is the flat surface that is recommended."),
+      std::string::npos);
   run.folder = temporary("flat_run");
   std::filesystem::create_directories(run.folder);
   run.result.finalists[0].confirmed.reports = {R"({"a": 1})"};
@@ -255,12 +260,12 @@ TEST(BuildSheet, SaysWhyAPlaceDoesNotHoldAndTheAlternative) {
   run.result.stability.variants[1].on_front = {false, true};
   run.result.stability.variants[1].beaten_by = {1, std::nullopt};
   run.result.stability.times_on_front = {1, 2};
-  EXPECT_NE(recommendation(run.files())
+  EXPECT_NE(as_read(recommendation(run.files()))
                 .find(" Its place does not hold: 1 of 2 checks (smooth: design 02 is better). The "
                       "alternative that holds in 2 of 2 is design 02 (holes 4 um wide, 8 um apart, "
                       "500 nm deep)."),
             std::string::npos)
-      << recommendation(run.files());
+      << as_read(recommendation(run.files()));
 }
 
 // Which finger, what its natural skin does, what no ± holds, and a worst case that nobody feels.
@@ -278,16 +283,16 @@ TEST(BuildSheet, SaysWhatItRestsOn) {
   run.result.finalists[0].confirmed.worst = 0.053;
   const std::vector<std::string> said = grounds(run.files());
   ASSERT_GE(said.size(), 3u);
-  EXPECT_EQ(said[0],
+  EXPECT_EQ(as_read(said[0]),
             "Judged for degreased fingers (finger.state = \"clean\") at 15 to 75 % relative "
             "humidity under 0.2 N. On natural skin, not degreased (" +
                 run.problem.tasks().front().name +
                 ") it has mean(modulation) 0.296 where it has 0.500, variation(modulation) 0.627 "
                 "where it has 0.300, a worst modulation of 0.007 where it has 0.250.");
-  EXPECT_EQ(said[1],
+  EXPECT_EQ(as_read(said[1]),
             "In no ±: choices of the model (air breaks down, equilibrium): over these "
             "it has mean(modulation) 0.252 to 0.922, variation(modulation) 0.200 to 0.400.");
-  EXPECT_EQ(said[2],
+  EXPECT_EQ(as_read(said[2]),
             "At its worst, over fingers and humidity, the modulation is 0.053: below 0.2, the "
             "least relative difference of friction that people notice (Fehlberg 2022), it is not "
             "felt there.");
@@ -301,12 +306,12 @@ TEST(BuildSheet, ComparesWithTheBestFlatSurfaceOfTheRunToo) {
   flat.design = run.problem.space().design(flat.unit);
   flat.confirmed = score(0.724, 0.9, 0.1);
   flat.feasible = flat.on_front = true, flat.folder = "front/02";
-  EXPECT_NE(recommendation(run.files())
+  EXPECT_NE(as_read(recommendation(run.files()))
                 .find("Against the best flat surface of this run, design 02 (surface.contact_angle "
                       "40 deg), it gains variation(modulation) -0.600 ± 0.023 and costs "
                       "mean(modulation) -0.224 ± 0.013."),
             std::string::npos)
-      << recommendation(run.files());
+      << as_read(recommendation(run.files()));
   // A flat surface has no dimensions.
   EXPECT_NE(result_table(run.study, run.result).find("| front/02 |  |  |  | 40 deg |"),
             std::string::npos)
@@ -320,19 +325,19 @@ TEST(BuildSheet, SaysWhatRoundingBreaks) {
   build.nearest->confirmed.oxide_margin = 1.995;
   build.nearest->feasible = false;
   run.result.build = build;
-  EXPECT_NE(recommendation(run.files())
+  EXPECT_NE(as_read(recommendation(run.files()))
                 .find("Its numbers are as searched, off the grid of the fab: of 6 designs of the "
                       "grid that were judged none keeps every limit (of the nearest "
                       "oxide_breakdown_margin is 1.995, below your limit of 2)"),
             std::string::npos)
-      << recommendation(run.files());
-  EXPECT_EQ(sheet_text(run.files()).find("**broken**"), std::string::npos);
+      << as_read(recommendation(run.files()));
+  EXPECT_EQ(as_read(sheet_text(run.files())).find("**broken**"), std::string::npos);
 }
 
 TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
   Searched run;
   run.result.at_bound = {{0, true, 5e-6, false, 0, {}}};
-  const auto json = nlohmann::json::parse(run_json(run.files()));
+  const auto json = as_read(run_json(run.files()));
   EXPECT_EQ(json["advice"], "texture");
   EXPECT_EQ(json["evaluations"], 40);
   EXPECT_EQ(json["asked"], 40);
@@ -369,7 +374,7 @@ TEST(BuildSheet, ForProgramsIsInTheUnitsOfTheStudy) {
                step("best, with its texture", 0.5, 0.3)},
               "steps");
   run.result.interrupted = true;
-  EXPECT_FALSE(nlohmann::json::parse(run_json(run.files())).contains("advice"));
+  EXPECT_FALSE(as_read(run_json(run.files())).contains("advice"));
 }
 
 // The folder of a run: every cell of its tables.
@@ -474,6 +479,56 @@ TEST(RunFolder, ItsTablesHaveEachNumberUnderItsHead) {
   EXPECT_FALSE(std::filesystem::exists(run.folder + "/front"));
   EXPECT_NE(recommendation_of(run.folder).find("Build design 01"), std::string::npos);
   EXPECT_EQ(recommendation_of(run.folder + "/best"), "");
+}
+
+// What the head, the build sheet and the decision say in digits is stated, but names.
+TEST(RunSummary, EveryNumberOfTheFirstScreenHasAReceipt) {
+  Searched run;
+  run.folder = temporary("receipts_run");
+  std::filesystem::create_directories(run.folder);
+  run.result.build = BuiltDesign{run.result.finalists[0], false};
+  run.result.build->made.confirmed = score(0.49, 0.31, 0.03);
+  run.result.build->judged = 3;
+  const nlohmann::ordered_json json = run_json(run.files());
+  const std::vector<std::string> names{"design 01", "Fehlberg 2022", "5 %"};
+  int numbers = 0;
+  const auto check = [&](const std::string& where, const std::string& text) {
+    for (const TextPart& part : said_parts(text)) {
+      std::string words = part.text;
+      for (const std::string& name : names) {
+        for (std::size_t at; (at = words.find(name)) != std::string::npos;)
+          words.erase(at, name.size());
+      }
+      numbers += part.number.has_value();
+      EXPECT_TRUE(part.number || words.find_first_of("0123456789") == std::string::npos)
+          << where << ": " << words;
+    }
+  };
+  for (const char* key : {"recommendation", "facts", "finish"})
+    check(key, json[key].get<std::string>());
+  for (const auto& text : json["grounds"]) check("grounds", text.get<std::string>());
+  for (const auto& text : json["remarks"]) check("remarks", text.get<std::string>());
+  for (const auto& row : json["sheet"]) {
+    for (const char* way : {"build", "down", "up"})
+      check("sheet", row["text"][way].get<std::string>());
+    EXPECT_TRUE(row["value"].is_string());
+  }
+  for (const auto& row : json["limits"]) {
+    check("limits", row["text"].get<std::string>());
+    check("limits", row["asked"].get<std::string>());
+  }
+  check("build", json["build"]["said"].get<std::string>());
+  check("sheet_text", sheet_text(run.files()));
+  for (const auto& step : json["steps"]) {
+    for (const auto& objective : step["objectives"]) {
+      EXPECT_TRUE(objective["value"].is_string());
+      ++numbers;
+    }
+  }
+  EXPECT_GT(numbers, 40);
+  const Receipts receipts = receipts_of(run.files(), json, run_summary(run.files()));
+  EXPECT_GT(receipts.list.size(), 20u);
+  EXPECT_LT(receipts.list.size(), static_cast<std::size_t>(numbers));
 }
 
 }  // namespace

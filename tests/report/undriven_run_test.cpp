@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "base/files.h"
 #include "report/results.h"
 #include "report/sheet.h"
+#include "report/stated_number.h"
 #include "report/summary.h"
 #include "tests/report/same_json.h"
 #include "tests/support/golden.h"
@@ -89,14 +91,14 @@ TEST(UndrivenRun, ItsSummaryIsWithoutModulation) {
   Searched run;
   ASSERT_EQ(run.problem.parameters_unknown(), "");
   ASSERT_FALSE(run.problem.driven());
-  const std::string page = run_summary(run.files());
+  const std::string page = as_read(run_summary(run.files()));
   EXPECT_TRUE(is_golden(page, "report/golden/undriven_summary.md"));
   // One design has no order, and a flat surface that is not compared has no row of its own.
   EXPECT_EQ(page.find("Does the order hold?"), std::string::npos);
   EXPECT_EQ(page.find("From the first row to the second"), std::string::npos);
   EXPECT_EQ(page.find("worst modulation"), std::string::npos);
   run.study.design.accuracy.parameters = false;
-  EXPECT_NE(run_summary(run.files())
+  EXPECT_NE(as_read(run_summary(run.files()))
                 .find("In brackets, of the best design (all: `[accuracy] parameters = true`), the "
                       "model part, what "
                       "the fit"),
@@ -112,7 +114,7 @@ TEST(UndrivenRun, WhatIsBuiltIsOnTheGridOfTheFab) {
   const auto& holes = std::get<HoleArray>(built.texture.kind);
   EXPECT_DOUBLE_EQ(holes.depth, 300e-9);
   EXPECT_DOUBLE_EQ(holes.diameter, 3e-6);
-  const auto json = nlohmann::json::parse(run_json(run.files()));
+  const auto json = as_read(run_json(run.files()));
   EXPECT_EQ(json["grid"], 20e-9);
   EXPECT_EQ(json["driven"], false);
   expect_same(json["shown"],
@@ -148,13 +150,14 @@ TEST(UndrivenRun, WhatIsBuiltIsOnTheGridOfTheFab) {
                step("best, on the grid of the fab", 0.081, 0.255)},
               "steps");
   run.result.build->made.confirmed.ok = false;  // there was no time to judge it
-  EXPECT_EQ(nlohmann::json::parse(run_json(run.files()))["steps"].size(), 2u);
-  EXPECT_NE(sheet_text(run.files()).find("(`best/build.toml`); it was not judged again so.\n"),
-            std::string::npos);
-  EXPECT_NE(sheet_text(run.files()).find("| texture.depth | 300 nm |"), std::string::npos);
+  EXPECT_EQ(as_read(run_json(run.files()))["steps"].size(), 2u);
+  EXPECT_NE(
+      as_read(sheet_text(run.files())).find("(`best/build.toml`); it was not judged again so.\n"),
+      std::string::npos);
+  EXPECT_NE(as_read(sheet_text(run.files())).find("| texture.depth | 300 nm |"), std::string::npos);
   run.result.build.reset();
   EXPECT_NEAR(std::get<HoleArray>(built_design(run.files()).texture.kind).depth, 304e-9, 1e-15);
-  EXPECT_EQ(sheet_text(run.files()).find("Lengths of"), std::string::npos);
+  EXPECT_EQ(as_read(sheet_text(run.files())).find("Lengths of"), std::string::npos);
 }
 
 // What decides whether to build: the errors of the differences, and what is known at all.
@@ -173,7 +176,7 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
   run.result.flat_before = score(0.0825, 0.255, 0, 0);
   EXPECT_EQ(advice(0.08, 0.25), Advice::Finish);
   EXPECT_EQ(
-      recommendation(run.files()),
+      as_read(recommendation(run.files())),
       "Leave it flat and change the finish (surface.contact_angle 50 deg to 70 deg): that "
       "gains mean(friction) -2.5 ± 2 mN; no texture of this search adds more than the error of the "
       "difference.");
@@ -183,7 +186,7 @@ TEST(UndrivenRun, AnAdviceNeedsAGainBeyondItsError) {
   run.result.flat.reset();
   EXPECT_EQ(advice_of(run.problem, run.result), Advice::Unknown);
   run.result.finalists[0].feasible = false;
-  EXPECT_EQ(recommendation(run.files()),
+  EXPECT_EQ(as_read(recommendation(run.files())),
             "Build none of these: no design that was tried keeps every constraint.");
 }
 

@@ -8,6 +8,7 @@
 
 #include "report/remarks.h"
 #include "report/sheet.h"
+#include "report/stated_number.h"
 #include "search/findings.h"
 #include "search/levels.h"
 #include "search/rounding.h"
@@ -154,11 +155,13 @@ TEST(Sheet, WithoutTheStudysOwnSurfaceTheFinishIsNotJudged) {
   const JudgedDesigns history;
   const ResultFiles files{"", study, problem, history, result, ""};
   EXPECT_EQ(advice_of(problem, result), Advice::Finish);
-  EXPECT_NE(recommendation(files).find("What the finish does (surface.contact_angle 50 deg to 70"),
+  EXPECT_NE(report::as_read(recommendation(files))
+                .find("What the finish does (surface.contact_angle 50 deg to 70"),
             std::string::npos)
-      << recommendation(files);
+      << report::as_read(recommendation(files));
   result.flat_before = score(0.4, 0.4);
-  EXPECT_EQ(recommendation(files).find("not known"), std::string::npos) << recommendation(files);
+  EXPECT_EQ(report::as_read(recommendation(files)).find("not known"), std::string::npos)
+      << report::as_read(recommendation(files));
 }
 
 TEST(Sheet, ATextureThatAloneKeepsALimitIsWorthBuilding) {
@@ -169,12 +172,14 @@ TEST(Sheet, ATextureThatAloneKeepsALimitIsWorthBuilding) {
   const JudgedDesigns history;
   const ResultFiles files{"", study, problem, history, result, ""};
   EXPECT_EQ(advice_of(problem, result), Advice::Texture);
-  EXPECT_NE(recommendation(files).find("Without its texture the same surface breaks a limit: "
-                                       "oxide_breakdown_margin is 1.5, below your limit of 2."),
+  EXPECT_NE(report::as_read(recommendation(files))
+                .find("Without its texture the same surface breaks a limit: "
+                      "oxide_breakdown_margin is 1.5, below your limit of 2."),
             std::string::npos)
-      << recommendation(files);
+      << report::as_read(recommendation(files));
   result.flat = result.flat_before = score(0.6, 0.2, 2.5);
-  EXPECT_EQ(advice_of(problem, result), Advice::LeaveFlat) << recommendation(files);
+  EXPECT_EQ(advice_of(problem, result), Advice::LeaveFlat)
+      << report::as_read(recommendation(files));
 }
 
 // At a lower bound a widening goes the other way than a step up.

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "report/decision.h"
 #include "report/sheet.h"
+#include "report/stated_number.h"
 #include "search/levels.h"
 #include "tests/search/formula_run.h"
 
@@ -103,7 +104,7 @@ TEST(Decision, IsTheLeastExpectedRegretAndNamesWhatOverturnsIt) {
   const auto there = [](double x) { return (0.2 + 0.1 * x) * (0.1 - 0.05 * x) / (0.1 + 0.05 * x); };
   EXPECT_NEAR(d.designs[d.best].regret, 0.3 * (there(least) - there(most)), 1e-12);
   EXPECT_NEAR(d.hypotheses[1].loss, there(least) - there(most), 1e-12);
-  const std::string said = report::decision_sentence(a.files());
+  const std::string said = report::as_read(report::decision_sentence(a.files()));
   EXPECT_NE(said.find("with probability 70 %"), std::string::npos) << said;
   EXPECT_NE(said.find("under hypothesis \"emission\" " +
                       report::design_name(a.run.result.finalists[d.hypotheses[1].best].folder) +
@@ -120,7 +121,7 @@ TEST(Decision, AHypothesisOfEnoughWeightOverturnsTheNumbersOfTheFit) {
   EXPECT_EQ(a.run.result.best, d.best);
   EXPECT_EQ(d.best, d.hypotheses[1].best);
   EXPECT_GT(d.designs[d.nominal].regret, d.designs[d.best].regret);
-  const std::string said = report::decision_sentence(a.files());
+  const std::string said = report::as_read(report::decision_sentence(a.files()));
   EXPECT_NE(said.find("By the numbers of the fit alone it would be"), std::string::npos) << said;
 }
 
@@ -183,9 +184,10 @@ TEST(Decision, WithoutABeliefItSaysWhyAndNothingElseChanges) {
   const BelievingRun a(study, "decision_none", overturning);
   EXPECT_FALSE(a.decision().made());
   EXPECT_NE(a.decision().absent.find("names no belief"), std::string::npos);
-  EXPECT_EQ(report::decision_sentence(a.files()), "");
+  EXPECT_EQ(report::as_read(report::decision_sentence(a.files())), "");
   EXPECT_EQ(a.units(Stage::Belief).size(), 0u);
-  EXPECT_NE(report::decision_text(a.files()).find("names no belief"), std::string::npos);
+  EXPECT_NE(report::as_read(report::decision_text(a.files())).find("names no belief"),
+            std::string::npos);
 }
 
 TEST(Decision, FingersOfDifferentBeliefsHaveNoneInCommon) {

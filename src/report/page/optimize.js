@@ -278,9 +278,8 @@ said($('grounds'), run.grounds);
 said($('remarks'), run.remarks);
 $('grid').textContent = run.build ? run.build.said.replace(/`/g, '') : '';
 $('yield').textContent = run.yield ? run.yield.said : '';
-$('facts').textContent = (run.design === null ? 'The flat surface has ' : 'The best design has ') + Object.keys(best.objectives).map((n) => `${called(n)} ${quantity(best.objectives[n], n)}` + (flat ? ` (flat ${quantity(flat.objectives[n], n)})` : '')).join(', ')
-  + (run.driven ? `, and a worst modulation of ${round(best.worst_modulation)}` + (flat ? ` (flat ${round(flat.worst_modulation)})` : '') + ' over fingers and humidity' : '') + '.'
-  + (best.feasible ? '' : ' It does not keep every constraint.');
+$('facts').textContent = run.facts || '';
+$('receipts').hidden = !run.receipts;
 options($('design'), Object.keys(data.designs).map((n) => [n, n !== 'best' ? label(n) : twin !== n ? `best (${label(twin)})` : run.design === null ? 'flat, as recommended' : label(n)]), select);
 options($('finger'), [['mean', 'mean over fingers']].concat(best.tasks.map((t, i) => [i, t.name])), (value) => { state.finger = value; showHumidity(); showBudget(); });
 options($('rh'), data.fields.map((f, i) => [i, Math.round(100 * f.relative_humidity) + ' %']), showMaps);

@@ -1,0 +1,79 @@
+#include "report/run_numbers.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "metrics/shown.h"
+
+namespace papilla::report {
+namespace {
+
+// Stages that the model part of a score is from.
+const std::vector<Stage> kOfScores{Stage::Confirm, Stage::Rounding, Stage::Belief, Stage::Steps};
+
+std::string no_model_part(const ResultFiles& f) {
+  const std::string unknown = f.problem.parameters_unknown();
+  return unknown.empty() ? "not evaluated for this design ([accuracy] parameters = true does it)"
+                         : unknown;
+}
+
+StatedError scaled(const std::optional<double>& size, double scale, const std::string& absent) {
+  const bool known = size && std::isfinite(*size);
+  return {known ? std::optional(*size * scale) : std::nullopt, known ? "" : absent};
+}
+
+}  // namespace
+
+StatedNumber objective_number(const ResultFiles& f, const std::string& of, const Score& score,
+                              std::size_t k) {
+  const StudyObjective& o = f.problem.objectives()[k];
+  const ShownUnit shown = shown_unit(o.expression);
+  return {o.name + " of " + of,
+          score.values[k] * shown.scale,
+          shown.unit,
+          scaled(k < score.errors.size() ? std::optional(score.errors[k]) : std::nullopt,
+                 shown.scale, "not confirmed"),
+          scaled(parameter_error(score, k), shown.scale, no_model_part(f)),
+          kOfScores};
+}
+
+std::string objective_text(const ResultFiles& f, const std::string& of, const Score& score,
+                           std::size_t k) {
+  const StudyObjective& o = f.problem.objectives()[k];
+  const std::string unit = shown_unit(o.expression).unit;
+  std::string out = fmt::format("{} ± {}", shown_value(o.expression, score.values[k]),
+                                shown_error(o.expression, score.errors[k]));
+  if (const auto parameters = parameter_error(score, k))
+    out += fmt::format(" ({})", shown_error(o.expression, *parameters));
+  return stated(objective_number(f, of, score, k), out + (unit.empty() ? "" : " " + unit));
+}
+
+StatedNumber difference_number(const ResultFiles& f, const std::string& words, const Score& design,
+                               const Score& other, std::size_t k) {
+  const StudyObjective& o = f.problem.objectives()[k];
+  const ShownUnit shown = shown_unit(o.expression);
+  return {o.name + ", " + words,
+          (design.values[k] - other.values[k]) * shown.scale,
+          shown.unit,
+          scaled(difference_error(design, other, k), shown.scale, "not confirmed"),
+          scaled(parameter_error(design, other, k), shown.scale, no_model_part(f)),
+          kOfScores};
+}
+
+StatedNumber bare_number(const std::string& words, double value, const std::string& unit,
+                         const std::string& no_bar, std::vector<Stage> rests_on) {
+  return {words, value, unit, {{}, no_bar}, {{}, no_bar}, std::move(rests_on)};
+}
+
+StatedNumber count_number(const std::string& words, std::size_t count,
+                          std::vector<Stage> rests_on) {
+  return bare_number(words, static_cast<double>(count), "", "a count", std::move(rests_on));
+}
+
+StatedNumber whole_text(const std::string& words, const std::string& no_value,
+                        std::vector<Stage> rests_on) {
+  return bare_number(words, std::nan(""), "", no_value, std::move(rests_on));
+}
+
+}  // namespace papilla::report

@@ -1,0 +1,29 @@
+// Claims about the designs of a run.
+#pragma once
+
+#include <string>
+
+#include "base/rooms.h"
+#include "report/stated_number.h"
+#include "search/run.h"
+
+namespace papilla::report {
+
+// An objective of a confirmed design, in the unit that people read.
+StatedNumber objective_number(const ResultFiles& files, const std::string& of, const Score& score,
+                              std::size_t objective);
+// The same as a text: "0.612 ± 0.014 (0.051)", in brackets the model part.
+std::string objective_text(const ResultFiles& files, const std::string& of, const Score& score,
+                           std::size_t objective);
+// What a design has more than another.
+StatedNumber difference_number(const ResultFiles& files, const std::string& words,
+                               const Score& design, const Score& other, std::size_t objective);
+// A number that has no bar, and why.
+StatedNumber bare_number(const std::string& words, double value, const std::string& unit,
+                         const std::string& no_bar, std::vector<Stage> rests_on);
+StatedNumber count_number(const std::string& words, std::size_t count, std::vector<Stage> rests_on);
+// A text with several numbers in it, or none: what it says as a whole.
+StatedNumber whole_text(const std::string& words, const std::string& no_value,
+                        std::vector<Stage> rests_on);
+
+}  // namespace papilla::report
