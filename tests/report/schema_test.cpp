@@ -44,9 +44,10 @@ TEST(JsonSchema, HasEverySectionAndNoOther) {
     }
   }
   EXPECT_EQ(sections,
-            (Texts{"accuracy", "base", "constraints", "design_space", "drive", "environment",
-                   "finger", "model", "objective", "population", "risk", "scatter", "scenarios",
-                   "schema_version", "search", "surface", "texture", "title", "view"}));
+            (Texts{"accuracy",   "base",        "constraints", "counterface", "design_space",
+                   "drive",      "environment", "finger",      "model",       "objective",
+                   "population", "risk",        "scatter",     "scenarios",   "schema_version",
+                   "search",     "surface",     "texture",     "title",       "view"}));
   frame.erase("properties"), frame.erase("$defs");
   EXPECT_EQ(frame, (Json{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                          {"title", "Papilla designs and studies"},
