@@ -95,7 +95,8 @@ Receipts receipts_of(const ResultFiles& f, const Json& run, const std::string& s
   collected.json("run.json#", run);
   collected.text("summary.md", summary);
   const Folder folder(f.folder);
-  Receipts out{PAPILLA_VERSION, f.pick, "", collected.take()};
+  const bool finish = f.result.end == SearchEnd::Asked;
+  Receipts out{PAPILLA_VERSION, f.pick, finish, "", collected.take()};
   if (folder.has("resolved.toml")) out.study = sha256(folder.read("resolved.toml"));
   const AskedQuestions asked(f.problem, folder);
   for (Receipt& r : out.list) r.inputs = sha256(asked.of(r.number.rests_on));
@@ -119,17 +120,24 @@ std::string receipts_text(const Receipts& receipts) {
     one["inputs"] = r.inputs;
     rows.push_back(std::move(one));
   }
-  const Json out{
-      {"schema", 1},           {"version", receipts.version},     {"command", "papilla verify ."},
-      {"pick", receipts.pick}, {"resolved.toml", receipts.study}, {"receipts", std::move(rows)}};
+  const Json out{{"schema", 1},
+                 {"version", receipts.version},
+                 {"command", "papilla verify ."},
+                 {"pick", receipts.pick},
+                 {"finish", receipts.finish},
+                 {"resolved.toml", receipts.study},
+                 {"receipts", std::move(rows)}};
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 Receipts read_receipts(const std::string& text, const std::string& file) {
   try {
     const Json j = Json::parse(text);
-    Receipts out{
-        text_of(j.at("version")), text_of(j.at("pick")), text_of(j.at("resolved.toml")), {}};
+    Receipts out{text_of(j.at("version")),
+                 text_of(j.at("pick")),
+                 j.at("finish").get<bool>(),
+                 text_of(j.at("resolved.toml")),
+                 {}};
     for (const Json& one : j.at("receipts")) out.list.push_back(receipt_of(one));
     return out;
   } catch (const Json::exception&) {

@@ -23,6 +23,7 @@ struct Receipt {
 
 struct Receipts {
   std::string version, pick;  // of the program; the rule that chose the best design
+  bool finish = false;        // the search was ended by request (--finish)
   std::string study;          // SHA-256 of resolved.toml
   std::vector<Receipt> list;
 };

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/scratch_folder.h"
 #include "base/text.h"
@@ -65,7 +66,7 @@ std::string otherwise(const Receipt& there, const Receipt& here) {
   return there.inputs == here.inputs ? "" : "other inputs than this study and its questions";
 }
 
-// The last stages first: those answered are the ones that most rest on.
+// All that it rests on was answered anew.
 bool recomputed(const StatedNumber& number, const AnsweredAgain& answers) {
   return std::all_of(number.rests_on.begin(), number.rests_on.end(),
                      [&](Stage stage) { return answers.all(stage); });
@@ -174,6 +175,7 @@ RecomputedRun::RecomputedRun(const std::string& folder, const RunChecking& how)
   options.folder = inside_->scratch.path();
   options.resume = true;
   options.pick = receipts.pick;
+  options.finish = receipts.finish;
   options.writer = &inside_->made;
   optimise(study, options);
   inside_->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
@@ -213,6 +215,8 @@ RunVerdict RecomputedRun::judge(const std::string& folder) const {
   }
   if (!inside_->wanted.empty()) return out;
   out.others = std::move(found.others);
+  if (sha256(source.read("resolved.toml")) != there.study)
+    out.others.push_back(fmt::format("resolved.toml: is not the one that {} is of", kReceiptsName));
   if (there.list.size() > made.receipts.list.size())
     out.others.push_back(fmt::format("{} has {} receipts, recomputed {}", kReceiptsName,
                                      there.list.size(), made.receipts.list.size()));

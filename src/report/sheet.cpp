@@ -33,7 +33,7 @@ Advice advice_of(const ResultFiles& f) { return search::advice_of(f.problem, f.r
 // Why a number has no bar.
 constexpr const char* kChosen = "chosen: it is exact";
 constexpr const char* kAsked = "an input";
-constexpr const char* kOfAlook = "by theory, without scatter";
+constexpr const char* kOfALook = "by theory, without scatter";
 constexpr const char* kOfACheck =
     "one of the checks: the bar is that of the design, other skins in it";
 constexpr const char* kOfAStep = "read off steps of one number at a time";
@@ -339,7 +339,7 @@ std::string look_text(const ResultFiles& f) {
   const Optics look = appearance_of(built);
   if (look.refused()) return "Its haze is not known: " + look.warning + ".";
   return fmt::format("It has {} haze{}.",
-                     stated(bare_number("haze of what is built", 100 * look.haze, "%", kOfAlook,
+                     stated(bare_number("haze of what is built", 100 * look.haze, "%", kOfALook,
                                         {Stage::Confirm, Stage::Rounding}),
                             significant(100 * look.haze, 3) + " %"),
                      look.warning.empty() ? "" : " (" + look.warning + ")");

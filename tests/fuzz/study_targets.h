@@ -95,7 +95,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
        }});
 
   Tribometer tribometer;
-  tribometer.rate = 100, tribometer.strokes = 4, tribometer.stroke = 1;
+  tribometer.rate = 200, tribometer.strokes = 6;
   out.push_back(
       {"record", 0.01, {tribometer.record("# field: A3\n")}, [](const std::string& bytes) {
          const lab::Trace trace = lab::read_trace(bytes, "record");
@@ -106,7 +106,7 @@ inline std::vector<FuzzTarget> study_targets(const std::string& folder) {
            require_finite(v, "a number of the reading");
        }});
 
-  report::Receipts receipts{"0.1.0", "knee", "sum", {}};
+  report::Receipts receipts{"0.1.0", "knee", false, "sum", {}};
   receipts.list.push_back({"r01",
                            {"gain", 0.031, "mN", {0.012, ""}, {{}, "not known"}, {Stage::Confirm}},
                            "0.031",
