@@ -52,7 +52,7 @@ void fields(FieldVisitor& v, Design& s);
 
 // What the forward model takes: touched by the design's finger or by what stands in its place.
 Scene scene_of(const Design& design);
-// The design under its pen. Eq. friction.4
+// The design under its pen.
 Design under_pen(Design design);
 Fidelity fidelity_of(const Design& design);
 Optics appearance_of(const Design& design);
