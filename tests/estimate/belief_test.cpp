@@ -114,6 +114,7 @@ TEST(BeliefParts, OfADifferenceOfIdenticalDesignsAreNone) {
 
 TEST(BeliefParts, AreInThePlaceOfTheCovariancesWhereBothAreKnown) {
   Design d = small_design();
+  d.finger.belief.clear();  // of the shipped finger
   d.finger.uncertainty = {{"macro.shear_strength", 0.05, {}}};
   d.accuracy.level = AccuracyLevel::Draft;
   d.accuracy.grid = 32;
