@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "forward/dry_areas.h"
 #include "forward/forward.h"
 #include "forward/scale_bridge.h"
 #include "published/targets.h"
@@ -197,12 +198,12 @@ TEST(PublishedSamples, AreasOfTheLoadLawAreThoseOfLoads) {
   };
   Scene scene = scene_of(model, m3_case("flat"), d);
   Fidelity fidelity = model.fidelity();
-  expect(m3_sample(model, "flat"), evaluate(scene, d.texture, fidelity));
+  expect(m3_sample(model, "flat"), evaluate_resolved(scene, d.texture, fidelity, kDrySkins));
   EXPECT_GT(m3_sample(model, "flat").at(kWet).load_on[0], m3_sample(model, "flat").preload[kWet]);
   scene.drive.amplitude = 0;
   fidelity.skins = 8;
   const Sample& resting = m3_sample_at_rest(model, "flat");
-  expect(resting, evaluate(scene, d.texture, fidelity));
+  expect(resting, evaluate_resolved(scene, d.texture, fidelity, kDrySkins));
   EXPECT_EQ(resting.at(kDry).area_off.size(), 8u);
   EXPECT_EQ(resting.at(kWet).load_on, resting.at(kWet).load_off);
 }

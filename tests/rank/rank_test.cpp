@@ -66,6 +66,7 @@ TEST(Rank, WhatTheFingerLeavesOpenMovesBothOfADifference) {
   std::vector<Design> designs{sample("flat"), sample("a3h350")};
   for (Design& d : designs) {
     d.finger.water.hysteresis = 0;
+    d.finger.belief.clear();  // the covariance takes its place
     d.finger.uncertainty = {{"macro.shear_strength", 0.3, {}}};
   }
   RankOptions options = by("friction:low");

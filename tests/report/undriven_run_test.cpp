@@ -16,6 +16,7 @@
 #include "report/summary.h"
 #include "tests/report/same_json.h"
 #include "tests/support/golden.h"
+#include "tests/support/without_belief.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -23,7 +24,7 @@ namespace {
 
 // Less friction and less variation of it, by the diameter, the depth and the contact angle.
 Study undriven() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   study.constraints.clear();
   study.objective = {};

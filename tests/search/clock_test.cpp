@@ -13,12 +13,13 @@
 #include "search/levels.h"
 #include "search/rounding.h"
 #include "search/run.h"
+#include "tests/support/without_belief.h"
 
 namespace papilla::tests {
 namespace {
 
 Study holes() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   study.design.accuracy.level = AccuracyLevel::Draft;
   return study;

@@ -11,12 +11,13 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "search/problem.h"
+#include "tests/support/without_belief.h"
 
 namespace papilla::tests {
 namespace {
 
 Study limited(const std::vector<Constraint>& constraints) {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   study.constraints = constraints;
   return study;

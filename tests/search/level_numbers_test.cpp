@@ -9,12 +9,13 @@
 #include "forward/plan.h"
 #include "search/levels.h"
 #include "search/stability.h"
+#include "tests/support/without_belief.h"
 
 namespace papilla::tests {
 namespace {
 
 Study one_finger() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   study.search.seed = 77;
   return study;

@@ -16,13 +16,16 @@
 #include "search/levels.h"
 #include "search/stability.h"
 #include "tests/support/refusal.h"
+#include "tests/support/without_belief.h"
 
 namespace papilla::tests {
 namespace {
 
 using Names = std::vector<std::string>;
 
-Study oxide_study() { return read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"); }
+Study oxide_study() {
+  return without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
+}
 
 Names names_of(const std::vector<StudyTask>& tasks) {
   Names out;

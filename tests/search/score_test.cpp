@@ -10,11 +10,14 @@
 #include "base/constants.h"
 #include "search/levels.h"
 #include "search/sensitivity.h"
+#include "tests/support/without_belief.h"
 
 namespace papilla::tests {
 namespace {
 
-Study default_study() { return read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"); }
+Study default_study() {
+  return without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
+}
 
 // Two scenarios of unlike weight, felt by one finger, at two humidities of unlike weight.
 Study weighted_study() {

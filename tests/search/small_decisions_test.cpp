@@ -23,6 +23,7 @@
 #include "search/rounding.h"
 #include "search/sensitivity.h"
 #include "tests/support/refusal.h"
+#include "tests/support/without_belief.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
@@ -34,7 +35,7 @@ ScatterLaw uniform(std::size_t numbers) {
 }
 
 Study holes() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   return study;
 }

@@ -6,13 +6,14 @@
 
 #include "base/rooms.h"
 #include "design/study.h"
+#include "tests/support/without_belief.h"
 #include "tests/temporary.h"
 
 namespace papilla::tests {
 
 // One finger at two humidities.
 inline Study small_study() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   study.design.environment.relative_humidity = {0.35, 0.75};
   study.design.accuracy.level = AccuracyLevel::Draft;

@@ -10,6 +10,7 @@
 #include "base/constants.h"
 #include "config/describe.h"
 #include "search/problem.h"
+#include "tests/support/without_belief.h"
 
 namespace papilla::tests {
 namespace {
@@ -21,7 +22,7 @@ double kind_of(const std::string& name) {
 
 // Flat, holes or pillars; their width and their depth.
 Study kinds() {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   study.constraints.clear();
   const double flat = kind_of("flat"), hole = kind_of("hole_array"),
@@ -120,7 +121,7 @@ TEST(LimitBorders, ALimitOfNothingIsKeptFromBelowAlone) {
 
 // Looks that take long are known with the evaluation: of the designs' own four numbers.
 TEST(LimitBorders, EachLookHasItsLimit) {
-  Study study = read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml");
+  Study study = without_belief(read_study(PAPILLA_SOURCE_DIR "/designs/m3_glass/conformal.toml"));
   study.population.clear();
   study.constraints = {read_constraint("haze", 0.02),
                        read_constraint("transmittance", 0.9),
