@@ -156,17 +156,26 @@ std::string without_members(const std::string& text, const std::string& section)
   return text_of(lines);
 }
 
-// A list of which one item changed, as a whole.
+// A list of which one item changed, as a whole; of what an item has a law for, and the law is none,
+// nothing.
 Change whole_list(const Design& design, const std::string& list) {
   std::vector<std::string> items;
-  std::string index;
-  for (const FormKey& key : form_keys(design)) {
+  std::string index, lawless;
+  const std::vector<FormKey> keys = form_keys(design);
+  for (const FormKey& key : keys) {
     if (!key.path.starts_with(list + ".")) continue;
+    if (key.path.ends_with(".law") && key.value == "none")
+      lawless = key.path.substr(0, key.path.rfind('.') + 1);
+    if (!lawless.empty() && key.path.starts_with(lawless)) continue;
+    if (key.type == KeyType::Numbers && key.value.empty()) continue;
     const std::string rest = key.path.substr(list.size() + 1), at = rest.substr(0, rest.find('.'));
     const std::string member = rest.substr(rest.find('.') + 1) + " = ";
     const bool text = key.type == KeyType::Text || key.type == KeyType::Choice ||
                       (key.type == KeyType::Number && !key.unit.empty());
-    const std::string value = text ? "\"" + key.value + "\"" : key.value;
+    const std::string value = key.type == KeyType::Numbers
+                                  ? checked_change(keys, key.path, key.value).text
+                              : text ? "\"" + key.value + "\""
+                                     : key.value;
     if (at != index) items.emplace_back();
     items.back() += (at != index ? "" : ", ") + member + value;
     index = at;

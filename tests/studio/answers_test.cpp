@@ -48,6 +48,8 @@ TEST_F(Answers, TellTheStateOfTheSession) {
                 {"changes", Json::array()},
                 {"undo", false},
                 {"redo", false},
+                {"steps", Json::array()},
+                {"done", 0},
                 {"pins", Json::array()}};
   EXPECT_EQ(session(), expected);
   EXPECT_EQ(ask("/set", {{"path", "texture.depth"}, {"value", "262 nm"}}),
@@ -57,11 +59,15 @@ TEST_F(Answers, TellTheStateOfTheSession) {
             (Json{{"revision", first + 2}}));
   expected["changes"] = Json::parse(R"([["texture.depth", "262 nm"], ["drive.amplitude", "0 V"]])");
   expected["undo"] = true, expected["driven"] = false;
+  expected["steps"] = {"depth 262 nm", "amplitude 0 V"}, expected["done"] = 2;
   expected["pins"] = Json::array({{{"number", 1}, {"name", "mine"}}});
   EXPECT_EQ(session(), expected);
   EXPECT_EQ(ask("/undo"), (Json{{"revision", first + 3}}));
   EXPECT_EQ(session()["redo"], true);
   EXPECT_EQ(ask("/redo"), (Json{{"revision", first + 4}}));
+  EXPECT_EQ(session(), expected);
+  EXPECT_EQ(ask("/history", {{"done", 3}})["problems"][0]["message"],
+            "the history has no step of that number");
   EXPECT_EQ(session(), expected);
   EXPECT_EQ(ask("/take", {{"pin", 1}}), (Json{{"revision", first + 5}}));
   EXPECT_EQ(session()["changes"], Json::parse(R"([["texture.depth", "262 nm"]])"));
