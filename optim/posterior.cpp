@@ -106,7 +106,11 @@ class Sampler {
     for (int k = 0; k < options_.starts; ++k) {
       if (k == 0 && first) {
         fits_.push_back(*first);
-        if (trials_.empty()) trials_.push_back({first->values(), first->residuals});
+        if (trials_.empty()) {  // the function may answer otherwise than to the fit
+          std::vector<double> misses(static_cast<std::size_t>(residuals_));
+          function_(first->values(), misses);
+          ++out_.evaluations;
+        }
         continue;
       }
       note(fmt::format("start {} of {}", k + 1, options_.starts));

@@ -171,6 +171,7 @@ class Fit {
       note("frictions of the fine level have moved: fitted again from here");
       for (std::size_t i = 0; i < found.size(); ++i) parameters_[i].start = found[i];
     }
+    if (!calibration_.data.empty()) trials_.clear();  // corrected again since
   }
 
   void finish() {

@@ -47,7 +47,10 @@ std::string planted_table(const Finger& truth, const SkinSampling& sampling) {
     const double load = d.finger.load;
     d.finger = truth;
     d.finger.load = load;
-    const Response r = evaluate(scene_of(d), d.texture, sampling.fidelity(1));
+    Fidelity fidelity = sampling.fidelity(1);
+    // As frictions are corrected: for what the grid leaves out.
+    fidelity.control_skins = fidelity_level(sampling.level).control_skins;
+    const Response r = evaluate(scene_of(d), d.texture, fidelity);
     for (const ResponsePoint& p : r.points) {
       const double off = p.friction_off.value, on = p.friction_on.value;
       out += fmt::format("{},{:.0f} %,200,5000,0.2,{:.8g},{:.8g},{:.8g},{:.8g}\n", name,
