@@ -171,7 +171,11 @@ class Fit {
       note("frictions of the fine level have moved: fitted again from here");
       for (std::size_t i = 0; i < found.size(); ++i) parameters_[i].start = found[i];
     }
-    if (!calibration_.data.empty()) trials_.clear();  // corrected again since
+    if (calibration_.data.empty() || !calibration_.belief) return;
+    // Samples go farther than fits: by the correction here and how it moves from here.
+    residuals_.correct(calibration_, out_.fit.values());
+    residuals_.follow(calibration_, out_.fit.values());
+    trials_.clear();  // of other corrections
   }
 
   void finish() {

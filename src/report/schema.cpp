@@ -211,7 +211,8 @@ std::string metric_pattern() {
     if (m.takes_modulation) with_modulation.push_back(m.name);
   }
   return fmt::format(
-      "((mean|variation|range|std|worst|best|first|last)\\()?\\s*({}|({})\\(.*\\))\\s*\\)?",
+      "((mean|variation|range|std|worst|best|first|last)\\()?\\s*(pen\\.)?({}|({})\\(.*\\))\\s*\\)"
+      "?",
       join_names(names, "|"), join_names(with_modulation, "|"));
 }
 

@@ -65,21 +65,40 @@ TEST_F(FitBeliefSlow, HoldsATruthThatThePatchesWerePlantedWith) {
   EXPECT_GT(b.belief.effective_samples, 30);
   EXPECT_LT(b.largest_mean, 0.2);
   // Three rows of 5 %: by what was measured members know each better than its datum.
+  // Corrected as the fit's own rows are: at the fitted finger.
+  Residuals own(calibration, 2);
+  own.correct(calibration, r.fit.values());
+  own.follow(calibration, r.fit.values());
   std::vector<double> mean(forces.size(), 0), squares(forces.size(), 0);
   for (const BeliefMember& member : b.belief.members) {
     const Finger at = with_member(b.belief, member, r.finger, r.finger.calibrated_for).finger;
     const std::vector<double> there{at.macro.shear_strength, at.skin.layer_modulus};
-    const std::vector<Estimate> rows = residuals.model(blank, there);
+    const std::vector<Estimate> rows = own.model(calibration, there);
     for (std::size_t k = 0; k < rows.size(); ++k) {
       const double share = 1e-3 * rows[k].value / forces[k];
       mean[k] += member.weight * share;
       squares[k] += member.weight * share * share;
     }
   }
+  // By the rows as they were learnt; what the model's own answers jitter by about these on so few
+  // pixels comes on top (Eq. calibration.11).
   for (std::size_t k = 0; k < forces.size(); ++k) {
+    double learnt = 0, learnt_mean = 0, open = 0;
+    for (const PosteriorSample& s : b.hypotheses.front().posterior.samples) {
+      learnt_mean += s.weight * 0.05 * s.answers[k];
+      learnt += s.weight * square(0.05 * s.answers[k]);
+      open += s.weight * square(0.05) * s.open[k];
+    }
+    learnt = std::sqrt(learnt - square(learnt_mean));
     const double deviation = std::sqrt(squares[k] - mean[k] * mean[k]);
+    fmt::print(
+        "guess missed by {:.2f}, fitted {:.4g} {:.4g}; row {}: learnt ± {:.3f}, open {:.3f}, "
+        "members ± {:.3f}\n",
+        b.hypotheses.front().posterior.guess_error, r.fit.values()[0], r.fit.values()[1], k, learnt,
+        std::sqrt(open), deviation);
     EXPECT_GT(deviation, 0.01) << k;
-    EXPECT_LT(deviation, 0.06) << k;
+    EXPECT_LT(learnt, 0.06) << k;
+    EXPECT_LT(deviation, 0.13) << k;  // docs/measured/validation.md: too wide, never too narrow
   }
   // Members through the file, on the design of the fit and on another one. They run without the
   // correction for what so few pixels leave out, which moves with the modulus: their bars are wider

@@ -149,6 +149,7 @@ TEST_F(ReceiptsOfARun, NameTheNumberThatWasChangedInEachOfFiftyFolders) {
     const Receipt& r = sound.list[(next * 7) % sound.list.size()];
     const std::string& file = files[next % files.size()];
     if (r.text.find_first_of("123456789") == std::string::npos) continue;
+    if (r.text.size() < 3) continue;  // a clock has such digits too
     const std::string name = copied("changed");
     std::string text = file_text(fs::path(name) / file);
     const std::string from = file == "report.html"   ? "id=\"data\">"
@@ -166,7 +167,7 @@ TEST_F(ReceiptsOfARun, NameTheNumberThatWasChangedInEachOfFiftyFolders) {
       if (v.state != ReceiptState::Violated) continue;
       for (const std::string& says : v.says) told = told || says.starts_with(file);
     }
-    for (const std::string& other : verdict.others) told = told || other.starts_with(file + "#");
+    for (const std::string& other : verdict.others) told = told || other.starts_with(file);
     EXPECT_TRUE(told) << r.id << " \"" << r.text << "\" in " << file << "\n"
                       << run_verdict_text(verdict);
   }
