@@ -95,7 +95,7 @@ export function parallel(box, axes, designs, open) {
     show();
   });
   const scroll = document.createElement('div');
-  scroll.className = 'scroll';
+  scroll.className = 'along';
   scroll.append(picture);
   box.replaceChildren(scroll, said);
 }
