@@ -6,7 +6,7 @@ import { ask, notice, post } from './server.js';
 
 // What people try first; everything else is one step away.
 const first = (k) => k.path.startsWith('texture.') || ['surface.contact_angle', 'surface.dielectric.0.thickness', 'surface.process', 'drive.amplitude', 'drive.frequency', 'drive.waveform', 'finger.load', 'finger.state'].includes(k.path);
-const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finger: 'Finger', environment: 'Air', view: 'Look', model: 'Model', accuracy: 'Accuracy' };
+const sections = { texture: 'Texture', surface: 'Surface', drive: 'Drive', finger: 'Finger', counterface: 'Counterface', environment: 'Air', view: 'Look', model: 'Model', accuracy: 'Accuracy' };
 export const called = (path) => path.split('.').slice(1).map((p) => /^\d+$/.test(p) ? String(+p + 1) : p.replace(/_/g, ' ')).join(' ');
 // As people write it: their letters, and no more than five digits of what a search found.
 export const people = (text) => text.replace(/\d+\.\d{3,}/g, (n) => round(+n, 5)).replace(/^([\d.e+-]+) rad$/, (all, n) => `${round(180 / Math.PI * n, 5)} deg`).replace(/\bum\b/g, 'µm').replace(/\bdeg\b/g, '°').replace(/um(\d)/g, 'µm$1');
@@ -195,11 +195,13 @@ function rebuild(keys) {
     g.append(element('h3', '', name), ...list.map(build));
     into.append(g);
   };
-  const editable = keys.filter((k) => k.path !== 'texture.type');
-  Object.entries(sections).forEach(([section, name]) => group(box, name, editable.filter((k) => k.path.startsWith(section + '.') && first(k))));
+  const editable = keys.filter((k) => k.path !== 'texture.type'), of = (k) => k.path.split('.')[0];
+  const named = new Set([...Object.keys(sections), ...editable.map(of)]);
+  const groups = (into, wanted) => named.forEach((section) => group(into, sections[section] || section, editable.filter((k) => of(k) === section && wanted(k))));
+  groups(box, first);
   const more = element('details');
   more.append(element('summary', '', 'All keys'));
-  Object.entries(sections).forEach(([section, name]) => group(more, name, editable.filter((k) => k.path.startsWith(section + '.') && !first(k))));
+  groups(more, (k) => !first(k));
   box.append(more);
 }
 
@@ -230,9 +232,9 @@ export function showKinds(kinds) {
 }
 
 export function showForm(session) {
-  const now = session.keys.map((k) => `${k.path}:${k.slider ? [k.slider.low, k.slider.high, k.slider.log] : ''}`).join();
-  const same = Object.keys(rows).length && session.keys.every((k) => k.path === 'texture.type' || rows[k.path]) && shape.split(',').length === now.split(',').length;
-  if (!same) rebuild(session.keys);
+  // A form of the same rows stays: the hand and the focus are in it.
+  const now = session.keys.map((k) => k.path + (k.slider ? ' slider' : '')).join();
+  if (shape !== now) rebuild(session.keys);
   shape = now;
   session.keys.forEach((k) => { if (rows[k.path]) update(k); });
   [...$('kinds').children].forEach((b) => {
