@@ -29,9 +29,15 @@ std::optional<Readings> readings(const Resampled& run, const Number& number) {
 }  // namespace
 
 // Of a quantity that is a size. The capillary force and what is made of it may push or pull.
-bool moves_by_factor(Summary summary, const Metric& metric) {
+bool keeps_sign(Summary summary, const Metric& metric) {
   const auto* quantity = std::get_if<QuantityMetric>(&metric);
   return quantity && !is_spread(summary) && quantity->quantity != &PointQuantities::capillary_force;
+}
+
+double moved(double value, double own, double there, bool keeps_sign) {
+  if (!std::isfinite(own) || !std::isfinite(there)) return there;  // no field, no film
+  const bool by_factor = keeps_sign && value > 0 && own >= value;
+  return by_factor ? value * (there / own) : value + there - own;
 }
 
 double BeliefValues::quantile(double p) const { return weighted_quantile(values, weights, p); }
@@ -42,10 +48,6 @@ std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& 
   const auto own = readings(runs.own, number);
   if (!own) return std::nullopt;
   const double at = value.value_or(own->all);
-  const bool by_factor = keeps_sign && own->all > 0 && at > 0;
-  const auto moved = [&](double from, double to) {
-    return by_factor && from > 0 ? at * (to / from) : at + to - from;
-  };
   BeliefValues out;
   std::vector<double> mean;
   for (const BeliefRun& m : runs.members) {
@@ -53,9 +55,9 @@ std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& 
     if (!there || there->without.size() != own->without.size()) return std::nullopt;
     std::vector<double> without;
     for (std::size_t k = 0; k < own->without.size(); ++k)
-      without.push_back(moved(own->without[k], there->without[k]));
+      without.push_back(moved(at, own->without[k], there->without[k], keeps_sign));
     out.weights.push_back(m.weight);
-    out.values.push_back(moved(own->all, there->all));
+    out.values.push_back(moved(at, own->all, there->all, keeps_sign));
     out.moves.push_back(jackknife_samples(out.values.back(), without));
     mean.resize(out.moves.back().size(), 0);
     for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += m.weight * out.moves.back()[k];
@@ -76,7 +78,7 @@ std::optional<BeliefValues> belief_values(Summary summary, const Metric& metric,
       [&](const std::vector<ResponsePoint>& points) {
         return summary_of_points(summary, metric, points);
       },
-      value, moves_by_factor(summary, metric));
+      value, keeps_sign(summary, metric));
 }
 
 std::optional<BeliefValues> belief_values_at(std::size_t point, const Metric& metric,
@@ -87,7 +89,7 @@ std::optional<BeliefValues> belief_values_at(std::size_t point, const Metric& me
   };
   const auto value = number(response.points);
   if (!value) return std::nullopt;
-  return belief_values(response.belief, number, value, moves_by_factor(Summary::Mean, metric));
+  return belief_values(response.belief, number, value, keeps_sign(Summary::Mean, metric));
 }
 
 std::optional<BeliefDifference> belief_difference(const BeliefValues& first,

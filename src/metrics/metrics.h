@@ -42,9 +42,12 @@ std::optional<StepSamples> step_samples(
 // The standard error that they leave, less what the skins scatter. Eq. accuracy.11
 double step_error(const StepSamples& samples);
 
-// A number over the members of a belief, each as far from the response's as that member is from the
-// scene as it is on the few skins of both: by the same factor where the number cannot change its
-// sign, else by the same difference. Eq. accuracy.15
+// A number as a member of belief has it: `own` and `there` are of the scene as it is and of the
+// member, both on few skins. By their difference; by their factor where the number keeps its sign
+// and `own` is the larger, so that neither a step below zero nor a quotient by next to nothing is
+// left. Both are one where own is the value. Eq. accuracy.15
+double moved(double value, double own, double there, bool keeps_sign);
+// A number over the members of a belief, each moved so from the response's.
 struct BeliefValues {
   std::vector<double> weights, values;  // one per member
   // Root of the weight times value less weighted mean, a sample per skin: the standard deviation
@@ -56,8 +59,8 @@ struct BeliefValues {
   // Of the values: 0.025 and 0.975 are the ends of a 95 % interval.
   double quantile(double p) const;
 };
-// Whether a number that a member moves cannot change its sign: then it is moved by a factor.
-bool moves_by_factor(Summary summary, const Metric& metric);
+// Whether a number that a member moves cannot change its sign.
+bool keeps_sign(Summary summary, const Metric& metric);
 using Number = std::function<std::optional<double>(const std::vector<ResponsePoint>&)>;
 // value: of the response; nothing: of the runs themselves. Nothing where a member has no number.
 std::optional<BeliefValues> belief_values(const BeliefRuns& runs, const Number& number,

@@ -28,6 +28,7 @@ class StateRanker {
   // Everyone gets a batch; then only neighbours in an order whose difference is open.
   StateRanking run() {
     for (Candidate& c : candidates_) c.extend();
+    if (options_.parameters) step();
     for (std::ptrdiff_t said = 0;;) {
       score();
       const std::vector<bool> open = open_candidates();
@@ -37,7 +38,9 @@ class StateRanker {
         note(fmt::format("{} of {} candidates still open", still, open.size()));
       said = still;
     }
-    if (options_.parameters) step();  // more skins make nothing of it surer
+    if (options_.parameters) {  // more skins make nothing of it surer
+      for (Board& board : boards_) add_steps(board);
+    }
     return result();
   }
 
@@ -90,11 +93,20 @@ class StateRanker {
     for (std::size_t c = 0; c < options_.criteria.size(); ++c) {
       double typical = 0;
       for (const Candidate& x : candidates_)
-        typical +=
-            std::abs(mean_estimate(x.samples(c)).value) / static_cast<double>(candidates_.size());
+        typical += size_of(x, c) / static_cast<double>(candidates_.size());
       out.push_back((options_.criteria[c].high ? 1 : -1) / (typical > 0 ? typical : 1));
     }
     return out;
+  }
+
+  // A force that may change its sign may be next to nothing on every candidate, and a relative
+  // advantage of that is noise: then its size is what belief says it may be.
+  double size_of(const Candidate& x, std::size_t criterion) const {
+    const double mean = mean_estimate(x.samples(criterion)).value;
+    const MetricExpression& e = options_.criteria[criterion].expression;
+    const bool sure = is_spread(e.summary) || keeps_sign(e.summary, e.metric);
+    return sure || !options_.parameters ? std::abs(mean)
+                                        : std::hypot(mean, step_error(x.steps(criterion)));
   }
 
   // One board a criterion, and the score's in front where there is one of several.
@@ -161,7 +173,6 @@ class StateRanker {
     note(candidates_.front().member_weights().empty() ? "parameters of the finger"
                                                       : "belief about finger and model");
     for (Candidate& x : candidates_) x.step();
-    for (Board& board : boards_) add_steps(board);
   }
 
   // Each criterion alone, with the steps where they were asked for.
@@ -298,6 +309,7 @@ std::vector<std::string> notes_of(const std::vector<Regions>& candidates,
                metric_quantity(c.expression.metric) == &PointQuantities::friction_on;
       });
   const auto with_its_own = [&](const Design& d) {
+    if (d.counterface.in_place()) return true;  // a pin brings the law of the pair
     const Surface& s = d.surface;
     return std::all_of(options.states.begin(), options.states.end(), [&](FingerState state) {
       return s.shear_strength > 0 ||
@@ -361,8 +373,15 @@ Ranking ranking_of(const std::vector<Regions>& candidates, const RankOptions& op
   out.notes = notes_of(candidates, options);
   if (!options.any_conditions) require_same_conditions(out.conditions);
   if (options.parameters) plan_steps(candidates, out);
+  const Pin* pin = candidates.front().front().counterface.in_place();
+  if (pin && options.states.size() > 1)
+    throw InputError(fmt::format("\"{}\" stands in place of the finger and has no states: give one "
+                                 "--state at most",
+                                 pin->name));
   for (FingerState state : options.states) {
     out.states.push_back(StateRanker(candidates, state, options).run());
+    out.states.back().touching =
+        pin ? pin->name : "finger " + finger_state_names()[static_cast<std::size_t>(state)];
     out.skins += out.states.back().skins;
   }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

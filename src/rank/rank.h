@@ -45,6 +45,7 @@ struct OpenPair {
 
 struct StateRanking {
   FingerState state = FingerState::Clean;
+  std::string touching;                     // for people: "finger clean", or the pin's name
   std::vector<RankedCandidate> candidates;  // best first
   std::vector<OpenPair> open;  // neighbours; empty: the order is known, in every criterion
   int skins = 0;               // solved

@@ -140,7 +140,7 @@ std::string end_text(const std::vector<std::string>& names, const RankOptions& o
 
 std::string state_table(const std::vector<std::string>& names, const RankOptions& options,
                         const StateRanking& state) {
-  std::string out = "finger " + state_name(state.state) + "\n";
+  std::string out = state.touching + "\n";
   if (options.scored()) {
     std::vector<std::vector<std::string>> rows{score_head(options)};
     for (const RankedCandidate& r : state.candidates)

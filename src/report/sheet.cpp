@@ -639,7 +639,8 @@ std::string recommendation(const ResultFiles& f) {
     case Advice::Texture:
       break;
   }
-  return worth_building(f) + decision_sentence(f) + rounding_text(f) + unstable_recommended(f);
+  return worth_building(f) + decision_sentence(f) + yield_sentence(f) + rounding_text(f) +
+         unstable_recommended(f);
 }
 
 std::vector<std::string> grounds(const ResultFiles& f) {

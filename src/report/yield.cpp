@@ -91,6 +91,12 @@ std::string tolerance_text(const Study& study, std::size_t scatter, double share
                      significant(shown, 3), unit.empty() ? "" : " " + unit);
 }
 
+std::string yield_sentence(const ResultFiles& f) {
+  if (!f.result.yield) return {};
+  return fmt::format(" Of the plates that scatter as stated {} % keep every limit.",
+                     share_stated("yield", f.result.yield->now));
+}
+
 std::string yield_text(const ResultFiles& f) {
   if (!f.result.yield) return {};
   const Yield& yield = *f.result.yield;

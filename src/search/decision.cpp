@@ -10,15 +10,8 @@
 namespace papilla::search {
 namespace {
 
-// Eq. accuracy.15
-double moved(double confirmed, double own, double there, bool by_factor) {
-  if (!std::isfinite(own) || !std::isfinite(there)) return there;  // no field, no film
-  if (by_factor && confirmed > 0 && own > 0 && there > 0) return confirmed * (there / own);
-  return confirmed + there - own;
-}
-
 // A task's confirmed answer at a member.
-TaskAnswer moved(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
+TaskAnswer moved_answer(const StudyGoals& goals, const TaskAnswer& confirmed, const TaskAnswer& own,
                  const TaskAnswer& there) {
   if (!own.status.ok()) return own;
   if (!there.status.ok()) return there;
@@ -30,15 +23,15 @@ TaskAnswer moved(const StudyGoals& goals, const TaskAnswer& confirmed, const Tas
     TaskObjective& number = out.objectives[k];
     const TaskObjective &from = own.objectives[k], &to = there.objectives[k];
     number.value = moved(number.value, from.value, to.value,
-                         o.aimed || moves_by_factor(o.expression.summary, o.expression.metric));
-    const bool by_factor = moves_by_factor(Summary::Mean, o.expression.metric);
+                         o.aimed || keeps_sign(o.expression.summary, o.expression.metric));
+    const bool keeps = keeps_sign(Summary::Mean, o.expression.metric);
     for (std::size_t i = 0; i < number.points.size(); ++i)
-      number.points[i] = moved(number.points[i], from.points[i], to.points[i], by_factor);
+      number.points[i] = moved(number.points[i], from.points[i], to.points[i], keeps);
   }
   for (std::size_t j = 0; j < goals.limited.size(); ++j) {
     const MetricExpression& e = goals.limited[j].expression;
     out.limited[j] = moved(out.limited[j], own.limited[j], there.limited[j],
-                           moves_by_factor(e.summary, e.metric));
+                           keeps_sign(e.summary, e.metric));
   }
   out.worst = moved(out.worst, own.worst, there.worst, true);
   out.oxide_margin = moved(out.oxide_margin, own.oxide_margin, there.oxide_margin, true);
@@ -141,7 +134,7 @@ Score score_at(const StudyProblem& problem, const Design& design,
     // Scatter of fabrication is moved as what is designed.
     const std::vector<TaskAnswer>& of = members[t < nominal ? t : (t - nominal) / (2 * scatter)];
     there.push_back(member + 1 < of.size()
-                        ? moved(problem.goals(), confirmed[t], of.back(), of[member])
+                        ? moved_answer(problem.goals(), confirmed[t], of.back(), of[member])
                         : TaskAnswer::refused(TaskStatus::Kind::NotDefined, "no answer"));
   }
   return problem.score(design, there);

@@ -36,7 +36,7 @@ struct Decision {
 };
 
 // What a design has at a member of belief: its confirmed numbers moved as the member moves them on
-// few skins, by the same factor where a number cannot change its sign, else by the same difference.
+// few skins,
 // confirmed: its answers, a task each; members: [task][member], last the finger as it is. Not ok
 // where a task has no answer there. Eq. accuracy.15
 Score score_at(const StudyProblem& problem, const Design& design,

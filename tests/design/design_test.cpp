@@ -42,7 +42,9 @@ std::string problems_of(const std::string& text, const std::vector<std::string>&
 TEST(Design, TheReferenceFingerFileIsTheDefaultFinger) {
   Finger reference = read_finger(kDesigns + "fingers/reference.toml");
   EXPECT_FALSE(reference.uncertainty.empty());
+  EXPECT_TRUE(reference.belief.ends_with("fingers/belief.toml")) << reference.belief;
   reference.uncertainty.clear();  // known of the file's fit alone
+  reference.belief.clear();       // and so is what is not known
   EXPECT_EQ(reference, Finger{});
 }
 
@@ -84,6 +86,7 @@ TEST(Design, ThePublishedSamplesHaveTheirDimensions) {
     EXPECT_EQ(design.drive.amplitude, 200);
     EXPECT_NEAR(design.drive.v_rms(), 141.4, 0.1);
     design.finger.uncertainty.clear();
+    design.finger.belief.clear();
     EXPECT_EQ(design.finger, Finger{});
   }
 }

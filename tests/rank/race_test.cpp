@@ -37,7 +37,7 @@ class Told {
   }
 
   // Eq. ranking.1: of each criterion its share of the weights over the mean of what the candidates
-  // have, in size; + where high is better.
+  // have, in size, of a force with a sign with its model part; + where high is better.
   Scores scores(const std::vector<double>& weights) const {
     double sum = 0;
     for (const double w : weights) sum += w;
@@ -47,10 +47,14 @@ class Told {
       StepSamples steps;
       for (std::size_t c = 0; c < weights.size(); ++c) {
         double typical = 0;
-        for (const std::vector<double>& of : samples(c)) {
+        const bool signed_force = options_.criteria[c].text().find("capillary") != std::string::npos;
+        for (const Candidate& of : candidates_) {
           double mean = 0;
-          for (const double v : of) mean += v / static_cast<double>(of.size());
-          typical += std::abs(mean) / static_cast<double>(candidates_.size());
+          for (const double v : of.samples(c)) mean += v / static_cast<double>(of.skins());
+          const double open =
+              signed_force && options_.parameters ? step_error(of.steps(c)) : 0.0;
+          typical += std::sqrt(mean * mean + open * open) /
+                     static_cast<double>(candidates_.size());
         }
         if (typical == 0) typical = 1;
         const double unit = weights[c] / sum / typical * (options_.criteria[c].high ? 1 : -1);
@@ -259,13 +263,13 @@ TEST(Race, WithTheFingersParametersIsWhatTheEquationsSay) {
   designs.pop_back();
   for (Regions& d : designs)
     d[0].finger.uncertainty = {{"macro.shear_strength", 0.1, {}}, {"skin.rms", 0.05, {0.4}}};
-  RankOptions options = quick("modulation:high,friction:low");
+  RankOptions options = quick("modulation:high,friction:low,capillary_force:low");
   options.parameters = true;
   options.max_skins = 6;
   std::vector<std::string> notes;
   options.note = [&](const std::string& text) { notes.push_back(text); };
   const Ranking trade = ranking_of(designs, options);
-  EXPECT_EQ(notes.back(), "clean: parameters of the finger");
+  EXPECT_EQ(notes.front(), "clean: parameters of the finger");
   EXPECT_EQ(trade.directions, 2);
   EXPECT_EQ(trade.step_skins, 8);  // differences need no more
   EXPECT_EQ(trade.step_grid, 32);
@@ -273,7 +277,7 @@ TEST(Race, WithTheFingersParametersIsWhatTheEquationsSay) {
   const StateRanking& state = trade.states.at(0);
   const Told told(designs, options, state);
   expect_candidates(told, options, state);
-  options.weights = {1, 3};
+  options.weights = {1, 3, 2};
   expect_scored(designs, options, ranking_of(designs, options).states.at(0));
 }
 

@@ -111,6 +111,28 @@ TEST(Rank, ASurfaceThatSaysItsShearStrengthOfTheStateDoesNotRubAsGlassDoes) {
   EXPECT_EQ(ranking_of(designs, options).notes.size(), 1u);
 }
 
+// A pin brings the law of its own pair and has no states.
+TEST(Rank, OfAPinSaysItsNameAndTakesOneState) {
+  std::vector<Design> designs{sample("flat"), sample("a3h600")};
+  for (Design& d : designs) {
+    d.drive.amplitude = 0;
+    Pin& pin = d.counterface.pin;
+    d.counterface.type = CounterfaceType::Pin;
+    pin.name = "steel ball";
+    pin.load = 0.1;
+    pin.modulus = 200e9;
+    pin.radius = 1e-3;
+    pin.coefficient = 0.2;
+    pin.roughness.rms = 20e-9;
+  }
+  RankOptions options = by("friction:low");
+  const Ranking r = ranking_of(designs, options);
+  EXPECT_EQ(r.states.front().touching, "steel ball");
+  EXPECT_TRUE(r.notes.empty());
+  options.states = {FingerState::Clean, FingerState::Natural};
+  EXPECT_THROW(ranking_of(designs, options), InputError);
+}
+
 TEST(Rank, ANaturalFingerHasMoreWaterAndLessShear) {
   Finger f;
   f.state = FingerState::Natural;

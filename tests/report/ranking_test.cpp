@@ -36,7 +36,7 @@ struct Ranked {
     second.score = {0.1, 0, 0.2}, second.behind_best = {-0.12, -0.2, -0.04};
     second.p_best = 0.2, second.skins = 18;
     second.metrics = {{0.2, 0.18, 0.22}, {-0.5, -0.6, -0.4}, {1.5e-12, 1e-12, 2e-12}};
-    ranking.states = {{FingerState::Natural, {first, second}, {}, 42, 48}};
+    ranking.states = {{FingerState::Natural, "finger natural", {first, second}, {}, 42, 48}};
     ranking.titles = {"Hard coat", "Fine coat"};
     ranking.skins = 42, ranking.seconds = 6.54;
     ranking.directions = 3, ranking.step_skins = 8, ranking.step_grid = 64;

@@ -190,6 +190,7 @@ TEST(Constraints, HaveAValueInEveryShippedStudy) {
     score.ok = true;
     score.oxide_margin = 3;
     score.limited.assign(problem.goals().limited.size(), 0.25);
+    score.yield = YieldShare{0.9, 0.01};
     const std::vector<LimitValue> values = problem.constraints().values(study.design, score);
     ASSERT_EQ(values.size(), study.constraints.size()) << file;
     for (const LimitValue& v : values) {
