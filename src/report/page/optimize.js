@@ -94,11 +94,13 @@ function showPareto() {
   });
 }
 function showFinalists() {
+  // Keys and kinds break where people read a break, not inside words.
+  const breaking = (text) => String(text).replace(/([._(])(?=[a-z])/g, '$1\u200b');
   const columns = ['design'].concat(variables, objectives, run.driven ? ['worst modulation'] : [], ['feasible']);
-  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' model'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : entry(r[c]);
-  // Keys break where people read a break, not inside words.
-  const heading = (c) => called(c).replace(/([._(])/g, '$1\u200b');
+  const value = (r, c) => objectives.includes(c) ? (r[c] === '' ? 'failed' : quantity({ value: +r[c], se: +r[c + ' se'], parameters: +r[c + ' model'] }, c)) : c === 'design' || c === 'feasible' || r[c] === '' ? r[c] : breaking(entry(r[c]));
+  const heading = (c) => breaking(called(c));
   const body = table($('finalists'), columns.map(heading), finalists.map((r) => columns.map((c) => value(r, c))), columns.map((c, i) => i).slice(1, -1));
+  $('finalists').classList.toggle('many', columns.length > 10);
   finalists.forEach((r, i) => {
     const row = body.rows[i];
     if (!data.designs[r.design]) return;
@@ -107,14 +109,10 @@ function showFinalists() {
     row.tabIndex = 0;
     row.onkeydown = (e) => { if (e.key === 'Enter') select(r.design); };
   });
-  // What each has of the limits that the study sets, and what belief says of it: tables of their own, as all together are wider than a page.
+  // What each has of the limits that the study sets: a table of its own, as both together are wider than a page.
   const limits = heads.filter((h) => h.startsWith('limit '));
   $('kept').parentElement.hidden = !limits.length;
   table($('kept'), ['design'].concat(limits.map(heading)), finalists.map((r) => ['design'].concat(limits).map((c) => r[c])), limits.map((c, i) => i + 1));
-  const doubts = ['p(best)', 'expected regret', 'p(every limit)'].filter((c) => heads.includes(c));
-  $('doubts').parentElement.hidden = !doubts.length;
-  const doubt = (c, v) => v === '' ? v : c.startsWith('p(') ? `${round(100 * v, 3)} %` : entry(v);
-  table($('doubts'), ['design'].concat(doubts.map(heading)), finalists.map((r) => [r.design].concat(doubts.map((c) => doubt(c, r[c])))), doubts.map((c, i) => i + 1));
 }
 
 // Every design of the search over its objectives and its numbers, at the level of the search.
